@@ -1,0 +1,204 @@
+"""The command line: `viscorough indent` and `viscorough kinetics`.
+
+Whatever the user got wrong is one line on stderr, "viscorough COMMAND: what, where, what is allowed", exit
+code 2 and no output file; exit code 1 is for a solver that did not converge. Modules that take long to import
+are imported by the commands that need them, so that help and mistakes are quick.
+"""
+
+import itertools
+import sys
+import warnings
+from importlib.metadata import version
+from pathlib import Path
+
+import click
+
+from viscorough.curve import ConvergenceError
+
+
+class PositiveNumber(click.ParamType):
+    """A finite number above 0 and not above `maximum`."""
+
+    name = "number"
+
+    def __init__(self, maximum=float("inf")):
+        self.maximum = maximum
+
+    def convert(self, value, param, ctx):
+        try:
+            number = float(value)
+        except ValueError:
+            number = float("nan")
+        if not (0 < number <= self.maximum and number < float("inf")):
+            limit = "finite" if self.maximum == float("inf") else f"up to {self.maximum:g}"
+            self.fail(f"{value!r} is not a number above 0 and {limit}", param, ctx)
+        return number
+
+
+class Depths(click.ParamType):
+    """Numbers separated by commas, each larger than the one before, the first above 0."""
+
+    name = "a,b,c"
+
+    def convert(self, value, param, ctx):
+        depths = [PositiveNumber().convert(entry.strip(), param, ctx) for entry in value.split(",")]
+        for shallow, deep in itertools.pairwise(depths):
+            if deep <= shallow:
+                self.fail(f"{deep!r} follows {shallow!r}, each must be larger than the last", param, ctx)
+        return depths
+
+
+file = click.Path(path_type=Path)
+
+
+@click.group(no_args_is_help=False)
+@click.version_option(version("viscorough"), message="%(prog)s %(version)s")
+def cli():
+    """Penetration of rough rigid indenters into a linearly viscous half-space.
+
+    \b
+    Example: a map of heights in metres, points 2 micrometres apart, pressed by 5 N into 1e6 Pa s:
+        viscorough indent heights.npy --spacing 2e-6 -o curve.nc
+        viscorough kinetics curve.nc --force 5 --viscosity 1e6 -o kinetics.nc
+    """
+
+
+@cli.command(short_help="Loading curve of an indenter on an elastic half-space.")
+@click.argument("heights", type=file)
+@click.option("--spacing", type=PositiveNumber(), required=True, help="Distance of neighbouring points.")
+@click.option("-o", "--output", type=file, required=True, metavar="CURVE.nc", help="File to write or replace.")
+@click.option("--depths", type=Depths(), help="Exactly these depths, in order  [default: as the tolerance asks]")
+@click.option(
+    "--tolerance",
+    type=PositiveNumber(0.1),
+    default=1e-3,
+    show_default=True,
+    help="Relative accuracy.",
+)
+@click.option("--until-fraction", type=PositiveNumber(1), help="Contact fraction to stop at  [default: 0.9]")
+def indent(heights, spacing, output, depths, tolerance, until_fraction):
+    """Loading curve of an indenter pressed into an elastic half-space.
+
+    HEIGHTS is a .npy or NetCDF (.nc) file with a two-dimensional map of heights, in NetCDF the only one in
+    the file or the one named "heights". Larger is higher: the highest point touches first. Points that are
+    nan lie outside the indenter. Heights, spacing and depths are in one unit of length of your choice.
+
+    CURVE.nc has the dimension "level" and the variables depth, force = F/G and stiffness = k/G (F the force,
+    k its derivative with respect to depth, G the shear modulus of the incompressible half-space),
+    contact_count, contact_fraction and residual. Their units are powers of the unit that a NetCDF file states
+    for the heights; if none is stated, units are 1, which stands for the unit you chose.
+
+    \b
+    Example:
+        viscorough indent heights.npy --spacing 2e-6 --depths 1e-6,2e-6,4e-6 -o curve.nc
+    """
+    if depths is not None and until_fraction is not None:
+        raise click.UsageError("--depths and --until-fraction exclude each other; one of them is allowed")
+    from viscorough import storage
+
+    target = storage.check_output(output)
+    if target.exists() and heights.exists() and target.samefile(heights):
+        raise ValueError(f"{output}: would replace the heights; another name is needed")
+    indenter = storage.read_heights(heights, spacing)
+    length_unit = storage.length_unit_of(heights)
+
+    from viscorough.indentation import indent
+
+    stop = {"until": until_fraction} if until_fraction else {}
+    curve = indent(indenter, tolerance=tolerance, depths=depths, **stop)
+    ds = storage.curve_to_dataset(curve, length_unit)
+    storage.write_dataset(ds.assign_attrs(heights=heights.name, spacing=spacing), output)
+    click.echo(
+        f"{output}: {curve.depth.size} levels, the last at depth {curve.depth[-1]:.6g} "
+        f"with {curve.contact_fraction[-1]:.4g} of {curve.elements} elements in contact"
+    )
+
+
+@cli.command(short_help="Penetration over time under a constant force.")
+@click.argument("curve", type=file, metavar="CURVE.nc")
+@click.option("--force", type=PositiveNumber(), required=True, help="Constant force F, applied at time 0.")
+@click.option("--viscosity", type=PositiveNumber(), required=True, help="Shear viscosity of the half-space.")
+@click.option("-o", "--output", type=file, required=True, metavar="KIN.nc", help="File to write or replace.")
+def kinetics(curve, force, viscosity, output):
+    """Penetration over time, under a constant force, of the indenter whose loading curve is in CURVE.nc.
+
+    For each level of the curve, the time at which a linearly viscous half-space is penetrated to that depth,
+    and the velocity there: time = (F/G) VISCOSITY/FORCE, velocity = FORCE/(VISCOSITY k/G). This
+    correspondence is exact. KIN.nc is CURVE.nc with the variables time (in s) and velocity added.
+
+    The unit of force is your choice; the viscosity is then in (unit of force) s/(unit of length)^2, the unit
+    of length being that of the curve. With heights in metres and the force in newtons this is Pa s; with
+    heights in micrometres and the force in newtons, 1 Pa s = 1e-12 N s/um^2.
+
+    \b
+    Example, 5 N on a medium of 1e6 Pa s, heights in metres:
+        viscorough kinetics curve.nc --force 5 --viscosity 1e6 -o kinetics.nc
+    """
+    import numpy as np
+
+    from viscorough import storage, viscous
+
+    storage.check_output(output)
+    ds = storage.read_dataset(curve)
+    try:
+        loading = storage.curve_from_dataset(ds)
+    except ValueError as error:
+        raise ValueError(f"{curve}: {error}") from error
+    moving = viscous.kinetics(loading, force, viscosity)
+    if not np.isfinite([moving.time, moving.velocity]).all():
+        raise ValueError(f"--force {force:g}, --viscosity {viscosity:g}: times overflow; closer values are allowed")
+    unit = ds["depth"].attrs.get("units", "1")
+    unit = "s-1" if unit == "1" else f"{unit} s-1"
+    ds["time"] = ("level", moving.time, {"long_name": "time since the force was applied", "units": "s"})
+    ds["velocity"] = ("level", moving.velocity, {"long_name": "velocity of penetration du/dt", "units": unit})
+    ds = ds.assign_attrs(
+        title="Penetration of a rigid indenter into a linearly viscous half-space under a constant force",
+        force=force,
+        viscosity=viscosity,
+        correspondence="depth at a time is the elastic one at F/G = force * time / viscosity, velocity is "
+        "force / (viscosity * k/G) there; exact for every topography, without 1/Gamma(2 - alpha)",
+    )
+    storage.write_dataset(ds, output)
+    click.echo(f"{output}: {moving.time.size} levels, depth {moving.depth[-1]:.6g} at time {moving.time[-1]:.6g}")
+
+
+def _complain(command, error):
+    """The one line on an error, on stderr."""
+    hint = ""
+    if isinstance(error, click.ClickException):
+        text = error.format_message()
+        if isinstance(error, click.UsageError):
+            command = error.ctx.command_path if error.ctx else command
+            hint = f"; see {command} --help"
+    elif isinstance(error, MemoryError):
+        text = f"not enough memory{f' ({error})' if str(error) else ''}; a smaller map of heights is needed"
+    else:
+        text = str(error)
+    click.echo(f"{command}: {' '.join(text.split()).removesuffix('.')}{hint}", err=True)
+
+
+def main(arguments=None):
+    """Run the command line on the arguments (default: of the process) and return the exit code."""
+    command = "viscorough"
+    try:
+        with (
+            warnings.catch_warnings(record=True) as caught,
+            cli.make_context("viscorough", list(sys.argv[1:] if arguments is None else arguments)) as context,
+        ):
+            try:
+                cli.invoke(context)
+            finally:
+                command = f"{command} {context.invoked_subcommand or ''}".rstrip()
+        for text in dict.fromkeys(" ".join(str(warning.message).split()) for warning in caught):
+            click.echo(f"{command}: warning: {text}", err=True)
+    except click.exceptions.Exit as done:
+        return done.exit_code
+    except KeyboardInterrupt:
+        return 130
+    except ConvergenceError as error:
+        _complain(command, error)
+        return 1
+    except (click.ClickException, ValueError, OSError, MemoryError) as error:
+        _complain(command, error)
+        return 2
+    return 0

@@ -1,0 +1,121 @@
+"""Frictionless contact of a rigid indenter with the elastic half-space at a given depth, started from a shallower one.
+
+Displacements are written w = K P with P = p d/(4πG), a length, so that F/G = 4π d ΣP for element side d.
+At depth u the contact satisfies P ≥ 0, e = w − u + g ≥ 0 and P e = 0, with g the gaps to the highest point.
+With q the solution of K q = 1 on the contact set (a flat punch of its shape), k/G = 4π d Σq is the exact
+tangent stiffness and P + Δu q the predictor for the depth u + Δu.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from viscorough import dense, gradients
+from viscorough.curve import ConvergenceError
+from viscorough.halfspace import Halfspace, influence_coefficient
+
+# A dense factorisation is cheaper than a few dozen grid operators up to about these sizes (measured).
+_DENSE_MEMBERS = 400
+_DENSE_INTERACTIONS = 2_000_000
+
+
+@dataclass(frozen=True)
+class Contact:
+    """State of the contact at one depth.
+
+    members : elements in contact, as ranks in the order of increasing gap, shape (count,)
+    pressure, rate : P and q = dP/du on the members, shape (count,)
+    force, stiffness : ΣP and Σq, corrected to second order by the residuals that were left
+    residual : largest |e| on the contact set or penetration outside it, over the depth
+    fields : the same on the grid (see gradients.Fields), None where the dense solution never needed it
+    """
+
+    depth: float
+    members: np.ndarray
+    pressure: np.ndarray
+    rate: np.ndarray
+    force: float
+    stiffness: float
+    residual: float
+    fields: gradients.Fields | None = None
+
+    @property
+    def count(self):
+        return self.members.size
+
+
+class ContactSolver:
+    """Solves the contact of one indenter, depth after depth, to a residual of `tolerance` times the depth."""
+
+    def __init__(self, indenter, tolerance):
+        rows, columns = np.nonzero(np.isfinite(indenter.heights))
+        top, left = rows.min(), columns.min()
+        gap = indenter.gaps[rows, columns].astype(float)
+        order = np.argsort(gap, kind="stable")
+        self.gap = gap[order]
+        self.row, self.column = (rows - top)[order], (columns - left)[order]
+        self.shape = (int(self.row.max()) + 1, int(self.column.max()) + 1)
+        self.tolerance = tolerance
+        distance = [np.arange(n, dtype=float) for n in self.shape]
+        self.influence = influence_coefficient(distance[0][:, None], distance[1][None, :])
+        self._grid = None
+
+    @property
+    def elements(self):
+        return self.gap.size
+
+    @property
+    def operators(self):
+        """Applications of the half-space operator on the grid so far."""
+        return 0 if self._grid is None else self._grid.halfspace.count
+
+    def touch(self):
+        """First touch: depth zero, no pressure, and no element in contact yet."""
+        nothing = np.empty(0)
+        return Contact(0.0, nothing.astype(int), nothing, nothing, 0.0, 0.0, 0.0)
+
+    def next_event(self, contact):
+        """The contact at the depth at which the next elements touch.
+
+        Until then pressures grow at the constant rate q, so the depth is exact. None if no element is left, or if so
+        many touch at once that the dense solution does not pay.
+        """
+        if contact.count == self.elements:
+            return None
+        depth, members = dense.next_event(self, contact)
+        return self._dense_state(depth, members) if members.size <= _DENSE_MEMBERS else None
+
+    def advance(self, contact, depth):
+        """The contact at a larger depth. Raises ConvergenceError if it cannot be found to the tolerance."""
+        candidates = int(np.searchsorted(self.gap, depth))
+        if contact.fields is None and candidates * contact.count <= _DENSE_INTERACTIONS:
+            members = dense.solve(self, contact, depth, candidates, _DENSE_MEMBERS)
+            if members is not None:
+                return self._checked(contact, self._dense_state(depth, members))
+        if self._grid is None:
+            self._grid = gradients.GridSolver(Halfspace(*self.shape), self.row, self.column, self.gap, self.tolerance)
+        if contact.fields is None:
+            contact = replace(contact, fields=self._grid.fields(contact))
+        return self._checked(contact, Contact(*self._grid.solve(contact, depth)))
+
+    def _dense_state(self, depth, members):
+        pressure, rate = dense.pressures(self, members, depth)
+        pressure = np.maximum(pressure, 0.0)  # exact zeros of elements that just touch, to rounding
+        return Contact(depth, members, pressure, rate, pressure.sum(), rate.sum(), 0.0)
+
+    def _checked(self, before, after):
+        """Complementarity: no tension and no penetration beyond the tolerance, and contact only grew."""
+        if after.residual > self.tolerance or after.pressure.min() < 0:
+            raise ConvergenceError(
+                f"contact at depth {after.depth:g}: residual {after.residual:.1e} of the depth is above "
+                f"the tolerance {self.tolerance:g}; choose a larger tolerance"
+            )
+        lost = np.setdiff1d(before.members, after.members, assume_unique=True)
+        if lost.size:
+            opened = after.fields.gap_at(lost).max() if after.fields is not None else np.inf
+            if opened > 3 * self.tolerance * after.depth:
+                raise ConvergenceError(
+                    f"contact at depth {after.depth:g}: {lost.size} elements lost contact by up to {opened:g} "
+                    "although contact can only grow; choose a smaller tolerance"
+                )
+        return after

@@ -1,0 +1,192 @@
+"""Exact solutions, and the paper's laws, to compare computations with.
+
+Everything elastic is normalised with the shear modulus G of an incompressible half-space (ν = 1/2, E* = 4G):
+force is F/G [length²], stiffness is k/G = d(F/G)/du [length]. The contact is frictionless and non-adhesive.
+
+The laws are dimensionless: X = F/(4GhL) (elastic) or Ft/(4ηhL) (viscous), κ = k/(4GL), with rms height h and
+indenter diameter L. Laws that the paper prints with a factor 1/Γ(2−α) have both readings: `gamma=False` is
+what Eq. 1 with Eq. 3 integrates to, `gamma=True` is the law as printed, which comes from Laplace-transforming
+a relation that is nonlinear in F/G.
+
+Sources: Hertz 1882; Love 1929 and 1939 (square element, cone); Sneddon 1965 (bodies of revolution);
+Johnson 1985, Contact Mechanics (flat ellipse); Lee and Radok 1960 (viscous sphere); Popov and Heß 2015
+(reduction of dimensionality).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.integrate import quad_vec
+from scipy.special import ellipk
+from scipy.special import gamma as gamma_function
+
+UNIT_SQUARE_DEFLECTION = 4 * np.log(1 + np.sqrt(2))  # K₀₀ = πE*u/(pd), u at the centre of a loaded square
+COMPLETE_CONTACT_STIFFNESS = 1.0  # κ of the whole disc as a flat punch, k = 2E*·L/2; region (c): vt/h = X
+
+
+# ---- exact elastic solutions
+
+
+@dataclass(frozen=True)
+class PowerLawBody:
+    """Body of revolution with the profile z = c rⁿ (Sneddon): u = κ_n c aⁿ, F = 2E*·n/(n+1)·u a, k = 2E*a.
+
+    coefficient : c > 0 [length^(1−n)]
+    exponent : n > 0; 1 is a cone, 2 a sphere (as a paraboloid)
+    """
+
+    coefficient: float
+    exponent: float
+
+    def __post_init__(self):
+        for name in ("coefficient", "exponent"):
+            _require_positive(f"{name} of a power-law body", getattr(self, name))
+
+    def mdr_profile(self, x):
+        """One-dimensional profile g(x) = κ_n c |x|ⁿ with κ_n = √π Γ(n/2+1)/Γ((n+1)/2); same unit as x."""
+        n = self.exponent
+        kappa = np.sqrt(np.pi) * gamma_function(n / 2 + 1) / gamma_function((n + 1) / 2)
+        return kappa * self.coefficient * np.abs(x) ** n
+
+    def contact_radius(self, depth):
+        """Contact radius a at depth u: the root of g(a) = u; the depth at radius a is `mdr_profile(a)`."""
+        return (depth / self.mdr_profile(1.0)) ** (1 / self.exponent)
+
+    def force(self, depth):
+        """F/G at depth u."""
+        return 8 * self.exponent / (self.exponent + 1) * depth * self.contact_radius(depth)
+
+    def depth(self, force):
+        """Depth u at F/G: the inverse of `force`."""
+        n = self.exponent
+        return self.mdr_profile((force * (n + 1) / (8 * n * self.mdr_profile(1.0))) ** (1 / (n + 1)))
+
+    def stiffness(self, depth):
+        """k/G = 8a at depth u."""
+        return 8 * self.contact_radius(depth)
+
+
+def sphere(radius):
+    """Sphere z = r²/(2R): F = (4/3)E*√R u^(3/2), a = √(Ru) (Hertz)."""
+    _require_positive("radius of a sphere", radius)
+    return PowerLawBody(1 / (2 * radius), 2)
+
+
+def cone(slope):
+    """Cone z = r tanθ with `slope` = tanθ: F = 2E*u²/(π tanθ), u = (π/2) a tanθ (Love)."""
+    return PowerLawBody(slope, 1)
+
+
+def flat_ellipse_stiffness(major, minor):
+    """k/G of a flat punch with the semi-axes major ≥ minor > 0: k = πE*a/K(m), m = 1 − b²/a² (Johnson).
+
+    The force is k u at every depth u. Equal semi-axes give the flat disc, k = 2E*a.
+    """
+    if not np.all((np.asarray(minor) > 0) & (np.asarray(major) >= minor) & np.isfinite(major)):
+        raise ValueError(f"semi-axes of an ellipse: {major}, {minor}; allowed: finite, major >= minor > 0")
+    return 4 * np.pi * major / ellipk(1 - (minor / major) ** 2)
+
+
+def flat_disc_stiffness(radius):
+    """k/G = 8a of a flat disc of radius a; the force is k u at every depth u."""
+    return flat_ellipse_stiffness(radius, radius)
+
+
+def mdr_profile(slope, x):
+    """Profile g of the reduction of dimensionality for any body of revolution (the paper's refs. 24 and 25).
+
+    g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr = |x| ∫₀^(π/2) f′(|x| sin φ) dφ, with which the one-dimensional
+    foundation has the depth, force F/G = 4∫(u − g)₊dx and stiffness of the half-space, exactly.
+
+    slope : f′(r), a function of an array of radii r ≥ 0
+    x : positions, any shape
+    """
+    x = np.abs(x)
+    return x * quad_vec(lambda angle: slope(x * np.sin(angle)), 0, np.pi / 2, epsrel=1e-12)[0]
+
+
+# ---- exact viscous solutions under a constant force
+
+
+def sphere_penetration(time, radius, force, viscosity):
+    """Depth and velocity of a sphere: u^(3/2) = 3Ft/(16η√R), that is a³ = 3RFt/(16η) (Lee and Radok).
+
+    time : t > 0 since the force was applied, any shape. Returns (u, v = du/dt) of that shape.
+    """
+    depth = (3 * force * time / (16 * viscosity * np.sqrt(radius))) ** (2 / 3)
+    return depth, 2 * depth / (3 * time)
+
+
+def cone_penetration(time, slope, force, viscosity):
+    """Depth and velocity of a cone with `slope` = tanθ: u² = π tanθ Ft/(8η).
+
+    time : t > 0 since the force was applied, any shape. Returns (u, v = du/dt) of that shape.
+    """
+    depth = np.sqrt(np.pi * slope * force * time / (8 * viscosity))
+    return depth, depth / (2 * time)
+
+
+# ---- the paper's laws
+
+
+def stiffness_law(x, zeta, alpha):
+    """κ = ζ X^α (Eq. 3)."""
+    return zeta * x**alpha
+
+
+def zeta_elastic(hurst):
+    """ζ ≈ π(3 − H)/10, found for the elastic contact (Eq. 4)."""
+    return np.pi * (3 - hurst) / 10
+
+
+def exponent_alpha(hurst):
+    """α = 1/(1 + H), said to hold for H in (0.4, 1) (Eq. 5)."""
+    return 1 / (1 + hurst)
+
+
+def depth_law(x, zeta, alpha, *, gamma=False):
+    """u/h = X^(1−α)/(ζ(1−α)) (Eq. 6); with `gamma` divided by Γ(2−α) (Eq. 8). Needs α < 1."""
+    if not np.all(np.asarray(alpha) < 1):
+        raise ValueError(f"exponent alpha of the depth law: {alpha}; allowed: below 1")
+    return velocity_law(x, zeta, alpha, gamma=gamma) / (1 - alpha)
+
+
+def velocity_law(x, zeta, alpha, *, gamma=False):
+    """vt/h = X^(1−α)/ζ = X/κ (Eqs. 1 and 3); with `gamma` divided by Γ(2−α) (Eq. 9)."""
+    return x ** (1 - alpha) / (zeta * (gamma_function(2 - alpha) if gamma else 1))
+
+
+def exponent_beta(hurst):
+    """β = 1 − α = H/(1 + H) (Eq. 10)."""
+    return hurst / (1 + hurst)
+
+
+def zeta_viscous(hurst):
+    """ζ ≈ 2 − H, fitted to the viscous indentations (Eq. 11), with the factor 1/Γ(2−α) in the law."""
+    return 2 - hurst
+
+
+def rate_law(x, hurst, *, gamma=False):
+    """vt/h with Eqs. 5 and 11 for α and ζ; with `gamma` this is Eq. 12, Γ(2−α) = Γ((1+2H)/(1+H))."""
+    return velocity_law(x, zeta_viscous(hurst), exponent_alpha(hurst), gamma=gamma)
+
+
+def line_spectrum(wavenumber, spectrum, transfer=np.pi):
+    """C1D(q) = λ q C2D(q), two-sided, for the line that stands for a surface; λ = π in Eq. 13.
+
+    λ = π gives line and surface the same rms height; in general λ = π (h1D/h2D)².
+    """
+    return transfer * wavenumber * spectrum
+
+
+def one_element_stiffness(elements_across):
+    """κ while one square element touches (region a): π/(K₀₀ n), n elements across L; vt/h = X/κ, slope 1.
+
+    A square of side d = L/n under uniform pressure p sinks by u = pd K₀₀/(πE*) at its centre.
+    """
+    return np.pi / (UNIT_SQUARE_DEFLECTION * elements_across)
+
+
+def _require_positive(name, value):
+    if not (np.isfinite(value) and value > 0):
+        raise ValueError(f"{name}: {value}; allowed: finite and above 0")

@@ -1,0 +1,292 @@
+"""Rigid indenters: height maps in general, self-affine discs and lines in particular.
+
+The spectral density is the paper's (Sec. III), C2D(q) ∝ q^(-2(H+1)) for a surface, and by C1D = π q C2D ∝
+q^(-(2H+1)) for a line (Eq. 13), which keeps the rms height. Spectra are isotropic, have no zero mode and
+reach from the period of the generated piece down to the Nyquist wavelength of two spacings. They need no
+prefactor, because every realization is scaled to its rms height.
+"""
+
+from dataclasses import dataclass
+from numbers import Integral
+
+import numpy as np
+from ducc0 import fft
+
+_BLOCK = 16384  # points of a line worked on at a time: arrays of this length stay in the cache
+
+
+@dataclass(frozen=True)
+class Indenter:
+    """A rigid indenter: heights on a square grid, or along a line, of equal spacing.
+
+    heights : (rows, columns) map, nan outside the indenter, or (points,) line; larger is a higher peak,
+        the highest touches first [length]
+    spacing : distance of neighbouring points [length]
+
+    Raises ValueError if the heights are not real numbers in one or two dimensions, are infinite, have no
+    element or, on a line, have a nan; or if the spacing is not a positive number.
+    """
+
+    heights: np.ndarray
+    spacing: float
+
+    def __post_init__(self):
+        heights = np.asarray(self.heights)
+        if heights.dtype.kind not in "fiu":
+            raise ValueError(f"indenter heights: must be real numbers, not {heights.dtype}")
+        if heights.ndim not in (1, 2):
+            raise ValueError(f"indenter heights: must have one or two dimensions, not {heights.ndim}")
+        if heights.dtype.kind != "f":
+            heights = heights.astype(float)
+        if heights.size == 0 or np.isnan(highest := np.fmax.reduce(heights, axis=None)):
+            raise ValueError("indenter heights: must have at least one element that is not nan")
+        if np.isinf(highest) or np.isinf(np.fmin.reduce(heights, axis=None)):
+            raise ValueError("indenter heights: must be finite (nan: outside the indenter), some are infinite")
+        if heights.ndim == 1 and np.isnan(heights.min()):
+            raise ValueError("indenter heights: must not be nan on a line")
+        object.__setattr__(self, "heights", heights)
+        object.__setattr__(self, "spacing", _positive("indenter spacing", self.spacing))
+
+    @property
+    def elements(self):
+        """Number of elements: points that are not nan."""
+        return int(np.count_nonzero(~np.isnan(self.heights)))
+
+    @property
+    def gaps(self):
+        """Distances to the highest element [length], in shape and precision of the heights; nan outside."""
+        return np.fmax.reduce(self.heights, axis=None) - self.heights
+
+
+def realization_seed(root, *key):
+    """Seed of one realization, from a root and a key of integers >= 0; other keys give independent ones."""
+    return np.random.SeedSequence(root, spawn_key=key)
+
+
+def self_affine_disc(
+    hurst,
+    elements_across=257,
+    *,
+    rms=1.0,
+    diameter=1.0,
+    period=1.0,
+    corners=False,
+    roll_off_wavelength=None,
+    roll_off_level=0.0,
+    amplitudes="random",
+    rms_over="disc",
+    seed,
+):
+    """Disc of n = `elements_across` elements in diameter, cut from a periodic self-affine square.
+
+    hurst : Hurst exponent H, 0 to 1
+    elements_across : n, at least 3; 257 gives 51433 elements
+    rms : standard deviation h of the heights, met by every realization [length]
+    diameter : L; the spacing is L/n [length]
+    period : of the square [L], at least 1, rounded to whole spacings; 1: the disc spans the period, 2: it is
+        a piece of a surface of twice that period
+    corners : whether to fill the corners of the Fourier square beyond the Nyquist circle q = π/spacing
+    roll_off_wavelength : longest wave of the power law [L]; longer ones have its spectral density times
+        `roll_off_level` (0: they are absent, 1: a plateau)
+    amplitudes : "random": complex Gaussian, so that the heights are a Gaussian process; "fixed": exactly the
+        root of the spectrum, only the phases are random
+    rms_over : "disc" or "square": the points over which h is taken
+    seed : int or numpy SeedSequence; the same seed gives the same realization
+
+    Returns an Indenter with (n, n) heights, nan outside the disc (see `cut_disc`).
+    Raises ValueError for values outside these ranges.
+    """
+    elements_across = _whole("elements_across", elements_across, at_least=3)
+    rms, diameter, period = (
+        _positive("rms", rms),
+        _positive("diameter", diameter),
+        _positive("period", period),
+    )
+    if period < 1:
+        raise ValueError(f"period: must be at least 1 diameter, not {period}")
+    if rms_over not in ("disc", "square"):
+        raise ValueError(f"rms_over: must be 'disc' or 'square', not {rms_over!r}")
+    if roll_off_wavelength is not None:
+        roll_off_wavelength = _positive("roll_off_wavelength", roll_off_wavelength) * elements_across
+    square = self_affine_square(
+        hurst,
+        round(period * elements_across),
+        corners=corners,
+        roll_off_wavelength=roll_off_wavelength,
+        roll_off_level=roll_off_level,
+        amplitudes=amplitudes,
+        seed=seed,
+    )
+    heights = cut_disc(square, elements_across)
+    heights *= rms / np.nanstd(heights) if rms_over == "disc" else rms
+    return Indenter(heights, diameter / elements_across)
+
+
+def self_affine_square(
+    hurst, points, *, corners=False, roll_off_wavelength=None, roll_off_level=0.0, amplitudes="random", seed
+):
+    """Heights of a periodic self-affine square, shape (points, points), of mean 0 and rms 1.
+
+    hurst, corners, roll_off_level, amplitudes, seed : as in `self_affine_disc`
+    points : per period, at least 2
+    roll_off_wavelength : as in `self_affine_disc`, but in points
+
+    White noise is filtered: its spectrum has the symmetry of real heights also where a wave is its own mirror
+    image. Raises ValueError for values outside the allowed ranges.
+    """
+    points = _whole("points", points, at_least=2)
+    exponent = _hurst(hurst) + 1
+    longest, level = _roll_off(roll_off_wavelength, roll_off_level, points)
+    fixed = _fixed(amplitudes)
+
+    wavenumber = np.hypot(np.fft.fftfreq(points, 1 / points)[:, None], np.arange(points // 2 + 1))
+    amplitude = _amplitude(wavenumber, exponent, longest, level)
+    amplitude[0, 0] = 0
+    if not corners:
+        amplitude[wavenumber > points / 2] = 0
+    spectrum = fft.r2c(_generator(seed).standard_normal((points, points)))
+    if fixed:
+        spectrum /= np.abs(spectrum)
+    spectrum *= amplitude
+    heights = fft.c2r(spectrum, lastsize=points, forward=False, allow_overwriting_input=True)
+    return _scale(heights, 1.0)
+
+
+def cut_disc(square, elements_across):
+    """Disc of n = `elements_across` from the corner [:n, :n] of a map of heights; (n, n), nan outside it.
+
+    An element belongs to it if x² + y² <= ((n-1)/2)², x and y from the centre of the piece in spacings.
+    Raises ValueError if the map is smaller than that.
+    """
+    n = _whole("elements_across", elements_across, at_least=1)
+    if square.ndim != 2 or min(square.shape) < n:
+        raise ValueError(f"cut_disc: the map must have at least {n} x {n} points, its shape is {square.shape}")
+    twice = 2 * np.arange(n) - (n - 1)  # twice the distance from the centre: whole numbers for odd and even n
+    return np.where(twice[:, None] ** 2 + twice**2 <= (n - 1) ** 2, square[:n, :n], np.nan)
+
+
+def self_affine_line(
+    hurst,
+    points,
+    *,
+    rms=1.0,
+    length=1.0,
+    roll_off_wavelength=None,
+    roll_off_level=0.0,
+    amplitudes="random",
+    seed,
+    dtype=np.float32,
+):
+    """Periodic self-affine line, C1D ∝ q^(-(2H+1)): an indenter for the method of dimensionality reduction.
+
+    hurst, rms, amplitudes, seed : as in `self_affine_disc`
+    points : per period, at least 2
+    length : L, also the period; the spacing is L/points [length]
+    roll_off_wavelength, roll_off_level : as in `self_affine_disc`, in lengths of the line
+    dtype : float32 or float64. Single precision resolves gaps of about 2e-7 h, the realization is the same.
+
+    Returns an Indenter with (points,) heights of mean 0. Raises ValueError for values outside these ranges.
+    """
+    points = _whole("points", points, at_least=2)
+    exponent = _hurst(hurst) + 0.5
+    rms, length = _positive("rms", rms), _positive("length", length)
+    if roll_off_wavelength is not None:
+        roll_off_wavelength = _positive("roll_off_wavelength", roll_off_wavelength) * points
+    longest, level = _roll_off(roll_off_wavelength, roll_off_level, points)
+    fixed = _fixed(amplitudes)
+    if (real := np.dtype(dtype)) not in (np.float32, np.float64):
+        raise ValueError(f"dtype: must be float32 or float64, not {real}")
+
+    words = _generator(seed).bit_generator
+    spectrum = np.empty(points // 2 + 1, np.result_type(real, np.complex64))
+    for start in range(0, spectrum.size, _BLOCK):
+        piece = spectrum[start : start + _BLOCK]
+        uniform = words.random_raw(piece.size).view(np.uint32).reshape(-1, 2)
+        phase = uniform[:, 0].astype(real)
+        phase *= 2 * np.pi / 2**32
+        modulus = _amplitude(np.arange(start, start + piece.size, dtype=real), exponent, longest, level)
+        if not fixed:  # √(-2 ln(0...1)): with a random phase, a complex Gaussian (Box and Muller)
+            deviate = uniform[:, 1].astype(real)
+            deviate += 0.5
+            deviate *= 2.0**-32
+            np.log(deviate, out=deviate)
+            deviate *= -2
+            modulus *= np.sqrt(deviate, out=deviate)
+        np.multiply(modulus, np.cos(phase), out=piece.real)
+        np.multiply(modulus, np.sin(phase), out=piece.imag)
+    spectrum[0] = 0
+    if points % 2 == 0:  # the shortest wave is its own mirror image: real, of the same mean power
+        last = spectrum[-1]
+        spectrum[-1] = np.copysign(abs(last), last.real) if fixed else np.sqrt(2.0) * last.real
+    heights = fft.c2r(spectrum, lastsize=points, forward=False, allow_overwriting_input=True)
+    return Indenter(_scale(heights, rms), length / points)
+
+
+def _amplitude(wavenumber, exponent, longest, level):
+    """Modulus k^-exponent of the waves of k per period; √level times that of k = longest for longer ones.
+
+    The zero mode gets a number, too, for the caller to remove.
+    """
+    amplitude = np.maximum(wavenumber, max(1, longest))
+    np.power(amplitude, -exponent, out=amplitude)
+    if longest > 1:
+        amplitude[wavenumber < longest] *= np.sqrt(level)
+    return amplitude
+
+
+def _roll_off(wavelength, level, points):
+    """Wavenumber per period and level of the roll-off at a wavelength in points; 0 if there is none."""
+    if not (np.isfinite(level) and level >= 0):
+        raise ValueError(f"roll_off_level: must be a finite number >= 0, not {level!r}")
+    if wavelength is None:
+        return 0.0, level
+    rounding = 1 - 1e-12  # must not take away the waves of just that length
+    return rounding * points / _positive("roll_off_wavelength", wavelength), level
+
+
+def _scale(heights, rms):
+    """Scale heights of mean 0 to their rms value, in place and block by block."""
+    flat = heights.reshape(-1)
+    pieces = [flat[start : start + _BLOCK] for start in range(0, flat.size, _BLOCK)]
+    square = sum(float(np.dot(piece, piece)) for piece in pieces)
+    if square == 0:
+        raise ValueError("roll_off_wavelength: must leave at least one wave of two spacings or more")
+    factor = heights.dtype.type(rms / np.sqrt(square / flat.size))
+    for piece in pieces:
+        piece *= factor
+    return heights
+
+
+def _generator(seed):
+    """Random numbers by SFC64, the fastest of numpy's generators."""
+    if not isinstance(seed, np.random.SeedSequence):
+        seed = _whole("seed", seed, at_least=0)
+    return np.random.Generator(np.random.SFC64(seed))
+
+
+def _hurst(hurst):
+    if not 0 <= hurst <= 1:
+        raise ValueError(f"hurst: must be from 0 to 1, not {hurst!r}")
+    return float(hurst)
+
+
+def _fixed(amplitudes):
+    if amplitudes not in ("random", "fixed"):
+        raise ValueError(f"amplitudes: must be 'random' or 'fixed', not {amplitudes!r}")
+    return amplitudes == "fixed"
+
+
+def _whole(name, value, at_least):
+    if not isinstance(value, Integral) or value < at_least:
+        raise ValueError(f"{name}: must be a whole number of at least {at_least}, not {value!r}")
+    return int(value)
+
+
+def _positive(name, value):
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise ValueError(f"{name}: must be a positive number, not {value!r}") from None
+    if not (np.isfinite(number) and number > 0):
+        raise ValueError(f"{name}: must be positive and finite, not {number}")
+    return number

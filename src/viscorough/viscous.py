@@ -1,0 +1,100 @@
+"""Kinetics of penetration: the loading curve read as the solution of the viscous problem.
+
+The surface of a linearly viscous half-space moves with w_t = (1/4πη)∫p/r dA. Integrated over time, with
+P = ∫p dt, this is the elastic relation w = (1/4πη)∫P/r dA, and ∫P dA = I = ∫F dt, the impulse. The elastic
+pressure at the force F/G = I/η meets every condition of the viscous problem at every time: more load on a
+frictionless, non-adhesive contact adds the flat-punch pressure of the elements in contact, which is nowhere
+negative, so the contact only grows and no pressure turns tensile. Hence, for any topography and any F(t) ≥ 0,
+
+    u(t) = u_el(F/G = I(t)/η),    v(t) = F(t)/(η·k/G),    k/G taken at I(t)/η    (paper, Eq. 1),
+
+exactly. For a constant force I = Ft, so X = Ft/(4ηhL) and vt/h = X/κ(X) (Eqs. 2 and 3). Eqs. 7-9 of the paper
+instead Laplace-transform the relation u(F/G), which is not linear, and so carry an extra factor 1/Γ(2−α).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+ROUNDING = 1e-10  # relative; what summing a million force samples can add to an impulse
+
+
+@dataclass(frozen=True)
+class Kinetics:
+    """Penetration over time; arrays of one shape (times,), in the units of the curve, force and viscosity.
+
+    time : t
+    depth : u
+    velocity : v = du/dt
+    """
+
+    time: np.ndarray
+    depth: np.ndarray
+    velocity: np.ndarray
+
+
+def kinetics(curve, force, viscosity, times=None):
+    """Depth and velocity of an indenter with the given loading curve in a linearly viscous half-space.
+
+    curve : LoadingCurve of the indenter
+    force : a number, the constant force F > 0 applied at t = 0; or samples F ≥ 0 of shape (times,), linear in
+        between, applied from times[0] on. A step is two samples close together
+    viscosity : η > 0, in a unit such that F·t/η is a length², in the curve's unit of length
+    times : strictly increasing, for a constant force not negative; default, for a constant force only: the
+        times at which the curve's levels are reached, t = (F/G)·η/F
+
+    Returns Kinetics at `times`. The velocity is 0 where the force is. Between the levels the curve is
+    interpolated (LoadingCurve.at_force); where it is not known, before its first level, the result is nan.
+    Raises ValueError for values outside these ranges and for an impulse beyond the curve's last level.
+    """
+    if not (np.ndim(viscosity) == 0 and np.isfinite(viscosity) and viscosity > 0):
+        raise ValueError(f"viscosity: {viscosity}; allowed: a finite number above 0")
+    constant = np.ndim(force) == 0
+    if constant and not (np.isfinite(force) and force > 0):
+        raise ValueError(f"constant force: {force}; allowed: a finite number above 0")
+    if times is None:
+        if not constant:
+            raise ValueError("times: missing; a force given as samples needs the time of each sample")
+        return Kinetics(curve.force * viscosity / force, curve.depth, force / (viscosity * curve.stiffness))
+
+    times = np.array(times, dtype=float)
+    if times.ndim != 1 or times.size == 0 or not np.isfinite(times).all() or not (np.diff(times) > 0).all():
+        raise ValueError("times: allowed is one row of finite numbers, each later than the one before")
+    if constant:
+        if times[0] < 0:
+            raise ValueError(f"times: start at {times[0]:g}; allowed: from 0 on, where a constant force begins")
+        impulse = force * times
+    else:
+        force = _samples(force, times)
+        impulse = np.append(0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(times)))
+
+    depth, stiffness = _at_impulse(curve, impulse / viscosity, viscosity)
+    # A resting indenter needs no stiffness, which matters before the first level.
+    velocity = np.where(force == 0, 0.0, force / (viscosity * stiffness))
+    return Kinetics(times, depth, velocity)
+
+
+def _samples(force, times):
+    force = np.asarray(force, dtype=float)
+    if force.shape != times.shape:
+        raise ValueError(f"force: samples of shape {force.shape}; allowed: one per time, shape {times.shape}")
+    if not (np.isfinite(force) & (force >= 0)).all():
+        where = int(np.argmin(np.isfinite(force) & (force >= 0)))
+        raise ValueError(f"force: sample {where} is {force[where]}; allowed: finite, 0 or more")
+    return force
+
+
+def _at_impulse(curve, loading, viscosity):
+    """Depth and k/G at I/η = loading: those of the elastic curve at that F/G."""
+    first, last = curve.force[0], curve.force[-1]
+    largest = loading.max()
+    if largest > last * (1 + ROUNDING):
+        raise ValueError(
+            f"impulse: {largest * viscosity:.6g} is beyond the curve's last level; "
+            f"allowed: up to {last * viscosity:.6g}"
+        )
+    # Impulses that are those of the outer levels but for rounding are not lost outside of the curve.
+    loading = np.minimum(loading, last)
+    loading = np.where(np.abs(loading - first) <= ROUNDING * first, first, loading)
+    depth, stiffness = curve.at_force(loading)
+    return np.where(loading == 0, 0.0, depth), stiffness

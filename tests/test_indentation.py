@@ -128,6 +128,18 @@ def test_interpolation_stays_within_the_tolerance(hurst):
     assert np.median(np.abs(stiffness / fine.stiffness[inside] - 1)) < 1e-3
 
 
+def test_single_and_double_precision_agree_far_below_the_tolerance(monkeypatch):
+    disc, depths = self_affine_disc(0.4, 65, seed=8), np.geomspace(0.5, 8.0, 12)
+    curves = []
+    for threshold in (1e-4, 1.0):
+        monkeypatch.setattr("viscorough.contact._SINGLE", threshold)
+        curves.append(indent(disc, tolerance=1e-4, depths=depths))
+    assert curves[0].operators > 0
+    np.testing.assert_allclose(curves[0].force, curves[1].force, rtol=2e-6)
+    # A residual that rounding had falsified would differ from one recomputed in double precision.
+    np.testing.assert_allclose(curves[0].residual, curves[1].residual, atol=3e-5)
+
+
 def test_levels_are_fewer_for_a_coarser_question():
     disc = self_affine_disc(0.8, 65, seed=4)
     assert len(indent(disc, tolerance=3e-2).depth) < 0.7 * len(indent(disc, tolerance=1e-4).depth)
@@ -235,6 +247,6 @@ def test_estimate_of_interpolation_error_is_exact_for_a_power_law():
             self.depth, self.force, self.stiffness, self.count = depth, depth**1.7, 1.7 * depth**0.7, 100 * depth
 
     levels = [Level(u) for u in (1.0, 2.0, 3.0)]
-    assert indentation._interpolation_error(levels[:2], levels[2]) < 1e-12
+    assert indentation._interpolation_error(*levels) < 1e-12
     levels[1].force *= 1.01
-    assert indentation._interpolation_error(levels[:2], levels[2]) > 5e-3
+    assert indentation._interpolation_error(*levels) > 5e-3

@@ -17,6 +17,8 @@ from viscorough.halfspace import Halfspace, influence_coefficient
 # A dense factorisation is cheaper than a few dozen grid operators up to about these sizes (measured).
 _DENSE_MEMBERS = 400
 _DENSE_INTERACTIONS = 2_000_000
+# The operator acts on corrections, whose rounding in single precision is far below this tolerance.
+_SINGLE = 1e-4
 
 
 @dataclass(frozen=True)
@@ -45,14 +47,19 @@ class Contact:
 
 
 class ContactSolver:
-    """Solves the contact of one indenter, depth after depth, to a residual of `tolerance` times the depth."""
+    """Solves the contact of one indenter, depth after depth, to a residual of `tolerance` times the depth.
+
+    Its lengths (depths, gaps, P) are in `unit`, the largest gap of the indenter; q has none.
+    """
 
     def __init__(self, indenter, tolerance):
         rows, columns = np.nonzero(np.isfinite(indenter.heights))
         top, left = rows.min(), columns.min()
         gap = indenter.gaps[rows, columns].astype(float)
         order = np.argsort(gap, kind="stable")
-        self.gap = gap[order]
+        # The largest gap is the unit of length, so that results do not depend on the user's.
+        self.unit = gap.max() or 1.0
+        self.gap = gap[order] / self.unit
         self.row, self.column = (rows - top)[order], (columns - left)[order]
         self.shape = (int(self.row.max()) + 1, int(self.column.max()) + 1)
         self.tolerance = tolerance
@@ -93,7 +100,9 @@ class ContactSolver:
             if members is not None:
                 return self._checked(contact, self._dense_state(depth, members))
         if self._grid is None:
-            self._grid = gradients.GridSolver(Halfspace(*self.shape), self.row, self.column, self.gap, self.tolerance)
+            precision = np.float32 if self.tolerance >= _SINGLE else np.float64
+            halfspace = Halfspace(*self.shape, precision)
+            self._grid = gradients.GridSolver(halfspace, self.row, self.column, self.gap, self.tolerance)
         if contact.fields is None:
             contact = replace(contact, fields=self._grid.fields(contact))
         return self._checked(contact, Contact(*self._grid.solve(contact, depth)))

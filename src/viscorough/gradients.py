@@ -105,14 +105,30 @@ def _turn(direction, result, factor, slots):
 
 
 @numba.njit(cache=True)
-def _release(pressure, load, inside, places, slots):
-    """Elements under tension leave the set; their pressure moves, with opposite sign, to the load."""
+def _release(pressure, load, inside, places, slots, stencil, width, stride):
+    """Elements under tension leave the set; the change of pressure is added to the load.
+
+    Taking away a pull p < 0 lifts its neighbours off. That takes as much pressure from them as eliminating the element
+    from the stencil does: P += −p M_near/M_centre, which saves iterations. None of it may make them pull.
+    """
+    for t in range(places.size):
+        if pressure[places[t]] < 0:
+            inside[places[t]] = False
     for t in range(places.size):
         i = places[t]
-        if pressure[i] < 0:
-            load[slots[t]] = -pressure[i]
-            pressure[i] = 0.0
-            inside[i] = False
+        if inside[i]:
+            continue
+        pull = pressure[i]
+        load[slots[t]] -= pull
+        pressure[i] = 0.0
+        for row in range(-1, 2):
+            for column in range(-1, 2):
+                near = i + row * width + column
+                if inside[near]:
+                    change = -pull * stencil[row + 1, column + 1] / stencil[1, 1]
+                    change = max(change, -0.5 * pressure[near])
+                    pressure[near] += change
+                    load[slots[t] + row * stride + column] += change
 
 
 @numba.njit(cache=True)
@@ -169,8 +185,9 @@ class GridSolver:
             tension = self._descend(pressure, gap, inside, places, slots, limit, _REVISE)
             if tension:
                 self.halfspace.load[:] = 0
-                _release(pressure, self.halfspace.load.ravel(), inside, places, slots)
-                self._add(1.0, self.halfspace.apply(), gap)
+                load = self.halfspace.load
+                _release(pressure, load.ravel(), inside, places, slots, self._stencil, self._width, load.shape[1])
+                self._add(self.halfspace.apply(), gap)
                 places = places[inside[places]]
             joined = _admit(gap, inside, limit)
             settled = joined == 0 and np.abs(gap[places]).max() <= limit
@@ -247,8 +264,8 @@ class GridSolver:
         rows, columns = self.halfspace.shape
         self.halfspace.load[:] = 0
         self.halfspace.load[:, :columns] = pressure.reshape(rows + 2, columns + 2)[1:-1, 1:-1]
-        self._add(1.0, self.halfspace.apply(), gap)
+        self._add(self.halfspace.apply(), gap)
 
-    def _add(self, factor, deflection, gap):
+    def _add(self, deflection, gap):
         rows, columns = self.halfspace.shape
-        gap.reshape(rows + 2, columns + 2)[1:-1, 1:-1] += factor * deflection[:, :columns]
+        gap.reshape(rows + 2, columns + 2)[1:-1, 1:-1] += deflection[:, :columns]

@@ -40,6 +40,14 @@ def influence_coefficient(x, y):
     return total
 
 
+@numba.njit(cache=True)
+def _multiply(spectrum, kernel):
+    """spectrum ·= kernel; numpy would convert the real kernel to complex numbers first."""
+    for i in range(kernel.shape[0]):
+        for j in range(kernel.shape[1]):
+            spectrum[i, j] = spectrum[i, j] * kernel[i, j]
+
+
 class Halfspace:
     """The operator w = K p on a grid of rows × columns square elements: w_i = Σ_j K(i − j) p_j.
 
@@ -49,19 +57,19 @@ class Halfspace:
 
     `load` is the array to write p into: shape (rows, stride ≥ columns), zero wherever there is no pressure and in
     the columns beyond the grid. `apply()` returns w in an array of the same layout (its columns beyond the grid
-    mean nothing), overwritten by the next call. `count` is the number of applications so far. The deflection in
-    the user's lengths is d/(πE*) K p.
+    mean nothing), overwritten by the next call. `count` is the number of applications so far; `precision` the type
+    of the numbers. The deflection in the user's lengths is d/(πE*) K p.
     """
 
-    def __init__(self, rows, columns):
+    def __init__(self, rows, columns, precision=np.float64):
         self.shape = (rows, columns)
         lengths = [ducc0.fft.good_size(max(2 * (n - 1), 1), True) for n in self.shape]
         distance = [np.minimum(np.arange(m), m - np.arange(m)).astype(float) for m in lengths]
         kernel = influence_coefficient(distance[0][:, None], distance[1][None, :])
         spectrum = ducc0.fft.r2c(kernel).real
-        self._spectrum = np.ascontiguousarray(spectrum / (lengths[0] * lengths[1]))
-        self.load = np.zeros((rows, lengths[1]))
-        self._transformed = np.zeros(spectrum.shape, dtype=complex)
+        self._spectrum = (spectrum / (lengths[0] * lengths[1])).astype(precision)
+        self.load = np.zeros((rows, lengths[1]), dtype=precision)
+        self._transformed = np.zeros(spectrum.shape, dtype=np.result_type(precision, np.complex64))
         self._deflection = np.empty_like(self.load)
         self.count = 0
 
@@ -72,7 +80,7 @@ class Halfspace:
         ducc0.fft.r2c(self.load, axes=[1], out=data)
         spectrum[rows:] = 0
         ducc0.fft.c2c(spectrum, axes=[0], out=spectrum)
-        spectrum *= self._spectrum
+        _multiply(spectrum, self._spectrum)
         ducc0.fft.c2c(spectrum, axes=[0], forward=False, out=spectrum)
         ducc0.fft.c2r(data, axes=[1], forward=False, lastsize=self.load.shape[1], out=self._deflection)
         self.count += 1

@@ -10,10 +10,10 @@ import numpy as np
 from viscorough.contact import ContactSolver
 from viscorough.curve import LoadingCurve
 
-# Up to this many elements in contact every event is a level.
-_EVENTS = 24
-# Limits of the step from level to level, as ratios of depths.
-_SHORTEST, _LONGEST, _FIRST = 1.02, 2.0, 1.15
+# Steps from level to level, as ratios of depths. A shorter one would only chase the kinks of single elements.
+_LONGEST, _FIRST = 2.0, 1.15
+# No finer interpolation is offered: it would need every event, which is what viscorough.dense is for.
+_FINEST = 1e-5
 
 
 def indent(indenter, *, tolerance=1e-3, depths=None, until=0.9, until_force=np.inf):
@@ -23,10 +23,10 @@ def indent(indenter, *, tolerance=1e-3, depths=None, until=0.9, until_force=np.i
     (uniform pressure on square elements; Love 1929), at increasing depths u.
 
     indenter : surfaces.Indenter with two-dimensional heights
-    tolerance : largest gap in contact, or penetration outside it, over the depth, at every level; and largest
-        relative error of interpolating the curve with LoadingCurve.at_force. The error of force and stiffness at
-        the levels is of second order in it. Between 1e-12 and 0.1
-    depths : exactly these depths, increasing [length]; default: levels chosen by the tolerance
+    tolerance : largest gap in contact, or penetration outside it, over the depth, at every level; the error of the
+        force there is of second order in it. Also the relative error of the depth interpolated between levels by
+        LoadingCurve.at_force, down to 1e-5. Between 1e-12 and 0.1
+    depths : exactly these depths, increasing [length]; default: levels placed as the tolerance needs them
     until : contact fraction at which to stop, in (0, 1]; ignored where depths are given
     until_force : F/G at which to stop [length²]; ignored where depths are given
 
@@ -45,95 +45,90 @@ def indent(indenter, *, tolerance=1e-3, depths=None, until=0.9, until_force=np.i
     solver = ContactSolver(indenter, tolerance)
     scale = 4 * np.pi * indenter.spacing
     if depths is None:
-        contacts = _levels(solver, until, until_force / scale, indenter.spacing)
+        levels = _levels(solver, until, until_force / (scale * solver.unit), indenter.spacing)
+        depths = solver.unit * np.array([level.depth for level in levels])
     else:
         depths = np.atleast_1d(np.asarray(depths, dtype=float))
         if depths.ndim != 1 or depths.size == 0 or not np.all(np.isfinite(depths)):
             raise ValueError("indent: depths must be a list of finite numbers")
         if depths[0] <= 0 or np.any(np.diff(depths) <= 0):
             raise ValueError("indent: depths must be positive and strictly increasing")
-        contacts, contact = [], solver.touch()
-        for depth in depths:
+        levels, contact = [], solver.touch()
+        for depth in depths / solver.unit:
             contact = solver.advance(contact, depth)
-            contacts.append(_Level(contact))
-    column = {name: np.array([getattr(c, name) for c in contacts]) for name in _Level.__slots__}
+            levels.append(_Level(contact))
     return LoadingCurve(
-        depth=column["depth"],
-        force=scale * column["force"],
-        stiffness=scale * column["stiffness"],
-        contact_count=column["count"],
+        depth=depths,
+        force=scale * solver.unit * np.array([level.force for level in levels]),
+        stiffness=scale * np.array([level.stiffness for level in levels]),
+        contact_count=np.array([level.count for level in levels]),
         elements=solver.elements,
         method="boundary elements",
         tolerance=tolerance,
         operators=solver.operators,
-        residual=column["residual"],
+        residual=np.array([level.residual for level in levels]),
     )
 
 
 class _Level:
     """What the curve keeps of a contact: a few numbers, not its fields."""
 
-    __slots__ = ("count", "depth", "force", "residual", "stiffness")
-
     def __init__(self, contact):
-        for name in self.__slots__:
-            setattr(self, name, getattr(contact, name))
+        self.depth, self.force, self.stiffness = contact.depth, contact.force, contact.stiffness
+        self.count, self.residual = contact.count, contact.residual
 
 
 def _levels(solver, until, until_force, spacing):
     """Levels from first touch to the contact fraction or force at which to stop."""
     most = until * solver.elements
+    accuracy = max(solver.tolerance, _FINEST)
+    # One more among n elements is a kink of about 1/n in the stiffness, missed over 1/n of the depth.
+    events = 0.75 / np.sqrt(accuracy)
+    shortest = min(1.02, 1 + 200 * accuracy)
+
     # The first level lies on the straight line of first touch: nothing else is in contact before its gap is closed.
     lower = solver.gap[solver.gap > 0]
     contact = solver.advance(solver.touch(), lower[0] if lower.size else spacing)
     levels = [_Level(contact)]
-    while contact.count < min(_EVENTS, most) and contact.force < until_force:
-        following = solver.next_event(contact)
-        if following is None:
-            break
+
+    def open_end():
+        return contact.count < most and contact.force < until_force
+
+    while open_end() and contact.count < events and (following := solver.next_event(contact)):
         contact = following
         levels.append(_Level(contact))
-    # Two events or so in the first step, and no step much longer than the one before: longer ones go untested.
-    ratio = np.clip((contact.depth / levels[-min(len(levels), 5)].depth) ** 0.5, _SHORTEST, _FIRST)
-    ahead = []
-    while contact.count < most and contact.force < until_force:
+
+    # As long as two events or so; a step much longer than the one before would not be tested against it.
+    ratio = np.clip((contact.depth / levels[-min(len(levels), 5)].depth) ** 0.5, shortest, _FIRST)
+    ahead = []  # contacts at larger depths, solved already, the next one last
+    while open_end():
         if not ahead:
-            depth = contact.depth * ratio
             # The tangent underestimates the force: the last level is at or just beyond the force to stop at.
-            depth = min(depth, contact.depth + (until_force - contact.force) / contact.stiffness)
-            ahead.append(solver.advance(contact, max(depth, contact.depth * _SHORTEST)))
-        error = _interpolation_error(levels[-2:], _Level(ahead[-1])) if len(levels) > 1 else 0.0
-        step = ahead[-1].depth / contact.depth
-        if (
-            len(levels) > 1
-            and error > solver.tolerance
-            and step > max(_SHORTEST**2, (contact.depth / levels[-2].depth) ** 0.3)
-        ):
+            enough = contact.depth + (until_force - contact.force) / contact.stiffness
+            ahead.append(solver.advance(contact, max(min(contact.depth * ratio, enough), contact.depth * shortest)))
+        error, limit, step = 0.0, shortest**2, ahead[-1].depth / contact.depth
+        if len(levels) > 1:
+            error = _interpolation_error(*levels[-2:], _Level(ahead[-1]))
+            # An error made in the interval before does not go away by shortening this one.
+            limit = max(limit, (contact.depth / levels[-2].depth) ** 0.3)
+        if error > accuracy and step > limit:
             ahead.append(solver.advance(contact, contact.depth * np.sqrt(step)))
             continue
         contact = ahead.pop()
         levels.append(_Level(contact))
-        growth = np.clip((0.7 * solver.tolerance / max(error, 1e-30)) ** (1 / 3), 0.5, 1.6)
-        ratio = np.clip(step**growth, _SHORTEST, _LONGEST)
+        growth = np.clip((0.7 * accuracy / max(error, 1e-30)) ** (1 / 3), 0.5, 1.6)
+        ratio = np.clip(step**growth, shortest, _LONGEST)
     return levels
 
 
-def _interpolation_error(before, after):
-    """Estimated relative error of the depth interpolated in the intervals that meet in the middle of three levels.
+def _interpolation_error(before, middle, after):
+    """Estimated relative error of the depth interpolated in the two intervals between three levels.
 
-    It is measured: the curve is interpolated across both and compared with the level between. Over many rough discs
-    the largest error within either interval was below this estimate in 95 of 100 cases (a kink of k counts more
-    than the depth at the middle tells, hence its share).
+    It is measured: the curve is interpolated across both and compared with the level in the middle. Over many rough
+    discs the largest error within the intervals was below this estimate in 95 of 100 cases (a kink of the stiffness
+    counts more than the depth in the middle tells, hence its share).
     """
-    ends = [before[0], after]
-    across = LoadingCurve(
-        *(np.array([getattr(c, name) for c in ends]) for name in ("depth", "force", "stiffness", "count")),
-        elements=0,
-        method="",
-        tolerance=0.0,
-        operators=0,
-        residual=np.zeros(2),
-    )
-    middle = before[1]
+    ends = np.array([[c.depth, c.force, c.stiffness, c.count] for c in (before, after)]).T
+    across = LoadingCurve(*ends, elements=0, method="", tolerance=0.0, operators=0, residual=np.zeros(2))
     depth, stiffness = across.at_force(middle.force)
-    return 2 * (abs(depth / middle.depth - 1) + 0.03 * abs(stiffness / middle.stiffness - 1))
+    return 1.5 * (abs(depth / middle.depth - 1) + 0.03 * abs(stiffness / middle.stiffness - 1))

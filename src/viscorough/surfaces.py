@@ -96,7 +96,7 @@ def self_affine_disc(
     Returns an Indenter with (n, n) heights, nan outside the disc (see `cut_disc`).
     Raises ValueError for values outside these ranges.
     """
-    elements_across = _whole("elements_across", elements_across, at_least=3)
+    n = _whole("elements_across", elements_across, at_least=3)
     rms, diameter, period = (
         _positive("rms", rms),
         _positive("diameter", diameter),
@@ -107,19 +107,19 @@ def self_affine_disc(
     if rms_over not in ("disc", "square"):
         raise ValueError(f"rms_over: must be 'disc' or 'square', not {rms_over!r}")
     if roll_off_wavelength is not None:
-        roll_off_wavelength = _positive("roll_off_wavelength", roll_off_wavelength) * elements_across
+        roll_off_wavelength = _positive("roll_off_wavelength", roll_off_wavelength) * n
     square = self_affine_square(
         hurst,
-        round(period * elements_across),
+        round(period * n),
         corners=corners,
         roll_off_wavelength=roll_off_wavelength,
         roll_off_level=roll_off_level,
         amplitudes=amplitudes,
         seed=seed,
     )
-    heights = cut_disc(square, elements_across)
+    heights = cut_disc(square, n)
     heights *= rms / np.nanstd(heights) if rms_over == "disc" else rms
-    return Indenter(heights, diameter / elements_across)
+    return Indenter(heights, diameter / n)
 
 
 def self_affine_square(
@@ -183,7 +183,7 @@ def self_affine_line(
     points : per period, at least 2
     length : L, also the period; the spacing is L/points [length]
     roll_off_wavelength, roll_off_level : as in `self_affine_disc`, in lengths of the line
-    dtype : float32 or float64. Single precision resolves gaps of about 2e-7 h, the realization is the same.
+    dtype : float32 or float64; the realization is the same, its gaps are resolved to 2e-7 h in float32
 
     Returns an Indenter with (points,) heights of mean 0. Raises ValueError for values outside these ranges.
     """
@@ -197,14 +197,18 @@ def self_affine_line(
     if (real := np.dtype(dtype)) not in (np.float32, np.float64):
         raise ValueError(f"dtype: must be float32 or float64, not {real}")
 
+    # the spectrum stands where the heights will: the mean, then cosine and sine of wave after wave
+    packed = np.empty(1 + 2 * (points // 2), real)
+    packed[0] = 0
+    waves = packed[1:].reshape(-1, 2)
     words = _generator(seed).bit_generator
-    spectrum = np.empty(points // 2 + 1, np.result_type(real, np.complex64))
-    for start in range(0, spectrum.size, _BLOCK):
-        piece = spectrum[start : start + _BLOCK]
-        uniform = words.random_raw(piece.size).view(np.uint32).reshape(-1, 2)
+    for start in range(0, len(waves), _BLOCK):
+        piece = waves[start : start + _BLOCK]
+        uniform = words.random_raw(len(piece)).view(np.uint32).reshape(-1, 2)
         phase = uniform[:, 0].astype(real)
         phase *= 2 * np.pi / 2**32
-        modulus = _amplitude(np.arange(start, start + piece.size, dtype=real), exponent, longest, level)
+        wavenumber = np.arange(start + 1, start + 1 + len(piece), dtype=real)
+        modulus = _amplitude(wavenumber, exponent, longest, level)
         if not fixed:  # √(-2 ln(0...1)): with a random phase, a complex Gaussian (Box and Muller)
             deviate = uniform[:, 1].astype(real)
             deviate += 0.5
@@ -212,13 +216,13 @@ def self_affine_line(
             np.log(deviate, out=deviate)
             deviate *= -2
             modulus *= np.sqrt(deviate, out=deviate)
-        np.multiply(modulus, np.cos(phase), out=piece.real)
-        np.multiply(modulus, np.sin(phase), out=piece.imag)
-    spectrum[0] = 0
-    if points % 2 == 0:  # the shortest wave is its own mirror image: real, of the same mean power
-        last = spectrum[-1]
-        spectrum[-1] = np.copysign(abs(last), last.real) if fixed else np.sqrt(2.0) * last.real
-    heights = fft.c2r(spectrum, lastsize=points, forward=False, allow_overwriting_input=True)
+        np.multiply(modulus, np.cos(phase), out=piece[:, 0])
+        np.multiply(modulus, np.sin(phase), out=piece[:, 1])
+    if points % 2 == 0:  # the shortest wave is its own mirror image: only a cosine, of the same mean power
+        cosine, sine = waves[-1]
+        waves[-1, 0] = np.copysign(np.hypot(cosine, sine), cosine) if fixed else np.sqrt(2.0) * cosine
+    heights = packed[:points]
+    fft.r2r_fftpack(heights, axes=[0], real2hermitian=False, forward=False, out=heights)
     return Indenter(_scale(heights, rms), length / points)
 
 
@@ -236,7 +240,7 @@ def _amplitude(wavenumber, exponent, longest, level):
 
 def _roll_off(wavelength, level, points):
     """Wavenumber per period and level of the roll-off at a wavelength in points; 0 if there is none."""
-    if not (np.isfinite(level) and level >= 0):
+    if not 0 <= level < np.inf:
         raise ValueError(f"roll_off_level: must be a finite number >= 0, not {level!r}")
     if wavelength is None:
         return 0.0, level
@@ -259,9 +263,8 @@ def _scale(heights, rms):
 
 def _generator(seed):
     """Random numbers by SFC64, the fastest of numpy's generators."""
-    if not isinstance(seed, np.random.SeedSequence):
-        seed = _whole("seed", seed, at_least=0)
-    return np.random.Generator(np.random.SFC64(seed))
+    known = isinstance(seed, np.random.SeedSequence)
+    return np.random.Generator(np.random.SFC64(seed if known else _whole("seed", seed, at_least=0)))
 
 
 def _hurst(hurst):

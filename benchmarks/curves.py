@@ -1,0 +1,166 @@
+"""Measure what the package costs and how accurate it is; write it to a file with the name of the machine.
+
+    python benchmarks/curves.py --output results/benchmarks.json [--reproduction]
+
+Times are medians of repeats in one run; the repeats of what is compared are interleaved. `--reproduction` also times
+the default workflow from nothing, in a folder of its own.
+"""
+
+import argparse
+import csv
+import json
+import os
+import platform
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+os.environ.update(OMP_NUM_THREADS="1", NUMBA_NUM_THREADS="1")  # before numpy: everything on one core
+
+import numpy as np
+import scipy.fft
+
+import viscorough
+from viscorough import indent, reduce, self_affine_disc, self_affine_line
+from viscorough.halfspace import Halfspace
+
+ROOT = Path(__file__).resolve().parents[1]
+ELEMENTS, UNTIL, UNTIL_X = 257, 0.9, 30.0
+
+
+def interleaved(functions, repeats):
+    """Wall and processor seconds of every function, medians over interleaved repeats after one warm-up."""
+    times = {name: [] for name in functions}
+    for repeat in range(repeats + 1):
+        for name, function in functions.items():
+            wall, processor = time.perf_counter(), time.process_time()
+            function()
+            if repeat:
+                times[name].append((time.perf_counter() - wall, time.process_time() - processor))
+    return {
+        name: {"wall_s": float(np.median(each, axis=0)[0]), "processor_s": float(np.median(each, axis=0)[1])}
+        for name, each in times.items()
+    }
+
+
+def curves(hursts, seeds, repeats):
+    """A loading curve of a disc: cost, and errors against levels that are many and solved to 1e-6."""
+    rows = []
+    for hurst in hursts:
+        for seed in seeds:
+            disc = self_affine_disc(hurst, ELEMENTS, seed=seed)
+            arguments = {"until": UNTIL, "until_force": 4 * UNTIL_X}
+            curve = indent(disc, **arguments)
+            cost = interleaved({"curve": lambda d=disc, a=arguments: indent(d, **a)}, repeats)["curve"]
+            at_levels = indent(disc, tolerance=1e-6, depths=curve.depth[curve.contact_count > 1])
+            between = np.geomspace(curve.depth[0], curve.depth[-1] * (1 - 1e-9), 300)
+            fine = indent(disc, tolerance=1e-6, depths=between)
+            inside = fine.force <= curve.force[-1]
+            depth, stiffness = curve.at_force(fine.force[inside])
+            force_error = curve.force[curve.contact_count > 1] / at_levels.force - 1
+            rows.append(
+                {
+                    "hurst": hurst,
+                    "seed": seed,
+                    **cost,
+                    "levels": len(curve.depth),
+                    "operators": curve.operators,
+                    "last_contact_fraction": float(curve.contact_fraction[-1]),
+                    "last_x": float(curve.force[-1] / 4),
+                    "force_error": float(np.abs(force_error).max()),
+                    "interpolation_error": float(np.abs(depth / fine.depth[inside] - 1).max()),
+                    "velocity_error_median": float(np.median(np.abs(stiffness / fine.stiffness[inside] - 1))),
+                    "velocity_error_largest": float(np.abs(stiffness / fine.stiffness[inside] - 1).max()),
+                }
+            )
+            print(
+                "disc of {e} at H = {hurst}: {wall_s:.2f} s, {levels} levels, {operators} operators, "
+                "force {force_error:.1e}, interpolation {interpolation_error:.1e}".format(e=ELEMENTS, **rows[-1])
+            )
+    return rows
+
+
+def lines(hursts, points, repeats):
+    """An MDR line, generation included."""
+    rows = []
+    for hurst in hursts:
+
+        def one(hurst=hurst):
+            reduce(self_affine_line(hurst, points, seed=1), until_force=4 * UNTIL_X)
+
+        rows.append({"hurst": hurst, "points": points, **interleaved({"line": one}, repeats)["line"]})
+        print("line of {points} points at H = {hurst}: {wall_s:.3f} s".format(**rows[-1]))
+    return rows
+
+
+def operators(repeats):
+    """One application of the half-space operator, and what it would take with scipy's transforms."""
+    functions = {}
+    for n in (257, 1025):
+        load = np.random.default_rng(1).random((n, n))
+        kernel = np.random.default_rng(2).random((2 * (n - 1), n))
+        for name, precision in (("double", np.float64), ("single", np.float32)):
+            halfspace = Halfspace(n, n, precision)
+            halfspace.load[:, :n] = load
+            functions[f"{n} ducc0 {name}, rows skipped"] = halfspace.apply
+            functions[f"{n} scipy {name}"] = lambda a=load.astype(precision), k=kernel.astype(precision): (
+                scipy.fft.irfft2(scipy.fft.rfft2(a, k.shape[:1] * 2) * k, k.shape[:1] * 2)
+            )
+    rows = {name: cost["wall_s"] * 1e3 for name, cost in interleaved(functions, repeats).items()}
+    for name, milliseconds in rows.items():
+        print(f"operator {name}: {milliseconds:.2f} ms")
+    return rows
+
+
+def reproduction(cores):
+    """The default workflow from nothing: wall seconds, jobs, and the largest memory of a job in MB."""
+    with tempfile.TemporaryDirectory() as folder:
+        command = [sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile"), "--cores", str(cores)]
+        start = time.perf_counter()
+        subprocess.run([*command, "--directory", folder, "--quiet", "all"], check=True)
+        wall = time.perf_counter() - start
+        tables = list(Path(folder).glob("results/benchmarks/**/*.tsv"))
+        rss = [float(next(csv.DictReader(table.open(), delimiter="\t"))["max_rss"] or 0) for table in tables]
+    result = {"cores": cores, "wall_s": wall, "jobs": len(tables), "largest_job_mb": max(rss)}
+    print(
+        "default reproduction on {cores} cores: {wall_s:.0f} s, {jobs} jobs of at most {largest_job_mb:.0f} MB".format(
+            **result
+        )
+    )
+    return result
+
+
+def processor():
+    """Name of the processor, where the system tells it."""
+    info = Path("/proc/cpuinfo")
+    names = [line.split(":")[1].strip() for line in info.read_text().splitlines() if line.startswith("model name")]
+    return names[0] if info.exists() and names else platform.processor()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--output", type=Path, required=True, help="file to write, JSON")
+    parser.add_argument("--reproduction", action="store_true", help="time the default workflow, too")
+    parser.add_argument("--cores", type=int, default=2, help="cores of the workflow")
+    parser.add_argument("--repeats", type=int, default=5, help="repeats of which the median is taken")
+    arguments = parser.parse_args()
+    result = {
+        "machine": {"name": platform.node(), "processor": processor(), "cores": os.cpu_count()},
+        "viscorough": viscorough.__version__,
+        "operator_ms": operators(10 * arguments.repeats),
+        "line": lines((0.1, 0.6, 0.9), 4_000_000, 3 * arguments.repeats),
+        "curve": curves((0.1, 0.4, 0.6, 0.9), (1, 2), arguments.repeats),
+    }
+    result["memory_mb"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    if arguments.reproduction:
+        result["reproduction"] = reproduction(arguments.cores)
+    arguments.output.parent.mkdir(parents=True, exist_ok=True)
+    arguments.output.write_text(json.dumps(result, indent=1) + "\n")
+    print(f"written to {arguments.output}")
+
+
+if __name__ == "__main__":
+    main()

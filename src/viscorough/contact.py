@@ -119,7 +119,9 @@ class ContactSolver:
                 f"contact at depth {after.depth:g}: residual {after.residual:.1e} of the depth is above "
                 f"the tolerance {self.tolerance:g}; choose a larger tolerance"
             )
-        lost = np.setdiff1d(before.members, after.members, assume_unique=True)
+        kept = np.zeros(self.elements, dtype=bool)
+        kept[after.members] = True
+        lost = before.members[~kept[before.members]]
         if lost.size:
             opened = after.fields.gap_at(lost).max() if after.fields is not None else np.inf
             if opened > 3 * self.tolerance * after.depth:

@@ -19,7 +19,7 @@ from viscorough.curve import ConvergenceError
 _REVISE = 0.2
 # Relative residual of q. Force and stiffness are corrected to second order, so its square is what counts.
 _RATE_TOLERANCE = 1e-2
-_ITERATIONS = 2000
+_ITERATIONS, _REVISIONS = 2000, 200
 # Gap where there is no element; finite, since differences of gaps are taken.
 _OUTSIDE = 1e300
 
@@ -153,8 +153,6 @@ class GridSolver:
         self._place = (row + 1) * self._width + column + 1
         self._gap = np.full((rows + 2) * self._width, _OUTSIDE)
         self._gap[self._place] = gap
-        self._rank = np.full(self._gap.size, -1)
-        self._rank[self._place] = np.arange(gap.size)
         self._stencil = halfspace.inverse_stencil()
         self._result = np.empty(gap.size)
 
@@ -179,8 +177,7 @@ class GridSolver:
         limit = self.tolerance * depth
 
         _admit(gap, inside, 0.0)
-        settled = False
-        while not settled:
+        for _ in range(_REVISIONS):
             places, slots = self._members(inside)
             tension = self._descend(pressure, gap, inside, places, slots, limit, _REVISE)
             if tension:
@@ -190,11 +187,17 @@ class GridSolver:
                 self._add(self.halfspace.apply(), gap)
                 places = places[inside[places]]
             joined = _admit(gap, inside, limit)
-            settled = joined == 0 and np.abs(gap[places]).max() <= limit
+            if joined == 0 and np.abs(gap[places]).max() <= limit:
+                break
+        else:
+            raise ConvergenceError(
+                f"contact at depth {depth:g}: the set of {places.size} elements does not settle in {_REVISIONS} "
+                "revisions; choose another tolerance"
+            )
 
         rate, rate_gap = self._rate(before, contact.depth, pressure, gap, depth, inside, places, slots)
         left = gap[places]
-        ranks = np.sort(self._rank[places])
+        ranks = np.flatnonzero(inside[self._place])
         on_set = self._place[ranks]
         return (
             depth,
@@ -214,6 +217,8 @@ class GridSolver:
         """
         deflections = [before.rate_gap + 1, gap - self._gap + depth, before.gap - self._gap + depth_before]
         loads = [before.rate, pressure, before.pressure]
+        if np.any(before.rate[~inside]):  # an element was lost, within the tolerance: what loaded it is of no use
+            loads, deflections = [pressure], deflections[1:2]
         on_set = np.array([load[places] for load in loads])
         energy = on_set @ np.array([w[places] for w in deflections]).T
         scale = 1 / np.sqrt(np.maximum(np.diag(energy), np.finfo(float).tiny))

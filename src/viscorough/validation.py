@@ -72,7 +72,7 @@ def validation_table(elements, limits):
 
 
 def failures(table):
-    """One line per case and quantity of a validation table that did not pass: what, its error and order, what is allowed."""
+    """One line per case and quantity of a validation table that did not pass: its error and order, what is allowed."""
     finest = table[(table["passed"] == 0) & (table["elements"] == table["elements"].max())]
     return [
         f"{row.case} {row.quantity}: error {row.error:.2g} on {row.elements} elements, order {row.order:.2g}; "

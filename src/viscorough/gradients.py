@@ -26,7 +26,7 @@ _OUTSIDE = 1e300
 
 @dataclass(frozen=True)
 class Fields:
-    """Contact state on the grid, flat with border: P, gap e = w − u + g, q, and e_q = K q − 1; `place` of every rank."""
+    """Contact on the grid, flat with border: P, gap e = w − u + g, q, and e_q = K q − 1; `place` of every rank."""
 
     pressure: np.ndarray
     gap: np.ndarray

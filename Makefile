@@ -1,0 +1,58 @@
+# Needs Python >= 3.11 and make. The environment is built in .venv from requirements.lock, anew only when that changes.
+PYTHON ?= python3
+CORES ?= 2
+UV ?= uv
+BIN := .venv/bin
+SNAKEMAKE := $(BIN)/snakemake --cores $(CORES)
+
+.PHONY: help environment reproduce paper report test bench lock clean
+
+help:
+	@echo "make reproduce   the default reproduction: figures, tables and validation in results/"
+	@echo "make paper       the same at the paper's full scale"
+	@echo "make report      results/report.html, of what was made"
+	@echo "make test        format, lint and every test"
+	@echo "make bench       what curves, lines and the whole reproduction cost, and their errors, to results/benchmarks.json"
+	@echo "make lock        requirements.lock anew from pyproject.toml; needs uv"
+	@echo "make clean       remove results and caches, keep the environment"
+	@echo "CORES=$(CORES) and PYTHON=$(PYTHON) may be set."
+
+environment: .venv/package-installed
+
+.venv/lock-installed: requirements.lock
+	@$(PYTHON) -c 'import sys; sys.exit("Python >= 3.11 is needed; set PYTHON" if sys.version_info < (3, 11) else 0)'
+	$(PYTHON) -m venv .venv
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
+	@touch $@
+
+.venv/package-installed: .venv/lock-installed pyproject.toml
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
+	@touch $@
+
+reproduce: environment
+	$(SNAKEMAKE)
+
+paper: environment
+	$(SNAKEMAKE) --configfile config/paper.yaml
+
+report: environment
+	$(SNAKEMAKE) --report results/report.html
+
+test: environment
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/snakefmt --check .
+	$(BIN)/snakemake --lint
+	$(BIN)/python -m pytest
+
+bench: environment
+	$(BIN)/python benchmarks/curves.py --reproduction --cores $(CORES) --output results/benchmarks.json
+
+lock:
+	$(UV) pip compile pyproject.toml --extra build --extra workflow --extra test --universal --python-version 3.11 \
+		--generate-hashes --no-header --no-annotate --output-file requirements.lock
+
+clean:
+	find results -mindepth 1 ! -path results/README.md -delete
+	rm -rf .snakemake .pytest_cache .ruff_cache .hypothesis build
+	find src tests workflow benchmarks -name __pycache__ -prune -exec rm -rf {} + 2>/dev/null || true

@@ -1,0 +1,87 @@
+# Penetration of self-affine rough indenters into a linearly viscous half-space: the paper's figures and beyond.
+# `snakemake --cores 2` makes everything, `snakemake --cores 2 figure_4` one figure; settings are in config/.
+
+from snakemake.utils import min_version
+
+min_version("9.0")
+
+
+configfile: f"{workflow.basedir}/config/config.yaml"
+
+
+report: "workflow/report/workflow.rst"
+
+
+include: "workflow/rules/common.smk"
+
+
+check_settings(config)
+DISCS = disc_cases(config)
+LINES = line_cases(config)
+
+
+wildcard_constraints:
+    case="|".join(DISCS),
+    line="|".join(LINES),
+    batch=r"\d{4}-\d{4}",
+
+
+include: "workflow/rules/surfaces.smk"
+include: "workflow/rules/indentation.smk"
+include: "workflow/rules/ensemble.smk"
+include: "workflow/rules/scaling.smk"
+include: "workflow/rules/validation.smk"
+include: "workflow/rules/figures.smk"
+
+
+onstart:
+    compile_kernels()
+
+
+rule figure_1:
+    input:
+        rules.plot_surfaces.output,
+
+
+rule figure_2:
+    input:
+        rules.plot_kinetics.output,
+
+
+rule figure_3:
+    input:
+        rules.plot_master_curve.output,
+
+
+rule figure_4:
+    input:
+        rules.plot_exponent.output,
+
+
+rule figures:
+    input:
+        rules.plot_surfaces.output,
+        rules.plot_kinetics.output,
+        rules.plot_master_curve.output,
+        rules.plot_exponent.output,
+        rules.plot_conventions.output,
+        rules.plot_validation.output,
+
+
+rule tables:
+    input:
+        rules.fit_scaling.output,
+        rules.validate.output,
+
+
+rule validation:
+    input:
+        rules.check_validation.output,
+
+
+rule all:
+    default_target: True
+    input:
+        rules.figures.input,
+        rules.tables.input,
+        rules.validation.input,

@@ -1,0 +1,167 @@
+"""Figures beyond the paper: what its open conventions do, and errors against exact solutions."""
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import FixedLocator, LogLocator, MaxNLocator, NullFormatter, NullLocator
+
+from viscorough import reference
+from viscorough.plotting_style import GREY, MM, STYLE, WIDE, fits, hurst_looks, mark
+
+CONVENTIONS = {
+    "average": {"arithmetic": "arithmetic mean", "geometric": "geometric mean"},
+    "rms_convention": {"disc": "$h$ of the disc", "square": "$h$ of the square"},
+    "window_rule": {
+        "default": "whole window",
+        "lower_half": "lower half of window",
+        "upper_half": "upper half of window",
+        "kappa": "window of given κ",
+    },
+    "gamma": {"without": "law without Γ", "with": "law with Γ (Eq. 9)"},
+    "diameter_convention": {"diameter": "$L$ the diameter", "radius": "$L$ the radius"},
+}
+
+VARIANTS = {
+    "longer_period": "longer period",
+    "corners": "corners of spectrum",
+    "fixed_amplitudes": "fixed amplitudes",
+    "roll_off": "roll-off (control)",
+}
+COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7")  # told apart with any colour vision (Okabe and Ito)
+MARKERS = "osxD+"
+LIMIT = {"color": "black", "linewidth": 2, "label": "_limit"}
+
+
+@rc_context(STYLE)
+def plot_conventions(table, shown):
+    """β and ζ of the discs, with 95 % intervals, as one convention or the surfaces change; four exponents in a row.
+
+    All axes of a quantity have the same length, in ζ the same ratio of their ends. Raises ValueError without discs.
+    """
+    table = table[table["source"] == "discs"]
+    exponents = sorted(table["hurst"].unique())
+    if not exponents:
+        raise ValueError("plot_conventions: the table has no discs, it needs some")
+    looks, changes = hurst_looks(exponents), _changes(table, shown)
+    columns = min(4, len(exponents))
+    blocks = -(-len(exponents) // columns)
+    figure = Figure(figsize=(WIDE, (2 * blocks * (13 + 4.2 * len(changes)) + 8) * MM))
+    grid = figure.subplots(2 * blocks, columns, squeeze=False, sharey=True)
+    for axes in grid[-2:, len(exponents) - columns * (blocks - 1) :].flat:
+        axes.remove()
+    betas, zetas = (list(grid[first::2].flat)[: len(exponents)] for first in (0, 1))
+    for hurst, beta, zeta in zip(exponents, betas, zetas, strict=True):
+        _changed(beta, "beta", table[table["hurst"] == hurst], changes, looks[hurst])
+        _changed(zeta, "zeta", table[table["hurst"] == hurst], changes, looks[hurst])
+        beta.axvline(reference.exponent_beta(hurst), color=GREY, linestyle="--", zorder=1)
+        zeta.axvline(reference.zeta_viscous(hurst), color=GREY, linestyle="--", zorder=1)
+        zeta.axvline(reference.zeta_elastic(hurst), color=GREY, linestyle=":", zorder=1)
+        beta.set(title=f"$H={hurst:g}$", xlabel=r"exponent $\beta$")
+        zeta.set(xlabel=r"prefactor $\zeta$", xscale="log")
+    beta.set(yticks=range(len(changes)), yticklabels=[label for label, _ in changes], ylim=(len(changes) - 0.4, -0.6))
+    beta.yaxis.set_minor_locator(NullLocator())
+    _same_length(betas)
+    _same_length(zetas)
+    handles = [
+        Line2D([], [], color=GREY, linestyle="--", label="$H/(1+H)$, Eq. 10; $2-H$, Eq. 11 (with Γ)"),
+        Line2D([], [], color=GREY, linestyle=":", label=r"$\pi(3-H)/10$, Eq. 4"),
+    ]
+    figure.legend(handles=handles, loc="outside lower center", ncols=2)
+    return figure
+
+
+def _changes(table, shown):
+    """Rows of the figure of conventions: (label, {column: value}), first what is shown, then one change each."""
+    base = shown | {"case_group": "base"}
+    rows = [("as in other figures", base)]
+    for column, labels in CONVENTIONS.items():
+        others = [value for value in labels if value != shown[column] and value in set(table[column])]
+        rows += [(labels[value], base | {column: value}) for value in others]
+    groups = [name for name in table["case_group"].unique() if name != "base"]
+    return rows + [(VARIANTS.get(name, name.replace("_", " ")), shown | {"case_group": name}) for name in groups]
+
+
+def _changed(axes, quantity, table, changes, look):
+    """One quantity under each change, one row each, on a band that is the interval of the first."""
+    for y, (_, wanted) in enumerate(changes):
+        face = look["color"] if y == 0 else "white"
+        found = fits(table, wanted)
+        for value, low, high in found[[quantity, f"{quantity}_low", f"{quantity}_high"]].itertuples(index=False):
+            mark(axes, value, y, (low, high), look | {"markerfacecolor": face}, along="x")
+            if y == 0 and low < high:
+                axes.axvspan(low, high, color="0.93", linewidth=0, zorder=0)
+        if found.empty:
+            words = {"color": GREY, "backgroundcolor": "white", "ha": "center", "va": "center"}
+            axes.text(0.5, y, "no region (b)", transform=axes.get_yaxis_transform(), **words)
+
+
+def _same_length(panels):
+    """Limits of all panels of one length around their middles, with ticks for it."""
+    logarithmic = panels[0].get_xscale() == "log"
+    limits = np.array([axes.get_xlim() for axes in panels])
+    limits = np.log10(limits) if logarithmic else limits
+    half = np.ptp(limits, axis=1).max() / 2
+    for axes, middle in zip(panels, limits.mean(axis=1), strict=True):
+        ends = np.array([middle - half, middle + half])
+        axes.set_xlim(10**ends if logarithmic else ends)
+        if logarithmic:
+            axes.xaxis.set(major_locator=FixedLocator([0.1, 0.2, 0.5, 1, 2, 5, 10]), major_formatter="{x:g}")
+            axes.xaxis.set(minor_locator=LogLocator(subs=range(1, 10)), minor_formatter=NullFormatter())
+        else:
+            axes.xaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
+
+
+@rc_context(STYLE)
+def plot_validation(table):
+    """Relative errors against exact solutions over the elements across the body, one panel for each quantity.
+
+    table : of viscorough.validation. Observed orders stand in the panels; the black bar is the limit on the finest grid
+    """
+    quantities, cases = table["quantity"].unique(), table["case"].unique()
+    looks, grids = _case_looks(cases), sorted(table["elements"].unique())
+    columns = min(3, len(quantities))
+    rows = -(-len(quantities) // columns)
+    figure = Figure(figsize=(WIDE, (52 * rows + 22) * MM))
+    grid = figure.subplots(rows, columns, squeeze=False)
+    for axes in grid.flat[len(quantities) :]:
+        axes.remove()
+    for axes, quantity in zip(grid.flat, quantities, strict=False):
+        errors = table[table["quantity"] == quantity]
+        for case, one in errors.groupby("case", sort=False):
+            order, passed = one[["order", "passed"]].iloc[-1]
+            notes = ([] if np.isnan(order) else [f"{order:.1f}"]) + ([] if passed else ["failed"])
+            axes.plot(one["elements"], one["error"], **looks[case], label=", ".join(notes) or f"_{case}")
+        limit = errors["limit"].iloc[0]
+        axes.plot([grids[-1] / 1.2, grids[-1] * 1.2], [limit, limit], **LIMIT)
+        drawn = np.log10([*errors["error"], limit])
+        ends = 10.0 ** np.array([np.floor(drawn.min() - 0.1), np.ceil(drawn.max() + 0.1)])
+        expected = rf"expected $\propto n^{{-{errors['expected_order'].iloc[0]:g}}}$"
+        axes.set(xscale="log", yscale="log", ylim=ends, title=f"{quantity.replace('_', ' ')}, {expected}")
+        axes.xaxis.set(major_locator=FixedLocator(grids), minor_locator=NullLocator(), major_formatter="{x:g}")
+        axes.yaxis.set_minor_formatter(NullFormatter())
+        if noted := axes.get_legend_handles_labels()[0]:
+            axes.legend(title="order", ncols=1 + (len(noted) > 4), columnspacing=1)
+    for axes in grid[:, 0]:
+        axes.set_ylabel("relative error")
+    for axes in grid[-1]:
+        axes.set_xlabel("elements across, $n$")
+    handles = [Line2D([], [], **looks[case], label=case.replace("_", " ")) for case in cases]
+    handles.append(Line2D([], [], **LIMIT | {"label": "limit on the finest grid"}))
+    figure.legend(handles=handles, loc="outside lower center", ncols=3)
+    return figure
+
+
+def _case_looks(cases):
+    """Looks of cases named by body and method: the body has colour and line style, the method the marker."""
+    named = [case.partition("_")[::2] for case in cases]
+    bodies, methods = (list(dict.fromkeys(names)) for names in zip(*named, strict=True))
+    return {
+        case: {
+            "color": COLORS[bodies.index(body) % len(COLORS)],
+            "linestyle": ("-", "--")[bodies.index(body) % 2],
+            "marker": MARKERS[methods.index(method) % len(MARKERS)],
+            "markerfacecolor": "none",
+        }
+        for case, (body, method) in zip(cases, named, strict=True)
+    }

@@ -1,0 +1,319 @@
+"""Every Python function of the workflow: check of the settings, tables of cases, inputs, params, source digests."""
+
+import ast
+import difflib
+import hashlib
+import importlib.util
+import math
+import os
+import subprocess
+import sys
+import zlib
+from functools import cache
+from pathlib import Path
+
+import jsonschema
+import yaml
+
+# One thread per job: jobs run side by side. Numba heeds only its own variable.
+os.environ.update(NUMBA_NUM_THREADS="1", OMP_NUM_THREADS="1")
+
+WORKFLOW = Path(workflow.basedir) / "workflow"
+PACKAGE = Path(importlib.util.find_spec("viscorough").origin).parent
+
+
+# ---- check of the settings
+
+
+def whole(_, value):
+    return isinstance(value, int) and not isinstance(value, bool)  # JSON would take 3.0
+
+
+def finite(_, value):
+    return (whole(_, value) or isinstance(value, float)) and math.isfinite(value)  # YAML knows .inf and .nan
+
+
+def check_settings(settings):
+    """End with one line that names key, value and what is allowed, unless the settings meet schema and sense."""
+    standard = jsonschema.Draft202012Validator
+    checker = standard.TYPE_CHECKER.redefine_many({"integer": whole, "number": finite})
+    validator = jsonschema.validators.extend(standard, type_checker=checker)
+    schema = yaml.safe_load((WORKFLOW / "schemas" / "config.schema.yaml").read_text(encoding="utf-8"))
+    error = jsonschema.exceptions.best_match(validator(schema).iter_errors(settings))
+    complaint = schema_complaint(error) if error else contradiction(settings)
+    if complaint:
+        # Not a WorkflowError: Snakemake would add three lines of places in this file to the one about the setting.
+        raise SystemExit(f"Error in the settings: {complaint}")
+
+
+def dotted(path):
+    """A key as written in the documentation, such as discs.combinations[0].force."""
+    return "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path).lstrip(".") or "settings"
+
+
+def schema_complaint(error):
+    """One line on an error that jsonschema found."""
+    key = dotted(error.absolute_path)
+    within = f" in {key}" if error.absolute_path else ""
+    if error.validator == "additionalProperties":
+        known = sorted(error.schema["properties"])
+        unknown = sorted(map(str, set(error.instance) - set(known)))[0]
+        close = difflib.get_close_matches(unknown, known, 1)
+        hint = f"did you mean {close[0]}?" if close else f"allowed: {', '.join(known)}"
+        return f"unknown key {unknown}{within}; {hint}"
+    if error.validator == "required":
+        missing = next(name for name in error.validator_value if name not in error.instance)
+        return f"{missing}{within} is missing; needed: {', '.join(error.validator_value)}"
+    value = "empty" if error.instance is None else f"{error.instance!r}"[:60]
+    hint = ""
+    if isinstance(error.instance, str) and "number" in str(error.schema.get("type")):
+        hint = "; this is text: numbers are written as 1.0e-3, with a point"
+    return f"{key} is {value}; allowed: {allowed(error.schema)}{hint}"
+
+
+def allowed(rule):
+    """What a schema allows, in words."""
+    kinds = {"integer": "a whole number", "number": "a number", "string": "text", "array": "a list"}
+    kinds |= {"boolean": "true or false", "object": "keys with values", "null": "null"}
+    types = rule.get("type", [])
+    words = " or ".join(kinds[kind] for kind in ([types] if isinstance(types, str) else types))
+    words += f"one of {', '.join(rule['enum'])}" if "enum" in rule else ""
+    bounds = {"minimum": "from {}", "exclusiveMinimum": "above {}", "maximum": "up to {}"}
+    bounds |= {"minItems": "of at least {}", "maxItems": "of at most {}", "minProperties": "of at least {}"}
+    words += "".join(f" {text.format(rule[name])}" for name, text in bounds.items() if name in rule)
+    words += f" {rule['unit']}" if rule.get("unit", "1") != "1" and "enum" not in rule else ""
+    return f"{words} ({rule['description']})"
+
+
+def contradiction(settings):
+    """One line on settings that are each allowed but do not go together, or None."""
+    discs, lines, variants = settings["discs"], settings["lines"], settings["variants"]
+    unique = {
+        "discs.hurst": discs["hurst"],
+        "lines.hurst": lines["hurst"],
+        "number in discs.combinations": [each["number"] for each in discs["combinations"]],
+        "name in variants.cases": [each["name"] for each in variants["cases"]],
+        "validation.elements": settings["validation"]["elements"],
+    }
+    for key, values in unique.items():
+        if twice := [value for value in values if values.count(value) > 1]:
+            return f"{key} {twice[0]} stands twice; allowed: each once"
+    for key in ("discs.hurst", "lines.hurst"):
+        for hurst in unique[key]:
+            if abs(hurst * 1e4 - round(hurst * 1e4)) > 1e-6:
+                return f"{key} has {hurst}; allowed: at most four decimals"
+    for hurst in discs["hurst"]:
+        if hurst not in lines["hurst"]:
+            return (
+                f"discs.hurst has {hurst}, lines.hurst has not; allowed: exponents of lines.hurst (lambda needs both)"
+            )
+    for each in discs["combinations"]:
+        if not each["rms"] < each["diameter"] / 100:
+            where = f"combination {each['number']} of discs.combinations"
+            return f"rms {each['rms']} in {where} is too large; allowed: below diameter/100"
+    for each in [{"name": "surface"}, *variants["cases"]]:
+        surface = settings["surface"] | each
+        wavelength = surface["roll_off_wavelength"]
+        if wavelength is not None and wavelength * discs["elements"] < 4:
+            return f"roll_off_wavelength {wavelength} of {each['name']} is too short; allowed: from four elements"
+    ranges = {
+        "ensemble.x_low and x_high": (settings["ensemble"]["x_low"], settings["ensemble"]["x_high"]),
+        "scaling.stiffness_range": settings["scaling"]["stiffness_range"],
+    }
+    for key, (low, high) in ranges.items():
+        if not low < high:
+            return f"{key}: {low} and {high} are no range; allowed: the first below the second"
+    return None
+
+
+# ---- tables of cases: floats never stand in file names
+
+
+def hurst_id(hurst):
+    """Name of a Hurst exponent in file names, such as h01000 for 0.1."""
+    return f"h{round(hurst * 1e4):05d}"
+
+
+def disc_cases(settings):
+    """{case: group, spawn key, realizations, batch, surface (arguments of self_affine_disc)} of every ensemble.
+
+    Spawn keys are (1 discs, H·10⁶, number of the combination) and (2 variants, H·10⁶, CRC-32 of the name), to which
+    the realization is added: no position in a list, no batch and no order enters.
+    """
+    cases = {}
+    for hurst in settings["discs"]["hurst"]:
+        micro = round(hurst * 1e6)
+        for each in settings["discs"]["combinations"]:
+            cases[f"{hurst_id(hurst)}_c{each['number']}"] = {
+                "group": "base",
+                "spawn_key": [1, micro, each["number"]],
+                "combination": each,
+                "surface": settings["surface"] | {"hurst": hurst, "rms": each["rms"], "diameter": each["diameter"]},
+                **{name: settings["discs"][name] for name in ("realizations", "batch")},
+            }
+        for each in settings["variants"]["cases"]:
+            changed = {name: value for name, value in each.items() if name != "name"}
+            cases[f"{hurst_id(hurst)}_{each['name']}"] = {
+                "group": each["name"],
+                "spawn_key": [2, micro, zlib.crc32(each["name"].encode())],
+                "surface": settings["surface"] | changed | {"hurst": hurst, "rms": 1.0, "diameter": 1.0},
+                **{name: settings["variants"][name] for name in ("realizations", "batch")},
+            }
+    return cases
+
+
+def line_cases(settings):
+    """{line: spawn key, realizations, batch, surface} of every ensemble of lines; spawn keys (3 lines, H·10⁶)."""
+    shared = {name: settings["surface"][name] for name in ("amplitudes", "roll_off_wavelength", "roll_off_level")}
+    return {
+        hurst_id(hurst): {
+            "spawn_key": [3, round(hurst * 1e6)],
+            "surface": shared | {"hurst": hurst, "rms": 1.0, "length": 1.0},
+            **{name: settings["lines"][name] for name in ("realizations", "batch")},
+        }
+        for hurst in settings["lines"]["hurst"]
+    }
+
+
+def batches(case):
+    """Names of a case's batches, first and last realization: 0000-0007, 0008-0015, ..."""
+    number, size = case["realizations"], case["batch"]
+    return [f"{first:04d}-{min(first + size, number) - 1:04d}" for first in range(0, number, size)]
+
+
+def groups():
+    """The groups of disc ensembles: base, which the nine combinations are, and the variants."""
+    return list(dict.fromkeys(case["group"] for case in DISCS.values()))
+
+
+# ---- params and inputs of rules
+
+
+def of_disc(name):
+    """Params function: a value of the disc's case."""
+    return lambda wildcards: DISCS[wildcards.case][name]
+
+
+def of_line(name):
+    """Params function: a value of the line's case."""
+    return lambda wildcards: LINES[wildcards.line][name]
+
+
+def realizations(wildcards):
+    """First realization of a batch, and the one after its last."""
+    first, last = wildcards.batch.split("-")
+    return [int(first), int(last) + 1]
+
+
+def curves_of_disc(wildcards):
+    return expand("results/curves/discs/{case}/{batch}.nc", case=wildcards.case, batch=batches(DISCS[wildcards.case]))
+
+
+def curves_of_line(wildcards):
+    return expand("results/curves/lines/{line}/{batch}.nc", line=wildcards.line, batch=batches(LINES[wildcards.line]))
+
+
+def ensembles(group):
+    """Ensembles of all cases of a group of discs, or of "lines"."""
+    if group == "lines":
+        return expand("results/ensembles/lines/{line}.nc", line=LINES)
+    return expand(
+        "results/ensembles/discs/{case}.nc",
+        case=[name for name, case in DISCS.items() if case["group"] == group],
+    )
+
+
+def lines_of_discs():
+    """Ensembles of the lines that have the Hurst exponent of discs."""
+    return expand("results/ensembles/lines/{line}.nc", line=[hurst_id(hurst) for hurst in config["discs"]["hurst"]])
+
+
+def example_discs():
+    """Params: realization 0 of the first combination for every Hurst exponent, with h = L = 1."""
+    first = config["discs"]["combinations"][0]["number"]
+    cases = [DISCS[f"{hurst_id(hurst)}_c{first}"] for hurst in config["discs"]["hurst"]]
+    return {
+        "spawn_keys": [case["spawn_key"] for case in cases],
+        "discs": [case["surface"] | {"rms": 1.0, "diameter": 1.0} for case in cases],
+    }
+
+
+def combinations():
+    """{case: force [N], viscosity [Pa s], diameter [m], rms [m]} of the base cases."""
+    return {name: case["combination"] for name, case in DISCS.items() if case["group"] == "base"}
+
+
+def disc_memory(wildcards):
+    """MB for a batch of heights, the square that they are cut from and the fields on a doubled grid."""
+    case = DISCS.get(wildcards.get("case"), {"batch": len(config["discs"]["hurst"]), "surface": config["surface"]})
+    elements = config["discs"]["elements"] ** 2
+    return round(400 + (24 * case["batch"] + 64 * case["surface"]["period"] ** 2 + 160) * elements / 1e6)
+
+
+def line_memory(wildcards):
+    """MB for the spectrum of a line, its heights and gaps."""
+    return round(400 + 40 * config["lines"]["points"] / 1e6)
+
+
+# ---- digests of the package's modules, so that an edit reruns exactly what uses it
+
+
+@cache
+def imported(path):
+    """Modules of the package that a Python file imports, as paths; its __init__ where a name is taken from there."""
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            names = [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            package = "viscorough" if node.level else ""
+            base = ".".join(filter(None, (package, node.module)))
+            names = [f"{base}.{alias.name}" for alias in node.names]
+            names += [base] if base != "viscorough" else []
+        else:
+            continue
+        for name in names:
+            first, *rest = name.split(".")
+            if first == "viscorough" and len(rest) < 2:
+                source = PACKAGE / f"{''.join(rest)}.py"
+                found.add(source if source.is_file() else PACKAGE / "__init__.py")
+    return found
+
+
+@cache
+def source_digest(rule):
+    """Digest of the modules that a rule's script uses, directly or through each other.
+
+    Snakemake sees edits of scripts, not of what they import.
+    """
+    used, new = set(), imported(WORKFLOW / "scripts" / f"{rule}.py")
+    while new:
+        used |= new
+        new = set().union(*map(imported, new)) - used
+    digest = hashlib.sha256()
+    for path in sorted(used):
+        digest.update(path.name.encode())
+        digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+# ---- numba
+
+
+def compile_kernels():
+    """Fill numba's cache once before any job, for many processes that compile into it at once can crash.
+
+    No rule: an output that many jobs need would rerun them all when it is made again, and as an `ancient` input it
+    hides from Snakemake that their own params changed.
+    """
+    stamp = Path(".snakemake") / "kernels"
+    digest = f"{source_digest('indent_discs')} {source_digest('indent_lines')}"
+    if stamp.is_file() and stamp.read_text() == digest:
+        return
+    code = (
+        "from viscorough import indentation, reduction, surfaces;"
+        "indentation.indent(surfaces.self_affine_disc(0.6, 65, seed=0));"
+        "[reduction.reduce(surfaces.self_affine_line(0.6, 256, seed=0, dtype=dtype)) for dtype in ('f4', 'f8')]"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
+    stamp.write_text(digest)

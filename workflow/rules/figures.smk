@@ -1,0 +1,177 @@
+# Figures: PNG for the report, PDF as vector graphics.
+
+
+rule plot_surfaces:
+    input:
+        surfaces=rules.generate_example_discs.output.surfaces,
+    output:
+        png=report(
+            "results/figures/fig1_surfaces.png",
+            caption="../report/fig1_surfaces.rst",
+            category="Paper",
+            labels={"figure": "1, surfaces"},
+        ),
+        pdf="results/figures/fig1_surfaces.pdf",
+    log:
+        "results/logs/plot_surfaces.log",
+    benchmark:
+        "results/benchmarks/plot_surfaces.tsv"
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+    params:
+        source_digest("plot_surfaces"),
+    message:
+        "Figure 1, surfaces"
+    script:
+        "../scripts/plot_surfaces.py"
+
+
+rule plot_kinetics:
+    input:
+        ensembles=ensembles("base"),
+        scaling=rules.fit_scaling.output.csv,
+    output:
+        png=report(
+            "results/figures/fig2_kinetics.png",
+            caption="../report/fig2_kinetics.rst",
+            category="Paper",
+            labels={"figure": "2, kinetics"},
+        ),
+        pdf="results/figures/fig2_kinetics.pdf",
+    log:
+        "results/logs/plot_kinetics.log",
+    benchmark:
+        "results/benchmarks/plot_kinetics.tsv"
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+    params:
+        source_digest("plot_kinetics"),
+        combinations=combinations(),
+        shown=config["figures"],
+    message:
+        "Figure 2, kinetics"
+    script:
+        "../scripts/plot_kinetics.py"
+
+
+rule plot_master_curve:
+    input:
+        discs=ensembles("base"),
+        lines=lines_of_discs(),
+        scaling=rules.fit_scaling.output.csv,
+    output:
+        png=report(
+            "results/figures/fig3_master_curve.png",
+            caption="../report/fig3_master_curve.rst",
+            category="Paper",
+            labels={"figure": "3, master curve"},
+        ),
+        pdf="results/figures/fig3_master_curve.pdf",
+    log:
+        "results/logs/plot_master_curve.log",
+    benchmark:
+        "results/benchmarks/plot_master_curve.tsv"
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+    params:
+        source_digest("plot_master_curve"),
+        shown=config["figures"],
+    message:
+        "Figure 3, master curve"
+    script:
+        "../scripts/plot_master_curve.py"
+
+
+rule plot_exponent:
+    input:
+        scaling=rules.fit_scaling.output.csv,
+    output:
+        png=report(
+            "results/figures/fig4_exponent.png",
+            caption="../report/fig4_exponent.rst",
+            category="Paper",
+            labels={"figure": "4, exponent"},
+        ),
+        pdf="results/figures/fig4_exponent.pdf",
+    log:
+        "results/logs/plot_exponent.log",
+    benchmark:
+        "results/benchmarks/plot_exponent.tsv"
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+    params:
+        source_digest("plot_exponent"),
+        shown=config["figures"],
+    message:
+        "Figure 4, exponent"
+    script:
+        "../scripts/plot_exponent.py"
+
+
+rule plot_conventions:
+    input:
+        scaling=rules.fit_scaling.output.csv,
+    output:
+        png=report(
+            "results/figures/conventions.png",
+            caption="../report/conventions.rst",
+            category="Beyond the paper",
+            labels={"figure": "what the conventions do"},
+        ),
+        pdf="results/figures/conventions.pdf",
+    log:
+        "results/logs/plot_conventions.log",
+    benchmark:
+        "results/benchmarks/plot_conventions.tsv"
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+    params:
+        source_digest("plot_conventions"),
+        shown=config["figures"],
+    message:
+        "Figure of the conventions"
+    script:
+        "../scripts/plot_conventions.py"
+
+
+rule plot_validation:
+    input:
+        table=rules.validate.output.csv,
+    output:
+        png=report(
+            "results/figures/validation.png",
+            caption="../report/validation.rst",
+            category="Beyond the paper",
+            labels={"figure": "comparison with exact solutions"},
+        ),
+        pdf="results/figures/validation.pdf",
+    log:
+        "results/logs/plot_validation.log",
+    benchmark:
+        "results/benchmarks/plot_validation.tsv"
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+    params:
+        source_digest("plot_validation"),
+    message:
+        "Figure of the comparison with exact solutions"
+    script:
+        "../scripts/plot_validation.py"

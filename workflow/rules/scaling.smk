@@ -1,0 +1,33 @@
+# Region (b), exponents beta, prefactors zeta and lambda.
+
+
+rule fit_scaling:
+    input:
+        discs=[ensembles(group) for group in groups()],
+        lines=ensembles("lines"),
+    output:
+        csv=report(
+            "results/tables/scaling.csv",
+            caption="../report/scaling.rst",
+            category="Tables",
+            labels={"table": "power laws in region (b)"},
+        ),
+        nc="results/tables/scaling.nc",
+    log:
+        "results/logs/fit_scaling.log",
+    benchmark:
+        "results/benchmarks/fit_scaling.tsv"
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=4000,
+    params:
+        source_digest("fit_scaling"),
+        groups=[group for group in groups() for _ in ensembles(group)],
+        seed=config["seed"],
+        fit=config["scaling"],
+    message:
+        "Power laws in region (b)"
+    script:
+        "../scripts/fit_scaling.py"

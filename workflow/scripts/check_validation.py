@@ -1,0 +1,22 @@
+"""Stop the workflow, naming the cases, where a comparison with an exact solution failed."""
+
+from pathlib import Path
+
+import pandas as pd
+
+from viscorough.joblog import log_to
+from viscorough.validation import failures
+
+
+def main(table, passed):
+    """Write what passed; raise ValueError with a part for every failed comparison of the table."""
+    comparisons = pd.read_csv(table)
+    if failed := failures(comparisons):
+        raise ValueError(f"validation failed, see {table}: " + "; ".join(failed))
+    names = (comparisons["case"] + " " + comparisons["quantity"]).unique()
+    Path(passed).write_text("\n".join(names) + "\n", encoding="utf-8")
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(job.input.table, job.output.passed)

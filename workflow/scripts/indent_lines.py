@@ -1,0 +1,38 @@
+"""Loading curves of a batch of self-affine lines by the reduction of dimensionality; no line is stored."""
+
+import json
+
+import numpy as np
+
+from viscorough.joblog import log_to, progress
+from viscorough.reduction import reduce
+from viscorough.storage import stack_curves, write_dataset
+from viscorough.surfaces import realization_seed, self_affine_line
+
+
+def main(curves, *, seed, spawn_key, realizations, points, surface, until_x):
+    """Indent the realizations realizations[0] <= number < realizations[1] until X = F/(4GhL) is until_x; lengths in m.
+
+    surface : arguments of self_affine_line.
+    """
+    numbers = np.arange(*realizations)
+    until_force = 4 * surface["rms"] * surface["length"] * until_x
+    reduced, rms = [], []
+    for number in progress(numbers, len(numbers), "lines"):
+        line = self_affine_line(points=points, **surface, seed=realization_seed(seed, *spawn_key, int(number)))
+        reduced.append(reduce(line, until_force=until_force))
+        rms.append(line.heights.std(dtype=float))
+    settings = {"seed": seed, "spawn_key": [*spawn_key, "realization"], "points": points, "surface": surface}
+    ds = stack_curves(reduced, "m").assign(
+        rms_line=("realization", rms, {"units": "m", "long_name": "rms height of the line"}),
+        spacing=((), line.spacing, {"units": "m", "long_name": "spacing of the points"}),
+        diameter=((), surface["length"], {"units": "m", "long_name": "length of the line"}),
+    )
+    hurst = ((), surface["hurst"], {"long_name": "Hurst exponent", "units": "1"})
+    ds = ds.assign_coords(realization=numbers, hurst=hurst)
+    write_dataset(ds.assign_attrs(settings=json.dumps(settings | {"until_x": until_x})), curves)
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(**job.output, **job.params)

@@ -1,0 +1,16 @@
+"""How exponent and prefactor move with each convention that the paper leaves open."""
+
+import pandas as pd
+
+from viscorough.joblog import log_to
+from viscorough.plotting import plot_conventions, save_figure
+
+
+def main(scaling, png, pdf, *, shown):
+    """Plot the scaling table; shown : conventions of the figures, {column of the table: value}."""
+    save_figure(plot_conventions(pd.read_csv(scaling), shown), png, pdf)
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(**job.input, **job.output, **job.params)

@@ -1,0 +1,16 @@
+"""Figure 4: the exponent beta over the Hurst exponent."""
+
+import pandas as pd
+
+from viscorough.joblog import log_to
+from viscorough.plotting import plot_exponent, save_figure
+
+
+def main(scaling, png, pdf, *, shown):
+    """Plot the scaling table; shown : conventions of the figures, {column of the table: value}."""
+    save_figure(plot_exponent(pd.read_csv(scaling), shown), png, pdf)
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(**job.input, **job.output, **job.params)

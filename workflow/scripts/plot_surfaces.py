@@ -1,0 +1,18 @@
+"""Figure 1: an indenter for every Hurst exponent."""
+
+from viscorough.joblog import log_to
+from viscorough.plotting import plot_surfaces, save_figure
+from viscorough.storage import read_dataset
+
+
+def main(surfaces, png, pdf):
+    """Plot the example discs."""
+    ds = read_dataset(surfaces)
+    spacing = ds["spacing"].item()
+    examples = [(hurst, ds["heights"].sel(hurst=hurst).values, spacing) for hurst in ds["hurst"].values.tolist()]
+    save_figure(plot_surfaces(examples), png, pdf)
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(**job.input, **job.output)

@@ -1,0 +1,16 @@
+"""Errors against exact solutions over the number of elements."""
+
+import pandas as pd
+
+from viscorough.joblog import log_to
+from viscorough.plotting import plot_validation, save_figure
+
+
+def main(table, png, pdf):
+    """Plot the validation table."""
+    save_figure(plot_validation(pd.read_csv(table)), png, pdf)
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(**job.input, **job.output)

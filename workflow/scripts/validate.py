@@ -1,0 +1,17 @@
+"""Table of errors and observed orders against exact solutions."""
+
+from viscorough.joblog import log_to
+from viscorough.storage import write_table
+from viscorough.validation import COLUMNS, validation_table
+
+
+def main(csv, nc, *, elements, limits):
+    """Write the table whatever it says: check_validation judges it."""
+    table = validation_table(elements, limits)
+    title = "Comparison with exact solutions"
+    write_table(table, csv, nc, columns=COLUMNS, dimension="comparison", title=title)
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(**job.output, **job.params)

@@ -419,7 +419,7 @@ def validation(grids, quantities=("force", "depth")):
 def test_validation_draws_errors_orders_and_limits():
     figure = plotting.plot_validation(validation([33, 65, 129]))
     assert [axes.get_title() for axes in figure.axes] == [
-        rf"{name}, expected $\propto n^{{-2}}$" for name in ("force", "depth")
+        f"{name}\nexpected " + r"$\propto n^{-2}$" for name in ("force", "depth")
     ]
     for axes in figure.axes:
         *cases, limit = axes.lines

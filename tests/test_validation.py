@@ -15,6 +15,7 @@ LIMITS = {
     "velocity": 6e-3,
     "area": 3e-2,
     "punch_stiffness": 4e-2,
+    "correspondence": 1e-9,
 }
 
 
@@ -32,7 +33,7 @@ def test_table_has_every_case_on_every_grid(table):
     assert list(table.columns) == list(validation.COLUMNS)
     assert (table.groupby(["case", "quantity"])["elements"].apply(tuple) == GRIDS).all()
     assert set(table["quantity"]) == set(validation.ORDERS)
-    cases = {"disc", "ellipse"}
+    cases = {"disc", "ellipse", "rough_disc"}
     for body in ("sphere", "cone"):
         cases |= {body, f"{body}_constant_force", f"{body}_rising_force", f"{body}_reduction"}
     assert set(table["case"]) == cases

@@ -299,7 +299,7 @@ def test_one_figure_needs_only_its_own(fresh):
 @pytest.mark.parametrize(
     ("name", "numbers"),
     [
-        ("config", {"indent_discs": 4 * (9 + 4 * 2), "indent_lines": 21, "aggregate_discs": 4 * (9 + 4)}),
+        ("config", {"indent_discs": 4 * (9 + 4), "indent_lines": 21, "aggregate_discs": 4 * (9 + 4)}),
         ("paper", {"indent_discs": 4 * (9 * 4 + 4 * 4), "indent_lines": 101 * 2, "aggregate_discs": 4 * (9 + 4)}),
         ("test", {"indent_discs": 2 * (2 + 1), "indent_lines": 2 * 2, "aggregate_discs": 2 * (2 + 1)}),
     ],
@@ -580,7 +580,7 @@ def test_a_realization_is_the_same_in_every_batch(tmp_path, common, settings):
     discs = common.disc_cases(settings)["h04000_c3"]
     about = {"seed": 7, "spawn_key": discs["spawn_key"], "elements": 17, "surface": discs["surface"]}
     lines = common.line_cases(settings)["h04000"]
-    line = {"seed": 7, "spawn_key": lines["spawn_key"], "points": 512, "surface": lines["surface"]}
+    line = {"seed": 7, "spawn_key": lines["spawn_key"], "points": 512, "surface": lines["surface"], "until_x": 30.0}
     for name, realizations in (("all", [0, 3]), ("last", [2, 3])):
         load_script("generate_discs").main(tmp_path / f"s_{name}.nc", realizations=realizations, **about)
         limits = {"tolerance": 1e-3, "until_fraction": 0.5, "until_x": 30.0}

@@ -28,7 +28,7 @@ VARIANTS = {
     "fixed_amplitudes": "fixed amplitudes",
     "roll_off": "roll-off (control)",
 }
-COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7")  # told apart with any colour vision (Okabe and Ito)
+COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00")  # told apart with any colour vision (Okabe and Ito)
 MARKERS = "osxD+"
 LIMIT = {"color": "black", "linewidth": 2, "label": "_limit"}
 
@@ -120,7 +120,7 @@ def plot_validation(table):
     """
     quantities, cases = table["quantity"].unique(), table["case"].unique()
     looks, grids = _case_looks(cases), sorted(table["elements"].unique())
-    columns = min(3, len(quantities))
+    columns = min(4, len(quantities))
     rows = -(-len(quantities) // columns)
     figure = Figure(figsize=(WIDE, (52 * rows + 22) * MM))
     grid = figure.subplots(rows, columns, squeeze=False)
@@ -136,19 +136,22 @@ def plot_validation(table):
         axes.plot([grids[-1] / 1.2, grids[-1] * 1.2], [limit, limit], **LIMIT)
         drawn = np.log10([*errors["error"], limit])
         ends = 10.0 ** np.array([np.floor(drawn.min() - 0.1), np.ceil(drawn.max() + 0.1)])
-        expected = rf"expected $\propto n^{{-{errors['expected_order'].iloc[0]:g}}}$"
-        axes.set(xscale="log", yscale="log", ylim=ends, title=f"{quantity.replace('_', ' ')}, {expected}")
+        order = errors["expected_order"].iloc[0]
+        expected = rf"expected $\propto n^{{-{order:g}}}$" if order else "exact"
+        axes.set(xscale="log", yscale="log", ylim=ends, title=f"{quantity.replace('_', ' ')}\n{expected}")
         axes.xaxis.set(major_locator=FixedLocator(grids), minor_locator=NullLocator(), major_formatter="{x:g}")
         axes.yaxis.set_minor_formatter(NullFormatter())
         if noted := axes.get_legend_handles_labels()[0]:
-            axes.legend(title="order", ncols=1 + (len(noted) > 4), columnspacing=1)
+            if len(noted) > 2:  # room above the curves, that the orders do not lie on them
+                axes.set_ylim(top=ends[1] * (10 if len(noted) < 5 else 30))
+            axes.legend(title="order", ncols=1 + (len(noted) > 2), columnspacing=1)
     for axes in grid[:, 0]:
         axes.set_ylabel("relative error")
     for axes in grid[-1]:
         axes.set_xlabel("elements across, $n$")
     handles = [Line2D([], [], **looks[case], label=case.replace("_", " ")) for case in cases]
     handles.append(Line2D([], [], **LIMIT | {"label": "limit on the finest grid"}))
-    figure.legend(handles=handles, loc="outside lower center", ncols=3)
+    figure.legend(handles=handles, loc="outside lower center", ncols=4)
     return figure
 
 

@@ -418,9 +418,8 @@ def validation(grids, quantities=("force", "depth")):
 
 def test_validation_draws_errors_orders_and_limits():
     figure = plotting.plot_validation(validation([33, 65, 129]))
-    assert [axes.get_title() for axes in figure.axes] == [
-        f"{name}\nexpected " + r"$\propto n^{-2}$" for name in ("force", "depth")
-    ]
+    titles = [axes.get_title() for axes in figure.axes]
+    assert titles == [name + "\nexpected " + r"$\propto n^{-2}$" for name in ("force", "depth")]
     for axes in figure.axes:
         *cases, limit = axes.lines
         for line, scale in zip(cases, (0.5, 0.7, 0.2), strict=True):
@@ -430,7 +429,7 @@ def test_validation_draws_errors_orders_and_limits():
         assert (limit.get_ydata() == 1e-3).all()
         assert limit.get_xdata()[0] < 129 < limit.get_xdata()[1]
         assert legend_texts(axes.get_legend()) == ["2.0", "2.0", "2.0, failed"]
-        assert axes.get_ylim() == pytest.approx((1e-6, 1e-2))  # whole decades around all that is drawn
+        assert axes.get_ylim() == pytest.approx((1e-6, 1e-1))  # whole decades around all that is drawn
     assert legend_texts(figure.legends[0]) == ["sphere", "sphere reduction", "cone", "limit on the finest grid"]
     assert whole_on_page(figure)
 

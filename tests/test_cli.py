@@ -16,7 +16,7 @@ import xarray as xr
 
 from viscorough import cli, indentation, joblog, storage
 from viscorough.curve import ConvergenceError
-from viscorough.surfaces import Indenter
+from viscorough.surfaces import Indenter, self_affine_disc
 
 VISCOROUGH = Path(sys.executable).with_name("viscorough")
 FORCE, VISCOSITY, RADIUS = 2.0, 3.0, 100.0
@@ -144,7 +144,7 @@ INDENT = ["indent", "heights.npy", "--spacing", "1", "-o", "out.nc"]
 KINETICS = ["kinetics", "curve.nc", "--force", "1", "--viscosity", "1", "-o", "out.nc"]
 MISTAKES = [
     ([], "viscorough: ", "Missing command"),
-    (["march"], "viscorough: ", "march"),
+    (["grow"], "viscorough: ", "grow"),
     (["--colour"], "viscorough: ", "--colour"),
     (["indent"], "viscorough indent: ", "HEIGHTS"),
     (["indent", "heights.npy", "-o", "out.nc"], "viscorough indent: ", "--spacing"),
@@ -396,3 +396,56 @@ def test_progress_of_a_short_job_logs_nothing(tmp_path, root_logger):
     joblog.log_to(tmp_path / "job.log")
     assert list(joblog.progress(iter("abc"), 3, "levels")) == ["a", "b", "c"]
     assert (tmp_path / "job.log").read_text() == ""
+
+
+# ---- march
+
+
+def test_march_methods_agree_with_kinetics(tmp_path):
+    """The three direct integrations and the correspondence, through files."""
+    disc = self_affine_disc(0.6, 17, seed=1)
+    np.save(tmp_path / "heights.npy", disc.heights)
+    about = [str(tmp_path / "heights.npy"), "--spacing", str(disc.spacing)]
+    times = "1,3,9"
+    common = ["--force", "2", "--viscosity", "4"]
+    assert cli.main(["march", *about, "--method", "events", *common, "-o", str(tmp_path / "events.nc")]) == 0
+    steps = ["--method", "implicit", "--times", times, "-o", str(tmp_path / "implicit.nc")]
+    assert cli.main(["march", *about, *common, *steps]) == 0
+    steps = ["--method", "explicit", "--times", times, "--penetration", "1e-3", "-o", str(tmp_path / "explicit.nc")]
+    assert cli.main(["march", *about, *common, *steps]) == 0
+    ends = xr.load_dataset(tmp_path / "implicit.nc", decode_times=False)
+    depths = ",".join(repr(float(u)) for u in ends["depth"].values)
+    assert (
+        cli.main(["indent", *about, "--depths", depths, "--tolerance", "1e-9", "-o", str(tmp_path / "curve.nc")]) == 0
+    )
+    assert cli.main(["kinetics", str(tmp_path / "curve.nc"), *common, "-o", str(tmp_path / "kin.nc")]) == 0
+    exact = xr.load_dataset(tmp_path / "kin.nc", decode_times=False)
+    np.testing.assert_allclose(exact["time"], [1, 3, 9], rtol=1e-5)
+    np.testing.assert_allclose(exact["velocity"], ends["velocity"], rtol=1e-4)
+    events = xr.load_dataset(tmp_path / "events.nc", decode_times=False)
+    np.testing.assert_allclose(np.interp(ends["time"], events["time"], events["depth"]), ends["depth"], rtol=1e-5)
+    explicit = xr.load_dataset(tmp_path / "explicit.nc", decode_times=False)
+    np.testing.assert_allclose(explicit["depth"], ends["depth"], rtol=5e-3)
+    assert 0 < explicit["penetration"].max() <= 1.001e-3
+    assert explicit.attrs["method"] == "explicit"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--method", "events", "--times", "1,2"], "--times is not for --method events"),
+        (["--method", "explicit"], "--times is needed by --method explicit"),
+        (["--method", "implicit", "--times", "2,1"], "must be larger than the last"),
+        (["--method", "implicit", "--times", "1", "--penetration", "0.1"], "--penetration is not for"),
+        (["--method", "explicit", "--times", "1", "--until-fraction", "0.1"], "--until-fraction is not for"),
+        (["--method", "magic"], "magic"),
+    ],
+)
+def test_march_refuses(tmp_path, capsys, arguments, message):
+    np.save(tmp_path / "heights.npy", np.eye(3))
+    output = tmp_path / "kin.nc"
+    assert cli.main(["march", str(tmp_path / "heights.npy"), "--spacing", "1", "-o", str(output), *arguments]) == 2
+    error = capsys.readouterr().err
+    assert message in error
+    assert error.count("\n") == 1
+    assert not output.exists()

@@ -1,4 +1,4 @@
-"""The command line: `viscorough indent` and `viscorough kinetics`.
+"""The command line: `viscorough indent`, `viscorough kinetics` and `viscorough march`.
 
 Whatever the user got wrong is one line on stderr, "viscorough COMMAND: what, where, what is allowed", exit
 code 2 and no output file; exit code 1 is for a solver that did not converge. Modules that take long to import
@@ -35,17 +35,17 @@ class PositiveNumber(click.ParamType):
         return number
 
 
-class Depths(click.ParamType):
+class Increasing(click.ParamType):
     """Numbers separated by commas, each larger than the one before, the first above 0."""
 
     name = "a,b,c"
 
     def convert(self, value, param, ctx):
-        depths = [PositiveNumber().convert(entry.strip(), param, ctx) for entry in value.split(",")]
-        for shallow, deep in itertools.pairwise(depths):
-            if deep <= shallow:
-                self.fail(f"{deep!r} follows {shallow!r}, each must be larger than the last", param, ctx)
-        return depths
+        numbers = [PositiveNumber().convert(entry.strip(), param, ctx) for entry in value.split(",")]
+        for last, number in itertools.pairwise(numbers):
+            if number <= last:
+                self.fail(f"{number!r} follows {last!r}, each must be larger than the last", param, ctx)
+        return numbers
 
 
 file = click.Path(path_type=Path)
@@ -67,7 +67,7 @@ def cli():
 @click.argument("heights", type=file)
 @click.option("--spacing", type=PositiveNumber(), required=True, help="Distance of neighbouring points.")
 @click.option("-o", "--output", type=file, required=True, metavar="CURVE.nc", help="File to write or replace.")
-@click.option("--depths", type=Depths(), help="Exactly these depths, in order  [default: as the tolerance asks]")
+@click.option("--depths", type=Increasing(), help="Exactly these depths, in order  [default: as the tolerance asks]")
 @click.option(
     "--tolerance",
     type=PositiveNumber(0.1),
@@ -94,14 +94,9 @@ def indent(heights, spacing, output, depths, tolerance, until_fraction):
     """
     if depths is not None and until_fraction is not None:
         raise click.UsageError("--depths and --until-fraction exclude each other; one of them is allowed")
+    indenter, length_unit = _read_indenter(heights, spacing, output)
+
     from viscorough import storage
-
-    target = storage.check_output(output)
-    if target.exists() and heights.exists() and target.samefile(heights):
-        raise ValueError(f"{output}: would replace the heights; another name is needed")
-    indenter = storage.read_heights(heights, spacing)
-    length_unit = storage.length_unit_of(heights)
-
     from viscorough.indentation import indent
 
     stop = {"until": until_fraction} if until_fraction else {}
@@ -112,6 +107,16 @@ def indent(heights, spacing, output, depths, tolerance, until_fraction):
         f"{output}: {curve.depth.size} levels, the last at depth {curve.depth[-1]:.6g} "
         f"with {curve.contact_fraction[-1]:.4g} of {curve.elements} elements in contact"
     )
+
+
+def _read_indenter(heights, spacing, output):
+    """The indenter and its unit of length, once the output is known to be possible."""
+    from viscorough import storage
+
+    target = storage.check_output(output)
+    if target.exists() and heights.exists() and target.samefile(heights):
+        raise ValueError(f"{output}: would replace the heights; another name is needed")
+    return storage.read_heights(heights, spacing), storage.length_unit_of(heights)
 
 
 @cli.command(short_help="Penetration over time under a constant force.")
@@ -147,10 +152,7 @@ def kinetics(curve, force, viscosity, output):
     moving = viscous.kinetics(loading, force, viscosity)
     if not np.isfinite([moving.time, moving.velocity]).all():
         raise ValueError(f"--force {force:g}, --viscosity {viscosity:g}: times overflow; closer values are allowed")
-    unit = ds["depth"].attrs.get("units", "1")
-    unit = "s-1" if unit == "1" else f"{unit} s-1"
-    ds["time"] = ("level", moving.time, {"long_name": "time since the force was applied", "units": "s"})
-    ds["velocity"] = ("level", moving.velocity, {"long_name": "velocity of penetration du/dt", "units": unit})
+    ds = storage.with_motion(ds, moving.time, moving.velocity)
     ds = ds.assign_attrs(
         title="Penetration of a rigid indenter into a linearly viscous half-space under a constant force",
         force=force,
@@ -160,6 +162,63 @@ def kinetics(curve, force, viscosity, output):
     )
     storage.write_dataset(ds, output)
     click.echo(f"{output}: {moving.time.size} levels, depth {moving.depth[-1]:.6g} at time {moving.time[-1]:.6g}")
+
+
+@cli.command(short_help="Penetration over time, by direct integration.")
+@click.argument("heights", type=file)
+@click.option("--spacing", type=PositiveNumber(), required=True, help="Distance of neighbouring points.")
+@click.option("-o", "--output", type=file, required=True, metavar="KIN.nc", help="File to write or replace.")
+@click.option(
+    "--method",
+    type=click.Choice(["events", "explicit", "implicit"]),
+    required=True,
+    help="From contact event to contact event, exactly; or by forward or backward Euler steps.",
+)
+@click.option("--force", type=PositiveNumber(), default=1.0, show_default=True, help="Constant force F.")
+@click.option("--viscosity", type=PositiveNumber(), default=1.0, show_default=True, help="Shear viscosity.")
+@click.option("--times", type=Increasing(), help="Ends of the steps; needed by, and only for, the Euler methods.")
+@click.option("--penetration", type=PositiveNumber(1), help="Divide explicit steps to stay below it, over the depth.")
+@click.option("--until-fraction", type=PositiveNumber(1), help="Contact fraction to stop at, of events  [default: 1]")
+def march(heights, spacing, output, method, force, viscosity, times, penetration, until_fraction):
+    """Integrate the viscous problem directly in time, without its correspondence with the elastic one.
+
+    HEIGHTS and units are as for indent and kinetics. KIN.nc has the dimension "level", contact events or ends of steps,
+    and the variables time, depth, velocity, contact_count and penetration (of the surface by the indenter, over the
+    depth, which only the explicit method allows). This is slow, a check of the other commands: the events of 3000
+    elements take seconds, memory grows with their square.
+
+    \b
+    Example:
+        viscorough march heights.npy --spacing 2e-6 --method events --until-fraction 0.05 -o events.nc
+        viscorough march heights.npy --spacing 2e-6 --method implicit --times 1,2,4,8 -o steps.nc
+    """
+    if (method == "events") != (times is None):
+        raise click.UsageError(f"--times is {'not for' if times else 'needed by'} --method {method}")
+    if penetration is not None and method != "explicit":
+        raise click.UsageError(f"--penetration is not for --method {method}; allowed: explicit")
+    if until_fraction is not None and method != "events":
+        raise click.UsageError(f"--until-fraction is not for --method {method}; allowed: events")
+    indenter, length_unit = _read_indenter(heights, spacing, output)
+
+    import numpy as np
+
+    from viscorough import storage
+    from viscorough.marching import march_events
+    from viscorough.stepping import march_steps
+
+    per_time = force / viscosity
+    if method == "events":
+        marched = march_events(indenter, until=until_fraction or 1.0)
+    else:
+        options = {} if penetration is None else {"penetration": penetration}
+        marched = march_steps(indenter, per_time * np.array(times), scheme=method, **options)
+    ds = storage.march_to_dataset(marched, per_time, length_unit)
+    about = {"method": method, "force": force, "viscosity": viscosity, "heights": heights.name, "spacing": spacing}
+    storage.write_dataset(ds.assign_attrs(about), output)
+    click.echo(
+        f"{output}: {ds.sizes['level']} levels, depth {marched.depth[-1]:.6g} at time {ds['time'].values[-1]:.6g} "
+        f"with {marched.contact_count[-1]} of {indenter.elements} elements in contact"
+    )
 
 
 def _complain(command, error):

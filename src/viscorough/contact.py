@@ -49,7 +49,8 @@ class Contact:
 class ContactSolver:
     """Solves the contact of one indenter, depth after depth, to a residual of `tolerance` times the depth.
 
-    Its lengths (depths, gaps, P) are in `unit`, the largest gap of the indenter; q has none.
+    Its lengths (depths, gaps, P) are in `unit`, the largest gap of the indenter; q has none. `place` are the rows and
+    columns in the indenter's heights of the elements by rank.
     """
 
     def __init__(self, indenter, tolerance):
@@ -60,6 +61,7 @@ class ContactSolver:
         # The largest gap is the unit of length, so that results do not depend on the user's.
         self.unit = gap.max() or 1.0
         self.gap = gap[order] / self.unit
+        self.place = rows[order], columns[order]
         self.row, self.column = (rows - top)[order], (columns - left)[order]
         self.shape = (int(self.row.max()) + 1, int(self.column.max()) + 1)
         self.tolerance = tolerance
@@ -75,6 +77,12 @@ class ContactSolver:
     def operators(self):
         """Applications of the half-space operator on the grid so far."""
         return 0 if self._grid is None else self._grid.halfspace.count
+
+    def gaps(self, contact):
+        """Gap e between the surfaces at every element, by rank."""
+        if contact.fields is not None:
+            return contact.fields.gap_at(slice(None))
+        return dense.gaps(self, contact)
 
     def touch(self):
         """First touch: depth zero, no pressure, and no element in contact yet."""

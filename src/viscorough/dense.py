@@ -45,6 +45,14 @@ def pressures(problem, members, depth):
     return solution[:, 0], solution[:, 1]
 
 
+def gaps(problem, contact):
+    """Gap e between the surfaces at every element, by rank."""
+    deflection = _deflections(
+        problem.influence, problem.row, problem.column, contact.members, contact.pressure[None], 0, problem.elements
+    )[0]
+    return deflection - contact.depth + problem.gap
+
+
 def solve(problem, contact, depth, candidates, largest):
     """The contact set at `depth` by the primal-dual active set method; None if it exceeds `largest` elements.
 

@@ -151,17 +151,17 @@ class GridSolver:
         rows, columns = halfspace.shape
         self._width = columns + 2
         self._place = (row + 1) * self._width + column + 1
-        self._gap = np.full((rows + 2) * self._width, _OUTSIDE)
-        self._gap[self._place] = gap
+        self.gap = np.full((rows + 2) * self._width, _OUTSIDE)
+        self.gap[self._place] = gap
         self._stencil = halfspace.inverse_stencil()
         self._result = np.empty(gap.size)
 
     def fields(self, contact):
         """The grid's fields of a dense solution; costs two operators."""
         place = self._place[contact.members]
-        pressure, rate = np.zeros_like(self._gap), np.zeros_like(self._gap)
+        pressure, rate = np.zeros_like(self.gap), np.zeros_like(self.gap)
         pressure[place], rate[place] = contact.pressure, contact.rate
-        gap = self._gap - contact.depth
+        gap = self.gap - contact.depth
         rate_gap = np.full_like(gap, -1.0)
         if contact.count:
             self._add_deflection(pressure, gap)
@@ -215,7 +215,7 @@ class GridSolver:
 
         Starts from the combination of the last q and the two pressures that is nearest in energy.
         """
-        deflections = [before.rate_gap + 1, gap - self._gap + depth, before.gap - self._gap + depth_before]
+        deflections = [before.rate_gap + 1, gap - self.gap + depth, before.gap - self.gap + depth_before]
         loads = [before.rate, pressure, before.pressure]
         if np.any(before.rate[~inside]):  # an element was lost, within the tolerance: what loaded it is of no use
             loads, deflections = [pressure], deflections[1:2]
@@ -225,9 +225,17 @@ class GridSolver:
         weights = scale * np.linalg.lstsq(scale[:, None] * energy * scale, scale * on_set.sum(axis=1), rcond=1e-10)[0]
         rate = sum(c * load for c, load in zip(weights, loads, strict=True))
         rate_gap = sum(c * w for c, w in zip(weights, deflections, strict=True)) - 1
-        places, slots = self._members(inside)
-        self._descend(rate, rate_gap, inside, places, slots, _RATE_TOLERANCE, 0.0)
+        self.punch(inside, rate, rate_gap, _RATE_TOLERANCE)
         return rate, rate_gap
+
+    def punch(self, inside, rate, rate_gap, tolerance):
+        """Solve K q = 1 on a set to the given residual, in place, from a start that vanishes outside the set.
+
+        rate, rate_gap : q and K q − 1, flat with border. Returns Σq, corrected to second order by the residual.
+        """
+        places, slots = self._members(inside)
+        self._descend(rate, rate_gap, inside, places, slots, tolerance, 0.0)
+        return rate[places].sum() - rate[places] @ rate_gap[places]
 
     def _descend(self, pressure, gap, inside, places, slots, limit, factor):
         """Conjugate gradients until max |e| on the set is below `limit`, or `factor` of its start.

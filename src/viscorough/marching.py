@@ -6,6 +6,7 @@ v = F/(4π d η Σq), and everything outside sinks at v K q. Depth, pressure imp
 the impulse ∫F dt, so the next element to touch, and when, is known exactly: an event.
 """
 
+import os
 from dataclasses import dataclass
 
 import numba
@@ -47,8 +48,8 @@ def march_events(indenter, *, until=1.0):
     until : contact fraction at which to stop, in (0, 1]
 
     Returns Events. Memory is 8 (until · elements)² bytes, time of third order in the elements in contact.
-    Raises ValueError for arguments out of range, ConvergenceError if an element comes under tension: contact could
-    then open, which it cannot without adhesion and with F ≥ 0.
+    Raises ValueError for arguments out of range, MemoryError where that memory is not there, ConvergenceError if an
+    element comes under tension: contact could then open, which it cannot without adhesion and with F ≥ 0.
     """
     if indenter.heights.ndim != 2:
         raise ValueError("march_events: the indenter's heights must be two-dimensional")
@@ -60,6 +61,11 @@ def march_events(indenter, *, until=1.0):
     distance = [np.arange(n, dtype=float) for n in indenter.heights.shape]
     influence = influence_coefficient(distance[0][:, None], distance[1][None, :])
     most = max(1, int(np.ceil(until * gap.size)))
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    if 8 * most**2 > memory:
+        raise MemoryError(
+            f"march_events: {most} elements in contact take {8e-9 * most**2:.0f} GB, there are {1e-9 * memory:.0f} GB"
+        )
     impulse, depth, resistance, pulling = _march(influence, row[order], column[order], gap[order], most)
     if pulling >= 0:
         raise ConvergenceError(f"march_events: tension on element {pulling} of the contact set; contact would open")

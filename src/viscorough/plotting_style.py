@@ -4,15 +4,14 @@ A Hurst exponent has its colour by its value, its marker and line style by its r
 figures of the same exponents agree, and exponents close to each other still differ.
 """
 
-import os
-from uuid import uuid4
+from pathlib import Path
 
 import numpy as np
 from matplotlib import colormaps, rc_context
 from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from viscorough.storage import check_output
+from viscorough.storage import whole_or_not_at_all
 
 MM = 1 / 25.4
 WIDE, NARROW = 180 * MM, 120 * MM  # across two columns of a page, and a little more than one
@@ -53,14 +52,9 @@ def save_figure(figure, *paths):
     The same figure gives the same bytes. Raises ValueError for a path where no file can appear.
     """
     for path in paths:
-        target = check_output(path)
-        temporary = target.with_name(f".{target.name[:60]}.{uuid4().hex[:12]}.part")
-        kind = target.suffix[1:]
-        try:
+        kind = Path(path).suffix[1:]
+        with whole_or_not_at_all(path) as temporary:
             figure.savefig(temporary, format=kind, metadata={"CreationDate": None} if kind == "pdf" else None)
-            os.replace(temporary, target)
-        finally:
-            temporary.unlink(missing_ok=True)
 
 
 def hurst_looks(exponents):

@@ -65,7 +65,7 @@ def check_output(path):
 
 
 @contextmanager
-def _whole_or_not_at_all(path):
+def whole_or_not_at_all(path):
     """Give a temporary name beside `path`; what is written there becomes `path` on success, else vanishes."""
     target = check_output(path)
     temporary = target.with_name(f".{target.name[:60]}.{uuid.uuid4().hex[:12]}.part")
@@ -100,7 +100,7 @@ def write_dataset(ds, path):
             encoding[name] = {"zlib": True, "complevel": 4, "shuffle": True} if large else {}
             if name in ds.coords:
                 encoding[name]["_FillValue"] = None  # in CF no value of a coordinate may be missing
-    with _whole_or_not_at_all(path) as temporary:
+    with whole_or_not_at_all(path) as temporary:
         ds.to_netcdf(temporary, engine="netcdf4", encoding=encoding)
 
 
@@ -122,7 +122,7 @@ def write_table(table, csv_path, nc_path, *, columns, dimension, title):
             values, attributes = values.astype(str).astype(object), {"long_name": long_name}
         ds[name] = (dimension, values, attributes)
     write_dataset(ds, nc_path)
-    with _whole_or_not_at_all(csv_path) as temporary:
+    with whole_or_not_at_all(csv_path) as temporary:
         table.to_csv(temporary, index=False, lineterminator="\n")
 
 
@@ -196,7 +196,7 @@ def length_unit_of(path):
     return unit if isinstance(unit, str) and unit.strip() else "1"
 
 
-# ---- loading curves
+# ---- loading curves, and what becomes of them in time
 
 
 def _check(curve):
@@ -248,6 +248,26 @@ def curve_from_dataset(ds):
     curve = LoadingCurve(**{name: ds[name].values for name in STORED}, **about)
     _check(curve)
     return curve
+
+
+def with_motion(ds, time, velocity):
+    """A dataset that has depth(level), with time and velocity added."""
+    unit = ds["depth"].attrs.get("units", "1")
+    unit = "s-1" if unit == "1" else f"{unit} s-1"
+    return ds.assign(
+        time=("level", time, {"long_name": "time since the force was applied", "units": "s"}),
+        velocity=("level", velocity, {"long_name": "velocity of penetration du/dt", "units": unit}),
+    )
+
+
+def march_to_dataset(march, force_per_viscosity, length_unit="m"):
+    """A direct integration (marching.Events or stepping.Steps) under constant force as a Dataset over levels."""
+    ds = xr.Dataset(attrs={"title": "Penetration of a rigid indenter, integrated directly in time"})
+    for name in ("depth", "contact_count"):
+        ds[name] = ("level", getattr(march, name), _attributes(name, length_unit))
+    about = {"long_name": "largest penetration of the surface by the indenter, over depth", "units": "1"}
+    ds["penetration"] = ("level", getattr(march, "penetration", np.zeros_like(march.depth)), about)
+    return with_motion(ds, march.impulse / force_per_viscosity, force_per_viscosity / march.resistance)
 
 
 def stack_curves(curves, length_unit="m"):

@@ -6,6 +6,8 @@ import numpy as np
 
 # Beyond this distance (in elements) the series below is more accurate than the difference of logarithms.
 _FAR = 30
+# Columns transformed together: with 128 or fewer they stay in cache, a third faster on 1025 × 1025 elements (measured).
+_BLOCK = 128
 
 
 @numba.vectorize(["float64(float64, float64)"], cache=True)
@@ -53,7 +55,8 @@ class Halfspace:
 
     K is even, so a periodic convolution over 2(n − 1) points per axis holds every distance up to n − 1 once and
     nothing wraps around; its spectrum is real. The rows beyond the grid carry no data in or out: their transforms
-    along the rows are skipped (a quarter of the work of the padded transform).
+    along the rows are skipped (a quarter of the work of the padded transform), and they exist only for the block of
+    columns at hand.
 
     `load` is the array to write p into: shape (rows, stride ≥ columns), zero wherever there is no pressure and in
     the columns beyond the grid. `apply()` returns w in an array of the same layout (its columns beyond the grid
@@ -66,29 +69,38 @@ class Halfspace:
         lengths = [ducc0.fft.good_size(max(2 * (n - 1), 1), True) for n in self.shape]
         distance = [np.minimum(np.arange(m), m - np.arange(m)).astype(float) for m in lengths]
         kernel = influence_coefficient(distance[0][:, None], distance[1][None, :])
-        spectrum = ducc0.fft.r2c(kernel).real
-        self._spectrum = (spectrum / (lengths[0] * lengths[1])).astype(precision)
+        spectrum = (ducc0.fft.r2c(kernel).real / kernel.size).astype(precision)
+        starts = range(0, spectrum.shape[1], _BLOCK)
+        self._blocks = [(start, np.ascontiguousarray(spectrum[:, start : start + _BLOCK])) for start in starts]
+        self._lengths = lengths
+        spectral = np.result_type(precision, np.complex64)
         self.load = np.zeros((rows, lengths[1]), dtype=precision)
-        self._transformed = np.zeros(spectrum.shape, dtype=np.result_type(precision, np.complex64))
+        self._transformed = np.empty((rows, spectrum.shape[1]), dtype=spectral)
+        self._columns = {each.shape[1]: np.empty(each.shape, dtype=spectral) for _, each in self._blocks}
         self._deflection = np.empty_like(self.load)
         self.count = 0
 
     def apply(self):
         """Deflection w = K p of the pressure in `load`, in the same layout; valid until the next call."""
-        rows = self.shape[0]
-        spectrum, data = self._transformed, self._transformed[:rows]
+        rows, data = self.shape[0], self._transformed
         ducc0.fft.r2c(self.load, axes=[1], out=data)
-        spectrum[rows:] = 0
-        ducc0.fft.c2c(spectrum, axes=[0], out=spectrum)
-        _multiply(spectrum, self._spectrum)
-        ducc0.fft.c2c(spectrum, axes=[0], forward=False, out=spectrum)
-        ducc0.fft.c2r(data, axes=[1], forward=False, lastsize=self.load.shape[1], out=self._deflection)
+        for start, spectrum in self._blocks:
+            block = data[:, start : start + _BLOCK]
+            columns = self._columns[spectrum.shape[1]]
+            columns[:rows] = block
+            columns[rows:] = 0
+            ducc0.fft.c2c(columns, axes=[0], out=columns)
+            _multiply(columns, spectrum)
+            ducc0.fft.c2c(columns, axes=[0], forward=False, out=columns)
+            block[:] = columns[:rows]
+        ducc0.fft.c2r(data, axes=[1], forward=False, lastsize=self._lengths[1], out=self._deflection)
         self.count += 1
         return self._deflection
 
     def inverse_stencil(self):
         """Central 3 × 3 coefficients of the convolution kernel of K⁻¹, a preconditioner of contact iterations."""
-        size = self._transformed.shape[0] * self.load.shape[1]
-        inverse = ducc0.fft.c2r((1 / self._spectrum).astype(complex), forward=False, lastsize=self.load.shape[1])
+        size = self._lengths[0] * self._lengths[1]
+        spectrum = np.hstack([each for _, each in self._blocks]).astype(complex)
+        inverse = ducc0.fft.c2r(1 / spectrum, forward=False, lastsize=self._lengths[1])
         near = np.array([-1, 0, 1])
         return inverse[np.ix_(near % inverse.shape[0], near % inverse.shape[1])] / size**2

@@ -17,6 +17,7 @@ def log_to(path):
     form = {"format": "%(asctime)s %(levelname)s %(message)s", "datefmt": "%Y-%m-%d %H:%M:%S"}
     logging.basicConfig(level=logging.INFO, handlers=[in_file, on_stderr], force=True, **form)
     logging.captureWarnings(True)
+    logging.getLogger("fontTools").setLevel(logging.WARNING)  # else a figure's fonts fill pages
 
     def report(kind, error, trace):
         logging.error("%s: %s", kind.__name__, " ".join(str(error).split()))

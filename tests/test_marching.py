@@ -48,6 +48,11 @@ def test_ties_and_scales():
     assert np.all(np.diff(events.resistance) >= 0)
 
 
+def test_refuses_what_does_not_fit_before_trying():
+    with pytest.raises(MemoryError, match=r"in contact take .* GB"):
+        march_events(Indenter(np.random.default_rng(1).random((600, 600)), 1.0))
+
+
 def test_refuses():
     with pytest.raises(ValueError, match="two-dimensional"):
         march_events(Indenter(np.zeros(3), 1.0))

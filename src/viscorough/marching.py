@@ -61,10 +61,11 @@ def march_events(indenter, *, until=1.0):
     distance = [np.arange(n, dtype=float) for n in indenter.heights.shape]
     influence = influence_coefficient(distance[0][:, None], distance[1][None, :])
     most = max(1, int(np.ceil(until * gap.size)))
-    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    if 8 * most**2 > memory:
+    needed, memory = 8 * most**2, os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    if needed > memory / 2:
         raise MemoryError(
-            f"march_events: {most} elements in contact take {8e-9 * most**2:.0f} GB, there are {1e-9 * memory:.0f} GB"
+            f"march_events: {most} elements in contact take {needed / 1e9:.1f} GB, half of this machine's "
+            f"{memory / 1e9:.1f} GB are allowed; a smaller contact fraction helps"
         )
     impulse, depth, resistance, pulling = _march(influence, row[order], column[order], gap[order], most)
     if pulling >= 0:

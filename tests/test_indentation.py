@@ -132,7 +132,7 @@ def test_single_and_double_precision_agree_far_below_the_tolerance(monkeypatch):
     disc, depths = self_affine_disc(0.4, 65, seed=8), np.geomspace(0.5, 8.0, 12)
     curves = []
     for threshold in (1e-4, 1.0):
-        monkeypatch.setattr("viscorough.contact._SINGLE", threshold)
+        monkeypatch.setattr("viscorough.gradients._SINGLE", threshold)
         curves.append(indent(disc, tolerance=1e-4, depths=depths))
     assert curves[0].operators > 0
     np.testing.assert_allclose(curves[0].force, curves[1].force, rtol=2e-6)
@@ -237,6 +237,7 @@ def test_refuses_lines():
 def test_raises_when_it_does_not_converge(monkeypatch):
     monkeypatch.setattr("viscorough.contact._DENSE_MEMBERS", 0)
     monkeypatch.setattr("viscorough.gradients._ITERATIONS", 2)
+    monkeypatch.setattr("viscorough.gradients._ROUNDS", 1)
     with pytest.raises(ConvergenceError, match="residual"):
         indent(self_affine_disc(0.5, 33, seed=1), tolerance=1e-8, depths=[1.0])
 

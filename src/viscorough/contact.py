@@ -12,13 +12,11 @@ import numpy as np
 
 from viscorough import dense, gradients
 from viscorough.curve import ConvergenceError
-from viscorough.halfspace import Halfspace, influence_coefficient
+from viscorough.halfspace import influence_coefficient
 
 # A dense factorisation is cheaper than a few dozen grid operators up to about these sizes (measured).
 _DENSE_MEMBERS = 400
 _DENSE_INTERACTIONS = 2_000_000
-# The operator acts on corrections, whose rounding in single precision is far below this tolerance.
-_SINGLE = 1e-4
 
 
 @dataclass(frozen=True)
@@ -76,7 +74,7 @@ class ContactSolver:
     @property
     def operators(self):
         """Applications of the half-space operator on the grid so far."""
-        return 0 if self._grid is None else self._grid.halfspace.count
+        return 0 if self._grid is None else self._grid.operators
 
     def gaps(self, contact):
         """Gap e between the surfaces at every element, by rank."""
@@ -108,9 +106,7 @@ class ContactSolver:
             if members is not None:
                 return self._checked(contact, self._dense_state(depth, members))
         if self._grid is None:
-            precision = np.float32 if self.tolerance >= _SINGLE else np.float64
-            halfspace = Halfspace(*self.shape, precision)
-            self._grid = gradients.GridSolver(halfspace, self.row, self.column, self.gap, self.tolerance)
+            self._grid = gradients.GridSolver(self.shape, self.row, self.column, self.gap, self.tolerance)
         if contact.fields is None:
             contact = replace(contact, fields=self._grid.fields(contact))
         return self._checked(contact, Contact(*self._grid.solve(contact, depth)))

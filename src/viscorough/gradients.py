@@ -5,7 +5,11 @@ contains the solution's: between the two depths the true rate of deflection is t
 surface sinks further than predicted. Elements that come under tension leave it. Along a search direction d the
 deflection K d is known on the whole grid, so the gap is, too, everywhere and at no further cost.
 
-Arrays of the grid are flat, with a border of one element, so that neighbours need no special cases.
+Directions d and deflections K d of earlier descents are kept. As contact grows, they stay within the contact set,
+so that later descents, at this level and the next ones, need not search along them again (deflation).
+
+Arrays of the grid are flat, with a border as wide as the preconditioner reaches, so that neighbours need no special
+cases.
 """
 
 from dataclasses import dataclass
@@ -13,13 +17,23 @@ from dataclasses import dataclass
 import numba
 import numpy as np
 
+from viscorough import preconditioner
 from viscorough.curve import ConvergenceError
+from viscorough.deflation import Directions
+from viscorough.halfspace import Halfspace
+from viscorough.preconditioner import REACH
 
 # The residual is lowered by this factor between revisions of the contact set (measured: 0.1 to 0.3 are alike).
 _REVISE = 0.2
 # Relative residual of q. Force and stiffness are corrected to second order, so its square is what counts.
 _RATE_TOLERANCE = 1e-2
-_ITERATIONS, _REVISIONS = 2000, 200
+# Down to this residual, relative to the depth or to 1 for q, rounding in single precision is far below.
+_SINGLE = 1e-4
+_ROUNDS, _ITERATIONS, _REVISIONS = 60, 30, 200
+# Rounding makes directions less and less conjugate; a new round starts when the residual is lower by this factor.
+_LARGEST_DESCENT = 1e-2
+# Directions kept; more of them save iterations, but cost memory and as much time (measured).
+_KEPT = 12
 # Gap where there is no element; finite, since differences of gaps are taken.
 _OUTSIDE = 1e300
 
@@ -44,7 +58,7 @@ def _product(left, right, slots):
     """Σ left·right over the contact set, for arrays laid out as the operator's load."""
     total = 0.0
     for t in range(slots.size):
-        total += left[slots[t]] * right[slots[t]]
+        total += np.float64(left[slots[t]]) * np.float64(right[slots[t]])
     return total
 
 
@@ -52,7 +66,7 @@ def _product(left, right, slots):
 def _step(length, direction, deflection, pressure, gap, places, slots, rows, columns, stride):
     """P += α d on the set, e += α K d everywhere; returns largest |e| on the set and whether any P is negative."""
     for i in range(rows):
-        a, b = (i + 1) * (columns + 2) + 1, i * stride
+        a, b = (i + REACH) * (columns + 2 * REACH) + REACH, i * stride
         for j in range(columns):
             gap[a + j] += length * deflection[b + j]
     largest, lowest = 0.0, 0.0
@@ -65,51 +79,18 @@ def _step(length, direction, deflection, pressure, gap, places, slots, rows, col
 
 
 @numba.njit(cache=True, fastmath=True)
-def _precondition(gap, inside, places, stencil, width, result):
-    """z = M r with r = −e on the set and M the 3 × 3 centre of K⁻¹, cut to the set; returns r·z."""
-    centre, edge, corner = stencil[1, 1], stencil[0, 1], stencil[0, 0]
-    total = 0.0
-    for t in range(places.size):
-        i = places[t]
-        n, s = i - width, i + width
-        value = centre * gap[i]
-        near = 0.0
-        if inside[i - 1]:
-            near += gap[i - 1]
-        if inside[i + 1]:
-            near += gap[i + 1]
-        if inside[n]:
-            near += gap[n]
-        if inside[s]:
-            near += gap[s]
-        far = 0.0
-        if inside[n - 1]:
-            far += gap[n - 1]
-        if inside[n + 1]:
-            far += gap[n + 1]
-        if inside[s - 1]:
-            far += gap[s - 1]
-        if inside[s + 1]:
-            far += gap[s + 1]
-        value += edge * near + corner * far
-        result[t] = -value
-        total += gap[i] * value
-    return total
-
-
-@numba.njit(cache=True, fastmath=True)
 def _turn(direction, result, factor, slots):
-    """d = z + β d on the set."""
+    """d = β d − z on the set."""
     for t in range(slots.size):
-        direction[slots[t]] = result[t] + factor * direction[slots[t]]
+        direction[slots[t]] = factor * direction[slots[t]] - result[t]
 
 
 @numba.njit(cache=True)
-def _release(pressure, load, inside, places, slots, stencil, width, stride):
+def _release(pressure, load, inside, places, slots, relief, width, stride):
     """Elements under tension leave the set; the change of pressure is added to the load.
 
-    Taking away a pull p < 0 lifts its neighbours off. That takes as much pressure from them as eliminating the element
-    from the stencil does: P += −p M_near/M_centre, which saves iterations. None of it may make them pull.
+    Taking away a pull p < 0 lifts its neighbours off. They give away as much pressure as eliminating the element does,
+    which saves iterations. None of it may make them pull.
     """
     for t in range(places.size):
         if pressure[places[t]] < 0:
@@ -125,8 +106,7 @@ def _release(pressure, load, inside, places, slots, stencil, width, stride):
             for column in range(-1, 2):
                 near = i + row * width + column
                 if inside[near]:
-                    change = -pull * stencil[row + 1, column + 1] / stencil[1, 1]
-                    change = max(change, -0.5 * pressure[near])
+                    change = max(pull * relief[row + 1, column + 1], -0.5 * pressure[near])
                     pressure[near] += change
                     load[slots[t] + row * stride + column] += change
 
@@ -143,29 +123,39 @@ def _admit(gap, inside, limit):
 
 
 class GridSolver:
-    """Contact of the elements at (row, column), in the order of increasing gap, on the grid of a Halfspace."""
+    """Contact of the elements at (row, column), in the order of increasing gap, on a grid of the given shape.
 
-    def __init__(self, halfspace, row, column, gap, tolerance):
-        self.halfspace = halfspace
+    Searches in single precision. Since what is searched for are corrections, and shrinking ones, their rounding is
+    small; once a level, where the tolerance needs it, gaps are computed anew from the pressures in double precision.
+    """
+
+    def __init__(self, shape, row, column, gap, tolerance):
         self.tolerance = tolerance
-        rows, columns = halfspace.shape
-        self._width = columns + 2
-        self._place = (row + 1) * self._width + column + 1
-        self.gap = np.full((rows + 2) * self._width, _OUTSIDE)
+        rows, columns = shape
+        self._halfspace = Halfspace(rows, columns, np.float32)
+        self._exact = Halfspace(rows, columns) if tolerance < _SINGLE else self._halfspace
+        self._width = columns + 2 * REACH
+        self._place = (row + REACH) * self._width + column + REACH
+        self.gap = np.full((rows + 2 * REACH) * self._width, _OUTSIDE)
         self.gap[self._place] = gap
-        self._stencil = halfspace.inverse_stencil()
-        self._result = np.empty(gap.size)
+        self._before = preconditioner.offsets(self._width)
+        self._work = np.zeros_like(self.gap)
+        self._kept = Directions(_KEPT, shape, REACH, self._halfspace.load.dtype)
+
+    @property
+    def operators(self):
+        """Applications of the half-space operator so far."""
+        return sum(each.count for each in {self._halfspace, self._exact})
 
     def fields(self, contact):
         """The grid's fields of a dense solution; costs two operators."""
         place = self._place[contact.members]
         pressure, rate = np.zeros_like(self.gap), np.zeros_like(self.gap)
         pressure[place], rate[place] = contact.pressure, contact.rate
-        gap = self.gap - contact.depth
-        rate_gap = np.full_like(gap, -1.0)
+        gap, rate_gap = self.gap - contact.depth, np.full_like(self.gap, -1.0)
         if contact.count:
-            self._add_deflection(pressure, gap)
-            self._add_deflection(rate, rate_gap)
+            gap += self._deflection(pressure)
+            rate_gap += self._deflection(rate)
         return Fields(pressure, gap, rate, rate_gap, self._place)
 
     def solve(self, contact, depth):
@@ -174,28 +164,31 @@ class GridSolver:
         pressure = before.pressure + advance * before.rate
         gap = before.gap + advance * before.rate_gap
         inside = pressure > 0
-        limit = self.tolerance * depth
+        limit, finest = max(self.tolerance, _SINGLE) * depth, self.tolerance * depth
 
         _admit(gap, inside, 0.0)
         for _ in range(_REVISIONS):
             places, slots = self._members(inside)
-            tension = self._descend(pressure, gap, inside, places, slots, limit, _REVISE)
-            if tension:
-                self.halfspace.load[:] = 0
-                load = self.halfspace.load
-                _release(pressure, load.ravel(), inside, places, slots, self._stencil, self._width, load.shape[1])
-                self._add(self.halfspace.apply(), gap)
+            if self._descend(pressure, gap, inside, places, slots, limit, _REVISE):
+                load = self._halfspace.load
+                load[:] = 0
+                relief = preconditioner.relief()
+                _release(pressure, load.ravel(), inside, places, slots, relief, self._width, load.shape[1])
+                self._interior(gap)[:] += self._halfspace.apply()[:, : self._halfspace.shape[1]]
                 places = places[inside[places]]
             joined = _admit(gap, inside, limit)
             if joined == 0 and np.abs(gap[places]).max() <= limit:
-                break
+                if limit == finest:
+                    break
+                limit, gap = finest, self._deflection(pressure) + self.gap - depth
+                _admit(gap, inside, limit)
         else:
             raise ConvergenceError(
                 f"contact at depth {depth:g}: the set of {places.size} elements does not settle in {_REVISIONS} "
                 "revisions; choose another tolerance"
             )
 
-        rate, rate_gap = self._rate(before, contact.depth, pressure, gap, depth, inside, places, slots)
+        rate, rate_gap = self._rate(before, contact.depth, pressure, gap, depth, inside, places)
         left = gap[places]
         ranks = np.flatnonzero(inside[self._place])
         on_set = self._place[ranks]
@@ -210,7 +203,7 @@ class GridSolver:
             Fields(pressure, gap, rate, rate_gap, self._place),
         )
 
-    def _rate(self, before, depth_before, pressure, gap, depth, inside, places, slots):
+    def _rate(self, before, depth_before, pressure, gap, depth, inside, places):
         """q with K q = 1 on the set, and K q − 1 everywhere.
 
         Starts from the combination of the last q and the two pressures that is nearest in energy.
@@ -225,7 +218,7 @@ class GridSolver:
         weights = scale * np.linalg.lstsq(scale[:, None] * energy * scale, scale * on_set.sum(axis=1), rcond=1e-10)[0]
         rate = sum(c * load for c, load in zip(weights, loads, strict=True))
         rate_gap = sum(c * w for c, w in zip(weights, deflections, strict=True)) - 1
-        self.punch(inside, rate, rate_gap, _RATE_TOLERANCE)
+        self.punch(inside, rate, rate_gap, min(_RATE_TOLERANCE, np.sqrt(self.tolerance)))
         return rate, rate_gap
 
     def punch(self, inside, rate, rate_gap, tolerance):
@@ -234,7 +227,10 @@ class GridSolver:
         rate, rate_gap : q and K q − 1, flat with border. Returns Σq, corrected to second order by the residual.
         """
         places, slots = self._members(inside)
-        self._descend(rate, rate_gap, inside, places, slots, tolerance, 0.0)
+        self._descend(rate, rate_gap, inside, places, slots, max(tolerance, _SINGLE), 0.0)
+        if tolerance < _SINGLE:
+            rate_gap[:] = self._deflection(rate) - 1
+            self._descend(rate, rate_gap, inside, places, slots, tolerance, 0.0)
         return rate[places].sum() - rate[places] @ rate_gap[places]
 
     def _descend(self, pressure, gap, inside, places, slots, limit, factor):
@@ -247,38 +243,57 @@ class GridSolver:
         goal = max(limit, factor * largest)
         if largest <= limit:
             return tension
-        rows, columns = self.halfspace.shape
-        load = self.halfspace.load
+        rows, columns = self._halfspace.shape
+        load = self._halfspace.load
         load[:] = 0
         direction, stride = load.ravel(), load.shape[1]
-        norm = _precondition(gap, inside, places, self._stencil, self._width, self._result)
-        change = 0.0
-        for _ in range(_ITERATIONS):
-            _turn(direction, self._result, change, slots)
-            deflection = self.halfspace.apply().ravel()
-            length = norm / _product(direction, deflection, slots)
-            largest, tension = _step(length, direction, deflection, pressure, gap, places, slots, rows, columns, stride)
+        pattern = preconditioner.patterns(inside, places, self._before)
+        search = np.empty(places.size)
+        for _ in range(_ROUNDS):
+            known, known_deflections = self._kept.on(inside, places)
+            if len(known):
+                weights = -known @ gap[places].astype(known.dtype)
+                pressure[places] += weights @ known
+                gap += self._kept.deflection(weights)
+            near = max(goal, _LARGEST_DESCENT * largest)
+            norm, last = 0.0, np.inf
+            for _ in range(_ITERATIONS):
+                preconditioner.precondition(
+                    gap, places, pattern, preconditioner.table(), self._before, self._work, search
+                )
+                search -= (known_deflections @ search.astype(known.dtype)) @ known
+                norm = search @ gap[places]
+                _turn(direction, search, norm / last, slots)
+                deflection = self._halfspace.apply()
+                flat = deflection.ravel()
+                energy = _product(direction, flat, slots)
+                self._kept.add(places, direction[slots], deflection[:, :columns], energy)
+                length = norm / energy
+                largest, tension = _step(length, direction, flat, pressure, gap, places, slots, rows, columns, stride)
+                if largest <= near:
+                    break
+                last = norm
             if largest <= goal:
                 return tension
-            last, norm = norm, _precondition(gap, inside, places, self._stencil, self._width, self._result)
-            change = norm / last
         raise ConvergenceError(
             f"contact of {places.size} elements: the residual {largest:.1e} does not fall below {goal:.1e} "
-            f"in {_ITERATIONS} iterations; choose a larger tolerance"
+            f"in {_ROUNDS * _ITERATIONS} iterations; choose a larger tolerance"
         )
 
     def _members(self, inside):
         """Places in the bordered arrays, and in the operator's load, of the elements of the set."""
         places = np.flatnonzero(inside)
         row, column = np.divmod(places, self._width)
-        return places, (row - 1) * self.halfspace.load.shape[1] + column - 1
+        return places, (row - REACH) * self._halfspace.load.shape[1] + column - REACH
 
-    def _add_deflection(self, pressure, gap):
-        rows, columns = self.halfspace.shape
-        self.halfspace.load[:] = 0
-        self.halfspace.load[:, :columns] = pressure.reshape(rows + 2, columns + 2)[1:-1, 1:-1]
-        self._add(self.halfspace.apply(), gap)
+    def _deflection(self, pressure):
+        """K P on the flat grid, in double precision where the tolerance needs it; its border is zero."""
+        self._exact.load[:] = 0
+        self._exact.load[:, : self._width - 2 * REACH] = self._interior(pressure)
+        deflection = np.zeros_like(pressure)
+        self._interior(deflection)[:] = self._exact.apply()[:, : self._width - 2 * REACH]
+        return deflection
 
-    def _add(self, deflection, gap):
-        rows, columns = self.halfspace.shape
-        gap.reshape(rows + 2, columns + 2)[1:-1, 1:-1] += deflection[:, :columns]
+    def _interior(self, field):
+        """View of a flat field without its border, in rows and columns."""
+        return field.reshape(-1, self._width)[REACH:-REACH, REACH:-REACH]

@@ -13,7 +13,6 @@ import numpy as np
 from viscorough.contact import ContactSolver
 from viscorough.curve import ConvergenceError
 from viscorough.gradients import GridSolver
-from viscorough.halfspace import Halfspace
 from viscorough.surfaces import Indenter
 
 SCHEMES = ("explicit", "implicit")
@@ -86,7 +85,7 @@ class _Explicit:
     def __init__(self, indenter, tolerance):
         row, column = np.nonzero(np.isfinite(indenter.heights))
         gap = indenter.gaps[row, column].astype(float)
-        self._grid = GridSolver(Halfspace(*indenter.heights.shape), row, column, gap, tolerance)
+        self._grid = GridSolver(indenter.heights.shape, row, column, gap, tolerance)
         self._tolerance = tolerance
         self._gap = self._grid.gap.copy()
         self._inside = self._gap <= 0

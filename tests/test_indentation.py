@@ -237,7 +237,6 @@ def test_refuses_lines():
 def test_raises_when_it_does_not_converge(monkeypatch):
     monkeypatch.setattr("viscorough.contact._DENSE_MEMBERS", 0)
     monkeypatch.setattr("viscorough.gradients._ITERATIONS", 2)
-    monkeypatch.setattr("viscorough.gradients._ROUNDS", 1)
     with pytest.raises(ConvergenceError, match="residual"):
         indent(self_affine_disc(0.5, 33, seed=1), tolerance=1e-8, depths=[1.0])
 

@@ -1,9 +1,8 @@
-"""The sparse approximate inverse against exact ones, and the directions kept for later descents."""
+"""The sparse approximate inverse against exact ones."""
 
 import numpy as np
 import pytest
 
-from viscorough.deflation import Directions
 from viscorough.halfspace import influence_coefficient
 from viscorough.preconditioner import REACH, offsets, patterns, precondition, relief, table
 
@@ -61,29 +60,3 @@ def test_relief_is_elimination_among_the_neighbours():
     change = np.linalg.solve(matrix[np.ix_(others, others)], deflection[others]) - load[others]
     near = np.isin(np.flatnonzero(others), [6, 7, 8, 11, 13, 16, 17, 18])
     np.testing.assert_allclose(change[near], load[12] * relief().ravel()[[0, 1, 2, 3, 5, 6, 7, 8]], rtol=1e-9)
-
-
-def test_directions_serve_while_their_elements_are_in_contact():
-    places = np.arange(24).reshape(4, 6)[1:3, 1:5].ravel()
-    matrix = influence_coefficient(*(np.subtract.outer(i, i).astype(float) for i in np.divmod(np.arange(24), 6)))
-    kept = Directions(3, (2, 4), 1, np.float64)
-    for seed in range(4):
-        direction = np.zeros(24)
-        direction[places[:5]] = np.random.default_rng(seed).standard_normal(5)
-        deflection = matrix @ direction
-        kept.add(places[:5], direction[places[:5]], deflection.reshape(4, 6)[1:3, 1:5], direction @ deflection)
-
-    inside = np.zeros(24, dtype=bool)
-    inside[places[:7]] = True
-    directions, deflections = kept.on(inside, places[:7])
-    assert directions.shape == (3, 7)  # the first of four made room
-    np.testing.assert_allclose(np.sum(directions * deflections, axis=1), 1)
-    np.testing.assert_allclose(deflections, directions @ matrix[np.ix_(places[:7], places[:7])])
-    weights = np.array([1.0, -2.0, 0.5])
-    np.testing.assert_allclose(
-        kept.deflection(weights)[places], matrix[np.ix_(places, places[:7])] @ (weights @ directions)
-    )
-
-    inside[places[0]] = False
-    directions, _ = kept.on(inside, places[1:7])
-    assert directions.shape == (0, 6)

@@ -5,9 +5,6 @@ contains the solution's: between the two depths the true rate of deflection is t
 surface sinks further than predicted. Elements that come under tension leave it. Along a search direction d the
 deflection K d is known on the whole grid, so the gap is, too, everywhere and at no further cost.
 
-Directions d and deflections K d of earlier descents are kept. As contact grows, they stay within the contact set,
-so that later descents, at this level and the next ones, need not search along them again (deflation).
-
 Arrays of the grid are flat, with a border as wide as the preconditioner reaches, so that neighbours need no special
 cases.
 """
@@ -19,7 +16,6 @@ import numpy as np
 
 from viscorough import preconditioner
 from viscorough.curve import ConvergenceError
-from viscorough.deflation import Directions
 from viscorough.halfspace import Halfspace
 from viscorough.preconditioner import REACH
 
@@ -27,13 +23,9 @@ from viscorough.preconditioner import REACH
 _REVISE = 0.2
 # Relative residual of q. Force and stiffness are corrected to second order, so its square is what counts.
 _RATE_TOLERANCE = 1e-2
-# Down to this residual, relative to the depth or to 1 for q, rounding in single precision is far below.
-_SINGLE = 1e-4
-_ROUNDS, _ITERATIONS, _REVISIONS = 60, 30, 200
-# Rounding makes directions less and less conjugate; a new round starts when the residual is lower by this factor.
-_LARGEST_DESCENT = 1e-2
-# Directions kept; more of them save iterations, but cost memory and as much time (measured).
-_KEPT = 12
+# The search, and the residual, relative to the depth or to 1 for q, down to which its rounding is far below.
+_PRECISION, _SINGLE = np.float32, 1e-4
+_ITERATIONS, _REVISIONS = 2000, 200
 # Gap where there is no element; finite, since differences of gaps are taken.
 _OUTSIDE = 1e300
 
@@ -132,7 +124,7 @@ class GridSolver:
     def __init__(self, shape, row, column, gap, tolerance):
         self.tolerance = tolerance
         rows, columns = shape
-        self._halfspace = Halfspace(rows, columns, np.float32)
+        self._halfspace = Halfspace(rows, columns, _PRECISION)
         self._exact = Halfspace(rows, columns) if tolerance < _SINGLE else self._halfspace
         self._width = columns + 2 * REACH
         self._place = (row + REACH) * self._width + column + REACH
@@ -140,7 +132,6 @@ class GridSolver:
         self.gap[self._place] = gap
         self._before = preconditioner.offsets(self._width)
         self._work = np.zeros_like(self.gap)
-        self._kept = Directions(_KEPT, shape, REACH, self._halfspace.load.dtype)
 
     @property
     def operators(self):
@@ -249,35 +240,20 @@ class GridSolver:
         direction, stride = load.ravel(), load.shape[1]
         pattern = preconditioner.patterns(inside, places, self._before)
         search = np.empty(places.size)
-        for _ in range(_ROUNDS):
-            known, known_deflections = self._kept.on(inside, places)
-            if len(known):
-                weights = -known @ gap[places].astype(known.dtype)
-                pressure[places] += weights @ known
-                gap += self._kept.deflection(weights)
-            near = max(goal, _LARGEST_DESCENT * largest)
-            norm, last = 0.0, np.inf
-            for _ in range(_ITERATIONS):
-                preconditioner.precondition(
-                    gap, places, pattern, preconditioner.table(), self._before, self._work, search
-                )
-                search -= (known_deflections @ search.astype(known.dtype)) @ known
-                norm = search @ gap[places]
-                _turn(direction, search, norm / last, slots)
-                deflection = self._halfspace.apply()
-                flat = deflection.ravel()
-                energy = _product(direction, flat, slots)
-                self._kept.add(places, direction[slots], deflection[:, :columns], energy)
-                length = norm / energy
-                largest, tension = _step(length, direction, flat, pressure, gap, places, slots, rows, columns, stride)
-                if largest <= near:
-                    break
-                last = norm
+        norm, last = 0.0, np.inf
+        for _ in range(_ITERATIONS):
+            preconditioner.precondition(gap, places, pattern, preconditioner.table(), self._before, self._work, search)
+            norm = search @ gap[places]  # both with the opposite sign: the residual is −e
+            _turn(direction, search, norm / last, slots)
+            deflection = self._halfspace.apply().ravel()
+            length = norm / _product(direction, deflection, slots)
+            largest, tension = _step(length, direction, deflection, pressure, gap, places, slots, rows, columns, stride)
             if largest <= goal:
                 return tension
+            last = norm
         raise ConvergenceError(
             f"contact of {places.size} elements: the residual {largest:.1e} does not fall below {goal:.1e} "
-            f"in {_ROUNDS * _ITERATIONS} iterations; choose a larger tolerance"
+            f"in {_ITERATIONS} iterations; choose a larger tolerance"
         )
 
     def _members(self, inside):

@@ -87,16 +87,17 @@ class ContactSolver:
         nothing = np.empty(0)
         return Contact(0.0, nothing.astype(int), nothing, nothing, 0.0, 0.0, 0.0)
 
-    def next_event(self, contact):
-        """The contact at the depth at which the next elements touch.
+    def follow_events(self, contact, most, force):
+        """Depths, ΣP, Σq and elements in contact at the events that follow, and the contact at the last one.
 
-        Until then pressures grow at the constant rate q, so the depth is exact. None if no element is left, or if so
-        many touch at once that the dense solution does not pay.
+        An event is the depth at which the next elements touch. Until then pressures grow at the constant rate q, so
+        that depths are exact. Ends with `most` elements in contact or beyond the force.
         """
-        if contact.count == self.elements:
-            return None
-        depth, members = dense.next_event(self, contact)
-        return self._dense_state(depth, members) if members.size <= _DENSE_MEMBERS else None
+        *levels, members = dense.follow_events(self, contact, most, force)
+        depth, count = levels[0], levels[-1]
+        if depth.size:
+            contact = self._dense_state(depth[-1], np.sort(members[: count[-1]]))
+        return levels, contact
 
     def advance(self, contact, depth):
         """The contact at a larger depth. Raises ConvergenceError if it cannot be found to the tolerance."""

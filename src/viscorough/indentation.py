@@ -5,6 +5,8 @@ every event (the next element touching) is a level: between events the curve is 
 interpolate. Later, levels stand where interpolation between them needs them.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from viscorough.contact import ContactSolver
@@ -12,11 +14,12 @@ from viscorough.curve import LoadingCurve
 
 # Steps from level to level, as ratios of depths. A shorter one would only chase the kinks of single elements.
 _LONGEST, _FIRST = 2.0, 1.15
+_EVENTS, _MOST_EVENTS = 0.4, 400
 # No finer interpolation is offered: it would need every event, which is what viscorough.dense is for.
 _FINEST = 1e-5
 
 
-def indent(indenter, *, tolerance=1e-3, depths=None, until=0.9, until_force=np.inf):
+def indent(indenter, *, tolerance=1e-3, depths=None, start=0.0, until=0.9, until_force=np.inf):
     """Loading curve of a rigid indenter pressed without friction into an incompressible elastic half-space.
 
     Solves w = (1/4πG) ∫ p/r dA with p ≥ 0, w ≥ u − g and p (w − u + g) = 0 for the gaps g of the indenter's elements
@@ -27,6 +30,8 @@ def indent(indenter, *, tolerance=1e-3, depths=None, until=0.9, until_force=np.i
         force there is of second order in it. Also the relative error of the depth interpolated between levels by
         LoadingCurve.at_force, down to 1e-5. Between 1e-12 and 0.1
     depths : exactly these depths, increasing [length]; default: levels placed as the tolerance needs them
+    start : contact fraction from which on the curve is wanted, below `until`; before it stand only the few levels that
+        lead there, and interpolation is not held to the tolerance; ignored where depths are given
     until : contact fraction at which to stop, in (0, 1]; ignored where depths are given
     until_force : F/G at which to stop [length²]; ignored where depths are given
 
@@ -40,12 +45,14 @@ def indent(indenter, *, tolerance=1e-3, depths=None, until=0.9, until_force=np.i
         raise ValueError(f"indent: tolerance must be between 1e-12 and 0.1, not {tolerance!r}")
     if not 0 < until <= 1:
         raise ValueError(f"indent: until is a contact fraction in (0, 1], not {until!r}")
+    if not 0 <= start < until:
+        raise ValueError(f"indent: start is a contact fraction from 0 to below until, not {start!r}")
     if not until_force > 0:
         raise ValueError(f"indent: until_force must be positive, not {until_force!r}")
     solver = ContactSolver(indenter, tolerance)
     scale = 4 * np.pi * indenter.spacing
     if depths is None:
-        levels = _levels(solver, until, until_force / (scale * solver.unit), indenter.spacing)
+        levels = _levels(solver, start, until, until_force / (scale * solver.unit), indenter.spacing)
         depths = solver.unit * np.array([level.depth for level in levels])
     else:
         depths = np.atleast_1d(np.asarray(depths, dtype=float))
@@ -56,7 +63,7 @@ def indent(indenter, *, tolerance=1e-3, depths=None, until=0.9, until_force=np.i
         levels, contact = [], solver.touch()
         for depth in depths / solver.unit:
             contact = solver.advance(contact, depth)
-            levels.append(_Level(contact))
+            levels.append(_Level.of(contact))
     return LoadingCurve(
         depth=depths,
         force=scale * solver.unit * np.array([level.force for level in levels]),
@@ -70,33 +77,50 @@ def indent(indenter, *, tolerance=1e-3, depths=None, until=0.9, until_force=np.i
     )
 
 
+@dataclass(frozen=True)
 class _Level:
     """What the curve keeps of a contact: a few numbers, not its fields."""
 
-    def __init__(self, contact):
-        self.depth, self.force, self.stiffness = contact.depth, contact.force, contact.stiffness
-        self.count, self.residual = contact.count, contact.residual
+    depth: float
+    force: float
+    stiffness: float
+    count: int
+    residual: float
+
+    @classmethod
+    def of(cls, contact):
+        return cls(contact.depth, contact.force, contact.stiffness, contact.count, contact.residual)
 
 
-def _levels(solver, until, until_force, spacing):
+def _levels(solver, start, until, until_force, spacing):
     """Levels from first touch to the contact fraction or force at which to stop."""
     most = until * solver.elements
     accuracy = max(solver.tolerance, _FINEST)
-    # One more among n elements is a kink of about 1/n in the stiffness, missed over 1/n of the depth.
-    events = 0.75 / np.sqrt(accuracy)
+    # One more among n elements is a kink of about 1/n in the stiffness; so many of them are followed one by one.
+    events = int(min(_EVENTS / accuracy, _MOST_EVENTS))
     shortest = min(1.02, 1 + 200 * accuracy)
 
     # The first level lies on the straight line of first touch: nothing else is in contact before its gap is closed.
     lower = solver.gap[solver.gap > 0]
     contact = solver.advance(solver.touch(), lower[0] if lower.size else spacing)
-    levels = [_Level(contact)]
+    levels = [_Level.of(contact)]
 
     def open_end():
         return contact.count < most and contact.force < until_force
 
-    while open_end() and contact.count < events and (following := solver.next_event(contact)):
+    ratio = _LONGEST
+    while open_end() and contact.count < 0.7 * start * solver.elements:
+        # The next level must not lie beyond the start: the curve between the two is wanted in part.
+        following = solver.advance(contact, contact.depth * ratio)
+        if following.count > start * solver.elements or following.force > until_force:
+            ratio = ratio**0.5
+            continue
         contact = following
-        levels.append(_Level(contact))
+        levels.append(_Level.of(contact))
+
+    if open_end() and contact.count < events:
+        followed, contact = solver.follow_events(contact, min(events, int(np.ceil(most))), until_force)
+        levels += [_Level(*event, 0.0) for event in zip(*followed, strict=True)]
 
     # As long as two events or so; a step much longer than the one before would not be tested against it.
     ratio = np.clip((contact.depth / levels[-min(len(levels), 5)].depth) ** 0.5, shortest, _FIRST)
@@ -108,14 +132,14 @@ def _levels(solver, until, until_force, spacing):
             ahead.append(solver.advance(contact, max(min(contact.depth * ratio, enough), contact.depth * shortest)))
         error, limit, step = 0.0, shortest**2, ahead[-1].depth / contact.depth
         if len(levels) > 1:
-            error = _interpolation_error(*levels[-2:], _Level(ahead[-1]))
+            error = _interpolation_error(*levels[-2:], _Level.of(ahead[-1]))
             # An error made in the interval before does not go away by shortening this one.
             limit = max(limit, (contact.depth / levels[-2].depth) ** 0.3)
         if error > accuracy and step > limit:
             ahead.append(solver.advance(contact, contact.depth * np.sqrt(step)))
             continue
         contact = ahead.pop()
-        levels.append(_Level(contact))
+        levels.append(_Level.of(contact))
         growth = np.clip((0.7 * accuracy / max(error, 1e-30)) ** (1 / 3), 0.5, 1.6)
         ratio = np.clip(step**growth, shortest, _LONGEST)
     return levels

@@ -19,6 +19,10 @@ _DENSE_MEMBERS = 400
 _DENSE_INTERACTIONS = 2_000_000
 
 
+# Room in depth that the box of a grid has beyond the depth asked for; part of the whole grid above which it is taken.
+_ROOM, _LARGE_BOX = 1.1, 0.8
+
+
 @dataclass(frozen=True)
 class Contact:
     """State of the contact at one depth.
@@ -65,7 +69,10 @@ class ContactSolver:
         self.tolerance = tolerance
         distance = [np.arange(n, dtype=float) for n in self.shape]
         self.influence = influence_coefficient(distance[0][:, None], distance[1][None, :])
-        self._grid = None
+        # Box around the elements up to each rank: only those whose gap is below the depth can touch.
+        edges = [(np.minimum.accumulate(each), np.maximum.accumulate(each)) for each in (self.row, self.column)]
+        self._boxes = np.array([first for first, _ in edges] + [last - first + 1 for first, last in edges])
+        self._grid, self._spent = None, 0
 
     @property
     def elements(self):
@@ -74,13 +81,15 @@ class ContactSolver:
     @property
     def operators(self):
         """Applications of the half-space operator on the grid so far."""
-        return 0 if self._grid is None else self._grid.operators
+        return self._spent + (self._grid.operators if self._grid else 0)
 
     def gaps(self, contact):
         """Gap e between the surfaces at every element, by rank."""
-        if contact.fields is not None:
-            return contact.fields.gap_at(slice(None))
-        return dense.gaps(self, contact)
+        if contact.count * self.elements <= _DENSE_INTERACTIONS:
+            return dense.gaps(self, contact)
+        grid = self._grid_to(self.elements)
+        fields = contact.fields if _belongs(contact, grid) else grid.fields(contact)
+        return fields.gap_at(slice(None))
 
     def touch(self):
         """First touch: depth zero, no pressure, and no element in contact yet."""
@@ -106,11 +115,22 @@ class ContactSolver:
             members = dense.solve(self, contact, depth, candidates, _DENSE_MEMBERS)
             if members is not None:
                 return self._checked(contact, self._dense_state(depth, members))
-        if self._grid is None:
-            self._grid = gradients.GridSolver(self.shape, self.row, self.column, self.gap, self.tolerance)
-        if contact.fields is None:
-            contact = replace(contact, fields=self._grid.fields(contact))
-        return self._checked(contact, Contact(*self._grid.solve(contact, depth)))
+        grid = self._grid_to(max(candidates, 1))
+        if not _belongs(contact, grid):
+            contact = replace(contact, fields=grid.fields(contact))
+        return self._checked(contact, Contact(*grid.solve(contact, depth)))
+
+    def _grid_to(self, rank):
+        """The grid solver of a box that holds the elements up to a rank: the last one, or else a larger one."""
+        if self._grid is None or rank > self._reach:
+            # With room for some depths to come, or the whole grid where little is saved.
+            reach = max(rank, int(np.searchsorted(self.gap, _ROOM * self.gap[rank - 1])))
+            box = self._boxes[:, reach - 1]
+            if box[2] * box[3] > _LARGE_BOX * self.shape[0] * self.shape[1]:
+                reach, box = self.elements, (0, 0, *self.shape)
+            self._spent, self._reach = self.operators, reach
+            self._grid = gradients.GridSolver(tuple(map(int, box)), self.row, self.column, self.gap, self.tolerance)
+        return self._grid
 
     def _dense_state(self, depth, members):
         pressure, rate = dense.pressures(self, members, depth)
@@ -135,3 +155,8 @@ class ContactSolver:
                     "although contact can only grow; choose a smaller tolerance"
                 )
         return after
+
+
+def _belongs(contact, grid):
+    """Whether a contact has fields, and on this grid."""
+    return contact.fields is not None and contact.fields.place is grid.place

@@ -32,7 +32,7 @@ _OUTSIDE = 1e300
 
 @dataclass(frozen=True)
 class Fields:
-    """Contact on the grid, flat with border: P, gap e = w − u + g, q, and e_q = K q − 1; `place` of every rank."""
+    """Contact on the grid, flat with border: P, gap e = w − u + g, q, and e_q = K q − 1; `place` of ranks in the box."""
 
     pressure: np.ndarray
     gap: np.ndarray
@@ -115,21 +115,25 @@ def _admit(gap, inside, limit):
 
 
 class GridSolver:
-    """Contact of the elements at (row, column), in the order of increasing gap, on a grid of the given shape.
+    """Contact of the elements at (row, column), in the order of increasing gap, that lie in a box of the grid.
+
+    box : (first row, first column, rows, columns)
 
     Searches in single precision. Since what is searched for are corrections, and shrinking ones, their rounding is
     small; once a level, where the tolerance needs it, gaps are computed anew from the pressures in double precision.
     """
 
-    def __init__(self, shape, row, column, gap, tolerance):
+    def __init__(self, box, row, column, gap, tolerance):
         self.tolerance = tolerance
-        rows, columns = shape
+        top, left, rows, columns = box
         self._halfspace = Halfspace(rows, columns, _PRECISION)
         self._exact = Halfspace(rows, columns) if tolerance < _SINGLE else self._halfspace
         self._width = columns + 2 * REACH
-        self._place = (row + REACH) * self._width + column + REACH
+        in_box = (row >= top) & (row < top + rows) & (column >= left) & (column < left + columns)
+        self._ranks = np.flatnonzero(in_box)
+        self.place = np.where(in_box, (row - top + REACH) * self._width + column - left + REACH, 0)
         self.gap = np.full((rows + 2 * REACH) * self._width, _OUTSIDE)
-        self.gap[self._place] = gap
+        self.gap[self.place[self._ranks]] = gap[self._ranks]
         self._before = preconditioner.offsets(self._width)
         self._work = np.zeros_like(self.gap)
 
@@ -140,14 +144,14 @@ class GridSolver:
 
     def fields(self, contact):
         """The grid's fields of a dense solution; costs two operators."""
-        place = self._place[contact.members]
+        place = self.place[contact.members]
         pressure, rate = np.zeros_like(self.gap), np.zeros_like(self.gap)
         pressure[place], rate[place] = contact.pressure, contact.rate
         gap, rate_gap = self.gap - contact.depth, np.full_like(self.gap, -1.0)
         if contact.count:
             gap += self._deflection(pressure)
             rate_gap += self._deflection(rate)
-        return Fields(pressure, gap, rate, rate_gap, self._place)
+        return Fields(pressure, gap, rate, rate_gap, self.place)
 
     def solve(self, contact, depth):
         """The contact at a larger depth; the entries of a contact.Contact. Raises ConvergenceError."""
@@ -181,8 +185,8 @@ class GridSolver:
 
         rate, rate_gap = self._rate(before, contact.depth, pressure, gap, depth, inside, places)
         left = gap[places]
-        ranks = np.flatnonzero(inside[self._place])
-        on_set = self._place[ranks]
+        ranks = self._ranks[inside[self.place[self._ranks]]]
+        on_set = self.place[ranks]
         return (
             depth,
             ranks,
@@ -191,7 +195,7 @@ class GridSolver:
             pressure[places].sum() - rate[places] @ left,
             rate[places].sum() - rate[places] @ rate_gap[places],
             max(np.abs(left).max(), -gap.min()) / depth,
-            Fields(pressure, gap, rate, rate_gap, self._place),
+            Fields(pressure, gap, rate, rate_gap, self.place),
         )
 
     def _rate(self, before, depth_before, pressure, gap, depth, inside, places):

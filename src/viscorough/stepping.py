@@ -85,7 +85,7 @@ class _Explicit:
     def __init__(self, indenter, tolerance):
         row, column = np.nonzero(np.isfinite(indenter.heights))
         gap = indenter.gaps[row, column].astype(float)
-        self._grid = GridSolver(indenter.heights.shape, row, column, gap, tolerance)
+        self._grid = GridSolver((0, 0, *indenter.heights.shape), row, column, gap, tolerance)
         self._tolerance = tolerance
         self._gap = self._grid.gap.copy()
         self._inside = self._gap <= 0

@@ -5,7 +5,7 @@ UV ?= uv
 BIN := .venv/bin
 SNAKEMAKE := $(BIN)/snakemake --cores $(CORES)
 
-.PHONY: help environment reproduce paper report test bench lock clean
+.PHONY: help environment reproduce paper report test bench speed peers lock lock-peers clean
 
 help:
 	@echo "make reproduce   the default reproduction: figures, tables and validation in results/"
@@ -13,6 +13,8 @@ help:
 	@echo "make report      results/report.html, of what was made"
 	@echo "make test        format, lint and every test"
 	@echo "make bench       what curves, lines and the whole reproduction cost, and their errors, to results/benchmarks.json"
+	@echo "make speed       every method by speed against accuracy, to results/figures/speed.png; half an hour"
+	@echo "make peers       the other solvers that make speed compares with, in environments of their own"
 	@echo "make lock        requirements.lock anew from pyproject.toml; needs uv"
 	@echo "make clean       remove results and caches, keep the environment"
 	@echo "CORES=$(CORES) and PYTHON=$(PYTHON) may be set."
@@ -47,6 +49,11 @@ test: environment
 
 bench: environment
 	$(BIN)/python benchmarks/curves.py --reproduction --cores $(CORES) --output results/benchmarks.json
+
+speed: environment
+	$(SNAKEMAKE) speed
+
+include peers/targets.mk
 
 lock:
 	$(UV) pip compile pyproject.toml --extra build --extra workflow --extra test --universal --python-version 3.11 \

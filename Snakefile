@@ -18,11 +18,13 @@ include: "workflow/rules/common.smk"
 check_settings(config)
 DISCS = disc_cases(config)
 LINES = line_cases(config)
+PROBLEMS = method_problems(config)
 
 
 wildcard_constraints:
     case="|".join(DISCS),
     line="|".join(LINES),
+    problem="|".join(PROBLEMS),
     batch=r"\d{4}-\d{4}",
 
 
@@ -32,6 +34,7 @@ include: "workflow/rules/ensemble.smk"
 include: "workflow/rules/scaling.smk"
 include: "workflow/rules/validation.smk"
 include: "workflow/rules/figures.smk"
+include: "workflow/rules/methods.smk"
 
 
 onstart:
@@ -77,6 +80,11 @@ rule tables:
 rule validation:
     input:
         rules.check_validation.output,
+
+
+rule speed:
+    input:
+        rules.plot_methods.output,
 
 
 rule all:

@@ -40,6 +40,19 @@ def test_explicit_steps_are_of_first_order_in_the_penetration_they_allow(disc, e
     assert np.polyfit(np.log(allowed), np.log(errors), 1)[0] == pytest.approx(1.0, abs=0.25)
 
 
+def test_mean_rates_of_a_step_are_more_accurate_than_those_at_its_start(disc, events):
+    errors = {"explicit": [], "heun": []}
+    for steps in (32, 64, 128, 256):
+        impulses = np.geomspace(events.impulse[1] / 10, events.impulse[700], steps)
+        for scheme, found in errors.items():
+            marched = march_steps(disc, impulses, scheme=scheme)
+            found.append(np.sqrt(np.mean((marched.depth / events.depth_at(impulses) - 1) ** 2)))
+    ratio = np.array(errors["heun"]) / errors["explicit"]
+    assert ratio.max() < 0.8
+    assert np.exp(np.mean(np.log(ratio))) < 0.5
+    assert errors["heun"][-1] < 0.2 * errors["heun"][0]
+
+
 def test_long_explicit_steps_penetrate_deeply(disc, events):
     """The failure that the scheme is known for is there, and is told."""
     marched = march_steps(disc, np.linspace(0, events.impulse[700], 11)[1:])
@@ -59,7 +72,7 @@ def test_explicit_steps_of_any_size_are_exact_for_a_flat_punch():
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"scheme": "magic"}, "scheme must be one of explicit, implicit"),
+        ({"scheme": "magic"}, "scheme must be one of explicit, heun, implicit"),
         ({"impulses": [2.0, 1.0]}, "strictly increasing"),
         ({"impulses": [0.0, 1.0]}, "positive"),
         ({"impulses": [np.inf]}, "finite"),

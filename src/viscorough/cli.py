@@ -170,13 +170,13 @@ def kinetics(curve, force, viscosity, output):
 @click.option("-o", "--output", type=file, required=True, metavar="KIN.nc", help="File to write or replace.")
 @click.option(
     "--method",
-    type=click.Choice(["events", "explicit", "implicit"]),
+    type=click.Choice(["events", "explicit", "heun", "implicit"]),
     required=True,
-    help="From contact event to contact event, exactly; or by forward or backward Euler steps.",
+    help="From contact event to contact event, exactly; or by steps: forward Euler, Heun, backward Euler.",
 )
 @click.option("--force", type=PositiveNumber(), default=1.0, show_default=True, help="Constant force F.")
 @click.option("--viscosity", type=PositiveNumber(), default=1.0, show_default=True, help="Shear viscosity.")
-@click.option("--times", type=Increasing(), help="Ends of the steps; needed by, and only for, the Euler methods.")
+@click.option("--times", type=Increasing(), help="Ends of the steps; needed by, and only for, the methods by steps.")
 @click.option("--penetration", type=PositiveNumber(1), help="Divide explicit steps to stay below it, over the depth.")
 @click.option("--until-fraction", type=PositiveNumber(1), help="Contact fraction to stop at, of events  [default: 1]")
 def march(heights, spacing, output, method, force, viscosity, times, penetration, until_fraction):
@@ -184,7 +184,7 @@ def march(heights, spacing, output, method, force, viscosity, times, penetration
 
     HEIGHTS and units are as for indent and kinetics. KIN.nc has the dimension "level", contact events or ends of steps,
     and the variables time, depth, velocity, contact_count and penetration (of the surface by the indenter, over the
-    depth, which only the explicit method allows). This is slow, a check of the other commands: the events of 3000
+    depth, which only the explicit methods, explicit and heun, allow). This is slow, a check of the other commands: the events of 3000
     elements take seconds, memory grows with their square.
 
     \b
@@ -194,8 +194,8 @@ def march(heights, spacing, output, method, force, viscosity, times, penetration
     """
     if (method == "events") != (times is None):
         raise click.UsageError(f"--times is {'not for' if times else 'needed by'} --method {method}")
-    if penetration is not None and method != "explicit":
-        raise click.UsageError(f"--penetration is not for --method {method}; allowed: explicit")
+    if penetration is not None and method not in ("explicit", "heun"):
+        raise click.UsageError(f"--penetration is not for --method {method}; allowed: explicit, heun")
     if until_fraction is not None and method != "events":
         raise click.UsageError(f"--until-fraction is not for --method {method}; allowed: events")
     indenter, length_unit = _read_indenter(heights, spacing, output)

@@ -32,7 +32,7 @@ _OUTSIDE = 1e300
 
 @dataclass(frozen=True)
 class Fields:
-    """Contact on the grid, flat with border: P, gap e = w − u + g, q, and e_q = K q − 1; `place` of ranks in the box."""
+    """Contact on the grid, flat with border: P, gap e = w − u + g, q, and e_q = K q − 1; `place` of ranks."""
 
     pressure: np.ndarray
     gap: np.ndarray

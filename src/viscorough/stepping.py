@@ -15,7 +15,7 @@ from viscorough.curve import ConvergenceError
 from viscorough.gradients import GridSolver
 from viscorough.surfaces import Indenter
 
-SCHEMES = ("explicit", "implicit")
+SCHEMES = ("explicit", "heun", "implicit")
 _FAR = 1e290  # gaps where there is no element are larger
 
 
@@ -43,7 +43,9 @@ def march_steps(indenter, impulses, *, scheme="explicit", penetration=np.inf, to
     """Penetration of a rigid indenter into a linearly viscous half-space by steps of impulse.
 
     "explicit" (forward Euler) advances with u' = 1/(4π d Σq) and w' = u' K q, where K q = 1 on the elements that touch
-    or penetrate at the start of the step. Its error is of first order in the steps. "implicit" (backward Euler) solves,
+    or penetrate at the start of the step. Its error is of first order in the steps. "heun" takes the mean of the rates
+    before and after the step that they predict. Its error is two to five times smaller (measured on spheres and rough
+    discs), yet of first order as well: rates jump within a step, at contact events. "implicit" (backward Euler) solves,
     in every step, the contact problem of the surface as it is: ΔP ≥ 0, e + KΔP − Δu ≥ 0 and one of them zero, with
     4π d ΣΔP the impulse of the step. It is exact for steps of any size, as contact only grows.
 
@@ -67,7 +69,7 @@ def march_steps(indenter, impulses, *, scheme="explicit", penetration=np.inf, to
         raise ValueError("march_steps: impulses must be positive and strictly increasing")
     if not penetration > 0:
         raise ValueError(f"march_steps: penetration must be positive, not {penetration!r}")
-    march = {"explicit": _Explicit, "implicit": _Implicit}[scheme](indenter, tolerance)
+    march = {"explicit": _Explicit, "heun": _Heun, "implicit": _Implicit}[scheme](indenter, tolerance)
     scale, rows = 4 * np.pi * indenter.spacing, []
     for left in np.diff(impulses / scale, prepend=0.0):
         while left > 0:
@@ -130,6 +132,30 @@ class _Explicit:
         self.resistance = self._grid.punch(self._inside, self._rate, self._rate_gap, self._tolerance)
         if self._rate.min() < -self._tolerance * self._rate.max():
             raise ConvergenceError(f"march_steps: tension at depth {self.depth:g}; contact would open")
+
+
+class _Heun(_Explicit):
+    """The same with the mean of the rates at the start of the step and at its predicted end."""
+
+    def step(self, impulse):
+        """Advance by an impulse."""
+        at_start, start_gap = 1 / self.resistance, self._rate_gap / self.resistance
+        predicted = self._inside | (self._gap + impulse * start_gap <= 0)
+        if np.array_equal(predicted, self._inside):
+            super().step(impulse)
+            return
+        inside, rate, rate_gap, resistance = self._inside, self._rate.copy(), self._rate_gap.copy(), self.resistance
+        self._inside = predicted
+        self._punch()
+        self.depth += 0.5 * impulse * (at_start + 1 / self.resistance)
+        self._gap += 0.5 * impulse * (start_gap + self._rate_gap / self.resistance)
+        self.steps += 1
+        touching = inside | (self._gap <= 0)
+        if np.any(predicted & ~touching):  # it predicted too many: its rates carry load where there is no contact
+            self._rate, self._rate_gap, self.resistance = rate, rate_gap, resistance
+        if not np.array_equal(touching, predicted):
+            self._inside = touching
+            self._punch()
 
 
 class _Implicit:

@@ -94,11 +94,15 @@ def contradiction(settings):
         "number in discs.combinations": [each["number"] for each in discs["combinations"]],
         "name in variants.cases": [each["name"] for each in variants["cases"]],
         "validation.elements": settings["validation"]["elements"],
+        "methods.hurst": settings["methods"]["hurst"],
+        "methods.elements": settings["methods"]["elements"],
+        "methods.bodies_elements": settings["methods"]["bodies_elements"],
+        "name in methods.tasks": [each["name"] for each in settings["methods"]["tasks"]],
     }
     for key, values in unique.items():
         if twice := [value for value in values if values.count(value) > 1]:
             return f"{key} {twice[0]} stands twice; allowed: each once"
-    for key in ("discs.hurst", "lines.hurst"):
+    for key in ("discs.hurst", "lines.hurst", "methods.hurst"):
         for hurst in unique[key]:
             if abs(hurst * 1e4 - round(hurst * 1e4)) > 1e-6:
                 return f"{key} has {hurst}; allowed: at most four decimals"
@@ -111,6 +115,9 @@ def contradiction(settings):
         if not each["rms"] < each["diameter"] / 100:
             where = f"combination {each['number']} of discs.combinations"
             return f"rms {each['rms']} in {where} is too large; allowed: below diameter/100"
+    for each in settings["methods"]["tasks"]:
+        if each["fractions"][0] > each["fractions"][1]:
+            return f"fractions of {each['name']} in methods.tasks decrease; allowed: the first not above the second"
     for each in [{"name": "surface"}, *variants["cases"]]:
         surface = settings["surface"] | each
         wavelength = surface["roll_off_wavelength"]
@@ -175,6 +182,19 @@ def line_cases(settings):
     }
 
 
+def method_problems(settings):
+    """{problem: arguments of methods.named_problem} of every indenter on which methods are compared."""
+    methods = settings["methods"]
+    bodies = {
+        f"{body}_{n}": {"name": body, "elements": n} for body in ("sphere", "cone") for n in methods["bodies_elements"]
+    }
+    return bodies | {
+        f"rough_{hurst_id(hurst)}_{n}": {"name": "rough disc", "hurst": hurst, "elements": n}
+        for hurst in methods["hurst"]
+        for n in methods["elements"]
+    }
+
+
 def batches(case):
     """Names of a case's batches, first and last realization: 0000-0007, 0008-0015, ..."""
     number, size = case["realizations"], case["batch"]
@@ -187,6 +207,14 @@ def groups():
 
 
 # ---- params and inputs of rules
+
+
+def peers():
+    """{peer: Python of its environment, adapter}, whether or not `make peers` has built the environments."""
+    adapters, root = WORKFLOW / "peers", Path(workflow.basedir)
+    modern, slippy = (str(root / name / "bin" / "python") for name in (".venv-peers", ".venv-slippy"))
+    pythons = {"ASPHER": modern, "ContactMechanics": modern, "SlipPY": slippy, "Tamaas": modern}
+    return {name: [python, str(adapters / f"{name.lower()}_adapter.py")] for name, python in pythons.items()}
 
 
 def of_disc(name):

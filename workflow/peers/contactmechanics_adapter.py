@@ -1,0 +1,40 @@
+"""ContactMechanics: constrained conjugate gradients without restart, at given depth (Bugnicourt et al. 2018).
+
+Called as: python contactmechanics_adapter.py request.npz answer.npz (see exchange.py).
+"""
+
+from contextlib import redirect_stdout
+
+import numpy as np
+from ContactMechanics import FreeFFTElasticHalfSpace
+from ContactMechanics.Systems import NonSmoothContactSystem
+from exchange import answer_request
+from SurfaceTopography import Topography
+
+
+class ContactMechanics:
+    """The dual problem, in the forces on the elements. Of its results the forces are used, not the stored gap."""
+
+    def __init__(self, problem):
+        self.problem = problem
+        sizes = tuple(float(n) for n in problem.gap.shape)
+        self.substrate = FreeFFTElasticHalfSpace(problem.gap.shape, 4.0, sizes)
+        self.system = NonSmoothContactSystem(self.substrate, Topography(-problem.gap, sizes))
+
+    def solve(self, level, tolerance, start):
+        depth = self.problem.depths[level]
+        with redirect_stdout(None):
+            result = self.system.dual_minimize_proxy(
+                depth,
+                init_force=np.zeros(self.problem.gap.shape) if start is None else start,
+                solver="ccg-without-restart",  # "l-bfgs-b" takes half as long again
+                gtol=tolerance * depth,
+                maxiter=20_000,
+            )
+        return result.x.reshape(self.problem.gap.shape), result.nit, result.success
+
+    def displacement(self, pressure):
+        return self.substrate.evaluate_disp(-pressure)
+
+
+answer_request("ContactMechanics", ContactMechanics)

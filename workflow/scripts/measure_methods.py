@@ -1,0 +1,26 @@
+"""Cost and error of every method on one indenter."""
+
+import logging
+from pathlib import Path
+
+from threadpoolctl import threadpool_limits
+
+from viscorough.joblog import log_to
+from viscorough.methods import METHODS, measure, named_problem, peer_method
+from viscorough.peers import Peer
+from viscorough.storage import whole_or_not_at_all
+
+
+def main(csv, *, problem, seed, levels, repeats, longest, peers):
+    """Measure the methods of the package and the peers that are installed on a problem, given by its settings."""
+    present = [peer for name, paths in peers.items() if (peer := Peer(name, *map(Path, paths))).present]
+    methods = (*METHODS, *(peer_method(peer, longest) for peer in present))
+    with threadpool_limits(1):  # Snakemake gives the job all cores, so that nothing runs beside it
+        table = measure(named_problem(**problem, levels=levels, root=seed), repeats, methods, report=logging.info)
+    with whole_or_not_at_all(csv) as temporary:
+        table.to_csv(temporary, index=False)
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(**job.output, **job.params)

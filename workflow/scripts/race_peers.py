@@ -1,0 +1,38 @@
+"""The path and other solvers on the same levels, at the same residual."""
+
+import logging
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from threadpoolctl import threadpool_limits
+
+from viscorough import timing
+from viscorough.joblog import log_to
+from viscorough.peers import COLUMNS, Peer, race
+from viscorough.storage import write_table
+from viscorough.surfaces import realization_seed
+
+
+def main(csv, nc, *, seed, hurst, repeats, longest, tasks, peers):
+    """Race on every task for every Hurst exponent; peers that are not installed are left out."""
+    everyone = [Peer(name, *map(Path, paths)) for name, paths in peers.items()]
+    present = [peer for peer in everyone if peer.present]
+    for peer in set(everyone) - set(present):
+        logging.warning("%s is not installed: left out (make peers installs it)", peer.name)
+    tables = []
+    threadpool_limits(1)  # of the path, for good; Snakemake gives the job all cores, so that nothing runs beside it
+    for number, task in enumerate(tasks):
+        fractions = np.geomspace(*task["fractions"], task["levels"]) if task["levels"] > 1 else task["fractions"][:1]
+        for each in hurst:
+            common = {"threads": task["threads"], "repeats": repeats, "longest": longest, "report": logging.info}
+            disc_seed = realization_seed(seed, 5, number, round(each * 1e6))
+            race_of = (task["name"], each, task["elements"], fractions, task["residual"], present)
+            tables.append(race(*race_of, seed=disc_seed, **common))
+    title = f"The same levels by other solvers, on {timing.machine()}"
+    write_table(pd.concat(tables), csv, nc, columns=COLUMNS, dimension="measurement", title=title)
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(**job.output, **job.params)

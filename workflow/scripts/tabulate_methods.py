@@ -1,0 +1,20 @@
+"""One table of all methods on all indenters."""
+
+import pandas as pd
+
+from viscorough import timing
+from viscorough.joblog import log_to
+from viscorough.methods import COLUMNS
+from viscorough.storage import write_table
+
+
+def main(tables, csv, nc):
+    """Join the tables; the machine is in the title."""
+    table = pd.concat(map(pd.read_csv, tables), ignore_index=True)
+    title = f"Speed and accuracy of every method, on {timing.machine()}"
+    write_table(table, csv, nc, columns=COLUMNS, dimension="measurement", title=title)
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(**job.input, **job.output)

@@ -439,6 +439,8 @@ def test_march_methods_agree_with_kinetics(tmp_path):
         (["--method", "implicit", "--times", "1", "--penetration", "0.1"], "--penetration is not for"),
         (["--method", "explicit", "--times", "1", "--until-fraction", "0.1"], "--until-fraction is not for"),
         (["--method", "magic"], "magic"),
+        (["--method", "events", "--force-history", "none.csv"], "none.csv"),
+        (["--method", "events", "--force-history", "none.csv", "--force", "1"], "in place of --force and --times"),
     ],
 )
 def test_march_refuses(tmp_path, capsys, arguments, message):
@@ -449,3 +451,67 @@ def test_march_refuses(tmp_path, capsys, arguments, message):
     assert message in error
     assert error.count("\n") == 1
     assert not output.exists()
+
+
+@pytest.fixture
+def pulses(tmp_path):
+    """A force history with a ramp, a rest and a pulse; and a disc."""
+    disc = self_affine_disc(0.6, 17, seed=1)
+    np.save(tmp_path / "heights.npy", disc.heights)
+    (tmp_path / "force.csv").write_text("time,force\n1,0\n2,1e0\n4,1\n5,0\n9,0\n9.5,6\n10,0\n")
+    return disc, ["march", str(tmp_path / "heights.npy"), "--spacing", str(disc.spacing), "--viscosity", "4"]
+
+
+@pytest.mark.parametrize(
+    ("method", "tolerance"),
+    [("events", 1e-9), ("implicit", 1e-5), ("explicit --penetration 1e-3", 5e-3), ("heun --penetration 1e-3", 5e-3)],
+)
+def test_march_under_a_force_history(tmp_path, pulses, method, tolerance):
+    disc, command = pulses
+    output = tmp_path / "kin.nc"
+    history = ["--force-history", str(tmp_path / "force.csv")]
+    assert cli.main([*command, "--method", *method.split(), *history, "-o", str(output)]) == 0
+    found = xr.load_dataset(output, decode_times=False)
+    times, force = found["time"].values, found["force"].values
+    np.testing.assert_array_equal(times, [1, 2, 4, 5, 9, 9.5, 10])
+    np.testing.assert_array_equal(force, [0, 1, 1, 0, 0, 6, 0])
+    impulse = np.array([0, 0.5, 2.5, 3, 3, 4.5, 6])
+    depth = found["depth"].values
+    assert depth[0] == 0
+    np.testing.assert_array_equal(depth[3], depth[4])  # at rest
+    elastic = indentation.indent(disc, tolerance=1e-11, depths=np.unique(depth[1:]))
+    reached = np.unique(impulse[1:]) / 4
+    np.testing.assert_allclose(elastic.force, reached, rtol=3 * tolerance)
+    velocity = found["velocity"].values
+    np.testing.assert_array_equal(velocity[force == 0], 0)
+    pushed = np.searchsorted(reached, impulse[force > 0] / 4)
+    np.testing.assert_allclose(velocity[force > 0], force[force > 0] / (4 * elastic.stiffness[pushed]), rtol=0.02)
+
+
+@pytest.mark.parametrize(
+    ("history", "message"),
+    [
+        ("0,1\n1,-1\n", "sample 1 is -1.0; allowed: finite, 0 or more (without adhesion a pull opens the contact)"),
+        ("0,1\n0,1\n", "each later than the one before"),
+        ("0,0\n1,0\n", "the force is zero at all times"),
+        ("0\n1\n", "two columns, time and force"),
+        ("0,1\n1,one\n", "not readable"),
+    ],
+)
+def test_march_refuses_histories(tmp_path, pulses, capsys, history, message):
+    _, command = pulses
+    (tmp_path / "force.csv").write_text(history)
+    output = tmp_path / "kin.nc"
+    arguments = ["--method", "events", "--force-history", str(tmp_path / "force.csv"), "-o", str(output)]
+    assert cli.main([*command, *arguments]) == 2
+    error = capsys.readouterr().err
+    assert message in error
+    assert error.count("\n") == 1
+    assert not output.exists()
+
+
+def test_march_refuses_impulses_beyond_its_events(tmp_path, pulses, capsys):
+    _, command = pulses
+    arguments = ["--method", "events", "--until-fraction", "0.05", "--force-history", str(tmp_path / "force.csv")]
+    assert cli.main([*command, *arguments, "-o", str(tmp_path / "kin.nc")]) == 2
+    assert "is beyond the contact fraction at which events end; allowed: up to" in capsys.readouterr().err

@@ -174,25 +174,34 @@ def kinetics(curve, force, viscosity, output):
     required=True,
     help="From contact event to contact event, exactly; or by steps: forward Euler, Heun, backward Euler.",
 )
-@click.option("--force", type=PositiveNumber(), default=1.0, show_default=True, help="Constant force F.")
+@click.option("--force", type=PositiveNumber(), help="Constant force F  [default: 1]")
 @click.option("--viscosity", type=PositiveNumber(), default=1.0, show_default=True, help="Shear viscosity.")
 @click.option("--times", type=Increasing(), help="Ends of the steps; needed by, and only for, the methods by steps.")
+@click.option(
+    "--force-history",
+    type=file,
+    metavar="FORCE.csv",
+    help="Times and forces, two columns, in place of --force and --times: F >= 0, linear in between.",
+)
 @click.option("--penetration", type=PositiveNumber(1), help="Divide explicit steps to stay below it, over the depth.")
 @click.option("--until-fraction", type=PositiveNumber(1), help="Contact fraction to stop at, of events  [default: 1]")
-def march(heights, spacing, output, method, force, viscosity, times, penetration, until_fraction):
+def march(heights, spacing, output, method, force, viscosity, times, force_history, penetration, until_fraction):
     """Integrate the viscous problem directly in time, without its correspondence with the elastic one.
 
     HEIGHTS and units are as for indent and kinetics. KIN.nc has the dimension "level", contact events or ends of steps,
     and the variables time, depth, velocity, contact_count and penetration (of the surface by the indenter, over the
-    depth, which only the explicit methods, explicit and heun, allow). This is slow, a check of the other commands: the events of 3000
-    elements take seconds, memory grows with their square.
+    depth, which only explicit and heun allow); under a force history a level is one of its times. This is slow, a check
+    of the other commands: the events of 3000 elements take seconds, memory grows with their square.
 
     \b
     Example:
         viscorough march heights.npy --spacing 2e-6 --method events --until-fraction 0.05 -o events.nc
         viscorough march heights.npy --spacing 2e-6 --method implicit --times 1,2,4,8 -o steps.nc
+        viscorough march heights.npy --spacing 2e-6 --method heun --force-history pulses.csv -o pulses.nc
     """
-    if (method == "events") != (times is None):
+    if force_history and (force or times):
+        raise click.UsageError("--force-history is in place of --force and --times")
+    if not force_history and (method == "events") != (times is None):
         raise click.UsageError(f"--times is {'not for' if times else 'needed by'} --method {method}")
     if penetration is not None and method not in ("explicit", "heun"):
         raise click.UsageError(f"--penetration is not for --method {method}; allowed: explicit, heun")
@@ -202,22 +211,38 @@ def march(heights, spacing, output, method, force, viscosity, times, penetration
 
     import numpy as np
 
-    from viscorough import storage
+    from viscorough import storage, viscous
     from viscorough.marching import march_events
     from viscorough.stepping import march_steps
 
-    per_time = force / viscosity
+    if force_history:
+        times, history = storage.read_force_history(force_history)
+        try:
+            times, history, impulse = viscous.impulses(history, times)
+            if not impulse[-1] > 0:
+                raise ValueError("the force is zero at all times; allowed: above zero at some time")
+        except ValueError as error:
+            raise ValueError(f"{force_history}: {error}") from error
+        steps = np.unique(impulse[impulse > 0]) / viscosity
+    else:
+        force = force or 1.0
+        per_time = force / viscosity
+        steps = None if times is None else per_time * np.array(times)
     if method == "events":
         marched = march_events(indenter, until=until_fraction or 1.0)
     else:
         options = {} if penetration is None else {"penetration": penetration}
-        marched = march_steps(indenter, per_time * np.array(times), scheme=method, **options)
-    ds = storage.march_to_dataset(marched, per_time, length_unit)
+        marched = march_steps(indenter, steps, scheme=method, **options)
+    if force_history:
+        ds = storage.march_under_history(marched, times, history, impulse, viscosity, length_unit)
+        force = force_history.name
+    else:
+        ds = storage.march_to_dataset(marched, per_time, length_unit)
     about = {"method": method, "force": force, "viscosity": viscosity, "heights": heights.name, "spacing": spacing}
     storage.write_dataset(ds.assign_attrs(about), output)
     click.echo(
-        f"{output}: {ds.sizes['level']} levels, depth {marched.depth[-1]:.6g} at time {ds['time'].values[-1]:.6g} "
-        f"with {marched.contact_count[-1]} of {indenter.elements} elements in contact"
+        f"{output}: {ds.sizes['level']} levels, depth {ds['depth'].values[-1]:.6g} at time {ds['time'].values[-1]:.6g} "
+        f"with {ds['contact_count'].values[-1]} of {indenter.elements} elements in contact"
     )
 
 

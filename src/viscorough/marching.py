@@ -24,17 +24,23 @@ class Events:
     depth : u at that impulse [length]
     resistance : F/(ηv) from there to the next event [length]
     contact_count : elements in contact from there on
+    elements : number of elements of the indenter
     """
 
     impulse: np.ndarray
     depth: np.ndarray
     resistance: np.ndarray
     contact_count: np.ndarray
+    elements: int
 
     def depth_at(self, impulse):
         """Depth at given impulses ∫F dt/η, linear between events; beyond the last one its set stays in contact."""
-        i = np.searchsorted(self.impulse, impulse, side="right") - 1
+        i = self.event_at(impulse)
         return self.depth[i] + (impulse - self.impulse[i]) / self.resistance[i]
+
+    def event_at(self, impulse):
+        """Number of the last event at given impulses."""
+        return np.searchsorted(self.impulse, impulse, side="right") - 1
 
 
 def march_events(indenter, *, until=1.0):
@@ -71,7 +77,7 @@ def march_events(indenter, *, until=1.0):
     if pulling >= 0:
         raise ConvergenceError(f"march_events: tension on element {pulling} of the contact set; contact would open")
     scale = 4 * np.pi * indenter.spacing
-    return Events(scale * impulse, depth, scale * resistance, np.arange(1, most + 1))
+    return Events(scale * impulse, depth, scale * resistance, np.arange(1, most + 1), gap.size)
 
 
 @numba.njit(cache=True, fastmath=True)

@@ -260,6 +260,54 @@ def with_motion(ds, time, velocity):
     )
 
 
+def read_force_history(path):
+    """Times and forces in a file, two columns of numbers: .csv (a line of names may come first) or .npy.
+
+    Raises a one-line ValueError that names the file and what is wrong; what a history is, viscous.impulses checks.
+    """
+    if Path(path).suffix not in (".npy", ".csv"):
+        raise ValueError(f"{path}: unknown kind of file; a force history is read from .csv and .npy")
+    if Path(path).suffix == ".npy":
+        table = _npy_array(path)
+    else:
+        try:
+            lines = Path(path).read_text(encoding="utf-8").splitlines()
+            first = 1 if lines and any(letter.isalpha() for letter in lines[0].lower().replace("e", "")) else 0
+            table = np.loadtxt(lines[first:], delimiter=",", ndmin=2)
+        except (OSError, ValueError) as error:
+            raise ValueError(
+                f"{path}: not readable ({_reason(error)}); two columns, time and force, are needed"
+            ) from error
+    if table.ndim != 2 or table.shape[1] != 2 or table.shape[0] < 2 or table.dtype.kind not in "iuf":
+        raise ValueError(f"{path}: has the shape {table.shape}; two columns, time and force, and two rows are needed")
+    return table[:, 0].astype(float), table[:, 1].astype(float)
+
+
+def march_under_history(march, times, force, impulse, viscosity, length_unit="m"):
+    """A direct integration read at the times of a force history (viscous.impulses), as a Dataset over levels.
+
+    march : marching.Events, or stepping.Steps that end at every impulse/viscosity above zero
+    """
+    reached = impulse / viscosity
+    if hasattr(march, "event_at"):
+        if reached[-1] > march.impulse[-1] * (1 + 1e-10) and march.contact_count[-1] < march.elements:
+            raise ValueError(
+                f"impulse: {impulse[-1]:.6g} is beyond the contact fraction at which events end; "
+                f"allowed: up to {march.impulse[-1] * viscosity:.6g}"
+            )
+        i, depth = march.event_at(reached), march.depth_at(reached)
+    else:
+        i = np.searchsorted(march.impulse, reached * (1 - 1e-12))
+        depth = np.where(reached > 0, march.depth[i], 0.0)
+    ds = xr.Dataset(
+        attrs={"title": "Penetration of a rigid indenter under a force history, integrated directly in time"}
+    )
+    ds["depth"] = ("level", depth, _attributes("depth", length_unit))
+    ds["contact_count"] = ("level", march.contact_count[i], _attributes("contact_count", length_unit))
+    ds["force"] = ("level", force, {"long_name": "force F at that time", "units": "1"})
+    return with_motion(ds, times, force / (viscosity * march.resistance[i]))
+
+
 def march_to_dataset(march, force_per_viscosity, length_unit="m"):
     """A direct integration (marching.Events or stepping.Steps) under constant force as a Dataset over levels."""
     ds = xr.Dataset(attrs={"title": "Penetration of a rigid indenter, integrated directly in time"})

@@ -57,21 +57,30 @@ def kinetics(curve, force, viscosity, times=None):
             raise ValueError("times: missing; a force given as samples needs the time of each sample")
         return Kinetics(curve.force * viscosity / force, curve.depth, force / (viscosity * curve.stiffness))
 
-    times = np.array(times, dtype=float)
-    if times.ndim != 1 or times.size == 0 or not np.isfinite(times).all() or not (np.diff(times) > 0).all():
-        raise ValueError("times: allowed is one row of finite numbers, each later than the one before")
-    if constant:
-        if times[0] < 0:
-            raise ValueError(f"times: start at {times[0]:g}; allowed: from 0 on, where a constant force begins")
-        impulse = force * times
-    else:
-        force = _samples(force, times)
-        impulse = np.append(0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(times)))
-
+    times, force, impulse = impulses(force, times)
     depth, stiffness = _at_impulse(curve, impulse / viscosity, viscosity)
     # A resting indenter needs no stiffness, which matters before the first level.
     velocity = np.where(force == 0, 0.0, force / (viscosity * stiffness))
     return Kinetics(times, depth, velocity)
+
+
+def impulses(force, times):
+    """Times, forces and impulses ∫F dt of a force history F(t) ≥ 0, each of shape (times,).
+
+    force : a constant F > 0 from t = 0 on, or samples of shape (times,), linear in between, from times[0] on
+    times : strictly increasing
+
+    Raises ValueError for what is not a history of that kind. A force below zero would need adhesion: contact opens.
+    """
+    times = np.array(times, dtype=float)
+    if times.ndim != 1 or times.size == 0 or not np.isfinite(times).all() or not (np.diff(times) > 0).all():
+        raise ValueError("times: allowed is one row of finite numbers, each later than the one before")
+    if np.ndim(force) == 0:
+        if times[0] < 0:
+            raise ValueError(f"times: start at {times[0]:g}; allowed: from 0 on, where a constant force begins")
+        return times, np.full(times.shape, float(force)), force * times
+    force = _samples(force, times)
+    return times, force, np.append(0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(times)))
 
 
 def _samples(force, times):
@@ -80,7 +89,10 @@ def _samples(force, times):
         raise ValueError(f"force: samples of shape {force.shape}; allowed: one per time, shape {times.shape}")
     if not (np.isfinite(force) & (force >= 0)).all():
         where = int(np.argmin(np.isfinite(force) & (force >= 0)))
-        raise ValueError(f"force: sample {where} is {force[where]}; allowed: finite, 0 or more")
+        raise ValueError(
+            f"force: sample {where} is {force[where]}; "
+            "allowed: finite, 0 or more (without adhesion a pull opens the contact)"
+        )
     return force
 
 

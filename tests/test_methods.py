@@ -167,7 +167,7 @@ def test_race_takes_the_loosest_tolerance_that_meets_the_residual(peer, monkeypa
         "three levels", 0.7, 33, fractions, 1e-4, [stand_in], threads=(1, 2), repeats=1, seed=2, longest=20
     )
     assert table["solver"].tolist() == ["viscorough", "stand-in", "stand-in"]
-    assert table["tolerance"].tolist() == [1e-4, 1e-4, 1e-4] or table["tolerance"].tolist() == [1e-4, 1e-5, 1e-5]
+    assert table["tolerance"].tolist()[1] == table["tolerance"].tolist()[2] in (3e-4, 1e-4, 1e-4 / 3)
     assert (table["met"] == 1).all()
     assert table["wall_s"].tolist()[1:] == [0.5, 1.0]
     np.testing.assert_allclose(table["ratio"], table["wall_s"] / table["wall_s"][0])

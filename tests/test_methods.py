@@ -208,6 +208,8 @@ def test_a_curve_from_a_start_is_as_good_from_there_on():
     assert later.depth.size < whole.depth.size / 2
     force = np.geomspace(*np.interp([0.1, 0.5], whole.contact_fraction, whole.force), 50)[:-1]
     np.testing.assert_allclose(later.at_force(force)[0], whole.at_force(force)[0], rtol=2e-3)
+    # Where many elements touch at once there is no level close to the start.
+    assert indent(scenes.scenes(17, 0.7, 1)[0].indenter, start=0.01, until=0.5).contact_fraction[-1] >= 0.5
     with pytest.raises(ValueError, match=r"start is a contact fraction from 0 to below until, not 0\.9"):
         indent(disc, start=0.9, until=0.5)
 

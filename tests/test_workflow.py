@@ -66,7 +66,9 @@ def jobs(text):
         assert "Nothing to be done" in text
         return {}
     numbers = {name: int(number) for name, number in re.findall(r"(\w+) +(\d+)\n", table["rows"])}
-    targets = {"total", "all", "figures", "tables", "validation"} | {f"figure_{number}" for number in range(1, 5)}
+    targets = {"total", "all", "figures", "tables", "validation", "speed"} | {
+        f"figure_{number}" for number in range(1, 5)
+    }
     return {name: number for name, number in numbers.items() if name not in targets}
 
 
@@ -207,6 +209,30 @@ def test_report(finished):
 
 
 # ---- what a change reruns
+
+
+def test_speed_is_a_target_of_its_own(fresh):
+    planned = plan(fresh, *TEST, "--", "speed")
+    once = dict.fromkeys(("tabulate_methods", "race_peers", "compare_scenes", "plot_methods"), 1)
+    assert planned == once | {"measure_methods": 3}  # sphere, cone, one rough disc
+    assert not set(planned) & set(plan(fresh, *TEST))
+
+
+def test_speed_without_other_solvers(fresh):
+    """Scenes and tables of few methods, from their scripts to the figures."""
+    tasks = [{"name": "few", "elements": 17, "levels": 3, "fractions": [0.02, 0.5], "residual": 1e-6, "threads": [1]}]
+    few = {"elements": [9], "bodies_elements": [9], "tasks": tasks, "scenes": {"elements": 17, "hurst": 0.7}}
+    snakemake(fresh, *TEST, settings_file(fresh, "few", methods=few), "--", "speed")
+    for figure in ("speed", "growth", "peers", "scenes"):
+        for kind in ("png", "pdf"):
+            assert (fresh / f"results/figures/{figure}.{kind}").stat().st_size > 5000
+    methods = pd.read_csv(fresh / "results/tables/methods.csv")
+    assert set(methods["problem"]) == {"sphere", "cone", "rough disc, H = 0.4"}
+    assert not (methods["group"] == "peer").any()
+    with xr.open_dataset(fresh / "results/tables/peers.nc") as peers:
+        assert "cores" in peers.attrs["title"]
+        assert peers["solver"].values.tolist() == ["viscorough"]
+    assert "is not installed: left out" in (fresh / "results/logs/race_peers.log").read_text()
 
 
 @pytest.mark.parametrize(

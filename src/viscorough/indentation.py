@@ -109,7 +109,7 @@ def _levels(solver, start, until, until_force, spacing):
         return contact.count < most and contact.force < until_force
 
     ratio = _LONGEST
-    while open_end() and contact.count < 0.7 * start * solver.elements:
+    while open_end() and contact.count < 0.7 * start * solver.elements and ratio > shortest:
         # The next level must not lie beyond the start: the curve between the two is wanted in part.
         following = solver.advance(contact, contact.depth * ratio)
         if following.count > start * solver.elements or following.force > until_force:

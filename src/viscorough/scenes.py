@@ -19,7 +19,7 @@ from viscorough.surfaces import Indenter, self_affine_disc
 NUMBERS = (3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512)  # of hand-picked levels
 LOOSER = (1,)
 NAIVE = tuple(2**n for n in range(2, 13))
-WORST = 20  # times the automatic choice's cost, beyond which the naive one is not pursued
+BEST, WORST = 4, 20  # times the automatic choice's cost, beyond which levels by hand, and naive ones, are not pursued
 MARGIN = 0.01  # by which levels reach beyond the range, whose ends they know only to their tolerance
 PROBES = 60  # forces at which the depth is compared
 COLUMNS = {
@@ -55,7 +55,7 @@ def scenes(elements, hurst, seed):
     few = 10 / disc.elements
     return [
         Scene("one asperity", asperity, 1e-3, 0.01, 0.5),
-        Scene("region (b)", disc, 1e-3, few, 0.02),
+        Scene("region (b)", disc, 1e-3, few, max(0.02, 4 * few)),
         Scene("full curve", disc, 1e-3, few, 0.9),
         Scene("coarse question", disc, 3e-2, few, 0.9),
         Scene("fine question", disc, 1e-4, few, 0.9),
@@ -79,8 +79,9 @@ def compare(scene, repeats, report=lambda text: None):
             depths = np.geomspace(*by_hand_ends, number)
             levels = partial(indent, scene.indenter, tolerance=tolerance, depths=depths)
             row = _row(scene, "best by hand", levels, tolerance, exact)
-            if row["reached"]:  # more levels only cost more
+            if row["reached"]:
                 by_hand.append(row)
+            if row["reached"] or row["wall_s"] > BEST * rows[0]["wall_s"]:  # more levels only cost more
                 break
     report(f"{scene.name}: naive levels")
     for number in NAIVE:

@@ -10,7 +10,6 @@ import argparse
 import csv
 import json
 import os
-import platform
 import resource
 import subprocess
 import sys
@@ -25,7 +24,7 @@ import numpy as np
 import scipy.fft
 
 import viscorough
-from viscorough import indent, reduce, self_affine_disc, self_affine_line
+from viscorough import indent, reduce, self_affine_disc, self_affine_line, timing
 from viscorough.halfspace import Halfspace
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -34,16 +33,11 @@ ELEMENTS, UNTIL, UNTIL_X = 257, 0.9, 30.0
 
 def interleaved(functions, repeats):
     """Wall and processor seconds of every function, medians over interleaved repeats after one warm-up."""
-    times = {name: [] for name in functions}
-    for repeat in range(repeats + 1):
-        for name, function in functions.items():
-            wall, processor = time.perf_counter(), time.process_time()
-            function()
-            if repeat:
-                times[name].append((time.perf_counter() - wall, time.process_time() - processor))
+    for function in functions.values():
+        function()
     return {
-        name: {"wall_s": float(np.median(each, axis=0)[0]), "processor_s": float(np.median(each, axis=0)[1])}
-        for name, each in times.items()
+        name: {"wall_s": wall, "processor_s": processor}
+        for name, (wall, processor) in timing.interleaved(functions, repeats).items()
     }
 
 
@@ -138,13 +132,6 @@ def reproduction(cores):
     return result
 
 
-def processor():
-    """Name of the processor, where the system tells it."""
-    info = Path("/proc/cpuinfo")
-    names = [line.split(":")[1].strip() for line in info.read_text().splitlines() if line.startswith("model name")]
-    return names[0] if info.exists() and names else platform.processor()
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--output", type=Path, required=True, help="file to write, JSON")
@@ -153,7 +140,7 @@ def main():
     parser.add_argument("--repeats", type=int, default=5, help="repeats of which the median is taken")
     arguments = parser.parse_args()
     result = {
-        "machine": {"name": platform.node(), "processor": processor(), "cores": os.cpu_count()},
+        "machine": timing.machine(),
         "viscorough": viscorough.__version__,
         "operator_ms": operators(10 * arguments.repeats),
         "line": lines((0.1, 0.6, 0.9), 4_000_000, 3 * arguments.repeats),

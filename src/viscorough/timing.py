@@ -37,9 +37,6 @@ def with_memory(function):
 def machine():
     """Name, processor and cores of this machine, for the files that times are written to."""
     info = Path("/proc/cpuinfo")
-    names = (
-        [line.split(":")[1].strip() for line in info.read_text().splitlines() if line.startswith("model name")]
-        if (info.exists())
-        else []
-    )
+    lines = info.read_text().splitlines() if info.is_file() else []
+    names = [line.split(":")[1].strip() for line in lines if line.startswith("model name")]
     return {"name": platform.node(), "processor": names[0] if names else platform.processor(), "cores": os.cpu_count()}

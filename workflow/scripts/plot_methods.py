@@ -3,10 +3,10 @@
 from pathlib import Path
 
 import pandas as pd
-from viscorough.plotting_methods import plot_growth, plot_peers, plot_scenes, plot_speed
 
 from viscorough.joblog import log_to
 from viscorough.plotting import save_figure
+from viscorough.plotting_methods import plot_growth, plot_peers, plot_scenes, plot_speed
 
 
 def main(methods, peers, scenes, figures):

@@ -13,7 +13,7 @@ help:
 	@echo "make report      results/report.html, of what was made"
 	@echo "make test        format, lint and every test"
 	@echo "make bench       what curves, lines and the whole reproduction cost, and their errors, to results/benchmarks.json"
-	@echo "make speed       every method by speed against accuracy, to results/figures/speed.png; half an hour"
+	@echo "make speed       every method by speed against accuracy, to results/figures/speed.png; about an hour"
 	@echo "make peers       the other solvers that make speed compares with, in environments of their own"
 	@echo "make lock        requirements.lock anew from pyproject.toml; needs uv"
 	@echo "make clean       remove results and caches, keep the environment"

@@ -288,6 +288,7 @@ FINE_TOLERANCES = (*TOLERANCES, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)
 PEER_TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
 EXPLICIT = tuple(scheme for scheme in SCHEMES if scheme != "implicit")
 STEPS = (16, 64, 256, 1024)
+LARGEST = {"logarithmic": 257, "uniform": 129}  # elements across, by the spacing of steps
 SHARES = (1e-1, 3e-2, 1e-2, 3e-3)
 PARTS = {
     "path, double precision": _double_precision,
@@ -308,7 +309,9 @@ METHODS = (
     Method("events", "marching", "contact fraction", (1.0,), _events, 65),
     Method("events to 5 %", "marching", "contact fraction", (0.05,), _events, 257, rough_only=True),
     *(
-        Method(f"{scheme}, {spacing} steps", "marching", "steps", STEPS, partial(_steps, scheme, spacing), 257)
+        Method(
+            f"{scheme}, {spacing} steps", "marching", "steps", STEPS, partial(_steps, scheme, spacing), LARGEST[spacing]
+        )
         for scheme in EXPLICIT
         for spacing in ("logarithmic", "uniform")
     ),

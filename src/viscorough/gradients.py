@@ -1,9 +1,12 @@
-"""Contact on the grid by preconditioned conjugate gradients on a contact set that shrinks to its solution.
+"""Contact on the grid by preconditioned steps on a contact set that shrinks to its solution.
 
 The set to start from is the last contact set with everything that the predictor P + Δu q makes penetrate. It
 contains the solution's: between the two depths the true rate of deflection is that of a larger punch, so the
 surface sinks further than predicted. Elements that come under tension leave it. Along a search direction d the
 deflection K d is known on the whole grid, so the gap is, too, everywhere and at no further cost.
+
+While elements leave, steps have the preconditioner's own length, so that one operator serves the step and the loads
+of those that leave; once none does, steps are those of conjugate gradients.
 
 Arrays of the grid are flat, with a border as wide as the preconditioner reaches, so that neighbours need no special
 cases.
@@ -19,13 +22,14 @@ from viscorough.curve import ConvergenceError
 from viscorough.halfspace import Halfspace
 from viscorough.preconditioner import REACH
 
-# The residual is lowered by this factor between revisions of the contact set (measured: 0.1 to 0.3 are alike).
-_REVISE = 0.2
+# Length of the steps in which elements leave (measured: 0.9 to 1.2 are alike), halved every so many of them, which
+# ends what a set that the preconditioner suits badly might begin. Usually there are about ten.
+_LENGTH, _PATIENCE = 1.0, 20
 # Relative residual of q. Force and stiffness are corrected to second order, so its square is what counts.
 _RATE_TOLERANCE = 1e-2
 # The search, and the residual, relative to the depth or to 1 for q, down to which its rounding is far below.
 _PRECISION, _SINGLE = np.float32, 1e-4
-_ITERATIONS, _REVISIONS = 2000, 200
+_ITERATIONS = 2000
 # Gap where there is no element; finite, since differences of gaps are taken.
 _OUTSIDE = 1e300
 
@@ -78,21 +82,41 @@ def _turn(direction, result, factor, slots):
 
 
 @numba.njit(cache=True)
-def _release(pressure, load, inside, places, slots, relief, width, stride):
-    """Elements under tension leave the set; the change of pressure is added to the load.
+def _state(pressure, gap, places):
+    """Largest |e| on the set, and whether any pressure is negative."""
+    largest, lowest = 0.0, 0.0
+    for t in range(places.size):
+        largest = max(largest, abs(gap[places[t]]))
+        lowest = min(lowest, pressure[places[t]])
+    return largest, lowest < 0
+
+
+@numba.njit(cache=True)
+def _pulls(length, direction, pressure, places, slots):
+    """Whether a step of that length would put any element under tension."""
+    lowest = 0.0
+    for t in range(places.size):
+        lowest = min(lowest, pressure[places[t]] + length * direction[slots[t]])
+    return lowest < 0
+
+
+@numba.njit(cache=True)
+def _step_and_release(length, direction, pressure, inside, places, slots, relief, width, stride):
+    """P += α d; elements under tension leave the set. The direction becomes the whole change of pressure.
 
     Taking away a pull p < 0 lifts its neighbours off. They give away as much pressure as eliminating the element does,
     which saves iterations. None of it may make them pull.
     """
     for t in range(places.size):
-        if pressure[places[t]] < 0:
-            inside[places[t]] = False
+        direction[slots[t]] *= length
+        pressure[places[t]] += direction[slots[t]]
+        inside[places[t]] = pressure[places[t]] >= 0
     for t in range(places.size):
         i = places[t]
         if inside[i]:
             continue
         pull = pressure[i]
-        load[slots[t]] -= pull
+        direction[slots[t]] -= pull
         pressure[i] = 0.0
         for row in range(-1, 2):
             for column in range(-1, 2):
@@ -100,7 +124,7 @@ def _release(pressure, load, inside, places, slots, relief, width, stride):
                 if inside[near]:
                     change = max(pull * relief[row + 1, column + 1], -0.5 * pressure[near])
                     pressure[near] += change
-                    load[slots[t] + row * stride + column] += change
+                    direction[slots[t] + row * stride + column] += change
 
 
 @numba.njit(cache=True)
@@ -134,8 +158,7 @@ class GridSolver:
         self.place = np.where(in_box, (row - top + REACH) * self._width + column - left + REACH, 0)
         self.gap = np.full((rows + 2 * REACH) * self._width, _OUTSIDE)
         self.gap[self.place[self._ranks]] = gap[self._ranks]
-        self._before = preconditioner.offsets(self._width)
-        self._work = np.zeros_like(self.gap)
+        self._inverse = preconditioner.Preconditioner(rows + 2 * REACH, self._width)
 
     @property
     def operators(self):
@@ -162,26 +185,11 @@ class GridSolver:
         limit, finest = max(self.tolerance, _SINGLE) * depth, self.tolerance * depth
 
         _admit(gap, inside, 0.0)
-        for _ in range(_REVISIONS):
-            places, slots = self._members(inside)
-            if self._descend(pressure, gap, inside, places, slots, limit, _REVISE):
-                load = self._halfspace.load
-                load[:] = 0
-                relief = preconditioner.relief()
-                _release(pressure, load.ravel(), inside, places, slots, relief, self._width, load.shape[1])
-                self._interior(gap)[:] += self._halfspace.apply()[:, : self._halfspace.shape[1]]
-                places = places[inside[places]]
-            joined = _admit(gap, inside, limit)
-            if joined == 0 and np.abs(gap[places]).max() <= limit:
-                if limit == finest:
-                    break
-                limit, gap = finest, self._deflection(pressure) + self.gap - depth
-                _admit(gap, inside, limit)
-        else:
-            raise ConvergenceError(
-                f"contact at depth {depth:g}: the set of {places.size} elements does not settle in {_REVISIONS} "
-                "revisions; choose another tolerance"
-            )
+        places = self._search(pressure, gap, inside, limit, bounded=True)
+        if limit > finest:
+            gap = self._deflection(pressure) + self.gap - depth
+            _admit(gap, inside, finest)
+            places = self._search(pressure, gap, inside, finest, bounded=True)
 
         rate, rate_gap = self._rate(before, contact.depth, pressure, gap, depth, inside, places)
         left = gap[places]
@@ -221,43 +229,52 @@ class GridSolver:
 
         rate, rate_gap : q and K q − 1, flat with border. Returns Σq, corrected to second order by the residual.
         """
-        places, slots = self._members(inside)
-        self._descend(rate, rate_gap, inside, places, slots, max(tolerance, _SINGLE), 0.0)
+        places = self._search(rate, rate_gap, inside, max(tolerance, _SINGLE), bounded=False)
         if tolerance < _SINGLE:
             rate_gap[:] = self._deflection(rate) - 1
-            self._descend(rate, rate_gap, inside, places, slots, tolerance, 0.0)
+            self._search(rate, rate_gap, inside, tolerance, bounded=False)
         return rate[places].sum() - rate[places] @ rate_gap[places]
 
-    def _descend(self, pressure, gap, inside, places, slots, limit, factor):
-        """Conjugate gradients until max |e| on the set is below `limit`, or `factor` of its start.
+    def _search(self, pressure, gap, inside, limit, *, bounded):
+        """Pressure on the set such that |e| on it is below the limit; the places of the set.
 
-        Changes pressure on the set and gap everywhere; returns whether any pressure is negative.
+        bounded : P ≥ 0, and no penetration beyond the limit outside the set, which changes to that end.
+        Changes pressure, gap and set in place.
         """
-        largest = np.abs(gap[places]).max()
-        tension = bool((pressure[places] < 0).any())
-        goal = max(limit, factor * largest)
-        if largest <= limit:
-            return tension
         rows, columns = self._halfspace.shape
         load = self._halfspace.load
-        load[:] = 0
         direction, stride = load.ravel(), load.shape[1]
-        pattern = preconditioner.patterns(inside, places, self._before)
-        search = np.empty(places.size)
-        norm, last = 0.0, np.inf
+        changed, releases = True, 0
         for _ in range(_ITERATIONS):
-            preconditioner.precondition(gap, places, pattern, preconditioner.table(), self._before, self._work, search)
+            if changed:
+                places, slots = self._members(inside)
+                largest, tension = _state(pressure, gap, places)
+            if largest <= limit and not (bounded and tension):
+                return places
+            if changed:
+                self._inverse.prepare(inside, places)
+                load[:] = 0
+                last = np.inf
+            search = self._inverse.apply(gap)
             norm = search @ gap[places]  # both with the opposite sign: the residual is −e
             _turn(direction, search, norm / last, slots)
-            deflection = self._halfspace.apply().ravel()
-            length = norm / _product(direction, deflection, slots)
-            largest, tension = _step(length, direction, deflection, pressure, gap, places, slots, rows, columns, stride)
-            if largest <= goal:
-                return tension
-            last = norm
+            length = _LENGTH * 0.5 ** (releases // _PATIENCE)
+            if bounded and _pulls(length, direction, pressure, places, slots):
+                of_set = inside, places, slots, preconditioner.relief(), self._width, stride
+                _step_and_release(length, direction, pressure, *of_set)
+                self._interior(gap)[:] += self._halfspace.apply()[:, :columns]
+                changed, releases = True, releases + 1
+            else:
+                deflection = self._halfspace.apply().ravel()
+                length = norm / _product(direction, deflection, slots)
+                of_set = places, slots, rows, columns, stride
+                largest, tension = _step(length, direction, deflection, pressure, gap, *of_set)
+                changed, last = False, norm
+            if bounded:
+                changed = _admit(gap, inside, limit) > 0 or changed
         raise ConvergenceError(
-            f"contact of {places.size} elements: the residual {largest:.1e} does not fall below {goal:.1e} "
-            f"in {_ITERATIONS} iterations; choose a larger tolerance"
+            f"contact of {places.size} elements: the residual {largest:.1e} does not fall below {limit:.1e} "
+            f"in {_ITERATIONS} steps; choose a larger tolerance"
         )
 
     def _members(self, inside):

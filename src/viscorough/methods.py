@@ -183,9 +183,17 @@ def _single_precision_only():
 
 @contextmanager
 def _no_preconditioner():
-    identity = np.zeros_like(preconditioner.table())
-    identity[:, -1] = 1
-    with patch.object(preconditioner, "table", lambda: identity):
+    # Steps of its own length are for the whole preconditioner only.
+    itself = patch.object(preconditioner.Preconditioner, "apply", lambda level, residual: residual[level.places])
+    with itself, patch.object(gradients, "_LENGTH", 0.0):
+        yield
+
+
+@contextmanager
+def _no_blocks():
+    itself = {"apply": lambda level, residual: residual[level.places]}
+    few, many = (patch.multiple(each, **itself) for each in (preconditioner._FewBlocks, preconditioner._ManyBlocks))
+    with few, many, patch.object(gradients, "_LENGTH", 0.0):
         yield
 
 
@@ -294,6 +302,7 @@ PARTS = {
     "path, double precision": _double_precision,
     "path, single precision only": _single_precision_only,
     "path, no preconditioner": _no_preconditioner,
+    "path, preconditioner without blocks": _no_blocks,
     "path, no tangent": _no_tangent,
 }
 

@@ -252,7 +252,8 @@ class GridSolver:
             if largest <= limit and not (bounded and tension):
                 return places
             if changed:
-                self._inverse.prepare(inside, places)
+                if not np.array_equal(places, self._inverse.places):
+                    self._inverse.prepare(inside, places)
                 load[:] = 0
                 last = np.inf
             search = self._inverse.apply(gap)

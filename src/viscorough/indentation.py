@@ -14,6 +14,7 @@ from viscorough.curve import LoadingCurve
 
 # Steps from level to level, as ratios of depths. A shorter one would only chase the kinks of single elements.
 _LONGEST, _FIRST = 2.0, 1.15
+_APPROACH = 4.0  # the same, on the way to where the curve is wanted
 _EVENTS, _MOST_EVENTS = 0.4, 400
 # No finer interpolation is offered: it would need every event, which is what viscorough.dense is for.
 _FINEST = 1e-5
@@ -108,11 +109,13 @@ def _levels(solver, start, until, until_force, spacing):
     def open_end():
         return contact.count < most and contact.force < until_force
 
-    ratio = _LONGEST
+    ahead = []  # contacts at larger depths, solved already, the next one last
+    ratio = _APPROACH
     while open_end() and contact.count < 0.7 * start * solver.elements and ratio > shortest:
         # The next level must not lie beyond the start: the curve between the two is wanted in part.
         following = solver.advance(contact, contact.depth * ratio)
         if following.count > start * solver.elements or following.force > until_force:
+            ahead.append(following)
             ratio = ratio**0.5
             continue
         contact = following
@@ -121,10 +124,10 @@ def _levels(solver, start, until, until_force, spacing):
     if open_end() and contact.count < events:
         followed, contact = solver.follow_events(contact, min(events, int(np.ceil(most))), until_force)
         levels += [_Level(*event, 0.0) for event in zip(*followed, strict=True)]
+        ahead = [each for each in ahead if each.depth > shortest * contact.depth]
 
     # As long as two events or so; a step much longer than the one before would not be tested against it.
     ratio = np.clip((contact.depth / levels[-min(len(levels), 5)].depth) ** 0.5, shortest, _FIRST)
-    ahead = []  # contacts at larger depths, solved already, the next one last
     while open_end():
         if not ahead:
             # The tangent underestimates the force: the last level is at or just beyond the force to stop at.

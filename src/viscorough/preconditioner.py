@@ -62,6 +62,12 @@ def table():
 
 
 @cache
+def _sums():
+    """Row sums of the table."""
+    return table().sum(axis=1)
+
+
+@cache
 def relief():
     """Load that the eight neighbours of an element take over when it leaves the contact, per load; shape (3, 3).
 
@@ -167,6 +173,7 @@ class Preconditioner(_Level):
     """M ≈ K⁻¹ for one contact set after the other, on a flat grid with border of the given height and width."""
 
     def __init__(self, height, width):
+        self.places = np.empty(0, dtype=int)
         self._before, self._work = offsets(width), np.zeros(height * width)
         across = -(-max(height, width) // _SIDE)
         self._blocks = _block(height, width, _SIDE, REACH, across)
@@ -175,7 +182,7 @@ class Preconditioner(_Level):
     def prepare(self, inside, places):
         """For a set: flags on the grid, and its places."""
         patterns, weights = np.empty(places.size, np.int16), np.empty(places.size)
-        _survey(inside, places, self._before, table().sum(axis=1), patterns, weights)
+        _survey(inside, places, self._before, _sums(), patterns, weights)
         self._finish(places, patterns, table(), weights, self._blocks[places])
 
 

@@ -5,7 +5,7 @@ UV ?= uv
 BIN := .venv/bin
 SNAKEMAKE := $(BIN)/snakemake --cores $(CORES)
 
-.PHONY: help environment reproduce paper report test bench speed peers lock lock-peers clean
+.PHONY: help environment reproduce paper report test bench speed stability chaos peers lock lock-peers clean
 
 help:
 	@echo "make reproduce   the default reproduction: figures, tables and validation in results/"
@@ -14,6 +14,8 @@ help:
 	@echo "make test        format, lint and every test"
 	@echo "make bench       what curves, lines and the whole reproduction cost, and their errors, to results/benchmarks.json"
 	@echo "make speed       every method by speed against accuracy, to results/figures/speed.png; about an hour"
+	@echo "make stability   where each method fails, and 12000 small indenters against a dense solution; six minutes"
+	@echo "make chaos       a reproduction killed 50 times; its tables compared with an undisturbed one"
 	@echo "make peers       the other solvers that make speed compares with, in environments of their own"
 	@echo "make lock        requirements.lock anew from pyproject.toml; needs uv"
 	@echo "make clean       remove results and caches, keep the environment"
@@ -52,6 +54,13 @@ bench: environment
 
 speed: environment
 	$(SNAKEMAKE) speed
+
+stability: environment
+	$(SNAKEMAKE) stability
+	$(BIN)/python benchmarks/campaign.py --output results/campaign.json
+
+chaos: environment
+	$(BIN)/python benchmarks/chaos.py --output results/chaos.json
 
 include peers/targets.mk
 

@@ -35,6 +35,7 @@ include: "workflow/rules/scaling.smk"
 include: "workflow/rules/validation.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/methods.smk"
+include: "workflow/rules/stability.smk"
 
 
 onstart:
@@ -85,6 +86,11 @@ rule validation:
 rule speed:
     input:
         rules.plot_methods.output,
+
+
+rule stability:
+    input:
+        rules.plot_stability.output,
 
 
 rule all:

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
@@ -107,8 +107,9 @@ def test_few_points_are_exact_everywhere(gaps):
     )
 )
 @settings(max_examples=150, deadline=None)
+@example(np.array([0.0, -0.0], dtype=np.float32))
 def test_any_line(heights):
-    """Ties, plateaus, spikes, one point."""
+    """Ties, plateaus, spikes, one point, zeros of either sign."""
     line = Indenter(heights, 0.5)
     curve = reduce(line)
     assert curve.depth.size >= 2

@@ -96,6 +96,9 @@ def merged(base, extra):
     return base | {key: merged(base.get(key), value) for key, value in extra.items()}
 
 
+STABILITY = dict.fromkeys(("measure_stability", "measure_stability_curves", "plot_stability"), 1)
+
+
 @pytest.fixture(scope="session")
 def finished(tmp_path_factory):
     """A project after one full run of the small settings. Tests must leave its results complete."""
@@ -216,6 +219,23 @@ def test_speed_is_a_target_of_its_own(fresh):
     once = dict.fromkeys(("tabulate_methods", "race_peers", "compare_scenes", "plot_methods"), 1)
     assert planned == once | {"measure_methods": 3}  # sphere, cone, one rough disc
     assert not set(planned) & set(plan(fresh, *TEST))
+
+
+def test_stability_is_a_target_of_its_own(fresh):
+    assert plan(fresh, *TEST, "--", "stability") == STABILITY | {"stability": 1}
+    assert not set(STABILITY) & set(plan(fresh, *TEST))
+
+
+def test_stability(fresh):
+    """From scripts to figures, on the smallest maps."""
+    snakemake(fresh, *TEST, "--", "stability")
+    for figure in ("stability", "stability_curves"):
+        for kind in ("png", "pdf"):
+            assert (fresh / f"results/figures/{figure}.{kind}").stat().st_size > 5000
+    atlas = pd.read_csv(fresh / "results/tables/stability.csv")
+    with xr.open_dataset(fresh / "results/tables/stability.nc") as nc:
+        assert nc["verdict"].values.tolist() == atlas["verdict"].tolist()
+    assert "unnoticed" not in set(atlas["verdict"])
 
 
 def test_speed_without_other_solvers(fresh):

@@ -13,7 +13,9 @@ from pathlib import Path
 
 import click
 
-from viscorough.curve import ConvergenceError
+from viscorough.curve import AccuracyWarning, ConvergenceError
+
+_STEEP = 0.3  # rms slope from which on users are warned
 
 
 class PositiveNumber(click.ParamType):
@@ -102,7 +104,7 @@ def indent(heights, spacing, output, depths, tolerance, until_fraction):
     stop = {"until": until_fraction} if until_fraction else {}
     curve = indent(indenter, tolerance=tolerance, depths=depths, **stop)
     ds = storage.curve_to_dataset(curve, length_unit)
-    storage.write_dataset(ds.assign_attrs(heights=heights.name, spacing=spacing), output)
+    _write(ds, output, heights=heights.name, spacing=spacing)
     click.echo(
         f"{output}: {curve.depth.size} levels, the last at depth {curve.depth[-1]:.6g} "
         f"with {curve.contact_fraction[-1]:.4g} of {curve.elements} elements in contact"
@@ -116,7 +118,24 @@ def _read_indenter(heights, spacing, output):
     target = storage.check_output(output)
     if target.exists() and heights.exists() and target.samefile(heights):
         raise ValueError(f"{output}: would replace the heights; another name is needed")
-    return storage.read_heights(heights, spacing), storage.length_unit_of(heights)
+    indenter = storage.read_heights(heights, spacing)
+    if (slope := indenter.rms_slope) > _STEEP:
+        text = f"{heights}: its rms slope is {slope:.2g}; the theory is that of small slopes, below about {_STEEP}"
+        warnings.warn(text, AccuracyWarning, stacklevel=1)
+    return indenter, storage.length_unit_of(heights)
+
+
+def _texts(caught):
+    return list(dict.fromkeys(" ".join(str(warning.message).split()) for warning in caught))
+
+
+def _write(ds, output, **attributes):
+    """Write a dataset with attributes, and the warnings up to here in one of them."""
+    from viscorough import storage
+
+    if texts := _texts(click.get_current_context().obj):
+        attributes["warnings"] = "; ".join(texts)
+    storage.write_dataset(ds.assign_attrs(attributes), output)
 
 
 @cli.command(short_help="Penetration over time under a constant force.")
@@ -239,7 +258,7 @@ def march(heights, spacing, output, method, force, viscosity, times, force_histo
     else:
         ds = storage.march_to_dataset(marched, per_time, length_unit)
     about = {"method": method, "force": force, "viscosity": viscosity, "heights": heights.name, "spacing": spacing}
-    storage.write_dataset(ds.assign_attrs(about), output)
+    _write(ds, output, **about)
     click.echo(
         f"{output}: {ds.sizes['level']} levels, depth {ds['depth'].values[-1]:.6g} at time {ds['time'].values[-1]:.6g} "
         f"with {ds['contact_count'].values[-1]} of {indenter.elements} elements in contact"
@@ -267,13 +286,15 @@ def main(arguments=None):
     try:
         with (
             warnings.catch_warnings(record=True) as caught,
-            cli.make_context("viscorough", list(sys.argv[1:] if arguments is None else arguments)) as context,
+            cli.make_context(
+                "viscorough", list(sys.argv[1:] if arguments is None else arguments), obj=caught
+            ) as context,
         ):
             try:
                 cli.invoke(context)
             finally:
                 command = f"{command} {context.invoked_subcommand or ''}".rstrip()
-        for text in dict.fromkeys(" ".join(str(warning.message).split()) for warning in caught):
+        for text in _texts(caught):
             click.echo(f"{command}: warning: {text}", err=True)
     except click.exceptions.Exit as done:
         return done.exit_code

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from viscorough import dense, gradients
+from viscorough import dense, gradients, memory
 from viscorough.curve import ConvergenceError
 from viscorough.halfspace import influence_coefficient
 
@@ -18,7 +18,8 @@ from viscorough.halfspace import influence_coefficient
 _DENSE_MEMBERS = 400
 _DENSE_INTERACTIONS = 2_000_000
 
-
+# Memory that a contact takes at most per point of the map (measured).
+_BYTES = 400
 # Room in depth that the box of a grid has beyond the depth asked for; part of the whole grid above which it is taken.
 _ROOM, _LARGE_BOX = 1.1, 0.8
 
@@ -56,6 +57,7 @@ class ContactSolver:
     """
 
     def __init__(self, indenter, tolerance):
+        memory.require(_BYTES * indenter.heights.size, f"contact of a map of {indenter.heights.shape} heights")
         rows, columns = np.nonzero(np.isfinite(indenter.heights))
         top, left = rows.min(), columns.min()
         gap = indenter.gaps[rows, columns].astype(float)

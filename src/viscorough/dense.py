@@ -4,14 +4,14 @@ Elements are named by their rank in the order of increasing gap, so that those w
 depth are the first ones.
 """
 
-import numba
 import numpy as np
 import scipy.linalg
 
+from viscorough.compilation import njit
 from viscorough.curve import ConvergenceError
 
 
-@numba.njit(cache=True)
+@njit
 def _matrix(influence, row, column, members):
     """Influence matrix K of the members, shape (count, count)."""
     n = members.size
@@ -24,7 +24,7 @@ def _matrix(influence, row, column, members):
     return matrix
 
 
-@numba.njit(cache=True)
+@njit
 def _deflections(influence, row, column, members, load, start, stop):
     """Σ_j K_ij load_j at the elements of rank start ≤ i < stop, for every row of load; shape (loads, stop − start)."""
     result = np.zeros((load.shape[0], stop - start))
@@ -103,7 +103,7 @@ def follow_events(problem, contact, most, force):
     return depth[complete], total[complete], stiffness[complete], count[complete], members
 
 
-@numba.njit(cache=True, fastmath=True)
+@njit(fastmath=True)
 def _follow(influence, row, column, gap, depth, start, pressure, most, force):
     factor, members = np.empty((most, most)), np.empty(most, np.int64)
     forward, rate, load = np.zeros(most), np.zeros(most), np.zeros(most)
@@ -149,7 +149,7 @@ def _follow(influence, row, column, gap, depth, start, pressure, most, force):
     return depths[:events], totals[:events], stiffnesses[:events], members[:count]
 
 
-@numba.njit(cache=True, fastmath=True)
+@njit(fastmath=True)
 def _append(factor, influence, row, column, members, count, element, forward):
     """Add an element to the set: a row of the Cholesky factor L, and the entry of L⁻¹·1 that belongs to it."""
     new = factor[count]
@@ -170,7 +170,7 @@ def _append(factor, influence, row, column, members, count, element, forward):
     members[count] = element
 
 
-@numba.njit(cache=True, fastmath=True)
+@njit(fastmath=True)
 def _rates(factor, count, forward, rate):
     """q = L⁻ᵀ (L⁻¹·1) of the set; returns its sum."""
     rate[:count] = forward[:count]

@@ -14,10 +14,10 @@ cases.
 
 from dataclasses import dataclass
 
-import numba
 import numpy as np
 
 from viscorough import preconditioner
+from viscorough.compilation import njit
 from viscorough.curve import ConvergenceError
 from viscorough.halfspace import Halfspace
 from viscorough.preconditioner import REACH
@@ -49,7 +49,7 @@ class Fields:
         return self.gap[self.place[ranks]]
 
 
-@numba.njit(cache=True, fastmath=True)
+@njit(fastmath=True)
 def _product(left, right, slots):
     """Σ left·right over the contact set, for arrays laid out as the operator's load."""
     total = 0.0
@@ -58,7 +58,7 @@ def _product(left, right, slots):
     return total
 
 
-@numba.njit(cache=True, fastmath=True)
+@njit(fastmath=True)
 def _step(length, direction, deflection, pressure, gap, places, slots, rows, columns, stride):
     """P += α d on the set, e += α K d everywhere; returns largest |e| on the set and whether any P is negative."""
     for i in range(rows):
@@ -74,14 +74,14 @@ def _step(length, direction, deflection, pressure, gap, places, slots, rows, col
     return largest, lowest < 0
 
 
-@numba.njit(cache=True, fastmath=True)
+@njit(fastmath=True)
 def _turn(direction, result, factor, slots):
     """d = β d − z on the set."""
     for t in range(slots.size):
         direction[slots[t]] = factor * direction[slots[t]] - result[t]
 
 
-@numba.njit(cache=True)
+@njit
 def _state(pressure, gap, places):
     """Largest |e| on the set, and whether any pressure is negative."""
     largest, lowest = 0.0, 0.0
@@ -91,7 +91,7 @@ def _state(pressure, gap, places):
     return largest, lowest < 0
 
 
-@numba.njit(cache=True)
+@njit
 def _pulls(length, direction, pressure, places, slots):
     """Whether a step of that length would put any element under tension."""
     lowest = 0.0
@@ -100,7 +100,7 @@ def _pulls(length, direction, pressure, places, slots):
     return lowest < 0
 
 
-@numba.njit(cache=True)
+@njit
 def _step_and_release(length, direction, pressure, inside, places, slots, relief, width, stride):
     """P += α d; elements under tension leave the set. The direction becomes the whole change of pressure.
 
@@ -127,7 +127,7 @@ def _step_and_release(length, direction, pressure, inside, places, slots, relief
                     direction[slots[t] + row * stride + column] += change
 
 
-@numba.njit(cache=True)
+@njit
 def _admit(gap, inside, limit):
     """Elements that penetrate by more than `limit` join the set; returns how many."""
     joined = 0

@@ -4,8 +4,9 @@ from functools import lru_cache
 from itertools import pairwise
 
 import ducc0
-import numba
 import numpy as np
+
+from viscorough.compilation import njit, vectorize
 
 # Beyond this distance (in elements) the series below is more accurate than the difference of logarithms.
 _FAR = 30
@@ -16,7 +17,7 @@ _BLOCK = 128
 _PADDING = 16
 
 
-@numba.vectorize(["float64(float64, float64)"], cache=True)
+@vectorize(["float64(float64, float64)"])
 def influence_coefficient(x, y):
     """K(x, y): displacement at distance (x, y), in element sides, of a unit square under uniform pressure.
 
@@ -48,7 +49,7 @@ def influence_coefficient(x, y):
     return total
 
 
-@numba.njit(cache=True)
+@njit
 def _multiply(spectrum, kernel):
     """spectrum ·= kernel; numpy would convert the real kernel to complex numbers first."""
     for i in range(kernel.shape[0]):

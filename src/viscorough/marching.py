@@ -6,12 +6,12 @@ v = F/(4π d η Σq), and everything outside sinks at v K q. Depth, pressure imp
 the impulse ∫F dt, so the next element to touch, and when, is known exactly: an event.
 """
 
-import os
 from dataclasses import dataclass
 
-import numba
 import numpy as np
 
+from viscorough import memory
+from viscorough.compilation import njit
 from viscorough.curve import ConvergenceError
 from viscorough.halfspace import influence_coefficient
 
@@ -67,12 +67,7 @@ def march_events(indenter, *, until=1.0):
     distance = [np.arange(n, dtype=float) for n in indenter.heights.shape]
     influence = influence_coefficient(distance[0][:, None], distance[1][None, :])
     most = max(1, int(np.ceil(until * gap.size)))
-    needed, memory = 8 * most**2, os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    if needed > memory / 2:
-        raise MemoryError(
-            f"march_events: {most} elements in contact take {needed / 1e9:.1f} GB, half of this machine's "
-            f"{memory / 1e9:.1f} GB are allowed; a smaller contact fraction helps"
-        )
+    memory.require(8 * most**2, f"march_events: the factor for {most} elements in contact")
     impulse, depth, resistance, pulling = _march(influence, row[order], column[order], gap[order], most)
     if pulling >= 0:
         raise ConvergenceError(f"march_events: tension on element {pulling} of the contact set; contact would open")
@@ -80,7 +75,7 @@ def march_events(indenter, *, until=1.0):
     return Events(scale * impulse, depth, scale * resistance, np.arange(1, most + 1), gap.size)
 
 
-@numba.njit(cache=True, fastmath=True)
+@njit(fastmath=True)
 def _respond(influence, row, column, members, count, first, second, element):
     """Σ_j K_ij first_j and Σ_j K_ij second_j over the contact set, at one element i."""
     a, b = 0.0, 0.0
@@ -92,7 +87,7 @@ def _respond(influence, row, column, members, count, first, second, element):
     return a, b
 
 
-@numba.njit(cache=True, fastmath=True)
+@njit(fastmath=True)
 def _append(factor, influence, row, column, members, count, element, forward):
     """Add an element to the set: a row of the Cholesky factor L, and the entry of L⁻¹·1 that belongs to it."""
     new = factor[count]
@@ -113,7 +108,7 @@ def _append(factor, influence, row, column, members, count, element, forward):
     members[count] = element
 
 
-@numba.njit(cache=True, fastmath=True)
+@njit(fastmath=True)
 def _rates(factor, count, forward, rate):
     """q = L⁻ᵀ (L⁻¹·1) of the contact set; returns its sum."""
     rate[:count] = forward[:count]
@@ -128,7 +123,7 @@ def _rates(factor, count, forward, rate):
     return total
 
 
-@numba.njit(cache=True)
+@njit
 def _march(influence, row, column, gap, most):
     """Impulse/(4π d), depth and Σq at every event; and the place in the set of an element under tension, or −1."""
     elements = gap.size

@@ -17,10 +17,10 @@ found in the same way, from blocks of blocks, down to few enough for a dense one
 
 from functools import cache
 
-import numba
 import numpy as np
 import scipy.linalg
 
+from viscorough.compilation import njit
 from viscorough.halfspace import influence_coefficient
 
 # Rows and columns by which neighbours reach out: the width of the border that grids need.
@@ -78,7 +78,7 @@ def relief():
     return -inverse[12].reshape(5, 5)[1:-1, 1:-1] / inverse[12, 12]
 
 
-@numba.njit(cache=True)
+@njit
 def _survey(inside, places, before, sums, patterns, weights):
     """Pattern of neighbours in contact, and row sum of G, of every element of the set."""
     for t in range(places.size):
@@ -89,7 +89,7 @@ def _survey(inside, places, before, sums, patterns, weights):
         patterns[t], weights[t] = pattern, sums[pattern]
 
 
-@numba.njit(cache=True)
+@njit
 def _factorise(amplitude, places, before, kernel, rows, weights):
     """Rows of G for 1 + a K a between blocks, and G a. `kernel` is K between those of a row, the block itself last."""
     count = before.size + 1
@@ -111,7 +111,7 @@ def _factorise(amplitude, places, before, kernel, rows, weights):
             weights[t] += row[i] * amplitude[near[i]]
 
 
-@numba.njit(cache=True)
+@njit
 def _normalise(weights, blocks, squares):
     """Weights to unit length in every block, and the squares of their lengths before."""
     squares[:] = 0
@@ -121,7 +121,7 @@ def _normalise(weights, blocks, squares):
         weights[t] /= np.sqrt(squares[blocks[t]])
 
 
-@numba.njit(cache=True, fastmath=True)
+@njit(fastmath=True)
 def _gather(residual, places, index, rows, before, weights, blocks, values, loads):
     """values = G r on the set, and loads = Wᵀ G r of the blocks."""
     last = before.size
@@ -135,7 +135,7 @@ def _gather(residual, places, index, rows, before, weights, blocks, values, load
         loads[blocks[t]] += weights[t] * value
 
 
-@numba.njit(cache=True, fastmath=True)
+@njit(fastmath=True)
 def _spread(places, index, rows, before, weights, blocks, values, loads, work):
     """values = Gᵀ (values − W loads); `work` is a grid of zeros and left so."""
     last = before.size

@@ -6,8 +6,8 @@ solved or marched in time: the curve follows from the sorted gaps, and narrow bi
 """
 
 import numpy as np
-from numba import njit
 
+from viscorough.compilation import njit
 from viscorough.curve import LoadingCurve
 
 _OCTAVES = 128  # binned below the largest gap; what is closer to the highest point counts as high as that
@@ -85,7 +85,7 @@ def _binned_gaps(heights, bins_per_octave):
     if heights.dtype not in (np.float32, np.float64):
         heights = heights.astype(float)
     heights = np.ascontiguousarray(heights)
-    highest = heights.max()
+    highest = heights.max() + heights.dtype.type(0)  # -0.0 would give gaps with the bit of a sign
     shift = np.uint64(52 - (bins_per_octave.bit_length() - 1))
     top = int(np.float64(highest - heights.min()).view(np.uint64) >> shift)
     base = max(0, top - _OCTAVES * bins_per_octave)
@@ -96,7 +96,7 @@ def _binned_gaps(heights, bins_per_octave):
     return edges, counts.astype(np.int64), sums
 
 
-@njit(cache=True)
+@njit
 def _bin_gaps(heights, highest, shift, base, table):
     """Add number and sum of the gaps of every bin to table[bin, lane, :]."""
     for i in range(heights.size):

@@ -6,16 +6,19 @@ The explicit scheme holds the contact set over a step and lets elements that sho
 the implicit one demands contact without penetration at the end of the step.
 """
 
+import warnings
 from dataclasses import dataclass
 
 import numpy as np
 
 from viscorough.contact import ContactSolver
-from viscorough.curve import ConvergenceError
+from viscorough.curve import AccuracyWarning, ConvergenceError
 from viscorough.gradients import GridSolver
 from viscorough.surfaces import Indenter
 
 SCHEMES = ("explicit", "heun", "implicit")
+# Penetration over depth from which on users are warned: the error of the depth is about as large (measured).
+_WARN = 0.01
 _FAR = 1e290  # gaps where there is no element are larger
 
 
@@ -56,7 +59,8 @@ def march_steps(indenter, impulses, *, scheme="explicit", penetration=np.inf, to
         over the depth
     tolerance : residual of the contact problems, as in indent
 
-    Returns Steps. Raises ValueError for arguments out of range, ConvergenceError if a contact problem is not solved.
+    Returns Steps. Warns (AccuracyWarning) where steps let the indenter penetrate the surface by more than 1 % of the
+    depth. Raises ValueError for arguments out of range, ConvergenceError if a contact problem is not solved.
     """
     impulses = np.atleast_1d(np.asarray(impulses, dtype=float))
     if indenter.heights.ndim != 2:
@@ -78,6 +82,14 @@ def march_steps(indenter, impulses, *, scheme="explicit", penetration=np.inf, to
             left -= step
         rows.append((march.depth, march.resistance, march.count, march.penetration))
     depth, resistance, count, deepest = np.array(rows).T
+    if deepest.max() > _WARN:
+        warnings.warn(
+            f"march_steps: with these steps the indenter penetrates the surface by up to {deepest.max():.2g} of its "
+            "depth, which is about the error of the depth; more steps, a smaller penetration per step or the implicit "
+            "scheme help",
+            AccuracyWarning,
+            stacklevel=2,
+        )
     return Steps(impulses, depth, scale * resistance, count.astype(int), deepest, march.steps)
 
 

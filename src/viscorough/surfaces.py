@@ -12,7 +12,10 @@ from numbers import Integral
 import numpy as np
 from ducc0 import fft
 
+from viscorough import memory
+
 _BLOCK = 16384  # points of a line worked on at a time: arrays of this length stay in the cache
+_BYTES, _COPIES = 100, 2.1  # taken at most per point of a square, and times the heights of a line (measured)
 
 
 @dataclass(frozen=True)
@@ -51,6 +54,16 @@ class Indenter:
     def elements(self):
         """Number of elements: points that are not nan."""
         return int(np.count_nonzero(~np.isnan(self.heights)))
+
+    @property
+    def rms_slope(self):
+        """Root mean square of the slope |∇h| [1], from differences of neighbours; that of one element is 0."""
+        squares = 0.0
+        for axis in range(self.heights.ndim):
+            difference = np.diff(self.heights, axis=axis) / self.spacing
+            if np.isfinite(difference).any():
+                squares += np.nanmean(difference**2)
+        return float(np.sqrt(squares))
 
     @property
     def gaps(self):
@@ -135,6 +148,7 @@ def self_affine_square(
     image. Raises ValueError for values outside the allowed ranges.
     """
     points = _whole("points", points, at_least=2)
+    memory.require(_BYTES * points**2, f"a surface of {points} x {points} points")
     exponent = _hurst(hurst) + 1
     longest, level = _roll_off(roll_off_wavelength, roll_off_level, points)
     fixed = _fixed(amplitudes)
@@ -196,6 +210,7 @@ def self_affine_line(
     fixed = _fixed(amplitudes)
     if (real := np.dtype(dtype)) not in (np.float32, np.float64):
         raise ValueError(f"dtype: must be float32 or float64, not {real}")
+    memory.require(_COPIES * real.itemsize * points, f"a line of {points} points")
 
     # the spectrum stands where the heights will: the mean, then cosine and sine of wave after wave
     packed = np.empty(1 + 2 * (points // 2), real)

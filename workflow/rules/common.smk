@@ -97,12 +97,13 @@ def contradiction(settings):
         "methods.hurst": settings["methods"]["hurst"],
         "methods.elements": settings["methods"]["elements"],
         "methods.bodies_elements": settings["methods"]["bodies_elements"],
+        **{f"stability.{key}": settings["stability"][key] for key in ("grids", "discs", "lines", "hurst")},
         "name in methods.tasks": [each["name"] for each in settings["methods"]["tasks"]],
     }
     for key, values in unique.items():
         if twice := [value for value in values if values.count(value) > 1]:
             return f"{key} {twice[0]} stands twice; allowed: each once"
-    for key in ("discs.hurst", "lines.hurst", "methods.hurst"):
+    for key in ("discs.hurst", "lines.hurst", "methods.hurst", "stability.hurst"):
         for hurst in unique[key]:
             if abs(hurst * 1e4 - round(hurst * 1e4)) > 1e-6:
                 return f"{key} has {hurst}; allowed: at most four decimals"

@@ -1,0 +1,232 @@
+"""Kill the workflow again and again, and see whether it ends with what an undisturbed run makes.
+
+    python benchmarks/chaos.py --kills 50 --seed 1 --output results/chaos.json
+
+A run of the small settings from nothing is killed (SIGKILL) after a random time, all of it or one of its jobs, and
+started again, until it finishes. Then there must be the files of an undisturbed run and no others, equal to the last
+byte: figures, tables, ensembles and curves. Of logs and benchmarks, which hold times, only the names must agree.
+"""
+
+import contextlib
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from collections import Counter
+from pathlib import Path
+
+import click
+import numpy as np
+import psutil
+
+import viscorough
+from viscorough import timing
+from viscorough.storage import read_dataset
+
+ROOT = Path(__file__).resolve().parents[1]
+SNAKEMAKE = [sys.executable, "-m", "snakemake", "--cores", "2", "--nocolor", "--configfile", "config/test.yaml"]
+# The longest wait for a kill, as a share of an undisturbed run: kills follow each other in the same run, so that they
+# fall on its end as often as on its beginning, and most runs are killed several times.
+LONGEST_WAIT = 1 / 3
+HANGS = 600  # seconds after which a run will not end by itself
+
+
+def copy_project(folder):
+    """What git tracks or would, and numba's caches beside the modules: compiling would take most of the time."""
+    tracked = subprocess.run(
+        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+        cwd=ROOT,
+        stdout=subprocess.PIPE,
+        text=True,
+        check=True,
+    ).stdout
+    for name in tracked.rstrip("\0").split("\0"):
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(ROOT / name, folder / name)
+    caches = Path("src/viscorough/__pycache__")
+    if (ROOT / caches).is_dir():
+        shutil.copytree(ROOT / caches, folder / caches)
+
+
+def remove_results(folder):
+    for name in ("results", ".snakemake"):
+        shutil.rmtree(folder / name, ignore_errors=True)
+
+
+@contextlib.contextmanager
+def started(folder, *arguments):
+    """Snakemake in a session of its own, of which nothing is left afterwards; it writes to chaos.log."""
+    environment = os.environ | {"PYTHONPATH": str(folder / "src")}  # before the installed package
+    with (folder / "chaos.log").open("w") as log:
+        run = subprocess.Popen(
+            [*SNAKEMAKE, *arguments], cwd=folder, env=environment, stdout=log, stderr=log, start_new_session=True
+        )
+    try:
+        yield run
+    finally:
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(run.pid, signal.SIGKILL)
+        run.wait()
+
+
+def to_the_end(folder, *arguments):
+    """Run Snakemake; what went wrong in a line, or None."""
+    with started(folder, *arguments) as run:
+        return verdict(folder, run)
+
+
+def verdict(folder, run):
+    """Wait for a run that nobody disturbs any more; what went wrong in a line, or None."""
+    try:
+        code = run.wait(HANGS)
+    except subprocess.TimeoutExpired:
+        return f"does not end within {HANGS} s"
+    if code:
+        return f"ends with {code}: " + " | ".join((folder / "chaos.log").read_text().splitlines()[-20:])
+    return None
+
+
+def job_processes(run):
+    """{process: rule} of the jobs under way, which are what runs a script, not the shells around it."""
+    jobs = {}
+    for process in psutil.Process(run.pid).children(recursive=True):
+        with contextlib.suppress(psutil.Error):
+            script = Path([*process.cmdline(), "", ""][1])
+            if script.parent.name == "scripts" and script.suffix == ".py":
+                jobs[process] = script.stem.split(".")[-1]  # tmpabcdefgh.indent_discs.py
+    return jobs
+
+
+def kill(run, random):
+    """Kill one random job, or everything if a coin says so or there is no job; what it was."""
+    jobs = list(job_processes(run).items())
+    if jobs and random.random() < 0.5:
+        process, rule = jobs[random.integers(len(jobs))]
+        with contextlib.suppress(psutil.NoSuchProcess):
+            process.kill()
+        return rule
+    everything = psutil.Process(run.pid).children(recursive=True)
+    os.killpg(run.pid, signal.SIGKILL)
+    psutil.wait_procs(everything, timeout=10)
+    return "whole run"
+
+
+def jobs_done(folder):
+    return len(list((folder / "results/benchmarks").rglob("*.tsv")))
+
+
+def life(folder, random, longest_wait, kills, report):
+    """A run from nothing to its end, killed up to `kills` times; what went wrong besides, or None."""
+    remove_results(folder)
+    killed = 0
+    while True:
+        if any((folder / ".snakemake/locks").glob("*")) and (wrong := to_the_end(folder, "--unlock")):
+            return f"--unlock {wrong}"
+        with started(folder) as run:
+            if killed == kills:
+                return verdict(folder, run)
+            wait = random.uniform(0, longest_wait)
+            try:
+                run.wait(wait)
+            except subprocess.TimeoutExpired:
+                killed += 1
+                report(kill(run, random), wait, jobs_done(folder))
+                with contextlib.suppress(subprocess.TimeoutExpired):
+                    run.wait(HANGS)  # a run that has lost a job finishes its other one and ends with an error
+            else:
+                return verdict(folder, run)
+
+
+def contents(folder):
+    """{name: bytes} of everything in results/, without the bytes of logs and benchmarks."""
+    names = sorted(path.relative_to(folder) for path in (folder / "results").rglob("*") if path.is_file())
+    return {
+        str(name): b"" if name.parts[1] in ("logs", "benchmarks") else (folder / name).read_bytes() for name in names
+    }
+
+
+def compare(found, wanted):
+    """One line per file that differs from what is wanted."""
+    lines = [f"{name}: is missing" for name in wanted if name not in found]
+    lines += [f"{name}: is left over" for name in found if name not in wanted]
+    return lines + [f"{name}: differs" for name in wanted if found.get(name, wanted[name]) != wanted[name]]
+
+
+def undisturbed(folder):
+    """Contents after a run from nothing, and its seconds."""
+    remove_results(folder)
+    start = time.perf_counter()
+    if wrong := to_the_end(folder):
+        raise click.ClickException(f"the undisturbed run {wrong}")
+    seconds = time.perf_counter() - start
+    for path in (folder / "results").rglob("*.nc"):
+        read_dataset(path)  # then every file with the same bytes opens, too
+    return contents(folder), seconds
+
+
+def chaos(folder, kills, seed):
+    """Lives with so many kills in all, as a dictionary for the file."""
+    copy_project(folder)
+    wanted, seconds = undisturbed(folder)  # compiles what is not in numba's caches
+    again, seconds = undisturbed(folder)
+    differences = [f"undisturbed: {line}" for line in compare(again, wanted)]
+    jobs = jobs_done(folder)
+    click.echo(f"undisturbed: {seconds:.0f} s, {jobs} jobs, {len(wanted)} files")
+    random, log, lives, recovered, start = np.random.default_rng(seed), [], 0, 0, time.perf_counter()
+
+    def report(what, wait, done):
+        log.append({"killed": what, "after_s": round(wait, 2), "jobs_done": done})
+        left = (time.perf_counter() - start) / len(log) * (kills - len(log)) + seconds * (1 - done / jobs)
+        about = f"{what} after {wait:.1f} s, {done} of {jobs} jobs done"
+        click.echo(f"kill {len(log)} of {kills}: {about}; about {left / 60:.1f} min to go")
+
+    while len(log) < kills:
+        lives += 1
+        wrong = life(folder, random, seconds * LONGEST_WAIT, kills - len(log), report)
+        lines = [wrong] if wrong else compare(contents(folder), wanted)
+        differences += [f"run {lives}: {line}" for line in lines]
+        recovered += not lines
+        click.echo("\n".join([f"run {lives} {'differs' if lines else 'has recovered'}", *lines]))
+    return {
+        "kills": len(log),
+        "runs": lives,
+        "recovered": recovered,
+        "differences": differences,
+        "seconds": round(time.perf_counter() - start, 1),
+        "undisturbed_s": round(seconds, 1),
+        "files_compared": len(wanted),
+        "jobs": jobs,
+        "killed": dict(Counter(each["killed"] for each in log).most_common()),
+        "log": log,
+    }
+
+
+@click.command(help=__doc__.splitlines()[0])
+@click.option("--kills", type=click.IntRange(1), default=50, show_default=True, help="Kills in all.")
+@click.option("--seed", type=click.IntRange(0), default=1, show_default=True, help="Of times and victims.")
+@click.option("--output", type=click.Path(path_type=Path), required=True, help="File to write, JSON.")
+@click.option(
+    "--folder",
+    type=click.Path(path_type=Path),
+    help="New folder to work in, which stays  [default: a temporary one]",
+)
+def main(kills, seed, output, folder):
+    if folder:
+        folder.mkdir(parents=True)
+    place = contextlib.nullcontext(folder) if folder else tempfile.TemporaryDirectory()
+    with place as working:
+        about = {"machine": timing.machine(), "viscorough": viscorough.__version__, "seed": seed}
+        result = about | chaos(Path(working).resolve(), kills, seed)
+    output.parent.mkdir(parents=True, exist_ok=True)
+    output.write_text(json.dumps(result, indent=1) + "\n")
+    click.echo("{recovered} of {runs} runs recovered from {kills} kills in {seconds:.0f} s".format(**result))
+    click.echo(f"written to {output}")
+    sys.exit(1 if result["differences"] else 0)
+
+
+if __name__ == "__main__":
+    main()

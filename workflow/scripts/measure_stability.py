@@ -1,0 +1,22 @@
+"""Table of every method in every difficulty."""
+
+import logging
+
+import numpy as np
+
+from viscorough.joblog import log_to
+from viscorough.stability import COLUMNS, difficulties, table, unnoticed
+from viscorough.storage import write_table
+
+
+def main(csv, nc, *, seed, across, grids):
+    """Write the table; what fails unnoticed is also said in the log."""
+    atlas = table(difficulties(np.random.SeedSequence(seed, spawn_key=(6,)), across, grids), logging.info)
+    for row in unnoticed(atlas).itertuples():
+        logging.warning("%s: %s fails unnoticed, error %.2g", row.difficulty, row.method, row.error)
+    write_table(atlas, csv, nc, columns=COLUMNS, dimension="cell", title="Every method in every difficulty")
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(**job.output, **job.params)

@@ -1,0 +1,20 @@
+"""Errors against explicit steps and against contact, and exponents against the Hurst exponent and the grid."""
+
+import logging
+
+import numpy as np
+
+from viscorough.joblog import log_to
+from viscorough.stability import CURVES, curves
+from viscorough.storage import write_table
+
+
+def main(csv, nc, *, seed, **settings):
+    """Write the table."""
+    found = curves(np.random.SeedSequence(seed, spawn_key=(7,)), **settings, report=logging.info)
+    write_table(found, csv, nc, columns=CURVES, dimension="point", title="Where methods begin to fail")
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(**job.output, **job.params)

@@ -1,0 +1,20 @@
+"""Figures of stability: the chart of methods and difficulties, and the curves that tell most."""
+
+from pathlib import Path
+
+import pandas as pd
+
+from viscorough.joblog import log_to
+from viscorough.plotting import save_figure
+from viscorough.plotting_stability import plot_atlas, plot_curves
+
+
+def main(atlas, curves, figures):
+    """Plot the tables; figures : the .png files to write, beside which the .pdf files stand."""
+    for plot, table, figure in zip((plot_atlas, plot_curves), (atlas, curves), figures, strict=True):
+        save_figure(plot(pd.read_csv(table)), figure, Path(figure).with_suffix(".pdf"))
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(**job.input, figures=(job.output.atlas, job.output.curves))

@@ -5,16 +5,18 @@ UV ?= uv
 BIN := .venv/bin
 SNAKEMAKE := $(BIN)/snakemake --cores $(CORES)
 
-.PHONY: help environment reproduce paper report test bench speed stability chaos peers lock lock-peers clean
+.PHONY: help environment reproduce paper report test bench speed stability sizes large chaos peers lock lock-peers clean
 
 help:
 	@echo "make reproduce   the default reproduction: figures, tables and validation in results/"
-	@echo "make paper       the same at the paper's full scale"
+	@echo "make paper       the same at the paper's full scale; what it costs, to results/costs.json"
 	@echo "make report      results/report.html, of what was made"
 	@echo "make test        format, lint and every test"
 	@echo "make bench       what curves, lines and the whole reproduction cost, and their errors, to results/benchmarks.json"
 	@echo "make speed       every method by speed against accuracy, to results/figures/speed.png; about an hour"
 	@echo "make stability   where each method fails, and 12000 small indenters against a dense solution; six minutes"
+	@echo "make sizes       exponents on grids from 65 to 1025 elements across, and on lines"
+	@echo "make large       time and memory of a disc of up to 4097 elements across, 13 million in all"
 	@echo "make chaos       a reproduction killed 50 times; its tables compared with an undisturbed one"
 	@echo "make peers       the other solvers that make speed compares with, in environments of their own"
 	@echo "make lock        requirements.lock anew from pyproject.toml; needs uv"
@@ -37,7 +39,7 @@ reproduce: environment
 	$(SNAKEMAKE)
 
 paper: environment
-	$(SNAKEMAKE) --configfile config/paper.yaml
+	$(BIN)/python benchmarks/costs.py --output results/costs.json -- $(SNAKEMAKE) --configfile config/paper.yaml
 
 report: environment
 	$(SNAKEMAKE) --report results/report.html
@@ -58,6 +60,12 @@ speed: environment
 stability: environment
 	$(SNAKEMAKE) stability
 	$(BIN)/python benchmarks/campaign.py --output results/campaign.json
+
+sizes: environment
+	$(SNAKEMAKE) sizes
+
+large: environment
+	$(SNAKEMAKE) large
 
 chaos: environment
 	$(BIN)/python benchmarks/chaos.py --output results/chaos.json

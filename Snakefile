@@ -26,6 +26,7 @@ wildcard_constraints:
     line="|".join(LINES),
     problem="|".join(PROBLEMS),
     batch=r"\d{4}-\d{4}",
+    elements=r"\d+",
 
 
 include: "workflow/rules/surfaces.smk"
@@ -36,6 +37,7 @@ include: "workflow/rules/validation.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/methods.smk"
 include: "workflow/rules/stability.smk"
+include: "workflow/rules/sizes.smk"
 
 
 onstart:
@@ -91,6 +93,16 @@ rule speed:
 rule stability:
     input:
         rules.plot_stability.output,
+
+
+rule sizes:
+    input:
+        rules.plot_sizes.output,
+
+
+rule large:
+    input:
+        rules.plot_large.output,
 
 
 rule all:

@@ -7,9 +7,11 @@ the default workflow from nothing, in a folder of its own.
 """
 
 import argparse
+import contextlib
 import csv
 import json
 import os
+import pkgutil
 import resource
 import subprocess
 import sys
@@ -17,10 +19,17 @@ import tempfile
 import time
 from functools import partial
 from pathlib import Path
+from unittest import mock
 
 os.environ.update(OMP_NUM_THREADS="1", NUMBA_NUM_THREADS="1")  # before numpy: everything on one core
+if (
+    "MALLOC_TRIM_THRESHOLD_" not in os.environ
+):  # as in the workflow, see workflow/rules/common.smk; read at the start only
+    os.environ.update(MALLOC_MMAP_THRESHOLD_=str(2**25), MALLOC_TRIM_THRESHOLD_=str(10**9))
+    os.execv(sys.executable, [sys.executable, *sys.argv])
 
 import numpy as np
+import pandas as pd
 import scipy.fft
 
 import viscorough
@@ -91,6 +100,67 @@ def lines(hursts, points, repeats):
     return rows
 
 
+class Stopwatch:
+    """Seconds spent in the functions that are watched, given as "module.function" or "module.Class.method"."""
+
+    def __init__(self, **watched):
+        self.seconds, self._patches = dict.fromkeys(watched, 0.0), []
+        for part, names in watched.items():
+            for name in names:
+                function = pkgutil.resolve_name(name)
+                self._patches.append(mock.patch(name, self._watch(part, function)))
+
+    def _watch(self, part, function):
+        def watched(*arguments, **options):
+            start = time.process_time()
+            try:
+                return function(*arguments, **options)
+            finally:
+                self.seconds[part] += time.process_time() - start
+
+        return watched
+
+    def shares(self, function):
+        """Processor seconds of the function, and the share of every part in them."""
+        self.seconds = dict.fromkeys(self.seconds, 0.0)
+        with contextlib.ExitStack() as stack:
+            for patch in self._patches:
+                stack.enter_context(patch)
+            start = time.process_time()
+            function()
+            whole = time.process_time() - start
+        shares = {part: round(seconds / whole, 3) for part, seconds in self.seconds.items()}
+        return {"processor_s": round(whole, 4), **shares, "rest": round(1 - sum(shares.values()), 3)}
+
+
+def parts(points):
+    """What the time of curves and of a line goes into: medians of shares over repeats, after a warm-up."""
+    of_curve = Stopwatch(
+        operator=["viscorough.halfspace.Halfspace.apply"],
+        preconditioner=[f"viscorough.preconditioner.Preconditioner.{name}" for name in ("prepare", "apply")],
+        dense=[f"viscorough.dense.{name}" for name in ("solve", "pressures", "follow_events")],
+        setup=["viscorough.gradients.GridSolver.__init__", "viscorough.contact.ContactSolver.__init__"],
+    )
+    of_line = Stopwatch(transform=["ducc0.fft.r2r_fftpack"], bins=["viscorough.reduction._bin_gaps"])
+    rows = {}
+    for across in (ELEMENTS, 1025):
+        disc = self_affine_disc(0.6, across, seed=1)
+        arguments = {"until": UNTIL, "until_force": 4 * UNTIL_X}
+        rows[f"curve of a {across} disc"] = of_curve, lambda d=disc, a=arguments: indent(d, **a)
+    rows[f"line of {points} points"] = of_line, lambda: reduce(self_affine_line(0.6, points, seed=1))
+    result = {}
+    for name, (stopwatch, function) in rows.items():
+        function()
+        repeats = pd.DataFrame([stopwatch.shares(function) for _ in range(5)])
+        result[name] = repeats.median().to_dict()
+        print(f"{name}: " + ", ".join(f"{part} {share:.3g}" for part, share in result[name].items()))
+    heights, copy = np.zeros(points, np.float32), np.zeros(points, np.float32)
+    copying = interleaved({"copy": lambda: np.copyto(copy, heights)}, 20)["copy"]["processor_s"]
+    result["copy of the line's heights"] = {"processor_s": copying}
+    print(f"copy of the line's heights: {1e3 * copying:.2f} ms")
+    return result
+
+
 def scipy_operator(load, kernel):
     """The same convolution, padded in full."""
     shape = kernel.shape[:1] * 2
@@ -143,6 +213,7 @@ def main():
         "machine": timing.machine(),
         "viscorough": viscorough.__version__,
         "operator_ms": operators(10 * arguments.repeats),
+        "parts": parts(4_000_000),
         "line": lines((0.1, 0.6, 0.9), 4_000_000, 3 * arguments.repeats),
         "curve": curves((0.1, 0.4, 0.6, 0.9), (1, 2), arguments.repeats),
     }

@@ -66,7 +66,7 @@ def jobs(text):
         assert "Nothing to be done" in text
         return {}
     numbers = {name: int(number) for name, number in re.findall(r"(\w+) +(\d+)\n", table["rows"])}
-    targets = {"total", "all", "figures", "tables", "validation", "speed"} | {
+    targets = {"total", "all", "figures", "tables", "validation", "speed", "stability", "sizes", "large"} | {
         f"figure_{number}" for number in range(1, 5)
     }
     return {name: number for name, number in numbers.items() if name not in targets}
@@ -222,7 +222,7 @@ def test_speed_is_a_target_of_its_own(fresh):
 
 
 def test_stability_is_a_target_of_its_own(fresh):
-    assert plan(fresh, *TEST, "--", "stability") == STABILITY | {"stability": 1}
+    assert plan(fresh, *TEST, "--", "stability") == STABILITY
     assert not set(STABILITY) & set(plan(fresh, *TEST))
 
 
@@ -236,6 +236,28 @@ def test_stability(fresh):
     with xr.open_dataset(fresh / "results/tables/stability.nc") as nc:
         assert nc["verdict"].values.tolist() == atlas["verdict"].tolist()
     assert "unnoticed" not in set(atlas["verdict"])
+
+
+def test_sizes_and_large_discs(fresh):
+    """Ensembles on grids of their own, fitted and plotted; cost of one disc."""
+    planned = plan(fresh, *TEST, "--", "sizes", "large")
+    assert planned["indent_discs"] == planned["indent_lines"] == planned["measure_large"] == 2
+    assert not set(planned) & {"fit_sizes", "plot_sizes", "measure_large"} & set(plan(fresh, *TEST))
+    snakemake(fresh, *TEST, "--", "sizes", "large")
+    sizes = pd.read_csv(fresh / "results/tables/sizes.csv")
+    discs = sizes[sizes["source"] == "discs"]
+    assert sorted(set(discs["elements"])) == [int(disc_elements(n)) for n in (17, 33)]
+    assert sorted(set(sizes.loc[sizes["source"] == "lines", "elements"])) == [64, 1024]
+    costs = pd.read_csv(fresh / "results/tables/large.csv")
+    assert costs["across"].tolist() == [17, 33]
+    assert (costs["memory"] > 1e7).all()
+    for figure in ("sizes", "large"):
+        for kind in ("png", "pdf"):
+            assert (fresh / f"results/figures/{figure}.{kind}").stat().st_size > 5000
+
+
+def disc_elements(across):
+    return np.isfinite(cut_disc(np.zeros((across, across)), across)).sum()
 
 
 def test_speed_without_other_solvers(fresh):
@@ -346,7 +368,7 @@ def test_one_figure_needs_only_its_own(fresh):
     ("name", "numbers"),
     [
         ("config", {"indent_discs": 4 * (9 + 4), "indent_lines": 21, "aggregate_discs": 4 * (9 + 4)}),
-        ("paper", {"indent_discs": 4 * (9 * 4 + 4 * 4), "indent_lines": 101 * 2, "aggregate_discs": 4 * (9 + 4)}),
+        ("paper", {"indent_discs": 4 * (9 * 2 + 4 * 2), "indent_lines": 101, "aggregate_discs": 4 * (9 + 4)}),
         ("test", {"indent_discs": 2 * (2 + 1), "indent_lines": 2 * 2, "aggregate_discs": 2 * (2 + 1)}),
     ],
 )
@@ -612,12 +634,15 @@ def test_batches(common):
 def test_spawn_keys_do_not_depend_on_order(common, settings):
     discs, lines = common.disc_cases(settings), common.line_cases(settings)
     keys = [tuple(case["spawn_key"]) for case in (discs | lines).values()]
-    assert len(set(keys)) == len(keys) == 4 * 13 + 21
+    assert len(set(keys)) == len(keys) == 4 * 13 + 21 + 5 * (5 + 9)
     assert discs["h01000_c3"]["spawn_key"] == [1, 100000, 3]
     assert lines["h01000"]["spawn_key"] == [3, 100000]
+    assert discs["h01000_n257"]["spawn_key"] == [8, 100000, 257]
+    assert lines["h01000_n4096"]["spawn_key"] == [9, 100000, 4096]
     settings["discs"]["hurst"].reverse()
     settings["discs"]["combinations"].reverse()
     settings["variants"]["cases"] = settings["variants"]["cases"][::-1]
+    settings["sizes"]["elements"] = settings["sizes"]["elements"][::-1]
     assert common.disc_cases(settings) == discs
 
 

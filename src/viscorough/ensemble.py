@@ -89,10 +89,12 @@ def aggregate(curves, rms, diameter, x, *, hurst, case):
 
 
 def combine(ensembles):
-    """Pool the realizations of several cases of one Hurst exponent into one ensemble, averages renewed.
+    """Pool the realizations of batches or cases of one Hurst exponent into one ensemble, averages renewed.
 
-    ensembles : datasets of aggregate() with the same abscissae, rms conventions, Hurst exponent and elements
-    Case and diameter become coordinates of the realizations. Raises ValueError where the ensembles differ.
+    ensembles : datasets of aggregate() with the same abscissae, rms conventions, Hurst exponent and elements;
+        an iterator may make them one after the other, so that curves of one batch at a time are in memory
+    Case and diameter, where they differ, become coordinates of the realizations. Raises ValueError where the
+    ensembles differ in what must be the same.
     """
     ensembles = list(ensembles)
     if not ensembles:
@@ -106,8 +108,8 @@ def combine(ensembles):
         return np.concatenate([each[name].values for each in ensembles], axis=1)
 
     def of_realizations(name):
-        values = [np.broadcast_to(each[name].values, each.sizes["realization"]) for each in ensembles]
-        return "realization", np.concatenate(values)
+        values = np.concatenate([np.broadcast_to(each[name].values, each.sizes["realization"]) for each in ensembles])
+        return values[0] if np.all(values == values[0]) else ("realization", values)
 
     coords = {"hurst": first["hurst"].item(), "elements": first["elements"].item()}
     coords |= {"case": of_realizations("case"), "diameter": of_realizations("diameter")}

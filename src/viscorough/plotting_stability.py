@@ -6,7 +6,6 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from viscorough.plotting_style import GREY, MM, PALE, STYLE, WIDE, logarithmic_ticks
-from viscorough.reference import exponent_beta
 
 LETTERS = {
     "holds": "H",
@@ -70,15 +69,14 @@ def plot_atlas(table):
 
 @rc_context(STYLE)
 def plot_curves(table):
-    """Error against explicit steps and against contact fraction; β against H by method and grid.
+    """Error against explicit steps and against contact fraction.
 
     Raises ValueError for a table without rows.
     """
     if table.empty:
         raise ValueError("plot_curves: the table has no rows; at least one is needed")
-    figure = Figure(figsize=(WIDE, 150 * MM))
-    grid = figure.add_gridspec(2, 2)
-    steps, contact, exponent = (figure.add_subplot(each) for each in (grid[0, 0], grid[0, 1], grid[1, :]))
+    figure = Figure(figsize=(WIDE, 80 * MM))
+    steps, contact = figure.subplots(1, 2)
 
     for (name, part), marker, colour in zip(_parts(table, "steps"), "os", ("#0072b2", "#d55e00"), strict=True):
         steps.loglog(part["x"], part["y"], marker=marker, color=colour, label=name)
@@ -97,29 +95,6 @@ def plot_curves(table):
     )
     logarithmic_ticks(steps, contact)
     contact.legend(fontsize=6, ncols=2, loc="center", bbox_to_anchor=(0.5, 0.55))
-
-    hurst = np.linspace(0.01, 1, 100)
-    exponent.plot(hurst, exponent_beta(hurst), color="black", label="H/(1 + H), Eq. 10")
-    looks = {"boundary elements": ("o", "Blues"), "MDR": ("s", "Oranges")}
-    shift = 0.0
-    for name, part in _parts(table, "exponent"):
-        marker, colours = looks[name]
-        sizes = sorted(part["x"].unique())
-        for n, tone in zip(sizes, np.linspace(0.45, 0.95, len(sizes)), strict=True):
-            some = part[(part["x"] == n) & np.isfinite(part["y"])]
-            spread = np.abs(some[["y_low", "y_high"]].to_numpy().T - some["y"].to_numpy())
-            unit = "elements across" if name == "boundary elements" else "points"
-            style = {"marker": marker, "color": colormaps[colours](tone), "linestyle": "none"}
-            exponent.errorbar(some["hurst"] + shift, some["y"], spread, label=f"{name}, {int(n)} {unit}", **style)
-            shift += 0.006
-    exponent.set(
-        title="(c) exponent of region (b)",
-        xlabel=r"Hurst exponent $H$ [1]",
-        ylabel=r"$\beta$ [1]",
-        xlim=(0, 1.05),
-        ylim=(-0.05, 0.8),
-    )
-    exponent.legend(fontsize=6, ncols=2, loc="upper left")
     return figure
 
 

@@ -17,7 +17,7 @@ from unittest.mock import patch
 import numpy as np
 import pandas as pd
 
-from viscorough import contact, ensemble, gradients, halfspace, reference, scaling, viscous
+from viscorough import contact, gradients, halfspace, reference, viscous
 from viscorough.contact import ContactSolver
 from viscorough.curve import AccuracyWarning, ConvergenceError
 from viscorough.indentation import indent
@@ -343,29 +343,15 @@ def _cell(difficulty, question, method):
 CURVES = {
     "curve": ("which curve", ""),
     "method": ("method", ""),
-    "hurst": ("Hurst exponent", "1"),
-    "x": ("explicit steps; contact fraction; elements across a disc or points of a line", "1"),
-    "y": ("error, penetration over depth, or exponent β", "1"),
-    "y_low": ("lower end of the 95 % interval of β", "1"),
-    "y_high": ("upper end of the 95 % interval of β", "1"),
+    "x": ("explicit steps; contact fraction", "1"),
+    "y": ("error, or penetration over depth", "1"),
 }
-_WINDOW = {"elements_min": FEW, "stiffness_max": 0.2, "slope_max": 0.8}
 
 
-def curves(seed, discs, lines, hurst, realizations, report=lambda text: None):
-    """Error against steps and contact, β against H and grid; a pandas.DataFrame with the columns of `CURVES`.
-
-    discs, lines : elements across, and points, of the ensembles for β; realizations : of each
-    """
-    keys = iter(seed.spawn(2 + (len(discs) + len(lines)) * len(hurst)))
-    rows = _against_steps(self_affine_disc(0.7, 33, seed=next(keys)))
-    rows += _against_contact(self_affine_disc(0.7, 33, seed=next(keys)))
-    for each in hurst:
-        for n in (*discs, *lines):
-            method = "boundary elements" if n in discs else "MDR"
-            report(f"beta by {method}, H = {each:g}, {n}")
-            rows.append(("exponent", method, each, n, *_exponent(method, each, n, realizations, next(keys))))
-    return pd.DataFrame(rows, columns=list(CURVES))
+def curves(seed):
+    """Errors against steps and against contact; a pandas.DataFrame with the columns of `CURVES`."""
+    discs = [self_affine_disc(0.7, 33, seed=each) for each in seed.spawn(2)]
+    return pd.DataFrame(_against_steps(discs[0]) + _against_contact(discs[1]), columns=list(CURVES))
 
 
 def _against_steps(disc):
@@ -378,8 +364,8 @@ def _against_steps(disc):
             error = np.abs(_steps(difficulty, question) - 1).max()
             ends = np.geomspace(question.force[0] / number, question.force[-1], number) if number > 1 else []
             steps = march_steps(disc, np.union1d(ends, question.force))
-        rows.append(("steps", "error of the depth", 0.7, number, error, np.nan, np.nan))
-        rows.append(("steps", "penetration over depth", 0.7, number, steps.penetration.max(), np.nan, np.nan))
+        rows.append(("steps", "error of the depth", number, error))
+        rows.append(("steps", "penetration over depth", number, steps.penetration.max()))
     return rows
 
 
@@ -396,27 +382,8 @@ def _against_contact(disc):
                 warnings.simplefilter("always")
                 errors = np.abs(method.ask(difficulty, question) - 1)
             for count, error in zip(question.count, errors, strict=True):
-                rows.append(("contact", name, 0.7, count / disc.elements, error, np.nan, np.nan))
+                rows.append(("contact", name, count / disc.elements, error))
     return rows
-
-
-def _exponent(method, hurst, n, realizations, seed):
-    """β of region (b) and its interval; nan where there is no such region."""
-    loads = ensemble.abscissa(1e-7, 30.0, 20)
-    found = []
-    for each in seed.spawn(realizations):
-        if method == "MDR":
-            found.append(reduce(self_affine_line(hurst, n, seed=each)))
-        else:
-            found.append(indent(self_affine_disc(hurst, n, seed=each), tolerance=1e-2, until_force=4 * 30.0))
-    mean = ensemble.aggregate(found, {"h": 1.0}, 1.0, loads, hurst=hurst, case="").isel(rms_convention=0)
-    try:
-        window = scaling.find_region(mean, **_WINDOW)
-    except ValueError:
-        return np.nan, np.nan, np.nan
-    velocity = mean["velocity"].values
-    fit = scaling.fit_power_law(loads, velocity, window, average="geometric", resamples=200, seed=0)
-    return fit.beta, *fit.beta_interval
 
 
 # ---- generated cases

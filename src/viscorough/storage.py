@@ -95,7 +95,7 @@ def write_dataset(ds, path):
     ds = ds.drop_encoding().assign_attrs(Conventions="CF-1.11", source=f"viscorough {version('viscorough')}")
     encoding = {}
     for name, variable in ds.variables.items():
-        if variable.dtype.kind == "f":
+        if variable.dtype.kind in "fi":
             large = variable.size >= COMPRESSED_FROM
             encoding[name] = {"zlib": True, "complevel": 4, "shuffle": True} if large else {}
             if name in ds.coords:

@@ -163,7 +163,8 @@ def self_affine_square(
         spectrum /= np.abs(spectrum)
     spectrum *= amplitude
     heights = fft.c2r(spectrum, lastsize=points, forward=False, allow_overwriting_input=True)
-    return _scale(heights, 1.0)
+    heights *= _factor(1.0, np.mean(heights**2))
+    return heights
 
 
 def cut_disc(square, elements_across):
@@ -217,28 +218,34 @@ def self_affine_line(
     packed[0] = 0
     waves = packed[1:].reshape(-1, 2)
     words = _generator(seed).bit_generator
+    buffers = np.empty((2, min(_BLOCK, len(waves))), real)
+    pairs, square = (points - 1) // 2, 0.0  # waves that are not their own mirror image, and the heights' mean square
     for start in range(0, len(waves), _BLOCK):
         piece = waves[start : start + _BLOCK]
         uniform = words.random_raw(len(piece)).view(np.uint32).reshape(-1, 2)
-        phase = uniform[:, 0].astype(real)
+        phase, part = buffers[:, : len(piece)]
+        phase[:] = uniform[:, 0]
         phase *= 2 * np.pi / 2**32
-        wavenumber = np.arange(start + 1, start + 1 + len(piece), dtype=real)
-        modulus = _amplitude(wavenumber, exponent, longest, level)
+        modulus = _amplitude(np.arange(start + 1, start + 1 + len(piece), dtype=real), exponent, longest, level)
         if not fixed:  # √(-2 ln(0...1)): with a random phase, a complex Gaussian (Box and Muller)
-            deviate = uniform[:, 1].astype(real)
-            deviate += 0.5
-            deviate *= 2.0**-32
-            np.log(deviate, out=deviate)
-            deviate *= -2
-            modulus *= np.sqrt(deviate, out=deviate)
-        np.multiply(modulus, np.cos(phase), out=piece[:, 0])
-        np.multiply(modulus, np.sin(phase), out=piece[:, 1])
+            part[:] = uniform[:, 1]
+            part += 0.5
+            part *= 2.0**-32
+            np.log(part, out=part)
+            part *= -2
+            modulus *= np.sqrt(part, out=part)
+        paired = modulus[: pairs - start]
+        square += 2 * float(paired @ paired)
+        np.multiply(modulus, np.cos(phase, out=part), out=piece[:, 0])
+        np.multiply(modulus, np.sin(phase, out=part), out=piece[:, 1])
     if points % 2 == 0:  # the shortest wave is its own mirror image: only a cosine, of the same mean power
         cosine, sine = waves[-1]
         waves[-1, 0] = np.copysign(np.hypot(cosine, sine), cosine) if fixed else np.sqrt(2.0) * cosine
+        square += float(waves[-1, 0]) ** 2
+    packed *= _factor(rms, square)
     heights = packed[:points]
     fft.r2r_fftpack(heights, axes=[0], real2hermitian=False, forward=False, out=heights)
-    return Indenter(_scale(heights, rms), length / points)
+    return Indenter(heights, length / points)
 
 
 def _amplitude(wavenumber, exponent, longest, level):
@@ -263,17 +270,11 @@ def _roll_off(wavelength, level, points):
     return rounding * points / _positive("roll_off_wavelength", wavelength), level
 
 
-def _scale(heights, rms):
-    """Scale heights of mean 0 to their rms value, in place and block by block."""
-    flat = heights.reshape(-1)
-    pieces = [flat[start : start + _BLOCK] for start in range(0, flat.size, _BLOCK)]
-    square = sum(float(np.dot(piece, piece)) for piece in pieces)
+def _factor(rms, square):
+    """What heights of mean 0 and the mean square `square` are to be multiplied with."""
     if square == 0:
         raise ValueError("roll_off_wavelength: must leave at least one wave of two spacings or more")
-    factor = heights.dtype.type(rms / np.sqrt(square / flat.size))
-    for piece in pieces:
-        piece *= factor
-    return heights
+    return rms / np.sqrt(square)
 
 
 def _generator(seed):

@@ -18,10 +18,15 @@ def interleaved(functions, repeats):
     times = {name: [] for name in functions}
     for _ in range(repeats):
         for name, function in functions.items():
-            wall, processor = time.perf_counter(), time.process_time()
-            seconds = getattr(function(), "seconds", None)
-            times[name].append(seconds or (time.perf_counter() - wall, time.process_time() - processor))
+            result, *seconds = timed(function)
+            times[name].append(getattr(result, "seconds", None) or seconds)
     return {name: tuple(np.median(each, axis=0).tolist()) for name, each in times.items()}
+
+
+def timed(function):
+    """Result of a function, and its wall and processor seconds."""
+    wall, processor = time.perf_counter(), time.process_time()
+    return function(), time.perf_counter() - wall, time.process_time() - processor
 
 
 def with_memory(function):

@@ -4,6 +4,7 @@ import ast
 import difflib
 import hashlib
 import importlib.util
+import itertools
 import math
 import os
 import subprocess
@@ -17,6 +18,8 @@ import yaml
 
 # One thread per job: jobs run side by side. Numba heeds only its own variable.
 os.environ.update(NUMBA_NUM_THREADS="1", OMP_NUM_THREADS="1")
+# glibc gives large arrays back when they are freed and takes them anew, page by page: a sixth of the time of a line.
+os.environ.update(MALLOC_MMAP_THRESHOLD_=str(2**25), MALLOC_TRIM_THRESHOLD_=str(10**9))
 
 WORKFLOW = Path(workflow.basedir) / "workflow"
 PACKAGE = Path(importlib.util.find_spec("viscorough").origin).parent
@@ -97,13 +100,15 @@ def contradiction(settings):
         "methods.hurst": settings["methods"]["hurst"],
         "methods.elements": settings["methods"]["elements"],
         "methods.bodies_elements": settings["methods"]["bodies_elements"],
-        **{f"stability.{key}": settings["stability"][key] for key in ("grids", "discs", "lines", "hurst")},
+        "stability.grids": settings["stability"]["grids"],
+        **{f"sizes.{key}": settings["sizes"][key] for key in ("hurst", "elements", "points")},
+        "large.elements": settings["large"]["elements"],
         "name in methods.tasks": [each["name"] for each in settings["methods"]["tasks"]],
     }
     for key, values in unique.items():
         if twice := [value for value in values if values.count(value) > 1]:
             return f"{key} {twice[0]} stands twice; allowed: each once"
-    for key in ("discs.hurst", "lines.hurst", "methods.hurst", "stability.hurst"):
+    for key in ("discs.hurst", "lines.hurst", "methods.hurst", "sizes.hurst"):
         for hurst in unique[key]:
             if abs(hurst * 1e4 - round(hurst * 1e4)) > 1e-6:
                 return f"{key} has {hurst}; allowed: at most four decimals"
@@ -143,12 +148,12 @@ def hurst_id(hurst):
 
 
 def disc_cases(settings):
-    """{case: group, spawn key, realizations, batch, surface (arguments of self_affine_disc)} of every ensemble.
+    """{case: group, spawn key, realizations, batch, elements, surface (arguments of self_affine_disc)} of every ensemble.
 
-    Spawn keys are (1 discs, H·10⁶, number of the combination) and (2 variants, H·10⁶, CRC-32 of the name), to which
-    the realization is added: no position in a list, no batch and no order enters.
+    Spawn keys are (1 discs, H·10⁶, number of the combination), (2 variants, H·10⁶, CRC-32 of the name) and (8 sizes,
+    H·10⁶, elements), to which the realization is added: no position in a list, no batch and no order enters.
     """
-    cases = {}
+    cases, unit = {}, {"rms": 1.0, "diameter": 1.0}
     for hurst in settings["discs"]["hurst"]:
         micro = round(hurst * 1e6)
         for each in settings["discs"]["combinations"]:
@@ -157,30 +162,53 @@ def disc_cases(settings):
                 "spawn_key": [1, micro, each["number"]],
                 "combination": each,
                 "surface": settings["surface"] | {"hurst": hurst, "rms": each["rms"], "diameter": each["diameter"]},
-                **{name: settings["discs"][name] for name in ("realizations", "batch")},
+                **{name: settings["discs"][name] for name in ("elements", "realizations", "batch")},
             }
         for each in settings["variants"]["cases"]:
             changed = {name: value for name, value in each.items() if name != "name"}
             cases[f"{hurst_id(hurst)}_{each['name']}"] = {
                 "group": each["name"],
                 "spawn_key": [2, micro, zlib.crc32(each["name"].encode())],
-                "surface": settings["surface"] | changed | {"hurst": hurst, "rms": 1.0, "diameter": 1.0},
+                "surface": settings["surface"] | changed | unit | {"hurst": hurst},
+                "elements": settings["discs"]["elements"],
                 **{name: settings["variants"][name] for name in ("realizations", "batch")},
             }
+    for hurst, elements in itertools.product(settings["sizes"]["hurst"], settings["sizes"]["elements"]):
+        cases[f"{hurst_id(hurst)}_n{elements}"] = {
+            "group": "sizes",
+            "spawn_key": [8, round(hurst * 1e6), elements],
+            "surface": settings["surface"] | unit | {"hurst": hurst},
+            "elements": elements,
+            **{name: settings["sizes"][name] for name in ("realizations", "batch")},
+        }
     return cases
 
 
 def line_cases(settings):
-    """{line: spawn key, realizations, batch, surface} of every ensemble of lines; spawn keys (3 lines, H·10⁶)."""
+    """{line: group, spawn key, realizations, batch, points, surface (arguments of self_affine_line)} of every ensemble.
+
+    Spawn keys are (3 lines, H·10⁶) and (9 sizes, H·10⁶, points).
+    """
     shared = {name: settings["surface"][name] for name in ("amplitudes", "roll_off_wavelength", "roll_off_level")}
-    return {
+    shared |= {"rms": 1.0, "length": 1.0}
+    cases = {
         hurst_id(hurst): {
+            "group": "lines",
             "spawn_key": [3, round(hurst * 1e6)],
-            "surface": shared | {"hurst": hurst, "rms": 1.0, "length": 1.0},
-            **{name: settings["lines"][name] for name in ("realizations", "batch")},
+            "surface": shared | {"hurst": hurst},
+            **{name: settings["lines"][name] for name in ("points", "realizations", "batch")},
         }
         for hurst in settings["lines"]["hurst"]
     }
+    for hurst, points in itertools.product(settings["sizes"]["hurst"], settings["sizes"]["points"]):
+        cases[f"{hurst_id(hurst)}_n{points}"] = {
+            "group": "sizes",
+            "spawn_key": [9, round(hurst * 1e6), points],
+            "surface": shared | {"hurst": hurst},
+            "points": points,
+            **{name: settings["sizes"][name] for name in ("realizations", "batch")},
+        }
+    return cases
 
 
 def method_problems(settings):
@@ -203,8 +231,8 @@ def batches(case):
 
 
 def groups():
-    """The groups of disc ensembles: base, which the nine combinations are, and the variants."""
-    return list(dict.fromkeys(case["group"] for case in DISCS.values()))
+    """The groups of disc ensembles of one size: base, which the nine combinations are, and the variants."""
+    return list(dict.fromkeys(case["group"] for case in DISCS.values() if case["group"] != "sizes"))
 
 
 # ---- params and inputs of rules
@@ -242,14 +270,10 @@ def curves_of_line(wildcards):
     return expand("results/curves/lines/{line}/{batch}.nc", line=wildcards.line, batch=batches(LINES[wildcards.line]))
 
 
-def ensembles(group):
-    """Ensembles of all cases of a group of discs, or of "lines"."""
-    if group == "lines":
-        return expand("results/ensembles/lines/{line}.nc", line=LINES)
-    return expand(
-        "results/ensembles/discs/{case}.nc",
-        case=[name for name, case in DISCS.items() if case["group"] == group],
-    )
+def ensembles(group, kind="discs"):
+    """Ensembles of all cases of a group of discs or, with kind "lines", of lines."""
+    cases = {"discs": DISCS, "lines": LINES}[kind]
+    return [f"results/ensembles/{kind}/{name}.nc" for name, case in cases.items() if case["group"] == group]
 
 
 def lines_of_discs():
@@ -274,14 +298,20 @@ def combinations():
 
 def disc_memory(wildcards):
     """MB for a batch of heights, the square that they are cut from and the fields on a doubled grid."""
-    case = DISCS.get(wildcards.get("case"), {"batch": len(config["discs"]["hurst"]), "surface": config["surface"]})
-    elements = config["discs"]["elements"] ** 2
-    return round(400 + (24 * case["batch"] + 64 * case["surface"]["period"] ** 2 + 160) * elements / 1e6)
+    examples = config["discs"] | {"batch": len(config["discs"]["hurst"]), "surface": config["surface"]}
+    case = DISCS.get(wildcards.get("case"), examples)
+    heights, square = 24 * case["batch"], 64 * case["surface"]["period"] ** 2
+    return round(400 + (heights + square + 400) * case["elements"] ** 2 / 1e6)
+
+
+def large_memory(wildcards):
+    """MB for one disc by boundary elements."""
+    return round(400 + 500 * int(wildcards.elements) ** 2 / 1e6)
 
 
 def line_memory(wildcards):
     """MB for the spectrum of a line, its heights and gaps."""
-    return round(400 + 40 * config["lines"]["points"] / 1e6)
+    return round(400 + 40 * LINES[wildcards.line]["points"] / 1e6)
 
 
 # ---- digests of the package's modules, so that an edit reruns exactly what uses it

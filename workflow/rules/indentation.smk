@@ -41,7 +41,7 @@ rule indent_lines:
         seed=config["seed"],
         spawn_key=of_line("spawn_key"),
         realizations=realizations,
-        points=config["lines"]["points"],
+        points=of_line("points"),
         surface=of_line("surface"),
         until_x=config["indentation"]["until_x"],
     message:

@@ -4,7 +4,7 @@
 rule fit_scaling:
     input:
         discs=[ensembles(group) for group in groups()],
-        lines=ensembles("lines"),
+        lines=ensembles("lines", "lines"),
     output:
         csv=report(
             "results/tables/scaling.csv",

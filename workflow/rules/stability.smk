@@ -46,12 +46,8 @@ rule measure_stability_curves:
     params:
         source_digest("measure_stability_curves"),
         seed=config["seed"],
-        discs=config["stability"]["discs"],
-        lines=config["stability"]["lines"],
-        hurst=config["stability"]["hurst"],
-        realizations=config["stability"]["realizations"],
     message:
-        "Errors against steps and contact, exponents against grids"
+        "Errors against steps and contact"
     script:
         "../scripts/measure_stability_curves.py"
 
@@ -71,7 +67,7 @@ rule plot_stability:
             "results/figures/stability_curves.png",
             caption="../report/stability_curves.rst",
             category="Stability",
-            labels={"figure": "errors against steps and contact, exponents against grids"},
+            labels={"figure": "errors against steps and contact"},
         ),
         pdfs=multiext("results/figures/", "stability.pdf", "stability_curves.pdf"),
     log:

@@ -18,7 +18,7 @@ rule generate_discs:
         seed=config["seed"],
         spawn_key=of_disc("spawn_key"),
         realizations=realizations,
-        elements=config["discs"]["elements"],
+        elements=of_disc("elements"),
         surface=of_disc("surface"),
     message:
         "Discs {wildcards.case}, realizations {wildcards.batch}"

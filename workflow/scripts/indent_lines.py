@@ -17,20 +17,21 @@ def main(curves, *, seed, spawn_key, realizations, points, surface, until_x):
     """
     numbers = np.arange(*realizations)
     until_force = 4 * surface["rms"] * surface["length"] * until_x
-    reduced, rms = [], []
+    reduced = []
     for number in progress(numbers, len(numbers), "lines"):
         line = self_affine_line(points=points, **surface, seed=realization_seed(seed, *spawn_key, int(number)))
         reduced.append(reduce(line, until_force=until_force))
-        rms.append(line.heights.std(dtype=float))
     settings = {"seed": seed, "spawn_key": [*spawn_key, "realization"], "points": points, "surface": surface}
-    ds = stack_curves(reduced, "m").assign(
-        rms_line=("realization", rms, {"units": "m", "long_name": "rms height of the line"}),
-        spacing=((), line.spacing, {"units": "m", "long_name": "spacing of the points"}),
-        diameter=((), surface["length"], {"units": "m", "long_name": "length of the line"}),
-    )
+    settings |= {"until_x": until_x}
+    lengths = {
+        "rms_line": ("realization", np.full(len(numbers), surface["rms"]), "rms height of the line"),  # all have it
+        "spacing": ((), line.spacing, "spacing of the points"),
+        "diameter": ((), surface["length"], "length of the line"),
+    }
+    lengths = {name: (*value, {"units": "m", "long_name": text}) for name, (*value, text) in lengths.items()}
     hurst = ((), surface["hurst"], {"long_name": "Hurst exponent", "units": "1"})
-    ds = ds.assign_coords(realization=numbers, hurst=hurst)
-    write_dataset(ds.assign_attrs(settings=json.dumps(settings | {"until_x": until_x})), curves)
+    ds = stack_curves(reduced, "m").assign(lengths).assign_coords(realization=numbers, hurst=hurst)
+    write_dataset(ds.assign_attrs(settings=json.dumps(settings)), curves)
 
 
 if job := globals().get("snakemake"):

@@ -1,6 +1,4 @@
-"""Errors against explicit steps and against contact, and exponents against the Hurst exponent and the grid."""
-
-import logging
+"""Errors against explicit steps and against contact."""
 
 import numpy as np
 
@@ -9,9 +7,9 @@ from viscorough.stability import CURVES, curves
 from viscorough.storage import write_table
 
 
-def main(csv, nc, *, seed, **settings):
+def main(csv, nc, *, seed):
     """Write the table."""
-    found = curves(np.random.SeedSequence(seed, spawn_key=(7,)), **settings, report=logging.info)
+    found = curves(np.random.SeedSequence(seed, spawn_key=(7,)))
     write_table(found, csv, nc, columns=CURVES, dimension="point", title="Where methods begin to fail")
 
 

@@ -1,0 +1,121 @@
+# Grids from coarse to fine: exponents of ensembles (`sizes`), and the cost of one disc (`large`).
+
+
+rule fit_sizes:
+    input:
+        discs=ensembles("sizes"),
+        lines=ensembles("sizes", "lines"),
+    output:
+        csv=report(
+            "results/tables/sizes.csv",
+            caption="../report/sizes_table.rst",
+            category="Sizes",
+            labels={"table": "exponents on grids from coarse to fine"},
+        ),
+        nc="results/tables/sizes.nc",
+    log:
+        "results/logs/fit_sizes.log",
+    benchmark:
+        "results/benchmarks/fit_sizes.tsv"
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+    params:
+        source_digest("fit_sizes"),
+        seed=config["seed"],
+        fit=config["scaling"],
+    message:
+        "Exponents on grids from coarse to fine"
+    script:
+        "../scripts/fit_sizes.py"
+
+
+rule plot_sizes:
+    input:
+        table=rules.fit_sizes.output.csv,
+    output:
+        png=report(
+            "results/figures/sizes.png",
+            caption="../report/sizes.rst",
+            category="Sizes",
+            labels={"figure": "exponents on grids from coarse to fine"},
+        ),
+        pdf="results/figures/sizes.pdf",
+    log:
+        "results/logs/plot_sizes.log",
+    benchmark:
+        "results/benchmarks/plot_sizes.tsv"
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+    params:
+        source_digest("plot_sizes"),
+        shown=config["figures"],
+    message:
+        "Figure of exponents on grids from coarse to fine"
+    script:
+        "../scripts/plot_sizes.py"
+
+
+rule measure_large:
+    output:
+        csv="results/large/{elements}.csv",
+        curve="results/large/{elements}.nc",
+    log:
+        "results/logs/measure_large/{elements}.log",
+    benchmark:
+        "results/benchmarks/measure_large/{elements}.tsv"
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=large_memory,
+    params:
+        source_digest("measure_large"),
+        seed=config["seed"],
+        hurst=config["large"]["hurst"],
+        tolerance=config["indentation"]["tolerance"],
+        until_fraction=config["large"]["until_fraction"],
+    message:
+        "Cost of a disc of {wildcards.elements} elements"
+    script:
+        "../scripts/measure_large.py"
+
+
+rule plot_large:
+    input:
+        costs=expand(rules.measure_large.output.csv, elements=config["large"]["elements"]),
+    output:
+        csv=report(
+            "results/tables/large.csv",
+            caption="../report/large_table.rst",
+            category="Sizes",
+            labels={"table": "cost of one disc"},
+        ),
+        nc="results/tables/large.nc",
+        png=report(
+            "results/figures/large.png",
+            caption="../report/large.rst",
+            category="Sizes",
+            labels={"figure": "cost of one disc"},
+        ),
+        pdf="results/figures/large.pdf",
+    log:
+        "results/logs/plot_large.log",
+    benchmark:
+        "results/benchmarks/plot_large.tsv"
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+    params:
+        source_digest("plot_large"),
+    message:
+        "Figure of the cost of one disc"
+    script:
+        "../scripts/plot_large.py"

@@ -1,0 +1,33 @@
+"""Cost of the loading curve of one disc: time, operators and memory."""
+
+import json
+import resource
+
+import pandas as pd
+
+from viscorough import timing
+from viscorough.indentation import indent
+from viscorough.joblog import log_to
+from viscorough.storage import stack_curves, whole_or_not_at_all, write_dataset
+from viscorough.surfaces import realization_seed, self_affine_disc
+
+
+def main(csv, curve, *, elements, seed, hurst, tolerance, until_fraction):
+    """Indent a disc of diameter and rms height 1; memory is the most that this process took at any time."""
+    indent(self_affine_disc(hurst, 65, seed=0), tolerance=tolerance)  # compiled functions are loaded
+    disc = self_affine_disc(hurst, elements, seed=realization_seed(seed, 10, elements))
+    found, wall, processor = timing.timed(lambda: indent(disc, tolerance=tolerance, until=until_fraction))
+    cost = {"across": elements, "elements": disc.elements, "levels": found.depth.size, "operators": found.operators}
+    cost |= {"wall": wall, "processor": processor}
+    cost["memory"] = 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    cost["machine"] = "{name}, {processor}, {cores} cores".format(**timing.machine())
+    settings = {"seed": seed, "spawn_key": [10, elements], "hurst": hurst, "until_fraction": until_fraction}
+    ds = stack_curves([found], "1").assign_attrs(title="A disc on a fine grid", settings=json.dumps(settings))
+    write_dataset(ds, curve)
+    with whole_or_not_at_all(csv) as temporary:
+        pd.DataFrame([cost]).to_csv(temporary, index=False)
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(**job.output, elements=int(job.wildcards.elements), **job.params)

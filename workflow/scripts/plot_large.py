@@ -1,0 +1,20 @@
+"""Table and figure of the cost of one disc on ever finer grids."""
+
+import pandas as pd
+
+from viscorough.joblog import log_to
+from viscorough.plotting import save_figure
+from viscorough.plotting_sizes import LARGE, plot_large
+from viscorough.storage import write_table
+
+
+def main(costs, csv, nc, png, pdf):
+    """Gather the costs of every size, and plot them."""
+    table = pd.concat(map(pd.read_csv, costs)).sort_values("elements", ignore_index=True)
+    write_table(table, csv, nc, columns=LARGE, dimension="disc", title="Cost of one disc")
+    save_figure(plot_large(table), png, pdf)
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(**job.input, **job.output)

@@ -1,0 +1,17 @@
+"""Figure of exponents on grids from coarse to fine."""
+
+import pandas as pd
+
+from viscorough.joblog import log_to
+from viscorough.plotting import save_figure
+from viscorough.plotting_sizes import plot_sizes
+
+
+def main(table, png, pdf, *, shown):
+    """Plot the table; shown : conventions of the figures, {column of the table: value}."""
+    save_figure(plot_sizes(pd.read_csv(table), shown), png, pdf)
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(**job.input, **job.output, **job.params)

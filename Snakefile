@@ -35,6 +35,7 @@ include: "workflow/rules/ensemble.smk"
 include: "workflow/rules/scaling.smk"
 include: "workflow/rules/validation.smk"
 include: "workflow/rules/figures.smk"
+include: "workflow/rules/claims.smk"
 include: "workflow/rules/methods.smk"
 include: "workflow/rules/stability.smk"
 include: "workflow/rules/sizes.smk"
@@ -78,6 +79,7 @@ rule tables:
     input:
         rules.fit_scaling.output,
         rules.validate.output,
+        rules.judge_claims.output,
 
 
 rule validation:

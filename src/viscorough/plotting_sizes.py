@@ -69,10 +69,9 @@ def plot_large(table):
         axes.loglog(table.loc[fitted, "elements"], line, color=GREY, label=f"exponent {slope:.2f}")
         unit = "memory of the process [GB]" if name == "memory" else "processor time [s]"
         axes.set(title=title, xlabel="elements of the disc [1]", ylabel=unit)
-        for at in table.itertuples():
-            axes.annotate(
-                f"{at.across}", (at.elements, values[at.Index]), (4, -9), textcoords="offset points", fontsize=6
-            )
+        for across, *at in zip(table["across"], table["elements"], values, strict=True):
+            axes.annotate(f"{across}", at, (-5, 3), textcoords="offset points", fontsize=6, ha="right")
+        axes.margins(x=0.12)
         logarithmic_ticks(axes)
-        axes.legend(loc="upper left")
+        axes.legend(loc="upper left", bbox_to_anchor=(0, 0.95))
     return figure

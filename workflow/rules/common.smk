@@ -281,6 +281,11 @@ def lines_of_discs():
     return expand("results/ensembles/lines/{line}.nc", line=[hurst_id(hurst) for hurst in config["discs"]["hurst"]])
 
 
+def paper(name):
+    """What a file in resources/paper says."""
+    return yaml.safe_load((WORKFLOW.parent / "resources" / "paper" / f"{name}.yaml").read_text(encoding="utf-8"))
+
+
 def example_discs():
     """Params: realization 0 of the first combination for every Hurst exponent, with h = L = 1."""
     first = config["discs"]["combinations"][0]["number"]

@@ -14,7 +14,7 @@ from viscorough.surfaces import realization_seed, self_affine_disc
 
 def main(csv, curve, *, elements, seed, hurst, tolerance, until_fraction):
     """Indent a disc of diameter and rms height 1; memory is the most that this process took at any time."""
-    indent(self_affine_disc(hurst, 65, seed=0), tolerance=tolerance)  # compiled functions are loaded
+    indent(self_affine_disc(hurst, 129, seed=0), tolerance=tolerance)  # compiled functions are loaded
     disc = self_affine_disc(hurst, elements, seed=realization_seed(seed, 10, elements))
     found, wall, processor = timing.timed(lambda: indent(disc, tolerance=tolerance, until=until_fraction))
     cost = {"across": elements, "elements": disc.elements, "levels": found.depth.size, "operators": found.operators}

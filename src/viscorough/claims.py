@@ -1,0 +1,385 @@
+"""The paper's claims, judged: for each a quantity computed from ensembles and tables, its interval, and a verdict.
+
+What a claim says and by which criterion it is judged stands in resources/paper/claims.yaml; the quantity of a claim is
+computed by the function of its name here. Where a claim fails under the conventions shown but holds under others that
+the paper leaves open, the verdict says so, and under which.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+from scipy.special import gamma as gamma_function
+from scipy.stats import chi2
+
+from viscorough import reference
+from viscorough.ensemble import combine
+from viscorough.indentation import indent
+from viscorough.marching import march_events
+from viscorough.scaling import find_region, fit_power_law
+from viscorough.surfaces import cut_disc, self_affine_disc
+
+VERDICTS = ("reproduced", "reproduced under a stated convention", "not reproduced", "not testable")
+COLUMNS = {
+    "claim": ("name of the claim, as in resources/paper/claims.yaml", ""),
+    "where": ("equation, section or figure of the paper", ""),
+    "case": ("Hurst exponent or part that the row is about", ""),
+    "value": ("what was computed", "1"),
+    "low": ("lower end of its 95 % interval, or least value", "1"),
+    "high": ("upper end of its 95 % interval, or largest value", "1"),
+    "expected": ("what the paper says", "1"),
+    "tolerance": ("tolerance of the criterion", "1"),
+    "verdict": ("one of: " + "; ".join(VERDICTS), ""),
+    "convention": ("convention under which the claim holds, where it does not under those shown", ""),
+    "criterion": ("when the claim counts as reproduced", ""),
+    "figure": ("figure that shows it", ""),
+}
+SAID_FROM = 0.4  # Hurst exponent from which on the paper says that β = H/(1 + H)
+CONVENTIONS = ["rms_convention", "average", "window_rule", "gamma", "diameter_convention"]
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What claims are judged by.
+
+    discs, lines : {H: list of ensembles, one for each combination}, {H: ensemble}
+    scaling, validation : the tables of these names, shown : conventions of the figures, {column: value}
+    across : elements across a disc; limits : elements_min, stiffness_max, slope_max of region (b)
+    resamples, seed : of bootstraps, and of the surfaces that are marched
+    """
+
+    discs: dict
+    lines: dict
+    scaling: pd.DataFrame
+    validation: pd.DataFrame
+    shown: dict
+    across: int
+    limits: dict
+    resamples: int
+    seed: int
+
+    def pooled(self, hurst):
+        """All discs of a Hurst exponent in the rms convention shown, and the window of region (b), None without."""
+        mean = combine(self.discs[hurst]).sel(rms_convention=self.shown["rms_convention"])
+        try:
+            return mean, find_region(mean, **self.limits)
+        except ValueError:
+            return mean, None
+
+    def fits(self, source, **conventions):
+        """Rows of the scaling table by Hurst exponent, under the conventions shown but for those given."""
+        wanted = self.shown | conventions
+        if source == "lines":
+            wanted = wanted | {"rms_convention": "line"}
+        table = self.scaling[(self.scaling["source"] == source) & (self.scaling["case_group"] == "base")]
+        for name, value in wanted.items():
+            table = table[table[name] == value]
+        return table.set_index("hurst").sort_index()
+
+
+def judge(claims, evidence):
+    """Verdicts on the claims; a pandas.DataFrame with the columns of `COLUMNS`, a row for every case of a claim.
+
+    claims : {name: where, statement, criterion, tolerance, figure}
+    A case whose quantity cannot be computed from the evidence, such as an exponent where there is no region (b), is
+    not testable. Raises ValueError for a claim that no function here computes.
+    """
+    rows = []
+    for name, claim in claims.items():
+        if name not in JUDGES:
+            raise ValueError(f"claim {name}: nothing computes it; known are {', '.join(JUDGES)}")
+        for case, value, low, high, expected, verdict, convention in JUDGES[name](evidence, claim["tolerance"]):
+            about = claim["tolerance"], verdict, convention, claim["criterion"], claim["figure"]
+            rows.append((name, claim["where"], case, value, low, high, expected, *about))
+    return pd.DataFrame(rows, columns=list(COLUMNS))
+
+
+def overall(table):
+    """{claim: verdict} over all cases of a claim: the worst of them; untestable ones count where all are."""
+    order = [VERDICTS.index(name) for name in VERDICTS]
+    result = {}
+    for name, rows in table.groupby("claim", sort=False):
+        ranks = [VERDICTS.index(verdict) for verdict in rows["verdict"] if verdict != "not testable"]
+        result[name] = VERDICTS[max(ranks, default=order[-1])]
+    return result
+
+
+def markdown(table, claims):
+    """The verdicts as a table in Markdown: statement, where, what was found with its interval, verdict."""
+
+    def found(row):
+        numbers = f"{row.value:.4g} [{row.low:.3g}, {row.high:.3g}]" if np.isfinite(row.value) else "–"
+        return f"{row.case}: {numbers}"
+
+    lines = ["| the paper says | where | found, with interval | verdict |", "|---|---|---|---|"]
+    for name, verdict in overall(table).items():
+        cases = "; ".join(map(found, table[table["claim"] == name].itertuples()))
+        lines.append(f"| {claims[name]['statement']} | {claims[name]['where']} | {cases} | {verdict} |")
+    return "\n".join(lines) + "\n"
+
+
+def _row(case, value, low, high, expected, met, convention=""):
+    """One case; met : whether the criterion is, None where it cannot be said."""
+    if met is None or not np.isfinite(value):
+        return case, np.nan, np.nan, np.nan, expected, "not testable", ""
+    verdict = VERDICTS[0] if met else VERDICTS[1] if convention else VERDICTS[2]
+    return case, value, low, high, expected, verdict, "" if met else convention
+
+
+def _hurst(hurst):
+    return f"H = {hurst:g}"
+
+
+# ---- form and regions
+
+
+def _collapse(evidence, tolerance):
+    """Scatter of ln(vt/h) over combinations, over that between Hurst exponents, at one X in all regions (b)."""
+    found = {hurst: evidence.pooled(hurst) for hurst in evidence.discs}
+    windows = [window for _, window in found.values() if window is not None]
+    if len(windows) < 2 or len(windows) < len(found):
+        return [_row(_hurst(hurst), np.nan, np.nan, np.nan, 0.0, None) for hurst in found]
+    x = next(iter(found.values()))[0]["x"].values
+    at = int(np.argmin(np.abs(np.log(x) - np.mean(np.log(windows)))))
+    means = {
+        hurst: [
+            np.log(each.sel(rms_convention=evidence.shown["rms_convention"])["velocity_geometric"].values[at])
+            for each in ensembles
+        ]
+        for hurst, ensembles in evidence.discs.items()
+    }
+    between = np.std([np.mean(each) for each in means.values()], ddof=1)
+    rows = []
+    for hurst, each in means.items():
+        freedom = len(each) - 1
+        ratio = np.std(each, ddof=1) / between if freedom else np.nan
+        low, high = ratio * np.sqrt(freedom / chi2.ppf([0.975, 0.025], max(freedom, 1)))
+        rows.append(_row(_hurst(hurst), ratio, low, high, 0.0, ratio <= tolerance))
+    return rows
+
+
+def _first_region(evidence, tolerance):
+    """κ while one element touches, over π/(K₀₀ n)."""
+    rows = []
+    for hurst, ensembles in evidence.discs.items():
+        mean = combine(ensembles).sel(rms_convention=evidence.shown["rms_convention"])
+        alone = mean["contact_count"].values <= 1 + 1e-9
+        ratio = mean["stiffness"].values[alone] / reference.one_element_stiffness(evidence.across)
+        bounds = (np.median(ratio), ratio.min(), ratio.max()) if ratio.size else (np.nan,) * 3
+        met = bool(np.all(np.abs(ratio - 1) <= tolerance)) if ratio.size else None
+        rows.append(_row(_hurst(hurst), *bounds, 1.0, met))
+    return rows
+
+
+def _last_region(evidence, tolerance):
+    """Xh/(vt), which is κ, and the slope of vt/h where curves end."""
+    rows = []
+    for hurst, ensembles in evidence.discs.items():
+        mean = combine(ensembles).sel(rms_convention=evidence.shown["rms_convention"])
+        whole = np.flatnonzero(mean["fraction_defined"].values == 1)
+        last = mean["stiffness"].values[:, whole[-1]]
+        spread = last.mean(), last.min(), last.max()
+        rows.append(_row(f"{_hurst(hurst)}, prefactor", *spread, 1.0, abs(spread[0] - 1) <= tolerance))
+        end = mean["x"].values >= mean["x"].values[whole[-1]] / 10**0.25
+        end[whole[-1] + 1 :] = False
+        log_x = np.log(mean["x"].values[end])
+        slopes = np.polyfit(log_x, np.log(mean["velocity"].values[:, end]).T, 1)[0]
+        spread = slopes.mean(), slopes.min(), slopes.max()
+        rows.append(_row(f"{_hurst(hurst)}, slope", *spread, 1.0, abs(spread[0] - 1) <= tolerance))
+    return rows
+
+
+def _power_law(evidence, tolerance):
+    """Deviation of ln(vt/h) from a straight line, and the decades of region (b)."""
+    rows = []
+    for hurst, fit in evidence.fits("discs").iterrows():
+        deviation, decades = fit["residual"], fit["decades"]
+        testable = np.isfinite(deviation)
+        rows.append(
+            _row(f"{_hurst(hurst)}, deviation", deviation, 0.0, deviation, 0.0, deviation <= tolerance)
+            if testable
+            else _row(f"{_hurst(hurst)}, deviation", np.nan, np.nan, np.nan, 0.0, None)
+        )
+        span = (decades, np.log10(fit["x_low"]), np.log10(fit["x_high"])) if testable else (0.0, np.nan, np.nan)
+        rows.append(_row(f"{_hurst(hurst)}, decades (log₁₀X from, to)", *span, 1.0, bool(decades >= 1)))
+    return rows
+
+
+# ---- exponents and prefactors
+
+
+def _against_law(evidence, source, column, law, tolerance, *, relative=False, least_hurst=0.0, **conventions):
+    """Rows of a fitted quantity against a law, at the Hurst exponents for which it is said.
+
+    conventions : those that the claim fixes. Where it fails under the others as shown, the convention is named under
+    which all Hurst exponents meet the law, with the least deviation.
+    """
+
+    def deviations(table):
+        table = table[table.index >= least_hurst]
+        expected = law(table.index.to_numpy())
+        return np.abs(table[column] - expected) / (expected if relative else 1)
+
+    fits = evidence.fits(source, **conventions)
+    shown, best, least = deviations(fits), "", tolerance
+    open_ones = evidence.scaling[(evidence.scaling["source"] == source) & (evidence.scaling["case_group"] == "base")]
+    for name, value in conventions.items():
+        open_ones = open_ones[open_ones[name] == value]
+    for values, table in open_ones.groupby(CONVENTIONS, sort=False):
+        found = deviations(table.set_index("hurst").sort_index())
+        if len(found) == len(shown) and found.notna().all() and found.max() <= least:
+            named = zip(CONVENTIONS, values, strict=True)
+            best, least = ", ".join(f"{name} {value}" for name, value in named), found.max()
+    rows = []
+    for hurst in shown.index:
+        interval = fits.loc[hurst, [column, f"{column}_low", f"{column}_high"]]
+        rows.append(_row(_hurst(hurst), *interval, law(hurst), shown[hurst] <= tolerance, best))
+    return rows
+
+
+def _beta(evidence, tolerance, source="discs"):
+    return _against_law(evidence, source, "beta", reference.exponent_beta, tolerance, least_hurst=SAID_FROM)
+
+
+def _beta_lines(evidence, tolerance):
+    return _beta(evidence, tolerance, "lines")
+
+
+def _coincide(evidence, tolerance):
+    """β of lines less β of discs."""
+    discs, lines, rows = evidence.fits("discs"), evidence.fits("lines"), []
+    for hurst in discs.index:
+        one, other = discs.loc[hurst], lines.loc[hurst]
+        difference = other["beta"] - one["beta"]
+        below = np.hypot(other["beta"] - other["beta_low"], one["beta_high"] - one["beta"])
+        above = np.hypot(other["beta_high"] - other["beta"], one["beta"] - one["beta_low"])
+        met = abs(difference) <= tolerance
+        rows.append(_row(_hurst(hurst), difference, difference - below, difference + above, 0.0, met))
+    return rows
+
+
+def _zeta_elastic(evidence, tolerance):
+    law = reference.zeta_elastic
+    return _against_law(evidence, "discs", "zeta", law, tolerance, relative=True, gamma="without")
+
+
+def _zeta_viscous(evidence, tolerance):
+    """Eq. 11 was found with Eq. 9, which has the factor."""
+    law = reference.zeta_viscous
+    return _against_law(evidence, "discs", "zeta", law, tolerance, relative=True, gamma="with")
+
+
+def _centre(evidence, hurst):
+    """Ensemble, fit of region (b) and the geometric centre of its window; None without a region."""
+    mean, window = evidence.pooled(hurst)
+    if window is None:
+        return None
+    how = {"average": evidence.shown["average"], "resamples": evidence.resamples, "seed": evidence.seed}
+    return mean, fit_power_law(mean["x"].values, mean["velocity"].values, window, **how), np.sqrt(np.prod(window))
+
+
+def _depth(evidence, tolerance):
+    """(1 - α)κu/(hX) at the centre, where u/h = ∫dX/κ, κ constant below the first abscissa."""
+    rows = []
+    for hurst in evidence.discs:
+        if (found := _centre(evidence, hurst)) is None:
+            rows.append(_row(_hurst(hurst), np.nan, np.nan, np.nan, 1.0, None))
+            continue
+        mean, fit, centre = found
+        x, softness = mean["x"].values, 1 / mean["stiffness"].values
+        upto = int(np.argmin(np.abs(np.log(x / centre)))) + 1
+        depth = x[0] * softness[:, 0] + np.trapezoid(softness[:, :upto], x[:upto], axis=1)
+        ratio = fit.beta * depth / (x[upto - 1] * softness[:, upto - 1])
+        error = 1.96 * ratio.std(ddof=1) / np.sqrt(ratio.size)
+        value = ratio.mean()
+        rows.append(_row(_hurst(hurst), value, value - error, value + error, 1.0, abs(value - 1) <= tolerance))
+    return rows
+
+
+def _gamma(evidence, tolerance):
+    """Depth of the direct integration over the elastic depth at the force GI/η; the factor would be in it."""
+    rows = []
+    for hurst in evidence.discs:
+        disc = self_affine_disc(
+            hurst, 33, seed=np.random.SeedSequence(evidence.seed, spawn_key=(11, round(hurst * 1e6)))
+        )
+        events, elastic = march_events(disc, until=0.5), indent(disc, tolerance=1e-6, until=0.5)
+        impulse = np.geomspace(events.impulse[10], 0.9 * min(events.impulse[-1], elastic.force[-1]), 20)
+        ratio = events.depth_at(impulse) / elastic.at_force(impulse)[0]
+        expected = 1 / gamma_function(2 - reference.exponent_alpha(hurst))
+        met = bool(np.all(np.abs(ratio - expected) <= tolerance))
+        rows.append(_row(_hurst(hurst), np.median(ratio), ratio.min(), ratio.max(), expected, met))
+    return rows
+
+
+def _master_curve(evidence, tolerance):
+    """vt/h over the right side of Eq. 12 as printed, at the centre of region (b)."""
+    rows = []
+    for hurst in evidence.discs:
+        if (found := _centre(evidence, hurst)) is None:
+            rows.append(_row(_hurst(hurst), np.nan, np.nan, np.nan, 1.0, None))
+            continue
+        _, fit, centre = found
+        law = reference.rate_law(centre, hurst, gamma=True)
+        value = fit.prefactor * centre**fit.beta / law
+        low, high = np.quantile(fit.prefactor_samples * centre**fit.beta_samples / law, [0.025, 0.975])
+        rows.append(_row(_hurst(hurst), value, low, high, 1.0, abs(value - 1) <= tolerance))
+    return rows
+
+
+# ---- reduction of dimensionality
+
+
+def _line_spectrum(evidence, tolerance):
+    """λ, which is π if the line needs no correction."""
+    fits = evidence.fits("discs")[["lambda", "lambda_low", "lambda_high"]]
+    excluded = (fits["lambda_low"] > np.pi) | (fits["lambda_high"] < np.pi)
+    differs = excluded & (np.abs(fits["lambda"] / np.pi - 1) > tolerance)
+    return [_row(_hurst(hurst), *values, np.pi, differs.any()) for hurst, values in fits.iterrows()]
+
+
+def _bodies_of_revolution(evidence, tolerance):
+    """Largest error of the reduction on the finest grid, and on the coarsest."""
+    table = evidence.validation[evidence.validation["case"].str.endswith("_reduction")]
+    rows = []
+    for (case, quantity), part in table.groupby(["case", "quantity"], sort=False):
+        error = part.sort_values("elements")["error"]
+        body = case.removesuffix("_reduction")
+        bounds = error.iloc[-1], error.min(), error.max()
+        # The stiffness counts points, so that it is as exact as the line is fine.
+        met = error.iloc[-1] <= (tolerance if quantity == "depth" else 2 / part["elements"].max())
+        rows.append(_row(f"{body}, {quantity}", *bounds, 0.0, met))
+    return rows
+
+
+def _elements(evidence, tolerance):
+    count = np.isfinite(cut_disc(np.zeros((257, 257)), 257)).sum()
+    return [_row("257 across", count, count, count, 51432, abs(count - 51432) <= tolerance)]
+
+
+def _computing_time(evidence, tolerance):
+    """Contact events of one indentation, to the end of the curves: one contact problem each for explicit steps."""
+    ensembles = [each.isel(rms_convention=0) for every in evidence.discs.values() for each in every]
+    counts = np.concatenate([each["contact_count"].max("abscissa").values for each in ensembles])
+    bounds = np.median(counts), counts.min(), counts.max()
+    return [("events of an indentation", *bounds, np.nan, "not testable", "")]
+
+
+JUDGES = {
+    "collapse": _collapse,
+    "first_region": _first_region,
+    "last_region": _last_region,
+    "power_law": _power_law,
+    "beta": _beta,
+    "beta_lines": _beta_lines,
+    "coincide": _coincide,
+    "depth": _depth,
+    "zeta_elastic": _zeta_elastic,
+    "zeta_viscous": _zeta_viscous,
+    "gamma": _gamma,
+    "master_curve": _master_curve,
+    "line_spectrum": _line_spectrum,
+    "bodies_of_revolution": _bodies_of_revolution,
+    "elements": _elements,
+    "computing_time": _computing_time,
+}

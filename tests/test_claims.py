@@ -1,0 +1,140 @@
+"""Verdicts: on ensembles that obey a law exactly, that miss it, and that obey it under one convention only."""
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+import yaml
+
+from viscorough import claims, reference
+from viscorough.claims import JUDGES, VERDICTS, Evidence, judge, markdown, overall
+from viscorough.ensemble import _dataset, abscissa, combine
+from viscorough.scaling import scaling_rows
+
+ROOT = Path(__file__).resolve().parents[1]
+CLAIMS = yaml.safe_load((ROOT / "resources/paper/claims.yaml").read_text(encoding="utf-8"))
+X = abscissa(1e-7, 30.0, 20)
+HURST = (0.4, 0.6, 0.9)
+LIMITS = {"elements_min": 10, "stiffness_max": 0.2, "slope_max": 0.8}
+SHOWN = {
+    "average": "geometric",
+    "rms_convention": "disc",
+    "window_rule": "default",
+    "gamma": "without",
+    "diameter_convention": "diameter",
+}
+
+
+def ensemble(hurst, case, zeta, *, bent=0.0, scatter=0.02, seed=0, square=1.0):
+    """Discs with κ = ζ X^α up to the complete contact, one element in contact at first; `square` scales κ there."""
+    random = np.random.default_rng([seed, round(hurst * 1e6)])
+    alpha = reference.exponent_alpha(hurst) + bent
+    one = reference.one_element_stiffness(257)
+    factor = np.exp(scatter * random.standard_normal((20, 1)))
+    kappa = np.clip(zeta * factor * X**alpha, one, 1.0)
+    stiffness = np.stack([kappa, np.clip(square * zeta * factor * X**alpha, one, 1.0)])
+    count = np.where(stiffness > one, np.maximum(51433 * stiffness**2, 2.0), 1.0)
+    return _dataset(
+        ["disc", "square"], X, stiffness, count, {"hurst": hurst, "case": case, "diameter": 1.0, "elements": 51433}
+    )
+
+
+def evidence(zeta=reference.zeta_elastic, **options):
+    discs = {hurst: [ensemble(hurst, f"c{i}", zeta(hurst), seed=i, **options) for i in range(4)] for hurst in HURST}
+    lines = {
+        hurst: each[0].sel(rms_convention=["disc"]).assign_coords(rms_convention=["line"])
+        for hurst, each in discs.items()
+    }
+    how = {"resamples": 50, "seed": 1, "stiffness_range": [0.03, 0.3], **LIMITS}
+    rows = []
+    for hurst, each in discs.items():
+        rows += scaling_rows(combine(each), source="discs", case_group="base", lines=lines[hurst], **how)
+        rows += scaling_rows(lines[hurst], source="lines", case_group="base", **how)
+    validation = pd.DataFrame(
+        [("sphere_reduction", "depth", n, 1 / n**2) for n in (65, 129)],
+        columns=["case", "quantity", "elements", "error"],
+    )
+    about = {"shown": SHOWN, "across": 257, "limits": LIMITS, "resamples": 50, "seed": 1}
+    return Evidence(discs, lines, pd.DataFrame(rows), validation, **about)
+
+
+@pytest.fixture(scope="module")
+def table():
+    return judge(CLAIMS, evidence())
+
+
+def test_every_claim_is_judged_and_shown(table):
+    assert list(CLAIMS) == list(JUDGES)
+    assert set(table["claim"]) == set(CLAIMS)
+    assert set(table["verdict"]) <= set(VERDICTS)
+    rules = "".join(path.read_text() for path in (ROOT / "workflow/rules").glob("*.smk"))
+    for claim in CLAIMS.values():
+        assert f"figures/{claim['figure']}.png" in rules
+
+
+def test_verdicts_on_surfaces_that_obey_equation_4(table):
+    verdicts = overall(table)
+    said = "collapse", "first_region", "last_region", "power_law", "beta", "beta_lines", "coincide"
+    assert {verdicts[name] for name in (*said, "zeta_elastic", "bodies_of_revolution")} == {"reproduced"}
+    assert {verdicts[name] for name in ("zeta_viscous", "gamma", "line_spectrum", "elements")} == {"not reproduced"}
+    assert verdicts["computing_time"] == "not testable"
+    depth = table[table["claim"] == "depth"]["value"]
+    assert (depth < 1).all(), "while one element touches less depth is gained than by the power law from zero on"
+    exact = table[table["claim"] == "zeta_elastic"]
+    np.testing.assert_allclose(exact["value"], exact["expected"], rtol=0.02)
+    assert (exact["low"] < exact["high"]).all()
+
+
+def test_factor_of_equation_9_belongs_to_equation_11():
+    """ζ = 2 − H with the factor in the law is (2 − H) Γ(2 − α) without it."""
+    from scipy.special import gamma
+
+    found = evidence(lambda hurst: (2 - hurst) * gamma(2 - reference.exponent_alpha(hurst)))
+    verdicts = overall(judge({name: CLAIMS[name] for name in ("zeta_viscous", "zeta_elastic", "master_curve")}, found))
+    assert verdicts == {
+        "zeta_viscous": "reproduced",
+        "zeta_elastic": "not reproduced",
+        "master_curve": "reproduced",
+    }
+
+
+def test_other_exponent_is_not_reproduced():
+    verdicts = overall(judge({"beta": CLAIMS["beta"]}, evidence(bent=0.06)))
+    assert verdicts == {"beta": "not reproduced"}
+
+
+def test_convention_is_named_under_which_a_claim_holds():
+    found = evidence(lambda hurst: 1.3 * reference.zeta_elastic(hurst), square=1 / 1.3)
+    rows = judge({"zeta_elastic": CLAIMS["zeta_elastic"]}, found)
+    assert overall(rows) == {"zeta_elastic": "reproduced under a stated convention"}
+    assert rows["convention"].str.startswith("rms_convention square").all()
+
+
+def test_scatter_of_combinations_is_seen():
+    wide = evidence()
+    for each in wide.discs.values():
+        each[0] = each[0].assign(velocity_geometric=1.5 * each[0]["velocity_geometric"])
+    assert overall(judge({"collapse": CLAIMS["collapse"]}, wide)) == {"collapse": "not reproduced"}
+
+
+def test_without_region_nothing_is_claimed():
+    found = evidence()
+    few = Evidence(**{**vars(found), "limits": LIMITS | {"elements_min": 10**9}})
+    names = ("collapse", "depth", "master_curve")
+    rows = judge({name: CLAIMS[name] for name in names}, few)
+    assert set(rows["verdict"]) == {"not testable"}
+    assert rows["value"].isna().all()
+    assert overall(rows) == dict.fromkeys(names, "not testable")
+
+
+def test_markdown_has_a_row_for_every_claim(table):
+    lines = markdown(table, CLAIMS).splitlines()
+    assert len(lines) == 2 + len(CLAIMS)
+    assert {line.count(" | ") for line in lines[2:]} == {3}
+
+
+def test_unknown_claim_is_named():
+    with pytest.raises(ValueError, match="claim beauty: nothing computes it"):
+        judge({"beauty": CLAIMS["beta"]}, evidence())
+    assert claims.SAID_FROM == 0.4

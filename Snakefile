@@ -72,6 +72,7 @@ rule figures:
         rules.plot_master_curve.output,
         rules.plot_exponent.output,
         rules.plot_conventions.output,
+        rules.compare_prefactors.output,
         rules.plot_validation.output,
 
 

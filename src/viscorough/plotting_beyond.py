@@ -6,12 +6,12 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, LogLocator, MaxNLocator, NullFormatter, NullLocator
 
-from viscorough import reference
-from viscorough.plotting_style import GREY, MM, STYLE, WIDE, fits, hurst_looks, mark
+from viscorough import prefactor, reference
+from viscorough.plotting_style import GREY, MM, PALE, STYLE, WIDE, fits, hurst_looks, mark
 
 CONVENTIONS = {
     "average": {"arithmetic": "arithmetic mean", "geometric": "geometric mean"},
-    "rms_convention": {"disc": "$h$ of the disc", "square": "$h$ of the square"},
+    "rms_convention": {"disc": "$h$ of the disc", "square": "$h$ of the square", "peak": "$h$ of the highest peak"},
     "window_rule": {
         "default": "whole window",
         "lower_half": "lower half of window",
@@ -168,3 +168,44 @@ def _case_looks(cases):
         }
         for case, (body, method) in zip(cases, named, strict=True)
     }
+
+
+@rc_context(STYLE)
+def plot_prefactors(table, shown):
+    """ζ over each of the paper's two laws for it, over H, under every combination of conventions.
+
+    table : of viscorough.prefactor; shown : conventions of the figures. Raises ValueError for a table without rows.
+    """
+    if table.empty:
+        raise ValueError("plot_prefactors: the table has no rows; at least one is needed")
+    figure = Figure(figsize=(WIDE, 95 * MM))
+    panels = figure.subplots(1, 2, sharey=True)
+    laws = {"eq4": r"$\zeta\;/\;[\pi(3-H)/10]$, Eq. 4", "eq11": r"$\zeta\;/\;(2-H)$, Eq. 11"}
+    for axes, (law, label) in zip(panels, laws.items(), strict=True):
+        for conventions in prefactor.combinations(table):
+            rows = prefactor.rows_of(table, conventions)
+            axes.plot(rows["hurst"], rows[law], color=PALE, linewidth=0.5, zorder=1)
+        axes.axhline(1, color="black", linewidth=0.8, linestyle="--", zorder=2)
+        marked = {"as in other figures": (shown | {"factor": 1}, COLORS[0], "o")}
+        if (best := prefactor.nearest(table, law)) is not None:
+            marked[_in_words(best)] = (best, COLORS[1], "s")
+        for name, (conventions, color, marker) in marked.items():
+            rows = prefactor.rows_of(table, conventions)
+            scale = rows[law] / rows["zeta"]
+            ends = np.abs([rows["zeta_low"] * scale - rows[law], rows["zeta_high"] * scale - rows[law]])
+            axes.errorbar(rows["hurst"], rows[law], ends, color=color, marker=marker, label=name, zorder=3)
+        axes.plot([], [], color=PALE, label="every other combination")
+        axes.set(title=label, xlabel="Hurst exponent $H$ [1]", yscale="log", xlim=(0, 1))
+        axes.yaxis.set(major_locator=FixedLocator([0.2, 0.5, 1, 2, 5]), major_formatter="{x:g}")
+        axes.yaxis.set(minor_locator=LogLocator(subs=range(1, 10)), minor_formatter=NullFormatter())
+        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), fontsize=7, ncols=2)
+    panels[0].set_ylabel(r"$\zeta$ over the law [1]")
+    return figure
+
+
+def _in_words(conventions):
+    """Conventions in the words of the figures."""
+    words = [CONVENTIONS[name][value] for name, value in conventions.items() if name != "factor"]
+    words += [] if conventions["factor"] == 1 else [f"factor {conventions['factor']:g} in $F$ or $1/G$"]
+    lines = [", ".join(words[start : start + 2]) for start in range(0, len(words), 2)]
+    return "nearest: " + ",\n".join(lines)

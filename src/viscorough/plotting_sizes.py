@@ -71,7 +71,7 @@ def plot_large(table):
         axes.set(title=title, xlabel="elements of the disc [1]", ylabel=unit)
         for across, *at in zip(table["across"], table["elements"], values, strict=True):
             axes.annotate(f"{across}", at, (-5, 3), textcoords="offset points", fontsize=6, ha="right")
-        axes.margins(x=0.12)
+        axes.margins(0.12)
         logarithmic_ticks(axes)
         axes.legend(loc="upper left", bbox_to_anchor=(0, 0.95))
     return figure

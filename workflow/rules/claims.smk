@@ -37,3 +37,39 @@ rule judge_claims:
         "Verdicts on the paper's claims"
     script:
         "../scripts/judge_claims.py"
+
+
+rule compare_prefactors:
+    input:
+        scaling=rules.fit_scaling.output.csv,
+    output:
+        csv=report(
+            "results/tables/prefactors.csv",
+            caption="../report/prefactors_table.rst",
+            category="Verdicts",
+            labels={"table": "zeta under every convention"},
+        ),
+        nc="results/tables/prefactors.nc",
+        png=report(
+            "results/figures/prefactors.png",
+            caption="../report/prefactors.rst",
+            category="Verdicts",
+            labels={"figure": "zeta under every convention"},
+        ),
+        pdf="results/figures/prefactors.pdf",
+    log:
+        "results/logs/compare_prefactors.log",
+    benchmark:
+        "results/benchmarks/compare_prefactors.tsv"
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+    params:
+        source_digest("compare_prefactors"),
+        shown=config["figures"],
+    message:
+        "Prefactor under every convention"
+    script:
+        "../scripts/compare_prefactors.py"

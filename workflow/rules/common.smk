@@ -346,16 +346,17 @@ def imported(path):
 
 @cache
 def source_digest(rule):
-    """Digest of the modules that a rule's script uses, directly or through each other.
+    """Digest of a rule's script and of the modules that it uses, directly or through each other.
 
-    Snakemake sees edits of scripts, not of what they import.
+    Snakemake sees edits of scripts, but not of what they import, nor of a script whose output was temporary.
     """
-    used, new = set(), imported(WORKFLOW / "scripts" / f"{rule}.py")
+    script = WORKFLOW / "scripts" / f"{rule}.py"
+    used, new = {script}, imported(script)
     while new:
         used |= new
         new = set().union(*map(imported, new)) - used
     digest = hashlib.sha256()
-    for path in sorted(used):
+    for path in sorted(used, key=lambda path: path.name):
         digest.update(path.name.encode())
         digest.update(path.read_bytes())
     return digest.hexdigest()[:16]

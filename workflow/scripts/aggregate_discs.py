@@ -6,7 +6,8 @@ from viscorough.storage import read_dataset, unstack_curves, write_dataset
 
 
 def main(curves, ensemble, *, case, x_low, x_high, per_decade):
-    """Pool the batches of loading curves in `curves`; h is that of the disc and that of the square, side by side.
+    """Pool the batches of loading curves in `curves`; h is the rms of the disc, that of the square, and the
+    height of the highest peak, side by side.
 
     A batch at a time is in memory, of the others only what they come to at the abscissae.
     """
@@ -14,7 +15,7 @@ def main(curves, ensemble, *, case, x_low, x_high, per_decade):
 
     def batch_ensemble(path):
         batch = read_dataset(path)
-        rms = {name: batch[f"rms_{name}"].values for name in ("disc", "square")}
+        rms = {name: batch[f"rms_{name}"].values for name in ("disc", "square", "peak")}
         about = {"hurst": batch["hurst"].item(), "case": case}
         ds = aggregate(unstack_curves(batch), rms, batch["diameter"].item(), x, **about)
         return ds.assign_attrs(settings=batch.attrs["settings"])

@@ -73,6 +73,8 @@ rule figures:
         rules.plot_exponent.output,
         rules.plot_conventions.output,
         rules.compare_prefactors.output,
+        rules.compare_reduction.output,
+        rules.compare_direct.output,
         rules.plot_validation.output,
 
 

@@ -9,6 +9,7 @@ import yaml
 
 from viscorough import claims, reference
 from viscorough.claims import JUDGES, VERDICTS, Evidence, judge, markdown, overall
+from viscorough.direct import compare_direct
 from viscorough.ensemble import _dataset, abscissa, combine
 from viscorough.scaling import scaling_rows
 
@@ -55,8 +56,9 @@ def evidence(zeta=reference.zeta_elastic, **options):
         [("sphere_reduction", "depth", n, 1 / n**2) for n in (65, 129)],
         columns=["case", "quantity", "elements", "error"],
     )
+    direct = compare_direct(HURST, 17, 1)
     about = {"shown": SHOWN, "across": 257, "limits": LIMITS, "resamples": 50, "seed": 1}
-    return Evidence(discs, lines, pd.DataFrame(rows), validation, **about)
+    return Evidence(discs, lines, pd.DataFrame(rows), validation, direct, **about)
 
 
 @pytest.fixture(scope="module")

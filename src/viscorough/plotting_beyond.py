@@ -209,3 +209,60 @@ def _in_words(conventions):
     words += [] if conventions["factor"] == 1 else [f"factor {conventions['factor']:g} in $F$ or $1/G$"]
     lines = [", ".join(words[start : start + 2]) for start in range(0, len(words), 2)]
     return "nearest: " + ",\n".join(lines)
+
+
+@rc_context(STYLE)
+def plot_reduction(table):
+    """Lines over the discs whose spectra they have, over X: κ (a), contact fraction (b), correlation (c).
+
+    table : of viscorough.comparison. Raises ValueError for a table without rows.
+    """
+    if table.empty:
+        raise ValueError("plot_reduction: the table has no rows; at least one is needed")
+    figure = Figure(figsize=(WIDE, 75 * MM))
+    stiffness, area, correlation = figure.subplots(1, 3, sharex=True)
+    looks = hurst_looks(table["hurst"])
+    for hurst, rows in table.groupby("hurst"):
+        look = {"color": looks[hurst]["color"], "linestyle": looks[hurst]["linestyle"]}
+        scatter = np.exp(rows["stiffness_scatter"])
+        band = rows["stiffness_ratio"] / scatter, rows["stiffness_ratio"] * scatter
+        stiffness.fill_between(rows["x"], *band, color=look["color"], alpha=0.12, linewidth=0)
+        stiffness.plot(rows["x"], rows["stiffness_ratio"], **look, label=f"$H={hurst:g}$")
+        area.plot(rows["x"], rows["area_ratio"], **look)
+        correlation.plot(rows["x"], rows["correlation"], **look)
+    for axes, title, label in (
+        (stiffness, "(a) stiffness", r"$\kappa$ of line over disc [1]"),
+        (area, "(b) contact fraction", "contact fraction of line over disc [1]"),
+        (correlation, "(c) realization by realization", r"correlation of $\ln\kappa$ [1]"),
+    ):
+        axes.set(title=title, xlabel="$X=F/(4GhL)$ [1]", ylabel=label, xscale="log")
+        axes.axhline(0 if axes is correlation else 1, color=GREY, linewidth=0.6)
+    for axes in (stiffness, area):
+        axes.set_yscale("log")
+        axes.yaxis.set(major_locator=FixedLocator([0.1, 0.2, 0.5, 1, 2, 5, 10]), major_formatter="{x:g}")
+        axes.yaxis.set(minor_locator=LogLocator(subs=range(1, 10)), minor_formatter=NullFormatter())
+    correlation.set_ylim(-1, 1)
+    figure.legend(loc="outside lower center", ncols=len(looks))
+    return figure
+
+
+@rc_context(STYLE)
+def plot_direct(table):
+    """Depth of direct integrations over the elastic depth, and over it by Eq. 8, against the elements in contact.
+
+    table : of viscorough.direct. Raises ValueError for a table without rows.
+    """
+    if table.empty:
+        raise ValueError("plot_direct: the table has no rows; at least one is needed")
+    figure = Figure(figsize=(WIDE, 80 * MM))
+    axes = figure.subplots()
+    colors = ("#000000", "#0072b2", "#56b4e9", "#009e73", "#e69f00", "#d55e00", "#cc79a7")
+    for rank, (case, part) in enumerate(table.groupby("case", sort=False)):
+        color = colors[rank % len(colors)]
+        axes.semilogx(part["contact_count"], part["depth_ratio"], MARKERS[rank % len(MARKERS)], color=color, label=case)
+        axes.axhline(part["with_gamma"].iloc[0], color=color, linestyle="--", linewidth=0.8)
+    axes.axhline(1, color=GREY, linewidth=0.8)
+    axes.plot([], [], color=GREY, linestyle="--", label=r"with the factor $1/\Gamma(2-\alpha)$, Eq. 8")
+    axes.set(xlabel="elements in contact [1]", ylabel="viscous depth over elastic depth [1]")
+    figure.legend(loc="outside right upper")
+    return figure

@@ -1,12 +1,49 @@
 # Verdicts on what the paper says.
 
 
+rule compare_direct:
+    output:
+        csv=report(
+            "results/tables/direct.csv",
+            caption="../report/direct_table.rst",
+            category="Verdicts",
+            labels={"table": "direct integration and both readings of the law"},
+        ),
+        nc="results/tables/direct.nc",
+        png=report(
+            "results/figures/direct.png",
+            caption="../report/direct.rst",
+            category="Verdicts",
+            labels={"figure": "direct integration and both readings of the law"},
+        ),
+        pdf="results/figures/direct.pdf",
+    log:
+        "results/logs/compare_direct.log",
+    benchmark:
+        "results/benchmarks/compare_direct.tsv"
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+    params:
+        source_digest("compare_direct"),
+        hursts=config["discs"]["hurst"],
+        across=min(65, config["discs"]["elements"]),
+        seed=config["seed"],
+    message:
+        "Direct integration against both readings of the law"
+    script:
+        "../scripts/compare_direct.py"
+
+
 rule judge_claims:
     input:
         discs=ensembles("base"),
         lines=lines_of_discs(),
         scaling=rules.fit_scaling.output.csv,
         validation=rules.validate.output.csv,
+        direct=rules.compare_direct.output.csv,
     output:
         csv=report(
             "results/tables/claims.csv",
@@ -73,3 +110,41 @@ rule compare_prefactors:
         "Prefactor under every convention"
     script:
         "../scripts/compare_prefactors.py"
+
+
+rule compare_reduction:
+    output:
+        csv=report(
+            "results/tables/reduction.csv",
+            caption="../report/reduction_table.rst",
+            category="Verdicts",
+            labels={"table": "MDR, surface by surface"},
+        ),
+        nc="results/tables/reduction.nc",
+        png=report(
+            "results/figures/reduction.png",
+            caption="../report/reduction.rst",
+            category="Verdicts",
+            labels={"figure": "MDR, surface by surface"},
+        ),
+        pdf="results/figures/reduction.pdf",
+    log:
+        "results/logs/compare_reduction.log",
+    benchmark:
+        "results/benchmarks/compare_reduction.tsv"
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+    params:
+        source_digest("compare_reduction"),
+        hurst=config["discs"]["hurst"],
+        elements=config["discs"]["elements"],
+        realizations=config["discs"]["realizations"],
+        tolerance=config["indentation"]["tolerance"],
+        seed=config["seed"],
+    message:
+        "Reduction of dimensionality against boundary elements, surface by surface"
+    script:
+        "../scripts/compare_reduction.py"

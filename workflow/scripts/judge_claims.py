@@ -7,7 +7,7 @@ from viscorough.joblog import log_to
 from viscorough.storage import read_dataset, whole_or_not_at_all, write_table
 
 
-def main(discs, lines, scaling, validation, csv, nc, verdicts, *, claims, **about):
+def main(discs, lines, scaling, validation, direct, csv, nc, verdicts, *, claims, **about):
     """Judge the claims by the ensembles and tables; about : further fields of Evidence."""
     of_hurst = {}
     for path in discs:
@@ -18,6 +18,7 @@ def main(discs, lines, scaling, validation, csv, nc, verdicts, *, claims, **abou
         lines={ds["hurst"].item(): ds for ds in map(read_dataset, lines)},
         scaling=pd.read_csv(scaling),
         validation=pd.read_csv(validation),
+        direct=pd.read_csv(direct),
         **about,
     )
     table = judge(claims, evidence)

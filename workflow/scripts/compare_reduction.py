@@ -1,0 +1,25 @@
+"""Table and figure of the reduction of dimensionality against boundary elements, surface by surface."""
+
+from functools import partial
+
+from viscorough.comparison import COLUMNS, compare_reduction
+from viscorough.ensemble import abscissa
+from viscorough.joblog import log_to, progress
+from viscorough.plotting import save_figure
+from viscorough.plotting_beyond import plot_reduction
+from viscorough.storage import write_table
+
+
+def main(csv, nc, png, pdf, *, hurst, elements, realizations, tolerance, seed):
+    """Compare, tabulate and plot."""
+    shown = partial(progress, total=realizations, description="surfaces")
+    about = {"tolerance": tolerance, "seed": seed, "progress": shown}
+    table = compare_reduction(hurst, elements, realizations, abscissa(1e-5, 3.0, 10), **about)
+    title = "Reduction of dimensionality against boundary elements"
+    write_table(table, csv, nc, columns=COLUMNS, dimension="point", title=title)
+    save_figure(plot_reduction(table), png, pdf)
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(**job.output, **job.params)

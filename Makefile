@@ -35,6 +35,13 @@ environment: .venv/package-installed
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
 	@touch $@
 
+# What the Slurm executor needs beyond requirements.lock.
+environment-slurm: .venv/slurm-installed
+
+.venv/slurm-installed: requirements-slurm.lock .venv/package-installed
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes --no-deps -r requirements-slurm.lock
+	@touch $@
+
 reproduce: environment
 	$(SNAKEMAKE)
 
@@ -75,6 +82,12 @@ include peers/targets.mk
 lock:
 	$(UV) pip compile pyproject.toml --extra build --extra workflow --extra test --universal --python-version 3.11 \
 		--generate-hashes --no-header --no-annotate --output-file requirements.lock
+
+# Only what requirements.lock has not, in versions that go with it.
+lock-slurm:
+	$(UV) pip compile --quiet pyproject.toml --extra slurm --constraints requirements.lock --universal --python-version 3.11 \
+		--generate-hashes --no-header --no-annotate --output-file requirements-slurm.lock \
+		$(shell sed -n 's/^\([^ =]*\)==.*/--no-emit-package \1/p' requirements.lock)
 
 clean:
 	find results -mindepth 1 ! -path results/README.md -delete

@@ -41,6 +41,21 @@ include: "workflow/rules/stability.smk"
 include: "workflow/rules/sizes.smk"
 
 
+# On a cluster, where Snakemake runs; too short for a queue.
+localrules:
+    check_validation,
+    fit_scaling,
+    plot_conventions,
+    plot_exponent,
+    plot_kinetics,
+    plot_master_curve,
+    plot_methods,
+    plot_stability,
+    plot_surfaces,
+    plot_validation,
+    tabulate_methods,
+
+
 onstart:
     compile_kernels()
 

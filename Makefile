@@ -5,7 +5,8 @@ UV ?= uv
 BIN := .venv/bin
 SNAKEMAKE := $(BIN)/snakemake --cores $(CORES)
 
-.PHONY: help environment reproduce paper report test bench speed stability sizes large chaos peers lock lock-peers clean
+.PHONY: help environment environment-slurm reproduce paper report test test-slurm bench speed stability sizes large \
+	chaos peers lock lock-peers lock-slurm clean
 
 help:
 	@echo "make reproduce   the default reproduction: figures, tables and validation in results/"
@@ -18,8 +19,9 @@ help:
 	@echo "make sizes       exponents on grids from 65 to 1025 elements across, and on lines"
 	@echo "make large       time and memory of a disc of up to 4097 elements across, 13 million in all"
 	@echo "make chaos       a reproduction killed 50 times; its tables compared with an undisturbed one"
+	@echo "make test-slurm  the workflow through a Slurm of this machine's own, undisturbed and disturbed; Debian, as root"
 	@echo "make peers       the other solvers that make speed compares with, in environments of their own"
-	@echo "make lock        requirements.lock anew from pyproject.toml; needs uv"
+	@echo "make lock        requirements.lock anew from pyproject.toml; needs uv, as make lock-peers and make lock-slurm do"
 	@echo "make clean       remove results and caches, keep the environment"
 	@echo "CORES=$(CORES) and PYTHON=$(PYTHON) may be set."
 
@@ -76,6 +78,9 @@ large: environment
 
 chaos: environment
 	$(BIN)/python benchmarks/chaos.py --output results/chaos.json
+
+test-slurm: environment-slurm
+	$(BIN)/python benchmarks/slurm.py --output results/slurm.json
 
 include peers/targets.mk
 

@@ -43,8 +43,11 @@ include: "workflow/rules/sizes.smk"
 
 # On a cluster, where Snakemake runs; too short for a queue.
 localrules:
+    aggregate_discs,
+    aggregate_lines,
     check_validation,
     fit_scaling,
+    generate_example_discs,
     plot_conventions,
     plot_exponent,
     plot_kinetics,

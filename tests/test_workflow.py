@@ -411,6 +411,29 @@ def test_only_common_has_functions():
         assert ("def " in path.read_text()) == (path.name == "common.smk")
 
 
+def test_slurm_profile(fresh):
+    """It names rules that there are, and plans what a local run does; without its executor, which is not installed."""
+    profile = yaml.safe_load((ROOT / "profiles/slurm/config.yaml").read_text())
+    rules = {path.stem for path in (ROOT / "workflow/scripts").glob("*.py")}
+    for key in ("groups", "set-resources", "set-threads"):
+        assert set(profile[key]) <= rules, key
+    assert profile.pop("executor") == "slurm"
+    (fresh / "local").mkdir()
+    (fresh / "local/config.yaml").write_text(yaml.safe_dump(profile))
+    assert plan(fresh, *TEST, "--profile", "local", "--", "all", "speed") == plan(fresh, *TEST, "--", "all", "speed")
+
+
+def test_slurm_lock_goes_with_the_other_lock():
+    """Both are installed into one environment, so no package may stand in both; and no address may stand in either."""
+    names = {}
+    for name in ("requirements.lock", "requirements-slurm.lock"):
+        text = (ROOT / name).read_text()
+        names[name] = set(re.findall(r"^([\w.-]+)==", text, re.MULTILINE))
+        assert "://" not in text
+    assert "snakemake-executor-plugin-slurm" in names["requirements-slurm.lock"]
+    assert not set.intersection(*names.values())
+
+
 # ---- interrupted and failing runs
 
 

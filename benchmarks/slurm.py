@@ -1,0 +1,310 @@
+"""Run the workflow through Slurm, undisturbed and disturbed, and see whether it ends with what a local run makes.
+
+    python benchmarks/slurm.py --output results/slurm.json
+
+As root on Debian: slurm-wlm and munge are installed where they are missing, and a cluster of this one machine is
+started on loopback, with its files in a temporary folder and nothing of the machine's own settings. The small settings
+are then run three times, each in a copy of the project: locally, through Slurm with profiles/slurm, and through Slurm
+while a job is cancelled, the node is drained and then lost. There must be the files of the local run and no others,
+equal to the last byte; of logs and benchmarks, which hold times, only the names must agree.
+"""
+
+import contextlib
+import json
+import os
+import re
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+from collections import Counter
+from importlib.metadata import version
+from pathlib import Path
+
+import click
+import psutil
+from chaos import HANGS, SNAKEMAKE, compare, contents, copy_project, jobs_done, remove_results
+
+import viscorough
+from viscorough import timing
+
+NODE = socket.gethostname().split(".")[0]
+# There is no accounting, jobs take seconds, and nobody else asks for states.
+QUICK = ("--slurm-status-command", "squeue", "--slurm-init-seconds-before-status-checks", "3")
+THROUGH_SLURM = ("--profile", "profiles/slurm", *QUICK)
+COMMANDS = 3  # the same command up to so often until it ends well; the profile's retries should spare the second
+HELD = 10  # seconds for which a drained node must get no job
+PACKAGES = ("slurm-wlm", "munge")
+
+MUNGED = "munged --foreground --force --num-threads 2 --socket {0}/munge.socket --key-file {0}/munge.key \
+--pid-file {0}/munged.pid --log-file {0}/munged.log --seed-file {0}/munged.seed"
+
+# Inside a job the executor drops SLURM_CONF from the environment of srun, which elsewhere finds /etc/slurm by itself.
+SRUN = '#!/bin/sh\nSLURM_CONF={conf} exec {srun} "$@"\n'
+
+SLURM_CONF = """\
+ClusterName=test
+SlurmctldHost={node}(127.0.0.1)
+SlurmctldPort={ports[0]}
+SlurmdPort={ports[1]}
+SlurmUser=root
+SlurmdUser=root
+AuthType=auth/munge
+AuthInfo=socket={folder}/munge.socket
+StateSaveLocation={folder}/state
+SlurmdSpoolDir={folder}/spool
+SlurmctldPidFile={folder}/slurmctld.pid
+SlurmdPidFile={folder}/slurmd.pid
+SlurmctldLogFile={folder}/slurmctld.log
+SlurmdLogFile={folder}/slurmd.log
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+MpiDefault=none
+MailProg=/bin/true
+SelectType=select/cons_tres
+SelectTypeParameters=CR_CPU_Memory
+JobCompType=jobcomp/filetxt
+JobCompLoc={folder}/jobs
+NodeName={node} NodeAddr=127.0.0.1 CPUs={cpus} RealMemory={memory} State=UNKNOWN
+PartitionName=test Nodes={node} Default=YES MaxTime=INFINITE State=UP
+"""
+
+
+def install():
+    """Debian's packages, unless the programs are there."""
+    if os.geteuid():
+        raise click.ClickException("this needs root, who alone can start daemons that run jobs")
+    if all(shutil.which(name) for name in ("munged", "slurmctld", "slurmd", "sbatch")):
+        return
+    if not shutil.which("apt-get"):
+        raise click.ClickException(f"there is no apt-get to install {' and '.join(PACKAGES)} with")
+    environment = os.environ | {"DEBIAN_FRONTEND": "noninteractive"}
+    for arguments in (("update",), ("install", "--yes", "--no-install-recommends", *PACKAGES)):
+        subprocess.run(["apt-get", "--quiet", *arguments], env=environment, check=True)
+
+
+def output(*command):
+    return subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
+
+
+def wait_for(condition, what, seconds=120):
+    """The condition's value as soon as it is true."""
+    end = time.monotonic() + seconds
+    while not (value := condition()):
+        if time.monotonic() > end:
+            raise click.ClickException(f"{what} does not happen within {seconds} s")
+        time.sleep(0.2)
+    return value
+
+
+# ---- a cluster of one machine
+
+
+def free_ports(number):
+    with contextlib.ExitStack() as stack:
+        sockets = [stack.enter_context(socket.socket()) for _ in range(number)]
+        for each in sockets:
+            each.bind(("127.0.0.1", 0))
+        return [each.getsockname()[1] for each in sockets]
+
+
+@contextlib.contextmanager
+def cluster(folder):
+    """Munge and Slurm's daemons, of which nothing is left afterwards, whatever happens in between."""
+    conf = folder / "slurm.conf"
+    for name in ("state", "spool", "bin"):
+        (folder / name).mkdir()
+    (folder / "munge.key").write_bytes(os.urandom(128))
+    (folder / "munge.key").chmod(0o600)
+    memory = psutil.virtual_memory().total // 2**20 * 3 // 4
+    about = {"node": NODE, "folder": folder, "ports": free_ports(2), "cpus": os.cpu_count(), "memory": memory}
+    conf.write_text(SLURM_CONF.format(**about))
+    (folder / "bin" / "srun").write_text(SRUN.format(conf=conf, srun=shutil.which("srun")))
+    (folder / "bin" / "srun").chmod(0o755)
+    os.environ["PATH"] = f"{folder / 'bin'}:{os.environ['PATH']}"
+    os.environ["SLURM_CONF"] = str(conf)  # of the daemons, of every command and, handed on by it, of every job
+    try:
+        start(folder, MUNGED.format(folder).split())
+        wait_for((folder / "munge.socket").exists, "start of munged")
+        start(folder, ["slurmctld", "-D", "-c"])
+        start(folder, ["slurmd", "-D", "-N", NODE])
+        wait_for(lambda: state() == "idle", "start of the node")
+        yield
+    finally:
+        with contextlib.suppress(click.ClickException, subprocess.SubprocessError, OSError):
+            output("scancel", "--quiet", "--user", "root")
+            wait_for(lambda: not output("squeue", "--noheader"), "end of the jobs that are left", 60)
+        stop(str(conf))
+
+
+def start(folder, command):
+    with (folder / f"{command[0]}.out").open("w") as log:
+        subprocess.Popen(command, stdout=log, stderr=log, start_new_session=True)
+
+
+def processes(conf):
+    """Whatever has this cluster's settings in its environment: daemons, jobs and the processes that run them."""
+    for process in psutil.process_iter():
+        with contextlib.suppress(psutil.Error):
+            if process.pid != os.getpid() and process.environ().get("SLURM_CONF") == conf:
+                yield process
+
+
+def stop(conf):
+    """End all processes of the cluster; what one of them starts in the meantime has its turn in the next round."""
+    for end in ("terminate", "kill", "kill"):
+        own = list(processes(conf))
+        for process in own:
+            with contextlib.suppress(psutil.NoSuchProcess):
+                getattr(process, end)()
+        psutil.wait_procs(own, timeout=20)
+
+
+def state():
+    """State of the node, such as idle; None while the daemons are not there."""
+    done = subprocess.run(["sinfo", "--noheader", "--format", "%T"], capture_output=True, text=True, check=False)
+    return done.stdout.strip() or None
+
+
+def set_state(value):
+    output("scontrol", "update", f"nodename={NODE}", f"state={value}", "reason=test")
+
+
+def jobs(kind):
+    """Slurm's numbers of the jobs that are RUNNING or PENDING."""
+    return output("squeue", "--noheader", "--array", "--states", kind, "--format", "%i").split()
+
+
+def ended(cluster_folder, folder):
+    """{state: number of jobs} of all that Slurm has ended for a copy of the project."""
+    lines = (cluster_folder / "jobs").read_text().splitlines()
+    return dict(Counter(re.search(r"JobState=(\w+)", line)[1] for line in lines if f"WorkDir={folder} " in line))
+
+
+# ---- runs
+
+
+@contextlib.contextmanager
+def started(folder, *arguments):
+    """Snakemake in a session of its own, of which nothing is left afterwards; it adds to slurm.log."""
+    environment = os.environ | {"PYTHONPATH": str(folder / "src")}  # before the installed package
+    with (folder / "slurm.log").open("a") as log:
+        run = subprocess.Popen(
+            [*SNAKEMAKE, *arguments], cwd=folder, env=environment, stdout=log, stderr=log, start_new_session=True
+        )
+    try:
+        yield run
+    finally:
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(run.pid, signal.SIGKILL)
+        run.wait()
+
+
+def run_project(folder, *arguments, disturb=None):
+    """Run a copy to its end, with the same command again where it fails; seconds and number of commands."""
+    begin = time.perf_counter()
+    for command in range(1, COMMANDS + 1):
+        with started(folder, *arguments) as run:
+            if disturb and command == 1:
+                disturb(run)
+            if run.wait(HANGS) == 0:
+                return {"seconds": round(time.perf_counter() - begin, 1), "commands": command}
+    tail = (folder / "slurm.log").read_text().splitlines()[-30:]
+    raise click.ClickException("\n".join([f"{folder.name} fails {COMMANDS} times:", *tail]))
+
+
+def disturbances(log):
+    """What happens to a run in its course; `log` takes what was done and when."""
+
+    def note(run, what):
+        log.append({"after_s": round(time.time() - psutil.Process(run.pid).create_time(), 1), "what": what})
+        click.echo(f"after {log[-1]['after_s']:.0f} s: {what}")
+
+    def under_way(run, besides=()):
+        def found():
+            if run.poll() is not None:
+                raise click.ClickException(f"the run ends before it is disturbed: {log}")
+            return [job for job in jobs("RUNNING") if job not in besides]
+
+        return wait_for(found, "start of a job")
+
+    def disturb(run):
+        victim = under_way(run)[0]
+        output("scancel", victim)
+        note(run, f"job {victim} cancelled")
+        under_way(run, [victim])
+        set_state("drain")
+        note(run, "node drained")
+        wait_for(lambda: state() == "drained", "end of the jobs on the drained node")
+        wait_for(lambda: jobs("PENDING"), "submission of a job to the drained node")
+        time.sleep(HELD)
+        if jobs("RUNNING"):
+            raise click.ClickException("the drained node gets jobs")
+        set_state("resume")
+        note(run, "node resumed")
+        lost = under_way(run)
+        set_state("down")
+        note(run, f"node lost with {len(lost)} jobs")
+        time.sleep(3)
+        set_state("resume")
+        note(run, "node resumed")
+
+    return disturb
+
+
+def compare_runs(folder):
+    """All three runs, as a dictionary for the file."""
+    local, undisturbed, disturbed = (folder / name for name in ("local", "undisturbed", "disturbed"))
+    local.mkdir()
+    copy_project(local)
+    remove_results(local)
+    result = {"local": run_project(local)}
+    wanted = contents(local)
+    click.echo(f"local: {result['local']['seconds']:.0f} s, {jobs_done(local)} jobs, {len(wanted)} files")
+    daemons, log = folder / "cluster", []
+    daemons.mkdir()
+    with cluster(daemons):
+        for copy, disturb in ((undisturbed, None), (disturbed, disturbances(log))):
+            shutil.copytree(local, copy)  # with what the local run has compiled
+            remove_results(copy)
+            about = run_project(copy, *THROUGH_SLURM, disturb=disturb)
+            about |= {"jobs_of_slurm": ended(daemons, copy), "differences": compare(contents(copy), wanted)}
+            result[copy.name] = about
+            lines = [f"{copy.name}: {about['seconds']:.0f} s, {about['jobs_of_slurm']}", *about["differences"]]
+            click.echo("\n".join(lines))
+        result["versions"] = {
+            "slurm": output("sinfo", "--version"),
+            "munge": output("munged", "--version").splitlines()[0],
+            **{name: version(name) for name in ("snakemake", "snakemake-executor-plugin-slurm")},
+        }
+    return result | {"jobs": jobs_done(local), "files_compared": len(wanted), "disturbances": log}
+
+
+@click.command(help=__doc__.splitlines()[0])
+@click.option("--output", "target", type=click.Path(path_type=Path), required=True, help="File to write, JSON.")
+@click.option(
+    "--folder",
+    type=click.Path(path_type=Path),
+    help="New folder to work in, which stays  [default: a temporary one]",
+)
+def main(target, folder):
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # as an exception, so that the daemons are ended
+    install()
+    if folder:
+        folder.mkdir(parents=True)
+    place = contextlib.nullcontext(folder) if folder else tempfile.TemporaryDirectory()
+    with place as working:
+        working = Path(working).resolve()
+        working.chmod(0o755)  # munged wants a path to its socket that is open to all
+        result = {"machine": timing.machine(), "viscorough": viscorough.__version__, **compare_runs(working)}
+    target.parent.mkdir(parents=True, exist_ok=True)
+    target.write_text(json.dumps(result, indent=1) + "\n")
+    click.echo(f"written to {target}")
+    sys.exit(1 if any(result[name]["differences"] for name in ("undisturbed", "disturbed")) else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -21,7 +21,7 @@ help:
 	@echo "make chaos       a reproduction killed 50 times; its tables compared with an undisturbed one"
 	@echo "make test-slurm  the workflow through a Slurm of this machine's own, undisturbed and disturbed; Debian, as root"
 	@echo "make peers       the other solvers that make speed compares with, in environments of their own"
-	@echo "make lock        requirements.lock anew from pyproject.toml; needs uv, as make lock-peers and make lock-slurm do"
+	@echo "make lock        requirements.lock anew from pyproject.toml; needs uv, as do lock-peers and lock-slurm"
 	@echo "make clean       remove results and caches, keep the environment"
 	@echo "CORES=$(CORES) and PYTHON=$(PYTHON) may be set."
 

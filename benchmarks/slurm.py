@@ -179,9 +179,10 @@ def jobs(kind):
 
 
 def ended(cluster_folder, folder):
-    """{state: number of jobs} of all that Slurm has ended for a copy of the project."""
-    lines = (cluster_folder / "jobs").read_text().splitlines()
-    return dict(Counter(re.search(r"JobState=(\w+)", line)[1] for line in lines if f"WorkDir={folder} " in line))
+    """Number of jobs submitted for a copy of the project, and {state: times} of their ends; a lost one ends again."""
+    lines = [line for line in (cluster_folder / "jobs").read_text().splitlines() if f"WorkDir={folder} " in line]
+    numbers, states = ([re.search(rf"\b{key}=(\w+)", line)[1] for line in lines] for key in ("JobId", "JobState"))
+    return {"jobs_submitted": len(set(numbers)), "ends_of_jobs": dict(Counter(states))}
 
 
 # ---- runs
@@ -271,9 +272,9 @@ def compare_runs(folder):
             shutil.copytree(local, copy)  # with what the local run has compiled
             remove_results(copy)
             about = run_project(copy, *THROUGH_SLURM, disturb=disturb)
-            about |= {"jobs_of_slurm": ended(daemons, copy), "differences": compare(contents(copy), wanted)}
+            about |= {**ended(daemons, copy), "differences": compare(contents(copy), wanted)}
             result[copy.name] = about
-            lines = [f"{copy.name}: {about['seconds']:.0f} s, {about['jobs_of_slurm']}", *about["differences"]]
+            lines = [f"{copy.name}: {about['seconds']:.0f} s, {about['ends_of_jobs']}", *about["differences"]]
             click.echo("\n".join(lines))
         result["versions"] = {
             "slurm": output("sinfo", "--version"),

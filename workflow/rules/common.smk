@@ -301,22 +301,26 @@ def combinations():
     return {name: case["combination"] for name, case in DISCS.items() if case["group"] == "base"}
 
 
+# MB of a job before its arrays: Python with what it imports and, as a job of Slurm, two Snakemakes around it.
+BASE_MEMORY = 700
+
+
 def disc_memory(wildcards):
     """MB for a batch of heights, the square that they are cut from and the fields on a doubled grid."""
     examples = config["discs"] | {"batch": len(config["discs"]["hurst"]), "surface": config["surface"]}
     case = DISCS.get(wildcards.get("case"), examples)
     heights, square = 24 * case["batch"], 64 * case["surface"]["period"] ** 2
-    return round(400 + (heights + square + 400) * case["elements"] ** 2 / 1e6)
+    return round(BASE_MEMORY + (heights + square + 400) * case["elements"] ** 2 / 1e6)
 
 
 def large_memory(wildcards):
     """MB for one disc by boundary elements."""
-    return round(400 + 500 * int(wildcards.elements) ** 2 / 1e6)
+    return round(BASE_MEMORY + 500 * int(wildcards.elements) ** 2 / 1e6)
 
 
 def line_memory(wildcards):
     """MB for the spectrum of a line, its heights and gaps."""
-    return round(400 + 40 * LINES[wildcards.line]["points"] / 1e6)
+    return round(BASE_MEMORY + 40 * LINES[wildcards.line]["points"] / 1e6)
 
 
 # ---- digests of the package's modules, so that an edit reruns exactly what uses it

@@ -90,8 +90,8 @@ lock:
 
 # Only what requirements.lock has not, in versions that go with it.
 lock-slurm:
-	$(UV) pip compile --quiet pyproject.toml --extra slurm --constraints requirements.lock --universal --python-version 3.11 \
-		--generate-hashes --no-header --no-annotate --output-file requirements-slurm.lock \
+	$(UV) pip compile --quiet pyproject.toml --extra slurm --constraints requirements.lock --universal \
+		--python-version 3.11 --generate-hashes --no-header --no-annotate --output-file requirements-slurm.lock \
 		$(shell sed -n 's/^\([^ =]*\)==.*/--no-emit-package \1/p' requirements.lock)
 
 clean:

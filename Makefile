@@ -6,7 +6,7 @@ BIN := .venv/bin
 SNAKEMAKE := $(BIN)/snakemake --cores $(CORES)
 
 .PHONY: help environment environment-slurm reproduce paper report test test-slurm bench speed stability sizes large \
-	chaos peers lock lock-peers lock-slurm clean
+	seeds publish chaos peers lock lock-peers lock-slurm clean
 
 help:
 	@echo "make reproduce   the default reproduction: figures, tables and validation in results/"
@@ -18,6 +18,8 @@ help:
 	@echo "make stability   where each method fails, and 12000 small indenters against a dense solution; six minutes"
 	@echo "make sizes       exponents on grids from 65 to 1025 elements across, and on lines"
 	@echo "make large       time and memory of a disc of up to 4097 elements across, 13 million in all"
+	@echo "make seeds       the reproduction with three root seeds: does any verdict move?"
+	@echo "make publish     verdicts and calibrated numbers from results/ into README.md and the package, after make paper"
 	@echo "make chaos       a reproduction killed 50 times; its tables compared with an undisturbed one"
 	@echo "make test-slurm  the workflow through a Slurm of this machine's own, undisturbed and disturbed; Debian, as root"
 	@echo "make peers       the other solvers that make speed compares with, in environments of their own"
@@ -75,6 +77,12 @@ sizes: environment
 
 large: environment
 	$(SNAKEMAKE) large
+
+seeds: environment
+	$(BIN)/python benchmarks/seeds.py --cores $(CORES) --output results/seeds.json
+
+publish: environment
+	$(BIN)/python benchmarks/publish.py
 
 chaos: environment
 	$(BIN)/python benchmarks/chaos.py --output results/chaos.json

@@ -46,16 +46,23 @@ localrules:
     aggregate_discs,
     aggregate_lines,
     check_validation,
+    compare_direct,
+    compare_prefactors,
     fit_scaling,
+    fit_sizes,
     generate_example_discs,
+    judge_claims,
     plot_conventions,
     plot_exponent,
     plot_kinetics,
+    plot_large,
     plot_master_curve,
     plot_methods,
+    plot_sizes,
     plot_stability,
     plot_surfaces,
     plot_validation,
+    tabulate_calibration,
     tabulate_methods,
 
 
@@ -101,6 +108,7 @@ rule tables:
         rules.fit_scaling.output,
         rules.validate.output,
         rules.judge_claims.output,
+        rules.tabulate_calibration.output,
 
 
 rule validation:

@@ -16,6 +16,7 @@ _HOME = {
     "indent": "indentation",
     "reduce": "reduction",
     "kinetics": "viscous",
+    "penetration_law": "law",
 }
 __all__ = sorted(_HOME)
 

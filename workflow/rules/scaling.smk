@@ -31,3 +31,32 @@ rule fit_scaling:
         "Power laws in region (b)"
     script:
         "../scripts/fit_scaling.py"
+
+
+rule tabulate_calibration:
+    input:
+        scaling=rules.fit_scaling.output.csv,
+    output:
+        csv=report(
+            "results/tables/calibration.csv",
+            caption="../report/calibration.rst",
+            category="Tables",
+            labels={"table": "calibrated exponents and prefactors"},
+        ),
+        nc="results/tables/calibration.nc",
+    log:
+        "results/logs/tabulate_calibration.log",
+    benchmark:
+        "results/benchmarks/tabulate_calibration.tsv"
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+    params:
+        source_digest("tabulate_calibration"),
+        shown=config["figures"],
+    message:
+        "Calibrated exponents and prefactors"
+    script:
+        "../scripts/tabulate_calibration.py"

@@ -1,0 +1,18 @@
+"""Table of exponents and prefactors for others to use."""
+
+import pandas as pd
+
+from viscorough.joblog import log_to
+from viscorough.law import COLUMNS, calibrated
+from viscorough.storage import write_table
+
+
+def main(scaling, csv, nc, *, shown):
+    """Take the rows under the conventions shown, {column of the table: value}, from the scaling table."""
+    table = calibrated(pd.read_csv(scaling), shown)
+    write_table(table, csv, nc, columns=COLUMNS, dimension="fit", title="Calibrated exponents and prefactors")
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(**job.input, **job.output, **job.params)

@@ -1,5 +1,6 @@
 """Verdicts: on ensembles that obey a law exactly, that miss it, and that obey it under one convention only."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -140,3 +141,12 @@ def test_unknown_claim_is_named():
     with pytest.raises(ValueError, match="claim beauty: nothing computes it"):
         judge({"beauty": CLAIMS["beta"]}, evidence())
     assert claims.SAID_FROM == 0.4
+
+
+def test_readme_has_the_published_verdicts():
+    """benchmarks/publish.py writes both."""
+    published = pd.read_csv(ROOT / "docs/claims.csv")
+    assert list(dict.fromkeys(published["claim"])) == list(CLAIMS)
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    shown = re.search(r"<!-- verdicts: .*? -->\n\n(.*?)\n<!-- end of verdicts -->", readme, re.DOTALL)[1]
+    assert shown == markdown(published, CLAIMS)

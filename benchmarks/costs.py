@@ -20,13 +20,13 @@ from viscorough import timing
 
 
 def rules(folder):
-    """{rule: jobs, processor seconds, most seconds of a job, most megabytes of a job} from benchmark files."""
+    """{rule: jobs, seconds of all of them, most seconds of a job, most megabytes of a job} from benchmark files."""
     rows = []
     for path in sorted((folder / "benchmarks").rglob("*.tsv")):
         job = pd.read_csv(path, sep="\t").iloc[-1]
         parts = path.relative_to(folder / "benchmarks").parts
         # Jobs of less than a moment have no memory measured.
-        numbers = pd.to_numeric(job[["s", "max_rss", "cpu_time"]], errors="coerce").fillna(0)
+        numbers = pd.to_numeric(job[["s", "max_rss"]], errors="coerce").fillna(0)
         rows.append({"rule": Path(parts[0]).stem, **numbers})
     if not rows:
         return {}
@@ -34,12 +34,12 @@ def rules(folder):
     table = pd.DataFrame(
         {
             "jobs": by_rule.size(),
-            "processor_s": by_rule["cpu_time"].sum().round(1),
+            "seconds": by_rule["s"].sum().round(1),
             "longest_s": by_rule["s"].max().round(1),
             "memory_mb": by_rule["max_rss"].max().round(),
         }
     )
-    return table.sort_values("processor_s", ascending=False).to_dict("index")
+    return table.sort_values("seconds", ascending=False).to_dict("index")
 
 
 def sizes(folder):
@@ -65,7 +65,7 @@ def main(output, results, command):
     of_rules, of_folders = rules(results), sizes(results)
     total = {
         "wall_s": round(seconds, 1),
-        "processor_s": round(sum(each["processor_s"] for each in of_rules.values()), 1),
+        "jobs_s": round(sum(each["seconds"] for each in of_rules.values()), 1),
         "memory_mb": max((each["memory_mb"] for each in of_rules.values()), default=0),
         "results_mb": round(sum(of_folders.values()), 1),
     }

@@ -13,6 +13,7 @@ import numpy as np
 from ducc0 import fft
 
 from viscorough import memory
+from viscorough.compilation import njit
 
 _BLOCK = 16384  # points of a line worked on at a time: arrays of this length stay in the cache
 _BYTES, _COPIES = 100, 2.1  # taken at most per point of a square, and times the heights of a line (measured)
@@ -218,26 +219,18 @@ def self_affine_line(
     packed[0] = 0
     waves = packed[1:].reshape(-1, 2)
     words = _generator(seed).bit_generator
-    buffers = np.empty((2, min(_BLOCK, len(waves))), real)
+    buffers = np.empty((3, min(_BLOCK, len(waves))), real)
     pairs, square = (points - 1) // 2, 0.0  # waves that are not their own mirror image, and the heights' mean square
     for start in range(0, len(waves), _BLOCK):
         piece = waves[start : start + _BLOCK]
-        uniform = words.random_raw(len(piece)).view(np.uint32).reshape(-1, 2)
-        phase, part = buffers[:, : len(piece)]
-        phase[:] = uniform[:, 0]
-        phase *= 2 * np.pi / 2**32
-        modulus = _amplitude(np.arange(start + 1, start + 1 + len(piece), dtype=real), exponent, longest, level)
-        if not fixed:  # √(-2 ln(0...1)): with a random phase, a complex Gaussian (Box and Muller)
-            part[:] = uniform[:, 1]
-            part += 0.5
-            part *= 2.0**-32
-            np.log(part, out=part)
-            part *= -2
-            modulus *= np.sqrt(part, out=part)
-        paired = modulus[: pairs - start]
-        square += 2 * float(paired @ paired)
-        np.multiply(modulus, np.cos(phase, out=part), out=piece[:, 0])
-        np.multiply(modulus, np.sin(phase, out=part), out=piece[:, 1])
+        phase, deviate, cosine = buffers[:, : len(piece)]
+        _split(words.random_raw(len(piece)), phase, deviate)
+        amplitude = _amplitude(np.arange(start + 1, start + 1 + len(piece), dtype=real), exponent, longest, level)
+        np.cos(phase, out=cosine)
+        sine = np.sin(phase, out=phase)
+        if fixed:
+            deviate[:] = np.exp(-0.5)  # of which the root below is 1
+        square += 2 * _compose(amplitude, np.log(deviate, out=deviate), cosine, sine, piece, pairs - start)
     if points % 2 == 0:  # the shortest wave is its own mirror image: only a cosine, of the same mean power
         cosine, sine = waves[-1]
         waves[-1, 0] = np.copysign(np.hypot(cosine, sine), cosine) if fixed else np.sqrt(2.0) * cosine
@@ -246,6 +239,29 @@ def self_affine_line(
     heights = packed[:points]
     fft.r2r_fftpack(heights, axes=[0], real2hermitian=False, forward=False, out=heights)
     return Indenter(heights, length / points)
+
+
+@njit
+def _split(words, phase, deviate):
+    """Phases in [0, 2π) from the lower, and numbers in (0, 1) from the upper halves of random words."""
+    for i in range(words.size):
+        phase[i] = (words[i] & 0xFFFFFFFF) * (2 * np.pi / 2**32)
+        deviate[i] = ((words[i] >> np.uint64(32)) + 0.5) * 2.0**-32
+
+
+@njit(fastmath=True)
+def _compose(amplitude, logarithm, cosine, sine, waves, pairs):
+    """Cosine and sine of every wave, of modulus amplitude·√(-2 ln(0...1)): with a random phase, a complex Gaussian (Box
+    and Muller). Returns the sum of the squares of the first `pairs` moduli.
+    """
+    square = 0.0
+    for i in range(amplitude.size):
+        amplitude[i] *= np.sqrt(-(logarithm[i] + logarithm[i]))  # a factor 2 would make it double precision
+        waves[i, 0] = amplitude[i] * cosine[i]
+        waves[i, 1] = amplitude[i] * sine[i]
+    for i in range(min(pairs, amplitude.size)):
+        square += amplitude[i] * amplitude[i]
+    return square
 
 
 def _amplitude(wavenumber, exponent, longest, level):

@@ -6,6 +6,7 @@ the paper leaves open, the verdict says so, and under which.
 """
 
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 import pandas as pd
@@ -31,7 +32,8 @@ COLUMNS = {
     "criterion": ("when the claim counts as reproduced", ""),
     "figure": ("figure that shows it", ""),
 }
-SAID_FROM = 0.4  # Hurst exponent from which on the paper says that β = H/(1 + H)
+SAID_ABOVE = 0.4  # Hurst exponent above which the paper says that β = H/(1 + H)
+MANY = 10  # cases of a claim that are more than a table of verdicts shows
 CONVENTIONS = ["rms_convention", "average", "window_rule", "gamma", "diameter_convention"]
 
 
@@ -68,7 +70,7 @@ class Evidence:
         """Rows of the scaling table by Hurst exponent, under the conventions shown but for those given."""
         wanted = self.shown | conventions
         if source == "lines":
-            wanted = wanted | {"rms_convention": "line"}
+            wanted |= {"rms_convention": "line"}
         table = self.scaling[(self.scaling["source"] == source) & (self.scaling["case_group"] == "base")]
         for name, value in wanted.items():
             table = table[table[name] == value]
@@ -103,15 +105,28 @@ def overall(table):
 
 
 def markdown(table, claims):
-    """The verdicts as a table in Markdown: statement, where, what was found with its interval, verdict."""
+    """The verdicts as a table in Markdown: statement, where, what was found, with interval, and is said, verdict.
+
+    Of many cases the first and the last are shown, and the one that is farthest from what is said.
+    """
 
     def found(row):
-        numbers = f"{row.value:.4g} [{row.low:.3g}, {row.high:.3g}]" if np.isfinite(row.value) else "–"
-        return f"{row.case}: {numbers}"
+        if not np.isfinite(row["value"]):
+            return f"{row['case']}: –"
+        value, low, high, said = (
+            f"{row[name]:.0f}" if abs(row[name]) >= 1e3 else f"{row[name]:.3g}"
+            for name in ("value", "low", "high", "expected")
+        )
+        return f"{row['case']}: {value} [{low}, {high}]" + (f", said {said}" if np.isfinite(row["expected"]) else "")
 
-    lines = ["| the paper says | where | found, with interval | verdict |", "|---|---|---|---|"]
+    lines = ["| the paper says | where | found [95 % interval] | verdict |", "|---|---|---|---|"]
     for name, verdict in overall(table).items():
-        cases = "; ".join(map(found, table[table["claim"] == name].itertuples()))
+        rows = table[table["claim"] == name]
+        many = f"{len(rows)} cases, of which " if len(rows) > MANY else ""
+        if many:
+            farthest = np.abs(rows["value"] - rows["expected"]).idxmax()
+            rows = rows.loc[sorted({rows.index[0], farthest, rows.index[-1]})]
+        cases = many + "; ".join(found(row) for _, row in rows.iterrows())
         lines.append(f"| {claims[name]['statement']} | {claims[name]['where']} | {cases} | {verdict} |")
     return "\n".join(lines) + "\n"
 
@@ -136,7 +151,7 @@ def _collapse(evidence, tolerance):
     found = {hurst: evidence.pooled(hurst) for hurst in evidence.discs}
     windows = [window for _, window in found.values() if window is not None]
     if len(windows) < 2 or len(windows) < len(found):
-        return [_row(_hurst(hurst), np.nan, np.nan, np.nan, 0.0, None) for hurst in found]
+        return [_row(_hurst(hurst), np.nan, np.nan, np.nan, np.nan, None) for hurst in found]
     x = next(iter(found.values()))[0]["x"].values
     at = int(np.argmin(np.abs(np.log(x) - np.mean(np.log(windows)))))
     means = {
@@ -152,7 +167,7 @@ def _collapse(evidence, tolerance):
         freedom = len(each) - 1
         ratio = np.std(each, ddof=1) / between if freedom else np.nan
         low, high = ratio * np.sqrt(freedom / chi2.ppf([0.975, 0.025], max(freedom, 1)))
-        rows.append(_row(_hurst(hurst), ratio, low, high, 0.0, ratio <= tolerance))
+        rows.append(_row(_hurst(hurst), ratio, low, high, np.nan, ratio <= tolerance))
     return rows
 
 
@@ -194,19 +209,19 @@ def _power_law(evidence, tolerance):
         deviation, decades = fit["residual"], fit["decades"]
         testable = np.isfinite(deviation)
         rows.append(
-            _row(f"{_hurst(hurst)}, deviation", deviation, 0.0, deviation, 0.0, deviation <= tolerance)
+            _row(f"{_hurst(hurst)}, deviation", deviation, 0.0, deviation, np.nan, deviation <= tolerance)
             if testable
-            else _row(f"{_hurst(hurst)}, deviation", np.nan, np.nan, np.nan, 0.0, None)
+            else _row(f"{_hurst(hurst)}, deviation", np.nan, np.nan, np.nan, np.nan, None)
         )
         span = (decades, np.log10(fit["x_low"]), np.log10(fit["x_high"])) if testable else (0.0, np.nan, np.nan)
-        rows.append(_row(f"{_hurst(hurst)}, decades (log₁₀X from, to)", *span, 1.0, bool(decades >= 1)))
+        rows.append(_row(f"{_hurst(hurst)}, decades (log₁₀X from, to)", *span, np.nan, bool(decades >= 1)))
     return rows
 
 
 # ---- exponents and prefactors
 
 
-def _against_law(evidence, source, column, law, tolerance, *, relative=False, least_hurst=0.0, **conventions):
+def _against_law(evidence, source, column, law, tolerance, *, relative=False, above=-1.0, **conventions):
     """Rows of a fitted quantity against a law, at the Hurst exponents for which it is said.
 
     conventions : those that the claim fixes. Where it fails under the others as shown, the convention is named under
@@ -214,7 +229,7 @@ def _against_law(evidence, source, column, law, tolerance, *, relative=False, le
     """
 
     def deviations(table):
-        table = table[table.index >= least_hurst]
+        table = table[table.index > above]
         expected = law(table.index.to_numpy())
         return np.abs(table[column] - expected) / (expected if relative else 1)
 
@@ -236,7 +251,7 @@ def _against_law(evidence, source, column, law, tolerance, *, relative=False, le
 
 
 def _beta(evidence, tolerance, source="discs"):
-    return _against_law(evidence, source, "beta", reference.exponent_beta, tolerance, least_hurst=SAID_FROM)
+    return _against_law(evidence, source, "beta", reference.exponent_beta, tolerance, above=SAID_ABOVE)
 
 
 def _beta_lines(evidence, tolerance):
@@ -244,15 +259,27 @@ def _beta_lines(evidence, tolerance):
 
 
 def _coincide(evidence, tolerance):
-    """β of lines less β of discs."""
-    discs, lines, rows = evidence.fits("discs"), evidence.fits("lines"), []
-    for hurst in discs.index:
+    """β of lines less β of discs, under the conventions shown and under those with the least difference."""
+
+    def differences(conventions):
+        one, other = (evidence.fits(source, **conventions) for source in ("discs", "lines"))
+        return one, other.reindex(one.index), other["beta"].reindex(one.index) - one["beta"]
+
+    discs, lines, shown = differences({})
+    best, least = "", tolerance
+    names = CONVENTIONS[:3]  # the others change no exponent
+    for values in product(*(evidence.scaling[name].unique() for name in names)):
+        conventions = dict(zip(names, values, strict=True))
+        found = np.abs(differences(conventions)[2])
+        if len(found) == len(shown) and found.notna().all() and found.max() <= least:
+            best, least = ", ".join(f"{name} {value}" for name, value in conventions.items()), found.max()
+    rows = []
+    for hurst, difference in shown.items():
         one, other = discs.loc[hurst], lines.loc[hurst]
-        difference = other["beta"] - one["beta"]
         below = np.hypot(other["beta"] - other["beta_low"], one["beta_high"] - one["beta"])
         above = np.hypot(other["beta_high"] - other["beta"], one["beta"] - one["beta_low"])
-        met = abs(difference) <= tolerance
-        rows.append(_row(_hurst(hurst), difference, difference - below, difference + above, 0.0, met))
+        bounds = difference - below, difference + above
+        rows.append(_row(_hurst(hurst), difference, *bounds, 0.0, abs(difference) <= tolerance, best))
     return rows
 
 

@@ -178,7 +178,7 @@ def plot_prefactors(table, shown):
     """
     if table.empty:
         raise ValueError("plot_prefactors: the table has no rows; at least one is needed")
-    figure = Figure(figsize=(WIDE, 95 * MM))
+    figure = Figure(figsize=(WIDE, 115 * MM))
     panels = figure.subplots(1, 2, sharey=True)
     laws = {"eq4": r"$\zeta\;/\;[\pi(3-H)/10]$, Eq. 4", "eq11": r"$\zeta\;/\;(2-H)$, Eq. 11"}
     for axes, (law, label) in zip(panels, laws.items(), strict=True):
@@ -198,7 +198,7 @@ def plot_prefactors(table, shown):
         axes.set(title=label, xlabel="Hurst exponent $H$ [1]", yscale="log", xlim=(0, 1))
         axes.yaxis.set(major_locator=FixedLocator([0.2, 0.5, 1, 2, 5]), major_formatter="{x:g}")
         axes.yaxis.set(minor_locator=LogLocator(subs=range(1, 10)), minor_formatter=NullFormatter())
-        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), fontsize=7, ncols=2)
+        axes.legend(loc="upper left", bbox_to_anchor=(-0.05, -0.14), fontsize=7)
     panels[0].set_ylabel(r"$\zeta$ over the law [1]")
     return figure
 
@@ -239,7 +239,8 @@ def plot_reduction(table):
         axes.axhline(0 if axes is correlation else 1, color=GREY, linewidth=0.6)
     for axes in (stiffness, area):
         axes.set_yscale("log")
-        axes.yaxis.set(major_locator=FixedLocator([0.1, 0.2, 0.5, 1, 2, 5, 10]), major_formatter="{x:g}")
+        ticks = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500]
+        axes.yaxis.set(major_locator=FixedLocator(ticks), major_formatter="{x:g}")
         axes.yaxis.set(minor_locator=LogLocator(subs=range(1, 10)), minor_formatter=NullFormatter())
     correlation.set_ylim(-1, 1)
     figure.legend(loc="outside lower center", ncols=len(looks))

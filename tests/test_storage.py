@@ -2,6 +2,7 @@
 
 import dataclasses
 import os
+import platform
 import signal
 import subprocess
 import sys
@@ -397,3 +398,18 @@ def test_bad_files_of_heights_are_one_line(tmp_path):
         with pytest.raises(ValueError, match=name) as error:
             storage.read_heights(tmp_path / name, 1.0)
         one_line(error)
+
+
+def test_what_a_killed_process_left_vanishes(tmp_path):
+    """Another process's file stays while that runs."""
+    kill = "import os, sys; from viscorough.storage import whole_or_not_at_all as w\nwith w(sys.argv[1]) as t:\n"
+    kill += "    t.write_text('half'); os.kill(os.getpid(), 9)"
+    for _ in range(2):
+        subprocess.run([sys.executable, "-c", kill, str(tmp_path / "a.csv")], check=False)
+    assert len(list(tmp_path.glob(".a.csv.*.part"))) == 1, "the second took away what the first one left"
+    running = tmp_path / f".a.csv.{platform.node()}.{os.getpid()}.1234abcd.part"
+    running.write_text("of a process that is alive")
+    with storage.whole_or_not_at_all(tmp_path / "a.csv") as temporary:
+        temporary.write_text("whole")
+    assert sorted(path.name for path in tmp_path.iterdir()) == [running.name, "a.csv"]
+    assert (tmp_path / "a.csv").read_text() == "whole"

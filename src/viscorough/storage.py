@@ -5,7 +5,9 @@ Lengths have the unit of the caller's choice, and a CF reader needs one that it 
 heights have.
 """
 
+import glob
 import os
+import platform
 import re
 import uuid
 from contextlib import contextmanager
@@ -13,6 +15,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
+import psutil
 import xarray as xr
 
 from viscorough.curve import LoadingCurve
@@ -66,9 +69,17 @@ def check_output(path):
 
 @contextmanager
 def whole_or_not_at_all(path):
-    """Give a temporary name beside `path`; what is written there becomes `path` on success, else vanishes."""
+    """Give a temporary name beside `path`; what is written there becomes `path` on success, else vanishes.
+
+    What a killed process of this machine has left of an earlier attempt vanishes, too.
+    """
     target = check_output(path)
-    temporary = target.with_name(f".{target.name[:60]}.{uuid.uuid4().hex[:12]}.part")
+    stem = f".{target.name[:60]}.{platform.node()}"
+    temporary = target.with_name(f"{stem}.{os.getpid()}.{uuid.uuid4().hex[:8]}.part")
+    for left in target.parent.glob(f"{glob.escape(stem)}.*.part"):
+        process = left.name.removeprefix(stem).split(".")[1]
+        if process.isdecimal() and not psutil.pid_exists(int(process)):
+            left.unlink(missing_ok=True)
     try:
         yield temporary
         with open(temporary, "rb") as file:

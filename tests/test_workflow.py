@@ -22,7 +22,11 @@ from viscorough.surfaces import cut_disc, realization_seed, self_affine_square
 ROOT = Path(__file__).resolve().parents[1]
 TEST = ("--configfile", "config/test.yaml")
 FIT_AND_FIGURES = {"fit_scaling", "plot_kinetics", "plot_master_curve", "plot_exponent", "plot_conventions"}
+FIT_AND_FIGURES |= {"judge_claims", "compare_prefactors", "tabulate_calibration"}
+FITS = {name for name in FIT_AND_FIGURES if not name.startswith("plot_")}
+VALIDATION = {"validate", "check_validation", "judge_claims"}
 FIGURES = ("fig1_surfaces", "fig2_kinetics", "fig3_master_curve", "fig4_exponent", "conventions", "validation")
+FIGURES += ("prefactors", "direct", "reduction")
 
 
 # ---- helpers
@@ -30,7 +34,7 @@ FIGURES = ("fig1_surfaces", "fig2_kinetics", "fig3_master_curve", "fig4_exponent
 
 def copy_project(folder):
     """A copy of everything that the workflow reads, so that tests can run, edit and break it."""
-    for name in ("workflow", "config", "profiles", "src"):
+    for name in ("workflow", "config", "profiles", "resources", "src"):
         shutil.copytree(ROOT / name, folder / name)  # with numba's caches beside the modules
     shutil.copy(ROOT / "Snakefile", folder)
     return folder
@@ -166,7 +170,7 @@ def test_every_job_has_a_log_and_a_benchmark(finished):
         for path in finished.rglob("results/benchmarks/**/*.tsv")
     }
     assert logs == benchmarks
-    assert len(logs) == 34
+    assert len(logs) == 39
 
 
 def test_scaling_table_has_every_ensemble(finished):
@@ -283,11 +287,11 @@ def test_speed_without_other_solvers(fresh):
         ({"scaling": {"stiffness_max": 0.25}}, FIT_AND_FIGURES),
         ({"figures": {"average": "arithmetic"}}, FIT_AND_FIGURES - {"fit_scaling"}),
         ({"ensemble": {"per_decade": 25}}, FIT_AND_FIGURES | {"aggregate_discs", "aggregate_lines"}),
-        ({"validation": {"elements": [17, 31]}}, {"validate", "check_validation", "plot_validation"}),
+        ({"validation": {"elements": [17, 31]}}, {"validate", "check_validation", "plot_validation", "judge_claims"}),
         ({"lines": {"points": 2048}}, FIT_AND_FIGURES | {"indent_lines", "aggregate_lines"}),
         (
             {"indentation": {"tolerance": 2e-3}},
-            FIT_AND_FIGURES | {"generate_discs", "indent_discs", "aggregate_discs"},
+            FIT_AND_FIGURES | {"generate_discs", "indent_discs", "aggregate_discs", "compare_reduction"},
         ),
         (
             {"surface": {"period": 1.5}},  # not of the variant that has a period of its own, nor of lines
@@ -323,12 +327,14 @@ def test_more_realizations_keep_those_that_are_there(finished):
 @pytest.mark.parametrize(
     ("module", "rerun"),
     [
-        ("scaling", {"fit_scaling"}),
-        ("validation", {"validate", "check_validation"}),
-        ("reduction", {"indent_lines", "aggregate_lines", "fit_scaling", "validate", "check_validation"}),
+        ("scaling", FITS),
+        ("validation", VALIDATION),
+        ("reduction", FITS | VALIDATION | {"indent_lines", "aggregate_lines", "compare_reduction"}),
         (
             "indentation",
-            {"generate_discs", "indent_discs", "aggregate_discs", "fit_scaling", "validate", "check_validation"},
+            FITS
+            | VALIDATION
+            | {"generate_discs", "indent_discs", "aggregate_discs", "compare_reduction", "compare_direct"},
         ),
     ],
 )
@@ -569,12 +575,12 @@ def test_snakemake_shows_one_line_and_no_traceback(fresh, text, message):
     assert len(shown.splitlines()) <= 3
 
 
-@pytest.mark.parametrize("name", ["config", "paper", "test"])
+@pytest.mark.parametrize("name", ["config", "paper", "large", "test"])
 def test_settings_of_every_scale_are_right(common, name):
     common.check_settings(merged(read_settings("config"), read_settings(name)))
 
 
-@pytest.mark.parametrize("name", ["paper", "test"])
+@pytest.mark.parametrize("name", ["paper", "large", "test"])
 def test_other_scales_hold_only_what_differs(settings, name):
     def same(base, extra, path=""):
         for key, value in extra.items():

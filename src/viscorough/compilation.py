@@ -4,8 +4,11 @@ numba keeps compiled code beside the modules (or in NUMBA_CACHE_DIR) and trusts 
 its SHA-256 sum, which numba's own reader passes over.
 """
 
+import contextlib
 import functools
 import logging
+import signal
+import threading
 from hashlib import sha256
 from pathlib import Path
 
@@ -14,6 +17,29 @@ from numba.core import caching, dispatcher
 from numba.np.ufunc import ufuncbuilder
 
 _SUM = sha256().digest_size
+
+
+@contextlib.contextmanager
+def uninterrupted():
+    """Let an interrupt wait: in LLVM's callbacks into Python it would be lost, or crash the process, as it does where a
+    compiled function that was interrupted hands over its results.
+    """
+    if threading.current_thread() is not threading.main_thread():  # to which interrupts never come
+        yield
+        return
+    arrived = []
+    before = signal.signal(signal.SIGINT, lambda *arguments: arrived.append(arguments))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+        if arrived and callable(before):
+            before(*arrived[-1])
+
+
+def _compile(self, sig, compile=dispatcher.Dispatcher.compile):
+    with uninterrupted():
+        return compile(self, sig)
 
 
 class _File(caching.IndexDataCacheFile):
@@ -35,7 +61,8 @@ class _Cache(caching.FunctionCache):
 
     def load_overload(self, sig, target_context):
         try:
-            return super().load_overload(sig, target_context)
+            with uninterrupted():
+                return super().load_overload(sig, target_context)
         except Exception as error:  # unpickling and linking damaged bytes can fail in any way
             about = self._py_func.__name__, self.cache_path, error
             logging.warning("compiled code of %s in %s is damaged (%s): it is compiled again", *about)
@@ -46,6 +73,17 @@ class _Cache(caching.FunctionCache):
 # numba has no other way to choose how files are read. Compiled functions of other packages in the process, whose files
 # have no sum, are compiled once more.
 dispatcher.FunctionCache = ufuncbuilder.FunctionCache = _Cache
+dispatcher.Dispatcher.compile = _compile
 
 njit = functools.partial(numba.njit, cache=True)
-vectorize = functools.partial(numba.vectorize, cache=True)
+
+
+def vectorize(signatures):
+    """numba.vectorize, which compiles or loads at once, kept on disk."""
+    decorator = numba.vectorize(signatures, cache=True)
+
+    def decorated(function):
+        with uninterrupted():
+            return decorator(function)
+
+    return decorated

@@ -7,7 +7,7 @@ depth are the first ones.
 import numpy as np
 import scipy.linalg
 
-from viscorough.compilation import njit
+from viscorough.compilation import njit, uninterrupted
 from viscorough.curve import ConvergenceError
 
 
@@ -92,10 +92,11 @@ def follow_events(problem, contact, most, force):
     Returns depths, ΣP, Σq, numbers of elements in contact at the events, shape (events,), and the elements in the order
     in which they touch. Elements that touch at one depth, to rounding, are one event.
     """
-    depth, total, stiffness, members = _follow(
-        problem.influence, problem.row, problem.column, problem.gap, contact.depth, contact.members, contact.pressure,
-        min(most, problem.elements), force,
-    )  # fmt: skip
+    with uninterrupted():
+        depth, total, stiffness, members = _follow(
+            problem.influence, problem.row, problem.column, problem.gap, contact.depth, contact.members,
+            contact.pressure, min(most, problem.elements), force,
+        )  # fmt: skip
     count = np.arange(contact.count, contact.count + depth.size)
     # The first entry is the contact itself; the last event has all its elements only if another one follows.
     complete = np.append(np.diff(depth) > 1e-12 * depth[1:], members.size == problem.elements)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscorough import memory
-from viscorough.compilation import njit
+from viscorough.compilation import njit, uninterrupted
 from viscorough.curve import ConvergenceError
 from viscorough.halfspace import influence_coefficient
 
@@ -68,7 +68,8 @@ def march_events(indenter, *, until=1.0):
     influence = influence_coefficient(distance[0][:, None], distance[1][None, :])
     most = max(1, int(np.ceil(until * gap.size)))
     memory.require(8 * most**2, f"march_events: the factor for {most} elements in contact")
-    impulse, depth, resistance, pulling = _march(influence, row[order], column[order], gap[order], most)
+    with uninterrupted():
+        impulse, depth, resistance, pulling = _march(influence, row[order], column[order], gap[order], most)
     if pulling >= 0:
         raise ConvergenceError(f"march_events: tension on element {pulling} of the contact set; contact would open")
     scale = 4 * np.pi * indenter.spacing

@@ -5,8 +5,12 @@ code 2 and no output file; exit code 1 is for a solver that did not converge. Mo
 are imported by the commands that need them, so that help and mistakes are quick.
 """
 
+import contextlib
 import itertools
+import os
+import signal
 import sys
+import threading
 import warnings
 from importlib.metadata import version
 from pathlib import Path
@@ -129,13 +133,32 @@ def _texts(caught):
     return list(dict.fromkeys(" ".join(str(warning.message).split()) for warning in caught))
 
 
+@contextlib.contextmanager
+def _on_interrupt(handler):
+    """Have an interrupt handled so in here."""
+    if threading.current_thread() is not threading.main_thread():  # to which interrupts never come
+        yield
+        return
+    before = signal.signal(signal.SIGINT, handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def _leave(*_):
+    """End at once: an exception raised in a callback of the compiler would be lost."""
+    os._exit(130)
+
+
 def _write(ds, output, **attributes):
     """Write a dataset with attributes, and the warnings up to here in one of them."""
     from viscorough import storage
 
     if texts := _texts(click.get_current_context().obj):
         attributes["warnings"] = "; ".join(texts)
-    storage.write_dataset(ds.assign_attrs(attributes), output)
+    with _on_interrupt(signal.default_int_handler):  # an exception, so that no part of a file stays
+        storage.write_dataset(ds.assign_attrs(attributes), output)
 
 
 @cli.command(short_help="Penetration over time under a constant force.")
@@ -285,6 +308,7 @@ def main(arguments=None):
     command = "viscorough"
     try:
         with (
+            _on_interrupt(_leave),
             warnings.catch_warnings(record=True) as caught,
             cli.make_context(
                 "viscorough", list(sys.argv[1:] if arguments is None else arguments), obj=caught

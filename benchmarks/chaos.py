@@ -58,10 +58,10 @@ def remove_results(folder):
 
 
 @contextlib.contextmanager
-def started(folder, *arguments):
-    """Snakemake in a session of its own, of which nothing is left afterwards; it writes to chaos.log."""
+def started(folder, *arguments, log="chaos.log", mode="w"):
+    """Snakemake in a session of its own, of which nothing is left afterwards; it writes to a log in the folder."""
     environment = os.environ | {"PYTHONPATH": str(folder / "src")}  # before the installed package
-    with (folder / "chaos.log").open("w") as log:
+    with (folder / log).open(mode) as log:
         run = subprocess.Popen(
             [*SNAKEMAKE, *arguments], cwd=folder, env=environment, stdout=log, stderr=log, start_new_session=True
         )

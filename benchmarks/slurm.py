@@ -26,7 +26,7 @@ from pathlib import Path
 
 import click
 import psutil
-from chaos import HANGS, SNAKEMAKE, compare, contents, copy_project, jobs_done, remove_results
+from chaos import HANGS, compare, contents, copy_project, jobs_done, remove_results, started
 
 import viscorough
 from viscorough import timing
@@ -188,27 +188,11 @@ def ended(cluster_folder, folder):
 # ---- runs
 
 
-@contextlib.contextmanager
-def started(folder, *arguments):
-    """Snakemake in a session of its own, of which nothing is left afterwards; it adds to slurm.log."""
-    environment = os.environ | {"PYTHONPATH": str(folder / "src")}  # before the installed package
-    with (folder / "slurm.log").open("a") as log:
-        run = subprocess.Popen(
-            [*SNAKEMAKE, *arguments], cwd=folder, env=environment, stdout=log, stderr=log, start_new_session=True
-        )
-    try:
-        yield run
-    finally:
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(run.pid, signal.SIGKILL)
-        run.wait()
-
-
 def run_project(folder, *arguments, disturb=None):
     """Run a copy to its end, with the same command again where it fails; seconds and number of commands."""
     begin = time.perf_counter()
     for command in range(1, COMMANDS + 1):
-        with started(folder, *arguments) as run:
+        with started(folder, *arguments, log="slurm.log", mode="a") as run:
             if disturb and command == 1:
                 disturb(run)
             if run.wait(HANGS) == 0:

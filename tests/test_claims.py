@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import yaml
+from test_plotting import SHOWN
 
 from viscorough import reference
 from viscorough.claims import JUDGES, VERDICTS, Evidence, judge, markdown, overall
@@ -19,13 +20,6 @@ CLAIMS = yaml.safe_load((ROOT / "resources/paper/claims.yaml").read_text(encodin
 X = abscissa(1e-7, 30.0, 20)
 HURST = (0.4, 0.6, 0.9)
 LIMITS = {"elements_min": 10, "stiffness_max": 0.2, "slope_max": 0.8}
-SHOWN = {
-    "average": "geometric",
-    "rms_convention": "disc",
-    "window_rule": "default",
-    "gamma": "without",
-    "diameter_convention": "diameter",
-}
 
 
 def ensemble(hurst, case, zeta, *, bent=0.0, scatter=0.02, seed=0, square=1.0):

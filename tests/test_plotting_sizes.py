@@ -3,16 +3,9 @@
 import numpy as np
 import pandas as pd
 import pytest
+from test_plotting import SHOWN
 
 from viscorough.plotting_sizes import plot_large, plot_sizes
-
-SHOWN = {
-    "average": "geometric",
-    "rms_convention": "disc",
-    "window_rule": "default",
-    "gamma": "without",
-    "diameter_convention": "diameter",
-}
 
 
 def test_a_marker_for_every_ensemble_with_a_region():

@@ -294,31 +294,36 @@ def _zeta_viscous(evidence, tolerance):
     return _against_law(evidence, "discs", "zeta", law, tolerance, relative=True, gamma="with")
 
 
-def _centre(evidence, hurst):
-    """Ensemble, fit of region (b) and the geometric centre of its window; None without a region."""
-    mean, window = evidence.pooled(hurst)
-    if window is None:
-        return None
+def _at_centre(evidence, tolerance, quantity):
+    """Rows of a quantity that should be 1 at the geometric centre of region (b); not testable without a region.
+
+    quantity : function of H, ensemble, fit of region (b) and centre; gives the value and its 95 % interval
+    """
     how = {"average": evidence.shown["average"], "resamples": evidence.resamples, "seed": evidence.seed}
-    return mean, fit_power_law(mean["x"].values, mean["velocity"].values, window, **how), np.sqrt(np.prod(window))
+    rows = []
+    for hurst in evidence.discs:
+        mean, window = evidence.pooled(hurst)
+        if window is None:
+            rows.append(_row(_hurst(hurst), np.nan, np.nan, np.nan, 1.0, None))
+            continue
+        fit = fit_power_law(mean["x"].values, mean["velocity"].values, window, **how)
+        value, *interval = quantity(hurst, mean, fit, np.sqrt(np.prod(window)))
+        rows.append(_row(_hurst(hurst), value, *interval, 1.0, abs(value - 1) <= tolerance))
+    return rows
 
 
 def _depth(evidence, tolerance):
     """(1 - α)κu/(hX) at the centre, where u/h = ∫dX/κ, κ constant below the first abscissa."""
-    rows = []
-    for hurst in evidence.discs:
-        if (found := _centre(evidence, hurst)) is None:
-            rows.append(_row(_hurst(hurst), np.nan, np.nan, np.nan, 1.0, None))
-            continue
-        mean, fit, centre = found
+
+    def ratio(hurst, mean, fit, centre):
         x, softness = mean["x"].values, 1 / mean["stiffness"].values
         upto = int(np.argmin(np.abs(np.log(x / centre)))) + 1
         depth = x[0] * softness[:, 0] + np.trapezoid(softness[:, :upto], x[:upto], axis=1)
-        ratio = fit.beta * depth / (x[upto - 1] * softness[:, upto - 1])
-        error = 1.96 * ratio.std(ddof=1) / np.sqrt(ratio.size)
-        value = ratio.mean()
-        rows.append(_row(_hurst(hurst), value, value - error, value + error, 1.0, abs(value - 1) <= tolerance))
-    return rows
+        found = fit.beta * depth / (x[upto - 1] * softness[:, upto - 1])
+        error = 1.96 * found.std(ddof=1) / np.sqrt(found.size)
+        return found.mean(), found.mean() - error, found.mean() + error
+
+    return _at_centre(evidence, tolerance, ratio)
 
 
 def _gamma(evidence, tolerance):
@@ -333,17 +338,13 @@ def _gamma(evidence, tolerance):
 
 def _master_curve(evidence, tolerance):
     """vt/h over the right side of Eq. 12 as printed, at the centre of region (b)."""
-    rows = []
-    for hurst in evidence.discs:
-        if (found := _centre(evidence, hurst)) is None:
-            rows.append(_row(_hurst(hurst), np.nan, np.nan, np.nan, 1.0, None))
-            continue
-        _, fit, centre = found
+
+    def ratio(hurst, mean, fit, centre):
         law = reference.rate_law(centre, hurst, gamma=True)
-        value = fit.prefactor * centre**fit.beta / law
-        low, high = np.quantile(fit.prefactor_samples * centre**fit.beta_samples / law, [0.025, 0.975])
-        rows.append(_row(_hurst(hurst), value, low, high, 1.0, abs(value - 1) <= tolerance))
-    return rows
+        samples = fit.prefactor_samples * centre**fit.beta_samples / law
+        return fit.prefactor * centre**fit.beta / law, *np.quantile(samples, [0.025, 0.975])
+
+    return _at_centre(evidence, tolerance, ratio)
 
 
 # ---- reduction of dimensionality

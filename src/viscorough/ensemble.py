@@ -12,6 +12,8 @@ import warnings
 import numpy as np
 import xarray as xr
 
+from viscorough.storage import unstack_curves
+
 _MEANING = {
     "x": ("dimensionless force F/(4GhL) or time Ft/(4ηhL)", "Eq. 2 and Eq. 3"),
     "velocity": ("dimensionless velocity vt/h = X/κ", "Eq. 2"),
@@ -88,11 +90,26 @@ def aggregate(curves, rms, diameter, x, *, hurst, case):
     return _dataset(list(rms), x, stiffness, count, coords)
 
 
+def aggregate_batches(batches, conventions, x, *, case):
+    """Ensemble of one case from batches of its loading curves, of which one at a time need be in memory.
+
+    batches : iterable of datasets of storage.stack_curves with hurst, diameter and rms_<name> for the names in
+        `conventions`; x, case : as in `aggregate`
+    Returns the ensemble dataset with the settings of the first batch.
+    """
+    pooled, settings = [], []
+    for batch in batches:
+        rms = {name: batch[f"rms_{name}"].values for name in conventions}
+        about = {"hurst": batch["hurst"].item(), "case": case}
+        pooled.append(aggregate(unstack_curves(batch), rms, batch["diameter"].item(), x, **about))
+        settings.append(batch.attrs["settings"])
+    return combine(pooled).assign_attrs(settings=settings[0])
+
+
 def combine(ensembles):
     """Pool the realizations of batches or cases of one Hurst exponent into one ensemble, averages renewed.
 
-    ensembles : datasets of aggregate() with the same abscissae, rms conventions, Hurst exponent and elements;
-        an iterator may make them one after the other, so that curves of one batch at a time are in memory
+    ensembles : datasets of aggregate() with the same abscissae, rms conventions, Hurst exponent and elements
     Case and diameter, where they differ, become coordinates of the realizations. Raises ValueError where the
     ensembles differ in what must be the same.
     """

@@ -1,28 +1,16 @@
 """Ensemble of one case of discs: its realizations on common abscissae, and their averages."""
 
-from viscorough.ensemble import abscissa, aggregate, combine
+from viscorough.ensemble import abscissa, aggregate_batches
 from viscorough.joblog import log_to, progress
-from viscorough.storage import read_dataset, unstack_curves, write_dataset
+from viscorough.storage import read_dataset, write_dataset
 
 
 def main(curves, ensemble, *, case, x_low, x_high, per_decade):
-    """Pool the batches of loading curves in `curves`; h is the rms of the disc, that of the square, and the
-    height of the highest peak, side by side.
-
-    A batch at a time is in memory, of the others only what they come to at the abscissae.
-    """
-    x = abscissa(x_low, x_high, per_decade)
-
-    def batch_ensemble(path):
-        batch = read_dataset(path)
-        rms = {name: batch[f"rms_{name}"].values for name in ("disc", "square", "peak")}
-        about = {"hurst": batch["hurst"].item(), "case": case}
-        ds = aggregate(unstack_curves(batch), rms, batch["diameter"].item(), x, **about)
-        return ds.assign_attrs(settings=batch.attrs["settings"])
-
-    pooled = list(progress(map(batch_ensemble, curves), len(curves), "batches"))
-    attributes = {"title": "Ensemble of self-affine discs", "settings": pooled[0].attrs["settings"]}
-    write_dataset(combine(pooled).assign_attrs(attributes), ensemble)
+    """Pool the batches of loading curves in `curves`, one at a time in memory. h is the rms of the disc, that of the
+    square, and the height of the highest peak, side by side."""
+    batches = progress(map(read_dataset, curves), len(curves), "batches")
+    ds = aggregate_batches(batches, ("disc", "square", "peak"), abscissa(x_low, x_high, per_decade), case=case)
+    write_dataset(ds.assign_attrs(title="Ensemble of self-affine discs"), ensemble)
 
 
 if job := globals().get("snakemake"):

@@ -1,27 +1,15 @@
 """Ensemble of the lines of one Hurst exponent: realizations on common abscissae, and their averages."""
 
-from viscorough.ensemble import abscissa, aggregate, combine
+from viscorough.ensemble import abscissa, aggregate_batches
 from viscorough.joblog import log_to, progress
-from viscorough.storage import read_dataset, unstack_curves, write_dataset
+from viscorough.storage import read_dataset, write_dataset
 
 
 def main(curves, ensemble, *, case, x_low, x_high, per_decade):
-    """Pool the batches of loading curves in `curves`.
-
-    A batch at a time is in memory, of the others only what they come to at the abscissae.
-    """
-    x = abscissa(x_low, x_high, per_decade)
-
-    def batch_ensemble(path):
-        batch = read_dataset(path)
-        rms = {"line": batch["rms_line"].values}
-        about = {"hurst": batch["hurst"].item(), "case": case}
-        ds = aggregate(unstack_curves(batch), rms, batch["diameter"].item(), x, **about)
-        return ds.assign_attrs(settings=batch.attrs["settings"])
-
-    pooled = list(progress(map(batch_ensemble, curves), len(curves), "batches"))
-    attributes = {"title": "Ensemble of self-affine lines", "settings": pooled[0].attrs["settings"]}
-    write_dataset(combine(pooled).assign_attrs(attributes), ensemble)
+    """Pool the batches of loading curves in `curves`, one at a time in memory."""
+    batches = progress(map(read_dataset, curves), len(curves), "batches")
+    ds = aggregate_batches(batches, ("line",), abscissa(x_low, x_high, per_decade), case=case)
+    write_dataset(ds.assign_attrs(title="Ensemble of self-affine lines"), ensemble)
 
 
 if job := globals().get("snakemake"):

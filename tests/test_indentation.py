@@ -5,9 +5,11 @@ import pytest
 from scipy.optimize import nnls
 
 from viscorough import indentation, reference
+from viscorough.contact import ContactSolver
 from viscorough.curve import ConvergenceError
 from viscorough.halfspace import influence_coefficient
 from viscorough.indentation import indent
+from viscorough.peers import residual_of
 from viscorough.surfaces import Indenter, self_affine_disc
 
 
@@ -113,6 +115,25 @@ def test_residual_is_what_it_says():
     loose = indent(disc, tolerance=1e-2, depths=[depth])
     assert loose.force[0] == pytest.approx(force, rel=1e-3)
     assert abs(loose.contact_count[0] - count) <= 0.1 * count
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 1e-9])
+def test_residual_and_stiffness_keep_their_promise_level_after_level(tolerance):
+    """Rounding adds up from level to level: what is reported bounds it. The stiffness is as good as the tolerance."""
+    disc = self_affine_disc(0.8, 65, seed=6)
+    solver = ContactSolver(disc, tolerance)
+    contact = solver.touch()
+    for depth in np.geomspace(0.02, 0.5, 25):
+        contact = solver.advance(contact, depth)
+        row, column = (each[contact.members] for each in solver.place)
+        pressure = np.zeros(disc.gaps.shape)
+        pressure[row, column] = 4 * np.pi * contact.pressure
+        # Levels of a dense solution are exact: their residual is given as zero.
+        assert residual_of(disc.gaps / solver.unit, pressure, contact.depth) <= max(contact.residual, 1e-12)
+        matrix = influence_coefficient((row[:, None] - row).astype(float), (column[:, None] - column).astype(float))
+        exact = np.linalg.solve(matrix, np.ones(row.size)).sum()
+        assert contact.stiffness == pytest.approx(exact, rel=max(tolerance, 1e-11))
+    assert contact.fields is not None
 
 
 # ---- levels ----------------------------------------------------------------------------------------------------------

@@ -25,10 +25,14 @@ from viscorough.preconditioner import REACH
 # Length of the steps in which elements leave (measured: 0.9 to 1.2 are alike), halved every so many of them, which
 # ends what a set that the preconditioner suits badly might begin. Usually there are about ten.
 _LENGTH, _PATIENCE = 1.0, 20
-# Relative residual of q. Force and stiffness are corrected to second order, so its square is what counts.
-_RATE_TOLERANCE = 1e-2
-# The search, and the residual, relative to the depth or to 1 for q, down to which its rounding is far below.
-_PRECISION, _SINGLE = np.float32, 1e-4
+# Largest relative error of q in energy, the square of which is that of the stiffness. No eigenvalue of the
+# preconditioned operator is smaller than the second number (tests/test_preconditioner.py).
+_RATE_TOLERANCE, _LEAST_EIGENVALUE = 1e-2, 0.35
+# Rounding of K q − 1 that is allowed, over the tolerance. Of it the stiffness has the mean, a tenth or less (measured).
+_RATE_ROUNDING = 5.0
+# The search; the largest error of its operator by rounding, over the largest deflection (measured: up to 5.3e-7 on
+# 1025 × 1025); the tolerance below which gaps are computed anew in double precision where rounding counts.
+_PRECISION, _ROUNDING, _SINGLE = np.float32, 6e-7, 1e-4
 _ITERATIONS = 2000
 # Gap where there is no element; finite, since differences of gaps are taken.
 _OUTSIDE = 1e300
@@ -36,13 +40,18 @@ _OUTSIDE = 1e300
 
 @dataclass(frozen=True)
 class Fields:
-    """Contact on the grid, flat with border: P, gap e = w − u + g, q, and e_q = K q − 1; `place` of ranks."""
+    """Contact on the grid, flat with border: P, gap e = w − u + g, q, and e_q = K q − 1; `place` of ranks.
+
+    rounding, rate_rounding : bounds of what rounding in single precision makes of errors of e and e_q
+    """
 
     pressure: np.ndarray
     gap: np.ndarray
     rate: np.ndarray
     rate_gap: np.ndarray
     place: np.ndarray
+    rounding: float
+    rate_rounding: float
 
     def gap_at(self, ranks):
         """Gap e between the surfaces at the elements of given rank."""
@@ -59,12 +68,18 @@ def _product(left, right, slots):
 
 
 @njit(fastmath=True)
-def _step(length, direction, deflection, pressure, gap, places, slots, rows, columns, stride):
-    """P += α d on the set, e += α K d everywhere; returns largest |e| on the set and whether any P is negative."""
+def _open(length, deflection, gap):
+    """e += α K d everywhere."""
+    rows, columns = deflection.shape
     for i in range(rows):
-        a, b = (i + REACH) * (columns + 2 * REACH) + REACH, i * stride
+        start = (i + REACH) * (columns + 2 * REACH) + REACH
         for j in range(columns):
-            gap[a + j] += length * deflection[b + j]
+            gap[start + j] += length * deflection[i, j]
+
+
+@njit(fastmath=True)
+def _step(length, direction, pressure, gap, places, slots):
+    """P += α d on the set; returns largest |e| on the set and whether any P is negative."""
     largest, lowest = 0.0, 0.0
     for t in range(places.size):
         i = places[t]
@@ -144,20 +159,25 @@ class GridSolver:
     box : (first row, first column, rows, columns)
 
     Searches in single precision. Since what is searched for are corrections, and shrinking ones, their rounding is
-    small; once a level, where the tolerance needs it, gaps are computed anew from the pressures in double precision.
+    small; where it is not small beside the tolerance, gaps are computed anew from the pressures in double precision.
     """
 
     def __init__(self, box, row, column, gap, tolerance):
         self.tolerance = tolerance
         top, left, rows, columns = box
         self._halfspace = Halfspace(rows, columns, _PRECISION)
-        self._exact = Halfspace(rows, columns) if tolerance < _SINGLE else self._halfspace
+        self._exact, self._exact_rounding = self._halfspace, _ROUNDING
+        if tolerance < _SINGLE:
+            self._exact, self._exact_rounding = Halfspace(rows, columns), 0.0
         self._width = columns + 2 * REACH
         in_box = (row >= top) & (row < top + rows) & (column >= left) & (column < left + columns)
         self._ranks = np.flatnonzero(in_box)
         self.place = np.where(in_box, (row - top + REACH) * self._width + column - left + REACH, 0)
         self.gap = np.full((rows + 2 * REACH) * self._width, _OUTSIDE)
         self.gap[self.place[self._ranks]] = gap[self._ranks]
+        # Where each place of the flat grid is in the operator's load.
+        starts = np.arange(-REACH, rows + REACH, dtype=np.int32) * self._halfspace.load.shape[1]
+        self._slot = np.add.outer(starts, np.arange(-REACH, columns + REACH, dtype=np.int32)).ravel()
         self._inverse = preconditioner.Preconditioner(rows + 2 * REACH, self._width)
 
     @property
@@ -174,7 +194,8 @@ class GridSolver:
         if contact.count:
             gap += self._deflection(pressure)
             rate_gap += self._deflection(rate)
-        return Fields(pressure, gap, rate, rate_gap, self.place)
+        rounding = self._exact_rounding
+        return Fields(pressure, gap, rate, rate_gap, self.place, rounding * contact.depth, rounding)
 
     def solve(self, contact, depth):
         """The contact at a larger depth; the entries of a contact.Contact. Raises ConvergenceError."""
@@ -182,16 +203,17 @@ class GridSolver:
         pressure = before.pressure + advance * before.rate
         gap = before.gap + advance * before.rate_gap
         inside = pressure > 0
-        limit, finest = max(self.tolerance, _SINGLE) * depth, self.tolerance * depth
+        rounding = before.rounding + advance * before.rate_rounding
 
+        def anew():
+            return self._deflection(pressure) + self.gap - depth, self._exact_rounding * depth
+
+        limit = 0.999 * self.tolerance * depth  # so that the sum of residual and rounding is within the tolerance
         _admit(gap, inside, 0.0)
-        places = self._search(pressure, gap, inside, limit, bounded=True)
-        if limit > finest:
-            gap = self._deflection(pressure) + self.gap - depth
-            _admit(gap, inside, finest)
-            places = self._search(pressure, gap, inside, finest, bounded=True)
-
-        rate, rate_gap = self._rate(before, contact.depth, pressure, gap, depth, inside, places)
+        places, rounding = self._search(pressure, gap, inside, limit, rounding, anew)
+        rate, rate_gap, rate_rounding = self._rate(
+            before, contact.depth, pressure, gap, rounding, depth, inside, places
+        )
         left = gap[places]
         ranks = self._ranks[inside[self.place[self._ranks]]]
         on_set = self.place[ranks]
@@ -202,87 +224,135 @@ class GridSolver:
             rate[on_set],
             pressure[places].sum() - rate[places] @ left,
             rate[places].sum() - rate[places] @ rate_gap[places],
-            max(np.abs(left).max(), -gap.min()) / depth,
-            Fields(pressure, gap, rate, rate_gap, self.place),
+            (max(np.abs(left).max(), -gap.min()) + rounding) / depth,
+            Fields(pressure, gap, rate, rate_gap, self.place, rounding, rate_rounding),
         )
 
-    def _rate(self, before, depth_before, pressure, gap, depth, inside, places):
+    def _rate(self, before, depth_before, pressure, gap, rounding, depth, inside, places):
         """q with K q = 1 on the set, and K q − 1 everywhere.
 
         Starts from the combination of the last q and the two pressures that is nearest in energy.
         """
-        deflections = [before.rate_gap + 1, gap - self.gap + depth, before.gap - self.gap + depth_before]
-        loads = [before.rate, pressure, before.pressure]
-        if np.any(before.rate[~inside]):  # an element was lost, within the tolerance: what loaded it is of no use
-            loads, deflections = [pressure], deflections[1:2]
-        on_set = np.array([load[places] for load in loads])
-        energy = on_set @ np.array([w[places] for w in deflections]).T
+        free = self.gap[places]
+        loads = np.array([pressure[places], before.pressure[places], before.rate[places]])
+        gaps = np.array(
+            [gap[places] - free + depth, before.gap[places] - free + depth_before, before.rate_gap[places] + 1]
+        )
+        if np.count_nonzero(loads[2]) < np.count_nonzero(before.rate):
+            loads, gaps = loads[:1], gaps[:1]  # an element was lost, within the tolerance: what loaded it is of no use
+        energy = loads @ gaps.T
         scale = 1 / np.sqrt(np.maximum(np.diag(energy), np.finfo(float).tiny))
-        weights = scale * np.linalg.lstsq(scale[:, None] * energy * scale, scale * on_set.sum(axis=1), rcond=1e-10)[0]
-        rate = sum(c * load for c, load in zip(weights, loads, strict=True))
-        rate_gap = sum(c * w for c, w in zip(weights, deflections, strict=True)) - 1
-        self.punch(inside, rate, rate_gap, min(_RATE_TOLERANCE, np.sqrt(self.tolerance)))
-        return rate, rate_gap
+        weights = scale * np.linalg.lstsq(scale[:, None] * energy * scale, scale * loads.sum(axis=1), rcond=1e-10)[0]
+        now, last, steady = *weights, *[0.0] * (3 - weights.size)
+        rate = now * pressure + last * before.pressure + steady * before.rate
+        rate_gap = now * (gap - self.gap) + last * (before.gap - self.gap) + steady * before.rate_gap
+        rate_gap += now * depth + last * depth_before + steady - 1
+        # These gaps have the errors of the last gaps and rates, too, which cancel in part; but not if computed anew.
+        advance = depth - depth_before
+        added = rounding - before.rounding - advance * before.rate_rounding
+        if added >= 0:
+            rounding = abs(now + last) * before.rounding + abs(now * advance + steady) * before.rate_rounding
+            rounding += abs(now) * added
+        else:
+            rounding = abs(now) * rounding + abs(last) * before.rounding + abs(steady) * before.rate_rounding
+        return rate, rate_gap, self._punch(inside, places, rate, rate_gap, rounding)
 
-    def punch(self, inside, rate, rate_gap, tolerance):
-        """Solve K q = 1 on a set to the given residual, in place, from a start that vanishes outside the set.
+    def punch(self, inside, rate, rate_gap):
+        """Solve K q = 1 on a set, in place, from a start that vanishes outside the set; Σq is exact to the tolerance.
 
-        rate, rate_gap : q and K q − 1, flat with border. Returns Σq, corrected to second order by the residual.
+        rate, rate_gap : q and K q − 1, flat with border. Returns Σq.
         """
-        places = self._search(rate, rate_gap, inside, max(tolerance, _SINGLE), bounded=False)
-        if tolerance < _SINGLE:
-            rate_gap[:] = self._deflection(rate) - 1
-            self._search(rate, rate_gap, inside, tolerance, bounded=False)
+        places, _ = self._members(inside)
+        self._punch(inside, places, rate, rate_gap, np.inf)  # how often the start was carried on is not known here
         return rate[places].sum() - rate[places] @ rate_gap[places]
 
-    def _search(self, pressure, gap, inside, limit, *, bounded):
-        """Pressure on the set such that |e| on it is below the limit; the places of the set.
+    def _punch(self, inside, places, rate, rate_gap, rounding):
+        """The same by conjugate gradients, from a start with this bound for its rounding; returns that of the end."""
+        tolerance = min(_RATE_TOLERANCE, np.sqrt(self.tolerance))
+        slots = self._slot[places]
+        direction, last = self._restart(inside, places), np.inf
+        largest, _ = _state(rate, rate_gap, places)
+        for _ in range(_ITERATIONS):
+            search = self._inverse.apply(rate_gap)
+            norm = search @ rate_gap[places]
+            # The error of Σq is eᵀK⁻¹e, of which the preconditioner gives nearly as much or more.
+            total = rate[places].sum()
+            error = np.sqrt(norm / (_LEAST_EIGENVALUE * total)) if total > 0 else np.inf
+            if error <= tolerance:
+                if rounding <= _RATE_ROUNDING * self.tolerance:
+                    return rounding
+                rate_gap[:], rounding = self._deflection(rate) - 1, self._exact_rounding
+                direction, last = self._restart(inside, places), np.inf
+                continue
+            _turn(direction, search, norm / last, slots)
+            rounding, last = rounding + _ROUNDING * largest, norm
+            largest, _ = self._step(norm, rate, rate_gap, places, slots)
+        raise self._diverged(places, error, tolerance)
 
-        bounded : P ≥ 0, and no penetration beyond the limit outside the set, which changes to that end.
-        Changes pressure, gap and set in place.
+    def _search(self, pressure, gap, inside, limit, rounding, anew):
+        """Pressure P ≥ 0 with |e| on the set below the limit, and no penetration beyond it elsewhere.
+
+        Changes pressure, gap and set in place. rounding : bound for that of e; anew : function that computes e anew and
+        returns it with its rounding. Returns the places of the set, and the rounding of e.
         """
-        rows, columns = self._halfspace.shape
-        load = self._halfspace.load
-        direction, stride = load.ravel(), load.shape[1]
+        columns, stride = self._halfspace.shape[1], self._halfspace.load.shape[1]
         changed, releases = True, 0
         for _ in range(_ITERATIONS):
             if changed:
                 places, slots = self._members(inside)
                 largest, tension = _state(pressure, gap, places)
-            if largest <= limit and not (bounded and tension):
-                return places
+            # Rounding takes its part of the limit. Where that is most of it, gaps are computed anew as soon as they are
+            # no larger than it.
+            close_enough = max(limit - rounding, rounding)
+            if largest <= close_enough and not tension:
+                if rounding <= 0.5 * limit:
+                    return places, rounding
+                gap[:], rounding = anew()
+                _admit(gap, inside, limit)
+                changed = True
+                continue
             if changed:
-                if not np.array_equal(places, self._inverse.places):
-                    self._inverse.prepare(inside, places)
-                load[:] = 0
-                last = np.inf
+                direction, last = self._restart(inside, places), np.inf
             search = self._inverse.apply(gap)
             norm = search @ gap[places]  # both with the opposite sign: the residual is −e
             _turn(direction, search, norm / last, slots)
+            rounding, last = rounding + _ROUNDING * largest, norm
             length = _LENGTH * 0.5 ** (releases // _PATIENCE)
-            if bounded and _pulls(length, direction, pressure, places, slots):
+            changed = _pulls(length, direction, pressure, places, slots)
+            if changed:
                 of_set = inside, places, slots, preconditioner.relief(), self._width, stride
                 _step_and_release(length, direction, pressure, *of_set)
-                self._interior(gap)[:] += self._halfspace.apply()[:, :columns]
-                changed, releases = True, releases + 1
+                _open(1.0, self._halfspace.apply()[:, :columns], gap)
+                releases += 1
             else:
-                deflection = self._halfspace.apply().ravel()
-                length = norm / _product(direction, deflection, slots)
-                of_set = places, slots, rows, columns, stride
-                largest, tension = _step(length, direction, deflection, pressure, gap, *of_set)
-                changed, last = False, norm
-            if bounded:
-                changed = _admit(gap, inside, limit) > 0 or changed
-        raise ConvergenceError(
-            f"contact of {places.size} elements: the residual {largest:.1e} does not fall below {limit:.1e} "
+                largest, tension = self._step(norm, pressure, gap, places, slots)
+            changed = _admit(gap, inside, close_enough) > 0 or changed
+        raise self._diverged(places, largest, limit)
+
+    def _restart(self, inside, places):
+        """Direction of conjugate gradients, to begin with none, with the preconditioner of the set."""
+        if not np.array_equal(places, self._inverse.places):
+            self._inverse.prepare(inside, places)
+        self._halfspace.load[:] = 0
+        return self._halfspace.load.ravel()
+
+    def _step(self, norm, pressure, gap, places, slots):
+        """A step of conjugate gradients; returns largest |e| on the set and whether any P is negative."""
+        direction, deflection = self._halfspace.load.ravel(), self._halfspace.apply()
+        length = norm / _product(direction, deflection.ravel(), slots)
+        _open(length, deflection[:, : self._halfspace.shape[1]], gap)
+        return _step(length, direction, pressure, gap, places, slots)
+
+    def _diverged(self, places, residual, limit):
+        return ConvergenceError(
+            f"contact of {places.size} elements: the residual {residual:.1e} does not fall below {limit:.1e} "
             f"in {_ITERATIONS} steps; choose a larger tolerance"
         )
 
     def _members(self, inside):
         """Places in the bordered arrays, and in the operator's load, of the elements of the set."""
         places = np.flatnonzero(inside)
-        row, column = np.divmod(places, self._width)
-        return places, (row - REACH) * self._halfspace.load.shape[1] + column - REACH
+        return places, self._slot[places]
 
     def _deflection(self, pressure):
         """K P on the flat grid, in double precision where the tolerance needs it; its border is zero."""

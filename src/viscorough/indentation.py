@@ -27,9 +27,9 @@ def indent(indenter, *, tolerance=1e-3, depths=None, start=0.0, until=0.9, until
     (uniform pressure on square elements; Love 1929), at increasing depths u.
 
     indenter : surfaces.Indenter with two-dimensional heights
-    tolerance : largest gap in contact, or penetration outside it, over the depth, at every level; the error of the
-        force there is of second order in it. Also the relative error of the depth interpolated between levels by
-        LoadingCurve.at_force, down to 1e-5. Between 1e-12 and 0.1
+    tolerance : largest gap in contact, or penetration outside it, over the depth, at every level, rounding included;
+        the error of the force there is far below it (a hundredth, measured). Also the relative error of the depth
+        interpolated between levels by LoadingCurve.at_force, down to 1e-5. Between 1e-12 and 0.1
     depths : exactly these depths, increasing [length]; default: levels placed as the tolerance needs them
     start : contact fraction from which on the curve is wanted, below `until`; before it stand only the few levels that
         lead there, and interpolation is not held to the tolerance; ignored where depths are given

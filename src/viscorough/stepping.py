@@ -99,7 +99,8 @@ class _Explicit:
     def __init__(self, indenter, tolerance):
         row, column = np.nonzero(np.isfinite(indenter.heights))
         gap = indenter.gaps[row, column].astype(float)
-        self._grid = GridSolver((0, 0, *indenter.heights.shape), row, column, gap, tolerance)
+        # The error of the sum of rates is the square of theirs.
+        self._grid = GridSolver((0, 0, *indenter.heights.shape), row, column, gap, tolerance**2)
         self._tolerance = tolerance
         self._gap = self._grid.gap.copy()
         self._inside = self._gap <= 0
@@ -141,7 +142,7 @@ class _Explicit:
 
     def _punch(self):
         """Rates of the contact set: q, K q − 1, and Σq. Without adhesion none may pull, and of a punch none does."""
-        self.resistance = self._grid.punch(self._inside, self._rate, self._rate_gap, self._tolerance)
+        self.resistance = self._grid.punch(self._inside, self._rate, self._rate_gap)
         if self._rate.min() < -self._tolerance * self._rate.max():
             raise ConvergenceError(f"march_steps: tension at depth {self.depth:g}; contact would open")
 

@@ -111,8 +111,27 @@ def test_convention_is_named_under_which_a_claim_holds():
 def test_scatter_of_combinations_is_seen():
     wide = evidence()
     for each in wide.discs.values():
-        each[0] = each[0].assign(velocity_geometric=1.5 * each[0]["velocity_geometric"])
+        each[0] = each[0].assign(velocity=2 * each[0]["velocity"])
     assert overall(judge({"collapse": CLAIMS["collapse"]}, wide)) == {"collapse": "not reproduced"}
+
+
+def test_scatter_of_few_realizations_is_not_taken_for_that_of_combinations():
+    """20 realizations that scatter by 0.5 shift the means of combinations by 0.1, as much as Hurst exponents do."""
+    rows = judge({"collapse": CLAIMS["collapse"]}, evidence(scatter=0.5))
+    assert overall(rows) == {"collapse": "reproduced"}
+    assert (rows["low"] == 0).all()
+    assert (rows["high"] > rows["tolerance"]).any(), "the interval tells that it is barely testable"
+
+
+def test_interval_decides():
+    """What is certainly beyond the tolerance fails, what may not be does not, what is uncertain says nothing."""
+    found = evidence()
+    rows = found.scaling["source"] == "discs"
+    for half_width, verdict in ((0.005, "not reproduced"), (0.05, "reproduced"), (0.2, "not testable")):
+        law = reference.exponent_beta(found.scaling.loc[rows, "hurst"])
+        for name, shift in (("beta", 0.0), ("beta_low", -half_width), ("beta_high", half_width)):
+            found.scaling.loc[rows, name] = law + 0.04 + shift
+        assert overall(judge({"beta": CLAIMS["beta"]}, found)) == {"beta": verdict}
 
 
 def test_without_region_nothing_is_claimed():

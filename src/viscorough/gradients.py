@@ -30,9 +30,9 @@ _LENGTH, _PATIENCE = 1.0, 20
 _RATE_TOLERANCE, _LEAST_EIGENVALUE = 1e-2, 0.35
 # Rounding of K q − 1 that is allowed, over the tolerance. Of it the stiffness has the mean, a tenth or less (measured).
 _RATE_ROUNDING = 5.0
-# The search; the largest error of its operator by rounding, over the largest deflection (measured: up to 5.3e-7 on
-# 1025 × 1025); the tolerance below which gaps are computed anew in double precision where rounding counts.
-_PRECISION, _ROUNDING, _SINGLE = np.float32, 6e-7, 1e-4
+# Numbers of the search; the largest error of an operator by rounding, over the largest deflection, in units of theirs
+# (measured: up to 4.5 on 1025 × 1025); the tolerance below which gaps are computed anew in double precision.
+_PRECISION, _ROUNDING, _SINGLE = np.float32, 5.0, 1e-4
 _ITERATIONS = 2000
 # Gap where there is no element; finite, since differences of gaps are taken.
 _OUTSIDE = 1e300
@@ -166,9 +166,10 @@ class GridSolver:
         self.tolerance = tolerance
         top, left, rows, columns = box
         self._halfspace = Halfspace(rows, columns, _PRECISION)
-        self._exact, self._exact_rounding = self._halfspace, _ROUNDING
-        if tolerance < _SINGLE:
-            self._exact, self._exact_rounding = Halfspace(rows, columns), 0.0
+        self._exact = Halfspace(rows, columns) if tolerance < _SINGLE else self._halfspace
+        self._rounding, self._exact_rounding = (
+            _ROUNDING * np.finfo(each.load.dtype).eps for each in (self._halfspace, self._exact)
+        )
         self._width = columns + 2 * REACH
         in_box = (row >= top) & (row < top + rows) & (column >= left) & (column < left + columns)
         self._ranks = np.flatnonzero(in_box)
@@ -285,7 +286,7 @@ class GridSolver:
                 direction, last = self._restart(inside, places), np.inf
                 continue
             _turn(direction, search, norm / last, slots)
-            rounding, last = rounding + _ROUNDING * largest, norm
+            rounding, last = rounding + self._rounding * largest, norm
             largest, _ = self._step(norm, rate, rate_gap, places, slots)
         raise self._diverged(places, error, tolerance)
 
@@ -316,7 +317,7 @@ class GridSolver:
             search = self._inverse.apply(gap)
             norm = search @ gap[places]  # both with the opposite sign: the residual is −e
             _turn(direction, search, norm / last, slots)
-            rounding, last = rounding + _ROUNDING * largest, norm
+            rounding, last = rounding + self._rounding * largest, norm
             length = _LENGTH * 0.5 ** (releases // _PATIENCE)
             changed = _pulls(length, direction, pressure, places, slots)
             if changed:

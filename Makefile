@@ -11,7 +11,7 @@ SNAKEMAKE := $(BIN)/snakemake --cores $(CORES)
 help:
 	@echo "make reproduce   the default reproduction: figures, tables and validation in results/"
 	@echo "make paper       the same at the paper's full scale; what it costs, to results/costs.json"
-	@echo "make report      results/report.html, of what was made"
+	@echo "make report      results/report.html, of what was made; SETTINGS=config/paper.yaml after make paper"
 	@echo "make test        format, lint and every test"
 	@echo "make bench       what curves, lines and the whole reproduction cost, and their errors, to results/benchmarks.json"
 	@echo "make speed       every method by speed against accuracy, to results/figures/speed.png; about an hour"
@@ -47,13 +47,16 @@ environment-slurm: .venv/slurm-installed
 	@touch $@
 
 reproduce: environment
-	$(SNAKEMAKE)
+	$(SNAKEMAKE) all prices
 
 paper: environment
-	$(BIN)/python benchmarks/costs.py --output results/costs.json -- $(SNAKEMAKE) --configfile config/paper.yaml
+	$(BIN)/python benchmarks/costs.py --output results/costs.json -- $(SNAKEMAKE) --configfile config/paper.yaml -- all prices
 
+# Of the targets that are not part of `all`, those that were made.
 report: environment
-	$(SNAKEMAKE) --report results/report.html
+	$(SNAKEMAKE) --report results/report.html $(if $(SETTINGS),--configfile $(SETTINGS)) -- all \
+		$(patsubst results/tables/%.csv,%,$(wildcard results/tables/prices.csv)) \
+		$(patsubst results/figures/%.png,%,$(wildcard $(patsubst %,results/figures/%.png,speed stability sizes large)))
 
 test: environment
 	$(BIN)/ruff check .

@@ -64,6 +64,7 @@ localrules:
     plot_validation,
     tabulate_calibration,
     tabulate_methods,
+    tabulate_prices,
 
 
 onstart:
@@ -142,3 +143,11 @@ rule all:
         rules.figures.input,
         rules.tables.input,
         rules.validation.input,
+
+
+include: "workflow/rules/prices.smk"
+
+
+rule prices:
+    input:
+        rules.tabulate_prices.output,

@@ -13,33 +13,10 @@ import time
 from pathlib import Path
 
 import click
-import pandas as pd
 
 import viscorough
 from viscorough import timing
-
-
-def rules(folder):
-    """{rule: jobs, seconds of all of them, most seconds of a job, most megabytes of a job} from benchmark files."""
-    rows = []
-    for path in sorted((folder / "benchmarks").rglob("*.tsv")):
-        job = pd.read_csv(path, sep="\t").iloc[-1]
-        parts = path.relative_to(folder / "benchmarks").parts
-        # Jobs of less than a moment have no memory measured.
-        numbers = pd.to_numeric(job[["s", "max_rss"]], errors="coerce").fillna(0)
-        rows.append({"rule": Path(parts[0]).stem, **numbers})
-    if not rows:
-        return {}
-    by_rule = pd.DataFrame(rows).groupby("rule")
-    table = pd.DataFrame(
-        {
-            "jobs": by_rule.size(),
-            "seconds": by_rule["s"].sum().round(1),
-            "longest_s": by_rule["s"].max().round(1),
-            "memory_mb": by_rule["max_rss"].max().round(),
-        }
-    )
-    return table.sort_values("seconds", ascending=False).to_dict("index")
+from viscorough.prices import prices
 
 
 def sizes(folder):
@@ -62,7 +39,8 @@ def main(output, results, command):
     seconds = time.perf_counter() - start
     if code:
         sys.exit(code)
-    of_rules, of_folders = rules(results), sizes(results)
+    of_rules = prices(results / "benchmarks").set_index("rule").to_dict("index")
+    of_folders = sizes(results)
     total = {
         "wall_s": round(seconds, 1),
         "jobs_s": round(sum(each["seconds"] for each in of_rules.values()), 1),

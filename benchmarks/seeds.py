@@ -2,7 +2,8 @@
 
     python benchmarks/seeds.py --seeds 3 --output results/seeds.json
 
-Each runs from nothing in a folder of its own; what is compared are the verdicts on the paper's claims.
+Each runs from nothing in a folder of its own; what is compared are the verdicts on the paper's claims. What every claim
+was judged by, with every seed, goes to a table beside the output.
 """
 
 import json
@@ -21,13 +22,13 @@ from viscorough.claims import overall
 ROOT = Path(__file__).resolve().parents[1]
 
 
-def verdicts(seed, cores, settings, folder):
-    """{claim: verdict} of a reproduction with this root seed."""
+def claims(seed, cores, settings, folder):
+    """Table of claims of a reproduction with this root seed."""
     command = [sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile"), "--directory", folder]
     command += ["--cores", str(cores), "--quiet", "all", "--config", f"seed={seed}"]
     command += ["--configfile", str(settings)] if settings else []
     subprocess.run([*command, "--", "results/tables/claims.csv"], check=True)
-    return overall(pd.read_csv(Path(folder) / "results/tables/claims.csv", keep_default_na=False, na_values=[""]))
+    return pd.read_csv(Path(folder) / "results/tables/claims.csv", keep_default_na=False, na_values=[""])
 
 
 @click.command(help=__doc__.splitlines()[0])
@@ -36,15 +37,17 @@ def verdicts(seed, cores, settings, folder):
 @click.option("--settings", type=click.Path(exists=True, path_type=Path), help="What differs from config/config.yaml.")
 @click.option("--output", type=click.Path(path_type=Path), required=True, help="File to write, JSON.")
 def main(seeds, cores, settings, output):
-    start, found = time.perf_counter(), {}
+    start, tables = time.perf_counter(), {}
     for seed in range(1, seeds + 1):
         with tempfile.TemporaryDirectory() as folder:
-            found[seed] = verdicts(seed, cores, settings and settings.resolve(), folder)
+            tables[seed] = claims(seed, cores, settings and settings.resolve(), folder)
         click.echo(f"seed {seed}: {time.perf_counter() - start:.0f} s")
+    found = {seed: overall(table) for seed, table in tables.items()}
     moved = {claim: [each[claim] for each in found.values()] for claim in found[1]}
     moved = {claim: words for claim, words in moved.items() if len(set(words)) > 1}
     about = {"machine": timing.machine(), "seconds": round(time.perf_counter() - start, 1)}
     output.parent.mkdir(parents=True, exist_ok=True)
+    pd.concat(tables, names=["seed"]).droplevel(1).to_csv(output.with_suffix(".csv"))
     output.write_text(json.dumps(about | {"moved": moved, "verdicts": found}, indent=1) + "\n", encoding="utf-8")
     for claim, words in moved.items():
         click.echo(f"{claim}: {', '.join(words)}")

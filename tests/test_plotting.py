@@ -10,9 +10,9 @@ from matplotlib.figure import Figure
 from viscorough import plotting, reference
 from viscorough.ensemble import abscissa, aggregate, combine
 from viscorough.indentation import indent
-from viscorough.plotting_style import fits, hurst_looks
+from viscorough.plotting_style import hurst_looks
 from viscorough.reduction import reduce
-from viscorough.scaling import COLUMNS, scaling_rows
+from viscorough.scaling import COLUMNS, fits, scaling_rows
 from viscorough.surfaces import self_affine_disc, self_affine_line
 from viscorough.viscous import kinetics
 

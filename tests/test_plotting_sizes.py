@@ -12,15 +12,18 @@ def test_a_marker_for_every_ensemble_with_a_region():
     rows = [
         {**SHOWN, "source": source, "hurst": hurst, "elements": n, "beta": beta, "beta_low": 0.2, "beta_high": 0.4}
         | ({"rms_convention": "line"} if source == "lines" else {})
+        | {"case_group": "sizes"}
         for source in ("discs", "lines")
         for hurst in (0.3, 0.7)
         for n, beta in ((100, np.nan), (1000, 0.3), (10000, 0.31))
     ]
-    table = pd.DataFrame(rows)
+    control = rows[1] | {"case_group": "controls", "beta": 0.01}
+    table = pd.DataFrame([*rows, control])
     figure = plot_sizes(table, SHOWN)
     for axes in figure.axes:
         markers = [line for line in axes.lines if line.get_marker() not in ("None", "", "_", "|")]
-        assert sorted(line.get_ydata()[0] for line in markers) == [0.3, 0.3, 0.31, 0.31]
+        expected = [0.3, 0.3, 0.31, 0.31]
+        assert sorted(line.get_ydata()[0] for line in markers) == ([0.01] if axes is figure.axes[0] else []) + expected
     with pytest.raises(ValueError, match="no rows"):
         plot_sizes(table[:0], SHOWN)
 

@@ -70,7 +70,7 @@ def jobs(text):
         assert "Nothing to be done" in text
         return {}
     numbers = {name: int(number) for name, number in re.findall(r"(\w+) +(\d+)\n", table["rows"])}
-    targets = {"total", "all", "figures", "tables", "validation", "speed", "stability", "sizes", "large"} | {
+    targets = {"total", "all", "figures", "tables", "validation", "speed", "stability", "sizes", "large", "prices"} | {
         f"figure_{number}" for number in range(1, 5)
     }
     return {name: number for name, number in numbers.items() if name not in targets}
@@ -173,6 +173,17 @@ def test_every_job_has_a_log_and_a_benchmark(finished):
     assert len(logs) == 39
 
 
+def test_prices_are_those_of_the_jobs(finished, tmp_path):
+    load_script("tabulate_prices").main(
+        tmp_path / "prices.csv", tmp_path / "prices.nc", benchmarks=finished / "results/benchmarks"
+    )
+    table = pd.read_csv(tmp_path / "prices.csv").set_index("rule")
+    assert table["jobs"].sum() == 39
+    assert table.loc["indent_discs", "jobs"] == 6
+    assert (table["longest_s"] <= table["seconds"]).all()
+    assert table["seconds"].is_monotonic_decreasing
+
+
 def test_scaling_table_has_every_ensemble(finished):
     table = pd.read_csv(finished / "results/tables/scaling.csv")
     found = set(table[["source", "case_group", "hurst"]].itertuples(index=False, name=None))
@@ -245,11 +256,13 @@ def test_stability(fresh):
 def test_sizes_and_large_discs(fresh):
     """Ensembles on grids of their own, fitted and plotted; cost of one disc."""
     planned = plan(fresh, *TEST, "--", "sizes", "large")
-    assert planned["indent_discs"] == planned["indent_lines"] == planned["measure_large"] == 2
+    assert planned["indent_discs"] == 2 * planned["indent_lines"] == 2 * planned["measure_large"] == 4
     assert not set(planned) & {"fit_sizes", "plot_sizes", "measure_large"} & set(plan(fresh, *TEST))
     snakemake(fresh, *TEST, "--", "sizes", "large")
     sizes = pd.read_csv(fresh / "results/tables/sizes.csv")
-    discs = sizes[sizes["source"] == "discs"]
+    discs = sizes[(sizes["source"] == "discs") & (sizes["case_group"] == "sizes")]
+    assert sorted(set(sizes.loc[sizes["case_group"] == "controls", "elements"])) == sorted(set(discs["elements"]))
+    assert "finding" in pd.read_csv(fresh / "results/tables/sizes_trends.csv")
     assert sorted(set(discs["elements"])) == [int(disc_elements(n)) for n in (17, 33)]
     assert sorted(set(sizes.loc[sizes["source"] == "lines", "elements"])) == [64, 1024]
     costs = pd.read_csv(fresh / "results/tables/large.csv")
@@ -663,7 +676,7 @@ def test_batches(common):
 def test_spawn_keys_do_not_depend_on_order(common, settings):
     discs, lines = common.disc_cases(settings), common.line_cases(settings)
     keys = [tuple(case["spawn_key"]) for case in (discs | lines).values()]
-    assert len(set(keys)) == len(keys) == 4 * 13 + 21 + 5 * (5 + 9)
+    assert len(set(keys)) == len(keys) == 4 * 13 + 21 + 5 * (5 + 9) + 5
     assert discs["h01000_c3"]["spawn_key"] == [1, 100000, 3]
     assert lines["h01000"]["spawn_key"] == [3, 100000]
     assert discs["h01000_n257"]["spawn_key"] == [8, 100000, 257]

@@ -35,7 +35,7 @@ COLUMNS = {
     "figure": ("figure that shows it", ""),
 }
 SAID_ABOVE = 0.4  # Hurst exponent above which the paper says that β = H/(1 + H)
-WIDE = 3.0  # width of an interval, over that of the allowed range, beyond which it tells nothing
+WIDE = 2.0  # width of an interval, over that of the allowed range, beyond which it tells nothing
 MANY = 10  # cases of a claim that are more than a table of verdicts shows
 CONVENTIONS = ["rms_convention", "average", "window_rule", "gamma", "diameter_convention"]
 

@@ -23,7 +23,6 @@ from viscorough.plotting_style import (
     PALE,
     STYLE,
     WIDE,
-    fits,
     hurst_handles,
     hurst_looks,
     logarithmic_ticks,
@@ -31,6 +30,7 @@ from viscorough.plotting_style import (
     save_figure,
     text_along,
 )
+from viscorough.scaling import fits
 
 __all__ = [
     "plot_conventions",

@@ -7,7 +7,8 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, LogLocator, MaxNLocator, NullFormatter, NullLocator
 
 from viscorough import prefactor, reference
-from viscorough.plotting_style import GREY, MM, PALE, STYLE, WIDE, fits, hurst_looks, mark
+from viscorough.plotting_style import GREY, MM, PALE, STYLE, WIDE, hurst_looks, mark
+from viscorough.scaling import fits
 
 CONVENTIONS = {
     "average": {"arithmetic": "arithmetic mean", "geometric": "geometric mean"},

@@ -3,9 +3,11 @@
 import numpy as np
 from matplotlib import rc_context
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
-from viscorough.plotting_style import GREY, MM, STYLE, WIDE, fits, hurst_handles, hurst_looks, logarithmic_ticks, mark
+from viscorough.plotting_style import GREY, MM, STYLE, WIDE, hurst_handles, hurst_looks, logarithmic_ticks, mark
 from viscorough.reference import exponent_beta
+from viscorough.scaling import fits
 
 LARGE = {
     "across": ("elements across the disc", "1"),
@@ -23,28 +25,33 @@ LARGE = {
 def plot_sizes(table, shown):
     """β of region (b) over the number of elements, discs (a) and lines (b), one colour for each Hurst exponent.
 
-    table : that of fit_sizes; shown : conventions, {column: value}. Lines mark H/(1 + H), Eq. (10).
+    table : that of fit_sizes; shown : conventions, {column: value}. Lines mark H/(1 + H), Eq. (10); crosses are
+    controls, discs with a roll-off in their spectrum.
     Raises ValueError for a table without rows.
     """
     if table.empty:
         raise ValueError("plot_sizes: the table has no rows; at least one is needed")
     figure = Figure(figsize=(WIDE, 85 * MM))
     panels = dict(zip(("discs", "lines"), figure.subplots(1, 2, sharey=True), strict=True))
-    looks = hurst_looks(table["hurst"])
+    looks = hurst_looks(table.loc[table["case_group"] == "sizes", "hurst"])
     lines_have = {"rms_convention": "line"}
     for rank, (hurst, look) in enumerate(looks.items()):
         for source, axes in panels.items():
-            rows = fits(table, shown | (lines_have if source == "lines" else {}), source=source, hurst=hurst)
+            wanted = {"source": source, "case_group": "sizes", "hurst": hurst}
+            rows = fits(table, shown | (lines_have if source == "lines" else {}), **wanted)
             axes.axhline(exponent_beta(hurst), color=look["color"], linestyle=":", linewidth=0.8)
             for row in rows.sort_values("elements").itertuples():
                 shifted = row.elements * 1.06 ** (rank - len(looks) / 2)  # so that intervals do not hide each other
                 mark(axes, shifted, row.beta, (row.beta_low, row.beta_high), look)
+    control = {"color": GREY, "marker": "x", "linestyle": ""}
+    for row in fits(table, shown, source="discs", case_group="controls").itertuples():
+        mark(panels["discs"], row.elements, row.beta, (row.beta_low, row.beta_high), control)
     for (source, axes), title in zip(panels.items(), ("(a) boundary elements", "(b) MDR"), strict=True):
         unit = "elements of a disc [1]" if source == "discs" else "points of a line [1]"
         axes.set(xscale="log", title=title, xlabel=unit, ylim=(-0.05, 0.7))
     panels["discs"].set_ylabel(r"exponent $\beta$ of region (b) [1]")
     logarithmic_ticks(*panels.values())
-    handles = hurst_handles(looks, linestyle=":")
+    handles = [*hurst_handles(looks, linestyle=":"), Line2D([], [], label="control, roll-off", **control)]
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
     return figure
 

@@ -75,16 +75,6 @@ def hurst_handles(looks, **common):
     return [Line2D([], [], **(look | common), label=f"$H={hurst:g}$") for hurst, look in looks.items()]
 
 
-def fits(table, shown, **wanted):
-    """Rows of the scaling table under the conventions shown, replaced or added to by those wanted; by ascending H.
-
-    Rows without a region (b), which have nothing to be drawn, are left out.
-    """
-    for column, value in (shown | wanted).items():
-        table = table[table[column] == value]
-    return table.dropna(subset="beta").sort_values("hurst")
-
-
 def mark(axes, x, y, interval, look, along="y"):
     """Marker at (x, y) on its interval (low, high) along x or y, which need not hold the marker; returns the marker."""
     middle, half = np.mean(interval), np.diff(interval) / 2

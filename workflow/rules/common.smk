@@ -103,13 +103,14 @@ def contradiction(settings):
         "methods.bodies_elements": settings["methods"]["bodies_elements"],
         "stability.grids": settings["stability"]["grids"],
         **{f"sizes.{key}": settings["sizes"][key] for key in ("hurst", "elements", "points")},
+        "sizes.control.hurst": [settings["sizes"]["control"]["hurst"]],
         "large.elements": settings["large"]["elements"],
         "name in methods.tasks": [each["name"] for each in settings["methods"]["tasks"]],
     }
     for key, values in unique.items():
         if twice := [value for value in values if values.count(value) > 1]:
             return f"{key} {twice[0]} stands twice; allowed: each once"
-    for key in ("discs.hurst", "lines.hurst", "methods.hurst", "sizes.hurst"):
+    for key in ("discs.hurst", "lines.hurst", "methods.hurst", "sizes.hurst", "sizes.control.hurst"):
         for hurst in unique[key]:
             if abs(hurst * 1e4 - round(hurst * 1e4)) > 1e-6:
                 return f"{key} has {hurst}; allowed: at most four decimals"
@@ -151,8 +152,8 @@ def hurst_id(hurst):
 def disc_cases(settings):
     """{case: group, spawn key, realizations, batch, elements, surface (arguments of self_affine_disc)} of every ensemble.
 
-    Spawn keys are (1 discs, H·10⁶, number of the combination), (2 variants, H·10⁶, CRC-32 of the name) and (8 sizes,
-    H·10⁶, elements), to which the realization is added: no position in a list, no batch and no order enters.
+    Spawn keys are (1 discs, H·10⁶, number of the combination), (2 variants, H·10⁶, CRC-32 of the name), (8 sizes,
+    H·10⁶, elements) and (13 controls, H·10⁶, elements), to which the realization is added: no position in a list, no batch and no order enters.
     """
     cases, unit = {}, {"rms": 1.0, "diameter": 1.0}
     for hurst in settings["discs"]["hurst"]:
@@ -174,13 +175,24 @@ def disc_cases(settings):
                 "elements": settings["discs"]["elements"],
                 **{name: settings["variants"][name] for name in ("realizations", "batch")},
             }
-    for hurst, elements in itertools.product(settings["sizes"]["hurst"], settings["sizes"]["elements"]):
+    sizes = settings["sizes"]
+    shared = {name: sizes[name] for name in ("realizations", "batch")}
+    for hurst, elements in itertools.product(sizes["hurst"], sizes["elements"]):
         cases[f"{hurst_id(hurst)}_n{elements}"] = {
             "group": "sizes",
             "spawn_key": [8, round(hurst * 1e6), elements],
             "surface": settings["surface"] | unit | {"hurst": hurst},
             "elements": elements,
-            **{name: settings["sizes"][name] for name in ("realizations", "batch")},
+            **shared,
+        }
+    hurst = sizes["control"]["hurst"]
+    for elements in sizes["elements"]:
+        cases[f"{hurst_id(hurst)}_control_n{elements}"] = {
+            "group": "controls",
+            "spawn_key": [13, round(hurst * 1e6), elements],
+            "surface": settings["surface"] | unit | sizes["control"],
+            "elements": elements,
+            **shared,
         }
     return cases
 
@@ -233,7 +245,7 @@ def batches(case):
 
 def groups():
     """The groups of disc ensembles of one size: base, which the nine combinations are, and the variants."""
-    return list(dict.fromkeys(case["group"] for case in DISCS.values() if case["group"] != "sizes"))
+    return list(dict.fromkeys(case["group"] for case in DISCS.values() if case["group"] not in ("sizes", "controls")))
 
 
 # ---- params and inputs of rules

@@ -4,6 +4,7 @@
 rule fit_sizes:
     input:
         discs=ensembles("sizes"),
+        controls=ensembles("controls"),
         lines=ensembles("sizes", "lines"),
     output:
         csv=report(
@@ -13,6 +14,13 @@ rule fit_sizes:
             labels={"table": "exponents on grids from coarse to fine"},
         ),
         nc="results/tables/sizes.nc",
+        trends_csv=report(
+            "results/tables/sizes_trends.csv",
+            caption="../report/sizes_trends.rst",
+            category="Sizes",
+            labels={"table": "trends of exponents over the grid"},
+        ),
+        trends_nc="results/tables/sizes_trends.nc",
     log:
         "results/logs/fit_sizes.log",
     benchmark:
@@ -26,6 +34,7 @@ rule fit_sizes:
         source_digest("fit_sizes"),
         seed=config["seed"],
         fit=config["scaling"],
+        shown=config["figures"],
     message:
         "Exponents on grids from coarse to fine"
     script:

@@ -5,19 +5,24 @@ import pandas as pd
 from viscorough.joblog import log_to, progress
 from viscorough.scaling import COLUMNS, scaling_rows
 from viscorough.storage import read_dataset, write_table
+from viscorough.trend import COLUMNS as TRENDS
+from viscorough.trend import trends
 
 
-def main(discs, lines, csv, nc, *, seed, fit):
-    """Fit every ensemble by itself; fit : further arguments of scaling_rows."""
-    paths = [("discs", path) for path in discs] + [("lines", path) for path in lines]
+def main(discs, controls, lines, csv, nc, trends_csv, trends_nc, *, seed, fit, shown):
+    """Fit every ensemble by itself; fit : further arguments of scaling_rows; shown : conventions of the figures."""
+    groups = ("discs", "sizes", discs), ("discs", "controls", controls), ("lines", "sizes", lines)
+    paths = [(source, group, path) for source, group, paths in groups for path in paths]
     rows = []
-    for source, path in progress(paths, len(paths), "ensembles"):
+    for source, group, path in progress(paths, len(paths), "ensembles"):
         ensemble = read_dataset(path)
-        found = scaling_rows(ensemble, source=source, case_group="sizes", seed=seed, **fit)
+        found = scaling_rows(ensemble, source=source, case_group=group, seed=seed, **fit)
         rows += [row | {"elements": ensemble["elements"].item()} for row in found]
     columns = COLUMNS | {"elements": ("elements of an indenter: of a disc, points of a line", "1")}
     table = pd.DataFrame(rows, columns=list(columns))
     write_table(table, csv, nc, columns=columns, dimension="fit", title="Power laws on grids from coarse to fine")
+    about = {"columns": TRENDS, "dimension": "trend", "title": "Trends of exponents over the number of elements"}
+    write_table(trends(table, shown), trends_csv, trends_nc, **about)
 
 
 if job := globals().get("snakemake"):

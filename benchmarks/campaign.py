@@ -1,6 +1,6 @@
 """Generated small indenters against dense solutions: what claims to have converged and is wrong is counted.
 
-`make stability` runs it; the numbers of a case give it again: stability.generated_case(case_generator(seed, case)).
+`make stability` runs it; the numbers of a case give it again: generated.generated_case(case_generator(seed, case)).
 """
 
 import json
@@ -12,7 +12,7 @@ import numpy as np
 from tqdm import tqdm
 
 from viscorough import timing
-from viscorough.stability import generated_case, silent_failure
+from viscorough.generated import generated_case, silent_failure
 from viscorough.storage import whole_or_not_at_all
 
 

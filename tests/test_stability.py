@@ -10,9 +10,11 @@ import xarray as xr
 
 from viscorough import cli, gradients, stability
 from viscorough.curve import AccuracyWarning
+from viscorough.difficulties import Difficulty, difficulties
+from viscorough.generated import generated_case, silent_failure
 from viscorough.indentation import indent
 from viscorough.plotting_stability import LETTERS, plot_atlas, plot_curves
-from viscorough.stability import METHODS, VERDICTS, Difficulty, difficulties, generated_case, silent_failure, unnoticed
+from viscorough.stability import METHODS, VERDICTS, unnoticed
 from viscorough.stepping import march_steps
 from viscorough.surfaces import Indenter, self_affine_disc, self_affine_line
 

@@ -7,15 +7,13 @@ square of the relative deviation of its velocities; where it says nothing, the d
 
 import time
 from collections.abc import Callable
-from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
-from unittest.mock import patch
 
 import numpy as np
 import pandas as pd
 
-from viscorough import gradients, peers, preconditioner, reference, timing
+from viscorough import peers, reference, timing, ways
 from viscorough.indentation import indent
 from viscorough.marching import march_events
 from viscorough.reduction import reduce
@@ -169,47 +167,6 @@ def _interpolated(problem, curve):
     return Answer(problem.force / stiffness, curve.operators, curve.depth.size)
 
 
-@contextmanager
-def _double_precision():
-    with patch.multiple(gradients, _PRECISION=np.float64, _SINGLE=0.0):
-        yield
-
-
-@contextmanager
-def _single_precision_only():
-    with patch.multiple(gradients, _SINGLE=0.0, _ROUNDING=0.0):  # as if it did not count
-        yield
-
-
-@contextmanager
-def _no_preconditioner():
-    # Steps of its own length are for the whole preconditioner only.
-    itself = patch.object(preconditioner.Preconditioner, "apply", lambda level, residual: residual[level.places])
-    with itself, patch.object(gradients, "_LENGTH", 0.0):
-        yield
-
-
-@contextmanager
-def _no_blocks():
-    itself = {"apply": lambda level, residual: residual[level.places]}
-    few, many = (patch.multiple(each, **itself) for each in (preconditioner._FewBlocks, preconditioner._ManyBlocks))
-    with few, many, patch.object(gradients, "_LENGTH", 0.0):
-        yield
-
-
-@contextmanager
-def _no_tangent():
-    solve = gradients.GridSolver.solve
-
-    def from_last_pressure(solver, contact, depth):
-        fields = contact.fields
-        still = replace(fields, rate=np.zeros_like(fields.rate), rate_gap=np.full_like(fields.rate_gap, -1.0))
-        return solve(solver, replace(contact, fields=still), depth)
-
-    with patch.object(gradients.GridSolver, "solve", from_last_pressure):
-        yield
-
-
 def _without(part, problem, tolerance):
     with part():
         return _at_levels(problem, tolerance)
@@ -299,11 +256,11 @@ STEPS = (16, 64, 256, 1024)
 LARGEST = {"logarithmic": 257, "uniform": 129}  # elements across, by the spacing of steps
 SHARES = (1e-1, 3e-2, 1e-2, 3e-3)
 PARTS = {
-    "path, double precision": _double_precision,
-    "path, single precision only": _single_precision_only,
-    "path, no preconditioner": _no_preconditioner,
-    "path, preconditioner without blocks": _no_blocks,
-    "path, no tangent": _no_tangent,
+    "path, double precision": ways.double_precision,
+    "path, single precision only": ways.single_precision_only,
+    "path, no preconditioner": ways.no_preconditioner,
+    "path, preconditioner without blocks": ways.no_blocks,
+    "path, no tangent": ways.no_tangent,
 }
 
 METHODS = (

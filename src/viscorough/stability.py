@@ -9,27 +9,29 @@ reason or warned, or, for a model, be outside of what its documentation states. 
 
 import warnings
 from collections.abc import Callable
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from dataclasses import dataclass
 from functools import partial
-from unittest.mock import patch
 
 import numpy as np
 import pandas as pd
 
-from viscorough import contact, gradients, halfspace, reference, viscous
+from viscorough import reference, viscous
 from viscorough.contact import ContactSolver
 from viscorough.curve import AccuracyWarning, ConvergenceError
+from viscorough.difficulties import Difficulty
 from viscorough.indentation import indent
 from viscorough.marching import march_events
 from viscorough.reduction import reduce
 from viscorough.stepping import march_steps
 from viscorough.surfaces import Indenter, self_affine_disc, self_affine_line
+from viscorough.ways import dense_only, grid_only, no_padding
 
 QUESTIONS = 6  # depths asked for
 LINE_POINTS = 2**14  # of the line that stands for a surface in the reduction of dimensionality
 LIMIT_EVENTS, LIMIT_STEPS, LIMIT_MODEL = 1e-9, 0.02, 1.0  # a model of one realization: a factor of two
 FEW = 10  # elements in contact, below which the grid rules (region a)
+FEW_TOUCH = "fewer than ten elements touch: region (a), which belongs to the grid"
 COLUMNS = {
     "group": ("kind of difficulty", ""),
     "difficulty": ("difficulty", ""),
@@ -40,32 +42,6 @@ COLUMNS = {
     "reason": ("what users are told", ""),
 }
 VERDICTS = ("holds", "model", "stated", "warned", "refused", "not offered", "unnoticed")
-
-
-@dataclass(frozen=True)
-class Difficulty:
-    """An indenter, and what is asked of it.
-
-    hurst : the exponent that a user of the power law, and of a line with the same spectrum, would take
-    fractions : contact fractions between which depths are asked for
-    body : of revolution with a power-law profile, whose line is exact
-    tolerance : of the elastic path; steps : of explicit marching
-    force : F at equal times, whose impulses are those asked for; constant by default
-    stated : why models are documented not to hold here
-    periodic : the grid of the elastic path without padding, so that images of the indenter press as well
-    """
-
-    group: str
-    name: str
-    indenter: Indenter
-    hurst: float = 1.0
-    fractions: tuple = (0.02, 0.5)
-    body: reference.PowerLawBody | None = None
-    tolerance: float = 1e-6
-    steps: int = 256
-    force: tuple = (1.0, 1.0)
-    stated: str = ""
-    periodic: bool = False
 
 
 def table(difficulties, report=lambda text: None):
@@ -83,96 +59,6 @@ def unnoticed(atlas):
     return atlas[atlas["verdict"] == "unnoticed"]
 
 
-# ---- difficulties
-
-NOT_SELF_AFFINE = "the indenter is no isotropic self-affine surface, which a line with its spectrum stands for"
-SMALL = "Eq. 5 is said to hold above H = 0.4"
-FEW_TOUCH = "fewer than ten elements touch: region (a), which belongs to the grid"
-ROLL_OFF = "the spectrum rolls off: there is no power law"
-
-
-def difficulties(seed, across, grids):
-    """Every difficulty of the atlas, on maps of `across` elements, and on `grids` where the size is the difficulty."""
-
-    def disc(hurst, elements=across, **options):
-        return self_affine_disc(hurst, elements, seed=seed, **options)
-
-    def of(shape):
-        """The map of a shape over x and y from −1 to 1, times 0.1; spacing 2 / across."""
-        x = (np.arange(across) - (across - 1) / 2) * 2 / across
-        return Indenter(0.1 * (shape(x[:, None], x) + np.zeros((across, across))), 2 / across)
-
-    def shaped(name, shape, **options):
-        return Difficulty("shape", name, of(shape), stated=NOT_SELF_AFFINE, **options)
-
-    def tied(name, heights, **options):
-        return Difficulty(
-            "ties", name, Indenter(np.asarray(heights, dtype=float), 1.0), stated=NOT_SELF_AFFINE, **options
-        )
-
-    rough = disc(0.7)
-    usual = {"indenter": rough, "hurst": 0.7}
-    elements, random = rough.elements, np.random.default_rng(seed)
-    checkered = np.add.outer(np.arange(across), np.arange(across)) % 2
-    apart = np.full((across, across), np.nan)
-    apart[0, 0], apart[-1, -1] = 0, -0.1
-
-    yield Difficulty("step size", "4096 steps", **usual, steps=4096)
-    yield Difficulty("step size", "256 steps", **usual)
-    yield Difficulty("step size", "16 steps", **usual, steps=16)
-    yield Difficulty("step size", "one step", **usual, steps=1)
-    for hurst in (0.0, 0.2, 0.4, 0.7, 1.0):
-        yield Difficulty("Hurst exponent", f"H = {hurst:g}", disc(hurst), hurst, stated=SMALL if hurst <= 0.4 else "")
-    rolled = {"roll_off_wavelength": 0.2, "roll_off_level": 1.0}
-    yield Difficulty("Hurst exponent", "H = 0.7, roll-off", disc(0.7, **rolled), 0.7, stated=ROLL_OFF)
-    for n in grids:
-        few = (0.05, 0.5) if n < 65 else (30 / n**2, 300 / n**2)
-        yield Difficulty("grid", f"{n} elements across", disc(0.7, n), 0.7, few, steps=256 if n < 257 else 64)
-    yield Difficulty("contact", "up to 2 elements", **usual, fractions=(1 / elements, 2 / elements))
-    yield Difficulty("contact", "95 % to all but one", **usual, fractions=(0.95, 1 - 1 / elements))
-    yield Difficulty("contact", "to all elements", **usual, fractions=(0.5, 1.0))
-    yield Difficulty("contact", "past all elements", **usual, fractions=(0.9, 1.1))
-    yield tied("exactly flat", np.zeros((across, across)))
-    yield tied("one element", [[1.0]])
-    yield tied("two, far apart", apart, fractions=(0.5, 1.0))
-    yield tied("plateau on a hill", of(lambda x, y: -np.maximum(np.hypot(x, y), 0.3)).heights * 10)
-    yield tied("terraces", of(lambda x, y: -np.floor(6 * np.hypot(x, y))).heights)
-    yield tied("one step", of(lambda x, y: -1.0 * (x > 0.1)).heights)
-    yield tied("checkered", -0.5 * checkered, fractions=(0.5, 1.0))
-    yield tied("whole numbers", random.integers(0, 4, (across, across)))
-    yield Difficulty("shape", "sphere", of(lambda x, y: -(x**2 + y**2) / 2), body=reference.PowerLawBody(0.05, 2))
-    yield Difficulty("shape", "cone", of(lambda x, y: -np.hypot(x, y)), body=reference.PowerLawBody(0.1, 1))
-    yield shaped("ridge", lambda x, y: -(x**2))
-    yield shaped("wedge", lambda x, y: -abs(x))
-    yield shaped("two spheres", lambda x, y: -np.minimum((x - 0.5) ** 2, (x + 0.5) ** 2) - y**2)
-    yield shaped("tip off the centre", lambda x, y: -((x - 0.6) ** 2) - (y + 0.5) ** 2, fractions=(0.02, 0.3))
-    yield shaped("elongated", lambda x, y: -(x**2) - (y / 8) ** 2)
-    yield shaped("tilted plane", lambda x, y: x + y / 2)
-    yield shaped("steep: slope 20", lambda x, y: -200 * np.hypot(x, y))
-    low = (2 / elements, 20 / elements)
-    yield Difficulty("no padding", "2 to 20 elements", **usual, fractions=low, periodic=True)
-    yield Difficulty("no padding", "up to half of all", **usual, periodic=True)
-    for name, height, length in (
-        ("heights times 1e12", 1e12, 1.0),
-        ("heights times 1e-12", 1e-12, 1.0),
-        ("spacing times 1e12", 1.0, 1e12),
-        ("spacing times 1e-12", 1.0, 1e-12),
-        ("heights 1e-12, spacing 1e12", 1e-12, 1e12),
-    ):
-        scaled = Indenter(height * rough.heights, length * rough.spacing)
-        yield Difficulty("scale", name, scaled, 0.7)
-    for name, force in (
-        ("ramp", (0.0, 1.0)),
-        ("step", (0.1, 0.1, 0.1, 1.0, 1.0, 1.0)),
-        ("pulses with rests", (0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0)),
-        ("zero at first", (0.0, 0.0, 0.0, 0.0, 1.0, 1.0)),
-        ("negative for a while", (1.0, 1.0, -0.1, 1.0)),
-    ):
-        yield Difficulty("force in time", name, **usual, force=force)
-    for tolerance in (1e-1, 1e-3, 1e-10, 1e-12, 1e-14):
-        yield Difficulty("tolerance", f"{tolerance:g}", **usual, tolerance=tolerance)
-
-
 # ---- the question, and the answer to compare with
 
 
@@ -185,7 +71,7 @@ class _Question:
 
 def _question(difficulty, questions=QUESTIONS):
     """Depths, and F/G at them by dense solutions."""
-    with _dense():
+    with dense_only():
         solver = ContactSolver(difficulty.indenter, 1e-11)
         depths = _depths(solver, difficulty, questions)
         state, force, count = solver.touch(), [], []
@@ -229,12 +115,12 @@ def _path(difficulty, question):
 
 
 def _path_dense(difficulty, question):
-    with _dense():
+    with dense_only():
         return _path(difficulty, question)
 
 
 def _path_grid(precision, difficulty, question):
-    with _grid(precision), _periodic() if difficulty.periodic else ExitStack():
+    with grid_only(precision), no_padding() if difficulty.periodic else ExitStack():
         return _path(difficulty, question)
 
 
@@ -384,107 +270,3 @@ def _against_contact(disc):
             for count, error in zip(question.count, errors, strict=True):
                 rows.append(("contact", name, count / disc.elements, error))
     return rows
-
-
-# ---- generated cases
-
-KINDS = ("uniform", "normal", "whole numbers", "hill", "rough disc", "steps", "strip", "ridge", "one spike", "flat")
-
-
-def generated_case(generator):
-    """A small indenter of a random kind and scale, three depths, a tolerance, and whether to use the grid."""
-    kind, rows, columns = generator.choice(KINDS), *generator.integers(1, 13, 2)
-    row, column = np.mgrid[:rows, :columns] - np.array([rows, columns])[:, None, None] * generator.random((2, 1, 1))
-    if kind == "normal":
-        heights = generator.standard_normal((rows, columns))
-    elif kind == "whole numbers":
-        heights = generator.integers(0, generator.integers(2, 6), (rows, columns)).astype(float)
-    elif kind == "hill":
-        heights = -(np.hypot(row, column) ** generator.uniform(0.5, 4))
-    elif kind == "rough disc":
-        heights = self_affine_disc(
-            generator.random(), int(generator.integers(3, 13)), seed=int(generator.integers(2**32))
-        ).heights
-    elif kind == "steps":
-        heights = np.floor(generator.uniform(0.1, 2) * row + generator.uniform(0.1, 2) * column)
-    elif kind == "strip":
-        heights = generator.random((1, int(generator.integers(1, 100))))
-    elif kind == "ridge":
-        heights = -abs(row + generator.normal() * column) + 1e-3 * generator.random((rows, columns))
-    elif kind == "one spike":
-        heights = 1e-6 * generator.random((rows, columns))
-        heights[rows // 2, columns // 2] = 1.0
-    else:
-        heights = np.zeros((rows, columns)) if kind == "flat" else generator.random((rows, columns))
-    if generator.random() < 0.3 and heights.size > 3:
-        heights = np.where(generator.random(heights.shape) < generator.random() * 0.8, np.nan, heights)
-        heights.flat[generator.integers(heights.size)] = 0.5
-    height, length = 10.0 ** generator.uniform(-12, 12, 2) if generator.random() < 0.3 else (1.0, 1.0)
-    indenter = Indenter(height * heights, length)
-    span = np.nanmax(indenter.gaps) or length
-    depths = np.sort(span * 10.0 ** generator.uniform(-3, 1.5, 3))
-    return indenter, depths, 10.0 ** -generator.uniform(1, 11), bool(generator.random() < 0.6)
-
-
-def silent_failure(indenter, depths, tolerance, on_grid):
-    """What is wrong, in words, with a solution that claims to have converged; "" if nothing is.
-
-    Tension, and gap in contact or penetration outside over ten times the tolerance, are looked for with the dense
-    influence matrix; the force is compared with events, which share no code with the path but influence coefficients.
-    A ConvergenceError is no silent failure. Heights are known to rounding, which is allowed for at small depths.
-    """
-    solver, wrong = ContactSolver(indenter, tolerance), ""
-    influence = solver.influence[abs(solver.row[:, None] - solver.row), abs(solver.column[:, None] - solver.column)]
-    events = march_events(indenter)
-    scale = 4 * np.pi * indenter.spacing * solver.unit
-    with _grid("single") if on_grid else ExitStack():
-        state = solver.touch()
-        for depth in depths / solver.unit:
-            try:
-                state = solver.advance(state, depth)
-            except ConvergenceError:
-                return ""
-            allowed = 10 * tolerance + 1e-13 / min(depth, 1.0)
-            gap = influence[:, state.members] @ state.pressure - depth + solver.gap
-            force, at = scale * state.force, depth * solver.unit
-            exact = np.interp(at, events.depth, events.impulse)
-            exact += max(at - events.depth[-1], 0.0) * events.resistance[-1]
-            if state.pressure.min() < 0:
-                wrong = f"tension {state.pressure.min():.2g}"
-            elif max(-gap.min(), np.abs(gap[state.members]).max()) > allowed * depth:
-                wrong = f"penetration {-gap.min():.2g}, gap {gap[state.members].max():.2g} at depth {depth:.2g}"
-            elif abs(force / exact - 1) > allowed:
-                wrong = f"force off by {force / exact - 1:.2g}, tolerance {tolerance:.2g}, depth {depth:.2g}"
-    return wrong
-
-
-# ---- ways of the elastic path that users cannot choose
-
-
-@contextmanager
-def _dense():
-    with patch.multiple(contact, _DENSE_MEMBERS=10**9, _DENSE_INTERACTIONS=10**12):
-        yield
-
-
-@contextmanager
-def _grid(precision):
-    with ExitStack() as changes:
-        changes.enter_context(patch.multiple(contact, _DENSE_MEMBERS=0, _DENSE_INTERACTIONS=0))
-        if precision == "double":
-            changes.enter_context(patch.multiple(gradients, _PRECISION=np.float64, _SINGLE=1e-13))
-        yield
-
-
-@contextmanager
-def _periodic():
-    """Without padding: the indenter has images at its own distance."""
-
-    def spectrum(rows, columns):
-        lengths = [rows, columns + columns % 2]
-        distance = [np.minimum(np.arange(m), m - np.arange(m)) for m in lengths]
-        kernel = halfspace.influence_coefficient(distance[0][:, None].astype(float), distance[1].astype(float))
-        return lengths, halfspace.ducc0.fft.r2c(kernel).real / kernel.size
-
-    with patch.object(halfspace, "_spectrum", spectrum):
-        yield

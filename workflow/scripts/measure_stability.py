@@ -4,8 +4,9 @@ import logging
 
 import numpy as np
 
+from viscorough.difficulties import difficulties
 from viscorough.joblog import log_to
-from viscorough.stability import COLUMNS, difficulties, table, unnoticed
+from viscorough.stability import COLUMNS, table, unnoticed
 from viscorough.storage import write_table
 
 

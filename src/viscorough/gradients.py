@@ -230,7 +230,7 @@ class GridSolver:
         )
 
     def _rate(self, before, depth_before, pressure, gap, rounding, depth, inside, places):
-        """q with K q = 1 on the set, and K q − 1 everywhere.
+        """q with K q = 1 on the set, K q − 1 everywhere, and the bound of its rounding; `rounding` is that of the gaps.
 
         Starts from the combination of the last q and the two pressures that is nearest in energy.
         """

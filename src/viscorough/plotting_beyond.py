@@ -7,7 +7,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, LogLocator, MaxNLocator, NullFormatter, NullLocator
 
 from viscorough import prefactor, reference
-from viscorough.plotting_style import GREY, MM, PALE, STYLE, WIDE, hurst_looks, mark
+from viscorough.plotting_style import GREY, MM, PALE, STYLE, WIDE, hurst_looks, mark, plain_ticks
 from viscorough.scaling import fits
 
 CONVENTIONS = {
@@ -197,8 +197,7 @@ def plot_prefactors(table, shown):
             axes.errorbar(rows["hurst"], rows[law], ends, color=color, marker=marker, label=name, zorder=3)
         axes.plot([], [], color=PALE, label="every other combination")
         axes.set(title=label, xlabel="Hurst exponent $H$ [1]", yscale="log", xlim=(0, 1))
-        axes.yaxis.set(major_locator=FixedLocator([0.2, 0.5, 1, 2, 5]), major_formatter="{x:g}")
-        axes.yaxis.set(minor_locator=LogLocator(subs=range(1, 10)), minor_formatter=NullFormatter())
+        plain_ticks(axes.yaxis, [0.2, 0.5, 1, 2, 5])
         axes.legend(loc="upper left", bbox_to_anchor=(-0.05, -0.14), fontsize=7)
     panels[0].set_ylabel(r"$\zeta$ over the law [1]")
     return figure
@@ -240,9 +239,7 @@ def plot_reduction(table):
         axes.axhline(0 if axes is correlation else 1, color=GREY, linewidth=0.6)
     for axes in (stiffness, area):
         axes.set_yscale("log")
-        ticks = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500]
-        axes.yaxis.set(major_locator=FixedLocator(ticks), major_formatter="{x:g}")
-        axes.yaxis.set(minor_locator=LogLocator(subs=range(1, 10)), minor_formatter=NullFormatter())
+        plain_ticks(axes.yaxis, [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500])
     correlation.set_ylim(-1, 1)
     figure.legend(loc="outside lower center", ncols=len(looks))
     return figure

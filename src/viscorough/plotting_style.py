@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib import colormaps, rc_context
 from matplotlib.lines import Line2D
-from matplotlib.ticker import LogLocator, NullFormatter
+from matplotlib.ticker import FixedLocator, LogLocator, NullFormatter
 
 from viscorough.storage import whole_or_not_at_all
 
@@ -90,6 +90,12 @@ def logarithmic_ticks(*axes):
         axis.set_major_locator(LogLocator(numticks=9))
         axis.set_minor_locator(LogLocator(subs=(1.0,) if decades > 8 else np.arange(2, 10), numticks=200))
         axis.set_minor_formatter(NullFormatter())
+
+
+def plain_ticks(axis, ticks):
+    """Ticks in plain numbers on a logarithmic axis of few decades, and minor ones between them."""
+    axis.set(major_locator=FixedLocator(ticks), major_formatter="{x:g}")
+    axis.set(minor_locator=LogLocator(subs=range(1, 10)), minor_formatter=NullFormatter())
 
 
 def text_along(axes, x, y, text, **look):

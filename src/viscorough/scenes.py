@@ -2,7 +2,8 @@
 
 A scene is an indenter, a range of force, and the accuracy wanted of the depth at any force in it. Hand-picked levels
 stand in equal ratios of depth over exactly that range, which has to be known beforehand; their number and the
-tolerance are the ones that reach the accuracy at least cost. Naive levels stand in equal steps of depth.
+tolerance are the ones that reach the accuracy at least cost. Naive levels stand in equal steps of depth, as many as
+make their error that of the levels chosen automatically.
 """
 
 import time
@@ -93,7 +94,7 @@ def compare(scene, repeats, report=lambda text: None):
             scene.accuracy,
             exact,
         )
-        if naive["reached"] or naive["wall_s"] > WORST * rows[0]["wall_s"]:
+        if naive["error"] <= rows[0]["error"] or naive["wall_s"] > WORST * rows[0]["wall_s"]:
             break
     candidates = [*rows, *by_hand, naive]
     functions = {i: row.pop("function") for i, row in enumerate(candidates)}

@@ -536,6 +536,7 @@ WRONG = [
     ),
     ({"variants": {"cases": [{"name": "Bad 1", "period": 2.0}]}}, "variants.cases[0].name is 'Bad 1'; allowed: text"),
     ({"discs": {"hurst": [0.4, 0.4]}}, "discs.hurst 0.4 stands twice; allowed: each once"),
+    ({"sizes": {"elements": [17, 257]}}, "roll_off_wavelength 0.0625 of sizes.control is too short"),
     ({"discs": {"hurst": [0.4, 0.33]}}, "discs.hurst has 0.33, lines.hurst has not"),
     ({"lines": {"hurst": [0.12345]}}, "lines.hurst has 0.12345; allowed: at most four decimals"),
     ({"ensemble": {"x_low": 40.0}}, "ensemble.x_low and x_high: 40.0 and 30.0 are no range"),

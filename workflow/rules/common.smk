@@ -126,10 +126,11 @@ def contradiction(settings):
     for each in settings["methods"]["tasks"]:
         if each["fractions"][0] > each["fractions"][1]:
             return f"fractions of {each['name']} in methods.tasks decrease; allowed: the first not above the second"
-    for each in [{"name": "surface"}, *variants["cases"]]:
-        surface = settings["surface"] | each
+    control = {"name": "sizes.control", "elements": min(settings["sizes"]["elements"]), **settings["sizes"]["control"]}
+    for each in [{"name": "surface"}, *variants["cases"], control]:
+        surface = {"elements": discs["elements"]} | settings["surface"] | each
         wavelength = surface["roll_off_wavelength"]
-        if wavelength is not None and wavelength * discs["elements"] < 4:
+        if wavelength is not None and wavelength * surface["elements"] < 4:
             return f"roll_off_wavelength {wavelength} of {each['name']} is too short; allowed: from four elements"
     ranges = {
         "ensemble.x_low and x_high": (settings["ensemble"]["x_low"], settings["ensemble"]["x_high"]),

@@ -14,7 +14,7 @@ help:
 	@echo "make report      results/report.html, of what was made; SETTINGS=config/paper.yaml after make paper"
 	@echo "make test        format, lint and every test"
 	@echo "make bench       what curves, lines and the whole reproduction cost, and their errors, to results/benchmarks.json"
-	@echo "make speed       every method by speed against accuracy, to results/figures/speed.png; about an hour"
+	@echo "make speed       every method by speed against accuracy, to results/figures/speed.png; 80 minutes"
 	@echo "make stability   where each method fails, and 12000 small indenters against a dense solution; two minutes"
 	@echo "make sizes       exponents on grids from 65 to 1025 elements across, and on lines"
 	@echo "make large       time and memory of a disc of up to 4097 elements across, 13 million in all"

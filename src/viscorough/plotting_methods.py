@@ -7,7 +7,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import NullFormatter
 
 from viscorough.methods import pareto_front
-from viscorough.plotting_style import GREY, MM, PALE, STYLE, WIDE, logarithmic_ticks
+from viscorough.plotting_style import GREY, MM, PALE, STYLE, WIDE, logarithmic_ticks, plain_ticks
 
 # Colours that are told apart with any colour vision (Okabe and Ito); one for a group of methods.
 GROUPS = {
@@ -142,6 +142,7 @@ def plot_growth(table):
     for axes in (time, operators):
         axes.set(xscale="log", yscale="log", xlabel="elements of the disc $N$ [1]")
         logarithmic_ticks(axes)
+    plain_ticks(operators.yaxis, [10, 20, 50, 100, 200, 500, 1000, 2000])
     figure.legend(loc="outside lower center", ncols=3)
     return figure
 

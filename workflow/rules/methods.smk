@@ -1,4 +1,4 @@
-# Speed against accuracy of every method, ours and others': `speed` makes it, `all` does not, for it takes about an hour.
+# Speed against accuracy of every method, ours and others': `speed` makes it, `all` does not, for it takes over an hour.
 # Every job takes all cores, so that nothing runs beside what is timed.
 
 

@@ -12,8 +12,9 @@ from viscorough.ensemble import abscissa, aggregate, combine
 from viscorough.indentation import indent
 from viscorough.plotting_style import hurst_looks
 from viscorough.reduction import reduce
-from viscorough.scaling import COLUMNS, fits, scaling_rows
+from viscorough.scaling import COLUMNS, scaling_rows
 from viscorough.surfaces import self_affine_disc, self_affine_line
+from viscorough.tables import fits
 from viscorough.viscous import kinetics
 
 pytestmark = pytest.mark.filterwarnings("error")

@@ -280,7 +280,7 @@ class GridSolver:
             total = rate[places].sum()
             error = np.sqrt(norm / (_LEAST_EIGENVALUE * total)) if total > 0 else np.inf
             if error <= tolerance:
-                if rounding <= _RATE_ROUNDING * self.tolerance:
+                if rounding <= max(_RATE_ROUNDING * self.tolerance, self._exact_rounding):
                     return rounding
                 rate_gap[:], rounding = self._deflection(rate) - 1, self._exact_rounding
                 direction, last = self._restart(inside, places), np.inf

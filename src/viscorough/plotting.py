@@ -30,7 +30,7 @@ from viscorough.plotting_style import (
     save_figure,
     text_along,
 )
-from viscorough.scaling import fits
+from viscorough.tables import fits
 
 __all__ = [
     "plot_conventions",

@@ -8,7 +8,7 @@ from matplotlib.ticker import FixedLocator, LogLocator, MaxNLocator, NullFormatt
 
 from viscorough import prefactor, reference
 from viscorough.plotting_style import GREY, MM, PALE, STYLE, WIDE, hurst_looks, mark, plain_ticks
-from viscorough.scaling import fits
+from viscorough.tables import fits
 
 CONVENTIONS = {
     "average": {"arithmetic": "arithmetic mean", "geometric": "geometric mean"},

@@ -7,7 +7,7 @@ from matplotlib.lines import Line2D
 
 from viscorough.plotting_style import GREY, MM, STYLE, WIDE, hurst_handles, hurst_looks, logarithmic_ticks, mark
 from viscorough.reference import exponent_beta
-from viscorough.scaling import fits
+from viscorough.tables import fits
 
 LARGE = {
     "across": ("elements across the disc", "1"),

@@ -292,13 +292,3 @@ def _row(about, window, fit, gamma, diameter):
         row["beta_low"], row["beta_high"] = fit.beta_interval
         row["zeta"], row["zeta_low"], row["zeta_high"] = fit.zeta(gamma=gamma, diameter_convention=diameter)
     return row
-
-
-def fits(table, shown, **wanted):
-    """Rows of the scaling table under the conventions shown, replaced or added to by those wanted; by ascending H.
-
-    Rows without a region (b), which have no exponent, are left out.
-    """
-    for column, value in (shown | wanted).items():
-        table = table[table[column] == value]
-    return table.dropna(subset="beta").sort_values("hurst")

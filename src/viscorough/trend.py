@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from viscorough.reference import exponent_beta
-from viscorough.scaling import fits
+from viscorough.tables import fits
 
 AGREES = 0.03  # as the verdicts on β allow
 FINDINGS = ("agrees on the finest grid", "departs, and less on finer grids", "departs on every grid", "untold")

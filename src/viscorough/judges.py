@@ -50,7 +50,8 @@ def _collapse(evidence, tolerance):
     """Scatter of ln(vt/h) over combinations, over that between Hurst exponents, at one X in all regions (b).
 
     That of combinations is without what their few realizations would scatter anyhow: the component of variance between
-    them, with its interval from the F distribution (analysis of variance).
+    them, with its interval from the F distribution (analysis of variance). Where the realizations are so few that their
+    means scatter by more than the tolerance, nothing can be told.
     """
     found = {hurst: evidence.pooled(hurst) for hurst in evidence.discs}
     windows = [window for _, window in found.values() if window is not None]
@@ -68,21 +69,26 @@ def _collapse(evidence, tolerance):
     between = np.std([np.mean(np.concatenate(each)) for each in logs.values()], ddof=1)
     rows = []
     for hurst, each in logs.items():
-        ratio = np.sqrt(_excess_variance(each)) / between
-        rows.append(_row(_hurst(hurst), *ratio, np.nan, _within(*ratio[1:], 0.0, tolerance)))
+        *ratio, of_realizations = np.sqrt(_excess_variance(each)) / between
+        met = bool(ratio[1] <= tolerance) if of_realizations <= tolerance else None
+        rows.append(_row(_hurst(hurst), *ratio, np.nan, met))
     return rows
 
 
 def _excess_variance(groups):
-    """Variance between groups beyond what scatter within makes of their means: median, 95 % interval, at least 0."""
+    """Variance between groups beyond what scatter within makes of their means: median, 95 % interval, at least 0.
+
+    And that of their means by the scatter within.
+    """
     groups = [each[np.isfinite(each)] for each in groups]
     size = np.mean([each.size for each in groups])
     freedom = len(groups) - 1, sum(each.size - 1 for each in groups)
     if min(freedom) < 1:
-        return np.full(3, np.nan)
+        return np.full(4, np.nan)
     within = sum(each.size * each.var() for each in groups) / freedom[1]
     ratio = size * np.var([each.mean() for each in groups], ddof=1) / within
-    return np.maximum((ratio / stats.f.ppf([0.5, 0.975, 0.025], *freedom) - 1) * within / size, 0.0)
+    excess = np.maximum(ratio / stats.f.ppf([0.5, 0.975, 0.025], *freedom) - 1, 0.0)
+    return np.append(excess, 1.0) * within / size
 
 
 def _first_region(evidence, tolerance):

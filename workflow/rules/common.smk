@@ -154,7 +154,8 @@ def disc_cases(settings):
     """{case: group, spawn key, realizations, batch, elements, surface (arguments of self_affine_disc)} of every ensemble.
 
     Spawn keys are (1 discs, H·10⁶, number of the combination), (2 variants, H·10⁶, CRC-32 of the name), (8 sizes,
-    H·10⁶, elements) and (13 controls, H·10⁶, elements), to which the realization is added: no position in a list, no batch and no order enters.
+    H·10⁶, elements) and (13 controls, H·10⁶, elements), to which the realization is added: no position in a list, no
+    batch and no order enters.
     """
     cases, unit = {}, {"rms": 1.0, "diameter": 1.0}
     for hurst in settings["discs"]["hurst"]:

@@ -1,17 +1,15 @@
 """Elastic half-space under uniform pressure on square elements: influence coefficients and their operator."""
 
 from functools import lru_cache
-from itertools import pairwise
 
 import ducc0
 import numpy as np
 
-from viscorough.compilation import njit, vectorize
+from viscorough.columns import Columns, good_length
+from viscorough.compilation import vectorize
 
 # Beyond this distance (in elements) the series below is more accurate than the difference of logarithms.
 _FAR = 30
-# Columns transformed together: about 64 stay in the cache on grids of up to 2049 × 2049 (measured).
-_BLOCK = 64
 # Rows a power of two apart in memory fall on the same places of the cache; so many numbers more between them make the
 # transforms along rows of 1025 × 1025 elements two to three times faster (measured).
 _PADDING = 16
@@ -49,18 +47,10 @@ def influence_coefficient(x, y):
     return total
 
 
-@njit
-def _multiply(spectrum, kernel):
-    """spectrum ·= kernel; numpy would convert the real kernel to complex numbers first."""
-    for i in range(kernel.shape[0]):
-        for j in range(kernel.shape[1]):
-            spectrum[i, j] = spectrum[i, j] * kernel[i, j]
-
-
 @lru_cache(maxsize=2)
 def _spectrum(rows, columns):
     """Lengths of the periodic convolution, and the real spectrum of K over them, divided by their product."""
-    lengths = [ducc0.fft.good_size(max(2 * (n - 1), 1), True) for n in (rows, columns)]
+    lengths = good_length(2 * (rows - 1)), ducc0.fft.good_size(max(2 * (columns - 1), 1), True)
     row, column = (np.arange(m // 2 + 1.0) for m in lengths)
     quarter = influence_coefficient(row[:, None], column)
     distance = [np.minimum(np.arange(m), m - np.arange(m)) for m in lengths]
@@ -73,8 +63,8 @@ class Halfspace:
 
     K is even, so a periodic convolution over 2(n − 1) points per axis holds every distance up to n − 1 once and
     nothing wraps around; its spectrum is real. The rows beyond the grid carry no data in or out: their transforms
-    along the rows are skipped (a quarter of the work of the padded transform), and they exist only for the block of
-    columns at hand.
+    along the rows are skipped (a quarter of the work of the padded transform), and they exist only where the columns
+    are convolved.
 
     `load` is the array to write p into: shape (rows, stride ≥ columns), zero wherever there is no pressure and in
     the columns beyond the grid. `apply()` returns w in an array of the same layout (its columns beyond the grid
@@ -84,33 +74,18 @@ class Halfspace:
 
     def __init__(self, rows, columns, precision=np.float64):
         self.shape = (rows, columns)
-        lengths, spectrum = _spectrum(rows, columns)
-        edges = np.linspace(0, spectrum.shape[1], max(1, round(spectrum.shape[1] / _BLOCK)) + 1).astype(int)
-        self._blocks = [
-            (slice(start, stop), np.ascontiguousarray(spectrum[:, start:stop], dtype=precision))
-            for start, stop in pairwise(edges)
-        ]
-        self._lengths = lengths
-        spectral = np.result_type(precision, np.complex64)
-        self.load = np.zeros((rows, lengths[1] + _PADDING), dtype=precision)
-        self._transformed = np.empty((rows, spectrum.shape[1]), dtype=spectral)
-        self._columns = {each.shape[1]: np.empty(each.shape, dtype=spectral) for _, each in self._blocks}
+        (_, self._length), spectrum = _spectrum(rows, columns)
+        self._columns = Columns(rows, spectrum, precision)
+        self.load = np.zeros((rows, self._length + _PADDING), dtype=precision)
+        self._transformed = np.empty((rows, spectrum.shape[1]), dtype=np.result_type(precision, np.complex64))
         self._deflection = np.empty_like(self.load)
         self.count = 0
 
     def apply(self):
         """Deflection w = K p of the pressure in `load`, in the same layout; valid until the next call."""
-        rows, length, data = self.shape[0], self._lengths[1], self._transformed
+        length, data = self._length, self._transformed
         ducc0.fft.r2c(self.load[:, :length], axes=[1], out=data)
-        for span, spectrum in self._blocks:
-            block = data[:, span]
-            columns = self._columns[spectrum.shape[1]]
-            columns[:rows] = block
-            columns[rows:] = 0
-            ducc0.fft.c2c(columns, axes=[0], out=columns)
-            _multiply(columns, spectrum)
-            ducc0.fft.c2c(columns, axes=[0], forward=False, out=columns)
-            block[:] = columns[:rows]
+        self._columns.apply(data)
         ducc0.fft.c2r(data, axes=[1], forward=False, lastsize=length, out=self._deflection[:, :length])
         self.count += 1
         return self._deflection

@@ -80,10 +80,14 @@ def no_padding():
     """No padding: the indenter has images at its own distance."""
 
     def spectrum(rows, columns):
-        lengths = [rows, columns + columns % 2]
-        distance = [np.minimum(np.arange(m), m - np.arange(m)) for m in lengths]
-        kernel = halfspace.influence_coefficient(distance[0][:, None].astype(float), distance[1].astype(float))
+        lengths = padded(rows, columns)[0]
+        distance = []
+        for m, n in zip(lengths, (rows, columns), strict=True):
+            direct = np.minimum(np.arange(m), m - np.arange(m))
+            distance.append(np.minimum(direct, abs(n - direct)).astype(float))
+        kernel = halfspace.influence_coefficient(distance[0][:, None], distance[1])
         return lengths, halfspace.ducc0.fft.r2c(kernel).real / kernel.size
 
+    padded = halfspace._spectrum
     with patch.object(halfspace, "_spectrum", spectrum):
         yield

@@ -1,0 +1,212 @@
+"""Convolution of the columns of a grid with an even kernel: Fourier transforms of many columns side by side.
+
+Own transforms, because the convolution leaves out most of what a library's would have to do: rows without data are
+neither stored nor copied, and frequencies stay in the order in which the transform leaves them. On 257 rows it takes
+half the time of ducc0's transforms with the product between them (measured).
+
+Columns are taken in blocks, the real parts of a row of which stand together and its imaginary parts beside them, so
+that every line of code below acts on as many columns at once as the processor's registers hold.
+"""
+
+import numpy as np
+
+from viscorough.compilation import njit
+
+# Columns of a block that stays in the cache, and how many more the last one may have (measured: 64 to 128 are alike).
+_BLOCK, _REST = 64, 8
+# Numbers from real to imaginary parts, and from row to row: not a power of two, whose multiples fall on the same places
+# of the cache (measured: three times slower). Constants, for the compiler to see which numbers are distinct.
+_PARTS = _BLOCK + _REST
+_ROW = 2 * _PARTS + 8
+
+
+def good_length(least):
+    """Smallest length 2^a 3^b ≥ least with a ≥ 2, for which there are transforms."""
+    most = int(np.ceil(np.log2(max(least, 4))))
+    lengths = [2**a * 3**b for a in range(2, most + 1) for b in range(most)]
+    return min(length for length in lengths if length >= least)
+
+
+def _radices(length):
+    """Factors 8, 4 and 3 of a length, large ones first."""
+    twos = (length & -length).bit_length() - 1
+    threes = round(np.log(length >> twos) / np.log(3))
+    fours = -twos % 3
+    return [8] * ((twos - 2 * fours) // 3) + [4] * fours + [3] * threes
+
+
+@njit
+def _at(x, row, j):
+    return complex(x[row, j], x[row, _PARTS + j])
+
+
+@njit
+def _put(y, group, member, j, value):
+    y[group, member * _ROW + j] = value.real
+    y[group, member * _ROW + _PARTS + j] = value.imag
+
+
+@njit
+def _turned(z):
+    """−i z."""
+    return complex(z.imag, -z.real)
+
+
+@njit
+def _four(a, b, c, d):
+    """Transform of four numbers."""
+    even, odd, even_turned, odd_turned = a + c, b + d, a - c, _turned(b - d)
+    return even + odd, even_turned + odd_turned, even - odd, even_turned - odd_turned
+
+
+@njit(fastmath=True)
+def _stage_of_three(x, source, y, before, factors, width):
+    third = source.size // 3
+    out = y.reshape(third, 3 * _ROW)
+    half, root = x.dtype.type(0.5), x.dtype.type(np.sqrt(0.75))
+    for p in range(third):
+        i, k, m = source[p], source[p + third], source[p + 2 * third]
+        f = factors[p // before]
+        f1, f2 = f[1], f[2]
+        for j in range(width):
+            a, b, c = _at(x, i, j), _at(x, k, j), _at(x, m, j)
+            both, apart = a - (b + c) * half, _turned(b - c) * root
+            _put(out, p, 0, j, a + b + c)
+            _put(out, p, 1, j, (both + apart) * f1)
+            _put(out, p, 2, j, (both - apart) * f2)
+
+
+@njit(fastmath=True)
+def _stage_of_four(x, source, y, before, factors, width):
+    quarter = source.size // 4
+    out = y.reshape(quarter, 4 * _ROW)
+    for p in range(quarter):
+        i, k, m, n = source[p], source[p + quarter], source[p + 2 * quarter], source[p + 3 * quarter]
+        f = factors[p // before]
+        f1, f2, f3 = f[1], f[2], f[3]
+        for j in range(width):
+            a, b, c, d = _four(_at(x, i, j), _at(x, k, j), _at(x, m, j), _at(x, n, j))
+            _put(out, p, 0, j, a)
+            _put(out, p, 1, j, b * f1)
+            _put(out, p, 2, j, c * f2)
+            _put(out, p, 3, j, d * f3)
+
+
+@njit(fastmath=True)
+def _stage_of_eight(x, source, y, before, factors, width):
+    eighth = source.size // 8
+    out = y.reshape(eighth, 8 * _ROW)
+    root = x.dtype.type(np.sqrt(0.5))
+    for p in range(eighth):
+        i0, i1, i2, i3 = source[p], source[p + eighth], source[p + 2 * eighth], source[p + 3 * eighth]
+        i4, i5, i6, i7 = source[p + 4 * eighth], source[p + 5 * eighth], source[p + 6 * eighth], source[p + 7 * eighth]
+        f = factors[p // before]
+        f1, f2, f3, f4, f5, f6, f7 = f[1], f[2], f[3], f[4], f[5], f[6], f[7]
+        for j in range(width):
+            a, b, c, d = _four(_at(x, i0, j), _at(x, i2, j), _at(x, i4, j), _at(x, i6, j))
+            e, f, g, h = _four(_at(x, i1, j), _at(x, i3, j), _at(x, i5, j), _at(x, i7, j))
+            f, g, h = (f + _turned(f)) * root, _turned(g), (_turned(h) - h) * root
+            _put(out, p, 0, j, a + e)
+            _put(out, p, 1, j, (b + f) * f1)
+            _put(out, p, 2, j, (c + g) * f2)
+            _put(out, p, 3, j, (d + h) * f3)
+            _put(out, p, 4, j, (a - e) * f4)
+            _put(out, p, 5, j, (b - f) * f5)
+            _put(out, p, 6, j, (c - g) * f6)
+            _put(out, p, 7, j, (d - h) * f7)
+
+
+@njit
+def _transform(x, y, source, same, radices, factors, width):
+    """Transform from rows source[0], source[1], … of x; returns the array that has it, x or y, and the other.
+
+    Every stage reads rows n/r apart and writes r rows side by side: of every r places the first is of frequencies 0
+    modulo r, the next of 1, and so on (the decimation in frequency with constant geometry of Pease 1968).
+    """
+    before, start = 1, 0
+    for radix in radices:
+        groups = same.size // (before * radix)
+        stop = start + groups * radix
+        of_stage = factors[start:stop].reshape(groups, radix)
+        if radix == 8:
+            _stage_of_eight(x, source, y, before, of_stage, width)
+        elif radix == 4:
+            _stage_of_four(x, source, y, before, of_stage, width)
+        else:
+            _stage_of_three(x, source, y, before, of_stage, width)
+        before, start, source = before * radix, stop, same
+        x, y = y, x
+    return x, y
+
+
+@njit
+def _load(data, first, x, width):
+    """Columns from the first one on; the row below them is zero."""
+    for i in range(data.shape[0]):
+        row = data[i][first:]
+        for j in range(width):
+            x[i, j], x[i, _PARTS + j] = row[j].real, row[j].imag
+    x[data.shape[0]] = 0
+
+
+@njit
+def _multiply(x, spectrum, y, width):
+    """Product with real and imaginary parts exchanged, of which the transform is the inverse one, exchanged as well."""
+    for i in range(spectrum.shape[0]):
+        for j in range(width):
+            real = spectrum[i, j] * x[i, j]
+            y[i, j] = spectrum[i, j] * x[i, _PARTS + j]
+            y[i, _PARTS + j] = real
+
+
+@njit
+def _store(x, place, data, first, width):
+    for i in range(data.shape[0]):
+        row, at = data[i][first:], place[i]
+        for j in range(width):
+            row[j] = complex(x[at, _PARTS + j], x[at, j])
+
+
+@njit
+def _convolve(data, edges, spectra, radices, factors, padded, place, same, x, y):
+    for block in range(spectra.shape[0]):
+        first, width = edges[block], edges[block + 1] - edges[block]
+        _load(data, first, x, width)
+        frequencies, other = _transform(x, y, padded, same, radices, factors, width)
+        _multiply(frequencies, spectra[block], other, width)
+        times, _ = _transform(other, frequencies, place, same, radices, factors, width)
+        _store(times, place, data, first, width)
+
+
+class Columns:
+    """Convolution of every column with a kernel of its own.
+
+    rows : rows with data
+    spectrum : real transforms of the kernels along the columns, divided by their length, shape (length, columns), where
+        length is a good_length above `rows`
+    precision : type of the numbers
+    """
+
+    def __init__(self, rows, spectrum, precision):
+        length, columns = spectrum.shape
+        radices = _radices(length)
+        frequency, factors, rest = np.zeros(1, dtype=int), [], length
+        for radix in radices:
+            factors.append(np.exp(-2j * np.pi / rest * np.outer(np.arange(rest // radix), np.arange(radix))).ravel())
+            frequency = np.add.outer(frequency, length // rest * np.arange(radix)).ravel()
+            rest //= radix
+        edges = np.array([*range(0, max(columns - _REST, 1), _BLOCK), columns])
+        spectra = np.zeros((edges.size - 1, length, _PARTS), dtype=precision)
+        for block, of_block in enumerate(np.split(spectrum[frequency], edges[1:-1], axis=1)):
+            spectra[block, :, : of_block.shape[1]] = of_block
+        spectral = np.result_type(precision, np.complex64)
+        same = np.arange(length)
+        self._plan = (
+            edges, spectra, np.array(radices), np.concatenate(factors).astype(spectral),
+            np.minimum(same, rows), np.argsort(frequency), same,
+        )  # fmt: skip
+        self._work = [np.empty((length, _ROW), dtype=precision) for _ in range(2)]
+
+    def apply(self, data):
+        """Convolve the columns of `data`, complex numbers of shape (rows, columns), in place."""
+        _convolve(data, *self._plan, *self._work)

@@ -12,12 +12,13 @@ from viscorough.columns import Columns, good_length
 def test_convolution_is_that_of_library_transforms(length, columns, precision):
     rng = np.random.default_rng(length)
     rows = length // 2 + 1
-    spectrum = rng.standard_normal((length, columns))
+    spectrum = rng.standard_normal((rows, columns))  # of even kernels: frequency and −frequency alike
+    every = np.concatenate([spectrum, spectrum[-2:0:-1]])
     convolution = Columns(rows, spectrum, precision)
     for _ in range(2):  # the second time must not see anything of the first
         data = rng.standard_normal((rows, columns)) + 1j * rng.standard_normal((rows, columns))
         padded = np.fft.fft(data, n=length, axis=0)
-        expected = np.fft.ifft(spectrum * length * padded, axis=0)[:rows]
+        expected = np.fft.ifft(every * length * padded, axis=0)[:rows]
         found = data.astype(np.result_type(precision, np.complex64))
         convolution.apply(found)
         np.testing.assert_allclose(found, expected, rtol=0, atol=5 * np.finfo(precision).eps * abs(expected).max())

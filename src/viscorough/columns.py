@@ -182,13 +182,13 @@ class Columns:
     """Convolution of every column with a kernel of its own.
 
     rows : rows with data
-    spectrum : real transforms of the kernels along the columns, divided by their length, shape (length, columns), where
-        length is a good_length above `rows`
+    spectrum : real transforms of the kernels along the columns, divided by their length: the frequencies up to half of
+        it, shape (length/2 + 1, columns), where length is a good_length above `rows`
     precision : type of the numbers
     """
 
     def __init__(self, rows, spectrum, precision):
-        length, columns = spectrum.shape
+        length, columns = 2 * (spectrum.shape[0] - 1), spectrum.shape[1]
         radices = _radices(length)
         frequency, factors, rest = np.zeros(1, dtype=int), [], length
         for radix in radices:
@@ -197,7 +197,8 @@ class Columns:
             rest //= radix
         edges = np.array([*range(0, max(columns - _REST, 1), _BLOCK), columns])
         spectra = np.zeros((edges.size - 1, length, _PARTS), dtype=precision)
-        for block, of_block in enumerate(np.split(spectrum[frequency], edges[1:-1], axis=1)):
+        in_order = spectrum[np.minimum(frequency, length - frequency)]
+        for block, of_block in enumerate(np.split(in_order, edges[1:-1], axis=1)):
             spectra[block, :, : of_block.shape[1]] = of_block
         spectral = np.result_type(precision, np.complex64)
         same = np.arange(length)

@@ -59,21 +59,17 @@ class ContactSolver:
     def __init__(self, indenter, tolerance):
         memory.require(_BYTES * indenter.heights.size, f"contact of a map of {indenter.heights.shape} heights")
         rows, columns = np.nonzero(np.isfinite(indenter.heights))
-        top, left = rows.min(), columns.min()
         gap = indenter.gaps[rows, columns].astype(float)
         order = np.argsort(gap, kind="stable")
         # The largest gap is the unit of length, so that results do not depend on the user's.
         self.unit = gap.max() or 1.0
         self.gap = gap[order] / self.unit
         self.place = rows[order], columns[order]
-        self.row, self.column = (rows - top)[order], (columns - left)[order]
+        self.row, self.column = ((i[order] - i.min()).astype(np.int32) for i in (rows, columns))
         self.shape = (int(self.row.max()) + 1, int(self.column.max()) + 1)
         self.tolerance = tolerance
         distance = [np.arange(n, dtype=float) for n in self.shape]
         self.influence = influence_coefficient(distance[0][:, None], distance[1][None, :])
-        # Box around the elements up to each rank: only those whose gap is below the depth can touch.
-        edges = [(np.minimum.accumulate(each), np.maximum.accumulate(each)) for each in (self.row, self.column)]
-        self._boxes = np.array([first for first, _ in edges] + [last - first + 1 for first, last in edges])
         self._grid, self._spent = None, 0
 
     @property
@@ -107,37 +103,37 @@ class ContactSolver:
         *levels, members = dense.follow_events(self, contact, most, force)
         depth, count = levels[0], levels[-1]
         if depth.size:
-            contact = self._dense_state(depth[-1], np.sort(members[: count[-1]]))
+            members = np.sort(members[: count[-1]])
+            contact = _dense_contact(depth[-1], members, *dense.pressures(self, members, depth[-1]))
         return levels, contact
 
     def advance(self, contact, depth):
         """The contact at a larger depth. Raises ConvergenceError if it cannot be found to the tolerance."""
         candidates = int(np.searchsorted(self.gap, depth))
         if contact.fields is None and candidates * contact.count <= _DENSE_INTERACTIONS:
-            members = dense.solve(self, contact, depth, candidates, _DENSE_MEMBERS)
-            if members is not None:
-                return self._checked(contact, self._dense_state(depth, members))
+            found = dense.solve(self, contact, depth, candidates, _DENSE_MEMBERS)
+            if found is not None:
+                return self._checked(contact, _dense_contact(depth, *found))
         grid = self._grid_to(max(candidates, 1))
         if not _belongs(contact, grid):
             contact = replace(contact, fields=grid.fields(contact))
         return self._checked(contact, Contact(*grid.solve(contact, depth)))
 
     def _grid_to(self, rank):
-        """The grid solver of a box that holds the elements up to a rank: the last one, or else a larger one."""
+        """The grid solver of a box around the elements up to a rank: the last one, or else a larger one.
+
+        Only elements whose gap is below the depth can touch.
+        """
         if self._grid is None or rank > self._reach:
             # With room for some depths to come, or the whole grid where little is saved.
             reach = max(rank, int(np.searchsorted(self.gap, _ROOM * self.gap[rank - 1])))
-            box = self._boxes[:, reach - 1]
+            first, last = ([pick(each[:reach]) for each in (self.row, self.column)] for pick in (np.min, np.max))
+            box = [int(n) for n in (*first, *np.subtract(last, first) + 1)]
             if box[2] * box[3] > _LARGE_BOX * self.shape[0] * self.shape[1]:
                 reach, box = self.elements, (0, 0, *self.shape)
             self._spent, self._reach = self.operators, reach
-            self._grid = gradients.GridSolver(tuple(map(int, box)), self.row, self.column, self.gap, self.tolerance)
+            self._grid = gradients.GridSolver(box, self.row, self.column, self.gap, self.tolerance)
         return self._grid
-
-    def _dense_state(self, depth, members):
-        pressure, rate = dense.pressures(self, members, depth)
-        pressure = np.maximum(pressure, 0.0)  # exact zeros of elements that just touch, to rounding
-        return Contact(depth, members, pressure, rate, pressure.sum(), rate.sum(), 0.0)
 
     def _checked(self, before, after):
         """Complementarity: no tension and no penetration beyond the tolerance, and contact only grew."""
@@ -157,6 +153,11 @@ class ContactSolver:
                     "although contact can only grow; choose a smaller tolerance"
                 )
         return after
+
+
+def _dense_contact(depth, members, pressure, rate):
+    pressure = np.maximum(pressure, 0.0)  # exact zeros of elements that just touch, to rounding
+    return Contact(depth, members, pressure, rate, pressure.sum(), rate.sum(), 0.0)
 
 
 def _belongs(contact, grid):

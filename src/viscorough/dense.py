@@ -24,16 +24,14 @@ def _matrix(influence, row, column, members):
     return matrix
 
 
-@njit
-def _deflections(influence, row, column, members, load, start, stop):
-    """Σ_j K_ij load_j at the elements of rank start ≤ i < stop, for every row of load; shape (loads, stop − start)."""
-    result = np.zeros((load.shape[0], stop - start))
+@njit(fastmath=True)
+def _deflection(influence, row, column, members, load, stop):
+    """Σ_j K_ij load_j at the elements of rank i < stop."""
+    result = np.zeros(stop)
     for b in range(members.size):
         r, c = row[members[b]], column[members[b]]
-        for i in range(start, stop):
-            value = influence[abs(row[i] - r), abs(column[i] - c)]
-            for s in range(load.shape[0]):
-                result[s, i - start] += value * load[s, b]
+        for i in range(stop):
+            result[i] += load[b] * influence[abs(row[i] - r), abs(column[i] - c)]
     return result
 
 
@@ -41,43 +39,43 @@ def pressures(problem, members, depth):
     """P and q = dP/du of the given contact set at the given depth, each of shape (count,)."""
     matrix = _matrix(problem.influence, problem.row, problem.column, members)
     right = np.stack([depth - problem.gap[members], np.ones(members.size)], axis=1)
-    solution = scipy.linalg.solve(matrix, right, assume_a="pos", overwrite_a=True, check_finite=False)
+    factor = scipy.linalg.cho_factor(matrix, overwrite_a=True, check_finite=False)
+    solution = scipy.linalg.cho_solve(factor, right, overwrite_b=True, check_finite=False)
     return solution[:, 0], solution[:, 1]
 
 
 def gaps(problem, contact):
     """Gap e between the surfaces at every element, by rank."""
-    deflection = _deflections(
-        problem.influence, problem.row, problem.column, contact.members, contact.pressure[None], 0, problem.elements
-    )[0]
+    of_problem = problem.influence, problem.row, problem.column
+    deflection = _deflection(*of_problem, contact.members, contact.pressure, problem.elements)
     return deflection - contact.depth + problem.gap
 
 
 def solve(problem, contact, depth, candidates, largest):
-    """The contact set at `depth` by the primal-dual active set method; None if it exceeds `largest` elements.
+    """The contact at `depth` by the primal-dual active set method: its members, P and q. None above `largest` members.
 
-    Only the `candidates` lowest-ranked elements have a gap below the depth and can be in contact; where nothing is
-    in contact yet, all of them are tried.
+    Only the `candidates` lowest-ranked elements have a gap below the depth and can be in contact. Starts from those in
+    contact before, whose pressures at the new depth are known, or from all candidates where there are none.
     Raises ConvergenceError if the set does not settle.
     """
     rank = np.arange(candidates)
     inside = np.full(candidates, contact.count == 0)
     inside[contact.members] = True
+    pressure, rate = contact.pressure + (depth - contact.depth) * contact.rate, contact.rate
     for _ in range(100):
         members = rank[inside]
         if members.size > largest:
             return None
-        pressure, _rate = pressures(problem, members, depth)
-        deflection = _deflections(
-            problem.influence, problem.row, problem.column, members, pressure[None], 0, candidates
-        )[0]
+        if not np.array_equal(members, contact.members):
+            pressure, rate = pressures(problem, members, depth)
+        deflection = _deflection(problem.influence, problem.row, problem.column, members, pressure, candidates)
         # Rounding decides nothing: an element within it of the surface stays as it is.
         rounding = 1e-12 * depth
         penetrating = ~inside & (deflection - depth + problem.gap[:candidates] < -rounding)
         pulling = np.zeros_like(inside)
         pulling[members] = pressure < -1e-12 * pressure.max()
         if not (penetrating.any() or pulling.any()):
-            return members
+            return members, pressure, rate
         inside = (inside & ~pulling) | penetrating
     raise ConvergenceError(f"contact at depth {depth:g}: the contact set of {members.size} elements does not settle")
 

@@ -173,7 +173,7 @@ class GridSolver:
         self._width = columns + 2 * REACH
         in_box = (row >= top) & (row < top + rows) & (column >= left) & (column < left + columns)
         self._ranks = np.flatnonzero(in_box)
-        self.place = np.where(in_box, (row - top + REACH) * self._width + column - left + REACH, 0)
+        self.place = np.where(in_box, (row - top + REACH) * self._width + column - left + REACH, 0).astype(int)
         self.gap = np.full((rows + 2 * REACH) * self._width, _OUTSIDE)
         self.gap[self.place[self._ranks]] = gap[self._ranks]
         # Where each place of the flat grid is in the operator's load.

@@ -49,13 +49,13 @@ def influence_coefficient(x, y):
 
 @lru_cache(maxsize=2)
 def _spectrum(rows, columns):
-    """Lengths of the periodic convolution, and the real spectrum of K over them, divided by their product."""
-    lengths = good_length(2 * (rows - 1)), ducc0.fft.good_size(max(2 * (columns - 1), 1), True)
+    """Lengths of the periodic convolution, and the real spectrum of K over half of them, divided by their product.
+
+    K and its spectrum are even, so that a cosine transform of the distances up to half the lengths gives all of it.
+    """
+    lengths = good_length(2 * (rows - 1)), 2 * ducc0.fft.good_size(max(columns - 1, 1), True)
     row, column = (np.arange(m // 2 + 1.0) for m in lengths)
-    quarter = influence_coefficient(row[:, None], column)
-    distance = [np.minimum(np.arange(m), m - np.arange(m)) for m in lengths]
-    kernel = quarter[np.ix_(*distance)]
-    return lengths, ducc0.fft.r2c(kernel).real / kernel.size
+    return lengths, ducc0.fft.dct(influence_coefficient(row[:, None], column), type=1) / np.prod(lengths)
 
 
 class Halfspace:

@@ -15,7 +15,7 @@ found in the same way, from blocks of blocks, down to few enough for a dense one
 0.4 and 1.2 for contact sets of any size (tests/test_preconditioner.py); without blocks they reach 20 on 257 × 257.
 """
 
-from functools import cache
+from functools import cache, lru_cache
 
 import numpy as np
 import scipy.linalg
@@ -209,17 +209,17 @@ class _FewBlocks:
 
     def __init__(self, side, across):
         self.squares = np.zeros((across + 2) ** 2)
-        self._kernel = _coupling(side, *np.divmod(np.arange(self.squares.size), across + 2))
+        self._kernel = _dense_coupling(side, across)
 
     def prepare(self):
         self.places = np.flatnonzero(self.squares)
         amplitude = np.sqrt(self.squares[self.places])
         matrix = self._kernel[np.ix_(self.places, self.places)] * amplitude * amplitude[:, None]
-        matrix[np.diag_indices_from(matrix)] += 1
-        self._inverse = scipy.linalg.inv(matrix, assume_a="pos", check_finite=False)
+        matrix.flat[:: self.places.size + 1] += 1
+        self._factor = scipy.linalg.cho_factor(matrix, overwrite_a=True, check_finite=False)
 
     def apply(self, residual):
-        return self._inverse @ residual[self.places]
+        return scipy.linalg.cho_solve(self._factor, residual[self.places], check_finite=False)
 
 
 def _blocks(side, across):
@@ -231,6 +231,12 @@ def _block(height, width, side, border, across):
     """Place of the block of every place of a flat grid with border, on one of blocks with a border of one."""
     row, column = ((np.arange(n) - border) // side + 1 for n in (height, width))
     return (row[:, None] * (across + 2) + column).ravel().astype(np.int32)
+
+
+@lru_cache(maxsize=2)
+def _dense_coupling(side, across):
+    """K between all blocks of a grid with a border of one."""
+    return _coupling(side, *np.divmod(np.arange((across + 2) ** 2), across + 2))
 
 
 def _coupling(side, row, column):

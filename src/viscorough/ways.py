@@ -81,12 +81,10 @@ def no_padding():
 
     def spectrum(rows, columns):
         lengths = padded(rows, columns)[0]
-        distance = []
-        for m, n in zip(lengths, (rows, columns), strict=True):
-            direct = np.minimum(np.arange(m), m - np.arange(m))
-            distance.append(np.minimum(direct, abs(n - direct)).astype(float))
-        kernel = halfspace.influence_coefficient(distance[0][:, None], distance[1])
-        return lengths, halfspace.ducc0.fft.r2c(kernel).real / kernel.size
+        distance = (np.arange(m // 2 + 1.0) for m in lengths)
+        row, column = (np.minimum(d, abs(n - d)) for d, n in zip(distance, (rows, columns), strict=True))
+        kernel = halfspace.influence_coefficient(row[:, None], column)
+        return lengths, halfspace.ducc0.fft.dct(kernel, type=1) / np.prod(lengths)
 
     padded = halfspace._spectrum
     with patch.object(halfspace, "_spectrum", spectrum):

@@ -21,7 +21,7 @@ _DENSE_INTERACTIONS = 2_000_000
 # Memory that a contact takes at most per point of the map (measured).
 _BYTES = 400
 # Room in depth that the box of a grid has beyond the depth asked for; part of the whole grid above which it is taken.
-_ROOM, _LARGE_BOX = 1.1, 0.8
+_ROOM, _LARGE_BOX = 1.3, 0.8
 
 
 @dataclass(frozen=True)

@@ -138,7 +138,7 @@ def parts(points):
     of_curve = Stopwatch(
         operator=["viscorough.halfspace.Halfspace.apply"],
         preconditioner=[f"viscorough.preconditioner.Preconditioner.{name}" for name in ("prepare", "apply")],
-        dense=[f"viscorough.dense.{name}" for name in ("solve", "pressures", "follow_events")],
+        dense=[f"viscorough.dense.{name}" for name in ("solve", "follow_events")],
         setup=["viscorough.gradients.GridSolver.__init__", "viscorough.contact.ContactSolver.__init__"],
     )
     of_line = Stopwatch(transform=["ducc0.fft.r2r_fftpack"], bins=["viscorough.reduction._bin_gaps"])
@@ -176,7 +176,7 @@ def operators(repeats):
         for name, precision in (("double", np.float64), ("single", np.float32)):
             halfspace = Halfspace(n, n, precision)
             halfspace.load[:, :n] = load
-            functions[f"{n} ducc0 {name}, rows skipped"] = halfspace.apply
+            functions[f"{n} {name}"] = halfspace.apply
             functions[f"{n} scipy {name}"] = partial(scipy_operator, load.astype(precision), kernel.astype(precision))
     rows = {name: cost["wall_s"] * 1e3 for name, cost in interleaved(functions, repeats).items()}
     for name, milliseconds in rows.items():

@@ -8,7 +8,7 @@ import psutil
 import pytest
 import xarray as xr
 
-from viscorough import cli, gradients, stability
+from viscorough import cli, gradients, stability, ways
 from viscorough.curve import AccuracyWarning
 from viscorough.difficulties import Difficulty, difficulties
 from viscorough.generated import generated_case, silent_failure
@@ -57,7 +57,21 @@ def test_numerical_methods_hold_or_refuse(atlas, method):
 def test_results_are_invariant_under_rescaling(atlas):
     for method in NUMERICAL:
         usual = cells(atlas, method=method, difficulty="256 steps")["error"].item()
-        assert np.abs(cells(atlas, method=method, group="scale")["error"] - usual).max() < 1e-12
+        # A factor of 1e12 changes the last bits. Rounded to single precision, some of them change much more: that must
+        # stay far below the tolerance, 1e-6 (of twelve seeds, half exceed 1e-12 there, none 1e-8).
+        allowed = 1e-8 if method == "path, grid, single" else 1e-12
+        assert np.abs(cells(atlas, method=method, group="scale")["error"] - usual).max() < allowed
+
+
+def test_powers_of_two_change_no_bit():
+    disc = self_affine_disc(0.6, 17, seed=1)
+    depths = np.linspace(0.2, 1, 4) * np.nanmax(disc.gaps)
+    with ways.grid_only("single"):
+        usual = indent(disc, depths=depths, tolerance=1e-6).force
+        scaled = indent(
+            Indenter(2.0**40 * disc.heights, 2.0**-30 * disc.spacing), depths=2.0**40 * depths, tolerance=1e-6
+        )
+    np.testing.assert_array_equal(scaled.force, 2.0**10 * usual)
 
 
 def test_padding_is_needed(atlas):

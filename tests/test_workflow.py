@@ -119,10 +119,11 @@ def fresh(tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def common():
-    """The functions of common.smk, which is plain Python."""
+    """The functions of common.smk and settings.smk, which are plain Python."""
     names = {"workflow": SimpleNamespace(basedir=str(ROOT))}
     before = dict(os.environ)
-    exec(compile((ROOT / "workflow/rules/common.smk").read_text(), "common.smk", "exec"), names)
+    for name in ("common.smk", "settings.smk"):
+        exec(compile((ROOT / "workflow/rules" / name).read_text(), name, "exec"), names)
     os.environ.clear()
     os.environ.update(before)
     return SimpleNamespace(**names)
@@ -425,9 +426,9 @@ def test_scripts_are_short_and_named_like_their_rules():
         assert text.count("\n") <= 40, name
 
 
-def test_only_common_has_functions():
+def test_functions_stand_apart_from_rules():
     for path in [ROOT / "Snakefile", *(ROOT / "workflow/rules").glob("*.smk")]:
-        assert ("def " in path.read_text()) == (path.name == "common.smk")
+        assert ("def " in path.read_text()) == (path.name in ("common.smk", "settings.smk"))
 
 
 def test_slurm_profile(fresh):

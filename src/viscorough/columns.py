@@ -66,14 +66,14 @@ def _stage_of_three(x, source, y, before, factors, width):
     half, root = x.dtype.type(0.5), x.dtype.type(np.sqrt(0.75))
     for p in range(third):
         i, k, m = source[p], source[p + third], source[p + 2 * third]
-        f = factors[p // before]
-        f1, f2 = f[1], f[2]
+        w = factors[p // before]
+        w1, w2 = w[1], w[2]
         for j in range(width):
             a, b, c = _at(x, i, j), _at(x, k, j), _at(x, m, j)
             both, apart = a - (b + c) * half, _turned(b - c) * root
             _put(out, p, 0, j, a + b + c)
-            _put(out, p, 1, j, (both + apart) * f1)
-            _put(out, p, 2, j, (both - apart) * f2)
+            _put(out, p, 1, j, (both + apart) * w1)
+            _put(out, p, 2, j, (both - apart) * w2)
 
 
 @njit(fastmath=True)
@@ -82,14 +82,14 @@ def _stage_of_four(x, source, y, before, factors, width):
     out = y.reshape(quarter, 4 * _ROW)
     for p in range(quarter):
         i, k, m, n = source[p], source[p + quarter], source[p + 2 * quarter], source[p + 3 * quarter]
-        f = factors[p // before]
-        f1, f2, f3 = f[1], f[2], f[3]
+        w = factors[p // before]
+        w1, w2, w3 = w[1], w[2], w[3]
         for j in range(width):
             a, b, c, d = _four(_at(x, i, j), _at(x, k, j), _at(x, m, j), _at(x, n, j))
             _put(out, p, 0, j, a)
-            _put(out, p, 1, j, b * f1)
-            _put(out, p, 2, j, c * f2)
-            _put(out, p, 3, j, d * f3)
+            _put(out, p, 1, j, b * w1)
+            _put(out, p, 2, j, c * w2)
+            _put(out, p, 3, j, d * w3)
 
 
 @njit(fastmath=True)
@@ -100,20 +100,20 @@ def _stage_of_eight(x, source, y, before, factors, width):
     for p in range(eighth):
         i0, i1, i2, i3 = source[p], source[p + eighth], source[p + 2 * eighth], source[p + 3 * eighth]
         i4, i5, i6, i7 = source[p + 4 * eighth], source[p + 5 * eighth], source[p + 6 * eighth], source[p + 7 * eighth]
-        f = factors[p // before]
-        f1, f2, f3, f4, f5, f6, f7 = f[1], f[2], f[3], f[4], f[5], f[6], f[7]
+        w = factors[p // before]
+        w1, w2, w3, w4, w5, w6, w7 = w[1], w[2], w[3], w[4], w[5], w[6], w[7]
         for j in range(width):
             a, b, c, d = _four(_at(x, i0, j), _at(x, i2, j), _at(x, i4, j), _at(x, i6, j))
             e, f, g, h = _four(_at(x, i1, j), _at(x, i3, j), _at(x, i5, j), _at(x, i7, j))
             f, g, h = (f + _turned(f)) * root, _turned(g), (_turned(h) - h) * root
             _put(out, p, 0, j, a + e)
-            _put(out, p, 1, j, (b + f) * f1)
-            _put(out, p, 2, j, (c + g) * f2)
-            _put(out, p, 3, j, (d + h) * f3)
-            _put(out, p, 4, j, (a - e) * f4)
-            _put(out, p, 5, j, (b - f) * f5)
-            _put(out, p, 6, j, (c - g) * f6)
-            _put(out, p, 7, j, (d - h) * f7)
+            _put(out, p, 1, j, (b + f) * w1)
+            _put(out, p, 2, j, (c + g) * w2)
+            _put(out, p, 3, j, (d + h) * w3)
+            _put(out, p, 4, j, (a - e) * w4)
+            _put(out, p, 5, j, (b - f) * w5)
+            _put(out, p, 6, j, (c - g) * w6)
+            _put(out, p, 7, j, (d - h) * w7)
 
 
 @njit
@@ -122,6 +122,8 @@ def _transform(x, y, source, same, radices, factors, width):
 
     Every stage reads rows n/r apart and writes r rows side by side: of every r places the first is of frequencies 0
     modulo r, the next of 1, and so on (the decimation in frequency with constant geometry of Pease 1968).
+
+    factors : the twiddle factors of the stages, one stage after the other, r for each group
     """
     before, start = 1, 0
     for radix in radices:

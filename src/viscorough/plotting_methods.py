@@ -117,9 +117,10 @@ def _speed_panel(axes, table, looks):
 def plot_growth(table):
     """Wall time and operators against the number of elements, rough discs, with exponents fitted to the time.
 
-    Medians over the discs of one size. Raises ValueError for a table without rough discs.
+    Medians over the discs of one size; where a method gave no answer in time, its error is 1, and its cost not known.
+    Raises ValueError for a table without rough discs.
     """
-    rough = table[table["hurst"].notna()]
+    rough = table[table["hurst"].notna() & (table["error"] < 1)]
     _needs_rows("plot_growth", rough)
     figure = Figure(figsize=(WIDE, 85 * MM))
     time, operators = figure.subplots(1, 2)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import dblquad
 
+from viscorough import gradients
 from viscorough.halfspace import Halfspace, influence_coefficient
 
 
@@ -41,3 +42,17 @@ def test_operator_is_the_dense_matrix(shape):
         expected = (matrix @ pressure.ravel()).reshape(shape)
         np.testing.assert_allclose(deflection, expected, atol=1e-13 * np.abs(expected).max())
     assert halfspace.count == 2
+
+
+@pytest.mark.parametrize("shape", [(257, 257), (200, 77)])
+def test_rounding_stays_within_the_bound_that_the_search_counts_on(shape):
+    """For loads of both signs, whose deflections cancel, as those of search directions do."""
+    load = np.random.default_rng(3).standard_normal(shape).astype(np.float32)
+    deflections = []
+    for precision in (np.float32, np.float64):
+        halfspace = Halfspace(*shape, precision)
+        halfspace.load[:, : shape[1]] = load
+        deflections.append(halfspace.apply()[:, : shape[1]])
+    single, double = deflections
+    error = np.abs(single - double).max() / np.abs(double).max()
+    assert error < gradients._ROUNDING * np.finfo(np.float32).eps

@@ -58,25 +58,27 @@ def solve(problem, contact, depth, candidates, largest):
     contact before, whose pressures at the new depth are known, or from all candidates where there are none.
     Raises ConvergenceError if the set does not settle.
     """
-    rank = np.arange(candidates)
-    inside = np.full(candidates, contact.count == 0)
-    inside[contact.members] = True
-    pressure, rate = contact.pressure + (depth - contact.depth) * contact.rate, contact.rate
+    if contact.count:
+        members, rate = contact.members, contact.rate
+        pressure = contact.pressure + (depth - contact.depth) * rate
+    elif candidates > largest:
+        return None
+    else:
+        members = np.arange(candidates)
+        pressure, rate = pressures(problem, members, depth)
     for _ in range(100):
-        members = rank[inside]
-        if members.size > largest:
-            return None
-        if not np.array_equal(members, contact.members):
-            pressure, rate = pressures(problem, members, depth)
         deflection = _deflection(problem.influence, problem.row, problem.column, members, pressure, candidates)
         # Rounding decides nothing: an element within it of the surface stays as it is.
         rounding = 1e-12 * depth
-        penetrating = ~inside & (deflection - depth + problem.gap[:candidates] < -rounding)
-        pulling = np.zeros_like(inside)
-        pulling[members] = pressure < -1e-12 * pressure.max()
-        if not (penetrating.any() or pulling.any()):
+        wanted = deflection - depth + problem.gap[:candidates] < -rounding
+        wanted[members] = pressure >= -1e-12 * pressure.max()
+        found = np.flatnonzero(wanted)
+        if np.array_equal(found, members):
             return members, pressure, rate
-        inside = (inside & ~pulling) | penetrating
+        if found.size > largest:
+            return None
+        members = found
+        pressure, rate = pressures(problem, members, depth)
     raise ConvergenceError(f"contact at depth {depth:g}: the contact set of {members.size} elements does not settle")
 
 

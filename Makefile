@@ -96,7 +96,7 @@ test-slurm: environment-slurm
 include peers/targets.mk
 
 lock:
-	$(UV) pip compile pyproject.toml --extra build --extra workflow --extra test --universal --python-version 3.11 \
+	$(UV) pip compile pyproject.toml --extra build --extra study --extra test --universal --python-version 3.11 \
 		--generate-hashes --no-header --no-annotate --output-file requirements.lock
 
 # Only what requirements.lock has not, in versions that go with it.

@@ -11,9 +11,9 @@ import click
 import numpy as np
 from tqdm import tqdm
 
-from viscorough import timing
-from viscorough.generated import generated_case, silent_failure
-from viscorough.storage import whole_or_not_at_all
+from viscorough.io.storage import whole_or_not_at_all
+from viscorough_study.performance import timing
+from viscorough_study.robustness.random_indenters import generated_case, silent_failure
 
 
 def case_generator(seed, case):

@@ -24,8 +24,8 @@ import numpy as np
 import psutil
 
 import viscorough
-from viscorough import timing
-from viscorough.storage import read_dataset
+from viscorough.io.storage import read_dataset
+from viscorough_study.performance import timing
 
 ROOT = Path(__file__).resolve().parents[1]
 SNAKEMAKE = [sys.executable, "-m", "snakemake", "--cores", "2", "--nocolor", "--configfile", "config/test.yaml"]

@@ -15,8 +15,8 @@ from pathlib import Path
 import click
 
 import viscorough
-from viscorough import timing
-from viscorough.prices import prices
+from viscorough_study.performance import timing
+from viscorough_study.rule_costs import prices
 
 
 def sizes(folder):

@@ -33,8 +33,9 @@ import pandas as pd
 import scipy.fft
 
 import viscorough
-from viscorough import indent, reduce, self_affine_disc, self_affine_line, timing
-from viscorough.halfspace import Halfspace
+from viscorough import indent, reduce, self_affine_disc, self_affine_line
+from viscorough.contact.halfspace import Halfspace
+from viscorough_study.performance import timing
 
 ROOT = Path(__file__).resolve().parents[1]
 ELEMENTS, UNTIL, UNTIL_X = 257, 0.9, 30.0
@@ -56,7 +57,7 @@ def curves(hursts, seeds, repeats):
     for hurst in hursts:
         for seed in seeds:
             disc = self_affine_disc(hurst, ELEMENTS, seed=seed)
-            arguments = {"until": UNTIL, "until_force": 4 * UNTIL_X}
+            arguments = {"until_fraction": UNTIL, "until_force": 4 * UNTIL_X}
             curve = indent(disc, **arguments)
             cost = interleaved({"curve": lambda d=disc, a=arguments: indent(d, **a)}, repeats)["curve"]
             at_levels = indent(disc, tolerance=1e-6, depths=curve.depth[curve.contact_count > 1])
@@ -71,7 +72,7 @@ def curves(hursts, seeds, repeats):
                     "seed": seed,
                     **cost,
                     "levels": len(curve.depth),
-                    "operators": curve.operators,
+                    "operator_applications": curve.operator_applications,
                     "last_contact_fraction": float(curve.contact_fraction[-1]),
                     "last_x": float(curve.force[-1] / 4),
                     "force_error": float(np.abs(force_error).max()),
@@ -81,7 +82,7 @@ def curves(hursts, seeds, repeats):
                 }
             )
             print(
-                "disc of {e} at H = {hurst}: {wall_s:.2f} s, {levels} levels, {operators} operators, "
+                "disc of {e} at H = {hurst}: {wall_s:.2f} s, {levels} levels, {operator_applications} operators, "
                 "force {force_error:.1e}, interpolation {interpolation_error:.1e}".format(e=ELEMENTS, **rows[-1])
             )
     return rows
@@ -136,16 +137,19 @@ class Stopwatch:
 def parts(points):
     """What the time of curves and of a line goes into: medians of shares over repeats, after a warm-up."""
     of_curve = Stopwatch(
-        operator=["viscorough.halfspace.Halfspace.apply"],
-        preconditioner=[f"viscorough.preconditioner.Preconditioner.{name}" for name in ("prepare", "apply")],
-        dense=[f"viscorough.dense.{name}" for name in ("solve", "follow_events")],
-        setup=["viscorough.gradients.GridSolver.__init__", "viscorough.contact.ContactSolver.__init__"],
+        operator=["viscorough.contact.halfspace.Halfspace.apply"],
+        preconditioner=[f"viscorough.contact.preconditioner.Preconditioner.{name}" for name in ("prepare", "apply")],
+        dense=[f"viscorough.contact.dense.{name}" for name in ("solve", "follow_events")],
+        setup=[
+            "viscorough.contact.grid_solver.GridSolver.__init__",
+            "viscorough.contact.solver.ContactSolver.__init__",
+        ],
     )
-    of_line = Stopwatch(transform=["ducc0.fft.r2r_fftpack"], bins=["viscorough.reduction._bin_gaps"])
+    of_line = Stopwatch(transform=["ducc0.fft.r2r_fftpack"], bins=["viscorough.mdr._bin_gaps"])
     rows = {}
     for across in (ELEMENTS, 1025):
         disc = self_affine_disc(0.6, across, seed=1)
-        arguments = {"until": UNTIL, "until_force": 4 * UNTIL_X}
+        arguments = {"until_fraction": UNTIL, "until_force": 4 * UNTIL_X}
         rows[f"curve of a {across} disc"] = of_curve, lambda d=disc, a=arguments: indent(d, **a)
     rows[f"line of {points} points"] = of_line, lambda: reduce(self_affine_line(0.6, points, seed=1))
     result = {}

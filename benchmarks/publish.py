@@ -15,7 +15,7 @@ import click
 import pandas as pd
 import yaml
 
-from viscorough.claims import markdown, overall
+from viscorough_study.verdicts import markdown, overall
 
 ROOT = Path(__file__).resolve().parents[1]
 SEEDS = ROOT / "docs/seeds.json"

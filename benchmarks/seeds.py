@@ -16,8 +16,8 @@ from pathlib import Path
 import click
 import pandas as pd
 
-from viscorough import timing
-from viscorough.claims import overall
+from viscorough_study.performance import timing
+from viscorough_study.verdicts import overall
 
 ROOT = Path(__file__).resolve().parents[1]
 

@@ -29,7 +29,7 @@ import psutil
 from chaos import HANGS, compare, contents, copy_project, jobs_done, remove_results, started
 
 import viscorough
-from viscorough import timing
+from viscorough_study.performance import timing
 
 NODE = socket.gethostname().split(".")[0]
 # There is no accounting, jobs take seconds, and nobody else asks for states.

@@ -8,15 +8,17 @@ from importlib import import_module, metadata
 __version__ = metadata.version("viscorough")
 
 _HOME = {
-    "Indenter": "surfaces",
+    "Indenter": "indenter",
     "self_affine_disc": "surfaces",
     "self_affine_line": "surfaces",
-    "LoadingCurve": "curve",
-    "ConvergenceError": "curve",
-    "indent": "indentation",
-    "reduce": "reduction",
-    "kinetics": "viscous",
-    "penetration_law": "law",
+    "LoadingCurve": "loading_curve",
+    "ConvergenceError": "loading_curve",
+    "AccuracyWarning": "loading_curve",
+    "indent": "contact.loading_path",
+    "reduce": "mdr",
+    "kinetics": "viscous.correspondence",
+    "penetration_law": "calibrated_law",
+    "read_heights": "io.storage",
 }
 __all__ = sorted(_HOME)
 

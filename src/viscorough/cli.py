@@ -17,7 +17,7 @@ from pathlib import Path
 
 import click
 
-from viscorough.curve import AccuracyWarning, ConvergenceError
+from viscorough.loading_curve import AccuracyWarning, ConvergenceError
 
 _STEEP = 0.3  # rms slope from which on users are warned
 
@@ -102,10 +102,10 @@ def indent(heights, spacing, output, depths, tolerance, until_fraction):
         raise click.UsageError("--depths and --until-fraction exclude each other; one of them is allowed")
     indenter, length_unit = _read_indenter(heights, spacing, output)
 
-    from viscorough import storage
-    from viscorough.indentation import indent
+    from viscorough.contact.loading_path import indent
+    from viscorough.io import storage
 
-    stop = {"until": until_fraction} if until_fraction else {}
+    stop = {"until_fraction": until_fraction} if until_fraction else {}
     curve = indent(indenter, tolerance=tolerance, depths=depths, **stop)
     ds = storage.curve_to_dataset(curve, length_unit)
     _write(ds, output, heights=heights.name, spacing=spacing)
@@ -117,7 +117,7 @@ def indent(heights, spacing, output, depths, tolerance, until_fraction):
 
 def _read_indenter(heights, spacing, output):
     """The indenter and its unit of length, once the output is known to be possible."""
-    from viscorough import storage
+    from viscorough.io import storage
 
     target = storage.check_output(output)
     if target.exists() and heights.exists() and target.samefile(heights):
@@ -153,7 +153,7 @@ def _leave(*_):
 
 def _write(ds, output, **attributes):
     """Write a dataset with attributes, and the warnings up to here in one of them."""
-    from viscorough import storage
+    from viscorough.io import storage
 
     if texts := _texts(click.get_current_context().obj):
         attributes["warnings"] = "; ".join(texts)
@@ -183,7 +183,8 @@ def kinetics(curve, force, viscosity, output):
     """
     import numpy as np
 
-    from viscorough import storage, viscous
+    from viscorough.io import storage
+    from viscorough.viscous import correspondence
 
     storage.check_output(output)
     ds = storage.read_dataset(curve)
@@ -191,7 +192,7 @@ def kinetics(curve, force, viscosity, output):
         loading = storage.curve_from_dataset(ds)
     except ValueError as error:
         raise ValueError(f"{curve}: {error}") from error
-    moving = viscous.kinetics(loading, force, viscosity)
+    moving = correspondence.kinetics(loading, force, viscosity)
     if not np.isfinite([moving.time, moving.velocity]).all():
         raise ValueError(f"--force {force:g}, --viscosity {viscosity:g}: times overflow; closer values are allowed")
     ds = storage.with_motion(ds, moving.time, moving.velocity)
@@ -225,13 +226,13 @@ def kinetics(curve, force, viscosity, output):
     metavar="FORCE.csv",
     help="Times and forces, two columns, in place of --force and --times: F >= 0, linear in between.",
 )
-@click.option("--penetration", type=PositiveNumber(1), help="Divide explicit steps to stay below it, over the depth.")
+@click.option("--overlap", type=PositiveNumber(1), help="Divide explicit steps to stay below it, over the depth.")
 @click.option("--until-fraction", type=PositiveNumber(1), help="Contact fraction to stop at, of events  [default: 1]")
-def march(heights, spacing, output, method, force, viscosity, times, force_history, penetration, until_fraction):
+def march(heights, spacing, output, method, force, viscosity, times, force_history, overlap, until_fraction):
     """Integrate the viscous problem directly in time, without its correspondence with the elastic one.
 
     HEIGHTS and units are as for indent and kinetics. KIN.nc has the dimension "level", contact events or ends of steps,
-    and the variables time, depth, velocity, contact_count and penetration (of the surface by the indenter, over the
+    and the variables time, depth, velocity, contact_count and overlap (of the surface by the indenter, over the
     depth, which only explicit and heun allow); under a force history a level is one of its times. This is slow, a check
     of the other commands: the events of 3000 elements take seconds, memory grows with their square.
 
@@ -245,22 +246,23 @@ def march(heights, spacing, output, method, force, viscosity, times, force_histo
         raise click.UsageError("--force-history is in place of --force and --times")
     if not force_history and (method == "events") != (times is None):
         raise click.UsageError(f"--times is {'not for' if times else 'needed by'} --method {method}")
-    if penetration is not None and method not in ("explicit", "heun"):
-        raise click.UsageError(f"--penetration is not for --method {method}; allowed: explicit, heun")
+    if overlap is not None and method not in ("explicit", "heun"):
+        raise click.UsageError(f"--overlap is not for --method {method}; allowed: explicit, heun")
     if until_fraction is not None and method != "events":
         raise click.UsageError(f"--until-fraction is not for --method {method}; allowed: events")
     indenter, length_unit = _read_indenter(heights, spacing, output)
 
     import numpy as np
 
-    from viscorough import storage, viscous
-    from viscorough.marching import march_events
-    from viscorough.stepping import march_steps
+    from viscorough.io import storage
+    from viscorough.viscous import correspondence
+    from viscorough.viscous.events import march_events
+    from viscorough.viscous.stepping import march_steps
 
     if force_history:
         times, history = storage.read_force_history(force_history)
         try:
-            times, history, impulse = viscous.impulses(history, times)
+            times, history, impulse = correspondence.impulses(history, times)
             if not impulse[-1] > 0:
                 raise ValueError("the force is zero at all times; allowed: above zero at some time")
         except ValueError as error:
@@ -271,9 +273,9 @@ def march(heights, spacing, output, method, force, viscosity, times, force_histo
         per_time = force / viscosity
         steps = None if times is None else per_time * np.array(times)
     if method == "events":
-        marched = march_events(indenter, until=until_fraction or 1.0)
+        marched = march_events(indenter, until_fraction=until_fraction or 1.0)
     else:
-        options = {} if penetration is None else {"penetration": penetration}
+        options = {} if overlap is None else {"overlap": overlap}
         marched = march_steps(indenter, steps, scheme=method, **options)
     if force_history:
         ds = storage.march_under_history(marched, times, history, impulse, viscosity, length_unit)

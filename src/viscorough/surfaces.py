@@ -6,7 +6,6 @@ reach from the period of the generated piece down to the Nyquist wavelength of t
 prefactor, because every realization is scaled to its rms height.
 """
 
-from dataclasses import dataclass
 from numbers import Integral
 
 import numpy as np
@@ -14,67 +13,10 @@ from ducc0 import fft
 
 from viscorough import memory
 from viscorough.compilation import njit
+from viscorough.indenter import Indenter, positive
 
 _BLOCK = 16384  # points of a line worked on at a time: arrays of this length stay in the cache
 _BYTES, _COPIES = 100, 2.1  # taken at most per point of a square, and times the heights of a line (measured)
-
-
-@dataclass(frozen=True)
-class Indenter:
-    """A rigid indenter: heights on a square grid, or along a line, of equal spacing.
-
-    heights : (rows, columns) map, nan outside the indenter, or (points,) line; larger is a higher peak,
-        the highest touches first [length]
-    spacing : distance of neighbouring points [length]
-
-    Raises ValueError if the heights are not real numbers in one or two dimensions, are infinite, have no
-    element or, on a line, have a nan; or if the spacing is not a positive number.
-    """
-
-    heights: np.ndarray
-    spacing: float
-
-    def __post_init__(self):
-        heights = np.asarray(self.heights)
-        if heights.dtype.kind not in "fiu":
-            raise ValueError(f"indenter heights: must be real numbers, not {heights.dtype}")
-        if heights.ndim not in (1, 2):
-            raise ValueError(f"indenter heights: must have one or two dimensions, not {heights.ndim}")
-        if heights.dtype.kind != "f":
-            heights = heights.astype(float)
-        if heights.size == 0 or np.isnan(highest := np.fmax.reduce(heights, axis=None)):
-            raise ValueError("indenter heights: must have at least one element that is not nan")
-        if np.isinf(highest) or np.isinf(np.fmin.reduce(heights, axis=None)):
-            raise ValueError("indenter heights: must be finite (nan: outside the indenter), some are infinite")
-        if heights.ndim == 1 and np.isnan(heights.min()):
-            raise ValueError("indenter heights: must not be nan on a line")
-        object.__setattr__(self, "heights", heights)
-        object.__setattr__(self, "spacing", _positive("indenter spacing", self.spacing))
-
-    @property
-    def elements(self):
-        """Number of elements: points that are not nan."""
-        return int(np.count_nonzero(~np.isnan(self.heights)))
-
-    @property
-    def rms_slope(self):
-        """Root mean square of the slope |∇h| [1], from differences of neighbours; that of one element is 0."""
-        squares = 0.0
-        for axis in range(self.heights.ndim):
-            difference = np.diff(self.heights, axis=axis) / self.spacing
-            if np.isfinite(difference).any():
-                squares += np.nanmean(difference**2)
-        return float(np.sqrt(squares))
-
-    @property
-    def gaps(self):
-        """Distances to the highest element [length], in shape and precision of the heights; nan outside."""
-        return np.fmax.reduce(self.heights, axis=None) - self.heights
-
-
-def realization_seed(root, *key):
-    """Seed of one realization, from a root and a key of integers >= 0; other keys give independent ones."""
-    return np.random.SeedSequence(root, spawn_key=key)
 
 
 def self_affine_disc(
@@ -112,16 +54,16 @@ def self_affine_disc(
     """
     n = _whole("elements_across", elements_across, at_least=3)
     rms, diameter, period = (
-        _positive("rms", rms),
-        _positive("diameter", diameter),
-        _positive("period", period),
+        positive("rms", rms),
+        positive("diameter", diameter),
+        positive("period", period),
     )
     if period < 1:
         raise ValueError(f"period: must be at least 1 diameter, not {period}")
     if rms_over not in ("disc", "square"):
         raise ValueError(f"rms_over: must be 'disc' or 'square', not {rms_over!r}")
     if roll_off_wavelength is not None:
-        roll_off_wavelength = _positive("roll_off_wavelength", roll_off_wavelength) * n
+        roll_off_wavelength = positive("roll_off_wavelength", roll_off_wavelength) * n
     square = self_affine_square(
         hurst,
         round(period * n),
@@ -205,9 +147,9 @@ def self_affine_line(
     """
     points = _whole("points", points, at_least=2)
     exponent = _hurst(hurst) + 0.5
-    rms, length = _positive("rms", rms), _positive("length", length)
+    rms, length = positive("rms", rms), positive("length", length)
     if roll_off_wavelength is not None:
-        roll_off_wavelength = _positive("roll_off_wavelength", roll_off_wavelength) * points
+        roll_off_wavelength = positive("roll_off_wavelength", roll_off_wavelength) * points
     longest, level = _roll_off(roll_off_wavelength, roll_off_level, points)
     fixed = _fixed(amplitudes)
     if (real := np.dtype(dtype)) not in (np.float32, np.float64):
@@ -283,7 +225,7 @@ def _roll_off(wavelength, level, points):
     if wavelength is None:
         return 0.0, level
     rounding = 1 - 1e-12  # must not take away the waves of just that length
-    return rounding * points / _positive("roll_off_wavelength", wavelength), level
+    return rounding * points / positive("roll_off_wavelength", wavelength), level
 
 
 def _factor(rms, square):
@@ -315,13 +257,3 @@ def _whole(name, value, at_least):
     if not isinstance(value, Integral) or value < at_least:
         raise ValueError(f"{name}: must be a whole number of at least {at_least}, not {value!r}")
     return int(value)
-
-
-def _positive(name, value):
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        raise ValueError(f"{name}: must be a positive number, not {value!r}") from None
-    if not (np.isfinite(number) and number > 0):
-        raise ValueError(f"{name}: must be positive and finite, not {number}")
-    return number

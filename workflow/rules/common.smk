@@ -20,7 +20,7 @@ os.environ.update(MALLOC_MMAP_THRESHOLD_=str(2**25), MALLOC_TRIM_THRESHOLD_=str(
 os.environ.setdefault("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1")  # large pages where the system has them
 
 WORKFLOW = Path(workflow.basedir) / "workflow"
-PACKAGE = Path(importlib.util.find_spec("viscorough").origin).parent
+PACKAGES = Path(importlib.util.find_spec("viscorough").origin).parents[1]
 
 
 # ---- tables of cases: floats never stand in file names
@@ -224,23 +224,21 @@ def line_memory(wildcards):
 
 @cache
 def imported(path):
-    """Modules of the package that a Python file imports, as paths; its __init__ where a name is taken from there."""
-    found = set()
+    """Files of the two packages that a Python file imports, with the __init__ of the packages around them."""
+    names = set()
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
-            names = [alias.name for alias in node.names]
+            names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
-            package = "viscorough" if node.level else ""
-            base = ".".join(filter(None, (package, node.module)))
-            names = [f"{base}.{alias.name}" for alias in node.names]
-            names += [base] if base != "viscorough" else []
-        else:
+            names |= {f"{node.module}.{alias.name}" for alias in node.names}
+    found = set()
+    for name in names:
+        if name.split(".")[0] not in ("viscorough", "viscorough_study"):
             continue
-        for name in names:
-            first, *rest = name.split(".")
-            if first == "viscorough" and len(rest) < 2:
-                source = PACKAGE / f"{''.join(rest)}.py"
-                found.add(source if source.is_file() else PACKAGE / "__init__.py")
+        place = PACKAGES
+        for part in name.split("."):
+            place = place / part
+            found |= {each for each in (place / "__init__.py", place.with_suffix(".py")) if each.is_file()}
     return found
 
 
@@ -256,8 +254,8 @@ def source_digest(rule):
         used |= new
         new = set().union(*map(imported, new)) - used
     digest = hashlib.sha256()
-    for path in sorted(used, key=lambda path: path.name):
-        digest.update(path.name.encode())
+    for path in sorted(used):
+        digest.update(os.path.relpath(path, PACKAGES if path.is_relative_to(PACKAGES) else WORKFLOW).encode())
         digest.update(path.read_bytes())
     return digest.hexdigest()[:16]
 
@@ -276,9 +274,9 @@ def compile_kernels():
     if stamp.is_file() and stamp.read_text() == digest:
         return
     code = (
-        "from viscorough import indentation, reduction, surfaces;"
-        "indentation.indent(surfaces.self_affine_disc(0.6, 65, seed=0));"
-        "[reduction.reduce(surfaces.self_affine_line(0.6, 256, seed=0, dtype=dtype)) for dtype in ('f4', 'f8')]"
+        "from viscorough import mdr, surfaces; from viscorough.contact import loading_path;"
+        "loading_path.indent(surfaces.self_affine_disc(0.6, 65, seed=0));"
+        "[mdr.reduce(surfaces.self_affine_line(0.6, 256, seed=0, dtype=dtype)) for dtype in ('f4', 'f8')]"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
     stamp.write_text(digest)

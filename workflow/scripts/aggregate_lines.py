@@ -1,8 +1,8 @@
 """Ensemble of the lines of one Hurst exponent: realizations on common abscissae, and their averages."""
 
-from viscorough.ensemble import abscissa, aggregate_batches
-from viscorough.joblog import log_to, progress
-from viscorough.storage import read_dataset, write_dataset
+from viscorough.io.storage import read_dataset, write_dataset
+from viscorough_study.ensembles import abscissa, aggregate_batches
+from viscorough_study.job_log import log_to, progress
 
 
 def main(curves, ensemble, *, case, x_low, x_high, per_decade):

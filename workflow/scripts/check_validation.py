@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pandas as pd
 
-from viscorough.joblog import log_to
-from viscorough.validation import failures
+from viscorough_study.job_log import log_to
+from viscorough_study.validate_solvers import failures
 
 
 def main(table, passed):

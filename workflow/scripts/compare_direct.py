@@ -1,10 +1,10 @@
 """Table and figure of direct integrations against the law with and without the Gamma function."""
 
-from viscorough.direct import COLUMNS, compare_direct
-from viscorough.joblog import log_to
-from viscorough.plotting import save_figure
-from viscorough.plotting_beyond import plot_direct
-from viscorough.storage import write_table
+from viscorough_study.figures.comparisons import plot_direct
+from viscorough_study.figures.paper import save_figure
+from viscorough_study.gamma_factor import COLUMNS, compare_direct
+from viscorough_study.job_log import log_to
+from viscorough_study.tables import write_table
 
 
 def main(csv, nc, png, pdf, *, hursts, across, seed):

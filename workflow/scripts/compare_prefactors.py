@@ -2,11 +2,11 @@
 
 import pandas as pd
 
-from viscorough.joblog import log_to
-from viscorough.plotting import save_figure
-from viscorough.plotting_beyond import plot_prefactors
-from viscorough.prefactor import COLUMNS, prefactors
-from viscorough.storage import write_table
+from viscorough_study.figures.comparisons import plot_prefactors
+from viscorough_study.figures.paper import save_figure
+from viscorough_study.job_log import log_to
+from viscorough_study.prefactors import COLUMNS, prefactors
+from viscorough_study.tables import write_table
 
 
 def main(scaling, csv, nc, png, pdf, *, shown):

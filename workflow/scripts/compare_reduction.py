@@ -2,12 +2,12 @@
 
 from functools import partial
 
-from viscorough.comparison import COLUMNS, compare_reduction
-from viscorough.ensemble import abscissa
-from viscorough.joblog import log_to, progress
-from viscorough.plotting import save_figure
-from viscorough.plotting_beyond import plot_reduction
-from viscorough.storage import write_table
+from viscorough_study.ensembles import abscissa
+from viscorough_study.figures.comparisons import plot_reduction
+from viscorough_study.figures.paper import save_figure
+from viscorough_study.job_log import log_to, progress
+from viscorough_study.mdr_comparison import COLUMNS, compare_reduction
+from viscorough_study.tables import write_table
 
 
 def main(csv, nc, png, pdf, *, hurst, elements, realizations, tolerance, seed):

@@ -5,10 +5,10 @@ import logging
 import pandas as pd
 from threadpoolctl import threadpool_limits
 
-from viscorough import timing
-from viscorough.joblog import log_to
-from viscorough.scenes import COLUMNS, compare, scenes
-from viscorough.storage import write_table
+from viscorough_study.job_log import log_to
+from viscorough_study.performance import timing
+from viscorough_study.performance.level_placement import COLUMNS, compare, scenes
+from viscorough_study.tables import write_table
 
 
 def main(csv, nc, *, seed, repeats, elements, hurst):

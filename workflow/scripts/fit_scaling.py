@@ -4,10 +4,11 @@ import logging
 
 import pandas as pd
 
-from viscorough.ensemble import combine
-from viscorough.joblog import log_to
-from viscorough.scaling import COLUMNS, scaling_rows
-from viscorough.storage import read_dataset, write_table
+from viscorough.io.storage import read_dataset
+from viscorough_study.ensembles import combine
+from viscorough_study.job_log import log_to
+from viscorough_study.power_law import COLUMNS, scaling_rows
+from viscorough_study.tables import write_table
 
 
 def main(discs, lines, csv, nc, *, groups, seed, fit):

@@ -2,11 +2,12 @@
 
 import pandas as pd
 
-from viscorough.joblog import log_to, progress
-from viscorough.scaling import COLUMNS, scaling_rows
-from viscorough.storage import read_dataset, write_table
-from viscorough.trend import COLUMNS as TRENDS
-from viscorough.trend import trends
+from viscorough.io.storage import read_dataset
+from viscorough_study.grid_trends import COLUMNS as TRENDS
+from viscorough_study.grid_trends import trends
+from viscorough_study.job_log import log_to, progress
+from viscorough_study.power_law import COLUMNS, scaling_rows
+from viscorough_study.tables import write_table
 
 
 def main(discs, controls, lines, csv, nc, trends_csv, trends_nc, *, seed, fit, shown):

@@ -5,9 +5,10 @@ import json
 import numpy as np
 import xarray as xr
 
-from viscorough.joblog import log_to
-from viscorough.storage import write_dataset
-from viscorough.surfaces import realization_seed, self_affine_disc
+from viscorough.io.storage import write_dataset
+from viscorough.surfaces import self_affine_disc
+from viscorough_study.job_log import log_to
+from viscorough_study.seeds import realization_seed
 
 
 def main(surfaces, *, seed, spawn_key, realizations, elements, surface):

@@ -3,9 +3,10 @@
 import numpy as np
 import xarray as xr
 
-from viscorough.joblog import log_to
-from viscorough.storage import write_dataset
-from viscorough.surfaces import realization_seed, self_affine_disc
+from viscorough.io.storage import write_dataset
+from viscorough.surfaces import self_affine_disc
+from viscorough_study.job_log import log_to
+from viscorough_study.seeds import realization_seed
 
 
 def main(surfaces, *, seed, spawn_keys, elements, discs):

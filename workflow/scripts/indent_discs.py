@@ -4,10 +4,10 @@ import json
 import logging
 import time
 
-from viscorough.indentation import indent
-from viscorough.joblog import log_to, progress
-from viscorough.storage import read_dataset, stack_curves, write_dataset
-from viscorough.surfaces import Indenter
+from viscorough.contact.loading_path import indent
+from viscorough.indenter import Indenter
+from viscorough.io.storage import read_dataset, stack_curves, write_dataset
+from viscorough_study.job_log import log_to, progress
 
 
 def main(surfaces, curves, *, tolerance, until_fraction, until_x):
@@ -22,11 +22,11 @@ def main(surfaces, curves, *, tolerance, until_fraction, until_x):
         curve = indent(
             indenter,
             tolerance=tolerance,
-            until=until_fraction,
+            until_fraction=until_fraction,
             until_force=4 * rms * disc["diameter"].item() * until_x,
         )
         seconds = time.perf_counter() - start
-        about = disc["realization"].item(), curve.depth.size, curve.operators, seconds
+        about = disc["realization"].item(), curve.depth.size, curve.operator_applications, seconds
         logging.info("realization %d: %d levels, %d operators on the grid, %.2f s", *about)
         indented.append(curve)
     ds = stack_curves(indented, "m").assign(discs.drop_vars("heights"))

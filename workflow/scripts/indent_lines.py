@@ -4,10 +4,11 @@ import json
 
 import numpy as np
 
-from viscorough.joblog import log_to, progress
-from viscorough.reduction import reduce
-from viscorough.storage import stack_curves, write_dataset
-from viscorough.surfaces import realization_seed, self_affine_line
+from viscorough.io.storage import stack_curves, write_dataset
+from viscorough.mdr import reduce
+from viscorough.surfaces import self_affine_line
+from viscorough_study.job_log import log_to, progress
+from viscorough_study.seeds import realization_seed
 
 
 def main(curves, *, seed, spawn_key, realizations, points, surface, until_x):

@@ -2,9 +2,10 @@
 
 import pandas as pd
 
-from viscorough.claims import COLUMNS, Evidence, judge, markdown
-from viscorough.joblog import log_to
-from viscorough.storage import read_dataset, whole_or_not_at_all, write_table
+from viscorough.io.storage import read_dataset, whole_or_not_at_all
+from viscorough_study.job_log import log_to
+from viscorough_study.tables import write_table
+from viscorough_study.verdicts import COLUMNS, Evidence, judge, markdown
 
 
 def main(discs, lines, scaling, validation, direct, csv, nc, verdicts, *, claims, **about):

@@ -5,19 +5,25 @@ import resource
 
 import pandas as pd
 
-from viscorough import timing
-from viscorough.indentation import indent
-from viscorough.joblog import log_to
-from viscorough.storage import stack_curves, whole_or_not_at_all, write_dataset
-from viscorough.surfaces import realization_seed, self_affine_disc
+from viscorough.contact.loading_path import indent
+from viscorough.io.storage import stack_curves, whole_or_not_at_all, write_dataset
+from viscorough.surfaces import self_affine_disc
+from viscorough_study.job_log import log_to
+from viscorough_study.performance import timing
+from viscorough_study.seeds import realization_seed
 
 
 def main(csv, curve, *, elements, seed, hurst, tolerance, until_fraction):
     """Indent a disc of diameter and rms height 1; memory is the most that this process took at any time."""
     indent(self_affine_disc(hurst, 129, seed=0), tolerance=tolerance)  # compiled functions are loaded
     disc = self_affine_disc(hurst, elements, seed=realization_seed(seed, 10, elements))
-    found, wall, processor = timing.timed(lambda: indent(disc, tolerance=tolerance, until=until_fraction))
-    cost = {"across": elements, "elements": disc.elements, "levels": found.depth.size, "operators": found.operators}
+    found, wall, processor = timing.timed(lambda: indent(disc, tolerance=tolerance, until_fraction=until_fraction))
+    cost = {
+        "across": elements,
+        "elements": disc.elements,
+        "levels": found.depth.size,
+        "operator_applications": found.operator_applications,
+    }
     cost |= {"wall": wall, "processor": processor}
     cost["memory"] = 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     cost["machine"] = "{name}, {processor}, {cores} cores".format(**timing.machine())

@@ -5,10 +5,10 @@ from pathlib import Path
 
 from threadpoolctl import threadpool_limits
 
-from viscorough.joblog import log_to
-from viscorough.methods import METHODS, measure, named_problem, peer_method
-from viscorough.peers import Peer
-from viscorough.storage import whole_or_not_at_all
+from viscorough.io.storage import whole_or_not_at_all
+from viscorough_study.job_log import log_to
+from viscorough_study.performance.methods import METHODS, measure, named_problem, peer_method
+from viscorough_study.performance.other_solvers import Peer
 
 
 def main(csv, *, problem, seed, levels, repeats, longest, peers):

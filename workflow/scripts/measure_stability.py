@@ -4,10 +4,10 @@ import logging
 
 import numpy as np
 
-from viscorough.difficulties import difficulties
-from viscorough.joblog import log_to
-from viscorough.stability import COLUMNS, table, unnoticed
-from viscorough.storage import write_table
+from viscorough_study.job_log import log_to
+from viscorough_study.robustness.failure_map import COLUMNS, table, unnoticed
+from viscorough_study.robustness.stress_cases import difficulties
+from viscorough_study.tables import write_table
 
 
 def main(csv, nc, *, seed, across, grids):

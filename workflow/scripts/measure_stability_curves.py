@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from viscorough.joblog import log_to
-from viscorough.stability import CURVES, curves
-from viscorough.storage import write_table
+from viscorough_study.job_log import log_to
+from viscorough_study.robustness.failure_map import CURVES, curves
+from viscorough_study.tables import write_table
 
 
 def main(csv, nc, *, seed):

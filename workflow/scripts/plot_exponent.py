@@ -2,8 +2,8 @@
 
 import pandas as pd
 
-from viscorough.joblog import log_to
-from viscorough.plotting import plot_exponent, save_figure
+from viscorough_study.figures.paper import plot_exponent, save_figure
+from viscorough_study.job_log import log_to
 
 
 def main(scaling, png, pdf, *, shown):

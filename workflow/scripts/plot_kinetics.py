@@ -2,9 +2,9 @@
 
 import pandas as pd
 
-from viscorough.joblog import log_to
-from viscorough.plotting import plot_kinetics, save_figure
-from viscorough.storage import read_dataset
+from viscorough.io.storage import read_dataset
+from viscorough_study.figures.paper import plot_kinetics, save_figure
+from viscorough_study.job_log import log_to
 
 
 def main(ensembles, scaling, png, pdf, *, combinations, shown):

@@ -2,10 +2,10 @@
 
 import pandas as pd
 
-from viscorough.joblog import log_to
-from viscorough.plotting import save_figure
-from viscorough.plotting_sizes import LARGE, plot_large
-from viscorough.storage import write_table
+from viscorough_study.figures.grids import LARGE, plot_large
+from viscorough_study.figures.paper import save_figure
+from viscorough_study.job_log import log_to
+from viscorough_study.tables import write_table
 
 
 def main(costs, csv, nc, png, pdf):

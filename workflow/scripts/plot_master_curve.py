@@ -2,10 +2,10 @@
 
 import pandas as pd
 
-from viscorough.ensemble import combine
-from viscorough.joblog import log_to
-from viscorough.plotting import plot_master_curve, save_figure
-from viscorough.storage import read_dataset
+from viscorough.io.storage import read_dataset
+from viscorough_study.ensembles import combine
+from viscorough_study.figures.paper import plot_master_curve, save_figure
+from viscorough_study.job_log import log_to
 
 
 def main(discs, lines, scaling, png, pdf, *, shown):

@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pandas as pd
 
-from viscorough.joblog import log_to
-from viscorough.plotting import save_figure
-from viscorough.plotting_methods import plot_growth, plot_peers, plot_scenes, plot_speed
+from viscorough_study.figures.paper import save_figure
+from viscorough_study.figures.performance import plot_growth, plot_peers, plot_scenes, plot_speed
+from viscorough_study.job_log import log_to
 
 
 def main(methods, peers, scenes, figures):

@@ -2,9 +2,9 @@
 
 import pandas as pd
 
-from viscorough.joblog import log_to
-from viscorough.plotting import save_figure
-from viscorough.plotting_sizes import plot_sizes
+from viscorough_study.figures.grids import plot_sizes
+from viscorough_study.figures.paper import save_figure
+from viscorough_study.job_log import log_to
 
 
 def main(table, png, pdf, *, shown):

@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pandas as pd
 
-from viscorough.joblog import log_to
-from viscorough.plotting import save_figure
-from viscorough.plotting_stability import plot_atlas, plot_curves
+from viscorough_study.figures.failure_map import plot_atlas, plot_curves
+from viscorough_study.figures.paper import save_figure
+from viscorough_study.job_log import log_to
 
 
 def main(atlas, curves, figures):

@@ -1,8 +1,8 @@
 """Figure 1: an indenter for every Hurst exponent."""
 
-from viscorough.joblog import log_to
-from viscorough.plotting import plot_surfaces, save_figure
-from viscorough.storage import read_dataset
+from viscorough.io.storage import read_dataset
+from viscorough_study.figures.paper import plot_surfaces, save_figure
+from viscorough_study.job_log import log_to
 
 
 def main(surfaces, png, pdf):

@@ -7,11 +7,11 @@ import numpy as np
 import pandas as pd
 from threadpoolctl import threadpool_limits
 
-from viscorough import timing
-from viscorough.joblog import log_to
-from viscorough.peers import COLUMNS, Peer, race
-from viscorough.storage import write_table
-from viscorough.surfaces import realization_seed
+from viscorough_study.job_log import log_to
+from viscorough_study.performance import timing
+from viscorough_study.performance.other_solvers import COLUMNS, Peer, race
+from viscorough_study.seeds import realization_seed
+from viscorough_study.tables import write_table
 
 
 def main(csv, nc, *, seed, hurst, repeats, longest, tasks, peers):

@@ -2,9 +2,9 @@
 
 import pandas as pd
 
-from viscorough.joblog import log_to
-from viscorough.law import COLUMNS, calibrated
-from viscorough.storage import write_table
+from viscorough.calibrated_law import COLUMNS
+from viscorough_study.job_log import log_to
+from viscorough_study.tables import calibrated, write_table
 
 
 def main(scaling, csv, nc, *, shown):

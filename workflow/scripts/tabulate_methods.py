@@ -2,10 +2,10 @@
 
 import pandas as pd
 
-from viscorough import timing
-from viscorough.joblog import log_to
-from viscorough.methods import COLUMNS
-from viscorough.storage import write_table
+from viscorough_study.job_log import log_to
+from viscorough_study.performance import timing
+from viscorough_study.performance.methods import COLUMNS
+from viscorough_study.tables import write_table
 
 
 def main(tables, csv, nc):

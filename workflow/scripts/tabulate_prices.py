@@ -1,9 +1,9 @@
 """Table of what the rules of the workflow cost."""
 
-from viscorough import timing
-from viscorough.joblog import log_to
-from viscorough.prices import COLUMNS, prices
-from viscorough.storage import write_table
+from viscorough_study.job_log import log_to
+from viscorough_study.performance import timing
+from viscorough_study.rule_costs import COLUMNS, prices
+from viscorough_study.tables import write_table
 
 
 def main(csv, nc, *, benchmarks):

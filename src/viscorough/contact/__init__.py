@@ -1,0 +1,1 @@
+"""Frictionless contact with the elastic half-space by boundary elements."""

@@ -1,0 +1,91 @@
+"""Elastic half-space under uniform pressure on square elements: influence coefficients and their operator."""
+
+from functools import lru_cache
+
+import ducc0
+import numpy as np
+
+from viscorough.compilation import vectorize
+from viscorough.contact.column_fft import Columns, good_length
+
+# Beyond this distance (in elements) the series below is more accurate than the difference of logarithms.
+_FAR = 30
+# Rows a power of two apart in memory fall on the same places of the cache; so many numbers more between them make the
+# transforms along rows of 1025 × 1025 elements two to three times faster (measured).
+_PADDING = 16
+
+
+@vectorize(["float64(float64, float64)"])
+def influence_coefficient(x, y):
+    """K(x, y): displacement at distance (x, y), in element sides, of a unit square under uniform pressure.
+
+    Love's solution for the square, u = p d/(πE*) K with element side d (Love 1929). Near the square it is the
+    closed form, the sum over the four corners of ±(a ln(b + ρ) + b ln(a + ρ)); far from it, where that loses
+    digits to cancellation, the moment expansion of ∫∫ dA/r to fourth order. Accurate to 1e-11 relative.
+    K(0, 0) = 4 ln(1 + √2) = 3.5254943481.
+
+    x, y : distances in element sides, broadcast. Returns K [1] of the broadcast shape.
+    """
+    x, y = abs(x), abs(y)
+    if max(x, y) > _FAR:
+        x2, y2 = x * x, y * y
+        r2 = x2 + y2
+        r = np.sqrt(r2)
+        r9 = r2 * r2 * r2 * r2 * r
+        fourth = (33 * (x2 * x2 + y2 * y2) - 144 * x2 * y2) / r9
+        mixed = (81 * x2 * y2 - 12 * (x2 * x2 + y2 * y2)) / r9
+        return 1 / r + 1 / (24 * r2 * r) + fourth / 1920 + mixed / 576
+    total = 0.0
+    for sign_x in (-1, 1):
+        for sign_y in (-1, 1):
+            a, b = x + 0.5 * sign_x, y + 0.5 * sign_y
+            rho = np.sqrt(a * a + b * b)
+            # ln(b + ρ) = ln(a²/(ρ - b)) keeps its digits where b < 0; the constant parts cancel in the sum.
+            log_b = np.log(b + rho) if b > 0 else 2 * np.log(abs(a)) - np.log(rho - b)
+            log_a = np.log(a + rho) if a > 0 else 2 * np.log(abs(b)) - np.log(rho - a)
+            total += sign_x * sign_y * (a * log_b + b * log_a)
+    return total
+
+
+@lru_cache(maxsize=2)
+def _spectrum(rows, columns):
+    """Lengths of the periodic convolution, and the real spectrum of K over half of them, divided by their product.
+
+    K and its spectrum are even, so that a cosine transform of the distances up to half the lengths gives all of it.
+    """
+    lengths = good_length(2 * (rows - 1)), 2 * ducc0.fft.good_size(max(columns - 1, 1), True)
+    row, column = (np.arange(m // 2 + 1.0) for m in lengths)
+    return lengths, ducc0.fft.dct(influence_coefficient(row[:, None], column), type=1) / np.prod(lengths)
+
+
+class Halfspace:
+    """The operator w = K p on a grid of rows × columns square elements: w_i = Σ_j K(i − j) p_j.
+
+    K is even, so a periodic convolution over 2(n − 1) points per axis holds every distance up to n − 1 once and
+    nothing wraps around; its spectrum is real. The rows beyond the grid carry no data in or out: their transforms
+    along the rows are skipped (a quarter of the work of the padded transform), and they exist only where the columns
+    are convolved.
+
+    `load` is the array to write p into: shape (rows, stride ≥ columns), zero wherever there is no pressure and in
+    the columns beyond the grid. `apply()` returns w in an array of the same layout (its columns beyond the grid
+    mean nothing), overwritten by the next call. `count` is the number of applications so far; `precision` the type
+    of the numbers. The deflection in the user's lengths is d/(πE*) K p.
+    """
+
+    def __init__(self, rows, columns, precision=np.float64):
+        self.shape = (rows, columns)
+        (_, self._length), spectrum = _spectrum(rows, columns)
+        self._columns = Columns(rows, spectrum, precision)
+        self.load = np.zeros((rows, self._length + _PADDING), dtype=precision)
+        self._transformed = np.empty((rows, spectrum.shape[1]), dtype=np.result_type(precision, np.complex64))
+        self._deflection = np.empty_like(self.load)
+        self.count = 0
+
+    def apply(self):
+        """Deflection w = K p of the pressure in `load`, in the same layout; valid until the next call."""
+        length, data = self._length, self._transformed
+        ducc0.fft.r2c(self.load[:, :length], axes=[1], out=data)
+        self._columns.apply(data)
+        ducc0.fft.c2r(data, axes=[1], forward=False, lastsize=length, out=self._deflection[:, :length])
+        self.count += 1
+        return self._deflection

@@ -1,0 +1,1 @@
+"""Files: atomic writing, NetCDF, heights and loading curves."""

@@ -1,0 +1,110 @@
+"""The loading curve: the one result of every contact computation.
+
+An elastic loading curve carries the whole viscous problem (paper, Eqs. 1-3): every force,
+viscosity and time is a rescaling of it.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+class ConvergenceError(RuntimeError):
+    """A solver did not reach the accuracy asked for; no result is returned."""
+
+
+class AccuracyWarning(UserWarning):
+    """A result is less accurate than users would take it for: what happened, and what helps."""
+
+
+@dataclass(frozen=True)
+class LoadingCurve:
+    """Depth, force and tangent stiffness of a rigid indenter pressed into an elastic half-space, level by level.
+
+    depth : u, shape (levels,), strictly increasing and positive [length]
+    force : F/G, shape (levels,) [length²], G the shear modulus of the incompressible half-space
+    stiffness : k/G = d(F/G)/du, shape (levels,) [length]; with the elements in contact at that level
+    contact_count : elements in contact, shape (levels,) [1]
+    elements : number of elements of the indenter
+    method : how the curve was obtained
+    tolerance : relative accuracy asked for
+    operator_applications : applications of the half-space operator on the grid that it took
+    residual : largest |gap in contact| or penetration over depth that was left, shape (levels,)
+
+    Read with G → η and F → ∫F dt it is the solution of the linearly viscous problem (Radok; paper, Sec. III).
+    """
+
+    depth: np.ndarray
+    force: np.ndarray
+    stiffness: np.ndarray
+    contact_count: np.ndarray
+    elements: int
+    method: str
+    tolerance: float
+    operator_applications: int
+    residual: np.ndarray
+
+    @property
+    def contact_fraction(self):
+        """Share of the indenter's elements that are in contact, shape (levels,)."""
+        return self.contact_count / self.elements
+
+    def normalised(self, rms, diameter):
+        """X = F/(4GhL) and κ = k/(4GL) (paper, Eq. 3) for rms height h and diameter L; both of shape (levels,)."""
+        return self.force / (4 * rms * diameter), self.stiffness / (4 * diameter)
+
+    def at_force(self, force):
+        """Depth u and stiffness k/G at given F/G, between the levels; nan beyond the last one.
+
+        Where at most one element joined the contact from one level to the next, the curve is made of the two
+        tangents, exactly. Elsewhere ln u is a cubic Hermite interpolant in ln F (a power law is met exactly),
+        kept inside the triangle of chord and tangents to which convexity of F(u) confines the curve.
+        Before the first level the curve is the straight line through the origin if the tangent there passes
+        through it (one element, or several of one height), nan otherwise; at zero force the depth is zero.
+
+        force : F/G, any shape [length²]. Returns (depth, stiffness) of the same shape.
+        """
+        force = np.asarray(force, dtype=float)
+        # A force computed back from a level may miss it by rounding.
+        for end in (self.force[0], self.force[-1]):
+            force = np.where(np.abs(force - end) <= 1e-12 * end, end, force)
+        depth, stiffness = np.full(force.shape, np.nan), np.full(force.shape, np.nan)
+
+        straight = abs(self.force[0] - self.stiffness[0] * self.depth[0]) <= max(self.tolerance, 1e-9) * self.force[0]
+        first = (force >= 0) & (force <= self.force[0]) if straight else force == self.force[0]
+        depth[first] = force[first] / self.force[0] * self.depth[0]
+        stiffness[first] = self.stiffness[0]
+        depth[force == 0] = 0.0
+
+        inside = (force > self.force[0]) & (force <= self.force[-1])
+        f = force[inside]
+        j = np.searchsorted(self.force, f, side="left")
+        f0, f1 = self.force[j - 1], self.force[j]
+        u0, u1 = self.depth[j - 1], self.depth[j]
+        k0, k1 = self.stiffness[j - 1], self.stiffness[j]
+
+        left, right = u0 + (f - f0) / k0, u1 - (f1 - f) / k1
+        tangents = np.minimum(left, right)
+        chord = u0 + (u1 - u0) * (f - f0) / (f1 - f0)
+
+        span = np.log(f1 / f0)
+        x = np.log(f / f0) / span
+        slope0, slope1 = f0 / (k0 * u0), f1 / (k1 * u1)
+        rise = np.log(u1 / u0)
+        c2 = 3 * rise - span * (2 * slope0 + slope1)
+        c3 = span * (slope0 + slope1) - 2 * rise
+        cubic = u0 * np.exp(x * (span * slope0 + x * (c2 + x * c3)))
+        local_slope = slope0 + x * (2 * c2 + 3 * x * c3) / span
+        with np.errstate(divide="ignore", invalid="ignore"):
+            cubic_stiffness = np.clip(f / (cubic * local_slope), k0, k1)
+        tangent_stiffness = np.where(left <= right, k0, k1)
+
+        # Exactly straight where at most one element joined; elsewhere the side of the triangle that confines it.
+        joined = self.contact_count[j] - self.contact_count[j - 1]
+        on_tangents = ((joined >= 0) & (joined <= 1)) | (cubic > tangents * (1 + 1e-12))
+        on_chord = ~on_tangents & (cubic < chord * (1 - 1e-12))
+        depth[inside] = np.select([on_tangents, on_chord], [tangents, chord], cubic)
+        stiffness[inside] = np.select(
+            [on_tangents, on_chord], [tangent_stiffness, (f1 - f0) / (u1 - u0)], cubic_stiffness
+        )
+        return depth, stiffness

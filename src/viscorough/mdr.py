@@ -1,0 +1,131 @@
+"""The method of dimensionality reduction (MDR): a line of independent springs instead of the half-space.
+
+Springs of stiffness 4G Δx carry F/G = 4 Δx Σ(u - g)₊ at depth u, where g are the gaps to the highest point of
+the line; read with G → η they are dashpots of 4η Δx that carry ∫F dt/η (paper, Sec. V). Nothing has to be
+solved or marched in time: the curve follows from the sorted gaps, and narrow bins are sorted enough.
+"""
+
+import numpy as np
+from ducc0 import fft
+
+from viscorough.compilation import njit
+from viscorough.indenter import Indenter
+from viscorough.loading_curve import LoadingCurve
+
+_OCTAVES = 128  # binned below the largest gap; what is closer to the highest point counts as high as that
+_LANES = 4  # neighbours of a line share bins: each has its own counters, none waits for another's update
+
+
+def reduce(line, *, until_fraction=1.0, until_force=None, bins_per_octave=64):
+    """Loading curve of a line by the MDR.
+
+    line : Indenter with one-dimensional heights
+    until_fraction : contact fraction at which to stop, in (0, 1]
+    until_force : F/G at which to stop [length²]; a line in full contact before, unless `until_fraction` stops it, goes
+        straight on to exactly this force
+    bins_per_octave : levels per factor of two in depth, a power of 2; with 64, bins are 0.8 to 1.6 % wide
+
+    Levels are the edges of the bins in which contact grows. There force and stiffness
+        F/G = 4 Δx Σ(u - g)₊,   k/G = 4 Δx (number of g < u)
+    are exact, up to the rounding of gaps in the precision of the heights and of sums in double precision.
+    From one level to the next at most one point joins, where LoadingCurve.at_force is exact, or they are one
+    bin apart, where its depth is off by a small part of that (of self-affine lines, less than 1e-3).
+    At the first level only the highest points touch; the last one is the first to reach `until_fraction` or
+    `until_force`, or the second. A flat line, which has no depth of its own, has levels at half a spacing and
+    at one.
+
+    Returns a LoadingCurve. Raises ValueError for a map instead of a line, or for values outside these ranges.
+    Source: V. L. Popov and M. Heß, Method of Dimensionality Reduction in Contact Mechanics and Friction
+    (2015); paper, Sec. V.
+    """
+    if line.heights.ndim != 1:
+        raise ValueError("reduce: the indenter's heights must be one-dimensional (maps are for indent)")
+    if not 0 < until_fraction <= 1:
+        raise ValueError(f"reduce: until_fraction must lie in (0, 1], not {until_fraction!r}")
+    if until_force is not None and not 0 < until_force < np.inf:
+        raise ValueError(f"reduce: until_force must be positive and finite, not {until_force!r}")
+    if bins_per_octave not in 2 ** np.arange(11):
+        raise ValueError(f"reduce: bins_per_octave must be a power of 2 up to 1024, not {bins_per_octave!r}")
+
+    edges, counts, sums = _binned_gaps(line.heights, int(bins_per_octave))
+    grown = 1 + np.flatnonzero(counts[1:])
+    levels = np.union1d(grown, grown + 1)  # edge r is the lower one of bin r
+    depth, below = edges[levels], levels - 1
+    if levels.size == 0:
+        depth, below = np.array([0.5, 1.0]) * line.spacing, np.array([0, 0])
+    contact_count = np.cumsum(counts)[below]
+    stiffness = 4 * line.spacing * contact_count
+    force = stiffness * depth - 4 * line.spacing * np.cumsum(sums)[below]
+
+    if until_force is not None and force[-1] < until_force:
+        depth = np.append(depth, depth[-1] + (until_force - force[-1]) / stiffness[-1])
+        force = np.append(force, until_force)
+        stiffness, contact_count = (np.append(column, column[-1]) for column in (stiffness, contact_count))
+    last = force.size - 1 if until_force is None else np.searchsorted(force, until_force)
+    if until_fraction < 1:
+        last = min(last, np.searchsorted(contact_count / line.heights.size, until_fraction))
+    levels = slice(max(last, 1) + 1)
+    return LoadingCurve(
+        depth=depth[levels],
+        force=force[levels],
+        stiffness=stiffness[levels],
+        contact_count=contact_count[levels],
+        elements=line.heights.size,
+        method="reduction",
+        tolerance=0.0,
+        operator_applications=0,
+        residual=np.zeros_like(depth[levels]),
+    )
+
+
+def line_of_surface(square, spacing, seed):
+    """Line with the spectrum of a periodic map, C1D = π q C2D (Eq. 13), and random phases.
+
+    square : heights, shape (n, n) [length]; spacing : of map and line [length]; seed : int or SeedSequence
+    The power of all waves of the map with wavenumbers from k - 1/2 to k + 1/2 per period is that of the wave k of the
+    line, up to the Nyquist wavelength. Returns an Indenter of n points. Raises ValueError for a map that is not square.
+    """
+    n = len(square)
+    if square.shape != (n, n):
+        raise ValueError(f"line_of_surface: the map must be square, its shape is {square.shape}")
+    power = np.abs(np.fft.fft2(square)) ** 2 / n**4
+    wavenumber = np.fft.fftfreq(n, 1 / n)
+    ring = np.rint(np.hypot(wavenumber[:, None], wavenumber)).astype(int)
+    rings = np.bincount(ring.ravel(), weights=power.ravel())[: n // 2 + 1]
+    amplitude = np.sqrt(rings / 2)
+    if n % 2 == 0:
+        amplitude[-1] *= np.sqrt(2)  # its own mirror image
+    phase = np.random.default_rng(seed).uniform(0, 2 * np.pi, amplitude.size)
+    spectrum = amplitude * (np.exp(1j * phase) if n % 2 else np.append(np.exp(1j * phase[:-1]), 1.0))
+    spectrum[0] = 0
+    return Indenter(fft.c2r(spectrum, lastsize=n, forward=False), spacing)
+
+
+def _binned_gaps(heights, bins_per_octave):
+    """Gaps to the highest point in bins: edges, and of every bin the number and the sum of gaps.
+
+    Bin r holds edges[r] <= g < edges[r + 1], bin 0 all g < edges[1]. The leading bits of a floating-point
+    number are its bin: bins divide each octave evenly.
+    """
+    if heights.dtype not in (np.float32, np.float64):
+        heights = heights.astype(float)
+    heights = np.ascontiguousarray(heights)
+    highest = heights.max() + heights.dtype.type(0)  # -0.0 would give gaps with the bit of a sign
+    shift = np.uint64(52 - (bins_per_octave.bit_length() - 1))
+    top = int(np.float64(highest - heights.min()).view(np.uint64) >> shift)
+    base = max(0, top - _OCTAVES * bins_per_octave)
+    table = np.zeros((top - base + 1, _LANES, 2))
+    _bin_gaps(heights, highest, shift, np.uint64(base), table)
+    edges = (np.arange(base, top + 2, dtype=np.uint64) << shift).view(np.float64)
+    counts, sums = table.sum(axis=1).T
+    return edges, counts.astype(np.int64), sums
+
+
+@njit
+def _bin_gaps(heights, highest, shift, base, table):
+    """Add number and sum of the gaps of every bin to table[bin, lane, :]."""
+    for i in range(heights.size):
+        gap = np.float64(highest - heights[i])
+        bin_ = max(gap.view(np.uint64) >> shift, base) - base
+        table[bin_, i % _LANES, 0] += 1
+        table[bin_, i % _LANES, 1] += gap

@@ -1,0 +1,173 @@
+"""Ensembles: realizations of one surface brought to common abscissae, their averages and their spread.
+
+The abscissa is X = F/(4GhL), which for the viscous problem reads Ft/(4ηhL) (paper, Eqs. 2 and 3). Where F, η,
+L and a nominal h are common to all realizations, fixed X is fixed time and vt/h is the velocity times a
+constant: averages at fixed X and at fixed t are then the same. They are not where h is measured on each
+realization, since X and vt/h are then in units of each one's own h. Both are rms conventions here, held side
+by side.
+"""
+
+import warnings
+
+import numpy as np
+import xarray as xr
+
+from viscorough.io.storage import unstack_curves
+
+_MEANING = {
+    "x": ("dimensionless force F/(4GhL) or time Ft/(4ηhL)", "Eq. 2 and Eq. 3"),
+    "velocity": ("dimensionless velocity vt/h = X/κ", "Eq. 2"),
+    "stiffness": ("dimensionless stiffness κ = k/(4GL)", "Eq. 3"),
+    "contact_count": ("elements in contact", "Sec. III, regions (a) to (c)"),
+    "velocity_arithmetic": ("arithmetic mean of vt/h over the realizations", "Eq. 2"),
+    "velocity_geometric": ("geometric mean of vt/h over the realizations", "Eq. 2"),
+    "velocity_spread": ("standard deviation of ln(vt/h) over the realizations", "Eq. 2"),
+    "stiffness_geometric": ("geometric mean of κ over the realizations", "Eq. 3"),
+    "contact_count_median": ("median of the elements in contact", "Sec. III, regions (a) to (c)"),
+    "contact_fraction_mean": ("mean share of the elements in contact", "Sec. III, regions (a) to (c)"),
+    "realizations_defined": ("realizations whose curve reaches this abscissa", "Eq. 2"),
+    "fraction_defined": ("share of the realizations whose curve reaches this abscissa", "Eq. 2"),
+}
+
+
+def abscissa(low, high, per_decade):
+    """Logarithmic grid of X: the multiples of 1/per_decade decades in [low, high], shape (abscissae,) [1].
+
+    Grids of one per_decade share their points whatever their ends. Raises ValueError for an empty grid.
+    """
+    if not (0 < low <= high < np.inf):
+        raise ValueError(f"abscissa: low and high must be 0 < low <= high < inf, not {low} and {high}")
+    if per_decade != int(per_decade) or per_decade < 1:
+        raise ValueError(f"abscissa: per_decade must be a whole number >= 1, not {per_decade}")
+    rounding = 1e-9
+    first = np.ceil(per_decade * np.log10(low) - rounding)
+    last = np.floor(per_decade * np.log10(high) + rounding)
+    if last < first:
+        raise ValueError(f"abscissa: no multiple of 1/{per_decade} decade lies between {low} and {high}")
+    return 10.0 ** (np.arange(first, last + 1) / per_decade)
+
+
+def aggregate(curves, rms, diameter, x, *, hurst, case):
+    """Loading curves of one case on common abscissae, with their averages: the ensemble dataset.
+
+    curves : LoadingCurve of each realization, all with the same number of elements
+    rms : {convention: rms heights h, shape (realizations,) or a number for all} [length]
+    diameter : L [length]
+    x : X, shape (abscissae,) [1]; strictly increasing
+    hurst, case : Hurst exponent and name of the case; kept as coordinates
+
+    Per rms convention, realization and abscissa: κ = k/(4GL) at F/G = 4hLX, vt/h = X/κ (Eqs. 2, 3) and the
+    elements in contact; nan where a curve says nothing (beyond its last level). Between levels ln(count) is
+    linear in ln F, below the first level it is the first level's. Averages are over the realizations defined
+    there. Raises ValueError for no curves, unlike numbers of elements, rms heights or abscissae out of range.
+    """
+    curves = list(curves)
+    x = np.asarray(x, dtype=float)
+    if not curves:
+        raise ValueError("aggregate: at least one loading curve is needed, there is none")
+    elements = curves[0].elements
+    if any(curve.elements != elements for curve in curves):
+        raise ValueError("aggregate: all curves of an ensemble must have the same number of elements")
+    if not 0 < diameter < np.inf:
+        raise ValueError(f"aggregate: diameter must be positive and finite, not {diameter}")
+    if x.ndim != 1 or x.size == 0 or not (x[0] > 0 and np.all(np.diff(x) > 0) and x[-1] < np.inf):
+        raise ValueError("aggregate: x must be one-dimensional, positive and strictly increasing")
+    heights = np.empty((len(rms), len(curves)))
+    for row, (name, values) in zip(heights, rms.items(), strict=True):
+        if np.shape(values) not in ((), row.shape) or not np.all(np.isfinite(values) & (np.asarray(values) > 0)):
+            raise ValueError(f"aggregate: rms[{name!r}] must be {len(curves)} positive numbers, or one for all")
+        row[:] = values
+
+    stiffness = np.empty((*heights.shape, x.size))
+    count = np.empty_like(stiffness)
+    for i, curve in enumerate(curves):
+        force = 4 * diameter * heights[:, i, None] * x
+        stiffness[:, i] = curve.at_force(force)[1] / (4 * diameter)
+        count[:, i] = np.exp(np.interp(np.log(force), np.log(curve.force), np.log(curve.contact_count)))
+    count[np.isnan(stiffness)] = np.nan
+
+    coords = {"hurst": hurst, "case": case, "diameter": diameter, "elements": elements}
+    return _dataset(list(rms), x, stiffness, count, coords)
+
+
+def aggregate_batches(batches, conventions, x, *, case):
+    """Ensemble of one case from batches of its loading curves, of which one at a time need be in memory.
+
+    batches : iterable of datasets of storage.stack_curves with hurst, diameter and rms_<name> for the names in
+        `conventions`; x, case : as in `aggregate`
+    Returns the ensemble dataset with the settings of the first batch.
+    """
+    pooled, settings = [], []
+    for batch in batches:
+        rms = {name: batch[f"rms_{name}"].values for name in conventions}
+        about = {"hurst": batch["hurst"].item(), "case": case}
+        pooled.append(aggregate(unstack_curves(batch), rms, batch["diameter"].item(), x, **about))
+        settings.append(batch.attrs["settings"])
+    return combine(pooled).assign_attrs(settings=settings[0])
+
+
+def combine(ensembles):
+    """Pool the realizations of batches or cases of one Hurst exponent into one ensemble, averages renewed.
+
+    ensembles : datasets of aggregate() with the same abscissae, rms conventions, Hurst exponent and elements
+    Case and diameter, where they differ, become coordinates of the realizations. Raises ValueError where the
+    ensembles differ in what must be the same.
+    """
+    ensembles = list(ensembles)
+    if not ensembles:
+        raise ValueError("combine: at least one ensemble is needed, there is none")
+    first = ensembles[0]
+    for name in ("x", "rms_convention", "hurst", "elements"):
+        if any(not np.array_equal(first[name].values, other[name].values) for other in ensembles[1:]):
+            raise ValueError(f"combine: the ensembles differ in {name}, it must be the same in all")
+
+    def pooled(name):
+        return np.concatenate([each[name].values for each in ensembles], axis=1)
+
+    def of_realizations(name):
+        values = np.concatenate([np.broadcast_to(each[name].values, each.sizes["realization"]) for each in ensembles])
+        return values[0] if np.all(values == values[0]) else ("realization", values)
+
+    coords = {"hurst": first["hurst"].item(), "elements": first["elements"].item()}
+    coords |= {"case": of_realizations("case"), "diameter": of_realizations("diameter")}
+    conventions = first["rms_convention"].values.tolist()
+    return _dataset(conventions, first["x"].values, pooled("stiffness"), pooled("contact_count"), coords)
+
+
+def _dataset(conventions, x, stiffness, count, coords):
+    """Ensemble dataset from κ and elements in contact of shape (conventions, realizations, abscissae)."""
+    velocity = x / stiffness
+    defined = np.isfinite(velocity)
+    number = defined.sum(axis=1)
+
+    def mean(values):
+        return np.where(defined, values, 0).sum(axis=1) / number
+
+    log_velocity = np.log(velocity)
+    with warnings.catch_warnings(), np.errstate(invalid="ignore", divide="ignore"):
+        warnings.simplefilter("ignore", RuntimeWarning)  # nanmedian where no realization is defined: nan is meant
+        geometric = mean(log_velocity)
+        squares = mean((log_velocity - geometric[:, None]) ** 2) * number
+        averages = {
+            "velocity_arithmetic": mean(velocity),
+            "velocity_geometric": np.exp(geometric),
+            "velocity_spread": np.sqrt(squares / (number - 1)),
+            "stiffness_geometric": x / np.exp(geometric),
+            "contact_count_median": np.nanmedian(count, axis=1),
+            "contact_fraction_mean": mean(count) / coords["elements"],
+            "realizations_defined": number,
+            "fraction_defined": number / velocity.shape[1],
+        }
+
+    each, mean_dims = ("rms_convention", "realization", "abscissa"), ("rms_convention", "abscissa")
+    variables = {"velocity": (each, velocity), "stiffness": (each, stiffness), "contact_count": (each, count)}
+    variables |= {name: (mean_dims, values) for name, values in averages.items()}
+    dataset = xr.Dataset(variables, {"x": ("abscissa", x), "rms_convention": conventions, **coords})
+    for name, (long_name, equation) in _MEANING.items():
+        dataset[name].attrs = {"long_name": long_name, "units": "1", "paper_equation": equation}
+    dataset["hurst"].attrs = {"long_name": "Hurst exponent", "units": "1"}
+    dataset["elements"].attrs = {"long_name": "elements of an indenter", "units": "1"}
+    dataset["diameter"].attrs = {"long_name": "diameter of the indenter", "units": "m"}
+    dataset["case"].attrs = {"long_name": "name of the case"}
+    dataset["rms_convention"].attrs = {"long_name": "where the rms height h is measured"}
+    return dataset

@@ -1,0 +1,1 @@
+"""What every method costs, and how accurate it is."""

@@ -1,0 +1,1 @@
+"""Where methods fail, and whether users are told."""

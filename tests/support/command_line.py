@@ -1,0 +1,16 @@
+"""The installed command, and a sphere to indent."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+VISCOROUGH = Path(sys.executable).with_name("viscorough")
+RADIUS = 100.0
+
+
+def sphere_heights(points=61):
+    """A cap of radius 100 spacings, nan outside a disc."""
+    position = np.arange(points) - (points - 1) / 2
+    squared = position[:, None] ** 2 + position**2
+    return np.where(squared <= position[-1] ** 2, -squared / (2 * RADIUS), np.nan)

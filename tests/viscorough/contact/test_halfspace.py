@@ -1,0 +1,58 @@
+"""Influence coefficients and the operator on the grid, against closed forms, quadrature and the dense matrix."""
+
+import numpy as np
+import pytest
+from scipy.integrate import dblquad
+
+from viscorough.contact import grid_solver
+from viscorough.contact.halfspace import Halfspace, influence_coefficient
+
+
+def test_known_coefficients():
+    known = {(0, 0): 4 * np.log(1 + np.sqrt(2)), (1, 0): 1.0380497359, (1, 1): 0.7246974381}
+    for (x, y), value in known.items():
+        assert influence_coefficient(float(x), float(y)) == pytest.approx(value, rel=1e-10)
+
+
+@pytest.mark.parametrize(("x", "y"), [(1, 0), (2, 1), (7, 3), (29, 30), (31, 4), (45, 60)])
+def test_coefficient_is_the_potential_of_a_square(x, y):
+    exact, _ = dblquad(lambda b, a: 1 / np.hypot(a, b), x - 0.5, x + 0.5, y - 0.5, y + 0.5, epsabs=0, epsrel=1e-12)
+    assert influence_coefficient(float(x), float(y)) == pytest.approx(exact, rel=2e-11)
+
+
+def test_coefficients_are_even_and_the_two_forms_meet():
+    distance = np.arange(20.0, 45.0)
+    values = influence_coefficient(distance, 0.0)
+    assert np.array_equal(values, influence_coefficient(-distance, 0.0))
+    assert np.array_equal(values, influence_coefficient(0.0, distance))
+    # K r = 1 + 1/(24 r²) + ...: what follows 1 must fall smoothly through the distance where the series takes over.
+    beyond = (values * distance - 1) * distance**2
+    assert np.all(np.abs(np.diff(beyond, 2)) < 2e-7)
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (1, 7), (2, 2), (9, 9), (12, 31)])
+def test_operator_is_the_dense_matrix(shape):
+    rows, columns = (i.ravel().astype(float) for i in np.indices(shape))
+    matrix = influence_coefficient(rows[:, None] - rows, columns[:, None] - columns)
+    pressure = np.random.default_rng(1).standard_normal(shape)
+    halfspace = Halfspace(*shape)
+    for _ in range(2):  # the second application must not see anything of the first
+        halfspace.load[:, : shape[1]] = pressure
+        deflection = halfspace.apply()[:, : shape[1]]
+        expected = (matrix @ pressure.ravel()).reshape(shape)
+        np.testing.assert_allclose(deflection, expected, atol=1e-13 * np.abs(expected).max())
+    assert halfspace.count == 2
+
+
+@pytest.mark.parametrize("shape", [(257, 257), (200, 77)])
+def test_rounding_stays_within_the_bound_that_the_search_counts_on(shape):
+    """For loads of both signs, whose deflections cancel, as those of search directions do."""
+    load = np.random.default_rng(3).standard_normal(shape).astype(np.float32)
+    deflections = []
+    for precision in (np.float32, np.float64):
+        halfspace = Halfspace(*shape, precision)
+        halfspace.load[:, : shape[1]] = load
+        deflections.append(halfspace.apply()[:, : shape[1]])
+    single, double = deflections
+    error = np.abs(single - double).max() / np.abs(double).max()
+    assert error < grid_solver._ROUNDING * np.finfo(np.float32).eps

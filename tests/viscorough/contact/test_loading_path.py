@@ -1,0 +1,275 @@
+"""The elastic loading path against exact solutions, a dense solution of the contact problem, and itself."""
+
+import numpy as np
+import pytest
+from scipy.optimize import nnls
+
+from viscorough import reference
+from viscorough.contact import loading_path
+from viscorough.contact.halfspace import influence_coefficient
+from viscorough.contact.loading_path import indent
+from viscorough.contact.solver import ContactSolver
+from viscorough.indenter import Indenter
+from viscorough.loading_curve import ConvergenceError
+from viscorough.surfaces import self_affine_disc
+from viscorough_study.performance.other_solvers import residual_of
+
+
+def body(shape, elements):
+    """Axisymmetric indenter z = −shape(r) on a square grid of side 2, in spacings of 2/elements."""
+    x = (np.arange(elements) - (elements - 1) / 2) * 2 / elements
+    return Indenter(-shape(np.hypot(x[:, None], x[None, :])), 2 / elements)
+
+
+def observed_order(elements, errors):
+    return -np.polyfit(np.log(elements), np.log(np.abs(errors)), 1)[0]
+
+
+def dense_complementarity(indenter, depth):
+    """Force and stiffness over G by non-negative least squares with the Cholesky factor of the dense matrix."""
+    place = np.argwhere(np.isfinite(indenter.heights)).astype(float)
+    gap = indenter.initial_gap[np.isfinite(indenter.heights)]
+    matrix = influence_coefficient(*(place[:, None] - place[None]).transpose(2, 0, 1))
+    factor = np.linalg.cholesky(matrix)
+    pressure, _ = nnls(factor.T, np.linalg.solve(factor, depth - gap), maxiter=10_000)
+    inside = pressure > 0
+    rate = np.linalg.solve(matrix[np.ix_(inside, inside)], np.ones(inside.sum()))
+    scale = 4 * np.pi * indenter.spacing
+    return scale * pressure.sum(), scale * rate.sum(), inside.sum()
+
+
+# ---- exact solutions (E* = 4G), with observed orders -----------------------------------------------------------------
+@pytest.mark.parametrize(
+    "shape",
+    [reference.sphere(2.0), reference.cone(0.2), reference.PowerLawBody(1.0, 4.0)],
+    ids=["sphere", "cone", "r⁴"],
+)
+def test_bodies_of_revolution_converge_at_second_order(shape):
+    """Mean error over depths, since that at one depth depends on how the contact's edge cuts the grid."""
+    depths = np.linspace(0.1, 0.2, 9)
+    elements, errors = np.array([33, 65, 129, 257]), []
+    for n in elements:
+        curve = indent(body(lambda r: shape.coefficient * r**shape.exponent, n), tolerance=1e-6, depths=depths)
+        errors.append(np.abs(curve.force / shape.force(depths) - 1).mean())
+    assert observed_order(elements, errors) > 1.7
+    assert errors[-1] < 5e-5
+
+
+def test_sphere_contact_area_and_stiffness_converge():
+    shape, depths = reference.sphere(2.0), np.linspace(0.1, 0.2, 9)
+    elements, areas, stiffnesses = np.array([33, 65, 129, 257]), [], []
+    for n in elements:
+        curve = indent(body(lambda r: r**2 / 4, n), tolerance=1e-6, depths=depths)
+        radius = np.sqrt(curve.contact_count * (2 / n) ** 2 / np.pi)
+        areas.append(np.abs(radius / shape.contact_radius(depths) - 1).mean())
+        stiffnesses.append(np.abs(curve.stiffness / shape.stiffness(depths) - 1).mean())
+    assert observed_order(elements, areas) > 0.7
+    assert observed_order(elements, stiffnesses) > 0.7
+    assert areas[-1] < 1e-2
+    assert stiffnesses[-1] < 1e-2
+
+
+@pytest.mark.parametrize("aspect", [1.0, 0.5])
+def test_flat_ellipse_converges_at_first_order(aspect):
+    exact = reference.flat_ellipse_stiffness(1.0, aspect)
+    elements, errors = np.array([65, 129, 257]), []
+    for n in elements:
+        x = (np.arange(n) - (n - 1) / 2) * 2 / n
+        heights = np.where(x[:, None] ** 2 + (x[None, :] / aspect) ** 2 <= 1, 0.0, np.nan)
+        curve = indent(Indenter(heights, 2 / n), tolerance=1e-6)
+        assert len(curve.depth) == 1
+        assert curve.force[0] == pytest.approx(curve.stiffness[0] * curve.depth[0], rel=1e-9)
+        errors.append(curve.stiffness[0] / exact - 1)
+    assert 0.6 < observed_order(elements, errors) < 1.6
+    assert abs(errors[-1]) < 2e-2
+
+
+# ---- against the dense complementarity problem -----------------------------------------------------------------------
+@pytest.mark.parametrize("hurst", [0.1, 0.5, 0.9])
+def test_path_solves_the_dense_problem(hurst, monkeypatch):
+    disc = self_affine_disc(hurst, 21, seed=5)
+    depths = np.nanmax(disc.initial_gap) * np.array([0.1, 0.3, 0.6, 0.9, 1.4])
+    expected = np.array([dense_complementarity(disc, depth) for depth in depths]).T
+    for largest in (400, 0):  # the dense solver, then the grid from the first depth on
+        monkeypatch.setattr("viscorough.contact.solver._DENSE_MEMBERS", largest)
+        curve = indent(disc, tolerance=1e-11, depths=depths)
+        assert (curve.operator_applications > 0) == (largest == 0)
+        np.testing.assert_allclose(curve.force, expected[0], rtol=1e-9)
+        np.testing.assert_allclose(curve.stiffness, expected[1], rtol=1e-3 if largest == 0 else 1e-9)
+        np.testing.assert_array_equal(curve.contact_count, expected[2])
+
+
+def test_error_of_force_is_of_second_order_in_the_tolerance():
+    disc = self_affine_disc(0.7, 65, seed=3)
+    depths = np.array([0.8, 1.5, 3.0])
+    exact = indent(disc, tolerance=1e-10, depths=depths).force
+    for tolerance in (1e-2, 1e-3, 1e-4):
+        curve = indent(disc, tolerance=tolerance, depths=depths)
+        assert curve.residual.max() <= tolerance
+        assert np.abs(curve.force / exact - 1).max() < 0.1 * tolerance
+
+
+def test_residual_is_what_it_says():
+    """Gap and penetration recomputed from nothing: force at the level by the dense matrix on the found contact set."""
+    disc = self_affine_disc(0.6, 33, seed=2)
+    depth = 0.5 * np.nanmax(disc.initial_gap)
+    force, _, count = dense_complementarity(disc, depth)
+    loose = indent(disc, tolerance=1e-2, depths=[depth])
+    assert loose.force[0] == pytest.approx(force, rel=1e-3)
+    assert abs(loose.contact_count[0] - count) <= 0.1 * count
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 1e-9])
+def test_residual_and_stiffness_keep_their_promise_level_after_level(tolerance):
+    """Rounding adds up from level to level: what is reported bounds it. The stiffness is as good as the tolerance."""
+    disc = self_affine_disc(0.8, 65, seed=6)
+    solver = ContactSolver(disc, tolerance)
+    contact = solver.touch()
+    for depth in np.geomspace(0.02, 0.5, 25):
+        contact = solver.advance(contact, depth)
+        row, column = (each[contact.members] for each in solver.place)
+        pressure = np.zeros(disc.initial_gap.shape)
+        pressure[row, column] = 4 * np.pi * contact.pressure
+        # Levels of a dense solution are exact: their residual is given as zero.
+        assert residual_of(disc.initial_gap / solver.unit, pressure, contact.depth) <= max(contact.residual, 1e-12)
+        matrix = influence_coefficient((row[:, None] - row).astype(float), (column[:, None] - column).astype(float))
+        exact = np.linalg.solve(matrix, np.ones(row.size)).sum()
+        assert contact.stiffness == pytest.approx(exact, rel=max(tolerance, 1e-11))
+    assert contact.fields is not None
+
+
+# ---- levels ----------------------------------------------------------------------------------------------------------
+@pytest.mark.parametrize("hurst", [0.2, 0.8])
+def test_interpolation_stays_within_the_tolerance(hurst):
+    disc = self_affine_disc(hurst, 65, seed=4)
+    curve = indent(disc, tolerance=1e-3, until_fraction=0.9)
+    depths = np.geomspace(curve.depth[0], curve.depth[-1] * (1 - 1e-9), 200)
+    fine = indent(disc, tolerance=1e-7, depths=depths)
+    inside = fine.force < curve.force[-1]
+    depth, stiffness = curve.at_force(fine.force[inside])
+    assert np.abs(depth / fine.depth[inside] - 1).max() < 1e-3
+    assert np.median(np.abs(stiffness / fine.stiffness[inside] - 1)) < 1e-3
+
+
+def test_single_and_double_precision_agree_far_below_the_tolerance(monkeypatch):
+    disc, depths = self_affine_disc(0.4, 65, seed=8), np.geomspace(0.5, 8.0, 12)
+    curves = []
+    for threshold in (1e-4, 1.0):
+        monkeypatch.setattr("viscorough.contact.grid_solver._SINGLE", threshold)
+        curves.append(indent(disc, tolerance=1e-4, depths=depths))
+    assert curves[0].operator_applications > 0
+    np.testing.assert_allclose(curves[0].force, curves[1].force, rtol=2e-6)
+    # A residual that rounding had falsified would differ from one recomputed in double precision.
+    np.testing.assert_allclose(curves[0].residual, curves[1].residual, atol=3e-5)
+
+
+def test_levels_are_fewer_for_a_coarser_question():
+    disc = self_affine_disc(0.8, 65, seed=4)
+    assert len(indent(disc, tolerance=3e-2).depth) < 0.7 * len(indent(disc, tolerance=1e-4).depth)
+
+
+def test_curve_is_convex_and_contact_only_grows():
+    curve = indent(self_affine_disc(0.5, 65, seed=9), tolerance=1e-3)
+    assert np.all(np.diff(curve.depth) > 0)
+    assert np.all(np.diff(curve.force) > 0)
+    assert np.all(np.diff(curve.stiffness) >= 0)
+    assert np.all(np.diff(curve.contact_count) >= 0)
+    chord = np.diff(curve.force) / np.diff(curve.depth)
+    assert np.all(chord >= curve.stiffness[:-1] * (1 - 1e-6))
+    assert np.all(chord <= curve.stiffness[1:] * (1 + 1e-6))
+
+
+def test_stops_at_fraction_or_force():
+    disc = self_affine_disc(0.8, 65, seed=4)
+    by_fraction = indent(disc, until_fraction=0.3)
+    assert 0.3 <= by_fraction.contact_fraction[-1] < 0.6
+    assert by_fraction.contact_fraction[-2] < 0.3
+    by_force = indent(disc, until_force=2.0)
+    assert 2.0 <= by_force.force[-1] < 2.2
+    assert by_force.force[-2] < 2.0
+
+
+def test_first_line_is_one_element():
+    disc = self_affine_disc(0.8, 65, seed=4)
+    curve = indent(disc, until_fraction=0.01)
+    one = np.pi * 4 * disc.spacing / influence_coefficient(0.0, 0.0)
+    assert curve.contact_count[0] == 1
+    assert curve.stiffness[0] == pytest.approx(one, rel=1e-12)
+    assert curve.force[0] == pytest.approx(one * curve.depth[0], rel=1e-12)
+
+
+def test_scaling_symmetry_and_cropping():
+    disc = self_affine_disc(0.7, 33, seed=6)
+    depths = np.nanmax(disc.initial_gap) * np.array([0.2, 0.7])
+    curve = indent(disc, tolerance=1e-9, depths=depths)
+    for heights, spacing in ((1e12, 1e-12), (1e-12, 1e12), (1e12, 1e12)):
+        scaled = indent(
+            Indenter(disc.heights * heights, disc.spacing * spacing), tolerance=1e-9, depths=depths * heights
+        )
+        np.testing.assert_allclose(scaled.force, curve.force * heights * spacing, rtol=1e-10)
+        np.testing.assert_allclose(scaled.stiffness, curve.stiffness * spacing, rtol=1e-10)
+    padded = np.pad(disc.heights.T[::-1], ((3, 8), (0, 5)), constant_values=np.nan)
+    turned = indent(Indenter(padded, disc.spacing), tolerance=1e-9, depths=depths)
+    np.testing.assert_allclose(turned.force, curve.force, rtol=1e-8)
+
+
+@pytest.mark.parametrize(
+    "heights",
+    [
+        np.array([[0.0]]),
+        np.array([[1.0, np.nan, np.nan], [np.nan, np.nan, 0.5]]),
+        np.array([[0.0, 0.0], [0.0, 1.0]]),
+        np.floor(3 * np.random.default_rng(1).random((12, 12))),
+    ],
+    ids=["one element", "two far apart", "row and column edges", "terraces"],
+)
+def test_small_and_tied_indenters(heights):
+    indenter = Indenter(heights, 1.0)
+    curve = indent(indenter, tolerance=1e-6, until_fraction=1.0)
+    assert curve.contact_fraction[-1] == 1.0
+    force, stiffness, count = dense_complementarity(indenter, 2 * curve.depth[-1])
+    at = indent(indenter, tolerance=1e-6, depths=[2 * curve.depth[-1]])
+    assert at.force[0] == pytest.approx(force, rel=1e-6)
+    assert at.stiffness[0] == pytest.approx(stiffness, rel=1e-6)
+    assert at.contact_count[0] == count
+
+
+# ---- refusals --------------------------------------------------------------------------------------------------------
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"tolerance": 0.0}, "tolerance"),
+        ({"until_fraction": 1.5}, "until"),
+        ({"until_force": -1.0}, "until_force"),
+        ({"depths": [0.2, 0.1]}, "increasing"),
+        ({"depths": [0.0, 0.1]}, "positive"),
+        ({"depths": [np.nan]}, "finite"),
+        ({"depths": []}, "finite"),
+    ],
+)
+def test_refuses(arguments, message):
+    with pytest.raises(ValueError, match=message):
+        indent(self_affine_disc(0.5, 9, seed=1), **arguments)
+
+
+def test_refuses_lines():
+    with pytest.raises(ValueError, match="two-dimensional"):
+        indent(Indenter(np.zeros(5), 1.0))
+
+
+def test_raises_when_it_does_not_converge(monkeypatch):
+    monkeypatch.setattr("viscorough.contact.solver._DENSE_MEMBERS", 0)
+    monkeypatch.setattr("viscorough.contact.grid_solver._ITERATIONS", 2)
+    with pytest.raises(ConvergenceError, match="residual"):
+        indent(self_affine_disc(0.5, 33, seed=1), tolerance=1e-8, depths=[1.0])
+
+
+def test_estimate_of_interpolation_error_is_exact_for_a_power_law():
+    class Level:
+        def __init__(self, depth):
+            self.depth, self.force, self.stiffness, self.count = depth, depth**1.7, 1.7 * depth**0.7, 100 * depth
+
+    levels = [Level(u) for u in (1.0, 2.0, 3.0)]
+    assert loading_path._interpolation_error(*levels) < 1e-12
+    levels[1].force *= 1.01
+    assert loading_path._interpolation_error(*levels) > 5e-3

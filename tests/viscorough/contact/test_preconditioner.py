@@ -1,0 +1,81 @@
+"""The approximate inverse against exact ones."""
+
+import numpy as np
+import pytest
+import scipy.linalg
+
+from viscorough.contact import preconditioner
+from viscorough.contact.halfspace import influence_coefficient
+from viscorough.contact.preconditioner import REACH, Preconditioner, relief
+
+WIDTH = 20
+
+
+def influence(places, width=WIDTH):
+    row, column = np.divmod(places.astype(float), width)
+    return influence_coefficient(row[:, None] - row, column[:, None] - column)
+
+
+def approximate_inverse(inside):
+    """M as a matrix, column by column, on the set."""
+    places, level = np.flatnonzero(inside), Preconditioner(*inside.shape)
+    level.prepare(inside.ravel(), places)
+    columns = []
+    for place in places:
+        residual = np.full(inside.size, 1e300)  # what lies outside the set must not count
+        residual[places] = 0
+        residual[place] = 1
+        columns.append(level.apply(residual).copy())
+    return places, np.array(columns).T
+
+
+@pytest.mark.parametrize("present", [0b111111111, 0b101101011, 0b100000000, 0b010111010])
+def test_sparse_part_is_exact_for_sets_within_reach(present, monkeypatch):
+    monkeypatch.setattr(preconditioner._FewBlocks, "apply", lambda level, residual: residual[level.places])
+    inside = np.zeros((WIDTH, WIDTH), dtype=bool)
+    inside[7:10, 11:14] = (present >> np.arange(9) & 1).reshape(3, 3)
+    places, inverse = approximate_inverse(inside)
+    np.testing.assert_allclose(inverse, np.linalg.inv(influence(places)), atol=1e-13)
+
+
+def sets():
+    """Contact sets on 96 × 96 elements, so many that blocks of blocks are needed, few enough for eigenvalues."""
+    row, column = np.mgrid[:96, :96]
+    random = np.random.default_rng(1).random(row.shape)
+    hills = sum(np.hypot(row - a, column - b) < 6 for a, b in np.random.default_rng(2).integers(8, 88, (14, 2))) > 0
+    yield "scattered", random < 0.12
+    yield "hills", hills
+    yield "hills with holes", hills & (random < 0.7)
+    yield "square", (abs(row - 47.5) < 18) & (abs(column - 47.5) < 18)
+    yield "ring", abs(np.hypot(row - 47.5, column - 47.5) - 40) < 2.5
+    yield "lines", (row % 8 == 3) & (column > 2)
+    yield "cross", (abs(row - 48) < 2) | (abs(column - 48) < 2)
+    yield "lattice", (row % 4 == 1) & (column % 4 == 1)
+    yield "corner and corner", (row + column < 20) | (row + column > 170)
+    yield "one", (row == 50) & (column == 7)
+
+
+@pytest.mark.parametrize(("name", "present"), list(sets()), ids=[name for name, _ in sets()])
+def test_symmetric_and_close_to_the_inverse_for_any_set(name, present):
+    inside = np.pad(present, REACH)
+    places, inverse = approximate_inverse(inside)
+    np.testing.assert_allclose(inverse, inverse.T, atol=1e-13)
+    exact = influence(places, inside.shape[1])
+    # A step of length one, and conjugate gradients, live by these bounds (M K has the eigenvalues of Rᵀ M R, K = R Rᵀ).
+    root = scipy.linalg.cholesky(exact, lower=True)
+    values = scipy.linalg.eigvalsh(root.T @ inverse @ root)
+    assert values[0] > 0.35
+    assert values[-1] < 1.4
+
+
+def test_relief_is_elimination_among_the_neighbours():
+    row, column = np.divmod(np.arange(25), 5)
+    inverse = np.linalg.inv(influence(row * WIDTH + column))
+    others = np.arange(25) != 12
+    # Without the element the others solve their own system; the change is what it had from them.
+    matrix = influence(row * WIDTH + column)
+    deflection = np.random.default_rng(2).random(25)
+    load = inverse @ deflection
+    change = np.linalg.solve(matrix[np.ix_(others, others)], deflection[others]) - load[others]
+    near = np.isin(np.flatnonzero(others), [6, 7, 8, 11, 13, 16, 17, 18])
+    np.testing.assert_allclose(change[near], load[12] * relief().ravel()[[0, 1, 2, 3, 5, 6, 7, 8]], rtol=1e-9)

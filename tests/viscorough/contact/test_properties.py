@@ -1,0 +1,270 @@
+"""What holds for every indenter, whatever its heights: random small maps and lines, on both routes of the solver.
+
+Neither more depth nor more or higher elements can lower the force, and contact only grows: the inverse of the influence
+matrix has no positive entry off its diagonal (computed up to 25 × 25 elements).
+"""
+
+from unittest import mock
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import array_shapes, arrays
+
+from viscorough.contact.halfspace import influence_coefficient
+from viscorough.contact.loading_path import indent
+from viscorough.contact.solver import ContactSolver
+from viscorough.indenter import Indenter
+from viscorough.mdr import reduce
+from viscorough.surfaces import self_affine_disc
+from viscorough.viscous.correspondence import kinetics
+from viscorough.viscous.events import march_events
+
+TOLERANCE = 1e-9
+# The force is of second order in the tolerance. So is the stiffness in that of q, which on the grid is only the root,
+# times some factor that grows with the set.
+STIFFNESS, FORCE = 1e-8, 1e-10
+LARGEST_DENSE = {"dense": 10**9, "grid": 0}
+both_routes = pytest.mark.parametrize("route", LARGEST_DENSE)
+some = settings(max_examples=60, deadline=None, derandomize=True)
+
+shapes = array_shapes(min_dims=2, max_dims=2, max_side=12)
+heights = st.floats(-4, 0, width=16) | st.integers(-3, 0) | st.just(np.nan)
+# Without a fill every element is drawn; with one, most are alike: a plateau, or nothing, with a few peaks and pits.
+maps = arrays(float, shapes, elements=heights, fill=st.nothing()) | arrays(float, shapes, elements=heights)
+seeds = st.integers(0, 10**6)
+indenters = st.builds(Indenter, maps.filter(lambda each: np.isfinite(each).any()), st.just(0.3)) | st.builds(
+    self_affine_disc, st.floats(0, 1), st.integers(9, 17), seed=seeds
+)
+lines = st.builds(
+    Indenter,
+    arrays(float, st.integers(1, 40), elements=st.floats(-1000, 1000, width=32) | st.integers(-2, 2)),
+    st.just(0.3),
+)
+
+
+@st.composite
+def pressings(draw):
+    """An indenter and depths, from a thousandth of its largest gap to where nearly all of them are in full contact."""
+    indenter = draw(indenters)
+    steps = draw(st.lists(st.integers(-25, 20), min_size=3, max_size=6, unique=True))
+    return indenter, (np.nanmax(indenter.initial_gap) or indenter.spacing) * 1.3 ** np.sort(steps)
+
+
+def on_route(route):
+    largest = LARGEST_DENSE[route]
+    return mock.patch.multiple("viscorough.contact.solver", _DENSE_MEMBERS=largest, _DENSE_INTERACTIONS=largest)
+
+
+def press(heights, spacing, depths, route):
+    with on_route(route):
+        curve = indent(Indenter(heights, spacing), tolerance=TOLERANCE, depths=depths)
+    assert (curve.operator_applications > 0) == (route == "grid")
+    return curve
+
+
+def influence_matrix(row, column):
+    return influence_coefficient(np.subtract.outer(row, row), np.subtract.outer(column, column))
+
+
+# ---- the curve of one indenter ---------------------------------------------------------------------------------------
+@both_routes
+@given(pressings())
+@some
+def test_force_is_increasing_and_convex(route, pressing):
+    """Contact grows with depth, so that every secant lies between the stiffnesses at its ends."""
+    indenter, depths = pressing
+    curve = press(indenter.heights, indenter.spacing, depths, route)
+    secant = np.diff(curve.force, prepend=0) / np.diff(depths, prepend=0)
+    assert np.all(secant > 0)
+    assert np.all(secant <= curve.stiffness * (1 + STIFFNESS))
+    assert np.all(secant[1:] >= curve.stiffness[:-1] * (1 - STIFFNESS))
+    assert np.all(np.diff(curve.contact_count) >= 0)
+
+
+@both_routes
+@given(pressings())
+@some
+def test_stiffness_is_that_of_a_flat_punch_of_the_contact_set(route, pressing):
+    """k/G = 4π d Σq with K q = 1 on the set, and F/G = 4π d Σ q (u − g)."""
+    indenter, depths = pressing
+    curve = press(indenter.heights, indenter.spacing, depths, route)
+    with on_route(route):
+        solver = ContactSolver(indenter, TOLERANCE)
+        contact = solver.touch()
+        for i, depth in enumerate(depths):
+            contact = solver.advance(contact, depth / solver.unit)
+            row, column = (each[contact.members] for each in solver.place)
+            rate = np.linalg.solve(influence_matrix(row, column), np.ones(row.size))
+            scale = 4 * np.pi * indenter.spacing
+            assert contact.count == curve.contact_count[i]
+            np.testing.assert_allclose(curve.stiffness[i], scale * rate.sum(), rtol=STIFFNESS)
+            force = scale * rate @ (depth - indenter.initial_gap[row, column])
+            np.testing.assert_allclose(curve.force[i], force, rtol=FORCE)
+
+
+@both_routes
+@given(pressings())
+@some
+def test_complementarity(route, pressing):
+    """No tension, no penetration, no gap in contact, and no element that loses contact."""
+    indenter, depths = pressing
+    with on_route(route):
+        solver = ContactSolver(indenter, TOLERANCE)
+        matrix = influence_matrix(*solver.place)
+        contact, inside = solver.touch(), np.zeros(indenter.elements, dtype=bool)
+        for depth in depths / solver.unit:
+            contact = solver.advance(contact, depth)
+            pressure, known_gap = np.zeros(indenter.elements), solver.gaps(contact)
+            pressure[contact.members] = contact.pressure
+            gap = matrix @ pressure - depth + indenter.initial_gap[solver.place] / solver.unit
+            limit = TOLERANCE * depth
+            # The search adds up its steps in single precision: that must stay far below the tolerance.
+            np.testing.assert_allclose(known_gap, gap, rtol=0, atol=0.05 * limit)
+
+            before, inside = inside, np.isin(np.arange(indenter.elements), contact.members)
+            assert np.all(inside[before])
+            assert np.all(pressure >= 0)
+            assert np.all(known_gap >= -limit)
+            assert np.all(np.abs(known_gap[inside]) <= limit)
+
+
+@both_routes
+@given(pressings())
+@some
+def test_bounded_by_flat_punches(route, pressing):
+    """The highest element alone carries less, a flat punch of the indenter's outline more."""
+    indenter, depths = pressing
+    curve = press(indenter.heights, indenter.spacing, depths, route)
+    place = np.nonzero(np.isfinite(indenter.heights))
+    rate = 4 * np.pi * indenter.spacing * np.linalg.solve(influence_matrix(*place), np.ones(place[0].size))
+    one, full = 4 * np.pi * indenter.spacing / influence_coefficient(0.0, 0.0), rate.sum()
+    for ratio in (curve.force / depths, curve.stiffness):
+        assert np.all(ratio >= one * (1 - STIFFNESS))
+        assert np.all(ratio <= full * (1 + STIFFNESS))
+    # Glued to the whole indenter the half-space would pull where it parts from it: less force, equal at full contact.
+    glued = full * depths - rate @ indenter.initial_gap[place]
+    assert np.all(curve.force >= glued - FORCE * full * depths)
+    closed = curve.contact_count == indenter.elements
+    np.testing.assert_allclose(curve.force[closed], glued[closed], rtol=FORCE)
+
+
+# ---- one indenter and another ----------------------------------------------------------------------------------------
+@both_routes
+@given(pressings(), st.sampled_from([np.flipud, np.fliplr, np.transpose, np.rot90]))
+@some
+def test_orientation_does_not_matter(route, pressing, turned):
+    """Mirrored, transposed or turned by 90°, the map has the same force and stiffness."""
+    indenter, depths = pressing
+    curve = press(indenter.heights, indenter.spacing, depths, route)
+    other = press(turned(indenter.heights), indenter.spacing, depths, route)
+    np.testing.assert_allclose(other.force, curve.force, rtol=FORCE)
+    np.testing.assert_allclose(other.stiffness, curve.stiffness, rtol=STIFFNESS)
+
+
+@both_routes
+@given(pressings(), st.floats(-6, 6), st.floats(-6, 6))
+@some
+def test_scaling_laws(route, pressing, height_decades, size_decades):
+    """Force is linear in heights, and of second order in all lengths; stiffness is linear in the size alone."""
+    indenter, depths = pressing
+    curve = press(indenter.heights, indenter.spacing, depths, route)
+    height, size = 10**height_decades, 10**size_decades
+    higher = press(height * indenter.heights, indenter.spacing, height * depths, route)
+    np.testing.assert_allclose(higher.force, height * curve.force, rtol=FORCE)
+    np.testing.assert_allclose(higher.stiffness, curve.stiffness, rtol=STIFFNESS)
+    larger = press(size * indenter.heights, size * indenter.spacing, size * depths, route)
+    np.testing.assert_allclose(larger.force, size**2 * curve.force, rtol=FORCE)
+    np.testing.assert_allclose(larger.stiffness, size * curve.stiffness, rtol=STIFFNESS)
+
+
+@both_routes
+@given(pressings(), st.floats(0, 1), seeds)
+@some
+def test_a_part_carries_no_more_than_the_whole(route, pressing, share, seed):
+    """Added elements, none higher than the highest, never lower the force at a given depth."""
+    indenter, depths = pressing
+    removed = np.random.default_rng(seed).random(indenter.heights.shape) < share
+    removed.flat[np.nanargmax(indenter.heights)] = False
+    part = press(np.where(removed, np.nan, indenter.heights), indenter.spacing, depths, route)
+    whole = press(indenter.heights, indenter.spacing, depths, route)
+    assert np.all(part.force <= whole.force * (1 + FORCE))
+
+
+@both_routes
+@given(pressings(), seeds, st.floats(0, 1))
+@some
+def test_a_raised_element_carries_no_less(route, pressing, which, share):
+    """Any element made higher, to the highest at most, never lowers the force at a given depth."""
+    indenter, depths = pressing
+    place = np.flatnonzero(np.isfinite(indenter.heights))
+    raised = indenter.heights.copy()
+    raised.flat[place[which % place.size]] += share * indenter.initial_gap.flat[place[which % place.size]]
+    before = press(indenter.heights, indenter.spacing, depths, route)
+    after = press(raised, indenter.spacing, depths, route)
+    assert np.all(after.force >= before.force * (1 - FORCE))
+
+
+# ---- reduced lines ---------------------------------------------------------------------------------------------------
+@given(lines)
+@settings(some, max_examples=100)
+def test_reduced_line_is_bounded(line):
+    """Springs in parallel: one at least, all at most, all of them and no others at full contact."""
+    curve, length = reduce(line), line.spacing * line.heights.size
+    assert np.all(np.diff(curve.force) > 0)
+    assert np.all(np.diff(curve.stiffness) >= 0)
+    assert np.all(curve.stiffness >= 4 * line.spacing)
+    assert np.all(curve.stiffness <= 4 * length * (1 + 1e-12))
+    assert np.all(curve.force >= 4 * line.spacing * curve.depth * (1 - 1e-12))
+    assert np.all(curve.force <= 4 * length * curve.depth * (1 + 1e-12))
+    full = 4 * length * (curve.depth - line.initial_gap.mean())
+    rounding = 1e-12 * length * curve.depth
+    assert np.all(curve.force >= full - rounding)
+    assert abs(curve.force[-1] - full[-1]) <= rounding[-1]
+
+
+# ---- penetration in time ---------------------------------------------------------------------------------------------
+forces = st.lists(st.integers(0, 9), min_size=1, max_size=6)
+
+
+@given(pressings(), forces, forces, st.integers(1, 5), st.floats(-6, 6))
+@some
+def test_indenter_never_rises_and_rests_without_force(pressing, earlier, later, rest, decades):
+    """Depth grows while there is force, and stays exactly where it is while there is none."""
+    indenter, depths = pressing
+    curve = press(indenter.heights, indenter.spacing, depths, "dense")
+    force = np.array([*earlier, *np.zeros(1 + rest), *later, 1.0])
+    times = np.linspace(0, 10**decades, force.size)
+    viscosity = np.trapezoid(force, times) / curve.force[-1]  # the last level is reached in the end
+    result = kinetics(curve, force, viscosity, times)
+    # Between first touch and the first level nothing is known.
+    assert np.all(np.diff(result.depth[np.isfinite(result.depth)]) >= 0)
+    assert np.all(result.velocity[(force > 0) & np.isfinite(result.velocity)] > 0)
+    assert result.depth[-1] == pytest.approx(depths[-1], rel=1e-9)
+    resting = slice(len(earlier), len(earlier) + 1 + rest)
+    np.testing.assert_array_equal(result.depth[resting], result.depth[len(earlier)])
+    np.testing.assert_array_equal(result.velocity[resting], 0)
+
+
+@given(pressings(), *[st.floats(-6, 6)] * 2)
+@some
+def test_depth_is_a_function_of_force_times_time_over_viscosity(pressing, force_decades, viscosity_decades):
+    """Under another constant force, and in another viscosity, the depths are the same at other times."""
+    indenter, depths = pressing
+    curve = press(indenter.heights, indenter.spacing, depths, "dense")
+    times = np.linspace(0, curve.force[-1], 30)[1:]
+    expected = kinetics(curve, 1.0, 1.0, times).depth
+    force, viscosity = 10**force_decades, 10**viscosity_decades
+    found = kinetics(curve, force, viscosity, times * viscosity / force).depth
+    np.testing.assert_allclose(found, expected, rtol=1e-12)
+    assert np.isfinite(found[-1])
+
+
+@given(indenters, seeds)
+@some
+def test_kinetics_is_the_direct_integration_in_time(indenter, seed):
+    """The correspondence with the elastic problem: marched from contact to contact, the depths are the same."""
+    curve, events = indent(indenter, tolerance=TOLERANCE, until_fraction=1.0), march_events(indenter)
+    times = np.sort(np.random.default_rng(seed).random(30)) * curve.force[-1]
+    np.testing.assert_allclose(kinetics(curve, 1.0, 1.0, times).depth, events.depth_at(times), rtol=1e-9)

@@ -1,0 +1,49 @@
+"""The recommended law: its numbers, its range, and that they come from the table of fits."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import viscorough
+from support.study import SHOWN, evidence
+from viscorough.calibrated_law import COLUMNS, calibration
+from viscorough_study.tables import calibrated
+
+
+def test_numbers_are_the_calibrated_ones():
+    table = calibration()
+    assert set(table) == set(COLUMNS) - {"source"}
+    assert table["hurst"].tolist() == [0.1, 0.4, 0.6, 0.9]
+    assert np.all(table["beta_low"] < table["beta"])
+    assert np.all(table["beta"] < table["beta_high"])
+    for i, hurst in enumerate(table["hurst"]):
+        law = viscorough.penetration_law(hurst)
+        assert (law.beta, law.zeta) == (table["beta"][i], table["zeta"][i])
+        assert (law.x_low, law.x_high) == pytest.approx((table["x_low"][i], table["x_high"][i]))
+        middle = np.sqrt(law.x_low * law.x_high)
+        assert law.velocity(middle) == pytest.approx(middle**law.beta / law.zeta)
+
+
+def test_between_calibrated_exponents():
+    law, low, high = (viscorough.penetration_law(hurst) for hurst in (0.5, 0.4, 0.6))
+    assert law.beta == pytest.approx((low.beta + high.beta) / 2)
+    assert law.zeta == pytest.approx((low.zeta + high.zeta) / 2)
+    assert law.x_low == pytest.approx(np.sqrt(low.x_low * high.x_low))
+
+
+def test_range_is_said():
+    law = viscorough.penetration_law(0.6)
+    for x in (0.9 * law.x_low, 1.1 * law.x_high, np.nan):
+        with pytest.raises(ValueError, match=r"allowed: .* region .b."):
+            law.velocity([np.sqrt(law.x_low * law.x_high), x])
+    for hurst in (0.05, 0.95):
+        with pytest.raises(ValueError, match=r"hurst of the penetration law: must be from 0.1 to 0.9"):
+            viscorough.penetration_law(hurst)
+
+
+def test_rows_are_those_shown():
+    table = calibrated(evidence().scaling, SHOWN)
+    assert list(table) == list(COLUMNS)
+    assert table["source"].tolist() == ["discs"] * 3 + ["lines"] * 3
+    one = pd.Series({"beta": 0.375, "hurst": 0.6})
+    np.testing.assert_allclose(table.loc[table["hurst"] == 0.6, "beta"], one["beta"], atol=1e-6)

@@ -1,0 +1,264 @@
+"""The exact solutions against half-space integrals they were not written from, the laws against Eq. 1."""
+
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+from scipy.integrate import quad, solve_ivp
+from scipy.special import ellipk
+from scipy.special import gamma as gamma_function
+
+from viscorough import reference
+
+PAPER = Path(__file__).parents[2] / "resources" / "paper"
+BODIES = [(0.7, 1), (0.3, 1.5), (0.4, 2), (0.2, 3)]  # coefficient, exponent
+
+
+def derivative(function, x):
+    """Central difference of sixth order; with a step of 0.3 % its error is below 1e-12 for powers of x."""
+    step = 3e-3 * x
+    weights = {1: 45, 2: -9, 3: 1}
+    return sum(w * (function(x + m * step) - function(x - m * step)) for m, w in weights.items()) / (60 * step)
+
+
+def pressure(body, radius, r):
+    """p(r)/G = (4/π) ∫_r^a g'(x)/√(x²−r²) dx, with x² = r² + y² (Sneddon), for a body z = c rⁿ."""
+    n = body.exponent
+    slope_over_x = n * body.mdr_profile(1.0)
+
+    def integrand(y):
+        return slope_over_x * (r**2 + y**2) ** ((n - 2) / 2)
+
+    return 4 / np.pi * quad(integrand, 0, np.sqrt(radius**2 - r**2), epsabs=0, epsrel=1e-9)[0]
+
+
+def deflection(body, radius, at):
+    """Surface displacement at distance `at` under that pressure: Boussinesq's solution over rings.
+
+    w = (1/(πE*)) ∫ p(s) 4 s/(r+s) K(m) ds, m = 4rs/(r+s)², E* = 4G.
+    """
+
+    def ring(s):
+        return pressure(body, radius, s) * s / (at + s) * ellipk(4 * at * s / (at + s) ** 2)
+
+    edges = [0, at, radius] if at < radius else [0, radius]  # K is infinite on the ring through the point
+    parts = [quad(ring, a, b, epsabs=0, epsrel=1e-7)[0] for a, b in pairwise(edges)]
+    return sum(parts) / np.pi
+
+
+@pytest.mark.parametrize(("coefficient", "exponent"), BODIES)
+def test_power_law_body_solves_the_contact_problem(coefficient, exponent):
+    """Its pressure carries the force, shapes the surface like the body and leaves a gap outside contact."""
+    body = reference.PowerLawBody(coefficient, exponent)
+    depth = 0.35
+    radius = body.contact_radius(depth)
+    total = quad(lambda r: 2 * np.pi * r * pressure(body, radius, r), 0, radius, epsabs=0, epsrel=1e-8)[0]
+    assert total == pytest.approx(body.force(depth), rel=1e-7)
+    for r in (0.3 * radius, 0.8 * radius):
+        assert deflection(body, radius, r) == pytest.approx(depth - coefficient * r**exponent, rel=1e-6)
+    assert deflection(body, radius, 1.2 * radius) > depth - coefficient * (1.2 * radius) ** exponent
+
+
+@pytest.mark.parametrize(("coefficient", "exponent"), BODIES)
+def test_power_law_body_is_consistent(coefficient, exponent):
+    body = reference.PowerLawBody(coefficient, exponent)
+    depth = np.geomspace(1e-6, 1e3, 10)
+    np.testing.assert_allclose(body.stiffness(depth), derivative(body.force, depth), rtol=1e-11)
+    np.testing.assert_allclose(body.depth(body.force(depth)), depth, rtol=1e-13)
+    np.testing.assert_allclose(body.mdr_profile(body.contact_radius(depth)), depth, rtol=1e-13)
+
+
+@pytest.mark.parametrize(("coefficient", "exponent"), BODIES)
+def test_reduction_of_dimensionality_of_a_power_law(coefficient, exponent):
+    """κ_n against the transform by quadrature, and the foundation 4∫(u−g)₊dx against the force."""
+    body = reference.PowerLawBody(coefficient, exponent)
+    x = np.array([-1.3, 0.0, 0.02, 0.5, 4.0])
+    profile = reference.mdr_profile(lambda r: coefficient * exponent * r ** (exponent - 1), x)
+    np.testing.assert_allclose(profile, body.mdr_profile(x), rtol=1e-10)
+    depth = 0.35
+    radius = body.contact_radius(depth)
+    foundation = 8 * quad(lambda x: depth - body.mdr_profile(x), 0, radius, epsabs=0, epsrel=1e-12)[0]
+    assert foundation == pytest.approx(body.force(depth), rel=1e-11)
+
+
+def test_sphere_is_hertz_and_cone_is_love():
+    depth, radius, slope = np.geomspace(1e-3, 10, 5), 2.5, 0.3
+    sphere, cone = reference.sphere(radius), reference.cone(slope)
+    np.testing.assert_allclose(sphere.force(depth), 16 / 3 * np.sqrt(radius) * depth**1.5, rtol=1e-14)
+    np.testing.assert_allclose(sphere.contact_radius(depth), np.sqrt(radius * depth), rtol=1e-14)
+    np.testing.assert_allclose(cone.force(depth), 8 * depth**2 / (np.pi * slope), rtol=1e-14)
+    np.testing.assert_allclose(cone.contact_radius(depth), 2 * depth / (np.pi * slope), rtol=1e-14)
+
+
+def test_transform_of_a_round_tip_on_a_cone():
+    """Hyperboloid f = s(√(r²+b²) − b), not a power law: g = s x·arctan(x/b)."""
+    slope, tip = 0.4, 0.2
+    x = np.linspace(0, 3, 7)
+    profile = reference.mdr_profile(lambda r: slope * r / np.hypot(r, tip), x)
+    np.testing.assert_allclose(profile, slope * x * np.arctan(x / tip), rtol=1e-11)
+
+
+def test_flat_ellipse_sinks_as_its_pressure_says():
+    """Depth at the centre, u = (1/4πG)∫p/r dA in polar coordinates, p = F/(2πab)·(1−x²/a²−y²/b²)^(−1/2)."""
+    for a, b in [(1.0, 1.0), (3.0, 2.0), (5.0, 0.4)]:
+        # the integrand is periodic and smooth, so the rectangle rule is exact to rounding
+        angle = 2 * np.pi * np.arange(400) / 400
+        edge = a * b / np.hypot(b * np.cos(angle), a * np.sin(angle))
+        depth_per_force = edge.mean() * 2 * np.pi * (np.pi / 2) / (2 * np.pi * a * b) / (4 * np.pi)
+        assert reference.flat_ellipse_stiffness(a, b) == pytest.approx(1 / depth_per_force, rel=1e-12)
+    assert reference.flat_disc_stiffness(0.5) == pytest.approx(4.0, rel=1e-15)  # k = 2E*a, E* = 4G
+
+
+def test_complete_contact_and_one_element_are_limits_of_kappa():
+    diameter = 3.0
+    kappa = reference.flat_disc_stiffness(diameter / 2) / (4 * diameter)
+    assert kappa == pytest.approx(reference.COMPLETE_CONTACT_STIFFNESS, rel=1e-15)
+    # K₀₀ as ∫dA/r over the unit square, eight triangles of ∫ dφ/(2 cos φ); κ₁ = k/(4GL) with k = F/u = pd²/u
+    square = 8 * quad(lambda angle: 0.5 / np.cos(angle), 0, np.pi / 4)[0]
+    side = diameter / 257
+    depth_per_force = square * side / (4 * np.pi) / side**2
+    expected = 1 / (4 * diameter * depth_per_force)
+    assert reference.one_element_stiffness(257) == pytest.approx(expected, rel=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("penetration", "body"),
+    [(reference.sphere_penetration, reference.sphere), (reference.cone_penetration, reference.cone)],
+)
+def test_viscous_penetration_integrates_the_rate(penetration, body):
+    """v = F/(η·8a), a flat punch of the current contact radius, integrated in time from a start (Eq. 1)."""
+    shape, force, viscosity = 0.8, 3.0, 50.0
+    time = np.array([0.1, 1.0, 20.0])
+    depth, velocity = penetration(time, shape, force, viscosity)
+
+    def rate(_, u):
+        return force / (viscosity * body(shape).stiffness(u))
+
+    np.testing.assert_allclose(velocity, rate(time, depth), rtol=1e-13)
+    steps = solve_ivp(rate, (0.1, 20.0), depth[:1], t_eval=time, rtol=1e-11, atol=0, method="DOP853")
+    np.testing.assert_allclose(steps.y[0], depth, rtol=1e-9)
+
+
+def test_lee_radok_contact_radius_and_what_gamma_makes_of_it():
+    """a³ = 3RFt/(16η). A sphere obeys Eq. 3 with α = 1/3; with Γ, depth and velocity are 1/Γ(5/3) = 1.108 too
+    large, and so is a² = Ru; hence a³ by Γ(5/3)^(−3/2) = 1.166.
+    """
+    radius, force, viscosity, time = 1.7, 2.0, 30.0, 4.0
+    depth, velocity = reference.sphere_penetration(time, radius, force, viscosity)
+    lee_radok = 3 * radius * force * time / (16 * viscosity)
+    sphere = reference.sphere(radius)
+    assert sphere.contact_radius(depth) ** 3 == pytest.approx(lee_radok, rel=1e-13)
+
+    height, diameter, alpha = 0.1, 2.0, 1 / 3  # any: the law of a sphere, written with some h and L
+    x = force * time / (4 * viscosity * height * diameter)
+    kappa = sphere.stiffness(depth) / (4 * diameter)
+    zeta = kappa / x**alpha
+    without = height * reference.depth_law(x, zeta, alpha)
+    with_gamma = height * reference.depth_law(x, zeta, alpha, gamma=True)
+    assert without == pytest.approx(depth, rel=1e-13)
+    assert height / time * reference.velocity_law(x, zeta, alpha) == pytest.approx(velocity, rel=1e-13)
+    assert with_gamma / depth == pytest.approx(1.1077, abs=1e-4)
+    assert sphere.contact_radius(with_gamma) ** 3 / lee_radok == pytest.approx(1.1659, abs=1e-4)
+
+
+@pytest.mark.parametrize("hurst", [0.1, 0.4, 0.6, 0.9])
+def test_eq_1_with_eq_3_has_no_gamma(hurst):
+    """Eq. 1 in time, with dF/du of Eq. 3 as F/v, against the laws without Γ; with Γ they miss by 5 to 13 %.
+
+    With y = u/h and X = Ft/(4ηhL) as time, Eq. 1 is dy/dX = 1/κ, κ at the contact that depth y has: Eq. 3
+    with the force that its own integral over depth, y = ∫dX/κ, found by quadrature, assigns to y.
+    """
+    zeta, alpha = reference.zeta_viscous(hurst), reference.exponent_alpha(hurst)
+
+    def depth_increment(
+        log_x,
+    ):  # with X = exp(s) the integrand's singularity at 0 becomes an exponential tail
+        return np.exp(log_x) / reference.stiffness_law(np.exp(log_x), zeta, alpha)
+
+    def to_depth(x):
+        return quad(depth_increment, np.log(x) - 45 / (1 - alpha), np.log(x), epsabs=0, epsrel=1e-11)[0]
+
+    grid = np.linspace(np.log(1e-6), np.log(1e-1), 30)
+    log_depth = np.log([to_depth(np.exp(s)) for s in grid])  # a straight line: interpolation is exact
+
+    def rate(x, y):
+        elastic = np.exp(np.interp(np.log(y), log_depth, grid))
+        return 1 / reference.stiffness_law(elastic, zeta, alpha)
+
+    x = np.array([1e-5, 1e-4, 1e-3, 1e-2])
+    start = [to_depth(x[0])]
+    depth = solve_ivp(rate, x[[0, -1]], start, t_eval=x, rtol=1e-10, atol=0, method="DOP853").y[0]
+    np.testing.assert_allclose(reference.depth_law(x, zeta, alpha), depth, rtol=1e-7)
+    np.testing.assert_allclose(reference.velocity_law(x, zeta, alpha), x * rate(x, depth), rtol=1e-7)
+    for law in (reference.depth_law, reference.velocity_law):
+        excess = law(x, zeta, alpha, gamma=True) / law(x, zeta, alpha)
+        np.testing.assert_allclose(excess, 1 / gamma_function(2 - alpha), rtol=1e-14)
+        assert (excess > 1.04).all()
+        assert (excess < 1.13).all()
+
+
+def test_line_spectrum_keeps_the_rms_height():
+    """Eq. 13: ∫C1D dq over both signs equals ∫C2D·2πq dq, and h1D² ∝ λ."""
+
+    def surface(q):
+        return q**-3.2
+
+    area = quad(lambda q: 2 * np.pi * q * surface(q), 1, 50)[0]
+    line = 2 * quad(lambda q: reference.line_spectrum(q, surface(q)), 1, 50)[0]
+    assert line == pytest.approx(area, rel=1e-12)
+    assert reference.line_spectrum(3.0, 2.0, transfer=1.5) == 9.0
+
+
+LAWS = yaml.safe_load((PAPER / "laws.yaml").read_text(encoding="utf-8"))
+
+
+def printed(law, **values):
+    """The law as the paper prints it (resources/paper/laws.yaml), at the given values."""
+    return eval(LAWS[law]["formula"], {"pi": np.pi, "gamma": gamma_function, **values})
+
+
+@pytest.mark.parametrize("name", [name for name, law in LAWS.items() if "function" in law])
+def test_functions_are_the_printed_laws(name):
+    law = LAWS[name]
+    values = {"X": 3e-4, "zeta": 1.3, "alpha": 0.62, "H": 0.7, "q": 5.0, "C2D": 0.2}
+    reading = {"gamma": True} if law.get("gamma") else {}
+    computed = getattr(reference, law["function"])(*(values[name] for name in law["arguments"]), **reading)
+    assert computed == pytest.approx(printed(name, **values), rel=1e-14)
+
+
+def test_transform_of_eq_8_is_eq_7():
+    values = {"F": 2.0, "eta": 3.0, "h": 0.1, "L": 5.0, "zeta": 1.3, "alpha": 0.62}
+    x_over_time = values["F"] / (4 * values["eta"] * values["h"] * values["L"])
+    s = 0.8
+    back = quad(lambda t: np.exp(-s * t) * printed("depth_viscous", X=x_over_time * t, **values), 0, np.inf)[0]
+    assert back == pytest.approx(printed("depth_transform", s=s, **values), rel=1e-6)
+
+
+def test_numbers_of_the_paper_agree_with_each_other():
+    numbers = yaml.safe_load((PAPER / "numbers.yaml").read_text(encoding="utf-8"))
+    for group in numbers.values():
+        assert all({"value", "where"} <= set(entry) for entry in group.values())
+    elements = {name: entry["value"] for name, entry in numbers["boundary_elements"].items()}
+    assert elements["combinations"] == elements["combinations_per_hurst"] * len(elements["hurst_exponents"])
+    # the disc of that many elements across has one element more than the paper counts
+    offset = np.arange(elements["elements_across"]) - (elements["elements_across"] - 1) / 2
+    disc = np.count_nonzero(offset[:, None] ** 2 + offset**2 <= offset[-1] ** 2)
+    assert disc == elements["elements"] + 1
+
+
+@pytest.mark.parametrize(
+    "build",
+    [
+        lambda: reference.sphere(0.0),
+        lambda: reference.cone(-0.1),
+        lambda: reference.PowerLawBody(1.0, np.nan),
+        lambda: reference.flat_ellipse_stiffness(1.0, 2.0),
+        lambda: reference.flat_disc_stiffness(0.0),
+        lambda: reference.depth_law(0.1, 1.0, 1.0),
+    ],
+)
+def test_impossible_shapes_and_exponents_are_refused(build):
+    with pytest.raises(ValueError, match=r"^[^\n]*allowed: [^\n]*$"):
+        build()

@@ -1,0 +1,225 @@
+"""Kinetics from exact loading curves, against solutions that do not use the correspondence."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from viscorough import reference
+from viscorough.loading_curve import LoadingCurve
+from viscorough.viscous.correspondence import kinetics
+
+RADIUS, SLOPE, VISCOSITY = 1.7, 0.4, 30.0
+
+
+def curve_of(depth, force, stiffness, contact_count, scale=1.0):
+    return LoadingCurve(
+        depth=scale * depth,
+        force=scale**2 * force,
+        stiffness=scale * stiffness,
+        contact_count=contact_count,
+        elements=10**6,
+        method="by hand",
+        tolerance=1e-9,
+        operator_applications=0,
+        residual=np.zeros(len(depth)),
+    )
+
+
+def curve_of_body(body, scale=1.0):
+    """Levels over six decades of depth, ten elements joining at each: smooth for the interpolation."""
+    depth = np.geomspace(1e-5, 10, 61)
+    return curve_of(depth, body.force(depth), body.stiffness(depth), 10 * np.arange(1, 62), scale)
+
+
+@pytest.fixture
+def sphere_curve():
+    return curve_of_body(reference.sphere(RADIUS))
+
+
+def exact_sphere_depth(impulse):
+    """Lee and Radok with the impulse in place of Ft."""
+    return (3 * impulse / (16 * VISCOSITY * np.sqrt(RADIUS))) ** (2 / 3)
+
+
+@pytest.mark.parametrize(
+    ("body", "penetration", "shape"),
+    [
+        (reference.sphere, reference.sphere_penetration, RADIUS),
+        (reference.cone, reference.cone_penetration, SLOPE),
+    ],
+)
+def test_constant_force_follows_lee_and_radok(body, penetration, shape):
+    curve = curve_of_body(body(shape))
+    force = 2.5
+    for times in (None, np.geomspace(1e-3, 100, 40)):
+        result = kinetics(curve, force, VISCOSITY, times)
+        depth, velocity = penetration(result.time, shape, force, VISCOSITY)
+        np.testing.assert_allclose(result.depth, depth, rtol=1e-12)
+        np.testing.assert_allclose(result.velocity, velocity, rtol=1e-11)
+
+
+def test_kinetics_is_eq_2(sphere_curve):
+    """vt/h = X/κ with X = Ft/(4ηhL), whatever the force and the viscosity."""
+    height, diameter = 0.2, 3.0
+    x, kappa = sphere_curve.normalised(height, diameter)
+    for force, viscosity in [(2.0, 5.0), (7e-4, 1e6)]:
+        result = kinetics(sphere_curve, force, viscosity)
+        np.testing.assert_allclose(force * result.time / (4 * viscosity * height * diameter), x, rtol=1e-13)
+        np.testing.assert_allclose(result.velocity * result.time / height, x / kappa, rtol=1e-13)
+
+
+def test_ramp(sphere_curve):
+    """F = ct from rest: I = ct²/2."""
+    rate, times = 0.8, np.linspace(0, 5, 11)
+    result = kinetics(sphere_curve, rate * times, VISCOSITY, times)
+    depth = exact_sphere_depth(rate * times**2 / 2)
+    np.testing.assert_allclose(result.depth, depth, rtol=1e-12, atol=0)
+    assert result.velocity[0] == 0
+    np.testing.assert_allclose(result.velocity[1:], 4 / 3 * depth[1:] / times[1:], rtol=1e-11)
+
+
+def test_pulses_and_rests(sphere_curve):
+    """Three triangular pulses with rests: no motion at rest, then on from where it stopped."""
+    times = np.arange(13.0)
+    force = np.array([0, 3, 0, 0, 0, 1, 0, 0, 0, 5, 0, 0, 0.0])
+    result = kinetics(sphere_curve, force, VISCOSITY, times)
+    impulse = np.array([0, 1.5, 3, 3, 3, 3.5, 4, 4, 4, 6.5, 9, 9, 9])
+    np.testing.assert_allclose(result.depth, exact_sphere_depth(impulse), rtol=1e-12, atol=0)
+    assert (result.velocity[force == 0] == 0).all()
+    assert (result.velocity[force > 0] > 0).all()
+    for rest in ([2, 3, 4], [6, 7, 8], [10, 11, 12]):
+        assert np.ptp(result.depth[rest]) == 0
+
+
+def test_step_of_force(sphere_curve):
+    """The force doubles within one rounding of the time: the depth is continuous, the velocity doubles."""
+    before = 2.0
+    after = np.nextafter(before, 3)
+    result = kinetics(sphere_curve, [1, 1, 2, 2], VISCOSITY, [0, before, after, 5])
+    np.testing.assert_allclose(result.depth, exact_sphere_depth(np.array([0, 2, 2, 8])), rtol=1e-12, atol=0)
+    assert result.velocity[2] == pytest.approx(2 * result.velocity[1], rel=1e-12)
+
+
+def test_varying_force_against_time_integration(sphere_curve):
+    """du/dt = F(t)/(8η√(Ru)), a flat punch of the present contact, stepped in time without any impulse."""
+    times = np.linspace(0, 6, 25)
+    force = np.random.default_rng(3).uniform(0, 4, times.size)
+    result = kinetics(sphere_curve, force, VISCOSITY, times)
+
+    def rate(t, u):
+        return np.interp(t, times, force) / (8 * VISCOSITY * np.sqrt(RADIUS * u))
+
+    depth = result.depth[1]
+    for i in range(1, times.size - 1):  # kinks of the force only between the integrations
+        depth = solve_ivp(rate, times[i : i + 2], [depth], rtol=1e-11, atol=0, method="DOP853").y[0, -1]
+        assert depth == pytest.approx(result.depth[i + 1], rel=1e-9)
+        assert rate(times[i + 1], depth) == pytest.approx(result.velocity[i + 1], rel=1e-9)
+
+
+def test_dashpots_contact_by_contact():
+    """Independent dashpots under a constant force, marched from contact to contact: v = F/(nd) in between."""
+    gaps = np.cumsum([0, 0.3, 0.1, 0.7, 0.2, 1.1])
+    dashpot, force = 4 * VISCOSITY * 0.05, 0.6
+    times, depths, velocities = [], [], []
+    time = 0.0
+    for n, (start, end) in enumerate(zip(gaps, np.append(gaps[1:], 3.0), strict=True), start=1):
+        velocity = force / (n * dashpot)
+        for share in (0.01, 0.5, 0.99):
+            times.append(time + share * (end - start) / velocity)
+            depths.append(start + share * (end - start))
+            velocities.append(velocity)
+        time += (end - start) / velocity
+
+    level = np.append(gaps[1:], 3.0) - 0.03  # one level in each straight part
+    count = np.arange(1, 7)
+    curve = curve_of(level, 0.2 * np.maximum(level[:, None] - gaps, 0).sum(axis=1), 0.2 * count, count)
+    inside = np.array(times) <= kinetics(curve, force, VISCOSITY).time[-1]
+    result = kinetics(curve, force, VISCOSITY, np.array(times)[inside])
+    assert inside.sum() == len(times) - 1
+    np.testing.assert_allclose(result.depth, np.array(depths)[inside], rtol=1e-13)
+    np.testing.assert_allclose(result.velocity, np.array(velocities)[inside], rtol=1e-13)
+
+
+@pytest.mark.parametrize("length", [1e-12, 1.0, 1e12])
+@pytest.mark.parametrize("clock", [1e-12, 1e12])
+def test_invariance_to_units(length, clock, sphere_curve):
+    """The same motion in other units of length, time and viscosity, the force's following from them."""
+    poise = 1e-12
+    times = np.linspace(0, 4, 9)
+    force = np.array([0, 1, 2, 0, 0, 3, 1, 1, 0.5])
+    expected = kinetics(sphere_curve, force, VISCOSITY, times)
+    curve = curve_of_body(reference.sphere(RADIUS), scale=length)
+    result = kinetics(curve, force * poise * length**2 / clock, VISCOSITY * poise, times * clock)
+    np.testing.assert_allclose(result.time, times * clock, rtol=1e-15)
+    np.testing.assert_allclose(result.depth, expected.depth * length, rtol=1e-12)
+    np.testing.assert_allclose(result.velocity, expected.velocity * length / clock, rtol=1e-11)
+
+
+def test_times_of_the_levels_give_the_levels_back(sphere_curve):
+    """Rounding in F·t/η, up or down, pushes no level off the curve's ends."""
+    for force in np.random.default_rng(5).uniform(0.1, 10, 50):
+        levels = kinetics(sphere_curve, force, VISCOSITY)
+        again = kinetics(sphere_curve, force, VISCOSITY, levels.time)
+        np.testing.assert_allclose(again.depth, levels.depth, rtol=1e-13)
+        np.testing.assert_allclose(again.velocity, levels.velocity, rtol=1e-12)
+
+
+def test_sum_of_many_samples_reaches_the_last_level(sphere_curve):
+    for force in (1 / 3, 0.7, 1e9):
+        times = np.linspace(0, VISCOSITY * sphere_curve.force[-1] / force, 100_001)
+        result = kinetics(sphere_curve, np.full(times.size, force), VISCOSITY, times)
+        assert result.depth[-1] == pytest.approx(sphere_curve.depth[-1], rel=1e-9)
+
+
+def test_before_the_first_level(sphere_curve):
+    """The start is known, the way to a round body's first level is not; that of one element is a line."""
+    times = np.array([0, 1e-12, 1])
+    result = kinetics(sphere_curve, 1.0, VISCOSITY, times)
+    np.testing.assert_array_equal(np.isnan(result.depth), [False, True, False])
+    np.testing.assert_array_equal(np.isnan(result.velocity), [True, True, False])
+    rested = kinetics(sphere_curve, [0, 0, 1], VISCOSITY, times)
+    np.testing.assert_array_equal(rested.depth[:2], 0)
+    np.testing.assert_array_equal(rested.velocity[:2], 0)
+
+    one = curve_of(np.array([0.5]), np.array([1.0]), np.array([2.0]), np.array([1]))
+    result = kinetics(one, 4.0, 10.0, [0, 0.1, 2.5])
+    np.testing.assert_allclose(result.depth, [0, 0.02, 0.5], rtol=1e-14)
+    np.testing.assert_allclose(result.velocity, 0.2, rtol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "allowed"),
+    [
+        ({"viscosity": 0.0}, "viscosity: 0.0; allowed: a finite number above 0"),
+        ({"viscosity": -1.0}, "above 0"),
+        ({"viscosity": np.nan}, "above 0"),
+        ({"viscosity": [1.0]}, "a finite number"),
+        ({"force": 0.0}, "constant force: 0.0; allowed: a finite number above 0"),
+        ({"force": -2.0}, "above 0"),
+        ({"force": np.inf}, "a finite number"),
+        ({"force": [1.0, 2.0], "times": None}, "needs the time of each sample"),
+        ({"force": [1.0, 2.0]}, "one per time"),
+        ({"force": [1.0, -1e-9, 2.0]}, "sample 1 is -1e-09; allowed: finite, 0 or more"),
+        ({"force": [1.0, np.nan, 2.0]}, "sample 1 is nan"),
+        ({"times": [0.0, 2.0, 1.0]}, "each later than the one before"),
+        ({"times": [0.0, 1.0, 1.0]}, "each later than the one before"),
+        ({"times": [0.0, np.inf]}, "finite"),
+        ({"times": []}, "one row"),
+        ({"times": [[0.0, 1.0]]}, "one row"),
+        ({"times": [-1.0, 1.0]}, "start at -1; allowed: from 0 on"),
+        ({"times": [0.0, 1e9]}, "allowed: up to"),
+        ({"force": [0.0, 1e9, 0.0]}, "allowed: up to"),
+    ],
+)
+def test_refusals(arguments, allowed, sphere_curve):
+    call = {"force": 1.0, "viscosity": VISCOSITY, "times": [0.0, 1.0, 2.0]} | arguments
+    with pytest.raises(ValueError, match=r"^[^\n]+$") as refusal:
+        kinetics(sphere_curve, **call)
+    assert allowed in str(refusal.value)
+
+
+def test_refusal_names_the_largest_impulse(sphere_curve):
+    limit = VISCOSITY * sphere_curve.force[-1]
+    kinetics(sphere_curve, 1.0, VISCOSITY, [limit])
+    with pytest.raises(ValueError, match=f"allowed: up to {limit:.6g}"):
+        kinetics(sphere_curve, 1.0, VISCOSITY, [1.0001 * limit])

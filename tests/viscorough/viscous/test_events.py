@@ -1,0 +1,61 @@
+"""The direct integration of the viscous problem against exact solutions and against the elastic loading path."""
+
+import numpy as np
+import pytest
+
+from viscorough import reference
+from viscorough.contact.loading_path import indent
+from viscorough.indenter import Indenter
+from viscorough.surfaces import self_affine_disc
+from viscorough.viscous.events import march_events
+
+
+@pytest.mark.parametrize(("hurst", "elements"), [(0.2, 33), (0.5, 33), (0.2, 65), (0.8, 65)])
+def test_agrees_with_the_correspondence_over_the_whole_curve(hurst, elements):
+    """t(u) under constant force, with no common code but the influence coefficients: the elastic force is F t/η."""
+    disc = self_affine_disc(hurst, elements, seed=3)
+    events = march_events(disc)
+    assert events.contact_count[-1] == disc.elements
+    depths = np.unique(events.depth[1:])[:: disc.elements // 40]
+    elastic = indent(disc, tolerance=1e-11, depths=depths)
+    impulse = np.interp(depths, events.depth, events.impulse)
+    np.testing.assert_allclose(elastic.force, impulse, rtol=1e-10)
+
+
+def test_sphere_follows_lee_and_radok():
+    """Radius 2 on a square of side 2, F/η = 1: u^(3/2) = 3Ft/(16η√R), not the 11 % more of Eq. (8) with its Γ."""
+    x = (np.arange(33) - 16) * 2 / 33
+    sphere = Indenter(-(x[:, None] ** 2 + x**2) / 4, 2 / 33)
+    events = march_events(sphere, until_fraction=0.5)
+    times = np.linspace(0.3, 0.9, 30) * events.impulse[-1]
+    exact, _ = reference.sphere_penetration(times, 2.0, 1.0, 1.0)
+    error = events.depth_at(times) / exact - 1
+    assert np.abs(error).max() < 3e-3
+
+
+def test_one_element_sinks_at_constant_speed():
+    events = march_events(Indenter(np.array([[1.0]]), 0.5))
+    assert events.contact_count.tolist() == [1]
+    assert events.depth_at(2.0) == pytest.approx(2.0 * 4 * np.log(1 + np.sqrt(2)) / (4 * np.pi * 0.5))
+
+
+def test_ties_and_scales():
+    heights = np.floor(4 * np.random.default_rng(2).random((9, 9)))
+    events = march_events(Indenter(heights, 1.0))
+    scaled = march_events(Indenter(1e-9 * heights, 1e6))
+    np.testing.assert_allclose(scaled.impulse, 1e-3 * events.impulse, rtol=1e-10, atol=1e-15)
+    np.testing.assert_allclose(scaled.resistance, 1e6 * events.resistance, rtol=1e-10)
+    assert np.all(np.diff(events.depth) >= 0)
+    assert np.all(np.diff(events.resistance) >= 0)
+
+
+def test_refuses_what_does_not_fit_before_trying():
+    with pytest.raises(MemoryError, match=r"elements in contact takes .* bytes of memory, .* bytes are available"):
+        march_events(Indenter(np.random.default_rng(1).random((600, 600)), 1.0))
+
+
+def test_refuses():
+    with pytest.raises(ValueError, match="two-dimensional"):
+        march_events(Indenter(np.zeros(3), 1.0))
+    with pytest.raises(ValueError, match="until"):
+        march_events(Indenter(np.zeros((3, 3)), 1.0), until_fraction=0)

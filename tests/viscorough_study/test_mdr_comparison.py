@@ -1,0 +1,59 @@
+"""Lines that have the spectrum of a surface, and their comparison with it."""
+
+import numpy as np
+import pytest
+
+from viscorough.mdr import line_of_surface
+from viscorough.surfaces import self_affine_square
+from viscorough_study.ensembles import abscissa
+from viscorough_study.figures.comparisons import plot_reduction
+from viscorough_study.mdr_comparison import COLUMNS, compare_reduction
+
+
+@pytest.mark.parametrize("n", [64, 65])
+def test_line_has_the_power_of_the_rings(n):
+    square = self_affine_square(0.6, n, seed=1)
+    line = line_of_surface(square, 0.5, 2)
+    assert line.heights.shape == (n,)
+    assert line.spacing == 0.5
+    # Without corners all waves of the map are in rings up to the Nyquist wavenumber: equal rms heights.
+    assert line.heights.std() == pytest.approx(square.std(), rel=1e-12)
+    one = np.cos(2 * np.pi * 3 * np.arange(n) / n)
+    of_one_wave = line_of_surface(np.tile(one, (n, 1)), 1.0, 3).heights
+    power = np.abs(np.fft.rfft(of_one_wave)) ** 2
+    assert np.argmax(power) == 3
+    assert power[3] == pytest.approx(power.sum(), rel=1e-9)
+
+
+def test_spectrum_is_that_of_equation_13():
+    """C1D = π q C2D: a slope smaller by one, averaged over realizations."""
+    n, k = 256, np.arange(4, 100)
+    power = 0
+    for seed in range(40):
+        line = line_of_surface(self_affine_square(0.7, n, seed=seed), 1.0, seed)
+        power = power + np.abs(np.fft.rfft(line.heights)[k]) ** 2
+    assert np.polyfit(np.log(k), np.log(power), 1)[0] == pytest.approx(-(2 * 0.7 + 1), abs=0.05)
+
+
+def test_phases_are_the_seeds():
+    square = self_affine_square(0.6, 33, seed=1)
+    first, again, other = (line_of_surface(square, 1.0, seed).heights for seed in (5, 5, 6))
+    np.testing.assert_array_equal(first, again)
+    assert np.abs(first - other).max() > 0.1
+    with pytest.raises(ValueError, match="the map must be square"):
+        line_of_surface(square[1:], 1.0, 1)
+
+
+def test_comparison_and_its_figure():
+    x = abscissa(1e-3, 3.0, 5)
+    table = compare_reduction([0.8], 33, 6, x, tolerance=1e-3, seed=1)
+    assert list(table) == list(COLUMNS)
+    assert (table["stiffness_ratio_low"] < table["stiffness_ratio"]).all()
+    assert table["stiffness_ratio"].between(0.3, 3).all()
+    assert table["correlation"].between(-1, 1).all()
+    assert (table["realizations"] == 6).all()
+    assert table["stiffness"].is_monotonic_increasing
+    figure = plot_reduction(table)
+    assert len(figure.axes) == 3
+    with pytest.raises(ValueError, match="no rows"):
+        plot_reduction(table[:0])

@@ -1,0 +1,135 @@
+"""Verdicts: on ensembles that obey a law exactly, that miss it, and that obey it under one convention only."""
+
+import importlib.util
+import re
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from support.study import CLAIMS, LIMITS, ROOT, evidence
+from viscorough import reference
+from viscorough_study.verdicts import JUDGES, VERDICTS, Evidence, judge, markdown, overall
+
+
+@pytest.fixture(scope="module")
+def table():
+    return judge(CLAIMS, evidence())
+
+
+def test_every_claim_is_judged_and_shown(table):
+    assert list(CLAIMS) == list(JUDGES)
+    assert set(table["claim"]) == set(CLAIMS)
+    assert set(table["verdict"]) <= set(VERDICTS)
+    rules = "".join(path.read_text() for path in (ROOT / "workflow/rules").glob("*.smk"))
+    for claim in CLAIMS.values():
+        assert f"figures/{claim['figure']}.png" in rules
+
+
+def test_verdicts_on_surfaces_that_obey_equation_4(table):
+    verdicts = overall(table)
+    said = "collapse", "first_region", "last_region", "power_law", "beta", "beta_lines", "coincide"
+    assert {verdicts[name] for name in (*said, "zeta_elastic", "bodies_of_revolution")} == {"reproduced"}
+    assert {verdicts[name] for name in ("zeta_viscous", "gamma", "line_spectrum", "elements")} == {"not reproduced"}
+    assert verdicts["computing_time"] == "not testable"
+    depth = table[table["claim"] == "depth"]["value"]
+    assert (depth < 1).all(), "while one element touches less depth is gained than by the power law from zero on"
+    exact = table[table["claim"] == "zeta_elastic"]
+    np.testing.assert_allclose(exact["value"], exact["expected"], rtol=0.02)
+    assert (exact["low"] < exact["high"]).all()
+
+
+def test_factor_of_equation_9_belongs_to_equation_11():
+    """ζ = 2 − H with the factor in the law is (2 − H) Γ(2 − α) without it."""
+    from scipy.special import gamma
+
+    found = evidence(lambda hurst: (2 - hurst) * gamma(2 - reference.exponent_alpha(hurst)))
+    verdicts = overall(judge({name: CLAIMS[name] for name in ("zeta_viscous", "zeta_elastic", "master_curve")}, found))
+    assert verdicts == {
+        "zeta_viscous": "reproduced",
+        "zeta_elastic": "not reproduced",
+        "master_curve": "reproduced",
+    }
+
+
+def test_other_exponent_is_not_reproduced():
+    verdicts = overall(judge({"beta": CLAIMS["beta"]}, evidence(bent=0.06)))
+    assert verdicts == {"beta": "not reproduced"}
+
+
+def test_convention_is_named_under_which_a_claim_holds():
+    found = evidence(lambda hurst: 1.3 * reference.zeta_elastic(hurst), square=1 / 1.3)
+    rows = judge({"zeta_elastic": CLAIMS["zeta_elastic"]}, found)
+    assert overall(rows) == {"zeta_elastic": "reproduced under a stated convention"}
+    assert rows["convention"].str.startswith("rms_convention square").all()
+
+
+def test_scatter_of_combinations_is_seen():
+    wide = evidence()
+    for each in wide.discs.values():
+        each[0] = each[0].assign(velocity=2 * each[0]["velocity"])
+    assert overall(judge({"collapse": CLAIMS["collapse"]}, wide)) == {"collapse": "not reproduced"}
+
+
+def test_scatter_of_few_realizations_is_not_taken_for_that_of_combinations():
+    """20 realizations that scatter by 0.5 shift means of combinations by 0.1, a third of what Hurst exponents do."""
+    few = judge({"collapse": CLAIMS["collapse"]}, evidence(scatter=0.5))
+    assert overall(few) == {"collapse": "not testable"}
+    assert (few["low"] == 0).all()
+    assert overall(judge({"collapse": CLAIMS["collapse"]}, evidence(scatter=0.2))) == {"collapse": "reproduced"}
+
+
+def test_interval_decides():
+    """What is certainly beyond the tolerance fails, what may not be does not, what is uncertain says nothing."""
+    found = evidence()
+    rows = found.scaling["source"] == "discs"
+    for half_width, verdict in ((0.005, "not reproduced"), (0.05, "reproduced"), (0.2, "not testable")):
+        law = reference.exponent_beta(found.scaling.loc[rows, "hurst"])
+        for name, shift in (("beta", 0.0), ("beta_low", -half_width), ("beta_high", half_width)):
+            found.scaling.loc[rows, name] = law + 0.04 + shift
+        assert overall(judge({"beta": CLAIMS["beta"]}, found)) == {"beta": verdict}
+
+
+def test_without_region_nothing_is_claimed():
+    found = evidence()
+    few = Evidence(**{**vars(found), "limits": LIMITS | {"elements_min": 10**9}})
+    names = ("collapse", "depth", "master_curve")
+    rows = judge({name: CLAIMS[name] for name in names}, few)
+    assert set(rows["verdict"]) == {"not testable"}
+    assert rows["value"].isna().all()
+    assert overall(rows) == dict.fromkeys(names, "not testable")
+
+
+def test_markdown_has_a_row_for_every_claim(table):
+    lines = markdown(table, CLAIMS).splitlines()
+    assert len(lines) == 2 + len(CLAIMS)
+    assert {line.count(" | ") for line in lines[2:]} == {3}
+
+
+def test_many_cases_are_summed_up(table):
+    rows = pd.concat([table[table["claim"] == "beta"].iloc[:1]] * 12, ignore_index=True)
+    rows["case"] = [f"H = 0.{i}" for i in range(12)]
+    rows.loc[5, "value"] = 0.9
+    line = markdown(rows, CLAIMS).splitlines()[2]
+    assert "12 cases, of which H = 0.0: " in line
+    assert "H = 0.5: 0.9 [" in line
+    assert "H = 0.11: " in line
+    assert "H = 0.3: " not in line
+
+
+def test_unknown_claim_is_named():
+    with pytest.raises(ValueError, match="claim beauty: nothing computes it"):
+        judge({"beauty": CLAIMS["beta"]}, evidence())
+
+
+def test_readme_has_the_published_verdicts():
+    """benchmarks/publish.py writes both."""
+    published = pd.read_csv(ROOT / "docs/claims.csv")
+    assert list(dict.fromkeys(published["claim"])) == list(CLAIMS)
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    shown = re.search(r"<!-- verdicts: .*? -->\n\n(.*?)\n<!-- end of verdicts -->", readme, re.DOTALL)[1]
+    spec = importlib.util.spec_from_file_location("publish", ROOT / "benchmarks/publish.py")
+    publish = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(publish)
+    assert shown == publish.verdicts()
+    assert shown.startswith(markdown(published, CLAIMS))

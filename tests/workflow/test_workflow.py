@@ -116,8 +116,8 @@ def test_combinations_are_in_real_units(finished):
 def test_kernels_are_compiled_before_the_jobs(finished):
     """Once for these sources: the stamp holds their digests."""
     assert re.fullmatch(r"[0-9a-f]{16} [0-9a-f]{16}", (finished / ".snakemake/kernels").read_text())
-    assert list((finished / "src/viscorough/__pycache__").glob("gradients.*.nbi"))
-    assert list((finished / "src/viscorough/__pycache__").glob("reduction.*.nbi"))
+    assert list((finished / "src/viscorough/contact/__pycache__").glob("grid_solver.*.nbi"))
+    assert list((finished / "src/viscorough/__pycache__").glob("mdr.*.nbi"))
 
 
 def test_again_there_is_nothing_to_be_done(finished):
@@ -245,11 +245,11 @@ def test_more_realizations_keep_those_that_are_there(finished):
 @pytest.mark.parametrize(
     ("module", "rerun"),
     [
-        ("scaling", FITS),
-        ("validation", VALIDATION),
-        ("reduction", FITS | VALIDATION | {"indent_lines", "aggregate_lines", "compare_reduction"}),
+        ("viscorough_study/power_law", FITS),
+        ("viscorough_study/validate_solvers", VALIDATION),
+        ("viscorough/mdr", FITS | VALIDATION | {"indent_lines", "aggregate_lines", "compare_reduction"}),
         (
-            "indentation",
+            "viscorough/contact/loading_path",
             FITS
             | VALIDATION
             | {"generate_discs", "indent_discs", "aggregate_discs", "compare_reduction", "compare_direct"},
@@ -257,7 +257,7 @@ def test_more_realizations_keep_those_that_are_there(finished):
     ],
 )
 def test_an_edit_of_the_package_reruns_what_imports_it(finished, module, rerun):
-    path = finished / "src/viscorough" / f"{module}.py"
+    path = finished / "src" / f"{module}.py"
     text, times = path.read_text(), path.stat()
     path.write_text(text + "# edited\n")
     try:

@@ -14,11 +14,12 @@ from tqdm import tqdm
 from viscorough.io.storage import whole_or_not_at_all
 from viscorough_study.performance import timing
 from viscorough_study.robustness.random_indenters import generated_case, silent_failure
+from viscorough_study.seeds import random_indenter_key, realization_seed
 
 
 def case_generator(seed, case):
     """The generator of one case, whatever cases are run beside it."""
-    return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(case,)))
+    return np.random.default_rng(realization_seed(seed, *random_indenter_key(case)))
 
 
 @click.command()

@@ -14,7 +14,7 @@ from viscorough.contact.loading_path import indent
 from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
 from viscorough.viscous.events import march_events
-from viscorough_study.seeds import realization_seed
+from viscorough_study.seeds import gamma_factor_key, realization_seed
 
 COLUMNS = {
     "case": ("indenter", ""),
@@ -42,7 +42,7 @@ def compare_direct(hursts, across, seed, *, impulses=25):
         impulse = np.geomspace(*body.force(body.mdr_profile(np.array([6, 0.35 * across]) / across)), impulses)
         rows += _rows(name, alpha, events, impulse, body.depth(impulse))
     for hurst in hursts:
-        disc = self_affine_disc(hurst, across, seed=realization_seed(seed, 11, round(hurst * 1e6)))
+        disc = self_affine_disc(hurst, across, seed=realization_seed(seed, *gamma_factor_key(hurst)))
         events, elastic = march_events(disc, until_fraction=0.5), indent(disc, tolerance=1e-6, until_fraction=0.5)
         impulse = np.geomspace(events.impulse[10], 0.9 * min(events.impulse[-1], elastic.force[-1]), impulses)
         alpha = reference.exponent_alpha(hurst)

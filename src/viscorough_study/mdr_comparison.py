@@ -11,7 +11,7 @@ from viscorough.contact.loading_path import indent
 from viscorough.indenter import Indenter
 from viscorough.mdr import line_of_surface, reduce
 from viscorough.surfaces import cut_disc, self_affine_square
-from viscorough_study.seeds import realization_seed
+from viscorough_study.seeds import mdr_comparison_key, realization_seed
 
 COLUMNS = {
     "hurst": ("Hurst exponent H", "1"),
@@ -41,7 +41,7 @@ def compare_reduction(hursts, elements, realizations, x, *, tolerance, seed, pro
     for hurst in hursts:
         found, force = [], 4 * x
         for number in progress(range(realizations)):
-            key = realization_seed(seed, 12, round(hurst * 1e6), number)
+            key = realization_seed(seed, *mdr_comparison_key(hurst, number))
             of_surface, of_line = key.spawn(2)
             square = self_affine_square(hurst, elements, seed=of_surface)
             square /= np.nanstd(cut_disc(square, elements))

@@ -7,11 +7,12 @@ import itertools
 import os
 import subprocess
 import sys
-import zlib
 from functools import cache
 from pathlib import Path
 
 import yaml
+
+from viscorough_study import seeds
 
 # One thread per job: jobs run side by side. Numba heeds only its own variable.
 os.environ.update(NUMBA_NUM_THREADS="1", OMP_NUM_THREADS="1")
@@ -34,17 +35,14 @@ def hurst_id(hurst):
 def disc_cases(settings):
     """{case: group, spawn key, realizations, batch, elements, surface (arguments of self_affine_disc)} of every ensemble.
 
-    Spawn keys are (1 discs, H·10⁶, number of the combination), (2 variants, H·10⁶, CRC-32 of the name), (8 sizes,
-    H·10⁶, elements) and (13 controls, H·10⁶, elements), to which the realization is added: no position in a list, no
-    batch and no order enters.
+    To a spawn key the number of the realization is added: no position in a list, no batch and no order enters.
     """
     cases, unit = {}, {"rms": 1.0, "diameter": 1.0}
     for hurst in settings["discs"]["hurst"]:
-        micro = round(hurst * 1e6)
         for each in settings["discs"]["combinations"]:
             cases[f"{hurst_id(hurst)}_c{each['number']}"] = {
                 "group": "base",
-                "spawn_key": [1, micro, each["number"]],
+                "spawn_key": list(seeds.disc_key(hurst, each["number"])),
                 "combination": each,
                 "surface": settings["surface"] | {"hurst": hurst, "rms": each["rms"], "diameter": each["diameter"]},
                 **{name: settings["discs"][name] for name in ("elements", "realizations", "batch")},
@@ -53,7 +51,7 @@ def disc_cases(settings):
             changed = {name: value for name, value in each.items() if name != "name"}
             cases[f"{hurst_id(hurst)}_{each['name']}"] = {
                 "group": each["name"],
-                "spawn_key": [2, micro, zlib.crc32(each["name"].encode())],
+                "spawn_key": list(seeds.variant_key(hurst, each["name"])),
                 "surface": settings["surface"] | changed | unit | {"hurst": hurst},
                 "elements": settings["discs"]["elements"],
                 **{name: settings["variants"][name] for name in ("realizations", "batch")},
@@ -63,7 +61,7 @@ def disc_cases(settings):
     for hurst, elements in itertools.product(sizes["hurst"], sizes["elements"]):
         cases[f"{hurst_id(hurst)}_n{elements}"] = {
             "group": "sizes",
-            "spawn_key": [8, round(hurst * 1e6), elements],
+            "spawn_key": list(seeds.size_disc_key(hurst, elements)),
             "surface": settings["surface"] | unit | {"hurst": hurst},
             "elements": elements,
             **shared,
@@ -72,7 +70,7 @@ def disc_cases(settings):
     for elements in sizes["elements"]:
         cases[f"{hurst_id(hurst)}_control_n{elements}"] = {
             "group": "controls",
-            "spawn_key": [13, round(hurst * 1e6), elements],
+            "spawn_key": list(seeds.size_control_key(hurst, elements)),
             "surface": settings["surface"] | unit | sizes["control"],
             "elements": elements,
             **shared,
@@ -81,16 +79,13 @@ def disc_cases(settings):
 
 
 def line_cases(settings):
-    """{line: group, spawn key, realizations, batch, points, surface (arguments of self_affine_line)} of every ensemble.
-
-    Spawn keys are (3 lines, H·10⁶) and (9 sizes, H·10⁶, points).
-    """
+    """{line: group, spawn key, realizations, batch, points, surface (arguments of self_affine_line)} of every ensemble."""
     shared = {name: settings["surface"][name] for name in ("amplitudes", "roll_off_wavelength", "roll_off_level")}
     shared |= {"rms": 1.0, "length": 1.0}
     cases = {
         hurst_id(hurst): {
             "group": "lines",
-            "spawn_key": [3, round(hurst * 1e6)],
+            "spawn_key": list(seeds.line_key(hurst)),
             "surface": shared | {"hurst": hurst},
             **{name: settings["lines"][name] for name in ("points", "realizations", "batch")},
         }
@@ -99,7 +94,7 @@ def line_cases(settings):
     for hurst, points in itertools.product(settings["sizes"]["hurst"], settings["sizes"]["points"]):
         cases[f"{hurst_id(hurst)}_n{points}"] = {
             "group": "sizes",
-            "spawn_key": [9, round(hurst * 1e6), points],
+            "spawn_key": list(seeds.size_line_key(hurst, points)),
             "surface": shared | {"hurst": hurst},
             "points": points,
             **{name: settings["sizes"][name] for name in ("realizations", "batch")},

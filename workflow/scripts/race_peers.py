@@ -10,7 +10,7 @@ from threadpoolctl import threadpool_limits
 from viscorough_study.job_log import log_to
 from viscorough_study.performance import timing
 from viscorough_study.performance.other_solvers import COLUMNS, Peer, race
-from viscorough_study.seeds import realization_seed
+from viscorough_study.seeds import realization_seed, solver_race_key
 from viscorough_study.tables import write_table
 
 
@@ -26,7 +26,7 @@ def main(csv, nc, *, seed, hurst, repeats, longest, tasks, peers):
         fractions = np.geomspace(*task["fractions"], task["levels"]) if task["levels"] > 1 else task["fractions"][:1]
         for each in hurst:
             common = {"threads": task["threads"], "repeats": repeats, "longest": longest, "report": logging.info}
-            disc_seed = realization_seed(seed, 5, number, round(each * 1e6))
+            disc_seed = realization_seed(seed, *solver_race_key(number, each))
             race_of = (task["name"], each, task["elements"], fractions, task["residual"], present)
             tables.append(race(*race_of, seed=disc_seed, **common))
     title = f"The same levels by other solvers, on {timing.machine()}"

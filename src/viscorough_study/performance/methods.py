@@ -21,7 +21,7 @@ from viscorough.surfaces import self_affine_disc, self_affine_line
 from viscorough.viscous.events import march_events
 from viscorough.viscous.stepping import SCHEMES, march_steps
 from viscorough_study.performance import ablations, other_solvers, timing
-from viscorough_study.seeds import realization_seed
+from viscorough_study.seeds import method_problem_key, realization_seed
 
 BODIES = {"sphere": reference.sphere(1.0), "cone": reference.cone(0.1)}
 FINAL_X, FINAL_FRACTION = 30.0, 0.9  # where a rough disc's curve ends
@@ -108,7 +108,7 @@ class Method:
 
 def rough_problem(hurst, elements, levels, root):
     """A self-affine disc, at depths from the second element in contact to FINAL_X or FINAL_FRACTION."""
-    seed = realization_seed(root, 4, round(hurst * 1e6), elements)  # 1 to 3 are ensembles of the workflow
+    seed = realization_seed(root, *method_problem_key(hurst, elements))
     disc = self_affine_disc(hurst, elements, seed=seed)
     coarse = indent(disc, tolerance=1e-2, until_fraction=FINAL_FRACTION, until_force=4 * FINAL_X)
     first = coarse.depth[np.argmax(coarse.contact_count > 1)]

@@ -20,6 +20,8 @@ from scipy.integrate import quad_vec
 from scipy.special import ellipk
 from scipy.special import gamma as gamma_function
 
+from viscorough.indenter import Indenter
+
 UNIT_SQUARE_DEFLECTION = 4 * np.log(1 + np.sqrt(2))  # K₀₀ = πE*u/(pd), u at the centre of a loaded square
 COMPLETE_CONTACT_STIFFNESS = 1.0  # κ of the whole disc as a flat punch, k = 2E*·L/2; region (c): vt/h = X
 
@@ -64,6 +66,15 @@ class PowerLawBody:
     def stiffness(self, depth):
         """k/G = 8a at depth u."""
         return 8 * self.contact_radius(depth)
+
+    def indenter(self, elements_across, width=1.0):
+        """Indenter of this shape on a square of the given width, its tip (height 0) at the centre of the square."""
+        x = _element_centres(elements_across, width)
+        return Indenter(-self.coefficient * np.hypot(x[:, None], x) ** self.exponent, width / elements_across)
+
+    def mdr_line(self, points, width=1.0):
+        """Line of the given width that stands for this body in the reduction of dimensionality."""
+        return Indenter(-self.mdr_profile(_element_centres(points, width)), width / points)
 
 
 def sphere(radius):
@@ -185,6 +196,11 @@ def one_element_stiffness(elements_across):
     A square of side d = L/n under uniform pressure p sinks by u = pd K₀₀/(πE*) at its centre.
     """
     return np.pi / (UNIT_SQUARE_DEFLECTION * elements_across)
+
+
+def _element_centres(number, width):
+    """Centres of equal elements that fill an interval of the given width around 0, shape (number,)."""
+    return (np.arange(number) - (number - 1) / 2) * width / number
 
 
 def _require_positive(name, value):

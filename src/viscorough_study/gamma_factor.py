@@ -11,7 +11,6 @@ from scipy.special import gamma as gamma_function
 
 from viscorough import reference
 from viscorough.contact.loading_path import indent
-from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
 from viscorough.viscous.events import march_events
 from viscorough_study.seeds import gamma_factor_key, realization_seed
@@ -34,11 +33,9 @@ def compare_direct(hursts, across, seed, *, impulses=25):
     each Hurst exponent: over the loading curve by boundary elements of the same disc.
     hursts : Hurst exponents; across : elements across all indenters; seed : root of the discs' seeds
     """
-    radius = np.hypot(*np.meshgrid(*[(np.arange(across) - (across - 1) / 2) / across] * 2))
     rows = []
     for name, (body, alpha) in BODIES.items():
-        indenter = Indenter(-body.coefficient * radius**body.exponent, 1 / across)
-        events = march_events(indenter, until_fraction=0.4)
+        events = march_events(body.indenter(across), until_fraction=0.4)
         impulse = np.geomspace(*body.force(body.mdr_profile(np.array([6, 0.35 * across]) / across)), impulses)
         rows += _rows(name, alpha, events, impulse, body.depth(impulse))
     for hurst in hursts:

@@ -88,14 +88,13 @@ def failures(table):
 
 def _errors_on_grid(n):
     """{case: {quantity: error}} for n elements across L."""
-    x = (np.arange(n) - (n - 1) / 2) / n
-    radius = np.hypot(x[:, None], x)
     cases = {}
     for name, body in BODIES.items():
-        indenter = Indenter(-body.coefficient * radius**body.exponent, 1 / n)
+        indenter = body.indenter(n)
         cases[name] = _indentation(indenter, body)
         cases |= {f"{name}_{history}_force": e for history, e in _penetration(indenter, body).items()}
-        cases[f"{name}_reduction"] = _reduction(Indenter(-body.mdr_profile(x), 1 / n), body)
+        cases[f"{name}_reduction"] = _reduction(body.mdr_line(n), body)
+    x = (np.arange(n) - (n - 1) / 2) / n
     for name, (major, minor) in SEMI_AXES.items():
         flat = np.where((x[:, None] / minor) ** 2 + (x / major) ** 2 <= 1, 0.0, np.nan)
         punch = Indenter(cut_disc(np.zeros((n, n)), n) if name == "disc" else flat, 1 / n)

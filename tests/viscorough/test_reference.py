@@ -92,6 +92,17 @@ def test_sphere_is_hertz_and_cone_is_love():
     np.testing.assert_allclose(cone.contact_radius(depth), 2 * depth / (np.pi * slope), rtol=1e-14)
 
 
+@pytest.mark.parametrize(("coefficient", "exponent"), BODIES)
+def test_bodies_stand_on_grids_of_any_width(coefficient, exponent):
+    body = reference.PowerLawBody(coefficient, exponent)
+    indenter, line = body.indenter(4, width=2.0), body.mdr_line(4, width=2.0)
+    assert indenter.spacing == line.spacing == 0.5
+    centres = np.array([-0.75, -0.25, 0.25, 0.75])
+    row, column = np.meshgrid(centres, centres)
+    np.testing.assert_allclose(indenter.heights, -coefficient * (row**2 + column**2) ** (exponent / 2), rtol=1e-14)
+    np.testing.assert_allclose(line.heights, -body.mdr_profile(centres), rtol=1e-14)
+
+
 def test_transform_of_a_round_tip_on_a_cone():
     """Hyperboloid f = s(√(r²+b²) − b), not a power law: g = s x·arctan(x/b)."""
     slope, tip = 0.4, 0.2

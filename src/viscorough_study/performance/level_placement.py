@@ -52,8 +52,7 @@ class Scene:
 
 def scenes(elements, hurst, seed):
     """One asperity, region (b) alone, a full curve, and a coarse and a fine question about it."""
-    x = (np.arange(elements) - (elements - 1) / 2) / elements
-    asperity = Indenter(-reference.sphere(1.0).coefficient * np.hypot(x[:, None], x) ** 2, 1 / elements)
+    asperity = reference.sphere(1.0).indenter(elements)
     disc = self_affine_disc(hurst, elements, seed=seed)
     few = 10 / disc.elements
     return [

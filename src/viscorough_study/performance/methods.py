@@ -122,8 +122,7 @@ def rough_problem(hurst, elements, levels, root):
 
 def body_problem(name, body, elements, levels):
     """A sphere or a cone, on radii of contact from 0.1 to 0.45 L, with the velocities of the exact solution."""
-    x = (np.arange(elements) - (elements - 1) / 2) / elements
-    indenter = Indenter(-body.coefficient * np.hypot(x[:, None], x) ** body.exponent, 1 / elements)
+    indenter = body.indenter(elements)
     depth = body.mdr_profile(np.geomspace(0.1, 0.45, levels))
     force = body.force(depth)
     everywhere = np.ones(levels, dtype=bool)
@@ -237,11 +236,7 @@ def _peer(peer, longest, problem, tolerance):
 
 def _reduction(problem, points):
     """MDR: the line of a body of revolution; for a rough disc one random line of the same h, L and H."""
-    if problem.body:
-        x = (np.arange(points) + 0.5) / points - 0.5
-        line = Indenter(-problem.body.mdr_profile(x), 1 / points)
-    else:
-        line = self_affine_line(problem.hurst, points, seed=problem.seed)
+    line = problem.body.mdr_line(points) if problem.body else self_affine_line(problem.hurst, points, seed=problem.seed)
     _, stiffness = reduce(line, until_force=problem.force[-1] * (1 + 1e-12)).at_force(problem.force)
     return Answer(problem.force / stiffness, steps=points)
 

@@ -19,7 +19,6 @@ import pandas as pd
 from viscorough import reference
 from viscorough.contact.loading_path import indent
 from viscorough.contact.solver import ContactSolver
-from viscorough.indenter import Indenter
 from viscorough.loading_curve import AccuracyWarning, ConvergenceError
 from viscorough.mdr import reduce
 from viscorough.surfaces import self_affine_disc, self_affine_line
@@ -150,8 +149,7 @@ def _reduction(difficulty, question):
     indenter = difficulty.indenter
     across = indenter.spacing * len(indenter.heights)
     if difficulty.body is not None:
-        x = (np.arange(LINE_POINTS) + 0.5) / LINE_POINTS - 0.5
-        line = Indenter(-difficulty.body.mdr_profile(across * x), across / LINE_POINTS)
+        line = difficulty.body.mdr_line(LINE_POINTS, across)
     else:
         rms = np.nanstd(indenter.heights)
         line = self_affine_line(difficulty.hurst, LINE_POINTS, rms=rms, length=across, seed=1)

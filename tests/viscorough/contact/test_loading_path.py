@@ -15,12 +15,6 @@ from viscorough.surfaces import self_affine_disc
 from viscorough_study.performance.other_solvers import residual_of
 
 
-def body(shape, elements):
-    """Axisymmetric indenter z = −shape(r) on a square grid of side 2, in spacings of 2/elements."""
-    x = (np.arange(elements) - (elements - 1) / 2) * 2 / elements
-    return Indenter(-shape(np.hypot(x[:, None], x[None, :])), 2 / elements)
-
-
 def observed_order(elements, errors):
     return -np.polyfit(np.log(elements), np.log(np.abs(errors)), 1)[0]
 
@@ -49,7 +43,7 @@ def test_bodies_of_revolution_converge_at_second_order(shape):
     depths = np.linspace(0.1, 0.2, 9)
     elements, errors = np.array([33, 65, 129, 257]), []
     for n in elements:
-        curve = indent(body(lambda r: shape.coefficient * r**shape.exponent, n), tolerance=1e-6, depths=depths)
+        curve = indent(shape.indenter(n, width=2), tolerance=1e-6, depths=depths)
         errors.append(np.abs(curve.force / shape.force(depths) - 1).mean())
     assert observed_order(elements, errors) > 1.7
     assert errors[-1] < 5e-5
@@ -59,7 +53,7 @@ def test_sphere_contact_area_and_stiffness_converge():
     shape, depths = reference.sphere(2.0), np.linspace(0.1, 0.2, 9)
     elements, areas, stiffnesses = np.array([33, 65, 129, 257]), [], []
     for n in elements:
-        curve = indent(body(lambda r: r**2 / 4, n), tolerance=1e-6, depths=depths)
+        curve = indent(shape.indenter(n, width=2), tolerance=1e-6, depths=depths)
         radius = np.sqrt(curve.contact_count * (2 / n) ** 2 / np.pi)
         areas.append(np.abs(radius / shape.contact_radius(depths) - 1).mean())
         stiffnesses.append(np.abs(curve.stiffness / shape.stiffness(depths) - 1).mean())

@@ -11,7 +11,7 @@ import click
 import numpy as np
 from tqdm import tqdm
 
-from viscorough.io.storage import whole_or_not_at_all
+from viscorough.io.atomic import atomic_write
 from viscorough_study.performance import timing
 from viscorough_study.robustness.random_indenters import generated_case, silent_failure
 from viscorough_study.seeds import random_indenter_key, realization_seed
@@ -39,7 +39,7 @@ def main(cases, seed, output):
             tqdm.write(f"case {case}: {wrong}")
     about = {"machine": timing.machine(), "version": version("viscorough"), "seed": seed, "cases": cases}
     result = about | {"seconds": round(time.perf_counter() - began, 1), "silent_failures": failures}
-    with whole_or_not_at_all(output) as temporary:
+    with atomic_write(output) as temporary:
         temporary.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
     click.echo(f"{output}: {len(failures)} silent failures among {cases} indenters in {result['seconds']} s")
     raise SystemExit(bool(failures))

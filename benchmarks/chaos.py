@@ -24,7 +24,7 @@ import numpy as np
 import psutil
 
 import viscorough
-from viscorough.io.storage import read_dataset
+from viscorough.io.datasets import read_dataset
 from viscorough_study.performance import timing
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -18,7 +18,7 @@ _HOME = {
     "reduce": "mdr",
     "kinetics": "viscous.correspondence",
     "penetration_law": "calibrated_law",
-    "read_heights": "io.storage",
+    "read_heights": "io.heights",
 }
 __all__ = sorted(_HOME)
 

@@ -12,7 +12,7 @@ import warnings
 import numpy as np
 import xarray as xr
 
-from viscorough.io.storage import unstack_curves
+from viscorough.io.datasets import unstack_curves
 
 _MEANING = {
     "x": ("dimensionless force F/(4GhL) or time Ft/(4ηhL)", "Eq. 2 and Eq. 3"),
@@ -93,7 +93,7 @@ def aggregate(curves, rms, diameter, x, *, hurst, case):
 def aggregate_batches(batches, conventions, x, *, case):
     """Ensemble of one case from batches of its loading curves, of which one at a time need be in memory.
 
-    batches : iterable of datasets of storage.stack_curves with hurst, diameter and rms_<name> for the names in
+    batches : iterable of datasets of stack_curves with hurst, diameter and rms_<name> for the names in
         `conventions`; x, case : as in `aggregate`
     Returns the ensemble dataset with the settings of the first batch.
     """

@@ -3,7 +3,8 @@
 import xarray as xr
 
 from viscorough.calibrated_law import COLUMNS as CALIBRATION
-from viscorough.io.storage import whole_or_not_at_all, write_dataset
+from viscorough.io.atomic import atomic_write
+from viscorough.io.datasets import write_dataset
 
 
 def write_table(table, csv_path, nc_path, *, columns, dimension, title):
@@ -24,7 +25,7 @@ def write_table(table, csv_path, nc_path, *, columns, dimension, title):
             values, attributes = values.astype(str).astype(object), {"long_name": long_name}
         ds[name] = (dimension, values, attributes)
     write_dataset(ds, nc_path)
-    with whole_or_not_at_all(csv_path) as temporary:
+    with atomic_write(csv_path) as temporary:
         table.to_csv(temporary, index=False, lineterminator="\n")
 
 

@@ -1,6 +1,5 @@
-"""The contract of the command line, through real files; and the log of a job."""
+"""The contract of the command line, through real files."""
 
-import logging
 import os
 import signal
 import subprocess
@@ -10,6 +9,7 @@ import time
 import warnings
 from pathlib import Path
 
+import click
 import numpy as np
 import pytest
 import xarray as xr
@@ -18,10 +18,11 @@ from support.command_line import RADIUS, VISCOROUGH, sphere_heights
 from viscorough import cli
 from viscorough.contact import loading_path
 from viscorough.indenter import Indenter
-from viscorough.io import storage
+from viscorough.io import netcdf
+from viscorough.io.curves import curve_from_content
+from viscorough.io.datasets import read_dataset, write_dataset
 from viscorough.loading_curve import ConvergenceError
 from viscorough.surfaces import self_affine_disc
-from viscorough_study import job_log
 
 FORCE, VISCOSITY = 2.0, 3.0
 
@@ -49,7 +50,7 @@ def here(tmp_path, monkeypatch):
     return tmp_path
 
 
-def complaint(capsys, code=2):
+def complaint(capsys):
     """The one line on stderr; nothing on stdout."""
     captured = capsys.readouterr()
     assert captured.out == ""
@@ -77,7 +78,7 @@ def test_curve_file_is_as_the_contract_says(sphere):
 
 def test_files_hold_what_the_functions_return(sphere):
     curve = loading_path.indent(Indenter(sphere_heights(), 1.0), until_fraction=0.5)
-    stored = storage.curve_from_dataset(storage.read_dataset(sphere / "curve.nc"))
+    stored = curve_from_content(netcdf.read(sphere / "curve.nc"))
     for name in ("depth", "force", "stiffness", "contact_count"):
         np.testing.assert_allclose(getattr(stored, name), getattr(curve, name), rtol=1e-12)
 
@@ -111,7 +112,7 @@ def test_sphere_sinks_as_lee_and_radok_say(sphere):
 
 def test_depths_are_met_exactly_and_in_order(here):
     assert cli.main(["indent", "heights.npy", "--spacing", "1", "--depths", "1e-3, 0.02,0.035", "-o", "a.nc"]) == 0
-    ds = storage.read_dataset("a.nc")
+    ds = read_dataset("a.nc")
     assert ds.depth.values.tolist() == [1e-3, 0.02, 0.035]
     np.testing.assert_allclose(ds.force[0], ds.stiffness[0] * 1e-3, rtol=1e-9)
     assert ds.contact_count[0] == 1
@@ -119,10 +120,10 @@ def test_depths_are_met_exactly_and_in_order(here):
 
 def test_units_of_heights_go_through_to_the_kinetics(here):
     heights = xr.Dataset({"z": (("y", "x"), sphere_heights(9), {"long_name": "height", "units": "um"})})
-    storage.write_dataset(heights, "heights.nc")
+    write_dataset(heights, "heights.nc")
     assert cli.main(["indent", "heights.nc", "--spacing", "1", "-o", "curve.nc"]) == 0
     assert cli.main(["kinetics", "curve.nc", "--force", "1", "--viscosity", "1", "-o", "curve.nc"]) == 0
-    ds = storage.read_dataset("curve.nc")
+    ds = read_dataset("curve.nc")
     units = {name: ds[name].units for name in ("depth", "force", "stiffness", "time", "velocity")}
     assert units == {"depth": "um", "force": "um2", "stiffness": "um", "time": "s", "velocity": "um s-1"}
 
@@ -130,7 +131,7 @@ def test_units_of_heights_go_through_to_the_kinetics(here):
 def test_tolerance_is_passed_on(here):
     for tolerance in ("1e-2", "1e-8"):
         assert cli.main(["indent", "heights.npy", "--spacing", "1", "--tolerance", tolerance, "-o", "a.nc"]) == 0
-        ds = storage.read_dataset("a.nc")
+        ds = read_dataset("a.nc")
         assert ds.tolerance == float(tolerance)
         assert float(ds.residual.max()) <= float(tolerance)
 
@@ -206,7 +207,7 @@ def test_mistakes_are_one_line(here, sphere, capsys, arguments, where, what):
     np.save("outside.npy", np.full((3, 3), np.nan))
     Path("curve.nc").write_bytes((sphere / "curve.nc").read_bytes())
     heights = xr.Dataset({"z": (("y", "x"), sphere_heights(9), {"long_name": "height", "units": "m"})})
-    storage.write_dataset(heights, "map.nc")
+    write_dataset(heights, "map.nc")
     Path("folder").mkdir()
     os.mkfifo("pipe")
     before = {path: path.stat().st_mtime_ns for path in here.rglob("*")}
@@ -217,6 +218,18 @@ def test_mistakes_are_one_line(here, sphere, capsys, arguments, where, what):
     assert {path: path.stat().st_mtime_ns for path in here.rglob("*")} == before
 
 
+@pytest.fixture
+def run():
+    """Run the command line with one command, `indent`, which calls a function."""
+
+    def run_with(function):
+        commands = click.Group()
+        commands.command("indent")(function)
+        return cli.main(["indent"], commands)
+
+    return run_with
+
+
 @pytest.mark.parametrize(
     ("error", "code", "what"),
     [
@@ -224,37 +237,38 @@ def test_mistakes_are_one_line(here, sphere, capsys, arguments, where, what):
         (MemoryError("Unable to allocate 8 TiB"), 2, "not enough memory (Unable to allocate 8 TiB)"),
         (MemoryError(), 2, "not enough memory; a smaller map"),
         (ValueError("depth: too deep"), 2, "viscorough indent: depth: too deep"),
+        (OSError("a.nc: not written"), 2, "viscorough indent: a.nc: not written"),
     ],
 )
-def test_failures_of_the_solver_are_one_line(here, capsys, monkeypatch, error, code, what):
-    def fail(*arguments, **options):
+def test_errors_are_one_line(run, capsys, error, code, what):
+    def fail():
         warnings.warn("overflow on the way", RuntimeWarning, stacklevel=1)
         raise error
 
-    monkeypatch.setattr(loading_path, "indent", fail)
-    assert cli.main(INDENT) == code
+    assert run(fail) == code
     assert what in complaint(capsys)
-    assert os.listdir(here) == ["heights.npy"]
 
 
-def test_warnings_are_told_once_and_in_a_line(here, capsys, monkeypatch):
-    solve = loading_path.indent
-
-    def warn(*arguments, **options):
+def test_warnings_are_written_once_and_on_one_line(run, capsys):
+    def warn():
         for _ in range(3):
             warnings.warn("the spacing\nis odd", UserWarning, stacklevel=1)
-        return solve(*arguments, **options)
 
-    monkeypatch.setattr(loading_path, "indent", warn)
-    assert cli.main(INDENT) == 0
+    assert run(warn) == 0
     assert capsys.readouterr().err == "viscorough indent: warning: the spacing is odd\n"
 
 
-def test_errors_in_the_code_are_not_hidden(here, monkeypatch):
-    monkeypatch.setattr(loading_path, "indent", lambda *arguments, **options: None)
-    with pytest.raises(AttributeError):
-        cli.main(INDENT)
-    assert os.listdir(here) == ["heights.npy"]
+def test_warnings_are_kept_in_the_file(here, capsys):
+    np.save("steep.npy", 100 * sphere_heights(9))
+    assert cli.main(["indent", "steep.npy", *INDENT[2:]]) == 0
+    line = capsys.readouterr().err
+    assert "warning: steep.npy: the rms slope is" in line
+    assert read_dataset("out.nc").attrs["warnings"] in line
+
+
+def test_errors_in_the_code_are_not_hidden(run):
+    with pytest.raises(ZeroDivisionError):
+        run(lambda: 1 / 0)
 
 
 # ---- real processes
@@ -275,12 +289,12 @@ def test_interrupt_is_quiet_and_leaves_nothing(here):
     script = textwrap.dedent("""
         import sys
         from viscorough import cli
-        from viscorough.io import storage
-        read = storage.read_heights
+        from viscorough.io import heights
+        read = heights.read_heights
         def announced(*arguments):
             print("reading", flush=True)
             return read(*arguments)
-        storage.read_heights = announced
+        heights.read_heights = announced
         sys.exit(cli.main(sys.argv[1:]))
     """)
     command = [sys.executable, "-c", script, *INDENT, "--until-fraction", "1"]
@@ -320,82 +334,6 @@ def test_help_and_mistakes_do_not_wait_for_slow_imports():
     assert done.stdout.count("Example") == 3
 
 
-# ---- the log of a job
-
-
-@pytest.fixture
-def root_logger():
-    """The root logger and what hangs on it, put back afterwards."""
-    root, hook = logging.getLogger(), sys.excepthook
-    handlers, level = root.handlers[:], root.level
-    yield root
-    for handler in root.handlers:
-        if handler not in handlers:
-            handler.close()
-    root.handlers[:], sys.excepthook = handlers, hook
-    root.setLevel(level)
-    logging.captureWarnings(False)
-
-
-@pytest.mark.parametrize(
-    ("error", "on_stderr"),
-    [
-        ("ValueError('rms: must be\\n positive')", False),
-        ("ConvergenceError('level 3')", False),
-        ("KeyError('h')", True),
-    ],
-)
-def test_log_gets_messages_warnings_and_the_traceback(tmp_path, error, on_stderr):
-    script = textwrap.dedent(f"""
-        import logging, sys, warnings
-        from viscorough.loading_curve import ConvergenceError
-        from viscorough_study.job_log import log_to
-        log_to(sys.argv[1])
-        logging.info("100 %s of it", "%")
-        warnings.warn("odd spacing")
-        raise {error}
-    """)
-    path = tmp_path / "job.log"
-    path.write_text("of an earlier run\n")
-    done = subprocess.run([sys.executable, "-c", script, path], capture_output=True, text=True, check=False)
-    log = path.read_text()
-    assert done.returncode == 1
-    assert "earlier run" not in log
-    for text in (log, done.stderr):
-        assert "INFO 100 % of it" in text
-        assert "odd spacing" in text
-    assert log.count("Traceback") == 1
-    assert done.stderr.count("Traceback") == on_stderr
-    kind = error.split("(")[0]
-    lines = [line for line in done.stderr.splitlines() if f"ERROR {kind}: " in line]
-    assert len(lines) == 1
-    if kind == "ValueError":
-        assert lines[0].endswith("ERROR ValueError: rms: must be positive")
-
-
-def test_progress_logs_an_estimate_now_and_then(tmp_path, root_logger, monkeypatch):
-    """With a clock that gains 1 s per step, 60 steps are logged every 5 s, with the time that is left."""
-    job_log.log_to(tmp_path / "job.log")
-    clock = iter(range(10_000))
-    ticks = {"now": 0.0}
-    bar = job_log.progress(range(60), 60, "levels")
-    bar._time = lambda: ticks["now"]
-    bar.start_t = bar.last_print_t = 0.0
-    for _ in bar:
-        ticks["now"] = float(next(clock) + 1)
-    lines = (tmp_path / "job.log").read_text().splitlines()
-    assert 10 <= len(lines) <= 13
-    assert "INFO levels: " in lines[0]
-    assert "30 of 60, 00:30 passed, 00:30 to go" in "\n".join(lines)
-    assert all(" of 60, " in line for line in lines)
-
-
-def test_progress_of_a_short_job_logs_nothing(tmp_path, root_logger):
-    job_log.log_to(tmp_path / "job.log")
-    assert list(job_log.progress(iter("abc"), 3, "levels")) == ["a", "b", "c"]
-    assert (tmp_path / "job.log").read_text() == ""
-
-
 # ---- march
 
 
@@ -433,12 +371,15 @@ def test_march_methods_agree_with_kinetics(tmp_path):
     [
         (["--method", "events", "--times", "1,2"], "--times is not for --method events"),
         (["--method", "explicit"], "--times is needed by --method explicit"),
-        (["--method", "implicit", "--times", "2,1"], "must be larger than the last"),
+        (["--method", "implicit", "--times", "2,1"], "must be larger than the one before"),
         (["--method", "implicit", "--times", "1", "--overlap", "0.1"], "--overlap is not for"),
         (["--method", "explicit", "--times", "1", "--until-fraction", "0.1"], "--until-fraction is not for"),
         (["--method", "magic"], "magic"),
         (["--method", "events", "--force-history", "none.csv"], "none.csv"),
-        (["--method", "events", "--force-history", "none.csv", "--force", "1"], "in place of --force and --times"),
+        (
+            ["--method", "events", "--force-history", "none.csv", "--force", "1"],
+            "--force-history replaces --force and --times",
+        ),
     ],
 )
 def test_march_refuses(tmp_path, capsys, arguments, message):

@@ -12,7 +12,7 @@ import pytest
 
 from support.command_line import VISCOROUGH, sphere_heights
 from support.workflow import TEST, command, copy_project, environment, snakemake
-from viscorough.io.storage import read_dataset
+from viscorough.io.datasets import read_dataset
 
 TARGET = "results/ensembles/lines/h04000.nc"
 CURVES = "results/curves/lines/h04000/0000-0001.nc"

@@ -1,6 +1,6 @@
 """Ensemble of the lines of one Hurst exponent: realizations on common abscissae, and their averages."""
 
-from viscorough.io.storage import read_dataset, write_dataset
+from viscorough.io.datasets import read_dataset, write_dataset
 from viscorough_study.ensembles import abscissa, aggregate_batches
 from viscorough_study.job_log import log_to, progress
 

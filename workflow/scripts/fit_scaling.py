@@ -4,7 +4,7 @@ import logging
 
 import pandas as pd
 
-from viscorough.io.storage import read_dataset
+from viscorough.io.datasets import read_dataset
 from viscorough_study.ensembles import combine
 from viscorough_study.job_log import log_to
 from viscorough_study.power_law import COLUMNS, scaling_rows

@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from viscorough.io.storage import read_dataset
+from viscorough.io.datasets import read_dataset
 from viscorough_study.grid_trends import COLUMNS as TRENDS
 from viscorough_study.grid_trends import trends
 from viscorough_study.job_log import log_to, progress

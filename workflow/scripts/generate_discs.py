@@ -5,7 +5,7 @@ import json
 import numpy as np
 import xarray as xr
 
-from viscorough.io.storage import write_dataset
+from viscorough.io.datasets import write_dataset
 from viscorough.surfaces import self_affine_disc
 from viscorough_study.job_log import log_to
 from viscorough_study.seeds import realization_seed

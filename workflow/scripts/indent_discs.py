@@ -6,7 +6,7 @@ import time
 
 from viscorough.contact.loading_path import indent
 from viscorough.indenter import Indenter
-from viscorough.io.storage import read_dataset, stack_curves, write_dataset
+from viscorough.io.datasets import read_dataset, stack_curves, write_dataset
 from viscorough_study.job_log import log_to, progress
 
 

@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 
-from viscorough.io.storage import stack_curves, write_dataset
+from viscorough.io.datasets import stack_curves, write_dataset
 from viscorough.mdr import reduce
 from viscorough.surfaces import self_affine_line
 from viscorough_study.job_log import log_to, progress

@@ -2,7 +2,8 @@
 
 import pandas as pd
 
-from viscorough.io.storage import read_dataset, whole_or_not_at_all
+from viscorough.io.atomic import atomic_write
+from viscorough.io.datasets import read_dataset
 from viscorough_study.job_log import log_to
 from viscorough_study.tables import write_table
 from viscorough_study.verdicts import COLUMNS, Evidence, judge, markdown
@@ -24,7 +25,7 @@ def main(discs, lines, scaling, validation, direct, csv, nc, verdicts, *, claims
     )
     table = judge(claims, evidence)
     write_table(table, csv, nc, columns=COLUMNS, dimension="verdict", title="Verdicts on the paper's claims")
-    with whole_or_not_at_all(verdicts) as temporary:
+    with atomic_write(verdicts) as temporary:
         temporary.write_text(markdown(table, claims), encoding="utf-8")
 
 

@@ -6,7 +6,8 @@ import resource
 import pandas as pd
 
 from viscorough.contact.loading_path import indent
-from viscorough.io.storage import stack_curves, whole_or_not_at_all, write_dataset
+from viscorough.io.atomic import atomic_write
+from viscorough.io.datasets import stack_curves, write_dataset
 from viscorough.surfaces import self_affine_disc
 from viscorough_study.job_log import log_to
 from viscorough_study.performance import timing
@@ -30,7 +31,7 @@ def main(csv, curve, *, elements, seed, hurst, tolerance, until_fraction):
     settings = {"seed": seed, "spawn_key": large_disc_key(elements), "hurst": hurst, "until_fraction": until_fraction}
     ds = stack_curves([found], "1").assign_attrs(title="A disc on a fine grid", settings=json.dumps(settings))
     write_dataset(ds, curve)
-    with whole_or_not_at_all(csv) as temporary:
+    with atomic_write(csv) as temporary:
         pd.DataFrame([cost]).to_csv(temporary, index=False)
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from threadpoolctl import threadpool_limits
 
-from viscorough.io.storage import whole_or_not_at_all
+from viscorough.io.atomic import atomic_write
 from viscorough_study.job_log import log_to
 from viscorough_study.performance.methods import METHODS, measure, named_problem, peer_method
 from viscorough_study.performance.other_solvers import Peer
@@ -17,7 +17,7 @@ def main(csv, *, problem, seed, levels, repeats, longest, peers):
     methods = (*METHODS, *(peer_method(peer, longest) for peer in present))
     with threadpool_limits(1):  # Snakemake gives the job all cores, so that nothing runs beside it
         table = measure(named_problem(**problem, levels=levels, root=seed), repeats, methods, report=logging.info)
-    with whole_or_not_at_all(csv) as temporary:
+    with atomic_write(csv) as temporary:
         table.to_csv(temporary, index=False)
 
 

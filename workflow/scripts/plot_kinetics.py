@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from viscorough.io.storage import read_dataset
+from viscorough.io.datasets import read_dataset
 from viscorough_study.figures.paper import plot_kinetics, save_figure
 from viscorough_study.job_log import log_to
 

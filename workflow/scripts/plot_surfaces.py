@@ -1,6 +1,6 @@
 """Figure 1: an indenter for every Hurst exponent."""
 
-from viscorough.io.storage import read_dataset
+from viscorough.io.datasets import read_dataset
 from viscorough_study.figures.paper import plot_surfaces, save_figure
 from viscorough_study.job_log import log_to
 

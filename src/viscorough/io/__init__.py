@@ -1,1 +1,1 @@
-"""Files: atomic writing, NetCDF, heights and loading curves."""
+"""Files: atomic writing, NetCDF, maps of heights, loading curves, motion over time."""

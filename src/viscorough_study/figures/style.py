@@ -11,7 +11,7 @@ from matplotlib import colormaps, rc_context
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, LogLocator, NullFormatter
 
-from viscorough.io.storage import whole_or_not_at_all
+from viscorough.io.atomic import atomic_write
 
 MM = 1 / 25.4
 WIDE, NARROW = 180 * MM, 120 * MM  # across two columns of a page, and a little more than one
@@ -53,7 +53,7 @@ def save_figure(figure, *paths):
     """
     for path in paths:
         kind = Path(path).suffix[1:]
-        with whole_or_not_at_all(path) as temporary:
+        with atomic_write(path) as temporary:
             figure.savefig(temporary, format=kind, metadata={"CreationDate": None} if kind == "pdf" else None)
 
 

@@ -1,0 +1,92 @@
+"""What the commands of the command line share: types of options, and reading and writing of files."""
+
+import warnings
+from itertools import pairwise
+from pathlib import Path
+from signal import default_int_handler
+
+import click
+
+from viscorough.interrupts import on_interrupt
+from viscorough.loading_curve import AccuracyWarning
+
+_STEEP = 0.3  # rms slope above which the theory of small slopes is in doubt, and users are warned
+
+
+class PositiveNumber(click.ParamType):
+    """A finite number above 0 and not above `maximum`."""
+
+    name = "number"
+
+    def __init__(self, maximum=float("inf")):
+        self.maximum = maximum
+
+    def convert(self, value, param, ctx):
+        try:
+            number = float(value)
+        except ValueError:
+            number = float("nan")
+        if not (0 < number <= self.maximum and number < float("inf")):
+            limit = "finite" if self.maximum == float("inf") else f"up to {self.maximum:g}"
+            self.fail(f"{value!r} is not a number above 0 and {limit}", param, ctx)
+        return number
+
+
+class Increasing(click.ParamType):
+    """Numbers separated by commas, each larger than the one before, the first above 0."""
+
+    name = "a,b,c"
+
+    def convert(self, value, param, ctx):
+        numbers = [PositiveNumber().convert(entry.strip(), param, ctx) for entry in value.split(",")]
+        for last, number in pairwise(numbers):
+            if number <= last:
+                self.fail(f"{number!r} follows {last!r}; each number must be larger than the one before", param, ctx)
+        return numbers
+
+
+FILE = click.Path(path_type=Path)
+
+
+def spacing_option(command):
+    """Add --spacing to a command."""
+    text = "Distance between neighbouring points."
+    return click.option("--spacing", type=PositiveNumber(), required=True, help=text)(command)
+
+
+def output_option(metavar):
+    """Decorator that adds -o/--output to a command."""
+    return click.option("-o", "--output", type=FILE, required=True, metavar=metavar, help="File to write or replace.")
+
+
+def read_indenter(heights, spacing, output):
+    """The indenter in a file and its unit of length, after the output is known to be possible.
+
+    Raises ValueError for an impossible output or bad heights; warns of steep ones.
+    """
+    from viscorough.io.atomic import check_output
+    from viscorough.io.heights import length_unit_of, read_heights
+
+    target = check_output(output)
+    if target.exists() and heights.exists() and target.samefile(heights):
+        raise ValueError(f"{output}: would replace the heights; another name is needed")
+    indenter = read_heights(heights, spacing)
+    if (slope := indenter.rms_slope) > _STEEP:
+        text = f"{heights}: the rms slope is {slope:.2g}; the theory holds for small slopes, below about {_STEEP}"
+        warnings.warn(text, AccuracyWarning, stacklevel=2)
+    return indenter, length_unit_of(heights)
+
+
+def write_output(content, output, **attributes):
+    """Write an io.netcdf.Content with attributes added, and the warnings so far in one of them."""
+    from viscorough.io import netcdf
+
+    if texts := warning_texts(click.get_current_context().obj):
+        attributes["warnings"] = "; ".join(texts)
+    with on_interrupt(default_int_handler):  # raises KeyboardInterrupt, so that no temporary file is left
+        netcdf.write(content.with_attributes(**attributes), output)
+
+
+def warning_texts(caught):
+    """Text of each different warning, on one line."""
+    return list(dict.fromkeys(" ".join(str(warning.message).split()) for warning in caught))

@@ -1,0 +1,66 @@
+"""Maps of heights read from files.
+
+Lengths are in the unit of the user's choice. A NetCDF file may state it, and CF files of results need one that can be
+parsed: "1" where it is not known, the numbers being multiples of whatever unit the heights have.
+"""
+
+from pathlib import Path
+
+import numpy as np
+
+from viscorough.indenter import Indenter
+from viscorough.io import netcdf
+from viscorough.io.atomic import reason
+
+
+def read_heights(path, spacing):
+    """Read a map of heights (larger = higher peak, touches first; nan = outside the indenter) as an Indenter.
+
+    path : .npy of shape (rows, columns), or .nc with one two-dimensional variable or one named `heights`
+    spacing : of neighbouring points, in the unit of the heights
+
+    Heights are converted to double precision. Raises a one-line ValueError that names the file and what is wrong.
+    """
+    suffix = Path(path).suffix
+    if suffix not in (".npy", ".nc"):
+        raise ValueError(f"{path}: unknown kind of file; heights are read from .npy and .nc")
+    heights = npy_array(path) if suffix == ".npy" else _with_height_variable(path, netcdf.read_values)
+    if heights.dtype.kind not in "iuf":
+        raise ValueError(f"{path}: heights are of type {heights.dtype}; real numbers are needed")
+    if heights.ndim != 2:
+        raise ValueError(f"{path}: heights have the shape {heights.shape}; a two-dimensional map is needed")
+    try:
+        # compiled loops take neither foreign byte orders nor half precision
+        return Indenter(np.ascontiguousarray(heights, dtype=float), spacing)
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from error
+
+
+def length_unit_of(path):
+    """Unit that the heights in a .nc file state; "1" if none, and for .npy files."""
+    if Path(path).suffix != ".nc":
+        return "1"
+    unit = _with_height_variable(path, netcdf.attributes_of).get("units")
+    return unit if isinstance(unit, str) and unit.strip() else "1"
+
+
+def npy_array(path):
+    """The array in a .npy file. Raises a one-line ValueError if it cannot be read; pickled objects are refused."""
+    try:
+        with open(path, "rb") as file:
+            return np.lib.format.read_array(file, allow_pickle=False)
+    except MemoryError:
+        raise
+    except Exception as error:  # numpy parses the header as Python code, so damage raises errors of many kinds
+        raise ValueError(f"{path}: not readable ({reason(error)}); a .npy file of numbers is needed") from error
+
+
+def _with_height_variable(path, function):
+    """function(variable) of the NetCDF variable named `heights`, or else of the only two-dimensional one."""
+    with netcdf.opened(path) as file:
+        maps = [name for name, variable in file.variables.items() if variable.ndim == 2]
+        names = ["heights"] if "heights" in file.variables else maps
+        if len(names) == 1:
+            return function(file.variables[names[0]])
+    kind = f"two-dimensional variables {', '.join(maps)}" if maps else "no two-dimensional variable"
+    raise ValueError(f"{path}: {kind}; exactly one, or one named heights, is needed")

@@ -1,0 +1,88 @@
+"""Penetration over time in NetCDF files, and force histories read from files."""
+
+from pathlib import Path
+
+import numpy as np
+
+from viscorough.io.atomic import reason
+from viscorough.io.curves import level_attributes
+from viscorough.io.heights import npy_array
+from viscorough.io.netcdf import Content, Variable
+
+
+def with_motion(content, time, velocity):
+    """A Content that has depth(level), with time [s] and velocity over levels added."""
+    unit = content.variables["depth"].attributes.get("units", "1")
+    unit = "s-1" if unit == "1" else f"{unit} s-1"
+    added = {
+        "time": Variable(("level",), time, {"long_name": "time since the force was applied", "units": "s"}),
+        "velocity": Variable(("level",), velocity, {"long_name": "velocity of penetration du/dt", "units": unit}),
+    }
+    return Content(content.variables | added, content.attributes)
+
+
+def integration_to_content(march, force_per_viscosity, length_unit="m"):
+    """A direct integration (viscous.events.Events or viscous.stepping.Steps) under constant force as a Content.
+
+    force_per_viscosity : F/η, by which impulse/viscosity becomes time
+    """
+    variables = {
+        name: Variable(("level",), getattr(march, name), level_attributes(name, length_unit))
+        for name in ("depth", "contact_count")
+    }
+    overlap = {"long_name": "largest overlap of indenter and surface, over depth", "units": "1"}
+    variables["overlap"] = Variable(("level",), getattr(march, "overlap", np.zeros_like(march.depth)), overlap)
+    content = Content(variables, {"title": "Penetration of a rigid indenter, integrated directly in time"})
+    return with_motion(content, march.impulse / force_per_viscosity, force_per_viscosity / march.resistance)
+
+
+def integration_under_history(march, history, viscosity, length_unit="m"):
+    """A direct integration at the times of a force history, as a Content.
+
+    march : viscous.events.Events, or viscous.stepping.Steps that end at every impulse/viscosity above zero
+    history : (times, forces, impulses) of viscous.correspondence.impulses
+
+    Raises ValueError for an impulse beyond the last event.
+    """
+    times, force, impulse = history
+    reached = impulse / viscosity
+    if hasattr(march, "event_at"):
+        if reached[-1] > march.impulse[-1] * (1 + 1e-10) and march.contact_count[-1] < march.elements:
+            raise ValueError(
+                f"impulse: {impulse[-1]:.6g} is beyond the contact fraction at which events end; "
+                f"allowed: up to {march.impulse[-1] * viscosity:.6g}"
+            )
+        i, depth = march.event_at(reached), march.depth_at(reached)
+    else:
+        i = np.searchsorted(march.impulse, reached * (1 - 1e-12))
+        depth = np.where(reached > 0, march.depth[i], 0.0)
+    variables = {
+        "depth": Variable(("level",), depth, level_attributes("depth", length_unit)),
+        "contact_count": Variable(("level",), march.contact_count[i], level_attributes("contact_count", length_unit)),
+        "force": Variable(("level",), force, {"long_name": "force F at that time", "units": "1"}),
+    }
+    title = "Penetration of a rigid indenter under a force history, integrated directly in time"
+    return with_motion(Content(variables, {"title": title}), times, force / (viscosity * march.resistance[i]))
+
+
+def read_force_history(path):
+    """Times and forces in a file of two columns of numbers: .csv (a line of names may come first) or .npy.
+
+    Raises a one-line ValueError that names the file and what is wrong. Whether the numbers are a force history is
+    checked by viscous.correspondence.impulses.
+    """
+    if Path(path).suffix not in (".npy", ".csv"):
+        raise ValueError(f"{path}: unknown kind of file; a force history is read from .csv and .npy")
+    if Path(path).suffix == ".npy":
+        table = npy_array(path)
+    else:
+        try:
+            lines = Path(path).read_text(encoding="utf-8").splitlines()
+            first = 1 if lines and any(letter.isalpha() for letter in lines[0].lower().replace("e", "")) else 0
+            table = np.loadtxt(lines[first:], delimiter=",", ndmin=2)
+        except (OSError, ValueError) as error:
+            text = f"{path}: not readable ({reason(error)}); two columns, time and force, are needed"
+            raise ValueError(text) from error
+    if table.ndim != 2 or table.shape[1] != 2 or table.shape[0] < 2 or table.dtype.kind not in "iuf":
+        raise ValueError(f"{path}: has the shape {table.shape}; two columns, time and force, and two rows are needed")
+    return table[:, 0].astype(float), table[:, 1].astype(float)

@@ -1,0 +1,116 @@
+"""CF NetCDF files, by the NetCDF library alone: `io.datasets` is for xarray, which takes long to import."""
+
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import netCDF4
+import numpy as np
+
+from viscorough import __version__
+from viscorough.io.atomic import atomic_write, reason
+
+COMPRESSED_FROM = 4096  # values; below, chunks cost more than compression saves
+_PACKING = ("_FillValue", "missing_value", "scale_factor", "add_offset", "_Unsigned")  # undone by reading
+
+
+class Variable(NamedTuple):
+    """A variable of a NetCDF file: names of its dimensions, array of values, attributes {name: value}."""
+
+    dimensions: tuple
+    values: np.ndarray
+    attributes: dict
+
+
+@dataclass(frozen=True)
+class Content:
+    """What a NetCDF file holds: variables {name: Variable} and global attributes {name: value}."""
+
+    variables: dict
+    attributes: dict
+
+    def with_attributes(self, **attributes):
+        """The same variables, with global attributes added or replaced."""
+        return Content(self.variables, self.attributes | attributes)
+
+
+def global_attributes():
+    """The attributes that every file gets; nothing in them depends on when or where it is written."""
+    return {"Conventions": "CF-1.11", "source": f"viscorough {__version__}"}
+
+
+def compression(size):
+    """Keyword arguments of netCDF4 that compress a variable of so many values; none if it is small."""
+    return {"zlib": True, "complevel": 4, "shuffle": True} if size >= COMPRESSED_FROM else {}
+
+
+def check_attributes(path, name, dtype, attributes):
+    """Raise ValueError unless a variable has `long_name` and, if it holds numbers, `units`."""
+    needed = ("long_name", "units") if dtype.kind in "biufc" else ("long_name",)
+    if missing := [attribute for attribute in needed if not attributes.get(attribute)]:
+        raise ValueError(f"{path}: variable {name} lacks {' and '.join(missing)}; all need both")
+
+
+def write(content, path):
+    """Write a Content of numbers as CF-1.11 NetCDF, atomically; nan is the fill value.
+
+    Adds global_attributes and compresses large arrays. Raises ValueError for missing attributes (check_attributes) and
+    for a path where no file can appear, OSError if writing fails.
+    """
+    for name, variable in content.variables.items():
+        check_attributes(path, name, np.asarray(variable.values).dtype, variable.attributes)
+    with atomic_write(path) as temporary, netCDF4.Dataset(temporary, "w") as file:
+        file.setncatts(content.attributes | global_attributes())
+        for name, (dimensions, values, attributes) in content.variables.items():
+            _write_variable(file, name, dimensions, np.asarray(values), attributes)
+
+
+def _write_variable(file, name, dimensions, values, attributes):
+    for dimension, size in zip(dimensions, values.shape, strict=True):
+        if dimension not in file.dimensions:
+            file.createDimension(dimension, size)
+    kind = str if values.dtype.kind in "UO" else values.dtype
+    fill = np.nan if values.dtype.kind == "f" and name not in dimensions else None  # CF: no coordinate may be missing
+    stored = file.createVariable(name, kind, dimensions, fill_value=fill, **compression(values.size))
+    stored.setncatts(attributes)
+    stored[...] = values
+
+
+@contextmanager
+def faults_named(path):
+    """Context in which a file is read: any fault of it becomes a one-line ValueError that names it."""
+    try:
+        open(path, "rb").close()  # its message says more than the NetCDF library's
+        yield
+    except (OSError, RuntimeError, ValueError, LookupError, TypeError, AttributeError) as error:
+        raise ValueError(f"{path}: not readable ({reason(error)}); a whole NetCDF file is needed") from error
+
+
+@contextmanager
+def opened(path):
+    """Context that gives the netCDF4.Dataset of a file; any fault of the file is a one-line ValueError."""
+    with faults_named(path), netCDF4.Dataset(path) as file:
+        yield file
+
+
+def read(path):
+    """Read a NetCDF file into memory as a Content; a one-line ValueError if it is missing or damaged."""
+    with opened(path) as file:
+        variables = {
+            name: Variable(variable.dimensions, read_values(variable), attributes_of(variable))
+            for name, variable in file.variables.items()
+        }
+        return Content(variables, {name: file.getncattr(name) for name in file.ncattrs()})
+
+
+def read_values(variable):
+    """The values of a netCDF4.Variable, unpacked; nan where they are missing."""
+    values = variable[...]
+    if not np.ma.is_masked(values):
+        return np.ma.getdata(values)
+    return values.astype(np.result_type(values, np.float32)).filled(np.nan)
+
+
+def attributes_of(variable):
+    """The attributes of a netCDF4.Variable, without those of its packing, which reading undoes."""
+    return {name: variable.getncattr(name) for name in variable.ncattrs() if name not in _PACKING}

@@ -1,0 +1,91 @@
+"""Loading curves in NetCDF files: every field is stored, units follow the length unit, what is no curve is refused."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from support.curves import assert_same_curve, one_line, random_curve
+from viscorough.io import netcdf
+from viscorough.io.curves import PER_CURVE, STORED, curve_from_content, curve_to_content
+from viscorough.io.datasets import stack_curves
+from viscorough.io.netcdf import Content
+from viscorough.loading_curve import LoadingCurve
+
+
+def test_every_field_of_a_curve_is_stored():
+    assert {field.name for field in dataclasses.fields(LoadingCurve)} == {*STORED, *PER_CURVE}
+
+
+@pytest.mark.parametrize("levels", [1, 7, netcdf.COMPRESSED_FROM])
+def test_curve_survives_a_file_exactly(tmp_path, levels):
+    curve = random_curve(levels)
+    netcdf.write(curve_to_content(curve), tmp_path / "curve.nc")
+    content = netcdf.read(tmp_path / "curve.nc")
+    assert_same_curve(curve_from_content(content), curve)
+    np.testing.assert_array_equal(content.variables["contact_fraction"].values, curve.contact_fraction)
+
+
+@pytest.mark.parametrize(
+    ("length_unit", "depth", "force"),
+    [
+        ("m", "m", "m2"),
+        ("1", "1", "1"),
+        ("micrometre", "micrometre", "micrometre2"),
+        ("1e-6 m", "1e-6 m", "(1e-6 m)2"),
+    ],
+)
+def test_units_are_powers_of_the_length_unit(length_unit, depth, force):
+    variables = curve_to_content(random_curve(), length_unit).variables
+    units = {name: variable.attributes["units"] for name, variable in variables.items()}
+    assert (units["depth"], units["stiffness"], units["force"]) == (depth, depth, force)
+    assert {units[name] for name in ("contact_count", "contact_fraction", "residual")} == {"1"}
+
+
+def changed(content, name, change):
+    """The content with one variable's values changed by a function."""
+    variable = content.variables[name]
+    replaced = variable._replace(values=change(variable.values.copy()))
+    return Content(content.variables | {name: replaced}, content.attributes)
+
+
+def with_entry(index, value):
+    def change(values):
+        values[index] = value
+        return values
+
+    return change
+
+
+def test_contents_that_are_no_curve():
+    good = curve_to_content(random_curve())
+    without_stiffness = Content({k: v for k, v in good.variables.items() if k != "stiffness"}, good.attributes)
+    scalar = Content(good.variables | {"depth": good.variables["depth"]._replace(dimensions=())}, good.attributes)
+    empty = Content({k: v._replace(values=v.values[:0]) for k, v in good.variables.items()}, good.attributes)
+    cases = {
+        r"no numbers stiffness\(level\)": without_stiffness,
+        r"no numbers depth\(level\)": scalar,
+        r"no numbers force\(level\)": changed(good, "force", lambda values: values.astype(str)),
+        "no attribute elements": Content(good.variables, {}),
+        "there is no level": empty,
+        "depth must": changed(good, "depth", with_entry(3, 0)),
+        "stiffness must": changed(good, "stiffness", with_entry(0, 0)),
+        "force must": changed(good, "force", with_entry(-1, np.nan)),
+    }
+    for what, content in cases.items():
+        with pytest.raises(ValueError, match=what) as error:
+            curve_from_content(content)
+        one_line(error)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [{"force": np.full(7, np.inf)}, {"depth": np.zeros(7)}, {"levels": 0}],
+    ids=["infinite force", "zero depth", "no level"],
+)
+def test_curves_that_are_none_are_not_written(changes):
+    bad = random_curve(**changes)
+    for make in (curve_to_content, lambda curve: stack_curves([random_curve(), curve])):
+        with pytest.raises(ValueError, match="loading curve") as error:
+            make(bad)
+        one_line(error)

@@ -1,0 +1,65 @@
+"""Datasets of xarray in NetCDF files, and batches of loading curves in them."""
+
+import os
+
+import netCDF4
+import numpy as np
+import pytest
+import xarray as xr
+
+from support.curves import assert_same_curve, random_curve
+from viscorough.io.datasets import read_dataset, stack_curves, unstack_curves, write_dataset
+from viscorough.io.netcdf import COMPRESSED_FROM
+
+
+def test_bytes_are_reproducible_and_no_time_is_written(tmp_path):
+    ds = stack_curves([random_curve(900, seed) for seed in range(5)])
+    for name in ("one.nc", "two.nc"):
+        write_dataset(ds, tmp_path / name)
+    assert (tmp_path / "one.nc").read_bytes() == (tmp_path / "two.nc").read_bytes()
+    assert set(read_dataset(tmp_path / "one.nc").attrs) == {"title", "comment", "Conventions", "source"}
+
+
+@pytest.mark.parametrize("attribute", ["units", "long_name"])
+def test_every_variable_needs_units_and_long_name(tmp_path, attribute):
+    ds = xr.Dataset({"depth": ("level", [1.0], {"long_name": "depth", "units": "m"})})
+    del ds["depth"].attrs[attribute]
+    with pytest.raises(ValueError, match=f"variable depth lacks {attribute}"):
+        write_dataset(ds, tmp_path / "a.nc")
+    assert os.listdir(tmp_path) == []
+
+
+def test_files_carry_cf_attributes_and_compress_large_floats(tmp_path):
+    large = stack_curves([random_curve(COMPRESSED_FROM)], length_unit="um")
+    large = large.assign_coords(realization=("realization", [0.5], {"long_name": "coordinate", "units": "1"}))
+    write_dataset(large, tmp_path / "a.nc")
+    with netCDF4.Dataset(tmp_path / "a.nc") as file:
+        assert file.Conventions == "CF-1.11"
+        assert file.source.startswith("viscorough ")
+        units = {name: variable.units for name, variable in file.variables.items() if name != "method"}
+        assert units == dict.fromkeys(units, "1") | {"depth": "um", "force": "um2", "stiffness": "um"}
+        assert all(variable.long_name for variable in file.variables.values())
+        assert file["depth"].filters()["zlib"]
+        assert not file["tolerance"].filters()["zlib"]
+        assert "_FillValue" in file["depth"].ncattrs()
+        assert "_FillValue" not in file["realization"].ncattrs()
+
+
+def test_stacked_curves_survive_files_exactly(tmp_path):
+    curves = [
+        random_curve(5),
+        random_curve(1, seed=1, method="dense"),
+        random_curve(9, seed=2, elements=2, operator_applications=0),
+    ]
+    ds = stack_curves(curves)
+    assert ds["depth"].dims == ("realization", "level")
+    assert int(ds["depth"].isnull().sum()) == 4 + 8
+    assert ds["levels"].values.tolist() == [5, 1, 9]
+    for name in ("once.nc", "twice.nc"):
+        write_dataset(ds, tmp_path / name)
+        ds = read_dataset(tmp_path / name)
+        for read, curve in zip(unstack_curves(ds), curves, strict=True):
+            assert_same_curve(read, curve)
+    np.testing.assert_array_equal(ds["elements"], [1009, 1009, 2])
+    with pytest.raises(ValueError, match="at least one"):
+        stack_curves([])

@@ -1,0 +1,39 @@
+"""Tables in CSV and NetCDF files."""
+
+import os
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from viscorough.io.datasets import read_dataset
+from viscorough_study.tables import write_table
+
+
+def test_table_survives_both_files_exactly(tmp_path):
+    table = pd.DataFrame(
+        {
+            "source": ["discs", "lines", "discs"],
+            "beta": [0.1 + 0.2, 1 / 3, np.nan],
+            "realizations": [8, 50, 16],
+            "passed": [True, False, True],
+        }
+    )
+    columns = {
+        "source": ("origin of the curves", None),
+        "beta": ("exponent of the power law", "1"),
+        "realizations": ("number of realizations", "1"),
+        "passed": ("whether it agrees", "1"),
+    }
+    files = tmp_path / "fits.csv", tmp_path / "fits.nc"
+    write_table(table, *files, columns=columns, dimension="fit", title="Fits")
+    pd.testing.assert_frame_equal(pd.read_csv(files[0]), table, check_exact=True)
+    ds = read_dataset(files[1])
+    assert dict(ds.sizes) == {"fit": 3}
+    assert ds.title == "Fits"
+    assert ds["beta"].attrs == {"long_name": "exponent of the power law", "units": "1"}
+    pd.testing.assert_frame_equal(ds.to_dataframe(), table, check_exact=True, check_names=False, check_index_type=False)
+    del columns["beta"]
+    with pytest.raises(ValueError, match="beta"):
+        write_table(table, tmp_path / "b.csv", tmp_path / "b.nc", columns=columns, dimension="fit", title="")
+    assert sorted(os.listdir(tmp_path)) == ["fits.csv", "fits.nc"]

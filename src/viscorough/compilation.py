@@ -1,89 +1,82 @@
-"""Compiled functions, kept on disk: what is damaged there is compiled again, and neither stops nor misleads a run.
+"""Compiled functions, kept on disk: damaged files there are compiled again, and an interrupt waits for the compiler.
 
-numba keeps compiled code beside the modules (or in NUMBA_CACHE_DIR) and trusts what it finds. Here every file ends with
-its SHA-256 sum, which numba's own reader passes over.
+numba keeps compiled code beside the modules (or in NUMBA_CACHE_DIR) and trusts what it reads. The files of functions
+that are compiled here end with a SHA-256 checksum, which numba's own reader ignores. Only these functions are changed:
+numba and the compiled functions of other packages stay what they are.
 """
 
-import contextlib
 import functools
 import logging
-import signal
-import threading
 from hashlib import sha256
 from pathlib import Path
 
 import numba
-from numba.core import caching, dispatcher
-from numba.np.ufunc import ufuncbuilder
+from numba.core import caching
 
-_SUM = sha256().digest_size
+from viscorough.interrupts import uninterrupted
 
-
-@contextlib.contextmanager
-def uninterrupted():
-    """Let an interrupt wait: in LLVM's callbacks into Python it would be lost, or crash the process, as it does where a
-    compiled function that was interrupted hands over its results.
-    """
-    if threading.current_thread() is not threading.main_thread():  # to which interrupts never come
-        yield
-        return
-    arrived = []
-    before = signal.signal(signal.SIGINT, lambda *arguments: arrived.append(arguments))
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)
-        if arrived and callable(before):
-            before(*arrived[-1])
+_CHECKSUM_SIZE = sha256().digest_size
 
 
-def _compile(self, sig, compile=dispatcher.Dispatcher.compile):
-    with uninterrupted():
-        return compile(self, sig)
-
-
-class _File(caching.IndexDataCacheFile):
+class _CheckedFile(caching.IndexDataCacheFile):
     def _dump(self, obj):
         dumped = super()._dump(obj)
         return dumped + sha256(dumped).digest()
 
     def _load_data(self, name):
         content = Path(self._data_path(name)).read_bytes()
-        if sha256(content[:-_SUM]).digest() != content[-_SUM:]:
-            raise ValueError(f"{name} is not what was written")
+        if sha256(content[:-_CHECKSUM_SIZE]).digest() != content[-_CHECKSUM_SIZE:]:
+            raise ValueError(f"the checksum of {name} is wrong")
         return super()._load_data(name)
 
 
-class _Cache(caching.FunctionCache):
-    def __init__(self, py_func):
-        super().__init__(py_func)
-        self._cache_file.__class__ = _File
+class _CheckedCache(caching.FunctionCache):
+    def __init__(self, function):
+        super().__init__(function)
+        locator = self._impl.locator
+        self._cache_file = _CheckedFile(self._cache_path, self._impl.filename_base, locator.get_source_stamp())
 
     def load_overload(self, sig, target_context):
         try:
             with uninterrupted():
                 return super().load_overload(sig, target_context)
         except Exception as error:  # unpickling and linking damaged bytes can fail in any way
-            about = self._py_func.__name__, self.cache_path, error
-            logging.warning("compiled code of %s in %s is damaged (%s): it is compiled again", *about)
+            text = "compiled code of %s in %s is damaged (%s): it is compiled again"
+            logging.warning(text, self._py_func.__name__, self.cache_path, error)
             self.flush()
             return None
 
 
-# numba has no other way to choose how files are read. Compiled functions of other packages in the process, whose files
-# have no sum, are compiled once more.
-dispatcher.FunctionCache = ufuncbuilder.FunctionCache = _Cache
-dispatcher.Dispatcher.compile = _compile
+def _cache(function):
+    """The cache of a function's compiled code; none where there is no folder for it."""
+    try:
+        return _CheckedCache(function)
+    except RuntimeError:  # no place of numba's choice can be written, or the function has no source file
+        return caching.NullCache()
 
-njit = functools.partial(numba.njit, cache=True)
+
+def njit(function=None, **options):
+    """numba.njit with the options, kept on disk."""
+    if function is None:
+        return functools.partial(njit, **options)
+    compiled = numba.njit(function, **options)
+    if compiled is function:  # NUMBA_DISABLE_JIT is set
+        return function
+    compiled._cache = _cache(function)
+    compiled.compile = uninterrupted()(compiled.compile)
+    return compiled
 
 
 def vectorize(signatures):
-    """numba.vectorize, which compiles or loads at once, kept on disk."""
-    decorator = numba.vectorize(signatures, cache=True)
+    """numba.vectorize for these signatures, compiled or loaded at once, kept on disk."""
 
     def decorated(function):
+        compiled = numba.vectorize(function)
+        compiled._dispatcher.cache = _cache(function)
         with uninterrupted():
-            return decorator(function)
+            for signature in signatures:
+                compiled.add(signature)
+        compiled.disable_compile()
+        return compiled
 
     return decorated

@@ -7,7 +7,8 @@ depth are the first ones.
 import numpy as np
 import scipy.linalg
 
-from viscorough.compilation import njit, uninterrupted
+from viscorough.compilation import njit
+from viscorough.interrupts import uninterrupted
 from viscorough.loading_curve import ConvergenceError
 
 

@@ -11,8 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscorough import memory
-from viscorough.compilation import njit, uninterrupted
+from viscorough.compilation import njit
 from viscorough.contact.halfspace import influence_coefficient
+from viscorough.interrupts import uninterrupted
 from viscorough.loading_curve import ConvergenceError
 
 

@@ -1,0 +1,136 @@
+"""Compiled functions of this package are guarded, those of other packages are numba's own."""
+
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+
+import numpy as np
+import pytest
+from numba.core import event
+
+from viscorough.compilation import njit, vectorize
+from viscorough.interrupts import uninterrupted
+
+OTHER_PACKAGE = """
+import numba
+
+@numba.njit(cache=True)
+def before(x):
+    return x + 1
+
+def define():
+    @numba.njit(cache=True)
+    def after(x):
+        return x + 2
+    return after
+
+@numba.vectorize(["float64(float64)"], cache=True)
+def elementwise(x):
+    return x + 3
+"""
+USE_BOTH = """
+import pickle, sys
+from pathlib import Path
+import numba.core.caching, numba.core.dispatcher, numba.np.ufunc.ufuncbuilder
+ORIGINAL = numba.core.caching.FunctionCache, numba.core.caching.IndexDataCacheFile
+COMPILE = numba.core.dispatcher.Dispatcher.compile
+import other
+import numpy as np
+import viscorough
+line = viscorough.Indenter(np.array([0.0, 1.0, 0.5]), 1.0)
+assert viscorough.indent and viscorough.reduce(line).depth.size, "something of ours is compiled"
+after = other.define()
+assert (other.before(1.0), after(1.0), other.elementwise(1.0)) == (2, 3, 4)
+
+assert numba.core.dispatcher.Dispatcher.compile is COMPILE
+assert numba.core.caching.FunctionCache is numba.core.dispatcher.FunctionCache is ORIGINAL[0]
+assert numba.np.ufunc.ufuncbuilder.FunctionCache is ORIGINAL[0]
+for function in (other.before, after):
+    assert (type(function._cache), type(function._cache._cache_file)) == ORIGINAL
+    assert function.compile.__func__ is COMPILE
+files = list(Path(sys.argv[1]).glob("**/other.*.nbc"))
+assert len(files) == 3, files
+for file in files:
+    content = file.read_bytes()
+    with file.open("rb") as opened:
+        pickle.load(opened)
+        assert opened.tell() == len(content), "a file of another package ends with more than numba writes"
+"""
+
+
+def run(script, *arguments, **environment):
+    options = {"capture_output": True, "text": True, "check": False, "env": os.environ | environment}
+    done = subprocess.run([sys.executable, "-c", script, *map(str, arguments)], **options)
+    assert done.returncode == 0, done.stderr
+    return done
+
+
+def test_compiled_functions_of_other_packages_are_left_alone(tmp_path):
+    (tmp_path / "other.py").write_text(OTHER_PACKAGE)
+    for _ in range(2):  # compiled, then loaded
+        run(USE_BOTH, tmp_path, PYTHONPATH=str(tmp_path), NUMBA_CACHE_DIR=str(tmp_path / "cache"))
+
+
+def test_function_without_a_place_for_its_cache_is_compiled():
+    """numba refuses to compile with a cache a function that has no source file."""
+    script = textwrap.dedent("""
+        from viscorough.compilation import njit, vectorize
+        assert njit(lambda x: x + 1)(1.0) == 2
+        assert vectorize(["float64(float64)"])(lambda x: x + 1)(1.0) == 2
+    """)
+    assert run(script).stderr == ""
+
+
+def test_functions_run_without_compilation_where_numba_is_switched_off():
+    script = "from viscorough.compilation import njit; assert njit(fastmath=True)(lambda x: x + 1)(1) == 2"
+    run(script, NUMBA_DISABLE_JIT="1")
+
+
+def test_functions_are_kept_on_disk(tmp_path):
+    (tmp_path / "ours.py").write_text(
+        "from viscorough.compilation import njit\n@njit(fastmath=True)\ndef double(x):\n    return 2 * x\n"
+    )
+    script = "import ours; assert ours.double(2.0) == 4; print(sum(ours.double.stats.cache_hits.values()))"
+    options = {"PYTHONPATH": str(tmp_path), "NUMBA_CACHE_DIR": str(tmp_path / "cache")}
+    assert [run(script, **options).stdout for _ in range(2)] == ["0\n", "1\n"]
+
+
+def test_vectorized_function_broadcasts():
+    add = vectorize(["float64(float64, float64)"])(lambda x, y: x + y)
+    np.testing.assert_array_equal(add(np.arange(3.0)[:, None], np.arange(2.0)), [[0, 1], [1, 2], [2, 3]])
+
+
+class Interrupt(event.Listener):
+    """Interrupts this process whenever numba starts to compile a function."""
+
+    def on_start(self, event):
+        os.kill(os.getpid(), signal.SIGINT)
+
+    def on_end(self, event):
+        pass
+
+
+def test_interrupt_waits_for_the_compiler():
+    function = njit(lambda x: x + 1)
+    with pytest.raises(KeyboardInterrupt), event.install_listener("numba:compile", Interrupt()):
+        function(1.0)
+    assert len(function.signatures) == 1, "compiled to the end"
+    assert function(1.0) == 2
+
+
+def test_interrupt_waits_for_the_end_of_a_block():
+    done = []
+
+    def block():
+        with uninterrupted(), uninterrupted():
+            os.kill(os.getpid(), signal.SIGINT)
+            done.append("first")
+            done.append("last")
+
+    handler = signal.getsignal(signal.SIGINT)
+    with pytest.raises(KeyboardInterrupt):
+        block()
+    assert done == ["first", "last"]
+    assert signal.getsignal(signal.SIGINT) is handler

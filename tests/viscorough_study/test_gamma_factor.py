@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from viscorough_study.figures.comparisons import plot_direct
+from viscorough_study.figures.direct_integration import plot_direct_integration
 from viscorough_study.gamma_factor import COLUMNS, compare_direct
 
 
@@ -27,7 +27,7 @@ def test_sphere_and_cone_tend_to_the_exact_solution(table):
 
 
 def test_figure(table):
-    labels = [text.get_text() for text in plot_direct(table).legends[0].get_texts()]
+    labels = [text.get_text() for text in plot_direct_integration(table).legends[0].get_texts()]
     assert labels[:2] == ["sphere", "cone"]
     with pytest.raises(ValueError, match="no rows"):
-        plot_direct(table[:0])
+        plot_direct_integration(table[:0])

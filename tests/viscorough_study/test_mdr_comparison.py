@@ -6,7 +6,7 @@ import pytest
 from viscorough.mdr import line_of_surface
 from viscorough.surfaces import self_affine_square
 from viscorough_study.ensembles import abscissa
-from viscorough_study.figures.comparisons import plot_reduction
+from viscorough_study.figures.mdr_comparison import plot_mdr_comparison
 from viscorough_study.mdr_comparison import COLUMNS, compare_reduction
 
 
@@ -53,7 +53,7 @@ def test_comparison_and_its_figure():
     assert table["correlation"].between(-1, 1).all()
     assert (table["realizations"] == 6).all()
     assert table["stiffness"].is_monotonic_increasing
-    figure = plot_reduction(table)
+    figure = plot_mdr_comparison(table)
     assert len(figure.axes) == 3
     with pytest.raises(ValueError, match="no rows"):
-        plot_reduction(table[:0])
+        plot_mdr_comparison(table[:0])

@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 
 from support.study import SHOWN, evidence
-from viscorough_study.figures.comparisons import plot_prefactors
+from viscorough_study.figures.prefactors import plot_prefactors
 from viscorough_study.prefactors import COLUMNS, CONVENTIONS, combinations, nearest, prefactors, rows_of
 
 

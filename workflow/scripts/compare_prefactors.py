@@ -2,8 +2,8 @@
 
 import pandas as pd
 
-from viscorough_study.figures.comparisons import plot_prefactors
-from viscorough_study.figures.paper import save_figure
+from viscorough_study.figures.prefactors import plot_prefactors
+from viscorough_study.figures.style import save_figure
 from viscorough_study.job_log import log_to
 from viscorough_study.prefactors import COLUMNS, prefactors
 from viscorough_study.tables import write_table

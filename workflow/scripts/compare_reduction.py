@@ -3,8 +3,8 @@
 from functools import partial
 
 from viscorough_study.ensembles import abscissa
-from viscorough_study.figures.comparisons import plot_reduction
-from viscorough_study.figures.paper import save_figure
+from viscorough_study.figures.mdr_comparison import plot_mdr_comparison
+from viscorough_study.figures.style import save_figure
 from viscorough_study.job_log import log_to, progress
 from viscorough_study.mdr_comparison import COLUMNS, compare_reduction
 from viscorough_study.tables import write_table
@@ -17,7 +17,7 @@ def main(csv, nc, png, pdf, *, hurst, elements, realizations, tolerance, seed):
     table = compare_reduction(hurst, elements, realizations, abscissa(1e-5, 3.0, 10), **about)
     title = "Reduction of dimensionality against boundary elements"
     write_table(table, csv, nc, columns=COLUMNS, dimension="point", title=title)
-    save_figure(plot_reduction(table), png, pdf)
+    save_figure(plot_mdr_comparison(table), png, pdf)
 
 
 if job := globals().get("snakemake"):

@@ -2,7 +2,8 @@
 
 import pandas as pd
 
-from viscorough_study.figures.paper import plot_conventions, save_figure
+from viscorough_study.figures.conventions import plot_conventions
+from viscorough_study.figures.style import save_figure
 from viscorough_study.job_log import log_to
 
 

@@ -3,7 +3,8 @@
 import pandas as pd
 
 from viscorough.io.datasets import read_dataset
-from viscorough_study.figures.paper import plot_kinetics, save_figure
+from viscorough_study.figures.kinetics import plot_kinetics
+from viscorough_study.figures.style import save_figure
 from viscorough_study.job_log import log_to
 
 

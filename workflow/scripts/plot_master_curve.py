@@ -4,7 +4,8 @@ import pandas as pd
 
 from viscorough.io.datasets import read_dataset
 from viscorough_study.ensembles import combine
-from viscorough_study.figures.paper import plot_master_curve, save_figure
+from viscorough_study.figures.master_curve import plot_master_curve
+from viscorough_study.figures.style import save_figure
 from viscorough_study.job_log import log_to
 
 

@@ -2,8 +2,8 @@
 
 import pandas as pd
 
-from viscorough_study.figures.grids import plot_sizes
-from viscorough_study.figures.paper import save_figure
+from viscorough_study.figures.sizes import plot_sizes
+from viscorough_study.figures.style import save_figure
 from viscorough_study.job_log import log_to
 
 

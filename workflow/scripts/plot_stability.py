@@ -4,14 +4,15 @@ from pathlib import Path
 
 import pandas as pd
 
-from viscorough_study.figures.failure_map import plot_atlas, plot_curves
-from viscorough_study.figures.paper import save_figure
+from viscorough_study.figures.failure_curves import plot_failure_curves
+from viscorough_study.figures.failure_map import plot_failure_map
+from viscorough_study.figures.style import save_figure
 from viscorough_study.job_log import log_to
 
 
 def main(atlas, curves, figures):
     """Plot the tables; figures : the .png files to write, beside which the .pdf files stand."""
-    for plot, table, figure in zip((plot_atlas, plot_curves), (atlas, curves), figures, strict=True):
+    for plot, table, figure in zip((plot_failure_map, plot_failure_curves), (atlas, curves), figures, strict=True):
         save_figure(plot(pd.read_csv(table)), figure, Path(figure).with_suffix(".pdf"))
 
 

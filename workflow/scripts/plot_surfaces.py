@@ -1,7 +1,8 @@
 """Figure 1: an indenter for every Hurst exponent."""
 
 from viscorough.io.datasets import read_dataset
-from viscorough_study.figures.paper import plot_surfaces, save_figure
+from viscorough_study.figures.style import save_figure
+from viscorough_study.figures.surfaces import plot_surfaces
 from viscorough_study.job_log import log_to
 
 

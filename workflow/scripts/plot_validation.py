@@ -2,7 +2,8 @@
 
 import pandas as pd
 
-from viscorough_study.figures.paper import plot_validation, save_figure
+from viscorough_study.figures.style import save_figure
+from viscorough_study.figures.validation import plot_validation
 from viscorough_study.job_log import log_to
 
 

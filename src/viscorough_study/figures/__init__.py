@@ -1,1 +1,1 @@
-"""The figures, drawn from tables and ensembles only."""
+"""The figures: one module for each, which draws a matplotlib Figure from tables and ensembles and computes nothing."""

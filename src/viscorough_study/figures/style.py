@@ -1,6 +1,6 @@
-"""What the figures share: style and sizes of the printed page, looks of the Hurst exponents, rows of fits, saving.
+"""What the figures share: style and sizes of the printed page, colours, looks of Hurst exponents, ticks, saving.
 
-A Hurst exponent has its colour by its value, its marker and line style by its rank among the exponents shown:
+A Hurst exponent has its colour by its value, and its marker and line style by its rank among the exponents drawn:
 figures of the same exponents agree, and exponents close to each other still differ.
 """
 
@@ -16,6 +16,9 @@ from viscorough.io.atomic import atomic_write
 MM = 1 / 25.4
 WIDE, NARROW = 180 * MM, 120 * MM  # across two columns of a page, and a little more than one
 GREY, PALE = "0.4", "0.8"
+# The colours of Okabe and Ito, which can be told apart with any colour vision.
+BLACK, BLUE, SKY_BLUE, GREEN = "#000000", "#0072b2", "#56b4e9", "#009e73"
+ORANGE, VERMILION, PURPLE, YELLOW = "#e69f00", "#d55e00", "#cc79a7", "#f0e442"
 
 STYLE = {
     "font.family": "DejaVu Sans",
@@ -41,15 +44,15 @@ STYLE = {
     "legend.labelspacing": 0.3,
     "figure.constrained_layout.use": True,
     "savefig.dpi": 200,
-    "pdf.fonttype": 42,  # TrueType: embedded, and text can be searched
+    "pdf.fonttype": 42,  # TrueType: embedded, and the text can be searched
 }
 
 
 @rc_context(STYLE)
 def save_figure(figure, *paths):
-    """Write a figure to each path, in the format of its suffix (.png, .pdf); each file appears whole or not at all.
+    """Write a figure atomically to each path, in the format of its suffix (.png, .pdf).
 
-    The same figure gives the same bytes. Raises ValueError for a path where no file can appear.
+    The same figure gives the same bytes. Raises ValueError for a path that cannot be written.
     """
     for path in paths:
         kind = Path(path).suffix[1:]
@@ -57,8 +60,14 @@ def save_figure(figure, *paths):
             figure.savefig(temporary, format=kind, metadata={"CreationDate": None} if kind == "pdf" else None)
 
 
+def require_rows(function, table):
+    """Raise ValueError, in the name of a plotting function, for a table without rows."""
+    if table.empty:
+        raise ValueError(f"{function}: the table has no rows; at least one is needed")
+
+
 def hurst_looks(exponents):
-    """{Hurst exponent: color, marker, linestyle} of the exponents in ascending order."""
+    """{Hurst exponent: color, marker, linestyle}, by ascending exponent."""
     markers, lines = "os^Dv<>p", ("-", (0, (6, 1.5)), (0, (6, 1, 1, 1)), (0, (1.5, 1)))
     return {
         hurst: {
@@ -70,22 +79,22 @@ def hurst_looks(exponents):
     }
 
 
-def hurst_handles(looks, **common):
-    """Handles of a legend of the Hurst exponents; common : what their looks are replaced or added to by."""
-    return [Line2D([], [], **(look | common), label=f"$H={hurst:g}$") for hurst, look in looks.items()]
+def hurst_handles(looks, **changes):
+    """Legend handles of the Hurst exponents; changes : line properties that replace those of their looks."""
+    return [Line2D([], [], **(look | changes), label=f"$H={hurst:g}$") for hurst, look in looks.items()]
 
 
-def mark(axes, x, y, interval, look, along="y"):
-    """Marker at (x, y) on its interval (low, high) along x or y, which need not hold the marker; returns the marker."""
+def mark_with_interval(axes, x, y, interval, look, along="y"):
+    """Marker at (x, y) and its interval (low, high) along x or y, which need not contain it; returns the marker."""
     middle, half = np.mean(interval), np.diff(interval) / 2
-    at = (x, middle) if along == "y" else (middle, y)
-    axes.errorbar(*at, **{f"{along}err": half}, fmt="none", ecolor=look["color"])
+    center = (x, middle) if along == "y" else (middle, y)
+    axes.errorbar(*center, **{f"{along}err": half}, fmt="none", ecolor=look["color"])
     return axes.plot(x, y, **look | {"linestyle": ""})[0]
 
 
-def logarithmic_ticks(*axes):
-    """Minor ticks for logarithmic axes, at the decades where not every decade has a major tick."""
-    for axis in (axis for one in axes for axis in (one.xaxis, one.yaxis) if axis.get_scale() == "log"):
+def logarithmic_ticks(*panels):
+    """Minor ticks on logarithmic axes: at the decades where not every decade has a major tick, else between them."""
+    for axis in (axis for axes in panels for axis in (axes.xaxis, axes.yaxis) if axis.get_scale() == "log"):
         decades = np.ptp(np.log10(axis.get_view_interval()))
         axis.set_major_locator(LogLocator(numticks=9))
         axis.set_minor_locator(LogLocator(subs=(1.0,) if decades > 8 else np.arange(2, 10), numticks=200))
@@ -93,12 +102,6 @@ def logarithmic_ticks(*axes):
 
 
 def plain_ticks(axis, ticks):
-    """Ticks in plain numbers on a logarithmic axis of few decades, and minor ones between them."""
+    """Major ticks labelled with plain numbers on a logarithmic axis of few decades, and minor ticks between them."""
     axis.set(major_locator=FixedLocator(ticks), major_formatter="{x:g}")
     axis.set(minor_locator=LogLocator(subs=range(1, 10)), minor_formatter=NullFormatter())
-
-
-def text_along(axes, x, y, text, **look):
-    """Text from (x, y) on in the direction of a line of slope 1 in the logarithms."""
-    angle = np.degrees(np.arctan2(y, x))  # of the line through the origin, which that is in plain numbers
-    axes.text(x, y, text, rotation=angle, rotation_mode="anchor", transform_rotates_text=True, **look)

@@ -5,7 +5,8 @@ import pandas as pd
 import pytest
 
 from support.study import SHOWN
-from viscorough_study.figures.grids import plot_large, plot_sizes
+from viscorough_study.figures.large import plot_large
+from viscorough_study.figures.sizes import plot_sizes
 
 
 def test_a_marker_for_every_ensemble_with_a_region():

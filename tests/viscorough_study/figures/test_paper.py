@@ -14,8 +14,13 @@ from viscorough.mdr import reduce
 from viscorough.surfaces import self_affine_disc, self_affine_line
 from viscorough.viscous.correspondence import kinetics
 from viscorough_study.ensembles import abscissa, aggregate, combine
-from viscorough_study.figures import paper
-from viscorough_study.figures.style import hurst_looks
+from viscorough_study.figures.conventions import plot_conventions
+from viscorough_study.figures.exponent import plot_exponent
+from viscorough_study.figures.kinetics import plot_kinetics
+from viscorough_study.figures.master_curve import plot_master_curve
+from viscorough_study.figures.style import hurst_looks, save_figure
+from viscorough_study.figures.surfaces import plot_surfaces
+from viscorough_study.figures.validation import plot_validation
 from viscorough_study.power_law import COLUMNS, scaling_rows
 from viscorough_study.tables import fits
 
@@ -148,7 +153,7 @@ def test_fits_are_the_rows_under_the_conventions_shown(table):
 def test_saved_files_are_reproducible(table, tmp_path, suffix):
     paths = [tmp_path / f"{name}.{suffix}" for name in "ab"]
     for path in paths:
-        paper.save_figure(paper.plot_exponent(table, SHOWN), path)
+        save_figure(plot_exponent(table, SHOWN), path)
     first, second = (path.read_bytes() for path in paths)
     assert first == second
     assert first.startswith({"png": b"\x89PNG", "pdf": b"%PDF"}[suffix])
@@ -162,7 +167,7 @@ def test_saved_files_are_reproducible(table, tmp_path, suffix):
 
 
 def test_one_figure_goes_to_all_paths(tmp_path):
-    paper.save_figure(Figure(), tmp_path / "a.png", tmp_path / "a.pdf")
+    save_figure(Figure(), tmp_path / "a.png", tmp_path / "a.pdf")
     assert {path.name for path in tmp_path.iterdir()} == {"a.png", "a.pdf"}
 
 
@@ -172,7 +177,7 @@ def test_a_file_that_cannot_be_drawn_leaves_the_old_one(tmp_path):
     figure = Figure()
     figure.text(0.5, 0.5, r"$\no_such_symbol$")
     with pytest.raises(ValueError, match="no_such_symbol"):
-        paper.save_figure(figure, path)
+        save_figure(figure, path)
     assert path.read_bytes() == b"old"
     assert list(tmp_path.iterdir()) == [path]
 
@@ -180,7 +185,7 @@ def test_a_file_that_cannot_be_drawn_leaves_the_old_one(tmp_path):
 @pytest.mark.parametrize(("name", "message"), [("no/a.png", "no folder"), ("a.what", "what")])
 def test_save_refuses(tmp_path, name, message):
     with pytest.raises(ValueError, match=message):
-        paper.save_figure(Figure(), tmp_path / name)
+        save_figure(Figure(), tmp_path / name)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -191,7 +196,7 @@ def test_save_refuses(tmp_path, name, message):
 def test_surfaces_are_shown_darker_where_higher(number):
     exponents = np.linspace(0.1, 0.9, number)
     examples = [(h, self_affine_disc(h, ELEMENTS, seed=1).heights, 1 / ELEMENTS) for h in exponents]
-    figure = paper.plot_surfaces(examples)
+    figure = plot_surfaces(examples)
     shown = [axes for axes in figure.axes if axes.images]
     assert len(shown) == number
     assert len(figure.axes) == 2 * number  # each with its own scale
@@ -207,7 +212,7 @@ def test_surfaces_are_shown_darker_where_higher(number):
 
 def test_kinetics_are_those_of_the_curves_in_real_units(curves, discs, combinations, table):
     """Against viscorough.viscous.correspondence, which does not know of X: geometric mean of v at the times drawn."""
-    raw, collapsed = paper.plot_kinetics(discs, combinations, table, SHOWN).axes
+    raw, collapsed = plot_kinetics(discs, combinations, table, SHOWN).axes
     for axes in (raw, collapsed):
         drawn = {line.get_label() for line in axes.lines} & set(combinations)
         assert drawn == set(combinations)
@@ -227,7 +232,7 @@ def test_kinetics_are_those_of_the_curves_in_real_units(curves, discs, combinati
 
 
 def test_kinetics_collapse_from_decades_apart(discs, combinations, table):
-    raw, collapsed = paper.plot_kinetics(discs, combinations, table, SHOWN).axes
+    raw, collapsed = plot_kinetics(discs, combinations, table, SHOWN).axes
     for hurst in HURST:
         pairs = []
         for axes in (raw, collapsed):
@@ -243,7 +248,7 @@ def test_kinetics_collapse_from_decades_apart(discs, combinations, table):
 @pytest.mark.parametrize(("convention", "length"), [("diameter", 1.0), ("radius", 0.5)])
 def test_kinetics_mark_the_regions(discs, combinations, table, convention, length):
     shown = SHOWN | {"diameter_convention": convention}
-    figure = paper.plot_kinetics(discs, combinations, table, shown)
+    figure = plot_kinetics(discs, combinations, table, shown)
     axes = figure.axes[1]
     bars = [line.get_xdata() for line in axes.lines if line.get_transform() == axes.get_xaxis_transform()]
     fitted = fits(table, shown, source="discs", case_group="base")
@@ -262,7 +267,7 @@ def test_kinetics_mark_the_regions(discs, combinations, table, convention, lengt
 
 
 def test_kinetics_of_one_case_without_region(discs, combinations, table):
-    figure = paper.plot_kinetics(discs[:1], combinations, without_region(table, 0.4), SHOWN)
+    figure = plot_kinetics(discs[:1], combinations, without_region(table, 0.4), SHOWN)
     assert whole_on_page(figure)
     assert not any(line.get_linewidth() == 2.5 for line in figure.axes[1].lines[:-1])
 
@@ -270,7 +275,7 @@ def test_kinetics_of_one_case_without_region(discs, combinations, table):
 @pytest.mark.parametrize("average", ["geometric", "arithmetic"])
 def test_master_curve_draws_both_sides_of_the_law(pooled, lines, table, average):
     shown = SHOWN | {"average": average}
-    figure = paper.plot_master_curve(pooled, lines, table, shown)
+    figure = plot_master_curve(pooled, lines, table, shown)
     law, ratio = figure.axes
     (identity,) = dashed(law)
     np.testing.assert_array_equal(identity.get_xdata(), identity.get_ydata())
@@ -306,7 +311,7 @@ def test_master_curve_of_one_realization_without_region(discs, lines, table):
     for ds in single:  # as the ensemble of one realization has it
         ds["velocity_spread"] = ds["velocity_spread"] * np.nan
         ds["realizations_defined"] = ds["realizations_defined"] * 0 + 1
-    figure = paper.plot_master_curve(single, lines[:1], without_region(table, 0.4), SHOWN)
+    figure = plot_master_curve(single, lines[:1], without_region(table, 0.4), SHOWN)
     inside, outside = figure.axes[0].containers[:2]
     assert inside[0].get_xdata().size == 0
     assert outside[0].get_xdata().size > 3
@@ -314,7 +319,7 @@ def test_master_curve_of_one_realization_without_region(discs, lines, table):
 
 
 def test_exponent_draws_lines_discs_and_law(table):
-    figure = paper.plot_exponent(table, SHOWN)
+    figure = plot_exponent(table, SHOWN)
     (axes,) = figure.axes
     solid = next(line for line in axes.lines if line.get_color() == "black")
     rows = fits(table, SHOWN, source="lines", case_group="base", rms_convention="line")
@@ -332,28 +337,28 @@ def test_exponent_draws_lines_discs_and_law(table):
 
 
 def test_exponent_leaves_out_what_has_no_region(table):
-    partial = paper.plot_exponent(without_region(table, 0.4), SHOWN).axes[0]
-    whole = paper.plot_exponent(table, SHOWN).axes[0]
+    partial = plot_exponent(without_region(table, 0.4), SHOWN).axes[0]
+    whole = plot_exponent(table, SHOWN).axes[0]
     (kept,) = marked(partial)
     assert kept.get_xdata().tolist() == [0.9]
     assert kept.get_marker() == marked(whole)[1].get_marker()  # as in the other figures
-    assert not marked(paper.plot_exponent(table[table["source"] == "lines"], SHOWN).axes[0])
+    assert not marked(plot_exponent(table[table["source"] == "lines"], SHOWN).axes[0])
 
 
 def test_an_interval_need_not_hold_its_value(table):
     """A bootstrap interval may not, and is drawn where it is."""
     table = table.assign(beta_low=table["beta"] + 0.1, beta_high=table["beta"] + 0.3)
-    axes = paper.plot_exponent(table, SHOWN).axes[0]
+    axes = plot_exponent(table, SHOWN).axes[0]
     ends = axes.containers[0].lines[2][0].get_segments()[0][:, 1]
     np.testing.assert_allclose(ends - marked(axes)[0].get_ydata(), [0.1, 0.3])
-    assert marked(paper.plot_conventions(table, SHOWN).axes[0])
+    assert marked(plot_conventions(table, SHOWN).axes[0])
 
 
 # ---- beyond the paper
 
 
 def test_conventions_has_a_row_for_each_change(table):
-    figure = paper.plot_conventions(table, SHOWN)
+    figure = plot_conventions(table, SHOWN)
     grid = np.reshape(figure.axes, (2, len(HURST)))
     labels = [text.get_text() for text in grid[0, 0].get_yticklabels()]
     assert labels[0] == "as in other figures"
@@ -382,7 +387,7 @@ def test_conventions_has_a_row_for_each_change(table):
 
 
 def test_conventions_say_where_there_is_no_region(table):
-    figure = paper.plot_conventions(without_region(table, 0.4), SHOWN)
+    figure = plot_conventions(without_region(table, 0.4), SHOWN)
     empty, other = figure.axes[:2]
     assert [text.get_text() for text in empty.texts] == ["no region (b)"] * 9
     assert not marked(empty)
@@ -393,12 +398,12 @@ def test_conventions_say_where_there_is_no_region(table):
 def test_conventions_go_on_in_further_rows(table):
     five = pd.concat([table.assign(hurst=table["hurst"] + shift) for shift in (0, 0.02, 0.04)])
     five = five[five["hurst"] < 0.93]
-    figure = paper.plot_conventions(five, SHOWN)
+    figure = plot_conventions(five, SHOWN)
     titles = [axes.get_title() for axes in figure.axes]
     assert [title for title in titles if title] == [f"$H={h}$" for h in (0.4, 0.42, 0.44, 0.9, 0.92)]
     assert len(figure.axes) == 10
     with pytest.raises(ValueError, match="no discs"):
-        paper.plot_conventions(table[table["source"] == "lines"], SHOWN)
+        plot_conventions(table[table["source"] == "lines"], SHOWN)
 
 
 def validation(grids, quantities=("force", "depth")):
@@ -413,7 +418,7 @@ def validation(grids, quantities=("force", "depth")):
 
 
 def test_validation_draws_errors_orders_and_limits():
-    figure = paper.plot_validation(validation([33, 65, 129]))
+    figure = plot_validation(validation([33, 65, 129]))
     titles = [axes.get_title() for axes in figure.axes]
     assert titles == [name + "\nexpected " + r"$\propto n^{-2}$" for name in ("force", "depth")]
     for axes in figure.axes:
@@ -432,7 +437,7 @@ def test_validation_draws_errors_orders_and_limits():
 
 @pytest.mark.parametrize("grids", [[33], [17, 33]])
 def test_validation_without_orders(grids):
-    figure = paper.plot_validation(validation(grids, ("force", "stiffness", "area", "punch_stiffness")))
+    figure = plot_validation(validation(grids, ("force", "stiffness", "area", "punch_stiffness")))
     assert len(figure.axes) == 4
     assert all(legend_texts(axes.get_legend()) == ["failed"] for axes in figure.axes)
     assert whole_on_page(figure)

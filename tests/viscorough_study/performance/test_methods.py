@@ -12,6 +12,7 @@ from viscorough.loading_curve import ConvergenceError
 from viscorough.surfaces import self_affine_disc
 from viscorough.viscous.events import march_events
 from viscorough_study.performance import level_placement, methods, other_solvers, timing
+from viscorough_study.performance.pareto import pareto_front
 
 ADAPTER = '''
 """A stand-in for a peer: answers with pressures that a file holds, off by its tolerance."""
@@ -113,7 +114,7 @@ def test_sphere_has_the_exact_velocity():
 
 def test_pareto_front():
     table = pd.DataFrame({"wall_s": [3.0, 1.0, 2.0, 2.5, 4.0], "error": [0.1, 0.5, 0.6, 0.2, 0.1]})
-    assert methods.pareto_front(table)["wall_s"].tolist() == [1.0, 2.5, 3.0]
+    assert pareto_front(table)["wall_s"].tolist() == [1.0, 2.5, 3.0]
 
 
 # ---- other solvers

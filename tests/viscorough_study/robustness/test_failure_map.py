@@ -15,7 +15,8 @@ from viscorough.indenter import Indenter
 from viscorough.loading_curve import AccuracyWarning
 from viscorough.surfaces import self_affine_disc, self_affine_line
 from viscorough.viscous.stepping import march_steps
-from viscorough_study.figures.failure_map import LETTERS, plot_atlas, plot_curves
+from viscorough_study.figures.failure_curves import plot_failure_curves
+from viscorough_study.figures.failure_map import LETTERS, plot_failure_map
 from viscorough_study.performance import ablations
 from viscorough_study.robustness import failure_map
 from viscorough_study.robustness.failure_map import METHODS, VERDICTS, unnoticed
@@ -105,11 +106,11 @@ def test_forces_that_pull_are_refused_with_the_reason(atlas):
 
 
 def test_chart_shows_every_cell(atlas):
-    figure = plot_atlas(atlas)
+    figure = plot_failure_map(atlas)
     texts = [text.get_text() for text in figure.axes[0].texts]
     assert sum(text.split()[-1] in LETTERS.values() for text in texts) == len(atlas)
     with pytest.raises(ValueError, match="no rows"):
-        plot_atlas(atlas[:0])
+        plot_failure_map(atlas[:0])
 
 
 def test_curves_and_their_figure():
@@ -120,7 +121,7 @@ def test_curves_and_their_figure():
     contact = found[found["curve"] == "contact"].set_index("method")["y"]
     assert contact["path, grid, single"].max() < 1e-5
     assert contact["path, grid, no padding"].max() > 1e-2
-    assert len(plot_curves(found).axes) == 2
+    assert len(plot_failure_curves(found).axes) == 2
 
 
 # ---- generated cases

@@ -1,0 +1,106 @@
+"""How exponent and prefactor change with each convention that the paper leaves open."""
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import FixedLocator, LogLocator, MaxNLocator, NullFormatter, NullLocator
+
+from viscorough import reference
+from viscorough_study.figures.labels import CONVENTION_LABELS
+from viscorough_study.figures.style import GREY, MM, STYLE, WIDE, hurst_looks, mark_with_interval
+from viscorough_study.tables import fits
+
+VARIANTS = {
+    "longer_period": "longer period",
+    "corners": "corners of spectrum",
+    "fixed_amplitudes": "fixed amplitudes",
+    "roll_off": "roll-off (control)",
+}
+
+
+@rc_context(STYLE)
+def plot_conventions(scaling, conventions):
+    """β and ζ of the discs, with 95 % intervals, as one convention or the surfaces change; four exponents in a row.
+
+    scaling : scaling table; conventions : {column of it: value}, from which one is changed at a time
+    All β axes span the same length, all ζ axes the same ratio. Raises ValueError without discs.
+    """
+    discs = scaling[scaling["source"] == "discs"]
+    exponents = sorted(discs["hurst"].unique())
+    if not exponents:
+        raise ValueError("plot_conventions: the table has no discs; at least one is needed")
+    changes = _changes(discs, conventions)
+    betas, zetas, figure = _panels(len(exponents), len(changes))
+    looks = hurst_looks(exponents)
+    for hurst, beta, zeta in zip(exponents, betas, zetas, strict=True):
+        _draw_changes(beta, "beta", discs[discs["hurst"] == hurst], changes, looks[hurst])
+        _draw_changes(zeta, "zeta", discs[discs["hurst"] == hurst], changes, looks[hurst])
+        beta.axvline(reference.exponent_beta(hurst), color=GREY, linestyle="--", zorder=1)
+        zeta.axvline(reference.zeta_viscous(hurst), color=GREY, linestyle="--", zorder=1)
+        zeta.axvline(reference.zeta_elastic(hurst), color=GREY, linestyle=":", zorder=1)
+        beta.set(title=f"$H={hurst:g}$", xlabel=r"exponent $\beta$")
+        zeta.set(xlabel=r"prefactor $\zeta$", xscale="log")
+    beta.set(yticks=range(len(changes)), yticklabels=[label for label, _ in changes], ylim=(len(changes) - 0.4, -0.6))
+    beta.yaxis.set_minor_locator(NullLocator())
+    _same_length(betas)
+    _same_length(zetas)
+    handles = [
+        Line2D([], [], color=GREY, linestyle="--", label="$H/(1+H)$, Eq. 10; $2-H$, Eq. 11 (with Γ)"),
+        Line2D([], [], color=GREY, linestyle=":", label=r"$\pi(3-H)/10$, Eq. 4"),
+    ]
+    figure.legend(handles=handles, loc="outside lower center", ncols=2)
+    return figure
+
+
+def _panels(exponents, changes):
+    """Panels of β and of ζ, one for each Hurst exponent, four in a row, and the figure."""
+    columns = min(4, exponents)
+    blocks = -(-exponents // columns)
+    figure = Figure(figsize=(WIDE, (2 * blocks * (13 + 4.2 * changes) + 8) * MM))
+    grid = figure.subplots(2 * blocks, columns, squeeze=False, sharey=True)
+    for axes in grid[-2:, exponents - columns * (blocks - 1) :].flat:
+        axes.remove()
+    betas, zetas = (list(grid[first::2].flat)[:exponents] for first in (0, 1))
+    return betas, zetas, figure
+
+
+def _changes(discs, conventions):
+    """Rows of the figure, (label, {column: value}): first the conventions of the figures, then one change in each."""
+    base = conventions | {"case_group": "base"}
+    rows = [("as in other figures", base)]
+    for column, labels in CONVENTION_LABELS.items():
+        others = [value for value in labels if value != conventions[column] and value in set(discs[column])]
+        rows += [(labels[value], base | {column: value}) for value in others]
+    groups = [name for name in discs["case_group"].unique() if name != "base"]
+    return rows + [(VARIANTS.get(name, name.replace("_", " ")), conventions | {"case_group": name}) for name in groups]
+
+
+def _draw_changes(axes, quantity, discs, changes, look):
+    """One quantity under each change, a row for each, on a band that is the interval of the first."""
+    for y, (_, wanted) in enumerate(changes):
+        face = look["color"] if y == 0 else "white"
+        rows = fits(discs, wanted)
+        for value, low, high in rows[[quantity, f"{quantity}_low", f"{quantity}_high"]].itertuples(index=False):
+            mark_with_interval(axes, value, y, (low, high), look | {"markerfacecolor": face}, along="x")
+            if y == 0 and low < high:
+                axes.axvspan(low, high, color="0.93", linewidth=0, zorder=0)
+        if rows.empty:
+            words = {"color": GREY, "backgroundcolor": "white", "ha": "center", "va": "center"}
+            axes.text(0.5, y, "no region (b)", transform=axes.get_yaxis_transform(), **words)
+
+
+def _same_length(panels):
+    """Give the x axes of all panels the same length around their middles, with ticks that suit it."""
+    logarithmic = panels[0].get_xscale() == "log"
+    limits = np.array([axes.get_xlim() for axes in panels])
+    limits = np.log10(limits) if logarithmic else limits
+    half = np.ptp(limits, axis=1).max() / 2
+    for axes, middle in zip(panels, limits.mean(axis=1), strict=True):
+        ends = np.array([middle - half, middle + half])
+        axes.set_xlim(10**ends if logarithmic else ends)
+        if logarithmic:
+            axes.xaxis.set(major_locator=FixedLocator([0.1, 0.2, 0.5, 1, 2, 5, 10]), major_formatter="{x:g}")
+            axes.xaxis.set(minor_locator=LogLocator(subs=range(1, 10)), minor_formatter=NullFormatter())
+        else:
+            axes.xaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))

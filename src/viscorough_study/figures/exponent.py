@@ -1,0 +1,43 @@
+"""Figure 4 of the paper: the exponent β over the Hurst exponent."""
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.figure import Figure
+from matplotlib.legend_handler import HandlerTuple
+
+from viscorough import reference
+from viscorough_study.figures.style import GREY, MM, NARROW, PALE, STYLE, hurst_looks, mark_with_interval
+from viscorough_study.tables import fits
+
+
+@rc_context(STYLE)
+def plot_exponent(scaling, conventions):
+    """β over the Hurst exponent, with 95 % intervals: lines, discs and Eq. 10.
+
+    scaling : scaling table; conventions : {column of it: value}
+    """
+    looks = hurst_looks(scaling.loc[scaling["source"] == "discs", "hurst"])
+    figure = Figure(figsize=(NARROW, 85 * MM))
+    axes = figure.subplots()
+    axes.axvspan(0.4, 1, color="0.94", linewidth=0)
+    axes.text(0.98, 0.04, "where the paper finds Eq. 10 accurate", color=GREY, ha="right", transform=axes.transAxes)
+    lines = fits(scaling, conventions, source="lines", case_group="base", rms_convention="line")
+    band = axes.fill_between(lines["hurst"], lines["beta_low"], lines["beta_high"], color=PALE, linewidth=0)
+    (solid,) = axes.plot(lines["hurst"], lines["beta"], color="black")
+    discs = fits(scaling, conventions, source="discs", case_group="base")[["hurst", "beta", "beta_low", "beta_high"]]
+    markers = [
+        mark_with_interval(axes, hurst, beta, interval, looks[hurst])
+        for hurst, beta, *interval in discs.itertuples(index=False)
+    ]
+    hurst = np.linspace(0, 1, 101)
+    (law,) = axes.plot(hurst, reference.exponent_beta(hurst), "--", color=GREY)
+    legend = {"lines, reduction of dimensionality": (band, solid), "$H/(1+H)$, Eq. 10": law}
+    handlers = {}
+    if markers:
+        legend["discs, boundary elements"] = examples = tuple(markers[:5])
+        handlers[examples] = HandlerTuple(ndivide=None, pad=0.3)  # side by side
+    above = {"loc": "outside upper center", "ncols": 2, "handlelength": 3.5}
+    figure.legend(legend.values(), legend.keys(), handler_map=handlers, **above)
+    axes.set(xlim=(-0.02, 1.02), xlabel="Hurst exponent $H$", ylabel=r"exponent $\beta$")
+    axes.set_ylim(bottom=min(0, axes.get_ylim()[0]))
+    return figure

@@ -1,0 +1,65 @@
+"""Growth of the cost of each method with the number of elements."""
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.figure import Figure
+
+from viscorough_study.figures.style import (
+    BLUE,
+    GREEN,
+    MM,
+    PURPLE,
+    SKY_BLUE,
+    STYLE,
+    VERMILION,
+    WIDE,
+    logarithmic_ticks,
+    plain_ticks,
+    require_rows,
+)
+from viscorough_study.performance.cost_growth import fit_cost, median_costs
+
+# Methods and values of their parameter whose cost is drawn.
+METHODS = {
+    ("path, automatic levels", 1e-3): "automatic levels, 1e-3",
+    ("path, at the depths", 1e-6): "given depths, 1e-6",
+    ("path, each depth alone", 1e-6): "each depth alone, 1e-6",
+    ("path, uniform levels", 32): "32 uniform levels",
+    ("explicit, logarithmic steps", 256): "256 explicit steps",
+    ("SlipPY", 1e-6): "SlipPY, 1e-6",
+    ("ASPHER", 1e-6): "ASPHER, 1e-6",
+}
+COLORS = (BLUE, SKY_BLUE, VERMILION, GREEN, PURPLE)
+MARKERS = "osD^v<>"
+
+
+@rc_context(STYLE)
+def plot_growth(table):
+    """Wall time and operator applications against the number of elements of rough discs, with fitted exponents.
+
+    table : of viscorough_study.performance.methods
+    Medians over the discs of one size. Raises ValueError for a table without rough discs.
+    """
+    require_rows("plot_growth", table[table["hurst"].notna()])
+    figure = Figure(figsize=(WIDE, 85 * MM))
+    time, operators = figure.subplots(1, 2)
+    for rank, ((method, value), label) in enumerate(METHODS.items()):
+        costs = median_costs(table, method, value)
+        if costs.empty:
+            continue
+        color = COLORS[rank % len(COLORS)]
+        face = "none" if rank >= len(COLORS) else color
+        look = {"color": color, "marker": MARKERS[rank], "markerfacecolor": face}
+        exponent, _ = fit_cost(costs["number"], costs["wall_s"])
+        note = "" if np.isnan(exponent) else f": $N^{{{exponent:.2f}}}$"
+        time.plot(costs["number"], costs["wall_s"], **look, label=label + note)
+        if costs["operator_applications"].any():
+            operators.plot(costs["number"], costs["operator_applications"], **look)
+    time.set(ylabel="wall time [s]")
+    operators.set(ylabel="operators on the grid [1]")
+    for axes in (time, operators):
+        axes.set(xscale="log", yscale="log", xlabel="elements of the disc $N$ [1]")
+        logarithmic_ticks(axes)
+    plain_ticks(operators.yaxis, [10, 20, 50, 100, 200, 500, 1000, 2000])
+    figure.legend(loc="outside lower center", ncols=3)
+    return figure

@@ -1,0 +1,77 @@
+"""Figure 3 of the paper: the master curve, Eq. 12."""
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import FixedLocator
+
+from viscorough import reference
+from viscorough_study.figures.mean_curve import mean_curve
+from viscorough_study.figures.style import GREY, MM, NARROW, STYLE, hurst_handles, hurst_looks, logarithmic_ticks
+from viscorough_study.tables import fits
+
+
+@rc_context(STYLE)
+def plot_master_curve(discs, lines, scaling, conventions):
+    """vt/h over the right side of Eq. 12 with its Γ, and below the ratio of the two.
+
+    discs, lines : ensemble datasets, one for each Hurst exponent; lines have the rms height of the discs (Eq. 13)
+    scaling : scaling table, which has region (b); conventions : {column of it: value}
+
+    Symbols, about eight for each decade of X, are filled in region (b); bars are two standard errors to either side.
+    Region (a) is left out. The lower panel is cut to the range of region (b).
+    """
+    looks = hurst_looks(ds["hurst"].item() for ds in discs)
+    figure = Figure(figsize=(NARROW, 150 * MM))
+    panels = law, ratio = figure.subplots(2, 1, sharex=True, height_ratios=(1.6, 1))
+    for axes in panels:
+        axes.set(xscale="log", yscale="log")
+    ratios = [0.5, 2]
+    for ds in discs:
+        hurst = ds["hurst"].item()
+        windows = fits(scaling, conventions, source="discs", case_group="base", hurst=hurst)
+        ratios += _draw_discs(panels, mean_curve(ds, conventions), hurst, windows, looks[hurst])
+    for ds in lines:
+        hurst, curve = ds["hurst"].item(), mean_curve(ds, conventions)
+        right_side = reference.rate_law(curve.x, hurst, gamma=True)
+        for axes, y in ((law, curve.velocity), (ratio, curve.velocity / right_side)):
+            axes.plot(right_side[curve.several], y[curve.several], color=looks[hurst]["color"], zorder=3)
+    ends = law.get_xlim()
+    law.plot(ends, ends, "--", color="black")
+    ratio.axhline(1, linestyle="--", color="black")
+    law.set(xlim=ends, ylabel="$vt/h$")
+    xlabel = r"$(Ft/4\eta hL)^{H/(1+H)} \,/\, [(2-H)\,\Gamma(\frac{1+2H}{1+H})]$"
+    ratio.set(xlabel=xlabel, ylabel="$vt/h$ over Eq. 12", ylim=(min(ratios) / 1.3, max(ratios) * 1.3))
+    logarithmic_ticks(*panels)
+    ratio.yaxis.set(major_locator=FixedLocator([0.1, 0.2, 0.5, 1, 2, 5, 10]), major_formatter="{x:g}")
+    law.legend(handles=_handles(looks), loc="upper left")
+    return figure
+
+
+def _draw_discs(panels, curve, hurst, windows, look):
+    """Symbols of the discs of one Hurst exponent, filled in the windows; returns the ratios drawn there."""
+    look = look | {"linestyle": "", "markersize": 3.5, "capsize": 0, "elinewidth": 0.8}
+    right_side = reference.rate_law(curve.x, hurst, gamma=True)
+    step = max(1, np.searchsorted(curve.x, 10 * curve.x[0]) // 8)
+    thinned = curve.several & (np.arange(curve.x.size) % step == 0)
+    inside = np.zeros(curve.x.size, dtype=bool)
+    for window in windows.itertuples():
+        inside = (curve.x >= window.x_low * (1 - 1e-9)) & (curve.x <= window.x_high * (1 + 1e-9))
+    for axes, y in zip(panels, (curve.velocity, curve.velocity / right_side), strict=True):
+        error = y * (1 - np.exp(-curve.error)), y * (np.exp(curve.error) - 1)
+        for part, face in ((thinned & inside, look["color"]), (thinned & ~inside, "white")):
+            bars = [side[part] for side in error]
+            axes.errorbar(right_side[part], y[part], bars, markerfacecolor=face, markeredgewidth=0.7, **look)
+    return (curve.velocity / right_side)[thinned & inside].tolist()
+
+
+def _handles(looks):
+    symbol = {"color": GREY, "linestyle": "", "marker": "o"}
+    return [
+        *hurst_handles(looks, linestyle="-"),
+        Line2D([], [], **symbol, label="discs, in region (b)"),
+        Line2D([], [], **symbol, label="discs, elsewhere", markerfacecolor="white"),
+        Line2D([], [], color=GREY, label=r"lines, $C_{1D}=\pi q C_{2D}$"),
+        Line2D([], [], color="black", linestyle="--", label="Eq. 12"),
+    ]

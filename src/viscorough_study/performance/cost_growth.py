@@ -1,0 +1,25 @@
+"""Growth of the cost with the number of elements, from tables of costs."""
+
+import numpy as np
+
+
+def median_costs(table, method, value):
+    """Cost of a method over the elements of rough discs: a pandas.DataFrame with number, wall_s, operator_applications.
+
+    table : of viscorough_study.performance.methods; value : of the method's parameter
+    number is that of the elements of the disc. Medians over the discs of one size, on grids that differ by up to a
+    factor of eight across. A disc that the method did not solve in time has an error of 1 and is left out.
+    """
+    rows = table[table["hurst"].notna() & (table["error"] < 1) & (table["method"] == method)]
+    rows = rows[np.isclose(rows["value"], value, rtol=1e-9, atol=0)]
+    medians = rows.groupby("elements", as_index=False)[["wall_s", "operator_applications"]].median()
+    medians = medians[medians["elements"] >= medians["elements"].max() / 8]
+    return medians.assign(number=np.pi / 4 * medians["elements"] ** 2)
+
+
+def fit_cost(number, cost):
+    """(a, c) of cost = c·number^a, by least squares of the logarithms; nan for fewer than two sizes."""
+    if len(number) < 2:
+        return np.nan, np.nan
+    exponent, logarithm = np.polyfit(np.log(number), np.log(cost), 1)
+    return exponent, np.exp(logarithm)

@@ -192,7 +192,7 @@ def test_speed_without_other_solvers(fresh):
             assert (fresh / f"results/figures/{figure}.{kind}").stat().st_size > 5000
     methods = pd.read_csv(fresh / "results/tables/methods.csv")
     assert set(methods["problem"]) == {"sphere", "cone", "rough disc, H = 0.4"}
-    assert not (methods["group"] == "peer").any()
+    assert not (methods["group"] == "other solver").any()
     with xr.open_dataset(fresh / "results/tables/peers.nc") as peers:
         assert "cores" in peers.attrs["title"]
         assert peers["solver"].values.tolist() == ["viscorough"]

@@ -7,14 +7,16 @@ from threadpoolctl import threadpool_limits
 
 from viscorough.io.atomic import atomic_write
 from viscorough_study.job_log import log_to
-from viscorough_study.performance.methods import METHODS, measure, named_problem, peer_method
-from viscorough_study.performance.other_solvers import Peer
+from viscorough_study.performance.measurement import measure
+from viscorough_study.performance.methods import METHODS, other_solver_method
+from viscorough_study.performance.other_solvers import OtherSolver
+from viscorough_study.performance.problems import named_problem
 
 
 def main(csv, *, problem, seed, levels, repeats, longest, peers):
-    """Measure the methods of the package and the peers that are installed on a problem, given by its settings."""
-    present = [peer for name, paths in peers.items() if (peer := Peer(name, *map(Path, paths))).present]
-    methods = (*METHODS, *(peer_method(peer, longest) for peer in present))
+    """Measure the methods of the package and the installed other solvers on a problem, given by its settings."""
+    solvers = [OtherSolver(name, *map(Path, paths)) for name, paths in peers.items()]
+    methods = (*METHODS, *(other_solver_method(solver, longest) for solver in solvers if solver.installed))
     with threadpool_limits(1):  # Snakemake gives the job all cores, so that nothing runs beside it
         table = measure(named_problem(**problem, levels=levels, root=seed), repeats, methods, report=logging.info)
     with atomic_write(csv) as temporary:

@@ -9,26 +9,28 @@ from threadpoolctl import threadpool_limits
 
 from viscorough_study.job_log import log_to
 from viscorough_study.performance import timing
-from viscorough_study.performance.other_solvers import COLUMNS, Peer, race
+from viscorough_study.performance.other_solvers import OtherSolver
+from viscorough_study.performance.solver_comparison import COLUMNS, compare_solvers, disc_task
 from viscorough_study.seeds import realization_seed, solver_race_key
 from viscorough_study.tables import write_table
 
 
 def main(csv, nc, *, seed, hurst, repeats, longest, tasks, peers):
-    """Race on every task for every Hurst exponent; peers that are not installed are left out."""
-    everyone = [Peer(name, *map(Path, paths)) for name, paths in peers.items()]
-    present = [peer for peer in everyone if peer.present]
-    for peer in set(everyone) - set(present):
-        logging.warning("%s is not installed: left out (make peers installs it)", peer.name)
+    """Compare on every task for every Hurst exponent; other solvers that are not installed are left out."""
+    solvers = [OtherSolver(name, *map(Path, paths)) for name, paths in peers.items()]
+    for solver in solvers:
+        if not solver.installed:
+            logging.warning("%s is not installed: left out (make peers installs it)", solver.name)
+    installed = [solver for solver in solvers if solver.installed]
     tables = []
     threadpool_limits(1)  # of the path, for good; Snakemake gives the job all cores, so that nothing runs beside it
     for number, task in enumerate(tasks):
         fractions = np.geomspace(*task["fractions"], task["levels"]) if task["levels"] > 1 else task["fractions"][:1]
         for each in hurst:
-            common = {"threads": task["threads"], "repeats": repeats, "longest": longest, "report": logging.info}
-            disc_seed = realization_seed(seed, *solver_race_key(number, each))
-            race_of = (task["name"], each, task["elements"], fractions, task["residual"], present)
-            tables.append(race(*race_of, seed=disc_seed, **common))
+            of_disc = {"seed": realization_seed(seed, *solver_race_key(number, each)), "threads": task["threads"]}
+            levels = disc_task(task["name"], each, task["elements"], fractions, task["residual"], **of_disc)
+            common = {"repeats": repeats, "time_limit": longest, "report": logging.info}
+            tables.append(compare_solvers(levels, installed, **common))
     title = f"The same levels by other solvers, on {timing.machine()}"
     write_table(pd.concat(tables), csv, nc, columns=COLUMNS, dimension="measurement", title=title)
 

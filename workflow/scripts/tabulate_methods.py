@@ -4,7 +4,7 @@ import pandas as pd
 
 from viscorough_study.job_log import log_to
 from viscorough_study.performance import timing
-from viscorough_study.performance.methods import COLUMNS
+from viscorough_study.performance.measurement import COLUMNS
 from viscorough_study.tables import write_table
 
 

@@ -37,7 +37,7 @@ MARKERS = "osD^v<>"
 def plot_growth(table):
     """Wall time and operator applications against the number of elements of rough discs, with fitted exponents.
 
-    table : of viscorough_study.performance.methods
+    table : of viscorough_study.performance.measurement
     Medians over the discs of one size. Raises ValueError for a table without rough discs.
     """
     require_rows("plot_growth", table[table["hurst"].notna()])

@@ -27,7 +27,7 @@ TICKS = (1, 2, 4, 8, 16, 32, 64, 128)
 def plot_other_solvers(table):
     """Wall time over that of the elastic path, of every solver on every task; hollow markers are of two threads.
 
-    table : of viscorough_study.performance.other_solvers. Raises ValueError for a table without rows.
+    table : of viscorough_study.performance.solver_comparison. Raises ValueError for a table without rows.
     """
     require_rows("plot_other_solvers", table)
     tasks, solvers = list(table["task"].unique()), list(table["solver"].unique())

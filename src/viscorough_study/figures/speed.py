@@ -25,7 +25,7 @@ GROUPS = {
     "path without a part": (SKY_BLUE, "elastic path without a part"),
     "marching": (VERMILION, "direct integration in time"),
     "model": (GREEN, "model (error of the model)"),
-    "peer": (PURPLE, "other solver"),
+    "other solver": (PURPLE, "other solver"),
 }
 MARKERS = "osD^v<>ph*X"
 FLOOR = 1e-13  # smaller errors are drawn here
@@ -36,7 +36,7 @@ ELEMENTS_ACROSS = 257  # of the rough discs drawn, or the most below that
 def plot_speed(table):
     """Wall time against the error of v for every method: a panel for each indenter, and for rough discs of region (b).
 
-    table : of viscorough_study.performance.methods
+    table : of viscorough_study.performance.measurement
     The values of a method's parameter are joined, the first and the last annotated; the staircase is the Pareto front.
     Raises ValueError for a table without rows.
     """
@@ -57,7 +57,7 @@ def plot_speed(table):
         if members:
             handles.append(Line2D([], [], color=color, linewidth=3, label=f"{label}:"))
             handles += [Line2D([], [], **_line(looks[name]), label=f"   {name}") for name in members]
-    if not (table["group"] == "peer").any():
+    if not (table["group"] == "other solver").any():
         handles.append(Line2D([], [], linestyle="", label="other solvers are not installed"))
     figure.legend(handles=handles, loc="outside lower center", ncols=3, fontsize=7)
     return figure
@@ -93,8 +93,8 @@ def _looks(table):
 
 def _line(look):
     """Line properties of a method; other solvers and models are hollow."""
-    hollow = {"markerfacecolor": "none"} if look["group"] in ("peer", "model") else {}
-    dashed = {"linestyle": "--"} if look["group"] == "peer" else {"linewidth": 0.7}
+    hollow = {"markerfacecolor": "none"} if look["group"] in ("other solver", "model") else {}
+    dashed = {"linestyle": "--"} if look["group"] == "other solver" else {"linewidth": 0.7}
     return {"color": look["color"], "marker": look["marker"], **hollow, **dashed}
 
 
@@ -104,7 +104,7 @@ def _draw_methods(axes, costs, looks):
         if rows.empty:
             continue
         axes.plot(rows["wall_s"], rows["error"], **_line(look))
-        if look["group"] in ("path", "marching", "peer") and len(rows) > 1:
+        if look["group"] in ("path", "marching", "other solver") and len(rows) > 1:
             for end in (rows.iloc[0], rows.iloc[-1]):
                 text = f"{end['value']:g}".replace("e-0", "e-")
                 at = (end["wall_s"], end["error"])

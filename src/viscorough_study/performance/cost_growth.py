@@ -6,7 +6,7 @@ import numpy as np
 def median_costs(table, method, value):
     """Cost of a method over the elements of rough discs: a pandas.DataFrame with number, wall_s, operator_applications.
 
-    table : of viscorough_study.performance.methods; value : of the method's parameter
+    table : of viscorough_study.performance.measurement; value : of the method's parameter
     number is that of the elements of the disc. Medians over the discs of one size, on grids that differ by up to a
     factor of eight across. A disc that the method did not solve in time has an error of 1 and is left out.
     """

@@ -1,12 +1,11 @@
-"""Model no more than a scene needs: the levels that `indent` chooses, beside the best hand-picked and naive ones.
+"""Placement of the levels of a loading curve: by `indent`, by hand, and naively, on the same scenes.
 
-A scene is an indenter, a range of force, and the accuracy wanted of the depth at any force in it. Hand-picked levels
-stand in equal ratios of depth over exactly that range, which has to be known beforehand; their number and the
-tolerance are the ones that reach the accuracy at least cost. Naive levels stand in equal steps of depth, as many as
-make their error that of the levels chosen automatically.
+A scene is an indenter, a range of force, and the accuracy required of the depth at any force in it. Levels by hand
+stand in equal ratios of depth over exactly that range, which has to be known beforehand; their number is the smallest
+that reaches the accuracy. Naive levels stand in equal steps of depth; their number is the smallest that makes the error
+no larger than that of the levels chosen automatically. The tolerance of every level is the accuracy required.
 """
 
-import time
 from dataclasses import dataclass
 from functools import partial
 
@@ -19,16 +18,17 @@ from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
 from viscorough_study.performance import timing
 
-NUMBERS = (3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512)  # of hand-picked levels
-LOOSER = (1,)
+HAND_PICKED = (3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512)  # numbers of levels that are tried
 NAIVE = tuple(2**n for n in range(2, 13))
-BEST, WORST = 4, 20  # times the automatic choice's cost, beyond which levels by hand, and naive ones, are not pursued
-MARGIN = 0.01  # by which levels reach beyond the range, whose ends they know only to their tolerance
+# Times the automatic choice's cost, beyond which hand-picked levels, and naive ones, are not pursued.
+MAX_RATIO_HAND_PICKED, MAX_RATIO_NAIVE = 4, 20
+MARGIN = 0.01  # by which levels reach beyond the range of depth, whose ends are known to the tolerance only
 PROBES = 60  # forces at which the depth is compared
+REFERENCE_TOLERANCE = 1e-9  # of the depths that are compared with
 COLUMNS = {
     "scene": ("scene", ""),
-    "choice": ("who chose the levels", ""),
-    "accuracy": ("relative accuracy of depth asked for", "1"),
+    "choice": ("how the levels are chosen", ""),
+    "accuracy": ("relative accuracy required of the depth", "1"),
     "error": ("largest relative error of the depth at any force of the range", "1"),
     "reached": ("1 if that is within the accuracy", "1"),
     "levels": ("levels", "1"),
@@ -41,7 +41,7 @@ COLUMNS = {
 
 @dataclass(frozen=True)
 class Scene:
-    """An indenter, accuracy, and the range of force as contact fractions at its ends."""
+    """An indenter, the accuracy required of the depth, and the contact fractions at the ends of the range of force."""
 
     name: str
     indenter: Indenter
@@ -51,7 +51,7 @@ class Scene:
 
 
 def scenes(elements, hurst, seed):
-    """One asperity, region (b) alone, a full curve, and a coarse and a fine question about it."""
+    """The scenes: one asperity, and a rough disc in region (b) alone and over a full curve to three accuracies."""
     asperity = reference.sphere(1.0).indenter(elements)
     disc = self_affine_disc(hurst, elements, seed=seed)
     few = 10 / disc.elements
@@ -64,57 +64,48 @@ def scenes(elements, hurst, seed):
     ]
 
 
-def compare(scene, repeats, report=lambda text: None):
-    """Cost and error of the three choices of levels for a scene; a pandas.DataFrame with the columns of `COLUMNS`."""
+def compare(scene, repeats, report=lambda text: None, *, hand_picked=HAND_PICKED, naive=NAIVE):
+    """Cost and error of the three choices of levels for a scene.
+
+    repeats : number of interleaved repeats, of which the times are medians
+    report : called with a line of text before the levels of each choice
+    hand_picked, naive : numbers of levels that are tried, increasing
+
+    Returns a pandas.DataFrame with the columns of `COLUMNS`: a row per choice, "automatic", "best by hand" (absent if
+    no number reaches the accuracy) and "naive".
+    """
     coarse = indent(scene.indenter, tolerance=1e-2, until_fraction=scene.last)
     ends = np.interp([scene.first, scene.last], coarse.contact_fraction, coarse.depth)
-    probes = np.geomspace(*ends, PROBES)
-    exact = indent(scene.indenter, tolerance=1e-9, depths=probes)
-    end = exact.force[-1]
-    report(f"{scene.name}: levels by hand")
+    exact = indent(scene.indenter, tolerance=REFERENCE_TOLERANCE, depths=np.geomspace(*ends, PROBES))
+    path = partial(indent, scene.indenter, tolerance=scene.accuracy)
+    range_of_force = {"start_fraction": scene.first, "until_fraction": 1, "until_force": exact.force[-1]}
+    automatic = _row(scene, "automatic", partial(path, **range_of_force), exact)
+    first, last = ends * [1 - MARGIN, 1 + MARGIN]
 
-    automatic = partial(
-        indent, scene.indenter, tolerance=scene.accuracy, start_fraction=scene.first, until_fraction=1, until_force=end
-    )
-    rows = [_row(scene, "automatic", automatic, scene.accuracy, exact)]
-    by_hand, by_hand_ends = [], ends * [1 - MARGIN, 1 + MARGIN]
-    for tolerance in (min(0.1, scene.accuracy * looser) for looser in LOOSER):
-        for number in NUMBERS:
-            depths = np.geomspace(*by_hand_ends, number)
-            levels = partial(indent, scene.indenter, tolerance=tolerance, depths=depths)
-            row = _row(scene, "best by hand", levels, tolerance, exact)
-            if row["reached"]:
-                by_hand.append(row)
-            if row["reached"] or row["wall_s"] > BEST * rows[0]["wall_s"]:  # more levels only cost more
-                break
-    report(f"{scene.name}: naive levels")
-    for number in NAIVE:
-        depths = np.linspace(0, by_hand_ends[1], number + 1)[1:]
-        naive = _row(
-            scene,
-            "naive",
-            partial(indent, scene.indenter, tolerance=scene.accuracy, depths=depths),
-            scene.accuracy,
-            exact,
-        )
-        if naive["error"] <= rows[0]["error"] or naive["wall_s"] > WORST * rows[0]["wall_s"]:
+    report(f"{scene.name}: levels by hand")
+    by_hand = []
+    for number in hand_picked:
+        row = _row(scene, "best by hand", partial(path, depths=np.geomspace(first, last, number)), exact)
+        if row["reached"]:
+            by_hand.append(row)
+        if row["reached"] or row["wall_s"] > MAX_RATIO_HAND_PICKED * automatic["wall_s"]:  # more levels only cost more
             break
-    candidates = [*rows, *by_hand, naive]
-    functions = {i: row.pop("function") for i, row in enumerate(candidates)}
+    report(f"{scene.name}: naive levels")
+    for number in naive:
+        row = _row(scene, "naive", partial(path, depths=np.linspace(0, last, number + 1)[1:]), exact)
+        if row["error"] <= automatic["error"] or row["wall_s"] > MAX_RATIO_NAIVE * automatic["wall_s"]:
+            break
+
+    rows = [automatic, *by_hand, row]
+    functions = {i: row.pop("function") for i, row in enumerate(rows)}
     for i, (wall, _) in timing.interleaved(functions, repeats).items():
-        candidates[i]["wall_s"] = wall
-    if by_hand:
-        rows.append(min(by_hand, key=lambda row: row["wall_s"]))
-    rows.append(naive)
-    for row in rows:
-        row["ratio"] = row["wall_s"] / rows[0]["wall_s"]
+        rows[i]["wall_s"] = wall
+        rows[i]["ratio"] = wall / rows[0]["wall_s"]
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
-def _row(scene, choice, levels, tolerance, exact):
-    started = time.perf_counter()
-    curve = levels()
-    wall = time.perf_counter() - started
+def _row(scene, choice, levels, exact):
+    curve, wall, _ = timing.timed(levels)
     depth, _ = curve.at_force(exact.force)
     error = np.nan_to_num(np.abs(depth / exact.depth - 1), nan=1.0).max()
     return {
@@ -124,7 +115,7 @@ def _row(scene, choice, levels, tolerance, exact):
         "error": error,
         "reached": int(error <= scene.accuracy),
         "levels": curve.depth.size,
-        "tolerance": tolerance,
+        "tolerance": scene.accuracy,
         "operator_applications": curve.operator_applications,
         "wall_s": wall,
         "function": levels,

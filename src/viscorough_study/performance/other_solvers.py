@@ -1,8 +1,26 @@
-"""Other public contact solvers, run in environments of their own on the same levels as ours.
+"""Other public contact solvers, run on the same levels as the elastic loading path, each in an environment of its own.
 
-Each is driven by an adapter, a script that reads a request and writes an answer (.npz); it runs under the Python of the
-peer's environment, which does not know this package. What a peer leaves as residual is computed here, from its
-pressures alone.
+Each is driven by an adapter (workflow/peers), a script that runs under the Python of the other solver's environment,
+which does not have this package. Request and answer are .npz files, named on the adapter's command line. Lengths are in
+element sides and pressures in shear moduli G; the half-space is incompressible, so that E = 3, ν = 1/2 and
+E* = E/(1 − ν²) = 4.
+
+The request holds
+    gap : initial gap of the indenter's elements to its highest point, nan outside it, shape (rows, columns)
+    depths, forces : u and F/G of the levels, increasing, shape (levels,); a solver takes one or the other
+    tolerances : the solver's own tolerances, shape (tolerances,); for each of them all levels are solved
+    padding : side of the square grid to solve on (see padded_size)
+    threads, repeats, maximum_seconds : threads; runs per tolerance; time limit of a run
+
+The answer holds
+    version : of the solver
+    pressures : p/G, shape (tolerances, levels, rows, columns)
+    depth : mean of deflection + initial gap over the contact, by the solver's own operator, shape (tolerances, levels)
+    iterations : -1 if not reported; converged : as the solver claims; shape (tolerances, levels)
+    wall, cpu : seconds of a run without set-up, nan where it exceeded the time limit, shape (tolerances, repeats)
+    setup_wall : seconds of the set-up; memory_mb : peak memory of the process in MB
+
+Residuals are computed here, from the pressures alone, in the same way for every solver.
 """
 
 import subprocess
@@ -12,17 +30,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 
-from viscorough import __version__
 from viscorough.contact.halfspace import Halfspace
-from viscorough.contact.loading_path import indent
-from viscorough.surfaces import self_affine_disc
-from viscorough_study.performance import timing
 
 
 @dataclass(frozen=True)
-class Peer:
+class OtherSolver:
     """A solver: its name, the Python of its environment, and its adapter."""
 
     name: str
@@ -30,18 +43,20 @@ class Peer:
     adapter: Path
 
     @property
-    def present(self):
-        """Whether its environment is there."""
+    def installed(self):
+        """Whether its environment exists."""
         return self.python.is_file()
 
 
 @dataclass(frozen=True)
-class PeerAnswer:
-    """What a peer found at every level, for one tolerance; arrays of shape (levels,).
+class Solution:
+    """Levels solved by another solver with one tolerance; arrays of shape (levels,), lengths in the user's unit.
 
-    depth, force : u and F/G of its pressures; residual : largest |gap in contact| or penetration over depth,
-        computed anew; iterations : -1 where it does not tell
-    wall_s, processor_s : for all levels, without its set-up; memory : of its process [bytes]; version : of the peer
+    depth, force : u and F/G of its pressures
+    residual : largest |gap| in contact or overlap outside it, over the depth, computed from its pressures
+    iterations : -1 if not reported
+    wall_s, processor_s : for all levels, without set-up; memory : peak memory of its process [bytes]
+    version : of the solver
     """
 
     version: str
@@ -53,16 +68,104 @@ class PeerAnswer:
     processor_s: float
     memory: float
 
+    @property
+    def total_iterations(self):
+        """Iterations of all levels, -1 if not reported."""
+        return int(self.iterations.sum()) if (self.iterations >= 0).all() else -1
+
+
+def solve(solver, indenter, depths, forces, tolerances, *, threads=1, time_limit=60.0):
+    """Solutions by another solver at the given levels, each started from the level before.
+
+    depths, forces : u and F/G of the levels, in the indenter's unit of length; a solver takes one or the other
+    tolerances : the solver's own; time_limit : seconds after which the run of one tolerance is abandoned
+
+    Returns a Solution per tolerance, None where there is none. Warns, with the last line that the solver's process
+    wrote to standard error, if the process fails.
+    """
+    gap = indenter.initial_gap / indenter.spacing
+    request = {
+        "gap": gap,
+        "depths": np.asarray(depths) / indenter.spacing,
+        "forces": np.asarray(forces) / indenter.spacing**2,
+        "tolerances": np.asarray(tolerances, dtype=float),
+        "padding": padded_size(max(gap.shape)),
+        "threads": threads,
+        "repeats": 1,
+        "maximum_seconds": time_limit,
+    }
+    answer = _run_adapter(solver, request, time_limit * len(tolerances) + 60)
+    if answer is None:
+        return [None] * len(tolerances)
+    return [_solution(answer, i, gap, indenter.spacing) for i in range(len(tolerances))]
+
+
+def _run_adapter(solver, request, seconds):
+    """The answer of the solver's adapter to a request, as a dictionary; None, with a warning, if there is none."""
+    with tempfile.TemporaryDirectory() as folder:
+        paths = Path(folder) / "request.npz", Path(folder) / "answer.npz"
+        np.savez(paths[0], **request)
+        command = [solver.python, solver.adapter, *paths]
+        try:
+            done = subprocess.run(command, capture_output=True, text=True, timeout=seconds)
+        except subprocess.TimeoutExpired:
+            warnings.warn(f"{solver.name}: no answer within {seconds:g} s", stacklevel=3)
+            return None
+        if done.returncode or not paths[1].is_file():
+            reason = (done.stderr.strip() or "no answer").splitlines()[-1]
+            warnings.warn(f"{solver.name}: {reason}", stacklevel=3)
+            return None
+        with np.load(paths[1]) as answer:
+            return {name: answer[name] for name in answer.files}
+
+
+def _solution(answer, i, gap, spacing):
+    """Solution with the tolerance of index i, in the unit of the spacing; None if it exceeded the time limit."""
+    if not np.isfinite(answer["wall"][i]).all():
+        return None
+    # Solvers at given force determine the depth, those at given depth keep it: either way it is in the answer.
+    pressures, depths = answer["pressures"][i], answer["depth"][i]
+    residual = [residual_of(gap, pressure, depth) for pressure, depth in zip(pressures, depths, strict=True)]
+    return Solution(
+        version=str(answer["version"]),
+        depth=depths * spacing,
+        force=pressures.sum(axis=(1, 2)) * spacing**2,
+        residual=np.array(residual),
+        iterations=answer["iterations"][i],
+        wall_s=float(np.median(answer["wall"][i])),
+        processor_s=float(np.median(answer["cpu"][i])),
+        memory=float(answer["memory_mb"]) * 1e6,
+    )
+
+
+def residual_of(gap, pressure, depth):
+    """Largest |gap of the deformed surfaces| where there is pressure, or overlap where there is none, over the depth.
+
+    gap : initial gap to the highest point, nan outside the indenter; pressure : p/G; lengths in element sides
+
+    Returns infinity for pressure outside the indenter, and for no pressure at all.
+    """
+    rows, columns = gap.shape
+    halfspace = Halfspace(rows, columns)
+    halfspace.load[:, :columns] = pressure / (4 * np.pi)
+    deformed_gap = halfspace.apply()[:, :columns] - depth + gap
+    inside = np.isfinite(gap)
+    contact = inside & (pressure > 0)
+    pressed_outside = np.abs(pressure[~inside]).max(initial=0.0) > 0
+    if pressed_outside or not contact.any():
+        return np.inf
+    return max(np.abs(deformed_gap[contact]).max(), -deformed_gap[inside].min(), 0.0) / depth
+
 
 def padded_size(elements):
     """Smallest size of a grid with a factor of 8 and no prime factor above 11: a good length of transforms."""
     size = -(-elements // 8) * 8
-    while _largest_factor(size) > 11:
+    while _largest_prime_factor(size) > 11:
         size += 8
     return size
 
 
-def _largest_factor(number):
+def _largest_prime_factor(number):
     factor = 2
     while factor * factor <= number:
         if number % factor:
@@ -70,178 +173,3 @@ def _largest_factor(number):
         else:
             number //= factor
     return number
-
-
-def ask(peer, indenter, depths, forces, tolerances, *, threads=1, longest=60.0):
-    """Answers of a peer at the given levels, started from each other: a PeerAnswer per tolerance, None where it failed.
-
-    depths, forces : u and F/G of the levels, in the indenter's unit of length; a peer takes one or the other
-    longest : seconds after which a tolerance is given up
-
-    Warns, with its last line, if the peer's process fails.
-    """
-    spacing = indenter.spacing
-    gap = indenter.initial_gap / spacing
-    with tempfile.TemporaryDirectory() as folder:
-        request, answer = Path(folder) / "request.npz", Path(folder) / "answer.npz"
-        np.savez(
-            request,
-            gap=gap,
-            depths=np.asarray(depths) / spacing,
-            forces=np.asarray(forces) / spacing**2,
-            tolerances=np.asarray(tolerances, dtype=float),
-            padding=padded_size(max(gap.shape)),
-            threads=threads,
-            repeats=1,
-            maximum_seconds=longest,
-        )
-        command = [peer.python, peer.adapter, request, answer]
-        try:
-            done = subprocess.run(command, capture_output=True, text=True, timeout=longest * len(tolerances) + 60)
-        except subprocess.TimeoutExpired:
-            warnings.warn(f"{peer.name}: no answer in {longest:g} s for each tolerance", stacklevel=2)
-            return [None] * len(tolerances)
-        if done.returncode or not answer.is_file():
-            reason = (done.stderr.strip() or "no answer").splitlines()[-1]
-            warnings.warn(f"{peer.name}: {reason}", stacklevel=2)
-            return [None] * len(tolerances)
-        with np.load(answer) as found:
-            found = {name: found[name] for name in found.files}
-    answers = []
-    for i in range(len(tolerances)):
-        if not np.isfinite(found["wall"][i]).all():
-            answers.append(None)
-            continue
-        pressures = found["pressures"][i]
-        # Peers at given force find the depth; those at given depth keep it.
-        residual = np.array([residual_of(gap, *each) for each in zip(pressures, found["depth"][i], strict=True)])
-        answers.append(
-            PeerAnswer(
-                version=str(found["version"]),
-                depth=found["depth"][i] * spacing,
-                force=pressures.sum(axis=(1, 2)) * spacing**2,
-                residual=residual,
-                iterations=found["iterations"][i],
-                wall_s=float(np.median(found["wall"][i])),
-                processor_s=float(np.median(found["cpu"][i])),
-                memory=float(found["memory_mb"]) * 1e6,
-            )
-        )
-    return answers
-
-
-def residual_of(gap, pressure, depth):
-    """Largest |gap between the surfaces| where there is pressure, or penetration where there is none, over the depth.
-
-    gap : to the highest point, nan outside the indenter; pressure : p/G; lengths in element sides
-    """
-    rows, columns = gap.shape
-    halfspace = Halfspace(rows, columns)
-    halfspace.load[:, :columns] = pressure / (4 * np.pi)
-    opening = halfspace.apply()[:, :columns] - depth + gap
-    inside = np.isfinite(gap)
-    contact = inside & (pressure > 0)
-    pressed_outside = np.abs(pressure[~inside]).max(initial=0.0) > 0
-    if pressed_outside or not contact.any():
-        return np.inf
-    return max(np.abs(opening[contact]).max(), -opening[inside].min(), 0.0) / depth
-
-
-# Tolerances of peers, over the residual asked for, from loose to tight: each peer means by them what it does.
-SWEEP = (30, 10, 3, 1, 1 / 3, 1 / 10, 1 / 30, 1 / 100)
-SLOWEST = 20.0  # what takes more seconds is not repeated
-COLUMNS = {
-    "task": ("what is computed", ""),
-    "hurst": ("Hurst exponent of the disc", "1"),
-    "elements": ("elements across the disc", "1"),
-    "levels": ("levels", "1"),
-    "solver": ("solver", ""),
-    "version": ("version of the solver", ""),
-    "threads": ("threads", "1"),
-    "tolerance": ("its loosest tolerance that meets the residual asked for, else its best", "1"),
-    "residual": ("largest residual of any level, from the pressures", "1"),
-    "met": ("1 if that is within the residual asked for", "1"),
-    "force_error": ("largest relative error of the force at any level", "1"),
-    "wall_s": ("wall time, median of interleaved repeats", "s"),
-    "processor_s": ("processor time, median of interleaved repeats", "s"),
-    "ratio": ("wall time over that of the path on one thread", "1"),
-    "iterations": ("iterations of a peer (-1: not told), operators of the path", "1"),
-    "memory": ("memory of a peer's process; of the path, its arrays", "bytes"),
-}
-
-
-def race(task, hurst, elements, fractions, target, peers, *, threads, repeats, seed, longest, report=lambda text: None):
-    """The path against peers: levels at given contact fractions of a disc, to one residual, each as fast as it can.
-
-    The path's time is for everything, exact stiffness at every level included; a peer's is without its set-up and
-    without stiffness. Peers start every level from the one before.
-
-    fractions : contact fractions; target : residual asked for; longest : seconds after which a peer is given up
-
-    Returns a pandas.DataFrame with the columns of `COLUMNS`; a row per solver that is present, and number of threads.
-    """
-    disc = self_affine_disc(hurst, elements, seed=seed)
-    coarse = indent(disc, tolerance=1e-2, until_fraction=min(1.0, 1.2 * max(fractions)))
-    depths = np.interp(fractions, coarse.contact_fraction, coarse.depth)
-    exact = indent(disc, tolerance=1e-10, depths=depths)
-
-    def path():
-        return indent(disc, tolerance=target, depths=depths)
-
-    about = {"task": task, "hurst": hurst, "elements": elements, "levels": len(depths)}
-    curve, memory = timing.with_memory(path)
-    rows, chosen, known = [], {}, {}
-    ours = about | {"solver": "viscorough", "version": __version__, "threads": 1, "tolerance": target, "memory": memory}
-    ours |= {"residual": curve.residual.max(), "iterations": curve.operator_applications}
-    rows.append(ours | {"force_error": np.abs(curve.force / exact.force - 1).max()})
-    for peer in peers:
-        report(f"{task}, H = {hurst:g}: {peer.name}, looking for its tolerance")
-        found = _loosest(peer, disc, depths, exact.force, target, longest)
-        if found is None:
-            continue
-        tolerance, answer = found
-        for number in threads:
-            chosen[peer, number] = tolerance
-            known[peer] = {1: (answer.wall_s, answer.processor_s)}
-            row = about | {"solver": peer.name, "version": answer.version, "threads": number, "tolerance": tolerance}
-            row |= {"residual": answer.residual.max(), "iterations": answer.iterations.sum(), "memory": answer.memory}
-            rows.append(row | {"force_error": np.abs(answer.force / exact.force - 1).max()})
-    times = [[] for _ in rows]
-    for repeat in range(repeats):
-        report(f"{task}, H = {hurst:g}: repeat {repeat + 1} of {repeats}")
-        times[0].append(timing.interleaved({"path": path}, 1)["path"])
-        for (peer, number), each in zip(chosen, times[1:], strict=True):
-            if number not in known[peer] or known[peer][number][0] < SLOWEST:
-                tolerances = [chosen[peer, number]]
-                (answer,) = ask(peer, disc, depths, exact.force, tolerances, threads=number, longest=longest)
-                known[peer][number] = (answer.wall_s, answer.processor_s) if answer else (np.nan, np.nan)
-            each.append(known[peer][number])
-    for row, each in zip(rows, times, strict=True):
-        row["wall_s"], row["processor_s"] = np.median(each, axis=0)
-        row["ratio"] = row["wall_s"] / rows[0]["wall_s"]
-        row["met"] = int(row["residual"] <= target)
-    return pd.DataFrame(rows, columns=list(COLUMNS))
-
-
-def _loosest(peer, disc, depths, forces, target, longest):
-    """The loosest tolerance of SWEEP with which a peer meets the residual, else the best, and its answer; or None."""
-    found = {}
-
-    def residual(i):
-        (found[i],) = ask(peer, disc, depths, forces, [SWEEP[i] * target], longest=longest)
-        return np.inf if found[i] is None else found[i].residual.max()
-
-    i = SWEEP.index(3)
-    if residual(i) <= target:
-        while i > 0 and residual(i - 1) <= target:
-            i -= 1
-    else:
-        while i + 1 < len(SWEEP) and found[i] is not None:
-            i += 1
-            if residual(i) <= target:
-                break
-    answered = {j: answer.residual.max() for j, answer in found.items() if answer is not None}
-    if not answered:
-        return None
-    best = min((j for j, left in answered.items() if left <= target), default=min(answered, key=answered.get))
-    return SWEEP[best] * target, found[best]

@@ -1,4 +1,4 @@
-"""What computations cost: interleaved repeats, so that a change of the machine's speed meets all of them alike."""
+"""Time and memory of computations, with interleaved repeats: a change of the machine's speed then affects all alike."""
 
 import gc
 import os
@@ -13,14 +13,14 @@ import numpy as np
 def interleaved(functions, repeats):
     """{name: (wall, processor) seconds} of functions, medians over interleaved repeats; each should have run before.
 
-    A result with `seconds` of its own, such as those of another process, is taken by its word.
+    Where a result has an attribute `seconds` (computed in another process, say), its own timing is used.
     """
     times = {name: [] for name in functions}
     for _ in range(repeats):
         for name, function in functions.items():
             result, *seconds = timed(function)
             times[name].append(getattr(result, "seconds", None) or seconds)
-    return {name: tuple(np.median(each, axis=0).tolist()) for name, each in times.items()}
+    return {name: tuple(np.median(seconds, axis=0).tolist()) for name, seconds in times.items()}
 
 
 def timed(function):
@@ -30,7 +30,7 @@ def timed(function):
 
 
 def with_memory(function):
-    """Result of a function, and the most memory that its arrays took at any time [bytes]."""
+    """Result of a function, and the peak memory of its arrays [bytes]."""
     gc.collect()
     tracemalloc.start()
     try:
@@ -40,7 +40,7 @@ def with_memory(function):
 
 
 def machine():
-    """Name, processor and cores of this machine, for the files that times are written to."""
+    """Name, processor and cores of this machine, to be written beside the times measured on it."""
     info = Path("/proc/cpuinfo")
     lines = info.read_text().splitlines() if info.is_file() else []
     names = [line.split(":")[1].strip() for line in lines if line.startswith("model name")]

@@ -8,7 +8,7 @@ from viscorough_study.figures.growth import plot_growth
 from viscorough_study.figures.level_placement import plot_level_placement
 from viscorough_study.figures.other_solvers import plot_other_solvers
 from viscorough_study.figures.speed import FLOOR, plot_speed
-from viscorough_study.performance import methods
+from viscorough_study.performance import measurement
 from viscorough_study.performance.cost_growth import fit_cost
 from viscorough_study.performance.pareto import pareto_front
 
@@ -28,7 +28,7 @@ def table():
                 seen = {"value": value, "wall_s": wall, "processor_s": wall, "error": error, "error_b": error / 2}
                 rest = {"knob": "", "largest_error": error, "operator_applications": elements, "steps": 1, "memory": 1}
                 rows.append(about | seen | rest)
-    return pd.DataFrame(rows)[list(methods.COLUMNS)]
+    return pd.DataFrame(rows)[list(measurement.COLUMNS)]
 
 
 def drawn(axes):
@@ -58,7 +58,7 @@ def test_speed_shows_every_method_and_the_front_on_one_grid_of_each_indenter():
 
 def test_speed_shows_other_solvers_hollow():
     data = table()
-    peer = data[data["method"] == "MDR"].assign(method="ASPHER", group="peer")
+    peer = data[data["method"] == "MDR"].assign(method="ASPHER", group="other solver")
     figure = plot_speed(pd.concat([data, peer]))
     texts = [text.get_text() for text in figure.legends[0].get_texts()]
     assert "   ASPHER" in texts

@@ -1,0 +1,83 @@
+"""Cost and error of every method on one problem.
+
+The error of a method is the root mean square of the relative deviation of its velocities from the reference solution;
+where a method gives no velocity, the deviation counts as 1.
+"""
+
+from functools import partial
+
+import numpy as np
+import pandas as pd
+
+from viscorough_study.performance import timing
+from viscorough_study.performance.methods import METHODS
+
+LARGEST_COMPARED = 513  # elements across the indenter, beyond which only the growth of the cost is measured
+MAX_REPEATED = 10.0  # seconds; what takes longer is not repeated
+TIMES = ("wall_s", "processor_s")
+COLUMNS = {
+    "problem": ("indenter", ""),
+    "hurst": ("Hurst exponent", "1"),
+    "elements": ("elements across the indenter", "1"),
+    "method": ("method", ""),
+    "group": ("group of the method", ""),
+    "knob": ("parameter of the method that trades accuracy for cost", ""),
+    "value": ("value of that parameter", "1"),
+    "wall_s": ("wall time, median of interleaved repeats", "s"),
+    "processor_s": ("processor time, median of interleaved repeats", "s"),
+    "error": ("relative error of the velocity, root mean square over all depths", "1"),
+    "error_b": ("the same in region (b)", "1"),
+    "largest_error": ("largest relative error of the velocity", "1"),
+    "operator_applications": ("applications of the half-space operator on the grid", "1"),
+    "steps": ("levels, events, time steps, points of a line, or iterations of another solver", "1"),
+    "memory": ("peak memory of its arrays", "bytes"),
+}
+
+
+def measure(problem, repeats, methods=METHODS, report=lambda text: None):
+    """Cost and error of every method that can solve a problem, at every value of its knob.
+
+    repeats : number of interleaved repeats after the first run, which gives errors and memory, and the time of whatever
+        takes longer than MAX_REPEATED
+    report : called with a line of text before each first run
+
+    Returns a pandas.DataFrame with the columns of `COLUMNS`, a row per method and value.
+    """
+    rows, functions = {}, {}
+    for method in methods:
+        if problem.elements_across > method.largest or (method.rough_only and problem.hurst is None):
+            continue
+        for value in method.values if problem.elements_across <= LARGEST_COMPARED else method.growth:
+            report(f"{problem.name}: {method.name}, {method.knob} {value:g}")
+            function = partial(method.run, problem, value)
+            (answer, memory), *seconds = timing.timed(partial(timing.with_memory, function))
+            seconds = answer.seconds or seconds
+            key = method.name, value
+            rows[key] = errors_and_costs(problem, method, value, answer, memory)
+            rows[key] |= dict(zip(TIMES, seconds, strict=True))
+            if seconds[0] < MAX_REPEATED:
+                functions[key] = function
+    report(f"{problem.name}: {repeats} repeats")
+    for key, seconds in timing.interleaved(functions, repeats).items():
+        rows[key] |= dict(zip(TIMES, seconds, strict=True))
+    return pd.DataFrame(rows.values(), columns=list(COLUMNS))
+
+
+def errors_and_costs(problem, method, value, answer, memory):
+    """Entries of `COLUMNS` for one Answer of a method, without the times."""
+    deviation = np.nan_to_num(np.abs(answer.velocity / problem.velocity - 1), nan=1.0)
+    return {
+        "problem": problem.name.rsplit(",", 1)[0],
+        "hurst": np.nan if problem.hurst is None else problem.hurst,
+        "elements": problem.elements_across,
+        "method": method.name,
+        "group": method.group,
+        "knob": method.knob,
+        "value": float(value),
+        "error": np.sqrt(np.mean(deviation**2)),
+        "error_b": np.sqrt(np.mean(deviation[problem.region_b] ** 2)) if problem.region_b.any() else np.nan,
+        "largest_error": deviation.max(),
+        "operator_applications": answer.operator_applications,
+        "steps": answer.steps,
+        "memory": memory,
+    }

@@ -1,0 +1,77 @@
+"""Indenters on which methods are compared, with the velocities of penetration that are compared with.
+
+The velocity v under constant force is given as vt = (F/G)/(k/G), a length (paper, Eqs. 1-3: vt/h = X/κ).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from viscorough import reference
+from viscorough.contact.loading_path import indent
+from viscorough.indenter import Indenter
+from viscorough.surfaces import self_affine_disc
+from viscorough_study.seeds import method_problem_key, realization_seed
+
+BODIES = {"sphere": reference.sphere(1.0), "cone": reference.cone(0.1)}
+FINAL_X, FINAL_FRACTION = 30.0, 0.9  # where a rough disc's curve ends
+MIN_ELEMENTS_B, MAX_STIFFNESS_B = 10, 0.2  # of region (b): elements in contact, and κ
+REFERENCE_TOLERANCE = 1e-11  # of the velocities that rough discs are compared with
+
+
+@dataclass(frozen=True)
+class Problem:
+    """An indenter with h = L = 1 and its reference solution; arrays of shape (levels,).
+
+    depth, force, velocity : u, F/G and vt = (F/G)/(k/G) of the reference solution
+    region_b : whether a level is in region (b)
+    hurst, seed : of a rough disc; body : of a body of revolution with an exact solution; otherwise None
+    """
+
+    name: str
+    indenter: Indenter
+    depth: np.ndarray
+    force: np.ndarray
+    velocity: np.ndarray
+    region_b: np.ndarray
+    hurst: float | None = None
+    seed: np.random.SeedSequence | None = None
+    body: reference.PowerLawBody | None = None
+
+    @property
+    def elements_across(self):
+        """Elements across the indenter."""
+        return len(self.indenter.heights)
+
+
+def rough_problem(hurst, elements, levels, root):
+    """A self-affine disc, at depths in equal ratios from just beyond the second contact to FINAL_X or FINAL_FRACTION.
+
+    hurst : Hurst exponent; elements : across the disc; levels : number of depths; root : root seed
+    """
+    seed = realization_seed(root, *method_problem_key(hurst, elements))
+    disc = self_affine_disc(hurst, elements, seed=seed)
+    coarse = indent(disc, tolerance=1e-2, until_fraction=FINAL_FRACTION, until_force=4 * FINAL_X)
+    first = coarse.depth[np.argmax(coarse.contact_count > 1)]
+    depth = np.geomspace(1.5 * first, coarse.depth[-1], levels)
+    exact = indent(disc, tolerance=REFERENCE_TOLERANCE, depths=depth)
+    _, kappa = exact.normalised(1.0, 1.0)
+    region_b = (exact.contact_count >= MIN_ELEMENTS_B) & (kappa <= MAX_STIFFNESS_B)
+    name = f"rough disc, H = {hurst:g}, {elements}"
+    return Problem(name, disc, depth, exact.force, exact.force / exact.stiffness, region_b, hurst, seed)
+
+
+def body_problem(name, body, elements, levels):
+    """A sphere or a cone, at contact radii from 0.1 to 0.45 L, with the velocities of the exact solution."""
+    indenter = body.indenter(elements)
+    depth = body.mdr_profile(np.geomspace(0.1, 0.45, levels))
+    force = body.force(depth)
+    everywhere = np.ones(levels, dtype=bool)
+    return Problem(f"{name}, {elements}", indenter, depth, force, force / body.stiffness(depth), everywhere, body=body)
+
+
+def named_problem(name, elements, levels, root, hurst=None):
+    """A problem by the name of its body, "sphere", "cone" or "rough disc"; the latter has a Hurst exponent."""
+    if name == "rough disc":
+        return rough_problem(hurst, elements, levels, root)
+    return body_problem(name, BODIES[name], elements, levels)

@@ -1,0 +1,174 @@
+"""The elastic loading path against other solvers: the same levels of one indenter, to the same residual.
+
+The path's time is for everything, exact stiffness at every level included; that of another solver is without its set-up
+and without stiffness. Each other solver starts every level from the one before.
+"""
+
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+import pandas as pd
+
+from viscorough import __version__
+from viscorough.contact.loading_path import indent
+from viscorough.indenter import Indenter
+from viscorough.surfaces import self_affine_disc
+from viscorough_study.performance import other_solvers, timing
+
+# Tolerances of other solvers, over the residual required, from loose to tight: each solver defines its tolerance in its
+# own way. The search for the loosest that will do begins in the middle of them.
+TOLERANCE_RATIOS = (30, 10, 3, 1, 1 / 3, 1 / 10, 1 / 30, 1 / 100)
+FIRST_RATIO = 3
+MAX_REPEATED = 20.0  # seconds; what takes longer is not repeated
+REFERENCE_TOLERANCE = 1e-10  # of the forces that all are compared with
+COLUMNS = {
+    "task": ("what is computed", ""),
+    "hurst": ("Hurst exponent of the disc", "1"),
+    "elements": ("elements across the disc", "1"),
+    "levels": ("levels", "1"),
+    "solver": ("solver", ""),
+    "version": ("version of the solver", ""),
+    "threads": ("threads", "1"),
+    "tolerance": ("its loosest tolerance that meets the residual required, otherwise its best", "1"),
+    "residual": ("largest residual of any level, from the pressures", "1"),
+    "met": ("1 if that is within the residual required", "1"),
+    "force_error": ("largest relative error of the force at any level", "1"),
+    "wall_s": ("wall time, median of interleaved repeats", "s"),
+    "processor_s": ("processor time, median of interleaved repeats", "s"),
+    "ratio": ("wall time over that of the path on one thread", "1"),
+    "iterations": ("iterations of another solver (-1 if not reported), operator applications of the path", "1"),
+    "memory": ("peak memory of another solver's process; of the path, of its arrays", "bytes"),
+}
+
+
+@dataclass(frozen=True)
+class Task:
+    """Depths of an indenter at which the contact is to be solved to a residual, by solvers with `threads` threads.
+
+    hurst : Hurst exponent of the indenter; residual : largest |gap| in contact or overlap outside it, over the depth
+    """
+
+    name: str
+    hurst: float
+    indenter: Indenter
+    depths: np.ndarray
+    residual: float
+    threads: tuple = (1,)
+
+
+def disc_task(name, hurst, elements, fractions, residual, *, seed, threads=(1,)):
+    """A self-affine disc at the depths of the given contact fractions; elements : across the disc."""
+    disc = self_affine_disc(hurst, elements, seed=seed)
+    coarse = indent(disc, tolerance=1e-2, until_fraction=min(1.0, 1.2 * max(fractions)))
+    depths = np.interp(fractions, coarse.contact_fraction, coarse.depth)
+    return Task(name, hurst, disc, depths, residual, tuple(threads))
+
+
+def compare_solvers(task, solvers, *, repeats, time_limit, report=lambda text: None):
+    """Time and residual of the path and of other solvers on one task, each with the loosest tolerance that will do.
+
+    repeats : number of interleaved repeats; time_limit : seconds after which a run of another solver is abandoned
+    report : called with a line of text before each solver and repeat
+
+    Returns a pandas.DataFrame with the columns of `COLUMNS`: the path, then a row per solver and number of threads.
+    """
+    exact = indent(task.indenter, tolerance=REFERENCE_TOLERANCE, depths=task.depths)
+    path = partial(indent, task.indenter, tolerance=task.residual, depths=task.depths)
+    rows, timed_runs = [_row_of_path(task, path, exact)], []
+    for solver in solvers:
+        report(f"{task.name}, H = {task.hurst:g}: {solver.name}, search for its tolerance")
+        ask = partial(other_solvers.solve, solver, task.indenter, task.depths, exact.force, time_limit=time_limit)
+        tolerance, solution = _loosest_tolerance(ask, task.residual)
+        if solution is None:
+            continue
+        for threads in task.threads:
+            rows.append(_row_of_other(task, solver, threads, tolerance, solution, exact))
+            known = (solution.wall_s, solution.processor_s) if threads == 1 else None
+            timed_runs.append(_TimedRun(partial(ask, [tolerance], threads=threads), known))
+    times = [[] for _ in rows]
+    for repeat in range(repeats):
+        report(f"{task.name}, H = {task.hurst:g}: repeat {repeat + 1} of {repeats}")
+        times[0].append(timing.timed(path)[1:])
+        for run, seconds in zip(timed_runs, times[1:], strict=True):
+            seconds.append(run.measure())
+    for row, seconds in zip(rows, times, strict=True):
+        row["wall_s"], row["processor_s"] = np.median(seconds, axis=0)
+        row["ratio"] = row["wall_s"] / rows[0]["wall_s"]
+        row["met"] = int(row["residual"] <= task.residual)
+    return pd.DataFrame(rows, columns=list(COLUMNS))
+
+
+@dataclass
+class _TimedRun:
+    """A run of another solver on the task, and the (wall, processor) seconds of the last one, None before the first."""
+
+    solve: partial
+    seconds: tuple | None
+
+    def measure(self):
+        """Seconds of one more run; the last ones again where a run takes longer than MAX_REPEATED."""
+        if self.seconds is None or self.seconds[0] < MAX_REPEATED:
+            (solution,) = self.solve()
+            self.seconds = (solution.wall_s, solution.processor_s) if solution else (np.nan, np.nan)
+        return self.seconds
+
+
+def _row_of_path(task, path, exact):
+    curve, memory = timing.with_memory(path)
+    return _about(task) | {
+        "solver": "viscorough",
+        "version": __version__,
+        "threads": 1,
+        "tolerance": task.residual,
+        "residual": curve.residual.max(),
+        "iterations": curve.operator_applications,
+        "memory": memory,
+        "force_error": np.abs(curve.force / exact.force - 1).max(),
+    }
+
+
+def _row_of_other(task, solver, threads, tolerance, solution, exact):
+    return _about(task) | {
+        "solver": solver.name,
+        "version": solution.version,
+        "threads": threads,
+        "tolerance": tolerance,
+        "residual": solution.residual.max(),
+        "iterations": solution.total_iterations,
+        "memory": solution.memory,
+        "force_error": np.abs(solution.force / exact.force - 1).max(),
+    }
+
+
+def _about(task):
+    about = {"task": task.name, "hurst": task.hurst, "elements": len(task.indenter.heights)}
+    return about | {"levels": len(task.depths)}
+
+
+def _loosest_tolerance(ask, required):
+    """The loosest tolerance with which a solver meets the required residual, otherwise the best one, and its Solution.
+
+    ask : returns the solver's Solutions for a list of tolerances, None where it has none
+    The Solution is None if no tolerance gave any.
+    """
+    solutions = {}
+
+    def residual(i):
+        (solutions[i],) = ask([TOLERANCE_RATIOS[i] * required])
+        return np.inf if solutions[i] is None else solutions[i].residual.max()
+
+    i = TOLERANCE_RATIOS.index(FIRST_RATIO)
+    if residual(i) <= required:
+        while i > 0 and residual(i - 1) <= required:
+            i -= 1
+    else:
+        while i + 1 < len(TOLERANCE_RATIOS) and solutions[i] is not None:
+            i += 1
+            if residual(i) <= required:
+                break
+    residuals = {j: solution.residual.max() for j, solution in solutions.items() if solution is not None}
+    if not residuals:
+        return None, None
+    best = min((j for j, value in residuals.items() if value <= required), default=min(residuals, key=residuals.get))
+    return TOLERANCE_RATIOS[best] * required, solutions[best]

@@ -1,0 +1,98 @@
+"""Cost and error of every method on a small disc."""
+
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from viscorough.contact.loading_path import indent
+from viscorough.viscous.events import march_events
+from viscorough_study.performance import measurement, methods, problems
+from viscorough_study.performance.pareto import pareto_front
+
+
+@pytest.fixture(scope="module")
+def problem():
+    return problems.rough_problem(0.7, 33, 6, 1)
+
+
+@pytest.fixture(scope="module")
+def ends():
+    """Every method with the coarsest and the finest value of its knob."""
+    return [replace(method, values=tuple({method.values[0]: 1, method.values[-1]: 1})) for method in methods.METHODS]
+
+
+@pytest.fixture(scope="module")
+def table(problem, ends):
+    return measurement.measure(problem, 1, ends)
+
+
+def test_velocities_to_compare_with_are_those_of_the_direct_integration(problem):
+    events = march_events(problem.indenter, until_fraction=0.7)
+    here = problem.force < events.impulse[-1]
+    last = np.searchsorted(events.impulse, problem.force[here], side="right") - 1
+    np.testing.assert_allclose(problem.force[here] / events.resistance[last], problem.velocity[here], rtol=1e-9)
+    assert here.sum() >= 4
+
+
+def test_every_method_has_a_row_for_every_value(table, ends):
+    assert list(table.columns) == list(measurement.COLUMNS)
+    assert set(zip(table["method"], table["value"], strict=True)) == {
+        (m.name, float(v)) for m in ends for v in m.values
+    }
+    assert (table[["wall_s", "processor_s"]] > 0).all(axis=None)
+    assert table["error"].between(0, 1).all()
+
+
+@pytest.mark.parametrize(
+    ("method", "value", "error"),
+    [
+        ("path, at the depths", 1e-10, 1e-9),
+        ("path, no preconditioner", 1e-9, 1e-8),
+        ("path, double precision", 1e-9, 1e-8),
+        ("path, no tangent", 1e-9, 1e-8),
+        ("path, each depth alone", 1e-9, 1e-8),
+        ("events", 1.0, 1e-9),
+        ("implicit", 1e-8, 1e-6),
+        ("explicit, logarithmic steps", 1024, 0.05),
+        ("heun, logarithmic steps", 1024, 0.03),
+        ("path, automatic levels", 1e-5, 5e-4),
+    ],
+)
+def test_exact_methods_are_exact_at_their_finest(table, method, value, error):
+    row = table[(table["method"] == method) & (table["value"] == value)]
+    assert row["error"].item() < error
+
+
+def test_models_are_not_exact(table):
+    for method in ("MDR", "Eq. 12 with Γ", "Eq. 12 without Γ"):
+        assert table[table["method"] == method]["error"].min() > 0.01
+
+
+def test_a_missing_velocity_counts_as_an_error_of_one(problem):
+    problem = replace(problem, region_b=np.arange(6) < 4)
+    velocity = np.where(np.arange(6) < 3, problem.velocity, np.nan)
+    row = measurement.errors_and_costs(problem, methods.METHODS[0], 1, methods.Answer(velocity), 0)
+    assert row["error"] == pytest.approx(np.sqrt(3 / 6))
+    assert row["error_b"] == pytest.approx(np.sqrt(1 / 4))
+    assert row["largest_error"] == 1
+
+
+def test_only_methods_that_apply_and_end_in_time_are_measured():
+    sphere = problems.named_problem("sphere", 17, 3, 1)
+    small = replace(methods.METHODS[1], values=(1e-3,), largest=16)
+    rough = replace(methods.METHODS[1], values=(1e-3,), rough_only=True)
+    kept = replace(methods.METHODS[1], name="kept", values=(1e-3,))
+    assert measurement.measure(sphere, 1, [small, rough, kept])["method"].tolist() == ["kept"]
+
+
+def test_sphere_has_the_exact_velocity():
+    sphere = problems.named_problem("sphere", 65, 5, 1)
+    curve = indent(sphere.indenter, tolerance=1e-6, depths=sphere.depth)
+    np.testing.assert_allclose(curve.force / curve.stiffness, sphere.velocity, rtol=0.05)
+
+
+def test_pareto_front():
+    table = pd.DataFrame({"wall_s": [3.0, 1.0, 2.0, 2.5, 4.0], "error": [0.1, 0.5, 0.6, 0.2, 0.1]})
+    assert pareto_front(table)["wall_s"].tolist() == [1.0, 2.5, 3.0]

@@ -1,0 +1,168 @@
+"""Other solvers by a stand-in: requests, answers, residuals, and the comparison on one task."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from support import dense_contact
+from viscorough.contact.loading_path import indent
+from viscorough.surfaces import self_affine_disc
+from viscorough_study.performance import methods, other_solvers, problems, solver_comparison
+
+ADAPTER = '''
+"""A stand-in for another solver: the pressures that a file holds, times 1 + tolerance; none in time for large ones."""
+import sys
+import numpy as np
+
+request = np.load(sys.argv[1])
+pressures = np.load({pressures!r})
+tolerances, levels = request["tolerances"], request["depths"].size
+assert request["padding"] == 24 and np.isfinite(request["gap"]).any()
+assert (request["repeats"], request["maximum_seconds"]) == (1, 20)
+wall = np.full((len(tolerances), 1), 0.5 * int(request["threads"]))
+wall[tolerances > {too_slow}] = np.nan
+np.savez(
+    sys.argv[2],
+    version="1.2",
+    pressures=[pressures * (1 + t) for t in tolerances],
+    wall=wall,
+    cpu=np.full((len(tolerances), 1), 0.25),
+    setup_wall=9.0,
+    iterations=np.full((len(tolerances), levels), {iterations}),
+    depth=np.tile(request["depths"], (len(tolerances), 1)),
+    memory_mb=3.0,
+    converged=np.ones((len(tolerances), levels), dtype=bool),
+)
+'''
+
+
+@pytest.fixture(scope="module")
+def disc():
+    return self_affine_disc(0.7, 17, seed=2)
+
+
+@pytest.fixture(scope="module")
+def exact(disc):
+    """The disc's curve at three levels."""
+    return indent(disc, tolerance=1e-11, depths=[0.5, 1.0, 2.0])
+
+
+@pytest.fixture
+def stand_in(tmp_path, disc, exact):
+    """Makes solvers whose answers are the exact pressures at the three levels, times 1 + tolerance."""
+    gap = np.nan_to_num(disc.initial_gap / disc.spacing, nan=1e3)
+    pressures = [dense_contact.pressure_at_depth(gap, depth / disc.spacing, 4.0) for depth in exact.depth]
+    np.save(tmp_path / "pressures.npy", pressures)
+
+    def make(iterations=7, too_slow=np.inf):
+        adapter = tmp_path / "adapter.py"
+        text = ADAPTER.format(pressures=str(tmp_path / "pressures.npy"), iterations=iterations, too_slow=too_slow)
+        adapter.write_text(text.replace("> inf", "> np.inf"))
+        return other_solvers.OtherSolver("stand-in", Path(sys.executable), adapter)
+
+    return make
+
+
+def solve(solver, disc, exact, tolerances):
+    return other_solvers.solve(solver, disc, exact.depth, exact.force, tolerances, time_limit=20)
+
+
+def test_residual_and_force_are_computed_from_the_pressures(disc, exact, stand_in):
+    fine, coarse = solve(stand_in(), disc, exact, [1e-9, 1e-3])
+    np.testing.assert_allclose(fine.force, exact.force, rtol=2e-9)
+    np.testing.assert_allclose(coarse.force, exact.force * 1.001, rtol=1e-9)
+    np.testing.assert_allclose(fine.depth, exact.depth, rtol=1e-14)
+    assert fine.residual.max() < 1e-8
+    np.testing.assert_allclose(coarse.residual, 1e-3, rtol=0.5)  # of the deflection, which gaps are subtracted from
+    assert (fine.version, fine.wall_s, fine.processor_s, fine.memory) == ("1.2", 0.5, 0.25, 3e6)
+
+
+def test_iterations_that_are_not_reported_are_not_summed(disc, exact, stand_in):
+    assert solve(stand_in(iterations=7), disc, exact, [1e-3])[0].total_iterations == 21
+    assert solve(stand_in(iterations=-1), disc, exact, [1e-3])[0].total_iterations == -1
+
+
+def test_a_tolerance_beyond_the_time_limit_has_no_solution(disc, exact, stand_in):
+    fine, coarse = solve(stand_in(too_slow=1e-2), disc, exact, [1e-3, 1e-1])
+    assert fine is not None
+    assert coarse is None
+
+
+def test_pressure_outside_the_indenter_is_no_solution(disc):
+    pressure = np.zeros(disc.heights.shape)
+    pressure[0, 0] = 1.0
+    assert other_solvers.residual_of(disc.initial_gap / disc.spacing, pressure, 1.0) == np.inf
+
+
+def test_a_solver_that_fails_is_reported_and_left_out(disc, exact, tmp_path):
+    adapter = tmp_path / "broken.py"
+    adapter.write_text("raise RuntimeError('no licence')")
+    broken = other_solvers.OtherSolver("broken", Path(sys.executable), adapter)
+    with pytest.warns(UserWarning, match="broken: RuntimeError: no licence"):
+        assert solve(broken, disc, exact, [1e-3, 1e-4]) == [None, None]
+    task = solver_comparison.Task("three levels", 0.7, disc, exact.depth, 1e-4)
+    with pytest.warns(UserWarning, match="no licence"):
+        table = solver_comparison.compare_solvers(task, [broken], repeats=1, time_limit=20)
+    assert table["solver"].tolist() == ["viscorough"]
+    assert not other_solvers.OtherSolver("absent", tmp_path / "python", adapter).installed
+
+
+def test_comparison_uses_the_loosest_tolerance_that_meets_the_residual(disc, exact, stand_in):
+    task = solver_comparison.Task("three levels", 0.7, disc, exact.depth, 1e-4, threads=(1, 2))
+    table = solver_comparison.compare_solvers(task, [stand_in()], repeats=1, time_limit=20)
+    assert list(table.columns) == list(solver_comparison.COLUMNS)
+    assert table["solver"].tolist() == ["viscorough", "stand-in", "stand-in"]
+    assert table["threads"].tolist() == [1, 1, 2]
+    residuals = [solve(stand_in(), disc, exact, [ratio * 1e-4])[0].residual.max() for ratio in (1 / 3, 1, 3)]
+    loosest = max(ratio for ratio, left in zip((1 / 3, 1, 3), residuals, strict=True) if left <= 1e-4)
+    np.testing.assert_allclose(table["tolerance"], [1e-4, loosest * 1e-4, loosest * 1e-4])
+    assert loosest < 3
+    assert (table["met"] == 1).all()
+    assert table["iterations"].tolist()[1:] == [21, 21]
+    assert table["wall_s"].tolist()[1:] == [0.5, 1.0]
+    np.testing.assert_allclose(table["ratio"], table["wall_s"] / table["wall_s"][0])
+
+
+def test_a_residual_out_of_reach_is_not_met(disc, exact, stand_in):
+    task = solver_comparison.Task("three levels", 0.7, disc, exact.depth, 1e-4)
+    table = solver_comparison.compare_solvers(task, [stand_in(too_slow=0)], repeats=1, time_limit=20)
+    assert table["solver"].tolist() == ["viscorough"]
+    off = np.load(Path(stand_in().adapter).parent / "pressures.npy") * 1.01
+    np.save(Path(stand_in().adapter).parent / "pressures.npy", off)
+    table = solver_comparison.compare_solvers(task, [stand_in()], repeats=1, time_limit=20)
+    assert table["met"].tolist() == [1, 0]
+    assert table["tolerance"][1] == pytest.approx(min(solver_comparison.TOLERANCE_RATIOS) * 1e-4)
+
+
+def test_a_task_is_at_the_contact_fractions_asked_for():
+    task = solver_comparison.disc_task("few", 0.7, 33, [0.05, 0.3], 1e-4, seed=2, threads=[1, 2])
+    curve = indent(task.indenter, tolerance=1e-6, depths=task.depths)
+    np.testing.assert_allclose(curve.contact_fraction, [0.05, 0.3], rtol=0.1)
+    assert task.threads == (1, 2)
+
+
+def test_another_solver_as_a_method_has_the_stiffness_by_differences(tmp_path):
+    """An adapter for which force is 3 depth²: the velocity is depth/2."""
+    adapter = tmp_path / "square.py"
+    adapter.write_text(
+        "import sys, numpy as np\n"
+        "request = np.load(sys.argv[1])\n"
+        "one, levels = np.ones((1, 1)), request['depths'].size\n"
+        "pressures = np.zeros((1, levels, *request['gap'].shape))\n"
+        "pressures[0, :, 4, 4] = 3 * request['depths'] ** 2\n"
+        "np.savez(sys.argv[2], version='1', pressures=pressures, wall=one, cpu=one, memory_mb=1.0,\n"
+        "         iterations=np.full((1, levels), 2), depth=request['depths'][None])\n"
+    )
+    method = methods.other_solver_method(other_solvers.OtherSolver("square", Path(sys.executable), adapter), 20)
+    problem = problems.named_problem("sphere", 9, 4, 1)
+    answer = method.run(problem, 1e-4)
+    np.testing.assert_allclose(answer.velocity, problem.depth / 2, rtol=1e-3)
+    assert answer.steps == 16
+    assert answer.seconds == (1.0, 1.0)
+
+
+@pytest.mark.parametrize(("elements", "size"), [(257, 264), (1025, 1056), (8, 8), (33, 40)])
+def test_padding_has_small_factors(elements, size):
+    assert other_solvers.padded_size(elements) == size

@@ -1,13 +1,14 @@
 """Penetration of self-affine rough rigid indenters into a linearly viscous half-space.
 
-The functions that most users need are here; each lives in the module that it is about.
+The functions and types that most users need can be imported from here. Each is defined in the module of its subject,
+which is imported when the name is first used.
 """
 
 from importlib import import_module, metadata
 
 __version__ = metadata.version("viscorough")
 
-_HOME = {
+_MODULE_OF = {
     "Indenter": "indenter",
     "self_affine_disc": "surfaces",
     "self_affine_line": "surfaces",
@@ -20,11 +21,15 @@ _HOME = {
     "penetration_law": "calibrated_law",
     "read_heights": "io.heights",
 }
-__all__ = sorted(_HOME)
+__all__ = sorted(_MODULE_OF)
 
 
 def __getattr__(name):
-    """Import on first use: the command line answers a typing error without loading the solvers."""
-    if name not in _HOME:
+    """Import on first use, so that the command line answers a typing error without loading the solvers."""
+    if name not in _MODULE_OF:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
+    return getattr(import_module(f"{__name__}.{_MODULE_OF[name]}"), name)
+
+
+def __dir__():
+    return sorted([*globals(), *__all__])

@@ -1,0 +1,116 @@
+"""What importing the library loads, what its top level offers, and that it works without the packages of the study."""
+
+import json
+import subprocess
+import sys
+import textwrap
+
+import numpy as np
+import pytest
+
+from support.command_line import sphere_heights
+
+STUDY_ONLY = ("matplotlib", "pandas", "snakemake", "viscorough_study", "xarray")
+# As if these packages were not installed.
+HIDE = f"import sys; sys.modules.update(dict.fromkeys({STUDY_ONLY!r})); "
+
+
+def python(*arguments, **options):
+    done = subprocess.run([sys.executable, *arguments], capture_output=True, text=True, check=False, **options)
+    assert done.returncode == 0, done.stderr
+    return done
+
+
+def imported(script):
+    """Top-level packages that a script imports, by Python's own account."""
+    lines = python("-X", "importtime", "-c", script).stderr.splitlines()
+    return {line.rsplit("|", 1)[1].strip().split(".")[0] for line in lines if line.startswith("import time:")}
+
+
+def test_solver_imports_nothing_of_the_study():
+    packages = imported("import viscorough; viscorough.indent")
+    assert {"viscorough", "numpy", "numba"} <= packages
+    assert not packages & set(STUDY_ONLY)
+
+
+def test_package_itself_imports_little():
+    assert not imported("import viscorough") & {*STUDY_ONLY, "numpy", "numba", "scipy", "netCDF4", "click"}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Heights and a loading curve, made without the packages of the study."""
+    folder = tmp_path_factory.mktemp("alone")
+    np.save(folder / "heights.npy", sphere_heights(9))
+    viscorough(folder, "indent", "heights.npy", "--spacing", "1", "-o", "curve.nc")
+    return folder
+
+
+def viscorough(folder, *arguments):
+    script = HIDE + "from viscorough.cli import main; sys.exit(main(sys.argv[1:]))"
+    done = python("-c", script, *arguments, cwd=folder)
+    assert done.stderr == ""
+    return done.stdout
+
+
+HEIGHTS = ["heights.npy", "--spacing", "1"]
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["--help"],
+        ["--version"],
+        ["indent", "--help"],
+        ["kinetics", "curve.nc", "--force", "1", "--viscosity", "1", "-o", "kinetics.nc"],
+        ["march", *HEIGHTS, "--method", "events", "-o", "events.nc"],
+        ["march", *HEIGHTS, "--method", "implicit", "--times", "1,2", "-o", "steps.nc"],
+        ["indent", "heights.nc", "--spacing", "1", "-o", "again.nc"],
+    ],
+    ids=lambda arguments: " ".join(arguments[:4]),
+)
+def test_command_line_needs_no_package_of_the_study(folder, arguments):
+    if "heights.nc" in arguments:
+        heights = textwrap.dedent("""
+            import numpy as np
+            from viscorough.io.netcdf import Content, Variable, write
+            attributes = {"long_name": "height", "units": "m"}
+            write(Content({"heights": Variable(("y", "x"), np.load("heights.npy"), attributes)}, {}), "heights.nc")
+        """)
+        python("-c", HIDE + heights, cwd=folder)
+    assert viscorough(folder, *arguments)
+    if "-o" in arguments:
+        assert (folder / arguments[-1]).is_file()
+
+
+def test_hidden_packages_cannot_be_imported():
+    """Else the test above could not fail."""
+    done = subprocess.run([sys.executable, "-c", HIDE + "import pandas"], capture_output=True, text=True, check=False)
+    assert "ModuleNotFoundError" in done.stderr
+
+
+def test_top_level_names_are_the_same_whatever_was_imported_before():
+    """A module of the same name, which becomes an attribute of the package when imported, would hide a function."""
+    names = textwrap.dedent("""
+        import json, viscorough
+        def homes():
+            return {name: getattr(viscorough, name).__module__ for name in viscorough.__all__}
+        assert set(viscorough.__all__) <= set(dir(viscorough))
+    """)
+    everything = textwrap.dedent("""
+        import importlib, pkgutil
+        for module in pkgutil.walk_packages(viscorough.__path__, "viscorough."):
+            importlib.import_module(module.name)
+    """)
+    before = json.loads(python("-c", names + "print(json.dumps(homes()))").stdout)
+    after = json.loads(python("-c", names + everything + "print(json.dumps(homes()))").stdout)
+    assert before == after
+    assert {"indent", "reduce", "kinetics", "penetration_law", "read_heights", "Indenter"} <= set(before)
+    python("-c", f"import viscorough{everything}assert viscorough.penetration_law(0.7).beta > 0")
+
+
+def test_unknown_names_are_refused():
+    import viscorough
+
+    with pytest.raises(AttributeError, match="no attribute 'indentation'"):
+        viscorough.indentation  # noqa: B018

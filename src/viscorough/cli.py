@@ -11,7 +11,6 @@ import warnings
 
 import click
 
-from viscorough import __version__
 from viscorough.cli_options import (
     FILE,
     Increasing,
@@ -22,12 +21,12 @@ from viscorough.cli_options import (
     warning_texts,
     write_output,
 )
+from viscorough.errors import ConvergenceError
 from viscorough.interrupts import on_interrupt
-from viscorough.loading_curve import ConvergenceError
 
 
 @click.group(no_args_is_help=False)
-@click.version_option(__version__, message="%(prog)s %(version)s")
+@click.version_option(package_name="viscorough", message="%(prog)s %(version)s")
 def cli():
     """Penetration of rough rigid indenters into a linearly viscous half-space.
 

@@ -7,8 +7,8 @@ from signal import default_int_handler
 
 import click
 
+from viscorough.errors import AccuracyWarning
 from viscorough.interrupts import on_interrupt
-from viscorough.loading_curve import AccuracyWarning
 
 _STEEP = 0.3  # rms slope above which the theory of small slopes is in doubt, and users are warned
 

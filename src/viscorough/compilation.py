@@ -67,16 +67,24 @@ def njit(function=None, **options):
     return compiled
 
 
-def vectorize(signatures):
-    """numba.vectorize for these signatures, compiled or loaded at once, kept on disk."""
+def vectorize(*signatures):
+    """numba.vectorize for these signatures, kept on disk; compiled or loaded when it is first called."""
 
     def decorated(function):
-        compiled = numba.vectorize(function)
-        compiled._dispatcher.cache = _cache(function)
-        with uninterrupted():
-            for signature in signatures:
-                compiled.add(signature)
-        compiled.disable_compile()
-        return compiled
+        @functools.cache
+        def compiled():
+            ufunc = numba.vectorize(function)
+            ufunc._dispatcher.cache = _cache(function)
+            with uninterrupted():
+                for signature in signatures:
+                    ufunc.add(signature)
+            ufunc.disable_compile()
+            return ufunc
+
+        @functools.wraps(function)
+        def call(*arrays):
+            return compiled()(*arrays)
+
+        return call
 
     return decorated

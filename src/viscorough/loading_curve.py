@@ -9,14 +9,6 @@ from dataclasses import dataclass
 import numpy as np
 
 
-class ConvergenceError(RuntimeError):
-    """A solver did not reach the accuracy asked for; no result is returned."""
-
-
-class AccuracyWarning(UserWarning):
-    """A result is less accurate than users would take it for: what happened, and what helps."""
-
-
 @dataclass(frozen=True)
 class LoadingCurve:
     """Depth, force and tangent stiffness of a rigid indenter pressed into an elastic half-space, level by level.

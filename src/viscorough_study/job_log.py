@@ -4,7 +4,7 @@ import logging
 import sys
 import traceback
 
-from viscorough.loading_curve import ConvergenceError
+from viscorough.errors import ConvergenceError
 
 
 def log_to(path):

@@ -17,11 +17,11 @@ import xarray as xr
 from support.command_line import RADIUS, VISCOROUGH, sphere_heights
 from viscorough import cli
 from viscorough.contact import loading_path
+from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
 from viscorough.io import netcdf
 from viscorough.io.curves import curve_from_content
 from viscorough.io.datasets import read_dataset, write_dataset
-from viscorough.loading_curve import ConvergenceError
 from viscorough.surfaces import self_affine_disc
 
 FORCE, VISCOSITY = 2.0, 3.0
@@ -325,7 +325,7 @@ def test_help_and_mistakes_do_not_wait_for_slow_imports():
         assert main(["--help"]) == main(["indent", "--help"]) == main(["kinetics", "--help"]) == 0
         assert main(["--version"]) == 0
         assert main(["indent", "--spacing", "x"]) == 2
-        print(sorted({"numba", "scipy", "xarray", "matplotlib", "netCDF4"} & set(sys.modules)))
+        print(sorted({"numpy", "numba", "scipy", "xarray", "netCDF4"} & set(sys.modules)))
     """)
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert done.stdout.splitlines()[-1] == "[]"

@@ -78,7 +78,7 @@ def test_function_without_a_place_for_its_cache_is_compiled():
     script = textwrap.dedent("""
         from viscorough.compilation import njit, vectorize
         assert njit(lambda x: x + 1)(1.0) == 2
-        assert vectorize(["float64(float64)"])(lambda x: x + 1)(1.0) == 2
+        assert vectorize("float64(float64)")(lambda x: x + 1)(1.0) == 2
     """)
     assert run(script).stderr == ""
 
@@ -98,7 +98,7 @@ def test_functions_are_kept_on_disk(tmp_path):
 
 
 def test_vectorized_function_broadcasts():
-    add = vectorize(["float64(float64, float64)"])(lambda x, y: x + y)
+    add = vectorize("float64(float64, float64)")(lambda x, y: x + y)
     np.testing.assert_array_equal(add(np.arange(3.0)[:, None], np.arange(2.0)), [[0, 1], [1, 2], [2, 3]])
 
 

@@ -35,7 +35,7 @@ def root_logger():
 def test_log_gets_messages_warnings_and_the_traceback(tmp_path, error, on_stderr):
     script = textwrap.dedent(f"""
         import logging, sys, warnings
-        from viscorough.loading_curve import ConvergenceError
+        from viscorough.errors import ConvergenceError
         from viscorough_study.job_log import log_to
         log_to(sys.argv[1])
         logging.info("100 %s of it", "%")

@@ -8,8 +8,8 @@ import numpy as np
 import scipy.linalg
 
 from viscorough.compilation import njit
+from viscorough.errors import ConvergenceError
 from viscorough.interrupts import uninterrupted
-from viscorough.loading_curve import ConvergenceError
 
 
 @njit

@@ -20,7 +20,7 @@ from viscorough.compilation import njit
 from viscorough.contact import preconditioner
 from viscorough.contact.halfspace import Halfspace
 from viscorough.contact.preconditioner import REACH
-from viscorough.loading_curve import ConvergenceError
+from viscorough.errors import ConvergenceError
 
 # Length of the steps in which elements leave (measured: 0.9 to 1.2 are alike), halved every so many of them, which
 # ends what a set that the preconditioner suits badly might begin. Usually there are about ten.

@@ -15,7 +15,7 @@ _FAR = 30
 _PADDING = 16
 
 
-@vectorize(["float64(float64, float64)"])
+@vectorize("float64(float64, float64)")
 def influence_coefficient(x, y):
     """K(x, y): displacement at distance (x, y), in element sides, of a unit square under uniform pressure.
 

@@ -13,7 +13,7 @@ import numpy as np
 from viscorough import memory
 from viscorough.contact import dense, grid_solver
 from viscorough.contact.halfspace import influence_coefficient
-from viscorough.loading_curve import ConvergenceError
+from viscorough.errors import ConvergenceError
 
 # A dense factorisation is cheaper than a few dozen grid operators up to about these sizes (measured).
 _DENSE_MEMBERS = 400

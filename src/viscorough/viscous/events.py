@@ -13,8 +13,8 @@ import numpy as np
 from viscorough import memory
 from viscorough.compilation import njit
 from viscorough.contact.halfspace import influence_coefficient
+from viscorough.errors import ConvergenceError
 from viscorough.interrupts import uninterrupted
-from viscorough.loading_curve import ConvergenceError
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,8 @@ import numpy as np
 
 from viscorough.contact.grid_solver import GridSolver
 from viscorough.contact.solver import ContactSolver
+from viscorough.errors import AccuracyWarning, ConvergenceError
 from viscorough.indenter import Indenter
-from viscorough.loading_curve import AccuracyWarning, ConvergenceError
 
 SCHEMES = ("explicit", "heun", "implicit")
 # Penetration over depth from which on users are warned: the error of the depth is about as large (measured).

@@ -19,7 +19,7 @@ import pandas as pd
 from viscorough import reference
 from viscorough.contact.loading_path import indent
 from viscorough.contact.solver import ContactSolver
-from viscorough.loading_curve import AccuracyWarning, ConvergenceError
+from viscorough.errors import AccuracyWarning, ConvergenceError
 from viscorough.mdr import reduce
 from viscorough.surfaces import self_affine_disc, self_affine_line
 from viscorough.viscous import correspondence

@@ -5,8 +5,8 @@ from contextlib import ExitStack
 import numpy as np
 
 from viscorough.contact.solver import ContactSolver
+from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
-from viscorough.loading_curve import ConvergenceError
 from viscorough.surfaces import self_affine_disc
 from viscorough.viscous.events import march_events
 from viscorough_study.performance.ablations import grid_only

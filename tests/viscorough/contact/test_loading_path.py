@@ -9,8 +9,8 @@ from viscorough.contact import loading_path
 from viscorough.contact.halfspace import influence_coefficient
 from viscorough.contact.loading_path import indent
 from viscorough.contact.solver import ContactSolver
+from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
-from viscorough.loading_curve import ConvergenceError
 from viscorough.surfaces import self_affine_disc
 from viscorough_study.performance.other_solvers import residual_of
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from viscorough.contact.loading_path import indent
-from viscorough.loading_curve import ConvergenceError
+from viscorough.errors import ConvergenceError
 from viscorough_study.performance import methods, problems
 
 

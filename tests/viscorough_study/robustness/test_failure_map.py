@@ -11,8 +11,8 @@ import xarray as xr
 from viscorough import cli
 from viscorough.contact import grid_solver
 from viscorough.contact.loading_path import indent
+from viscorough.errors import AccuracyWarning
 from viscorough.indenter import Indenter
-from viscorough.loading_curve import AccuracyWarning
 from viscorough.surfaces import self_affine_disc, self_affine_line
 from viscorough.viscous.stepping import march_steps
 from viscorough_study.figures.failure_curves import plot_failure_curves

@@ -53,3 +53,10 @@ def _solve(gap, contact_modulus, side, depth_of):
         else:
             return pressure.reshape(gap.shape)
     raise RuntimeError("the active set does not settle")
+
+
+def disturbed(pressure, length, contact_modulus, side=1.0):
+    """The pressure with more of it on the element that has most, so that it is displaced by that much more."""
+    changed = np.array(pressure)
+    changed.flat[pressure.argmax()] += length * np.pi * contact_modulus / (side * influence_matrix(1, 1)[0, 0])
+    return changed

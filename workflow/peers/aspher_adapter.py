@@ -9,7 +9,7 @@ from exchange import answer_request
 
 
 class Aspher:
-    """Exact convolution ("fft"); the preconditioner by full transforms takes the fewest iterations on these grids."""
+    """Exact convolution ("fft"), with the preconditioner by transforms of the whole grid."""
 
     def __init__(self, problem):
         self.problem = problem
@@ -23,11 +23,11 @@ class Aspher:
         result = self.solver.solve(
             gap.ravel(),
             p_nominal=self.problem.forces[level] / gap.size,
-            tol=tolerance * depth / np.ptp(gap),  # ASPHER's is relative to the range of the gaps
+            tol=tolerance * depth / np.ptp(gap),  # ASPHER's is relative to the range of the gap
             precond="fourier-fft",
             p_init=start.ravel(),
         )
-        return np.array(result.pressure), result.iterations, result.converged
+        return np.array(result.pressure), result.iterations
 
     def displacement(self, pressure):
         return np.asarray(self.solver.matvec(pressure.ravel())).reshape(pressure.shape)

@@ -13,7 +13,7 @@ from SurfaceTopography import Topography
 
 
 class ContactMechanics:
-    """The dual problem, in the forces on the elements. Of its results the forces are used, not the stored gap."""
+    """The dual problem, whose unknowns are the forces on the elements, of unit area: they are the pressures."""
 
     def __init__(self, problem):
         self.problem = problem
@@ -27,11 +27,11 @@ class ContactMechanics:
             result = self.system.dual_minimize_proxy(
                 depth,
                 init_force=np.zeros(self.problem.gap.shape) if start is None else start,
-                solver="ccg-without-restart",  # "l-bfgs-b" takes half as long again
+                solver="ccg-without-restart",
                 gtol=tolerance * depth,
                 maxiter=20_000,
             )
-        return result.x.reshape(self.problem.gap.shape), result.nit, result.success
+        return result.x.reshape(self.problem.gap.shape), result.nit
 
     def displacement(self, pressure):
         return self.substrate.evaluate_disp(-pressure)

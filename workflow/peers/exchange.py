@@ -1,7 +1,8 @@
 """What the adapters of other contact solvers share: request, timing of the levels, answer. Needs numpy only.
 
-Lengths are in element sides and pressures in shear moduli G; the half-space is incompressible: E = 3, ν = 0.5, and
-E* = E/(1 - ν²) = 4. A solver is a class called with a Problem, with `solve` and `displacement` (see answer_request).
+viscorough_study.performance.other_solvers describes the request, the answer and their units: lengths are in element
+sides and pressures in shear moduli G; E = 3, ν = 1/2, E* = 4. A solver is a class that is called with a Problem and has
+the methods `solve` and `displacement` (see answer_request).
 """
 
 import os
@@ -17,7 +18,7 @@ import numpy as np
 
 @dataclass
 class Problem:
-    """Gaps on the grid to solve on, which are finite; levels given by depths and by forces F/G."""
+    """Initial gap on the padded grid, finite everywhere; levels given by depths and by forces F/G."""
 
     gap: np.ndarray
     depths: np.ndarray
@@ -28,23 +29,22 @@ class Problem:
 def answer_request(distribution, solver_class):
     """Read the request named first on the command line, solve it, write the answer named second.
 
-    solver_class(problem) sets up whatever does not depend on the level. Its `solve(level, tolerance, start)` returns
-    the pressure on the grid, the number of iterations (-1 if unknown) and whether it converged; `start` is the
-    pressure of the level before, None at the first level. Its `displacement(pressure)` is the solver's own.
+    distribution : name under which the solver is installed, for its version
+    solver_class : solver_class(problem) sets up everything that does not depend on the level. Its
+        `solve(level, tolerance, start)` returns the pressure on the padded grid and the number of iterations (-1 if not
+        reported); `start` is the pressure of the level before, None at the first level. Its `displacement(pressure)`
+        uses the solver's own operator.
     """
     request = np.load(sys.argv[1])
     _limit_threads(int(request["threads"]))
     rows, columns = request["gap"].shape
     problem = Problem(_padded(request), request["depths"], request["forces"], int(request["threads"]))
-    started = time.perf_counter()
     solver = solver_class(problem)
-    setup_wall = time.perf_counter() - started
-
     tolerances, levels = request["tolerances"], len(problem.depths)
     pressures = np.full((len(tolerances), levels, rows, columns), np.nan)
     wall, cpu = np.full((2, len(tolerances), int(request["repeats"])), np.nan)
     iterations = np.full((len(tolerances), levels), -1)
-    converged, depth = np.zeros(iterations.shape, dtype=bool), np.full(iterations.shape, np.nan)
+    depth = np.full(iterations.shape, np.nan)
     signal.signal(signal.SIGALRM, _give_up)
     for i, tolerance in enumerate(tolerances):
         for repeat in range(wall.shape[1]):
@@ -58,21 +58,18 @@ def answer_request(distribution, solver_class):
                 signal.setitimer(signal.ITIMER_REAL, 0)
             wall[i, repeat], cpu[i, repeat] = time.perf_counter() - clocks[0], time.process_time() - clocks[1]
         else:
-            for level, (pressure, count, success) in enumerate(solved):
+            for level, (pressure, count) in enumerate(solved):
                 pressures[i, level], iterations[i, level] = pressure[:rows, :columns], count
-                converged[i, level], touching = success, pressure > 0
-                depth[i, level] = np.mean((solver.displacement(pressure) + problem.gap)[touching])
+                depth[i, level] = np.mean((solver.displacement(pressure) + problem.gap)[pressure > 0])
     np.savez(
         sys.argv[2],
         version=metadata.version(distribution),
         pressures=pressures,
         wall=wall,
         cpu=cpu,
-        setup_wall=setup_wall,
         iterations=iterations,
         depth=depth,
-        memory_mb=resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
-        converged=converged,
+        memory_mb=resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 / 1e6,
     )
 
 
@@ -86,7 +83,7 @@ def _all_levels(solver, levels, tolerance):
 
 
 def _padded(request):
-    """Gaps on the padded grid; outside the indenter just too large to touch (larger ones slow some solvers down)."""
+    """Initial gap on the padded grid; outside the indenter just too large for contact (more slows some solvers down)."""
     gap, side = request["gap"], int(request["padding"])
     inside = np.isfinite(gap)
     largest = max(gap[inside].max(), 1.1 * request["depths"][-1])
@@ -96,7 +93,7 @@ def _padded(request):
 
 
 def _limit_threads(threads):
-    """Start this script again with the number of threads in its environment: libraries read it when they load."""
+    """Restart this script with the number of threads in its environment, which libraries read when they are loaded."""
     names = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
     if any(os.environ.get(name) != str(threads) for name in names):
         os.environ.update(dict.fromkeys(names, str(threads)))

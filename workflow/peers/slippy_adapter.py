@@ -15,7 +15,7 @@ from slippy.core import bccg, elastic_influence_matrix_spatial, plan_convolve  #
 
 
 class Slippy:
-    """Unknowns are the elements that the undeformed indenter would penetrate, as in SlipPY's own static step."""
+    """Unknowns are the elements at which the undeformed surfaces overlap, as in SlipPY's own static step."""
 
     def __init__(self, problem):
         self.problem = problem
@@ -32,10 +32,10 @@ class Slippy:
         start = pressure if start is None else start
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            pressure[candidates], failed = bccg(
+            pressure[candidates], _ = bccg(
                 self.convolve, (depth - gap)[candidates], tolerance, 20_000, start[candidates]
             )
-        return pressure, -1, not failed
+        return pressure, -1
 
     def displacement(self, pressure):
         self.convolve.change_domain(np.ones(pressure.shape, dtype=bool))

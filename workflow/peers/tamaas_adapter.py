@@ -18,20 +18,20 @@ class Tamaas:
         tamaas.initialize(problem.threads)
         shape = list(problem.gap.shape)
         self.model = tamaas.Model(tamaas.model_type.basic_2d, [float(n) for n in shape], shape)
-        self.model.E, self.model.nu = 3.0, 0.5  # before the operator is registered: it keeps the values it finds
+        self.model.E, self.model.nu = 3.0, 0.5  # before the operator is registered, which stores them
         tamaas.ModelFactory.registerNonPeriodic(self.model, "dcfft")
 
     def solve(self, level, tolerance, start):
         gap, depth = self.problem.gap, self.problem.depths[level]
-        tolerance = tolerance * depth / np.ptp(gap)  # Tamaas's is relative to a length of the whole surface
+        tolerance = tolerance * depth / np.ptp(gap)  # Tamaas's is relative to the range of the surface
         solver = tamaas.PolonskyKeerRey(self.model, -gap, tolerance)
         solver.setIntegralOperator("dcfft")
         solver.max_iter, solver.dump_freq = 20_000, 100_000
         if start is None:
             start = np.maximum(depth - gap, 0)
         self.model.traction[...] = start
-        error = solver.solve(self.problem.forces[level] / start.size)
-        return np.array(self.model.traction), -1, error <= tolerance
+        solver.solve(self.problem.forces[level] / start.size)
+        return np.array(self.model.traction), -1
 
     def displacement(self, pressure):
         displacement = np.zeros_like(pressure)

@@ -16,11 +16,11 @@ The answer holds
     version : of the solver
     pressures : p/G, shape (tolerances, levels, rows, columns)
     depth : mean of deflection + initial gap over the contact, by the solver's own operator, shape (tolerances, levels)
-    iterations : -1 if not reported; converged : as the solver claims; shape (tolerances, levels)
+    iterations : -1 if not reported, shape (tolerances, levels)
     wall, cpu : seconds of a run without set-up, nan where it exceeded the time limit, shape (tolerances, repeats)
-    setup_wall : seconds of the set-up; memory_mb : peak memory of the process in MB
+    memory_mb : peak memory of the process in MB
 
-Residuals are computed here, from the pressures alone, in the same way for every solver.
+Whether a solver has converged is judged here, by the residual of its pressures, in the same way for every solver.
 """
 
 import subprocess

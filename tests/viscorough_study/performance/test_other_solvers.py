@@ -29,11 +29,9 @@ np.savez(
     pressures=[pressures * (1 + t) for t in tolerances],
     wall=wall,
     cpu=np.full((len(tolerances), 1), 0.25),
-    setup_wall=9.0,
     iterations=np.full((len(tolerances), levels), {iterations}),
     depth=np.tile(request["depths"], (len(tolerances), 1)),
     memory_mb=3.0,
-    converged=np.ones((len(tolerances), levels), dtype=bool),
 )
 '''
 

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from viscorough_study.figures.direct_integration import plot_direct_integration
 from viscorough_study.gamma_factor import COLUMNS, compare_direct
 
 
@@ -24,10 +23,3 @@ def test_sphere_and_cone_tend_to_the_exact_solution(table):
         error = np.abs(table.loc[table["case"] == body, "depth_ratio"].to_numpy() - 1)
         assert error[-5:].max() < 0.01
         assert (table.loc[table["case"] == body, "with_gamma"] > 1.1).all()
-
-
-def test_figure(table):
-    labels = [text.get_text() for text in plot_direct_integration(table).legends[0].get_texts()]
-    assert labels[:2] == ["sphere", "cone"]
-    with pytest.raises(ValueError, match="no rows"):
-        plot_direct_integration(table[:0])

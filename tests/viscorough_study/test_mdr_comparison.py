@@ -6,7 +6,6 @@ import pytest
 from viscorough.mdr import line_of_surface
 from viscorough.surfaces import self_affine_square
 from viscorough_study.ensembles import abscissa
-from viscorough_study.figures.mdr_comparison import plot_mdr_comparison
 from viscorough_study.mdr_comparison import COLUMNS, compare_reduction
 
 
@@ -44,7 +43,7 @@ def test_phases_are_the_seeds():
         line_of_surface(square[1:], 1.0, 1)
 
 
-def test_comparison_and_its_figure():
+def test_comparison():
     x = abscissa(1e-3, 3.0, 5)
     table = compare_reduction([0.8], 33, 6, x, tolerance=1e-3, seed=1)
     assert list(table) == list(COLUMNS)
@@ -53,7 +52,3 @@ def test_comparison_and_its_figure():
     assert table["correlation"].between(-1, 1).all()
     assert (table["realizations"] == 6).all()
     assert table["stiffness"].is_monotonic_increasing
-    figure = plot_mdr_comparison(table)
-    assert len(figure.axes) == 3
-    with pytest.raises(ValueError, match="no rows"):
-        plot_mdr_comparison(table[:0])

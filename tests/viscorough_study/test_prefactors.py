@@ -1,12 +1,10 @@
 """The prefactor under every convention: scaling by the factor, the nearest combination, the figure."""
 
 import numpy as np
-import pandas as pd
 import pytest
 
 from support.study import SHOWN, evidence
-from viscorough_study.figures.prefactors import plot_prefactors
-from viscorough_study.prefactors import COLUMNS, CONVENTIONS, combinations, nearest, prefactors, rows_of
+from viscorough_study.prefactors import COLUMNS, combinations, nearest, prefactors, rows_of
 
 
 @pytest.fixture(scope="module")
@@ -46,15 +44,3 @@ def test_combination_without_all_exponents_is_not_compared(table):
     found = prefactors(scaling.assign(zeta=scaling["zeta"].mask(missing)))
     assert found.loc[found["window_rule"] == "kappa", "worst_eq4"].isna().all()
     assert found.loc[found["window_rule"] == "default", "worst_eq4"].notna().all()
-
-
-def test_figure_shows_every_combination(table):
-    figure = plot_prefactors(table, SHOWN)
-    for axes in figure.axes:
-        assert len(axes.lines) >= len(combinations(table))
-        names = [text.get_text() for text in axes.get_legend().get_texts()]
-        assert "as in other figures" in names
-        assert any(name.startswith("nearest: ") for name in names)
-    assert set(CONVENTIONS) < set(table)
-    with pytest.raises(ValueError, match="no rows"):
-        plot_prefactors(pd.DataFrame(columns=list(COLUMNS)), SHOWN)

@@ -43,7 +43,7 @@ def plot_failure_curves(table):
     steps.axhline(WARNED, color=GREY, linestyle=":", label="users are warned above")
     guide = np.array([numbers.max() / 64, numbers.max()])
     steps.loglog(guide, 0.1 / guide * guide[0] * 0.05, color=PALE, label="first order")
-    steps.set(title="(a) explicit marching", xlabel="steps [1]", ylabel="error, or penetration over depth [1]")
+    steps.set(title="(a) explicit marching", xlabel="steps [1]", ylabel="error, or overlap over depth [1]")
     steps.legend(fontsize=6, loc="lower left")
 
     for (name, rows), marker, color in zip(_methods(table, "contact"), "os^*Dvhp<", COLORS, strict=True):

@@ -56,7 +56,7 @@ def plot_growth(table):
         if costs["operator_applications"].any():
             operators.plot(costs["number"], costs["operator_applications"], **look)
     time.set(ylabel="wall time [s]")
-    operators.set(ylabel="operators on the grid [1]")
+    operators.set(ylabel="operator applications on the grid [1]")
     for axes in (time, operators):
         axes.set(xscale="log", yscale="log", xlabel="elements of the disc $N$ [1]")
         logarithmic_ticks(axes)

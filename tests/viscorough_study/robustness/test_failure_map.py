@@ -15,8 +15,6 @@ from viscorough.errors import AccuracyWarning
 from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc, self_affine_line
 from viscorough.viscous.stepping import march_steps
-from viscorough_study.figures.failure_curves import plot_failure_curves
-from viscorough_study.figures.failure_map import LETTERS, plot_failure_map
 from viscorough_study.performance import ablations
 from viscorough_study.robustness import failure_map
 from viscorough_study.robustness.failure_map import METHODS, VERDICTS, unnoticed
@@ -105,15 +103,7 @@ def test_forces_that_pull_are_refused_with_the_reason(atlas):
     assert pulling["reason"].str.contains("without adhesion a pull opens the contact").all()
 
 
-def test_chart_shows_every_cell(atlas):
-    figure = plot_failure_map(atlas)
-    texts = [text.get_text() for text in figure.axes[0].texts]
-    assert sum(text.split()[-1] in LETTERS.values() for text in texts) == len(atlas)
-    with pytest.raises(ValueError, match="no rows"):
-        plot_failure_map(atlas[:0])
-
-
-def test_curves_and_their_figure():
+def test_curves():
     found = failure_map.curves(np.random.SeedSequence(1))
     steps = found[(found["curve"] == "steps") & (found["method"] == "error of the depth")]
     order = -np.polyfit(np.log(steps["x"][-8:]), np.log(steps["y"][-8:]), 1)[0]
@@ -121,7 +111,6 @@ def test_curves_and_their_figure():
     contact = found[found["curve"] == "contact"].set_index("method")["y"]
     assert contact["path, grid, single"].max() < 1e-5
     assert contact["path, grid, no padding"].max() > 1e-2
-    assert len(plot_failure_curves(found).axes) == 2
 
 
 # ---- generated cases

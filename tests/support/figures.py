@@ -1,0 +1,162 @@
+"""Small tables for the figures, and what the figures made from them show."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+from viscorough_study.ensembles import abscissa
+from viscorough_study.performance import measurement
+from viscorough_study.power_law import COLUMNS as SCALING_COLUMNS
+
+HURST = (0.4, 0.9)
+COMBINATIONS = {
+    "c1": {"force": 1.0, "viscosity": 1e6, "diameter": 1e-2, "rms": 1e-6},
+    "c9": {"force": 300.0, "viscosity": 3e7, "diameter": 3e-2, "rms": 3e-7},
+}
+X = abscissa(1e-4, 30, 20)
+ELEMENTS = 33
+
+
+def case_of(hurst, name):
+    """Name of a case as the workflow gives it."""
+    return f"h{round(hurst * 1e4):05d}_{name}"
+
+
+# ---- what a figure shows
+
+
+def whole_on_page(figure):
+    """Whether nothing that is drawn reaches beyond the page, once laid out."""
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    box, (width, height) = figure.get_tightbbox(canvas.get_renderer()), figure.get_size_inches()
+    return box.x0 > -0.01 and box.y0 > -0.01 and box.x1 < width + 0.01 and box.y1 < height + 0.01
+
+
+def coordinates(axes):
+    """Coordinates of all lines of an axes."""
+    return [line.get_xydata() for line in axes.lines]
+
+
+def dashed(axes):
+    return [line for line in axes.lines if line.get_linestyle() == "--"]
+
+
+def markers(axes):
+    """Markers without a line."""
+    return [line for line in axes.lines if line.get_marker() in "os^D" and line.get_linestyle() == "None"]
+
+
+def legend_texts(legend):
+    return [text.get_text() for text in legend.get_texts()]
+
+
+# ---- tables
+
+
+def without_region(scaling, hurst):
+    """The scaling table with no region (b) for one Hurst exponent, as the workflow writes it."""
+    numbers = [name for name, (_, units) in SCALING_COLUMNS.items() if units and name not in ("hurst", "realizations")]
+    return scaling.mask((scaling["hurst"] == hurst).to_numpy()[:, None] & np.isin(scaling.columns, numbers))
+
+
+def validation_table(grids=(33, 65, 129), quantities=("force", "depth")):
+    """Errors of second order, 0.5/n² for the sphere, 0.7/n² for its reduction, 0.2/n² for the cone, which fails."""
+    rows = [
+        (case, quantity, n, scale / n**2, 2.04 if len(grids) > 2 else np.nan, 2, 1e-3, int(case != "cone"))
+        for quantity in quantities
+        for case, scale in (("sphere", 0.5), ("sphere_reduction", 0.7), ("cone", 0.2))
+        for n in grids
+    ]
+    columns = ["case", "quantity", "elements", "error", "order", "expected_order", "limit", "passed"]
+    return pd.DataFrame(rows, columns=columns)
+
+
+def mdr_table():
+    """Lines as stiff as their discs, ten times larger in contact, and without correlation."""
+    x = np.geomspace(1e-4, 1, 5)
+    columns = {"x": x, "stiffness_ratio": 1.0, "stiffness_scatter": 0.3, "area_ratio": 10.0, "correlation": 0.0}
+    return pd.concat([pd.DataFrame({"hurst": hurst, **columns}) for hurst in (0.4, 0.9)], ignore_index=True)
+
+
+def direct_table():
+    """Depths that are the elastic ones."""
+    rows = [(case, count, 1.0, 1.1) for case in ("sphere", "rough disc, H = 0.4") for count in (10, 100)]
+    return pd.DataFrame(rows, columns=["case", "contact_count", "depth_ratio", "with_gamma"])
+
+
+def methods_table():
+    """Costs of five methods on a rough disc and a sphere of three sizes; the time of the first grows as N^1.2."""
+    rows = []
+    for problem, hurst in (("rough disc, H = 0.4", 0.4), ("sphere", np.nan)):
+        for elements in (65, 257, 513):
+            for method, group, value, wall, error in (
+                ("path, automatic levels", "path", 1e-3, 1e-6 * elements**2.4, 1e-3),
+                ("path, at the depths", "path", 1e-1, 0.01, 1e-2),
+                ("path, at the depths", "path", 1e-6, 0.02, 0.0),
+                ("explicit, uniform steps", "marching", 16, 0.5, 0.5),
+                ("MDR", "model", 64, 0.001, 0.3),
+            ):
+                row = {"problem": problem, "hurst": hurst, "elements": elements, "method": method, "group": group}
+                row |= {"value": value, "wall_s": wall, "processor_s": wall, "error": error, "largest_error": error}
+                row |= {"error_b": error / 2, "operator_applications": elements, "steps": 1, "memory": 1, "knob": ""}
+                rows.append(row)
+    return pd.DataFrame(rows)[list(measurement.COLUMNS)]
+
+
+def other_solvers_table():
+    rows = [("eight levels", 0.4, "viscorough", 1, 1.0), ("eight levels", 0.4, "ASPHER", 1, 3.5)]
+    rows += [("eight levels", 0.4, "ASPHER", 2, 2.5), ("one level", 0.4, "viscorough", 1, 1.0)]
+    return pd.DataFrame(rows, columns=["task", "hurst", "solver", "threads", "ratio"])
+
+
+def level_placement_table():
+    """Three choices for a scene, of which the naive one does not reach the accuracy."""
+    rows = [("full curve", "automatic", 1e-3, 1e-4, 1, 1.0), ("full curve", "best by hand", 1e-3, 9e-4, 1, 0.8)]
+    rows += [("full curve", "naive", 1e-3, 2e-3, 0, 20.0)]
+    return pd.DataFrame(rows, columns=["scene", "choice", "accuracy", "error", "reached", "ratio"])
+
+
+def sizes_table(conventions):
+    """Discs and lines of two Hurst exponents on three grids, the coarsest without region (b), and one control."""
+    rows = [
+        {
+            **conventions,
+            "source": source,
+            "hurst": hurst,
+            "elements": n,
+            "beta": beta,
+            "beta_low": 0.2,
+            "beta_high": 0.4,
+        }
+        | ({"rms_convention": "line"} if source == "lines" else {})
+        | {"case_group": "sizes"}
+        for source in ("discs", "lines")
+        for hurst in (0.3, 0.7)
+        for n, beta in ((100, np.nan), (1000, 0.3), (10000, 0.31))
+    ]
+    return pd.DataFrame([*rows, rows[1] | {"case_group": "controls", "beta": 0.01}])
+
+
+def large_table():
+    """Costs of four sizes: time with a constant part, memory in proportion to the elements."""
+    elements = np.array([1e3, 1e4, 1e5, 1e6])
+    table = pd.DataFrame({"across": [36, 113, 357, 1128], "elements": elements})
+    return table.assign(processor=1.0 + 1e-6 * elements**1.2, memory=400 * elements)
+
+
+def failure_table(verdicts):
+    """One case for each verdict in two groups, two methods."""
+    rows = [
+        ("shape" if rank % 2 else "grid", f"case {rank}", method, error, verdict)
+        for rank, verdict in enumerate(verdicts)
+        for method, error in (("path, dense", 0.0), ("explicit steps", 1e-3))
+    ]
+    return pd.DataFrame(rows, columns=["group", "difficulty", "method", "error", "verdict"])
+
+
+def failure_curves_table():
+    """Two curves over explicit steps and nine methods over the contact fraction."""
+    rows = [("steps", name, n, 1 / n) for name in ("error of the depth", "overlap over depth") for n in (1, 64)]
+    rows += [("contact", f"method {rank}", x, 10.0 ** -(2 * rank)) for rank in range(9) for x in (0.01, 1.0)]
+    return pd.DataFrame(rows, columns=["curve", "method", "x", "y"])

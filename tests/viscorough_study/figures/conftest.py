@@ -1,0 +1,72 @@
+"""Ensembles and fits of small discs and lines, shared by the tests of the figures."""
+
+import pandas as pd
+import pytest
+
+from support.figures import COMBINATIONS, ELEMENTS, HURST, X, case_of
+from viscorough.contact.loading_path import indent
+from viscorough.mdr import reduce
+from viscorough.surfaces import self_affine_disc, self_affine_line
+from viscorough_study.ensembles import aggregate, combine
+from viscorough_study.power_law import COLUMNS, scaling_rows
+
+SCALING = {"elements_min": 3, "stiffness_max": 0.2, "slope_max": 0.8, "stiffness_range": (0.03, 0.3)}
+
+
+@pytest.fixture(scope="session")
+def curves():
+    """{(H, combination): two loading curves}; the surfaces of a Hurst exponent are the same but for their units."""
+    result = {}
+    for hurst in HURST:
+        for name, at in COMBINATIONS.items():
+            lengths = {"rms": at["rms"], "diameter": at["diameter"]}
+            discs = [self_affine_disc(hurst, ELEMENTS, **lengths, seed=seed) for seed in (1, 2)]
+            limit = 4 * at["rms"] * at["diameter"] * 31
+            result[hurst, name] = [indent(disc, until_force=limit) for disc in discs]
+    return result
+
+
+@pytest.fixture(scope="session")
+def discs(curves):
+    """Ensemble of every case, all of two realizations."""
+    return [
+        aggregate(
+            pair,
+            {"disc": COMBINATIONS[name]["rms"], "square": 1.1 * COMBINATIONS[name]["rms"]},
+            COMBINATIONS[name]["diameter"],
+            X,
+            hurst=hurst,
+            case=case_of(hurst, name),
+        )
+        for (hurst, name), pair in curves.items()
+    ]
+
+
+@pytest.fixture(scope="session")
+def pooled(discs):
+    return [combine([ds for ds in discs if ds["hurst"] == hurst]) for hurst in HURST]
+
+
+@pytest.fixture(scope="session")
+def lines():
+    result = []
+    for hurst in HURST:
+        reduced = [reduce(self_affine_line(hurst, 1024, seed=seed)) for seed in (1, 2)]
+        result.append(aggregate(reduced, {"line": 1.0}, 1.0, X, hurst=hurst, case="lines"))
+    return result
+
+
+@pytest.fixture(scope="session")
+def scaling(pooled, lines):
+    rows = []
+    for ensemble, line in zip(pooled, lines, strict=True):
+        how = {"resamples": 20, "seed": 1, **SCALING}
+        rows += scaling_rows(ensemble, source="discs", case_group="base", lines=line, **how)
+        rows += scaling_rows(ensemble, source="discs", case_group="roll_off", **how)
+        rows += scaling_rows(line, source="lines", case_group="base", **how)
+    return pd.DataFrame(rows, columns=list(COLUMNS))
+
+
+@pytest.fixture(scope="session")
+def combinations():
+    return {case_of(hurst, name): at for hurst in HURST for name, at in COMBINATIONS.items()}

@@ -1,0 +1,213 @@
+"""Every caption describes its figure: the panels, the quantities on the axes, the kinds of lines and markers.
+
+Panels that have a letter in their title are named by it in the caption, as "(a)"; others by their place, as "Left:" or
+"Above:". Where a table decides how many panels there are, the caption says for what: "one panel for each quantity".
+"""
+
+import re
+from dataclasses import dataclass
+
+import jinja2
+import pytest
+from matplotlib.figure import Figure
+
+from support import figures as tables
+from support.study import ROOT, SHOWN
+from support.workflow import read_settings
+from viscorough.surfaces import self_affine_disc
+from viscorough_study.figures.conventions import plot_conventions
+from viscorough_study.figures.direct_integration import plot_direct_integration
+from viscorough_study.figures.exponent import plot_exponent
+from viscorough_study.figures.failure_curves import plot_failure_curves
+from viscorough_study.figures.failure_map import LETTERS, plot_failure_map
+from viscorough_study.figures.growth import plot_growth
+from viscorough_study.figures.kinetics import plot_kinetics
+from viscorough_study.figures.large import plot_large
+from viscorough_study.figures.level_placement import plot_level_placement
+from viscorough_study.figures.master_curve import plot_master_curve
+from viscorough_study.figures.mdr_comparison import plot_mdr_comparison
+from viscorough_study.figures.other_solvers import plot_other_solvers
+from viscorough_study.figures.prefactors import plot_prefactors
+from viscorough_study.figures.sizes import plot_sizes
+from viscorough_study.figures.speed import plot_speed
+from viscorough_study.figures.surfaces import plot_surfaces
+from viscorough_study.figures.validation import plot_validation
+from viscorough_study.prefactors import prefactors
+
+REPORT = ROOT / "workflow" / "report"
+SYMBOLS = {r"\alpha": "α", r"\beta": "β", r"\zeta": "ζ", r"\kappa": "κ", r"\eta": "η", r"\lambda": "λ", r"\ln": "ln "}
+RIGHT_SIDE = "(Ft/4ηhL)^{H/(1+H)} / [(2-H)Γ(\\frac{1+2H}{1+H})]"  # of Eq. 12
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A figure, and where the table decides on its panels, {name of what a panel or column is for: their number}."""
+
+    figure: Figure
+    repeated: dict | None = None
+
+
+@pytest.fixture(scope="session")
+def drawn(discs, pooled, lines, scaling, combinations):
+    """{name of the caption: its figure}, from small tables."""
+    heights = self_affine_disc(0.5, 9, seed=1).heights
+    return {
+        "fig1_surfaces": Drawn(plot_surfaces([(h, heights, 1 / 9) for h in (0.1, 0.5, 0.9)]), {"Hurst exponent": 3}),
+        "fig2_kinetics": Drawn(plot_kinetics(discs, combinations, scaling, SHOWN)),
+        "fig3_master_curve": Drawn(plot_master_curve(pooled, lines, scaling, SHOWN)),
+        "fig4_exponent": Drawn(plot_exponent(scaling, SHOWN)),
+        "conventions": Drawn(plot_conventions(scaling, SHOWN), {"Hurst exponent": 2}),
+        "prefactors": Drawn(plot_prefactors(prefactors(scaling), SHOWN)),
+        "validation": Drawn(plot_validation(tables.validation_table()), {"quantity": 2}),
+        "direct": Drawn(plot_direct_integration(tables.direct_table())),
+        "reduction": Drawn(plot_mdr_comparison(tables.mdr_table())),
+        "sizes": Drawn(plot_sizes(tables.sizes_table(SHOWN), SHOWN)),
+        "large": Drawn(plot_large(tables.large_table())),
+        "speed": Drawn(plot_speed(tables.methods_table()), {"indenter": 2}),
+        "growth": Drawn(plot_growth(tables.methods_table())),
+        "peers": Drawn(plot_other_solvers(tables.other_solvers_table())),
+        "scenes": Drawn(plot_level_placement(tables.level_placement_table())),
+        "stability": Drawn(plot_failure_map(tables.failure_table(LETTERS))),
+        "stability_curves": Drawn(plot_failure_curves(tables.failure_curves_table())),
+    }
+
+
+# ---- what a figure shows, and what a caption says
+
+
+def panels(figure):
+    return [axes for axes in figure.axes if axes.get_label() != "<colorbar>"]
+
+
+def names_of_panels(figure):
+    """Letters of the panels, or their places if there are two in a row or two rows; empty where they repeat."""
+    letters = [re.match(r"\([a-z]\)", axes.get_title()) for axes in panels(figure)]
+    if any(letters):
+        return {match.group() for match in letters}
+    grids = {axes.get_gridspec().get_geometry() for axes in panels(figure)}
+    places = {(1, 2): {"left", "right"}, (2, 1): {"above", "below"}, (2, 2): {"above", "below"}}
+    return places.get(grids.pop(), set())
+
+
+def names_in_caption(caption):
+    """Letters of panels, which are not those of regions, and places, that a caption speaks of."""
+    caption = re.sub(r"regions? \([abc]\)( and \([abc]\))?", "", caption)
+    letters = re.findall(r"\([a-z]\)", caption)
+    return {*letters, *(place.lower() for place in re.findall(r"\b(Left|Right|Above|Below):", caption))}
+
+
+def repeated_in_caption(caption):
+    """What there is a panel or a column for, each."""
+    return re.findall(r"one (?:panel|column) for each (Hurst exponent|quantity|indenter)", caption)
+
+
+def quantities(figure):
+    """What the axes are labelled with, without units and formatting."""
+    labels = {text for axes in figure.axes for text in (axes.get_xlabel(), axes.get_ylabel()) if text}
+    labels = {re.sub(r" \[\w+\]$| \((s|m/s)\)$", "", label) for label in labels}
+    return {plain(quantity) for label in labels for quantity in label.split(", or ")}
+
+
+def plain(text):
+    """Text in which mathematics and spaces are comparable."""
+    for name, symbol in SYMBOLS.items():
+        text = text.replace(f"{name} ", symbol).replace(name, symbol)
+    return " ".join(re.sub(r"\\,|\$", "", text).replace("\\Gamma", "Γ").replace(" = ", "=").split())
+
+
+def faults(caption, drawn):
+    """What a caption says wrongly of a figure, or does not say."""
+    figure, caption = drawn.figure, plain(caption)
+    wrong = []
+    shown, named = names_of_panels(figure), names_in_caption(caption)
+    if repeated := drawn.repeated:
+        wrong += [] if repeated_in_caption(caption) == list(repeated) else [f"panels are for each {repeated}"]
+        shown = shown if named else set()
+    wrong += [f"panel {name} is not described" for name in sorted(shown - named)]
+    wrong += [f"there is no panel {name}" for name in sorted(named - shown)]
+    said = caption.lower().replace("right side of the paper's eq. 12", plain(RIGHT_SIDE).lower())
+    wrong += [f"axis {label} is not described" for label in quantities(figure) if label.lower() not in said]
+    artists = [line for axes in figure.axes for line in axes.lines]
+    artists += [handle for legend in figure.legends for handle in legend.get_lines()]
+    for word, is_drawn in {
+        "dotted": any(line.get_linestyle() == ":" for line in artists),
+        "dashed": any(line.get_linestyle() == "--" for line in artists),
+        "crosses": any(line.get_marker() == "x" for line in artists),
+        "hollow": any(line.get_markerfacecolor() in ("none", "white") for line in artists),
+    }.items():
+        wrong += [f"nothing is {word}"] if word in said and not is_drawn else []
+    return wrong
+
+
+# ---- the captions of the report
+
+
+def captions_of_figures():
+    """{figure: caption} of everything in results/figures that a rule gives to the report."""
+    rules = "".join(path.read_text(encoding="utf-8") for path in sorted((ROOT / "workflow/rules").glob("*.smk")))
+    captions = dict(re.findall(r'"results/figures/(\w+)\.png",\s*caption="\.\./report/(\w+)\.rst"', rules))
+    assert set(re.findall(r"results/figures/(\w+)\.png", rules)) == set(captions)
+    return captions
+
+
+CAPTIONS = captions_of_figures()
+
+
+def read(name):
+    return (REPORT / f"{name}.rst").read_text(encoding="utf-8")
+
+
+def test_every_figure_of_the_report_is_drawn_here(drawn):
+    assert sorted(CAPTIONS.values()) == sorted(drawn)
+
+
+@pytest.mark.parametrize("name", CAPTIONS.values())
+def test_caption_describes_its_figure(drawn, name):
+    assert faults(read(name), drawn[name]) == []
+
+
+def test_panels_are_as_many_as_what_they_are_for(drawn):
+    for name, rows in {"fig1_surfaces": 1, "conventions": 2, "validation": 1}.items():
+        (number,) = drawn[name].repeated.values()
+        assert len(panels(drawn[name].figure)) == rows * number
+    rough = 1  # of the two indenters, which has another panel for region (b)
+    assert len(panels(drawn["speed"].figure)) == drawn["speed"].repeated["indenter"] + rough
+
+
+@pytest.mark.parametrize(
+    ("name", "change", "fault"),
+    [
+        ("stability_curves", ("Errors below", "(c) Exponents. Errors below"), "there is no panel (c)"),
+        ("stability_curves", ("(b)", ""), "panel (b) is not described"),
+        ("fig2_kinetics", ("Right:", "Below:"), "panel right is not described"),
+        ("fig2_kinetics", ("time t", "t"), "axis time t is not described"),
+        ("fig3_master_curve", ("right side", "left side"), "axis (Ft"),
+        ("validation", ("one panel for each quantity", ""), "panels are for each"),
+        ("growth", ("wall time", "dashed: time"), "nothing is dashed"),
+        ("sizes", ("(a)", "(a) region (b)"), None),
+    ],
+)
+def test_faults_of_captions_are_seen(drawn, name, change, fault):
+    seen = faults(plain(read(name)).replace(*change), drawn[name])
+    assert any(each.startswith(fault) for each in seen) if fault else seen == []
+
+
+def test_letters_of_verdicts_are_explained():
+    explained = dict(re.findall(r"\b([A-Z]): ([\w ]+)", plain(read("stability"))))
+    assert set(explained) == set(LETTERS.values())
+
+
+def test_captions_take_no_counts_from_the_settings():
+    """Settings may have changed since the figure was drawn; the params of its rule redraw it when they change."""
+    for path in REPORT.glob("*.rst"):
+        assert ("snakemake.config" in path.read_text(encoding="utf-8")) == (path.stem == "workflow"), path
+
+
+@pytest.mark.parametrize("path", sorted(REPORT.glob("*.rst")), ids=lambda path: path.stem)
+def test_texts_of_the_report_are_used_and_can_be_filled_in(path):
+    rules = [ROOT / "Snakefile", *ROOT.glob("workflow/rules/*.smk")]
+    assert any(f"report/{path.name}" in each.read_text(encoding="utf-8") for each in rules)
+    template = jinja2.Environment(undefined=jinja2.StrictUndefined).from_string(path.read_text(encoding="utf-8"))
+    settings = read_settings("config")
+    known = {"config": settings, "params": {"shown": settings["figures"]}}
+    assert "{" not in template.render(snakemake=known)

@@ -1,0 +1,75 @@
+"""Figure 2 of the paper: in the units on its axes, with the regions where they are."""
+
+import numpy as np
+import pytest
+
+from support.figures import COMBINATIONS, ELEMENTS, HURST, case_of, whole_on_page, without_region
+from support.study import SHOWN
+from viscorough import reference
+from viscorough.viscous.correspondence import kinetics
+from viscorough_study.figures.kinetics import plot_kinetics
+from viscorough_study.tables import fits
+
+pytestmark = pytest.mark.filterwarnings("error")
+
+
+def test_kinetics_are_those_of_the_curves_in_real_units(curves, discs, combinations, scaling):
+    """Against viscorough.viscous.correspondence, which does not know of X: geometric mean of v at the times drawn."""
+    raw, collapsed = plot_kinetics(discs, combinations, scaling, SHOWN).axes
+    for axes in (raw, collapsed):
+        drawn = {line.get_label() for line in axes.lines} & set(combinations)
+        assert drawn == set(combinations)
+    scaled = {line.get_label(): line.get_xydata() for line in collapsed.lines}
+    for line in raw.lines:
+        if line.get_label() not in combinations:
+            continue
+        hurst, name = next(key for key in curves if case_of(*key) == line.get_label())
+        at = combinations[line.get_label()]
+        time, velocity = line.get_data()
+        each = [kinetics(curve, at["force"], at["viscosity"], time).velocity for curve in curves[hurst, name]]
+        np.testing.assert_allclose(velocity, np.sqrt(each[0] * each[1]), rtol=1e-9)
+        abscissa_, ordinate = scaled[line.get_label()].T
+        unit = at["rms"] * at["viscosity"] * at["diameter"]
+        np.testing.assert_allclose(abscissa_, at["force"] * time / unit, rtol=1e-12)
+        np.testing.assert_allclose(ordinate, velocity * time / at["rms"], rtol=1e-12)
+
+
+def test_kinetics_collapse_from_decades_apart(discs, combinations, scaling):
+    raw, collapsed = plot_kinetics(discs, combinations, scaling, SHOWN).axes
+    for hurst in HURST:
+        pairs = []
+        for axes in (raw, collapsed):
+            of_label = {line.get_label(): line.get_xydata() for line in axes.lines}
+            pairs.append([of_label[case_of(hurst, name)] for name in COMBINATIONS])
+        (raw_one, raw_other), (one, other) = pairs
+        assert abs(np.log10(raw_one[0] / raw_other[0])).max() > 0.9
+        both = min(len(one), len(other))  # rounding may take the last abscissa off one of them
+        assert both > 50
+        np.testing.assert_allclose(one[:both], other[:both], rtol=0.02)  # rounding can move levels of a curve
+
+
+@pytest.mark.parametrize(("convention", "length"), [("diameter", 1.0), ("radius", 0.5)])
+def test_kinetics_mark_the_regions(discs, combinations, scaling, convention, length):
+    shown = SHOWN | {"diameter_convention": convention}
+    figure = plot_kinetics(discs, combinations, scaling, shown)
+    axes = figure.axes[1]
+    bars = [line.get_xdata() for line in axes.lines if line.get_transform() == axes.get_xaxis_transform()]
+    fitted = fits(scaling, shown, source="discs", case_group="base")
+    np.testing.assert_allclose(sorted(map(tuple, bars)), sorted(zip(4 * fitted.x_low, 4 * fitted.x_high, strict=True)))
+    first, last = (line.get_xydata() for line in axes.lines if line.get_linestyle() == ":")
+    kappa = reference.one_element_stiffness(ELEMENTS)
+    np.testing.assert_allclose(first[:, 1], first[:, 0] * length / 4 / kappa)
+    np.testing.assert_allclose(last[:, 1], last[:, 0] * length / 4)
+    one = [line.get_xydata() for line in axes.lines if line.get_color() == "0.8"]
+    assert len(one) == len(discs)
+    for begin in (data[0] for data in one):  # region (a) lies on the limit (a), region (c) comes close to (c)
+        assert begin[1] == pytest.approx(begin[0] * length / 4 / kappa, rel=1e-6)
+    end = next(line.get_xydata()[-1] for line in axes.lines if line.get_label() in combinations)
+    assert end[1] == pytest.approx(end[0] * length / 4, rel=0.1)
+    assert whole_on_page(figure)
+
+
+def test_kinetics_of_one_case_without_region(discs, combinations, scaling):
+    figure = plot_kinetics(discs[:1], combinations, without_region(scaling, 0.4), SHOWN)
+    assert whole_on_page(figure)
+    assert not any(line.get_linewidth() == 2.5 for line in figure.axes[1].lines[:-1])

@@ -1,0 +1,64 @@
+"""What the figures share: looks of the Hurst exponents, and files that are whole and reproducible."""
+
+import numpy as np
+import pytest
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+
+from support.study import SHOWN
+from viscorough_study.figures.exponent import plot_exponent
+from viscorough_study.figures.style import hurst_looks, save_figure
+
+pytestmark = pytest.mark.filterwarnings("error")
+
+
+def test_looks_of_a_hurst_exponent_do_not_depend_on_how_exponents_are_listed():
+    looks = hurst_looks([0.9, 0.1, 0.6, 0.4, 0.9])
+    assert list(looks) == [0.1, 0.4, 0.6, 0.9]
+    assert looks == hurst_looks([0.1, 0.4, 0.6, 0.9])
+    assert hurst_looks([0.6])[0.6]["color"] == looks[0.6]["color"]
+    for name in ("color", "marker", "linestyle"):
+        assert len({str(look[name]) for look in looks.values()}) == 4
+    grey = [np.dot(to_rgb(look["color"]), (0.3, 0.6, 0.1)) for look in looks.values()]
+    assert (np.diff(grey) > 0.07).all()  # told apart when printed in grey
+    assert grey[-1] < 0.7  # and from the paper
+
+
+@pytest.mark.parametrize("suffix", ["png", "pdf"])
+def test_saved_files_are_reproducible(scaling, tmp_path, suffix):
+    paths = [tmp_path / f"{name}.{suffix}" for name in "ab"]
+    for path in paths:
+        save_figure(plot_exponent(scaling, SHOWN), path)
+    first, second = (path.read_bytes() for path in paths)
+    assert first == second
+    assert first.startswith({"png": b"\x89PNG", "pdf": b"%PDF"}[suffix])
+    assert sorted(tmp_path.iterdir()) == paths
+    if suffix == "pdf":
+        assert b"CreationDate" not in first
+        assert b"/FontFile2" in first  # TrueType fonts are in the file
+    else:
+        width = int.from_bytes(first[16:20], "big")
+        assert width == pytest.approx(120 / 25.4 * 200, abs=1)
+
+
+def test_one_figure_goes_to_all_paths(tmp_path):
+    save_figure(Figure(), tmp_path / "a.png", tmp_path / "a.pdf")
+    assert {path.name for path in tmp_path.iterdir()} == {"a.png", "a.pdf"}
+
+
+def test_a_file_that_cannot_be_drawn_leaves_the_old_one(tmp_path):
+    path = tmp_path / "a.png"
+    path.write_bytes(b"old")
+    figure = Figure()
+    figure.text(0.5, 0.5, r"$\no_such_symbol$")
+    with pytest.raises(ValueError, match="no_such_symbol"):
+        save_figure(figure, path)
+    assert path.read_bytes() == b"old"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize(("name", "message"), [("no/a.png", "no folder"), ("a.what", "what")])
+def test_save_refuses(tmp_path, name, message):
+    with pytest.raises(ValueError, match=message):
+        save_figure(Figure(), tmp_path / name)
+    assert list(tmp_path.iterdir()) == []

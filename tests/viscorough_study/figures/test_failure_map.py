@@ -6,7 +6,7 @@ import pytest
 
 from support.figures import coordinates, failure_curves_table, failure_table
 from viscorough.contact.loading_path import indent
-from viscorough.loading_curve import AccuracyWarning
+from viscorough.errors import AccuracyWarning
 from viscorough.surfaces import self_affine_disc
 from viscorough.viscous.stepping import march_steps
 from viscorough_study.figures.failure_curves import FLOOR, WARNED, plot_failure_curves

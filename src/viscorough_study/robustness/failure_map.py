@@ -232,7 +232,7 @@ CURVES = {
     "curve": ("which curve", ""),
     "method": ("method", ""),
     "x": ("explicit steps; contact fraction", "1"),
-    "y": ("error, or penetration over depth", "1"),
+    "y": ("error, or overlap over depth", "1"),
 }
 
 
@@ -243,7 +243,7 @@ def curves(seed):
 
 
 def _against_steps(disc):
-    """Error of depth, and deepest penetration, of explicit marching."""
+    """Error of the depth, and largest overlap over depth, of explicit marching."""
     rows, question = [], _question(Difficulty("", "", disc))
     for number in 2 ** np.arange(13):
         difficulty = Difficulty("", "", disc, steps=int(number))
@@ -253,7 +253,7 @@ def _against_steps(disc):
             ends = np.geomspace(question.force[0] / number, question.force[-1], number) if number > 1 else []
             steps = march_steps(disc, np.union1d(ends, question.force))
         rows.append(("steps", "error of the depth", number, error))
-        rows.append(("steps", "penetration over depth", number, steps.overlap.max()))
+        rows.append(("steps", "overlap over depth", number, steps.overlap.max()))
     return rows
 
 

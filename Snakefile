@@ -13,26 +13,25 @@ report: "workflow/report/workflow.rst"
 
 
 include: "workflow/rules/common.smk"
-include: "workflow/rules/settings.smk"
 
 
-check_settings(config)
-DISCS = disc_cases(config)
-LINES = line_cases(config)
-PROBLEMS = method_problems(config)
+require_valid(config)
+DISCS = cases.disc_cases(config)
+LINES = cases.line_cases(config)
+PROBLEMS = cases.method_problems(config)
 
 
 wildcard_constraints:
     case="|".join(DISCS),
     line="|".join(LINES),
     problem="|".join(PROBLEMS),
+    pool="|".join(cases.POOLS),
     batch=r"\d{4}-\d{4}",
     elements=r"\d+",
 
 
-include: "workflow/rules/surfaces.smk"
 include: "workflow/rules/indentation.smk"
-include: "workflow/rules/ensemble.smk"
+include: "workflow/rules/pools.smk"
 include: "workflow/rules/scaling.smk"
 include: "workflow/rules/validation.smk"
 include: "workflow/rules/figures.smk"
@@ -40,32 +39,6 @@ include: "workflow/rules/claims.smk"
 include: "workflow/rules/methods.smk"
 include: "workflow/rules/stability.smk"
 include: "workflow/rules/sizes.smk"
-
-
-# On a cluster, where Snakemake runs; too short for a queue.
-localrules:
-    aggregate_discs,
-    aggregate_lines,
-    check_validation,
-    compare_direct,
-    compare_prefactors,
-    fit_scaling,
-    fit_sizes,
-    generate_example_discs,
-    judge_claims,
-    plot_conventions,
-    plot_exponent,
-    plot_kinetics,
-    plot_large,
-    plot_master_curve,
-    plot_methods,
-    plot_sizes,
-    plot_stability,
-    plot_surfaces,
-    plot_validation,
-    tabulate_calibration,
-    tabulate_methods,
-    tabulate_prices,
 
 
 onstart:
@@ -99,9 +72,9 @@ rule figures:
         rules.plot_master_curve.output,
         rules.plot_exponent.output,
         rules.plot_conventions.output,
-        rules.compare_prefactors.output,
-        rules.compare_reduction.output,
-        rules.compare_direct.output,
+        rules.plot_prefactors.output,
+        rules.plot_reduction.output,
+        rules.plot_direct.output,
         rules.plot_validation.output,
 
 
@@ -111,6 +84,9 @@ rule tables:
         rules.validate.output,
         rules.judge_claims.output,
         rules.tabulate_calibration.output,
+        rules.compare_prefactors.output,
+        rules.compare_reduction.output,
+        rules.compare_direct.output,
 
 
 rule validation:
@@ -120,12 +96,17 @@ rule validation:
 
 rule speed:
     input:
-        rules.plot_methods.output,
+        rules.tabulate_methods.output,
+        rules.plot_speed.output,
+        rules.plot_growth.output,
+        rules.plot_other_solvers.output,
+        rules.plot_level_placement.output,
 
 
 rule stability:
     input:
-        rules.plot_stability.output,
+        rules.plot_failure_map.output,
+        rules.plot_failure_curves.output,
 
 
 rule sizes:
@@ -146,9 +127,12 @@ rule all:
         rules.validation.input,
 
 
-include: "workflow/rules/prices.smk"
+include: "workflow/rules/rule_costs.smk"
 
 
-rule prices:
+rule costs:
     input:
-        rules.tabulate_prices.output,
+        rules.tabulate_rule_costs.output,
+
+
+add_source_digests(workflow.rules)

@@ -12,8 +12,6 @@ import warnings
 import numpy as np
 import xarray as xr
 
-from viscorough.io.datasets import unstack_curves
-
 _MEANING = {
     "x": ("dimensionless force F/(4GhL) or time Ft/(4ηhL)", "Eq. 2 and Eq. 3"),
     "velocity": ("dimensionless velocity vt/h = X/κ", "Eq. 2"),
@@ -62,6 +60,13 @@ def aggregate(curves, rms, diameter, x, *, hurst, case):
     there. Raises ValueError for no curves, unlike numbers of elements, rms heights or abscissae out of range.
     """
     curves = list(curves)
+    stiffness, count = on_abscissae(curves, rms, diameter, x)
+    coords = {"hurst": hurst, "case": case, "diameter": diameter, "elements": curves[0].elements}
+    return ensemble_dataset(list(rms), np.asarray(x, dtype=float), stiffness, count, coords)
+
+
+def on_abscissae(curves, rms, diameter, x):
+    """κ and the elements in contact of `aggregate`, each of shape (rms conventions, realizations, abscissae)."""
     x = np.asarray(x, dtype=float)
     if not curves:
         raise ValueError("aggregate: at least one loading curve is needed, there is none")
@@ -85,25 +90,7 @@ def aggregate(curves, rms, diameter, x, *, hurst, case):
         stiffness[:, i] = curve.at_force(force)[1] / (4 * diameter)
         count[:, i] = np.exp(np.interp(np.log(force), np.log(curve.force), np.log(curve.contact_count)))
     count[np.isnan(stiffness)] = np.nan
-
-    coords = {"hurst": hurst, "case": case, "diameter": diameter, "elements": elements}
-    return _dataset(list(rms), x, stiffness, count, coords)
-
-
-def aggregate_batches(batches, conventions, x, *, case):
-    """Ensemble of one case from batches of its loading curves, of which one at a time need be in memory.
-
-    batches : iterable of datasets of stack_curves with hurst, diameter and rms_<name> for the names in
-        `conventions`; x, case : as in `aggregate`
-    Returns the ensemble dataset with the settings of the first batch.
-    """
-    pooled, settings = [], []
-    for batch in batches:
-        rms = {name: batch[f"rms_{name}"].values for name in conventions}
-        about = {"hurst": batch["hurst"].item(), "case": case}
-        pooled.append(aggregate(unstack_curves(batch), rms, batch["diameter"].item(), x, **about))
-        settings.append(batch.attrs["settings"])
-    return combine(pooled).assign_attrs(settings=settings[0])
+    return stiffness, count
 
 
 def combine(ensembles):
@@ -131,10 +118,10 @@ def combine(ensembles):
     coords = {"hurst": first["hurst"].item(), "elements": first["elements"].item()}
     coords |= {"case": of_realizations("case"), "diameter": of_realizations("diameter")}
     conventions = first["rms_convention"].values.tolist()
-    return _dataset(conventions, first["x"].values, pooled("stiffness"), pooled("contact_count"), coords)
+    return ensemble_dataset(conventions, first["x"].values, pooled("stiffness"), pooled("contact_count"), coords)
 
 
-def _dataset(conventions, x, stiffness, count, coords):
+def ensemble_dataset(conventions, x, stiffness, count, coords):
     """Ensemble dataset from κ and elements in contact of shape (conventions, realizations, abscissae)."""
     velocity = x / stiffness
     defined = np.isfinite(velocity)

@@ -7,7 +7,7 @@ import pandas as pd
 import yaml
 
 from viscorough import reference
-from viscorough_study.ensembles import _dataset, abscissa, combine
+from viscorough_study.ensembles import abscissa, combine, ensemble_dataset
 from viscorough_study.gamma_factor import compare_direct
 from viscorough_study.power_law import scaling_rows
 from viscorough_study.verdicts import Evidence
@@ -35,7 +35,7 @@ def ensemble(hurst, case, zeta, *, bent=0.0, scatter=0.02, seed=0, square=1.0):
     kappa = np.clip(zeta * factor * X**alpha, one, 1.0)
     stiffness = np.stack([kappa, np.clip(square * zeta * factor * X**alpha, one, 1.0)])
     count = np.where(stiffness > one, np.maximum(51433 * stiffness**2, 2.0), 1.0)
-    return _dataset(
+    return ensemble_dataset(
         ["disc", "square"], X, stiffness, count, {"hurst": hurst, "case": case, "diameter": 1.0, "elements": 51433}
     )
 

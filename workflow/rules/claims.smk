@@ -1,4 +1,4 @@
-# Verdicts on what the paper says.
+# Verdicts on the claims of the paper, and the comparisons that they rest on.
 
 
 rule compare_direct:
@@ -10,6 +10,30 @@ rule compare_direct:
             labels={"table": "direct integration and both readings of the law"},
         ),
         nc="results/tables/direct.nc",
+    log:
+        "results/logs/compare_direct.log",
+    benchmark:
+        "results/benchmarks/compare_direct.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+    params:
+        hursts=config["discs"]["hurst"],
+        elements=config["direct"]["elements"],
+        seed=config["seed"],
+    message:
+        "Direct integration against both readings of the law"
+    script:
+        "../scripts/compare_direct.py"
+
+
+rule plot_direct:
+    input:
+        table=rules.compare_direct.output.csv,
+    output:
         png=report(
             "results/figures/direct.png",
             caption="../report/direct.rst",
@@ -18,29 +42,25 @@ rule compare_direct:
         ),
         pdf="results/figures/direct.pdf",
     log:
-        "results/logs/compare_direct.log",
+        "results/logs/plot_direct.log",
     benchmark:
-        "results/benchmarks/compare_direct.tsv"
+        "results/benchmarks/plot_direct.tsv"
+    localrule: True
     conda:
         "../envs/viscorough.yaml"
     threads: 1
     resources:
         mem_mb=1000,
-    params:
-        source_digest("compare_direct"),
-        hursts=config["discs"]["hurst"],
-        across=min(65, config["discs"]["elements"]),
-        seed=config["seed"],
     message:
-        "Direct integration against both readings of the law"
+        "Figure of direct integration against both readings of the law"
     script:
-        "../scripts/compare_direct.py"
+        "../scripts/plot_direct.py"
 
 
 rule judge_claims:
     input:
-        discs=ensembles("base"),
-        lines=lines_of_discs(),
+        discs="results/ensembles/discs.nc",
+        lines="results/ensembles/lines.nc",
         scaling=rules.fit_scaling.output.csv,
         validation=rules.validate.output.csv,
         direct=rules.compare_direct.output.csv,
@@ -57,21 +77,21 @@ rule judge_claims:
         "results/logs/judge_claims.log",
     benchmark:
         "results/benchmarks/judge_claims.tsv"
+    localrule: True
     conda:
         "../envs/viscorough.yaml"
     threads: 1
     resources:
         mem_mb=2000,
     params:
-        source_digest("judge_claims"),
-        claims=paper("claims"),
+        claims=read_yaml("resources/paper/claims.yaml"),
         shown=config["figures"],
         across=config["discs"]["elements"],
         limits={name: config["scaling"][name] for name in ("elements_min", "stiffness_max", "slope_max")},
         resamples=config["scaling"]["resamples"],
         seed=config["seed"],
     message:
-        "Verdicts on the paper's claims"
+        "Verdicts on the claims of the paper"
     script:
         "../scripts/judge_claims.py"
 
@@ -87,6 +107,26 @@ rule compare_prefactors:
             labels={"table": "zeta under every convention"},
         ),
         nc="results/tables/prefactors.nc",
+    log:
+        "results/logs/compare_prefactors.log",
+    benchmark:
+        "results/benchmarks/compare_prefactors.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+    message:
+        "Prefactor under every convention"
+    script:
+        "../scripts/compare_prefactors.py"
+
+
+rule plot_prefactors:
+    input:
+        table=rules.compare_prefactors.output.csv,
+    output:
         png=report(
             "results/figures/prefactors.png",
             caption="../report/prefactors.rst",
@@ -95,21 +135,21 @@ rule compare_prefactors:
         ),
         pdf="results/figures/prefactors.pdf",
     log:
-        "results/logs/compare_prefactors.log",
+        "results/logs/plot_prefactors.log",
     benchmark:
-        "results/benchmarks/compare_prefactors.tsv"
+        "results/benchmarks/plot_prefactors.tsv"
+    localrule: True
     conda:
         "../envs/viscorough.yaml"
     threads: 1
     resources:
         mem_mb=1000,
     params:
-        source_digest("compare_prefactors"),
-        shown=config["figures"],
+        conventions=config["figures"],
     message:
-        "Prefactor under every convention"
+        "Figure of the prefactor under every convention"
     script:
-        "../scripts/compare_prefactors.py"
+        "../scripts/plot_prefactors.py"
 
 
 rule compare_reduction:
@@ -121,13 +161,6 @@ rule compare_reduction:
             labels={"table": "MDR, surface by surface"},
         ),
         nc="results/tables/reduction.nc",
-        png=report(
-            "results/figures/reduction.png",
-            caption="../report/reduction.rst",
-            category="Verdicts",
-            labels={"figure": "MDR, surface by surface"},
-        ),
-        pdf="results/figures/reduction.pdf",
     log:
         "results/logs/compare_reduction.log",
     benchmark:
@@ -138,7 +171,7 @@ rule compare_reduction:
     resources:
         mem_mb=1000,
     params:
-        source_digest("compare_reduction"),
+        **config["reduction"],
         hurst=config["discs"]["hurst"],
         elements=config["discs"]["elements"],
         realizations=config["discs"]["realizations"],
@@ -148,3 +181,30 @@ rule compare_reduction:
         "Reduction of dimensionality against boundary elements, surface by surface"
     script:
         "../scripts/compare_reduction.py"
+
+
+rule plot_reduction:
+    input:
+        table=rules.compare_reduction.output.csv,
+    output:
+        png=report(
+            "results/figures/reduction.png",
+            caption="../report/reduction.rst",
+            category="Verdicts",
+            labels={"figure": "MDR, surface by surface"},
+        ),
+        pdf="results/figures/reduction.pdf",
+    log:
+        "results/logs/plot_reduction.log",
+    benchmark:
+        "results/benchmarks/plot_reduction.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+    message:
+        "Figure of the reduction of dimensionality against boundary elements"
+    script:
+        "../scripts/plot_reduction.py"

@@ -1,4 +1,27 @@
-# Figures: PNG for the report, PDF as vector graphics.
+# Figures 1 to 4 of the paper, and what its conventions change. PNG for the report, PDF as vector graphics.
+
+
+rule generate_example_discs:
+    output:
+        surfaces="results/surfaces/examples.nc",
+    log:
+        "results/logs/generate_example_discs.log",
+    benchmark:
+        "results/benchmarks/generate_example_discs.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=cases.example_memory(config),
+    params:
+        **cases.example_discs(config),
+        seed=config["seed"],
+        elements=config["discs"]["elements"],
+    message:
+        "Discs of Figure 1"
+    script:
+        "../scripts/generate_example_discs.py"
 
 
 rule plot_surfaces:
@@ -16,13 +39,12 @@ rule plot_surfaces:
         "results/logs/plot_surfaces.log",
     benchmark:
         "results/benchmarks/plot_surfaces.tsv"
+    localrule: True
     conda:
         "../envs/viscorough.yaml"
     threads: 1
     resources:
         mem_mb=1000,
-    params:
-        source_digest("plot_surfaces"),
     message:
         "Figure 1, surfaces"
     script:
@@ -31,7 +53,7 @@ rule plot_surfaces:
 
 rule plot_kinetics:
     input:
-        ensembles=ensembles("base"),
+        discs="results/ensembles/discs.nc",
         scaling=rules.fit_scaling.output.csv,
     output:
         png=report(
@@ -45,15 +67,15 @@ rule plot_kinetics:
         "results/logs/plot_kinetics.log",
     benchmark:
         "results/benchmarks/plot_kinetics.tsv"
+    localrule: True
     conda:
         "../envs/viscorough.yaml"
     threads: 1
     resources:
         mem_mb=1000,
     params:
-        source_digest("plot_kinetics"),
         combinations=combinations(),
-        shown=config["figures"],
+        conventions=config["figures"],
     message:
         "Figure 2, kinetics"
     script:
@@ -62,8 +84,8 @@ rule plot_kinetics:
 
 rule plot_master_curve:
     input:
-        discs=ensembles("base"),
-        lines=lines_of_discs(),
+        discs="results/ensembles/discs.nc",
+        lines="results/ensembles/lines.nc",
         scaling=rules.fit_scaling.output.csv,
     output:
         png=report(
@@ -77,14 +99,14 @@ rule plot_master_curve:
         "results/logs/plot_master_curve.log",
     benchmark:
         "results/benchmarks/plot_master_curve.tsv"
+    localrule: True
     conda:
         "../envs/viscorough.yaml"
     threads: 1
     resources:
         mem_mb=1000,
     params:
-        source_digest("plot_master_curve"),
-        shown=config["figures"],
+        conventions=config["figures"],
     message:
         "Figure 3, master curve"
     script:
@@ -106,14 +128,14 @@ rule plot_exponent:
         "results/logs/plot_exponent.log",
     benchmark:
         "results/benchmarks/plot_exponent.tsv"
+    localrule: True
     conda:
         "../envs/viscorough.yaml"
     threads: 1
     resources:
         mem_mb=1000,
     params:
-        source_digest("plot_exponent"),
-        shown=config["figures"],
+        conventions=config["figures"],
     message:
         "Figure 4, exponent"
     script:
@@ -135,43 +157,15 @@ rule plot_conventions:
         "results/logs/plot_conventions.log",
     benchmark:
         "results/benchmarks/plot_conventions.tsv"
+    localrule: True
     conda:
         "../envs/viscorough.yaml"
     threads: 1
     resources:
         mem_mb=1000,
     params:
-        source_digest("plot_conventions"),
-        shown=config["figures"],
+        conventions=config["figures"],
     message:
         "Figure of the conventions"
     script:
         "../scripts/plot_conventions.py"
-
-
-rule plot_validation:
-    input:
-        table=rules.validate.output.csv,
-    output:
-        png=report(
-            "results/figures/validation.png",
-            caption="../report/validation.rst",
-            category="Beyond the paper",
-            labels={"figure": "comparison with exact solutions"},
-        ),
-        pdf="results/figures/validation.pdf",
-    log:
-        "results/logs/plot_validation.log",
-    benchmark:
-        "results/benchmarks/plot_validation.tsv"
-    conda:
-        "../envs/viscorough.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-    params:
-        source_digest("plot_validation"),
-    message:
-        "Figure of the comparison with exact solutions"
-    script:
-        "../scripts/plot_validation.py"

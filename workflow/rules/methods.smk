@@ -1,5 +1,5 @@
-# Speed against accuracy of every method, ours and others': `speed` makes it, `all` does not, for it takes over an hour.
-# Every job takes all cores, so that nothing runs beside what is timed.
+# Speed against accuracy of every method, ours and others': the target `speed` makes it, `all` does not, because it takes
+# over an hour. What is timed takes all cores, so that nothing runs beside it.
 
 
 rule measure_methods:
@@ -11,17 +11,16 @@ rule measure_methods:
         "results/benchmarks/measure_methods/{problem}.tsv"
     conda:
         "../envs/viscorough.yaml"
-    threads: workflow.cores
+    threads: lambda wildcards: workflow.cores
     resources:
         mem_mb=8000,
     params:
-        source_digest("measure_methods"),
         problem=lambda wildcards: PROBLEMS[wildcards.problem],
         seed=config["seed"],
         levels=config["methods"]["levels"],
         repeats=config["methods"]["repeats"],
         longest=config["methods"]["longest"],
-        peers=peers(),
+        peers=other_solvers(),
     message:
         "Cost and error of every method: {wildcards.problem}"
     script:
@@ -43,123 +42,180 @@ rule tabulate_methods:
         "results/logs/tabulate_methods.log",
     benchmark:
         "results/benchmarks/tabulate_methods.tsv"
+    localrule: True
     conda:
         "../envs/viscorough.yaml"
     threads: 1
     resources:
         mem_mb=500,
-    params:
-        source_digest("tabulate_methods"),
     message:
         "Table of all methods"
     script:
         "../scripts/tabulate_methods.py"
 
 
-rule race_peers:
+rule time_other_solvers:
     output:
         csv=report(
-            "results/tables/peers.csv",
+            "results/tables/other_solvers.csv",
             caption="../report/peers_table.rst",
             category="Methods",
             labels={"table": "comparison with other solvers"},
         ),
-        nc="results/tables/peers.nc",
+        nc="results/tables/other_solvers.nc",
     log:
-        "results/logs/race_peers.log",
+        "results/logs/time_other_solvers.log",
     benchmark:
-        "results/benchmarks/race_peers.tsv"
+        "results/benchmarks/time_other_solvers.tsv"
     conda:
         "../envs/viscorough.yaml"
-    threads: workflow.cores
+    threads: lambda wildcards: workflow.cores
     resources:
         mem_mb=8000,
     params:
-        source_digest("race_peers"),
         seed=config["seed"],
         hurst=config["methods"]["hurst"],
         repeats=config["methods"]["repeats"],
         longest=config["methods"]["longest"],
         tasks=config["methods"]["tasks"],
-        peers=peers(),
+        peers=other_solvers(),
     message:
         "The same levels by other solvers"
     script:
-        "../scripts/race_peers.py"
+        "../scripts/time_other_solvers.py"
 
 
-rule compare_scenes:
+rule compare_level_placement:
     output:
         csv=report(
-            "results/tables/scenes.csv",
+            "results/tables/level_placement.csv",
             caption="../report/scenes_table.rst",
             category="Methods",
-            labels={"table": "levels chosen for a scene"},
+            labels={"table": "placement of levels"},
         ),
-        nc="results/tables/scenes.nc",
+        nc="results/tables/level_placement.nc",
     log:
-        "results/logs/compare_scenes.log",
+        "results/logs/compare_level_placement.log",
     benchmark:
-        "results/benchmarks/compare_scenes.tsv"
+        "results/benchmarks/compare_level_placement.tsv"
     conda:
         "../envs/viscorough.yaml"
-    threads: workflow.cores
+    threads: lambda wildcards: workflow.cores
     resources:
         mem_mb=4000,
     params:
-        source_digest("compare_scenes"),
         **config["methods"]["scenes"],
         seed=config["seed"],
         repeats=config["methods"]["repeats"],
     message:
-        "Levels chosen for a scene: by the package, by hand, naively"
+        "Placement of levels: by the package, by hand, naively"
     script:
-        "../scripts/compare_scenes.py"
+        "../scripts/compare_level_placement.py"
 
 
-rule plot_methods:
+rule plot_speed:
     input:
-        methods=rules.tabulate_methods.output.csv,
-        peers=rules.race_peers.output.csv,
-        scenes=rules.compare_scenes.output.csv,
+        table=rules.tabulate_methods.output.csv,
     output:
-        speed=report(
+        png=report(
             "results/figures/speed.png",
             caption="../report/speed.rst",
             category="Methods",
             labels={"figure": "speed against accuracy"},
         ),
-        growth=report(
-            "results/figures/growth.png",
-            caption="../report/growth.rst",
-            category="Methods",
-            labels={"figure": "cost against number of elements"},
-        ),
-        peers=report(
-            "results/figures/peers.png",
-            caption="../report/peers.rst",
-            category="Methods",
-            labels={"figure": "other solvers"},
-        ),
-        scenes=report(
-            "results/figures/scenes.png",
-            caption="../report/scenes.rst",
-            category="Methods",
-            labels={"figure": "levels chosen for a scene"},
-        ),
-        pdfs=multiext("results/figures/", "speed.pdf", "growth.pdf", "peers.pdf", "scenes.pdf"),
+        pdf="results/figures/speed.pdf",
     log:
-        "results/logs/plot_methods.log",
+        "results/logs/plot_speed.log",
     benchmark:
-        "results/benchmarks/plot_methods.tsv"
+        "results/benchmarks/plot_speed.tsv"
+    localrule: True
     conda:
         "../envs/viscorough.yaml"
     threads: 1
     resources:
         mem_mb=1000,
-    params:
-        source_digest("plot_methods"),
     message:
-        "Figures of speed and accuracy"
+        "Figure of speed against accuracy"
     script:
-        "../scripts/plot_methods.py"
+        "../scripts/plot_speed.py"
+
+
+rule plot_growth:
+    input:
+        table=rules.tabulate_methods.output.csv,
+    output:
+        png=report(
+            "results/figures/growth.png",
+            caption="../report/growth.rst",
+            category="Methods",
+            labels={"figure": "cost against number of elements"},
+        ),
+        pdf="results/figures/growth.pdf",
+    log:
+        "results/logs/plot_growth.log",
+    benchmark:
+        "results/benchmarks/plot_growth.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+    message:
+        "Figure of cost against the number of elements"
+    script:
+        "../scripts/plot_growth.py"
+
+
+rule plot_other_solvers:
+    input:
+        table=rules.time_other_solvers.output.csv,
+    output:
+        png=report(
+            "results/figures/other_solvers.png",
+            caption="../report/peers.rst",
+            category="Methods",
+            labels={"figure": "other solvers"},
+        ),
+        pdf="results/figures/other_solvers.pdf",
+    log:
+        "results/logs/plot_other_solvers.log",
+    benchmark:
+        "results/benchmarks/plot_other_solvers.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+    message:
+        "Figure of other solvers"
+    script:
+        "../scripts/plot_other_solvers.py"
+
+
+rule plot_level_placement:
+    input:
+        table=rules.compare_level_placement.output.csv,
+    output:
+        png=report(
+            "results/figures/level_placement.png",
+            caption="../report/scenes.rst",
+            category="Methods",
+            labels={"figure": "placement of levels"},
+        ),
+        pdf="results/figures/level_placement.pdf",
+    log:
+        "results/logs/plot_level_placement.log",
+    benchmark:
+        "results/benchmarks/plot_level_placement.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+    message:
+        "Figure of the placement of levels"
+    script:
+        "../scripts/plot_level_placement.py"

@@ -3,8 +3,8 @@
 
 rule fit_scaling:
     input:
-        discs=[ensembles(group) for group in groups()],
-        lines=ensembles("lines", "lines"),
+        discs="results/ensembles/discs.nc",
+        lines="results/ensembles/lines.nc",
     output:
         csv=report(
             "results/tables/scaling.csv",
@@ -17,14 +17,13 @@ rule fit_scaling:
         "results/logs/fit_scaling.log",
     benchmark:
         "results/benchmarks/fit_scaling.tsv"
+    localrule: True
     conda:
         "../envs/viscorough.yaml"
     threads: 1
     resources:
         mem_mb=4000,
     params:
-        source_digest("fit_scaling"),
-        groups=[group for group in groups() for _ in ensembles(group)],
         seed=config["seed"],
         fit=config["scaling"],
     message:
@@ -48,13 +47,13 @@ rule tabulate_calibration:
         "results/logs/tabulate_calibration.log",
     benchmark:
         "results/benchmarks/tabulate_calibration.tsv"
+    localrule: True
     conda:
         "../envs/viscorough.yaml"
     threads: 1
     resources:
         mem_mb=1000,
     params:
-        source_digest("tabulate_calibration"),
         shown=config["figures"],
     message:
         "Calibrated exponents and prefactors"

@@ -3,9 +3,8 @@
 
 rule fit_sizes:
     input:
-        discs=ensembles("sizes"),
-        controls=ensembles("controls"),
-        lines=ensembles("sizes", "lines"),
+        discs="results/ensembles/size_discs.nc",
+        lines="results/ensembles/size_lines.nc",
     output:
         csv=report(
             "results/tables/sizes.csv",
@@ -25,13 +24,13 @@ rule fit_sizes:
         "results/logs/fit_sizes.log",
     benchmark:
         "results/benchmarks/fit_sizes.tsv"
+    localrule: True
     conda:
         "../envs/viscorough.yaml"
     threads: 1
     resources:
         mem_mb=1000,
     params:
-        source_digest("fit_sizes"),
         seed=config["seed"],
         fit=config["scaling"],
         shown=config["figures"],
@@ -56,14 +55,14 @@ rule plot_sizes:
         "results/logs/plot_sizes.log",
     benchmark:
         "results/benchmarks/plot_sizes.tsv"
+    localrule: True
     conda:
         "../envs/viscorough.yaml"
     threads: 1
     resources:
         mem_mb=1000,
     params:
-        source_digest("plot_sizes"),
-        shown=config["figures"],
+        conventions=config["figures"],
     message:
         "Figure of exponents on grids from coarse to fine"
     script:
@@ -84,18 +83,18 @@ rule measure_large:
     resources:
         mem_mb=large_memory,
     params:
-        source_digest("measure_large"),
         seed=config["seed"],
         hurst=config["large"]["hurst"],
         tolerance=config["indentation"]["tolerance"],
         until_fraction=config["large"]["until_fraction"],
+        warm_up=min(config["large"]["elements"]),
     message:
-        "Cost of a disc of {wildcards.elements} elements"
+        "Cost of a disc of {wildcards.elements} elements across"
     script:
         "../scripts/measure_large.py"
 
 
-rule plot_large:
+rule tabulate_large:
     input:
         costs=expand(rules.measure_large.output.csv, elements=config["large"]["elements"]),
     output:
@@ -106,6 +105,26 @@ rule plot_large:
             labels={"table": "cost of one disc"},
         ),
         nc="results/tables/large.nc",
+    log:
+        "results/logs/tabulate_large.log",
+    benchmark:
+        "results/benchmarks/tabulate_large.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+    message:
+        "Table of the cost of one disc"
+    script:
+        "../scripts/tabulate_large.py"
+
+
+rule plot_large:
+    input:
+        table=rules.tabulate_large.output.csv,
+    output:
         png=report(
             "results/figures/large.png",
             caption="../report/large.rst",
@@ -117,13 +136,12 @@ rule plot_large:
         "results/logs/plot_large.log",
     benchmark:
         "results/benchmarks/plot_large.tsv"
+    localrule: True
     conda:
         "../envs/viscorough.yaml"
     threads: 1
     resources:
         mem_mb=1000,
-    params:
-        source_digest("plot_large"),
     message:
         "Figure of the cost of one disc"
     script:

@@ -1,87 +1,104 @@
-# Where each method fails: `stability` makes it, `all` does not, for it takes minutes.
+# Where each method fails: the target `stability` makes it, `all` does not, because it takes minutes.
 
 
-rule measure_stability:
+rule map_failures:
     output:
         csv=report(
-            "results/tables/stability.csv",
+            "results/tables/failure_map.csv",
             caption="../report/stability_table.rst",
             category="Stability",
-            labels={"table": "every method in every difficulty"},
+            labels={"table": "every method in every stress-test case"},
         ),
-        nc="results/tables/stability.nc",
+        nc="results/tables/failure_map.nc",
     log:
-        "results/logs/measure_stability.log",
+        "results/logs/map_failures.log",
     benchmark:
-        "results/benchmarks/measure_stability.tsv"
+        "results/benchmarks/map_failures.tsv"
     conda:
         "../envs/viscorough.yaml"
     threads: 1
     resources:
         mem_mb=4000,
     params:
-        source_digest("measure_stability"),
         seed=config["seed"],
         across=config["stability"]["across"],
         grids=config["stability"]["grids"],
     message:
-        "Every method in every difficulty"
+        "Every method in every stress-test case"
     script:
-        "../scripts/measure_stability.py"
+        "../scripts/map_failures.py"
 
 
-rule measure_stability_curves:
+rule measure_failure_curves:
     output:
-        csv="results/tables/stability_curves.csv",
-        nc="results/tables/stability_curves.nc",
+        csv="results/tables/failure_curves.csv",
+        nc="results/tables/failure_curves.nc",
     log:
-        "results/logs/measure_stability_curves.log",
+        "results/logs/measure_failure_curves.log",
     benchmark:
-        "results/benchmarks/measure_stability_curves.tsv"
+        "results/benchmarks/measure_failure_curves.tsv"
     conda:
         "../envs/viscorough.yaml"
     threads: 1
     resources:
         mem_mb=2000,
     params:
-        source_digest("measure_stability_curves"),
         seed=config["seed"],
     message:
         "Errors against steps and contact"
     script:
-        "../scripts/measure_stability_curves.py"
+        "../scripts/measure_failure_curves.py"
 
 
-rule plot_stability:
+rule plot_failure_map:
     input:
-        atlas=rules.measure_stability.output.csv,
-        curves=rules.measure_stability_curves.output.csv,
+        table=rules.map_failures.output.csv,
     output:
-        atlas=report(
-            "results/figures/stability.png",
+        png=report(
+            "results/figures/failure_map.png",
             caption="../report/stability.rst",
             category="Stability",
-            labels={"figure": "every method in every difficulty"},
+            labels={"figure": "every method in every stress-test case"},
         ),
-        curves=report(
-            "results/figures/stability_curves.png",
-            caption="../report/stability_curves.rst",
-            category="Stability",
-            labels={"figure": "errors against steps and contact"},
-        ),
-        pdfs=multiext("results/figures/", "stability.pdf", "stability_curves.pdf"),
+        pdf="results/figures/failure_map.pdf",
     log:
-        "results/logs/plot_stability.log",
+        "results/logs/plot_failure_map.log",
     benchmark:
-        "results/benchmarks/plot_stability.tsv"
+        "results/benchmarks/plot_failure_map.tsv"
+    localrule: True
     conda:
         "../envs/viscorough.yaml"
     threads: 1
     resources:
         mem_mb=1000,
-    params:
-        source_digest("plot_stability"),
     message:
-        "Figures of stability"
+        "Figure of every method in every stress-test case"
     script:
-        "../scripts/plot_stability.py"
+        "../scripts/plot_failure_map.py"
+
+
+rule plot_failure_curves:
+    input:
+        table=rules.measure_failure_curves.output.csv,
+    output:
+        png=report(
+            "results/figures/failure_curves.png",
+            caption="../report/stability_curves.rst",
+            category="Stability",
+            labels={"figure": "errors against steps and contact"},
+        ),
+        pdf="results/figures/failure_curves.pdf",
+    log:
+        "results/logs/plot_failure_curves.log",
+    benchmark:
+        "results/benchmarks/plot_failure_curves.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+    message:
+        "Figure of errors against steps and contact"
+    script:
+        "../scripts/plot_failure_curves.py"

@@ -1,4 +1,4 @@
-# Every method against exact solutions; `all` needs all of them to be met.
+# Every method against exact solutions; `all` requires that all of them are met.
 
 
 rule validate:
@@ -20,7 +20,6 @@ rule validate:
     resources:
         mem_mb=4000,
     params:
-        source_digest("validate"),
         **config["validation"],
     message:
         "Comparison with exact solutions"
@@ -37,14 +36,40 @@ rule check_validation:
         "results/logs/check_validation.log",
     benchmark:
         "results/benchmarks/check_validation.tsv"
+    localrule: True
     conda:
         "../envs/viscorough.yaml"
     threads: 1
     resources:
         mem_mb=500,
-    params:
-        source_digest("check_validation"),
     message:
         "Verdict on the comparison with exact solutions"
     script:
         "../scripts/check_validation.py"
+
+
+rule plot_validation:
+    input:
+        table=rules.validate.output.csv,
+    output:
+        png=report(
+            "results/figures/validation.png",
+            caption="../report/validation.rst",
+            category="Beyond the paper",
+            labels={"figure": "comparison with exact solutions"},
+        ),
+        pdf="results/figures/validation.pdf",
+    log:
+        "results/logs/plot_validation.log",
+    benchmark:
+        "results/benchmarks/plot_validation.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+    message:
+        "Figure of the comparison with exact solutions"
+    script:
+        "../scripts/plot_validation.py"

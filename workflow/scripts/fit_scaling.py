@@ -5,29 +5,25 @@ import logging
 import pandas as pd
 
 from viscorough.io.datasets import read_dataset
-from viscorough_study.ensembles import combine
 from viscorough_study.job_log import log_to
+from viscorough_study.pool import ensembles, select
 from viscorough_study.power_law import COLUMNS, scaling_rows
 from viscorough_study.tables import write_table
 
 
-def main(discs, lines, csv, nc, *, groups, seed, fit):
-    """Fit discs, pooled per Hurst exponent and group, and lines; lines of the same exponent give lambda.
+def main(discs, lines, csv, nc, *, seed, fit):
+    """Fit discs, one ensemble for each group and Hurst exponent, and lines; lines of the same exponent give lambda.
 
-    groups : group of every file of `discs`; fit : further arguments of scaling_rows.
+    discs, lines : pools; fit : further arguments of scaling_rows
     """
-    of_hurst = {ds["hurst"].item(): ds for ds in map(read_dataset, lines)}
-    pooled = {}
-    for path, group in zip(discs, groups, strict=True):
-        ds = read_dataset(path)
-        pooled.setdefault((group, ds["hurst"].item()), []).append(ds)
+    discs, lines = read_dataset(discs), ensembles(read_dataset(lines), "hurst")
     rows = []
-    for (group, hurst), ensembles in pooled.items():
-        logging.info("discs, %s, H = %g", group, hurst)
-        matching = of_hurst[hurst] if group == "base" else None
-        about = {"source": "discs", "case_group": group, "lines": matching}
-        rows += scaling_rows(combine(ensembles), **about, seed=seed, **fit)
-    for hurst, ensemble in of_hurst.items():
+    for group in dict.fromkeys(discs["group"].values.tolist()):
+        for hurst, ensemble in ensembles(select(discs, group=group), "hurst").items():
+            logging.info("discs, %s, H = %g", group, hurst)
+            about = {"source": "discs", "case_group": group, "lines": lines[hurst] if group == "base" else None}
+            rows += scaling_rows(ensemble, **about, seed=seed, **fit)
+    for hurst, ensemble in lines.items():
         logging.info("lines, H = %g", hurst)
         rows += scaling_rows(ensemble, source="lines", case_group="base", seed=seed, **fit)
     table = pd.DataFrame(rows, columns=list(COLUMNS))

@@ -1,4 +1,4 @@
-"""Table of exponents and prefactors of ensembles on grids from coarse to fine."""
+"""Table of exponents and prefactors of ensembles on grids from coarse to fine, and of their trends."""
 
 import pandas as pd
 
@@ -6,19 +6,23 @@ from viscorough.io.datasets import read_dataset
 from viscorough_study.grid_trends import COLUMNS as TRENDS
 from viscorough_study.grid_trends import trends
 from viscorough_study.job_log import log_to, progress
+from viscorough_study.pool import ensembles, select
 from viscorough_study.power_law import COLUMNS, scaling_rows
 from viscorough_study.tables import write_table
 
 
-def main(discs, controls, lines, csv, nc, trends_csv, trends_nc, *, seed, fit, shown):
-    """Fit every ensemble by itself; fit : further arguments of scaling_rows; shown : conventions of the figures."""
-    groups = ("discs", "sizes", discs), ("discs", "controls", controls), ("lines", "sizes", lines)
-    paths = [(source, group, path) for source, group, paths in groups for path in paths]
+def main(discs, lines, csv, nc, trends_csv, trends_nc, *, seed, fit, shown):
+    """Fit every ensemble by itself.
+
+    discs, lines : pools; fit : further arguments of scaling_rows; shown : conventions of the figures
+    """
+    discs, lines = read_dataset(discs), read_dataset(lines)
     rows = []
-    for source, group, path in progress(paths, len(paths), "ensembles"):
-        ensemble = read_dataset(path)
-        found = scaling_rows(ensemble, source=source, case_group=group, seed=seed, **fit)
-        rows += [row | {"elements": ensemble["elements"].item()} for row in found]
+    for source, group, pool in (("discs", "sizes", discs), ("discs", "controls", discs), ("lines", "sizes", lines)):
+        cases = ensembles(select(pool, group=group), "case").values()
+        for ensemble in progress(cases, len(cases), f"{source}, {group}"):
+            fits = scaling_rows(ensemble, source=source, case_group=group, seed=seed, **fit)
+            rows += [row | {"elements": ensemble["elements"].item()} for row in fits]
     columns = COLUMNS | {"elements": ("elements of an indenter: of a disc, points of a line", "1")}
     table = pd.DataFrame(rows, columns=list(columns))
     write_table(table, csv, nc, columns=columns, dimension="fit", title="Power laws on grids from coarse to fine")

@@ -5,23 +5,22 @@ import pandas as pd
 from viscorough.io.atomic import atomic_write
 from viscorough.io.datasets import read_dataset
 from viscorough_study.job_log import log_to
+from viscorough_study.pool import ensembles, select
 from viscorough_study.tables import write_table
 from viscorough_study.verdicts import COLUMNS, Evidence, judge, markdown
 
 
-def main(discs, lines, scaling, validation, direct, csv, nc, verdicts, *, claims, **about):
-    """Judge the claims by the ensembles and tables; about : further fields of Evidence."""
-    of_hurst = {}
-    for path in discs:
-        ensemble = read_dataset(path)
-        of_hurst.setdefault(ensemble["hurst"].item(), []).append(ensemble)
+def main(discs, lines, scaling, validation, direct, csv, nc, verdicts, *, claims, **settings):
+    """Judge the claims by the pools of discs and lines and by the tables; settings : further fields of Evidence."""
+    base, lines = select(read_dataset(discs), group="base"), ensembles(read_dataset(lines), "hurst")
+    exponents = sorted(set(base["hurst"].values.tolist()))
     evidence = Evidence(
-        discs=dict(sorted(of_hurst.items())),
-        lines={ds["hurst"].item(): ds for ds in map(read_dataset, lines)},
+        discs={hurst: list(ensembles(select(base, hurst=hurst), "case").values()) for hurst in exponents},
+        lines={hurst: lines[hurst] for hurst in exponents},
         scaling=pd.read_csv(scaling),
         validation=pd.read_csv(validation),
         direct=pd.read_csv(direct),
-        **about,
+        **settings,
     )
     table = judge(claims, evidence)
     write_table(table, csv, nc, columns=COLUMNS, dimension="verdict", title="Verdicts on the paper's claims")

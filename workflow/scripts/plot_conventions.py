@@ -7,9 +7,9 @@ from viscorough_study.figures.style import save_figure
 from viscorough_study.job_log import log_to
 
 
-def main(scaling, png, pdf, *, shown):
-    """Plot the scaling table; shown : conventions of the figures, {column of the table: value}."""
-    save_figure(plot_conventions(pd.read_csv(scaling), shown), png, pdf)
+def main(scaling, png, pdf, *, conventions):
+    """Plot the scaling table; conventions : those of the figures, {column of the table: value}."""
+    save_figure(plot_conventions(pd.read_csv(scaling), conventions), png, pdf)
 
 
 if job := globals().get("snakemake"):

@@ -6,16 +6,17 @@ from viscorough.io.datasets import read_dataset
 from viscorough_study.figures.kinetics import plot_kinetics
 from viscorough_study.figures.style import save_figure
 from viscorough_study.job_log import log_to
+from viscorough_study.pool import ensembles, select
 
 
-def main(ensembles, scaling, png, pdf, *, combinations, shown):
-    """Plot the ensembles.
+def main(discs, scaling, png, pdf, *, combinations, conventions):
+    """Plot the base cases of the pool of discs.
 
-    combinations : {case: {force [N], viscosity [Pa s], diameter [m], rms [m]}}; shown : conventions of the figures,
+    combinations : {case: {force [N], viscosity [Pa s], diameter [m], rms [m]}}; conventions : those of the figures,
         {column of the scaling table: value}.
     """
-    discs = [read_dataset(path) for path in ensembles]
-    save_figure(plot_kinetics(discs, combinations, pd.read_csv(scaling), shown), png, pdf)
+    cases = list(ensembles(select(read_dataset(discs), group="base"), "case").values())
+    save_figure(plot_kinetics(cases, combinations, pd.read_csv(scaling), conventions), png, pdf)
 
 
 if job := globals().get("snakemake"):

@@ -1,19 +1,15 @@
-"""Table and figure of the cost of one disc on ever finer grids."""
+"""Figure of the cost of one disc on ever finer grids."""
 
 import pandas as pd
 
 from viscorough_study.figures.large import plot_large
 from viscorough_study.figures.style import save_figure
 from viscorough_study.job_log import log_to
-from viscorough_study.performance.large_discs import COLUMNS
-from viscorough_study.tables import write_table
 
 
-def main(costs, csv, nc, png, pdf):
-    """Gather the costs of every size, and plot them."""
-    table = pd.concat(map(pd.read_csv, costs)).sort_values("elements", ignore_index=True)
-    write_table(table, csv, nc, columns=COLUMNS, dimension="disc", title="Cost of one disc")
-    save_figure(plot_large(table), png, pdf)
+def main(table, png, pdf):
+    """Plot the table."""
+    save_figure(plot_large(pd.read_csv(table)), png, pdf)
 
 
 if job := globals().get("snakemake"):

@@ -7,9 +7,9 @@ from viscorough_study.figures.style import save_figure
 from viscorough_study.job_log import log_to
 
 
-def main(table, png, pdf, *, shown):
-    """Plot the table; shown : conventions of the figures, {column of the table: value}."""
-    save_figure(plot_sizes(pd.read_csv(table), shown), png, pdf)
+def main(table, png, pdf, *, conventions):
+    """Plot the table. conventions : those of the figures, {column of the table: value}"""
+    save_figure(plot_sizes(pd.read_csv(table), conventions), png, pdf)
 
 
 if job := globals().get("snakemake"):

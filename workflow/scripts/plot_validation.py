@@ -1,4 +1,4 @@
-"""Errors against exact solutions over the number of elements."""
+"""Figure of the errors against exact solutions over the number of elements."""
 
 import pandas as pd
 
@@ -8,7 +8,7 @@ from viscorough_study.job_log import log_to
 
 
 def main(table, png, pdf):
-    """Plot the validation table."""
+    """Plot the table."""
     save_figure(plot_validation(pd.read_csv(table)), png, pdf)
 
 

@@ -1,4 +1,4 @@
-"""Loading curves in NetCDF files: variables over levels, and attributes that say how the curve was obtained."""
+"""Loading curves in NetCDF files, one or a stack of them: variables over levels, and how the curve was obtained."""
 
 import re
 
@@ -83,3 +83,41 @@ def curve_from_content(content):
     curve = LoadingCurve(**stored, **about)
     check_curve(curve)
     return curve
+
+
+def stack_curves(curves, length_unit="m"):
+    """LoadingCurves as one Content over (realization, level), nan beyond each curve's last level.
+
+    Per realization: `levels`, the number of levels, and PER_CURVE. Raises ValueError for an empty list and
+    for what is no loading curve (check_curve).
+    """
+    if not curves:
+        raise ValueError("stack_curves: there is no curve; at least one is needed")
+    for curve in curves:
+        check_curve(curve)
+    levels = np.array([curve.depth.size for curve in curves])
+    variables = {}
+    for name in OVER_LEVELS:
+        padded = np.full((len(curves), levels.max()), np.nan)
+        for row, curve in zip(padded, curves, strict=True):
+            row[: curve.depth.size] = getattr(curve, name)
+        variables[name] = Variable(("realization", "level"), padded, level_attributes(name, length_unit))
+    about = {"long_name": "number of levels of the curve", "units": "1"}
+    variables["levels"] = Variable(("realization",), levels, about)
+    for name, (kind, long_name) in PER_CURVE.items():
+        values = np.array([getattr(curve, name) for curve in curves], dtype=object if kind is str else kind)
+        about = {"long_name": long_name} | ({} if kind is str else {"units": "1"})
+        variables[name] = Variable(("realization",), values, about)
+    return Content(variables, {"title": "Loading curves of rigid indenters", "comment": COMMENT})
+
+
+def unstack_curves(content):
+    """The LoadingCurves of a Content made by stack_curves, in order."""
+    values = {name: content.variables[name].values for name in (*STORED, *PER_CURVE, "levels")}
+    curves = []
+    for index, levels in enumerate(values["levels"].tolist()):
+        stored = {name: values[name][index, :levels] for name in STORED}
+        stored["contact_count"] = stored["contact_count"].astype(int)  # floats only because of nan
+        about = {name: convert(values[name][index]) for name, (convert, _) in PER_CURVE.items()}
+        curves.append(LoadingCurve(**stored, **about))
+    return curves

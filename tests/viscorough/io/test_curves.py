@@ -7,8 +7,14 @@ import pytest
 
 from support.curves import assert_same_curve, one_line, random_curve
 from viscorough.io import netcdf
-from viscorough.io.curves import PER_CURVE, STORED, curve_from_content, curve_to_content
-from viscorough.io.datasets import stack_curves
+from viscorough.io.curves import (
+    PER_CURVE,
+    STORED,
+    curve_from_content,
+    curve_to_content,
+    stack_curves,
+    unstack_curves,
+)
 from viscorough.io.netcdf import Content
 from viscorough.loading_curve import LoadingCurve
 
@@ -89,3 +95,23 @@ def test_curves_that_are_none_are_not_written(changes):
         with pytest.raises(ValueError, match="loading curve") as error:
             make(bad)
         one_line(error)
+
+
+def test_stacked_curves_survive_files_exactly(tmp_path):
+    curves = [
+        random_curve(5),
+        random_curve(1, seed=1, method="dense"),
+        random_curve(9, seed=2, elements=2, operator_applications=0),
+    ]
+    content = stack_curves(curves)
+    assert content.variables["depth"].dimensions == ("realization", "level")
+    assert np.isnan(content.variables["depth"].values).sum() == 4 + 8
+    assert content.variables["levels"].values.tolist() == [5, 1, 9]
+    for name in ("once.nc", "twice.nc"):
+        netcdf.write(content, tmp_path / name)
+        content = netcdf.read(tmp_path / name)
+        for read, curve in zip(unstack_curves(content), curves, strict=True):
+            assert_same_curve(read, curve)
+    np.testing.assert_array_equal(content.variables["elements"].values, [1009, 1009, 2])
+    with pytest.raises(ValueError, match="at least one"):
+        stack_curves([])

@@ -1,19 +1,25 @@
-"""Datasets of xarray in NetCDF files, and batches of loading curves in them."""
+"""Datasets of xarray in NetCDF files."""
 
 import os
 
 import netCDF4
-import numpy as np
 import pytest
 import xarray as xr
 
-from support.curves import assert_same_curve, random_curve
-from viscorough.io.datasets import read_dataset, stack_curves, unstack_curves, write_dataset
+from support.curves import random_curve
+from viscorough.io.curves import stack_curves
+from viscorough.io.datasets import read_dataset, write_dataset
 from viscorough.io.netcdf import COMPRESSED_FROM
 
 
+def stacked(curves, length_unit="m"):
+    """Loading curves as a dataset of xarray."""
+    content = stack_curves(curves, length_unit)
+    return xr.Dataset({name: tuple(variable) for name, variable in content.variables.items()}, attrs=content.attributes)
+
+
 def test_bytes_are_reproducible_and_no_time_is_written(tmp_path):
-    ds = stack_curves([random_curve(900, seed) for seed in range(5)])
+    ds = stacked([random_curve(900, seed) for seed in range(5)])
     for name in ("one.nc", "two.nc"):
         write_dataset(ds, tmp_path / name)
     assert (tmp_path / "one.nc").read_bytes() == (tmp_path / "two.nc").read_bytes()
@@ -30,7 +36,7 @@ def test_every_variable_needs_units_and_long_name(tmp_path, attribute):
 
 
 def test_files_carry_cf_attributes_and_compress_large_floats(tmp_path):
-    large = stack_curves([random_curve(COMPRESSED_FROM)], length_unit="um")
+    large = stacked([random_curve(COMPRESSED_FROM)], length_unit="um")
     large = large.assign_coords(realization=("realization", [0.5], {"long_name": "coordinate", "units": "1"}))
     write_dataset(large, tmp_path / "a.nc")
     with netCDF4.Dataset(tmp_path / "a.nc") as file:
@@ -43,23 +49,3 @@ def test_files_carry_cf_attributes_and_compress_large_floats(tmp_path):
         assert not file["tolerance"].filters()["zlib"]
         assert "_FillValue" in file["depth"].ncattrs()
         assert "_FillValue" not in file["realization"].ncattrs()
-
-
-def test_stacked_curves_survive_files_exactly(tmp_path):
-    curves = [
-        random_curve(5),
-        random_curve(1, seed=1, method="dense"),
-        random_curve(9, seed=2, elements=2, operator_applications=0),
-    ]
-    ds = stack_curves(curves)
-    assert ds["depth"].dims == ("realization", "level")
-    assert int(ds["depth"].isnull().sum()) == 4 + 8
-    assert ds["levels"].values.tolist() == [5, 1, 9]
-    for name in ("once.nc", "twice.nc"):
-        write_dataset(ds, tmp_path / name)
-        ds = read_dataset(tmp_path / name)
-        for read, curve in zip(unstack_curves(ds), curves, strict=True):
-            assert_same_curve(read, curve)
-    np.testing.assert_array_equal(ds["elements"], [1009, 1009, 2])
-    with pytest.raises(ValueError, match="at least one"):
-        stack_curves([])

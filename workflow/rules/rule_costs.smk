@@ -1,30 +1,30 @@
-# What the rules cost that made what is shown; `prices` makes it, `all` does not, for it differs from run to run.
+# What the rules cost: the target `costs` makes it, `all` does not, because it differs from run to run.
 
 
-rule tabulate_prices:
+rule tabulate_rule_costs:
     input:
         rules.all.input,
     output:
         csv=report(
-            "results/tables/prices.csv",
+            "results/tables/rule_costs.csv",
             caption="../report/prices.rst",
-            category="Prices",
+            category="Costs",
             labels={"table": "time and memory of every rule"},
         ),
-        nc="results/tables/prices.nc",
+        nc="results/tables/rule_costs.nc",
     log:
-        "results/logs/tabulate_prices.log",
+        "results/logs/tabulate_rule_costs.log",
     benchmark:
-        "results/benchmarks/tabulate_prices.tsv"
+        "results/benchmarks/tabulate_rule_costs.tsv"
+    localrule: True
     conda:
         "../envs/viscorough.yaml"
     threads: 1
     resources:
         mem_mb=500,
     params:
-        source_digest("tabulate_prices"),
         benchmarks="results/benchmarks",
     message:
         "Time and memory of every rule"
     script:
-        "../scripts/tabulate_prices.py"
+        "../scripts/tabulate_rule_costs.py"

@@ -1,0 +1,201 @@
+"""Tables of cases: which ensembles, batches and indenters the settings ask for, and what their jobs need.
+
+A case is an ensemble of surfaces of one kind, a dictionary of what its jobs need. Its name stands in file names, which
+hold no floating-point numbers. Cases of one meaning form a group; the curves of all cases that are evaluated together
+are brought to common abscissae in one pool.
+"""
+
+import itertools
+import math
+
+from viscorough_study import seeds
+
+# {pool: rms conventions of its surfaces}
+POOLS = {
+    "discs": ("disc", "square", "peak"),
+    "lines": ("line",),
+    "size_discs": ("disc", "square", "peak"),
+    "size_lines": ("line",),
+}
+UNIT_DISC = {"rms": 1.0, "diameter": 1.0}
+UNIT_LINE = {"rms": 1.0, "length": 1.0}
+
+
+def hurst_id(hurst):
+    """Name of a Hurst exponent in file names, such as h01000 for 0.1."""
+    return f"h{round(hurst * 1e4):05d}"
+
+
+def disc_cases(settings):
+    """{case: its description} of every ensemble of discs.
+
+    A description holds pool, group, spawn_key, realizations, batch, elements and surface (arguments of
+    self_affine_disc), for the base cases also combination. To the spawn key (viscorough_study.seeds) the number of the
+    realization is added.
+    """
+    return _paper_discs(settings) | _size_discs(settings)
+
+
+def _paper_discs(settings):
+    cases, discs, variants = {}, settings["discs"], settings["variants"]
+    for hurst in discs["hurst"]:
+        for combination in discs["combinations"]:
+            number = combination["number"]
+            lengths = {name: combination[name] for name in ("rms", "diameter")}
+            cases[f"{hurst_id(hurst)}_c{number}"] = {
+                "pool": "discs",
+                "group": "base",
+                "spawn_key": seeds.disc_key(hurst, number),
+                "combination": combination,
+                "surface": settings["surface"] | {"hurst": hurst} | lengths,
+                "elements": discs["elements"],
+                "realizations": discs["realizations"],
+                "batch": discs["batch"],
+            }
+        for variant in variants["cases"]:
+            changed = {key: value for key, value in variant.items() if key != "name"}
+            cases[f"{hurst_id(hurst)}_{variant['name']}"] = {
+                "pool": "discs",
+                "group": variant["name"],
+                "spawn_key": seeds.variant_key(hurst, variant["name"]),
+                "surface": settings["surface"] | changed | UNIT_DISC | {"hurst": hurst},
+                "elements": discs["elements"],
+                "realizations": variants["realizations"],
+                "batch": variants["batch"],
+            }
+    return cases
+
+
+def _size_discs(settings):
+    sizes, cases = settings["sizes"], {}
+    shared = {"pool": "size_discs", "realizations": sizes["realizations"], "batch": sizes["batch"]}
+    for hurst, elements in itertools.product(sizes["hurst"], sizes["elements"]):
+        cases[f"{hurst_id(hurst)}_n{elements}"] = shared | {
+            "group": "sizes",
+            "spawn_key": seeds.size_disc_key(hurst, elements),
+            "surface": settings["surface"] | UNIT_DISC | {"hurst": hurst},
+            "elements": elements,
+        }
+    hurst = sizes["control"]["hurst"]
+    for elements in sizes["elements"]:
+        cases[f"{hurst_id(hurst)}_control_n{elements}"] = shared | {
+            "group": "controls",
+            "spawn_key": seeds.size_control_key(hurst, elements),
+            "surface": settings["surface"] | UNIT_DISC | sizes["control"],
+            "elements": elements,
+        }
+    return cases
+
+
+def line_cases(settings):
+    """{line: its description} of every ensemble of lines.
+
+    A description holds pool, group, spawn_key, realizations, batch, points and surface (arguments of
+    self_affine_line).
+    """
+    lines, sizes = settings["lines"], settings["sizes"]
+    shared = {name: settings["surface"][name] for name in ("amplitudes", "roll_off_wavelength", "roll_off_level")}
+    cases = {}
+    for hurst in lines["hurst"]:
+        cases[hurst_id(hurst)] = {
+            "pool": "lines",
+            "group": "lines",
+            "spawn_key": seeds.line_key(hurst),
+            "surface": shared | UNIT_LINE | {"hurst": hurst},
+            "points": lines["points"],
+            "realizations": lines["realizations"],
+            "batch": lines["batch"],
+        }
+    for hurst, points in itertools.product(sizes["hurst"], sizes["points"]):
+        cases[f"{hurst_id(hurst)}_n{points}"] = {
+            "pool": "size_lines",
+            "group": "sizes",
+            "spawn_key": seeds.size_line_key(hurst, points),
+            "surface": shared | UNIT_LINE | {"hurst": hurst},
+            "points": points,
+            "realizations": sizes["realizations"],
+            "batch": sizes["batch"],
+        }
+    return cases
+
+
+def method_problems(settings):
+    """{problem: arguments of performance.methods.named_problem} of every indenter on which methods are compared."""
+    methods = settings["methods"]
+    bodies = {
+        f"{body}_{n}": {"name": body, "elements": n} for body in ("sphere", "cone") for n in methods["bodies_elements"]
+    }
+    return bodies | {
+        f"rough_{hurst_id(hurst)}_{n}": {"name": "rough disc", "hurst": hurst, "elements": n}
+        for hurst in methods["hurst"]
+        for n in methods["elements"]
+    }
+
+
+def example_discs(settings):
+    """Spawn keys, and arguments of self_affine_disc, of one disc for every Hurst exponent: the first combination's.
+
+    Rms height and diameter are 1.
+    """
+    first = settings["discs"]["combinations"][0]["number"]
+    names = [f"{hurst_id(hurst)}_c{first}" for hurst in settings["discs"]["hurst"]]
+    cases = disc_cases(settings)
+    return {
+        "spawn_keys": [cases[name]["spawn_key"] for name in names],
+        "discs": [cases[name]["surface"] | UNIT_DISC for name in names],
+    }
+
+
+# ---- batches: the realizations of one job
+
+
+def batches(case):
+    """Names of a case's batches, first and last realization: 0000-0007, 0008-0015, ..."""
+    number, size = case["realizations"], case["batch"]
+    return [f"{first:04d}-{min(first + size, number) - 1:04d}" for first in range(0, number, size)]
+
+
+def realizations(batch):
+    """First realization of a batch, and the one after its last."""
+    first, last = batch.split("-")
+    return [int(first), int(last) + 1]
+
+
+def pool_batches(cases, pool):
+    """[(case, batch)] of all cases of a pool, in the order of the table."""
+    return [(name, batch) for name, case in cases.items() if case["pool"] == pool for batch in batches(case)]
+
+
+# ---- memory of jobs [MB]
+
+BASE_MEMORY = 700  # Python with its imports and, as a job of Slurm, two Snakemakes around it
+
+
+def disc_memory(case):
+    """A disc, the square that it is cut from, and the fields of the solver on a doubled grid."""
+    square = 64 * case["surface"]["period"] ** 2
+    return round(BASE_MEMORY + (24 + square + 400) * case["elements"] ** 2 / 1e6)
+
+
+def example_memory(settings):
+    """One disc for every Hurst exponent, and the square that a disc is cut from."""
+    heights, square = 24 * len(settings["discs"]["hurst"]), 64 * settings["surface"]["period"] ** 2
+    return round(BASE_MEMORY + (heights + square) * settings["discs"]["elements"] ** 2 / 1e6)
+
+
+def large_memory(elements):
+    """One disc and the fields of the solver on its grid."""
+    return round(BASE_MEMORY + 500 * elements**2 / 1e6)
+
+
+def line_memory(case):
+    """Spectrum, heights and gaps of a line."""
+    return round(BASE_MEMORY + 40 * case["points"] / 1e6)
+
+
+def pool_memory(cases, pool, ensemble):
+    """All realizations of a pool on common abscissae, twice while they are joined; ensemble : setting of that name."""
+    realizations = sum(case["realizations"] for case in cases.values() if case["pool"] == pool)
+    abscissae = 1 + ensemble["per_decade"] * math.log10(ensemble["x_high"] / ensemble["x_low"])
+    variables = 2 * len(POOLS[pool])
+    return round(BASE_MEMORY + 2 * 8 * variables * realizations * abscissae / 1e6)

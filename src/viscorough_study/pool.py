@@ -1,0 +1,86 @@
+"""Pools: all realizations of many cases on common abscissae in one dataset, and ensembles taken out of it.
+
+The dataset has the dimensions rms_convention, realization and abscissa. Hurst exponent, group, case, diameter and
+number of elements are coordinates of the realizations. It holds no averages, which depend on what is taken out.
+"""
+
+import json
+
+import numpy as np
+import xarray as xr
+
+from viscorough.io.curves import unstack_curves
+from viscorough_study.ensembles import ensemble_dataset, on_abscissae
+
+DIMENSIONS = ("rms_convention", "realization", "abscissa")
+VARIABLES = {
+    "stiffness": "dimensionless stiffness κ = k/(4GL)",
+    "contact_count": "elements in contact",
+}
+OF_REALIZATIONS = {
+    "hurst": ("Hurst exponent", "1"),
+    "group": ("group of cases", ""),
+    "case": ("name of the case", ""),
+    "diameter": ("diameter of the indenter", "m"),
+    "elements": ("elements of the indenter", "1"),
+}
+
+
+def pool_batches(batches, conventions, x):
+    """The pool of all batches.
+
+    batches : iterable of (case, group, Content of io.curves.stack_curves with hurst, diameter, rms_<convention> and the
+        attribute settings); one at a time need be in memory
+    conventions : of the rms heights; x : X, shape (abscissae,) [1]
+    """
+    stiffness, count, about, settings = [], [], {name: [] for name in OF_REALIZATIONS}, {}
+    for case, group, batch in batches:
+        curves, values = unstack_curves(batch), {name: variable.values for name, variable in batch.variables.items()}
+        rms = {name: values[f"rms_{name}"] for name in conventions}
+        diameter = values["diameter"].item()
+        for parts, part in zip((stiffness, count), on_abscissae(curves, rms, diameter, x), strict=True):
+            parts.append(part)
+        same = {"hurst": values["hurst"].item(), "group": group, "case": case}
+        same |= {"diameter": diameter, "elements": curves[0].elements}
+        for name, value in same.items():
+            about[name] += [value] * len(curves)
+        settings.setdefault(case, json.loads(batch.attributes["settings"]))
+    pool = xr.Dataset(coords={"x": ("abscissa", x), "rms_convention": list(conventions)})
+    for (name, text), parts in zip(VARIABLES.items(), (stiffness, count), strict=True):
+        pool[name] = (DIMENSIONS, np.concatenate(parts, axis=1), {"long_name": text, "units": "1"})
+        parts.clear()
+    for name, (text, units) in OF_REALIZATIONS.items():
+        attributes = {"long_name": text} | ({"units": units} if units else {})
+        pool = pool.assign_coords({name: ("realization", about[name], attributes)})
+    pool["x"].attrs = {"long_name": "dimensionless force F/(4GhL) or time Ft/(4ηhL)", "units": "1"}
+    pool["rms_convention"].attrs = {"long_name": "where the rms height h is measured"}
+    return pool.assign_attrs(settings=json.dumps(settings))
+
+
+def select(pool, **wanted):
+    """The realizations whose coordinates have these values, such as group="base"."""
+    chosen = np.logical_and.reduce([pool[name].values == value for name, value in wanted.items()])
+    return pool.isel(realization=np.flatnonzero(chosen))
+
+
+def ensembles(pool, name):
+    """{value of a coordinate: ensemble of its realizations}, in the order of the pool.
+
+    The ensembles have averages over their realizations (viscorough_study.ensembles). Their case and diameter are
+    numbers where all realizations agree, else coordinates of the realizations.
+    Raises ValueError unless all realizations of an ensemble have one Hurst exponent and number of elements.
+    """
+    values = pool[name].values.tolist()
+    return {value: _ensemble(select(pool, **{name: value}), value) for value in dict.fromkeys(values)}
+
+
+def _ensemble(part, about):
+    coords = {}
+    for name in ("hurst", "elements", "case", "diameter"):
+        values = part[name].values
+        same = np.all(values == values[0])
+        if not same and name in ("hurst", "elements"):
+            raise ValueError(f"{about}: the realizations differ in {name}, it must be the same in all")
+        coords[name] = values[0] if same else ("realization", values)
+    arrays = (part[name].values for name in ("x", *VARIABLES))
+    return ensemble_dataset(part["rms_convention"].values.tolist(), *arrays, coords)

@@ -1,0 +1,164 @@
+"""The check of the settings, by their schema and against each other: one line for the first error."""
+
+import difflib
+import math
+
+import jsonschema
+
+
+class SettingsError(ValueError):
+    """A setting that is not allowed; the message is one line that names key, value and what is allowed."""
+
+
+def check_settings(settings, schema):
+    """Raise SettingsError unless the settings agree with the schema and with each other.
+
+    schema : of JSON, with a unit and a description for every key
+    """
+    standard = jsonschema.Draft202012Validator
+    checker = standard.TYPE_CHECKER.redefine_many({"integer": _is_whole, "number": _is_finite})
+    validator = jsonschema.validators.extend(standard, type_checker=checker)
+    error = jsonschema.exceptions.best_match(validator(schema).iter_errors(settings))
+    complaint = _schema_complaint(error) if error else _contradiction(settings)
+    if complaint:
+        raise SettingsError(complaint)
+
+
+def _is_whole(_, value):
+    return isinstance(value, int) and not isinstance(value, bool)  # JSON would take 3.0
+
+
+def _is_finite(_, value):
+    return (_is_whole(_, value) or isinstance(value, float)) and math.isfinite(value)  # YAML has .inf and .nan
+
+
+# ---- against the schema
+
+
+def _dotted(path):
+    """A key as the documentation writes it, such as discs.combinations[0].force."""
+    return "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path).lstrip(".") or "settings"
+
+
+def _schema_complaint(error):
+    """One line on an error of jsonschema."""
+    key = _dotted(error.absolute_path)
+    within = f" in {key}" if error.absolute_path else ""
+    if error.validator == "additionalProperties":
+        known = sorted(error.schema["properties"])
+        unknown = sorted(map(str, set(error.instance) - set(known)))[0]
+        close = difflib.get_close_matches(unknown, known, 1)
+        hint = f"did you mean {close[0]}?" if close else f"allowed: {', '.join(known)}"
+        return f"unknown key {unknown}{within}; {hint}"
+    if error.validator == "required":
+        missing = next(name for name in error.validator_value if name not in error.instance)
+        return f"{missing}{within} is missing; needed: {', '.join(error.validator_value)}"
+    value = "empty" if error.instance is None else f"{error.instance!r}"[:60]
+    hint = ""
+    if isinstance(error.instance, str) and "number" in str(error.schema.get("type")):
+        hint = "; this is text: write numbers as 1.0e-3, with a point"
+    return f"{key} is {value}; allowed: {_allowed(error.schema)}{hint}"
+
+
+def _allowed(rule):
+    """What a schema allows, in words."""
+    kinds = {"integer": "a whole number", "number": "a number", "string": "text", "array": "a list"}
+    kinds |= {"boolean": "true or false", "object": "keys with values", "null": "null"}
+    types = rule.get("type", [])
+    words = " or ".join(kinds[kind] for kind in ([types] if isinstance(types, str) else types))
+    words += f"one of {', '.join(rule['enum'])}" if "enum" in rule else ""
+    bounds = {"minimum": "from {}", "exclusiveMinimum": "above {}", "maximum": "up to {}"}
+    bounds |= {"minItems": "of at least {}", "maxItems": "of at most {}", "minProperties": "of at least {}"}
+    words += "".join(f" {text.format(rule[name])}" for name, text in bounds.items() if name in rule)
+    words += f" {rule['unit']}" if rule.get("unit", "1") != "1" and "enum" not in rule else ""
+    return f"{words} ({rule['description']})"
+
+
+# ---- against each other
+
+
+def _contradiction(settings):
+    """One line on settings that are allowed one by one but not together, or None."""
+    checks = (_repeated, _too_precise, _disc_without_line, _too_rough, _decreasing_task, _too_short_wave, _empty_range)
+    return next(filter(None, (check(settings) for check in checks)), None)
+
+
+def _repeated(settings):
+    discs, sizes, methods = settings["discs"], settings["sizes"], settings["methods"]
+    lists = {
+        "discs.hurst": discs["hurst"],
+        "lines.hurst": settings["lines"]["hurst"],
+        "number in discs.combinations": [combination["number"] for combination in discs["combinations"]],
+        "name in variants.cases": [variant["name"] for variant in settings["variants"]["cases"]],
+        "validation.elements": settings["validation"]["elements"],
+        "methods.hurst": methods["hurst"],
+        "methods.elements": methods["elements"],
+        "methods.bodies_elements": methods["bodies_elements"],
+        "name in methods.tasks": [task["name"] for task in methods["tasks"]],
+        "stability.grids": settings["stability"]["grids"],
+        **{f"sizes.{key}": sizes[key] for key in ("hurst", "elements", "points")},
+        "large.elements": settings["large"]["elements"],
+    }
+    for key, values in lists.items():
+        for value in values:
+            if values.count(value) > 1:
+                return f"{key}: {value} occurs twice; allowed: once"
+    return None
+
+
+def _too_precise(settings):
+    exponents = {f"{part}.hurst": settings[part]["hurst"] for part in ("discs", "lines", "methods", "sizes")}
+    exponents["sizes.control.hurst"] = [settings["sizes"]["control"]["hurst"]]
+    for key, values in exponents.items():
+        for hurst in values:
+            if abs(hurst * 1e4 - round(hurst * 1e4)) > 1e-6:
+                return f"{key} has {hurst}; allowed: at most four decimals"
+    return None
+
+
+def _disc_without_line(settings):
+    for hurst in settings["discs"]["hurst"]:
+        if hurst not in settings["lines"]["hurst"]:
+            return (
+                f"discs.hurst has {hurst}, lines.hurst has not; allowed: exponents of lines.hurst (lambda needs both)"
+            )
+    return None
+
+
+def _too_rough(settings):
+    for combination in settings["discs"]["combinations"]:
+        if not combination["rms"] < combination["diameter"] / 100:
+            where = f"combination {combination['number']} of discs.combinations"
+            return f"rms {combination['rms']} in {where} is too large; allowed: below diameter/100"
+    return None
+
+
+def _decreasing_task(settings):
+    for task in settings["methods"]["tasks"]:
+        if task["fractions"][0] > task["fractions"][1]:
+            return f"fractions of {task['name']} in methods.tasks decrease; allowed: the first not above the second"
+    return None
+
+
+def _too_short_wave(settings):
+    sizes = settings["sizes"]
+    control = {"name": "sizes.control", "elements": min(sizes["elements"]), **sizes["control"]}
+    for changed in [{"name": "surface"}, *settings["variants"]["cases"], control]:
+        surface = {"elements": settings["discs"]["elements"]} | settings["surface"] | changed
+        wavelength = surface["roll_off_wavelength"]
+        if wavelength is not None and wavelength * surface["elements"] < 4:
+            return f"roll_off_wavelength {wavelength} of {changed['name']} is too short; allowed: from four elements"
+    return None
+
+
+def _empty_range(settings):
+    ranges = {
+        f"{part}.x_low and x_high": (settings[part]["x_low"], settings[part]["x_high"])
+        for part in ("ensemble", "reduction")
+    } | {
+        "scaling.stiffness_range": settings["scaling"]["stiffness_range"],
+    }
+    for key, (low, high) in ranges.items():
+        if not low < high:
+            return f"{key}: {low} and {high} are no range; allowed: the first below the second"
+    return None

@@ -1,0 +1,27 @@
+# Realizations of all cases on common abscissae.
+
+
+rule pool_curves:
+    input:
+        curves=curves_of_pool,
+    output:
+        pool="results/ensembles/{pool}.nc",
+    log:
+        "results/logs/pool_curves/{pool}.log",
+    benchmark:
+        "results/benchmarks/pool_curves/{pool}.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=pool_memory,
+    params:
+        cases=names_of_pool,
+        groups=groups_of_pool,
+        conventions=lambda wildcards: cases.POOLS[wildcards.pool],
+        ensemble=config["ensemble"],
+    message:
+        "Realizations on common abscissae: {wildcards.pool}"
+    script:
+        "../scripts/pool_curves.py"

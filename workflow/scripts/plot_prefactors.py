@@ -1,0 +1,17 @@
+"""Figure of the prefactor under every combination of conventions."""
+
+import pandas as pd
+
+from viscorough_study.figures.prefactors import plot_prefactors
+from viscorough_study.figures.style import save_figure
+from viscorough_study.job_log import log_to
+
+
+def main(table, png, pdf, *, conventions):
+    """Plot the table. conventions : those of the figures, {column of the table: value}"""
+    save_figure(plot_prefactors(pd.read_csv(table), conventions), png, pdf)
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(**job.input, **job.output, **job.params)

@@ -1,0 +1,17 @@
+"""Figure of the reduction of dimensionality against boundary elements, surface by surface."""
+
+import pandas as pd
+
+from viscorough_study.figures.mdr_comparison import plot_mdr_comparison
+from viscorough_study.figures.style import save_figure
+from viscorough_study.job_log import log_to
+
+
+def main(table, png, pdf):
+    """Plot the table."""
+    save_figure(plot_mdr_comparison(pd.read_csv(table)), png, pdf)
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(**job.input, **job.output)

@@ -1,0 +1,17 @@
+"""Figure of cost against error of every method."""
+
+import pandas as pd
+
+from viscorough_study.figures.speed import plot_speed
+from viscorough_study.figures.style import save_figure
+from viscorough_study.job_log import log_to
+
+
+def main(table, png, pdf):
+    """Plot the table."""
+    save_figure(plot_speed(pd.read_csv(table)), png, pdf)
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(**job.input, **job.output)

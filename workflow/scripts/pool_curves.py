@@ -1,0 +1,23 @@
+"""All realizations of a pool of cases on common abscissae."""
+
+from viscorough.io import netcdf
+from viscorough.io.datasets import write_dataset
+from viscorough_study.ensembles import abscissa
+from viscorough_study.job_log import log_to, progress
+from viscorough_study.pool import pool_batches
+
+
+def main(curves, pool, *, cases, groups, conventions, ensemble):
+    """Pool batches of loading curves.
+
+    curves : files of the batches; cases, groups : case and group of each batch
+    conventions : of the rms heights, side by side; ensemble : x_low, x_high and per_decade of the abscissae
+    """
+    x = abscissa(ensemble["x_low"], ensemble["x_high"], ensemble["per_decade"])
+    batches = zip(cases, groups, map(netcdf.read, progress(curves, len(curves), "batches")), strict=True)
+    write_dataset(pool_batches(batches, conventions, x), pool)
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(**job.input, **job.output, **job.params)

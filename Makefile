@@ -47,23 +47,24 @@ environment-slurm: .venv/slurm-installed
 	@touch $@
 
 reproduce: environment
-	$(SNAKEMAKE) all prices
+	$(SNAKEMAKE) all costs
 
 paper: environment
-	$(BIN)/python benchmarks/costs.py --output results/costs.json -- $(SNAKEMAKE) --configfile config/paper.yaml -- all prices
+	$(BIN)/python benchmarks/costs.py --output results/costs.json -- $(SNAKEMAKE) --configfile config/paper.yaml -- all costs
 
 # Of the targets that are not part of `all`, those that were made.
 report: environment
 	$(SNAKEMAKE) --report results/report.html $(if $(SETTINGS),--configfile $(SETTINGS)) -- all \
-		$(patsubst results/tables/%.csv,%,$(wildcard results/tables/prices.csv)) \
-		$(patsubst results/figures/%.png,%,$(wildcard $(patsubst %,results/figures/%.png,speed stability sizes large)))
+		$(if $(wildcard results/tables/rule_costs.csv),costs) $(if $(wildcard results/figures/failure_map.png),stability) \
+		$(patsubst results/figures/%.png,%,$(wildcard $(patsubst %,results/figures/%.png,speed sizes large)))
 
 test: environment
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/snakefmt --check .
+	$(BIN)/lint-imports
 	$(BIN)/snakemake --lint
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest -n $(CORES) --dist loadgroup
 
 bench: environment
 	$(BIN)/python benchmarks/curves.py --reproduction --cores $(CORES) --output results/benchmarks.json

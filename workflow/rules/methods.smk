@@ -58,7 +58,7 @@ rule time_other_solvers:
     output:
         csv=report(
             "results/tables/other_solvers.csv",
-            caption="../report/peers_table.rst",
+            caption="../report/other_solvers_table.rst",
             category="Methods",
             labels={"table": "comparison with other solvers"},
         ),
@@ -89,7 +89,7 @@ rule compare_level_placement:
     output:
         csv=report(
             "results/tables/level_placement.csv",
-            caption="../report/scenes_table.rst",
+            caption="../report/level_placement_table.rst",
             category="Methods",
             labels={"table": "placement of levels"},
         ),
@@ -173,7 +173,7 @@ rule plot_other_solvers:
     output:
         png=report(
             "results/figures/other_solvers.png",
-            caption="../report/peers.rst",
+            caption="../report/other_solvers.rst",
             category="Methods",
             labels={"figure": "other solvers"},
         ),
@@ -200,7 +200,7 @@ rule plot_level_placement:
     output:
         png=report(
             "results/figures/level_placement.png",
-            caption="../report/scenes.rst",
+            caption="../report/level_placement.rst",
             category="Methods",
             labels={"figure": "placement of levels"},
         ),

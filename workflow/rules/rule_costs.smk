@@ -7,7 +7,7 @@ rule tabulate_rule_costs:
     output:
         csv=report(
             "results/tables/rule_costs.csv",
-            caption="../report/prices.rst",
+            caption="../report/rule_costs.rst",
             category="Costs",
             labels={"table": "time and memory of every rule"},
         ),

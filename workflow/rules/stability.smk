@@ -5,7 +5,7 @@ rule map_failures:
     output:
         csv=report(
             "results/tables/failure_map.csv",
-            caption="../report/stability_table.rst",
+            caption="../report/failure_map_table.rst",
             category="Stability",
             labels={"table": "every method in every stress-test case"},
         ),
@@ -56,7 +56,7 @@ rule plot_failure_map:
     output:
         png=report(
             "results/figures/failure_map.png",
-            caption="../report/stability.rst",
+            caption="../report/failure_map.rst",
             category="Stability",
             labels={"figure": "every method in every stress-test case"},
         ),
@@ -83,7 +83,7 @@ rule plot_failure_curves:
     output:
         png=report(
             "results/figures/failure_curves.png",
-            caption="../report/stability_curves.rst",
+            caption="../report/failure_curves.rst",
             category="Stability",
             labels={"figure": "errors against steps and contact"},
         ),

@@ -83,7 +83,7 @@ def _all_levels(solver, levels, tolerance):
 
 
 def _padded(request):
-    """Initial gap on the padded grid; outside the indenter just too large for contact (more slows some solvers down)."""
+    """Initial gap on the padded grid; outside the indenter just too large for contact, as more slows some solvers."""
     gap, side = request["gap"], int(request["padding"])
     inside = np.isfinite(gap)
     largest = max(gap[inside].max(), 1.1 * request["depths"][-1])

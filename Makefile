@@ -6,7 +6,7 @@ BIN := .venv/bin
 SNAKEMAKE := $(BIN)/snakemake --cores $(CORES)
 
 .PHONY: help environment environment-slurm reproduce paper report test test-slurm bench speed stability sizes large \
-	seeds publish chaos peers lock lock-peers lock-slurm clean
+	faults seeds publish chaos peers lock lock-peers lock-slurm clean
 
 help:
 	@echo "make reproduce   the default reproduction: figures, tables and validation in results/"
@@ -18,6 +18,7 @@ help:
 	@echo "make stability   where each method fails, and 12000 small indenters against a dense solution; two minutes"
 	@echo "make sizes       exponents on grids from 65 to 1025 elements across, and on lines"
 	@echo "make large       time and memory of a disc of up to 4097 elements across, 13 million in all"
+	@echo "make faults      faults planted in copies of the project, one at a time: how many do the tests catch?"
 	@echo "make seeds       the reproduction with three root seeds: does any verdict move?"
 	@echo "make publish     verdicts and calibrated numbers from results/ into README.md and the package, after make paper"
 	@echo "make chaos       a reproduction killed 50 times; its tables compared with an undisturbed one"
@@ -81,6 +82,9 @@ sizes: environment
 
 large: environment
 	$(SNAKEMAKE) large
+
+faults: environment
+	$(BIN)/python benchmarks/planted_faults.py --output results/planted_faults.json
 
 seeds: environment
 	$(BIN)/python benchmarks/seeds.py --cores $(CORES) --output results/seeds.json

@@ -1,6 +1,9 @@
-"""Generated small indenters against dense solutions: what claims to have converged and is wrong is counted.
+"""Count silent failures: random small indenters whose solution claims to have converged but is wrong.
 
-`make stability` runs it; the numbers of a case give it again: generated.generated_case(case_generator(seed, case)).
+    python benchmarks/campaign.py --output results/campaign.json
+
+Solutions are compared with dense ones and with the direct integration in time. `make stability` runs it. A case is
+reproduced from its number by random_case(case_generator(seed, case)).
 """
 
 import json
@@ -13,26 +16,26 @@ from tqdm import tqdm
 
 from viscorough.io.atomic import atomic_write
 from viscorough_study.performance import timing
-from viscorough_study.robustness.random_indenters import generated_case, silent_failure
+from viscorough_study.robustness.random_indenters import random_case, silent_failure
 from viscorough_study.seeds import random_indenter_key, realization_seed
 
 
 def case_generator(seed, case):
-    """The generator of one case, whatever cases are run beside it."""
+    """The random generator of one case, which does not depend on the other cases."""
     return np.random.default_rng(realization_seed(seed, *random_indenter_key(case)))
 
 
 @click.command()
-@click.option("--cases", default=12_000, show_default=True, help="Number of indenters.")
-@click.option("--seed", default=2013, show_default=True)
-@click.option("--output", required=True, help="JSON file to write.")
+@click.option("--cases", type=click.IntRange(1), default=12_000, show_default=True, help="Number of indenters.")
+@click.option("--seed", type=click.IntRange(0), default=2013, show_default=True, help="Root seed.")
+@click.option("--output", required=True, help="File to write, JSON.")
 def main(cases, seed, output):
     """Count silent failures; exit code 1 if there is any."""
     began, failures = time.perf_counter(), []
     for case in tqdm(range(cases), unit="indenter", mininterval=2):
         try:
-            wrong = silent_failure(*generated_case(case_generator(seed, case)))
-        except Exception as error:  # whatever it is, it is a failure with its case, and the campaign goes on
+            wrong = silent_failure(*random_case(case_generator(seed, case)))
+        except Exception as error:  # any exception counts as a failure of its case, and the campaign continues
             wrong = f"{type(error).__name__}: {error}"
         if wrong:
             failures.append({"case": case, "wrong": wrong})

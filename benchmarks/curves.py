@@ -1,9 +1,10 @@
-"""Measure what the package costs and how accurate it is; write it to a file with the name of the machine.
+"""Measure what curves, lines and operators cost and how accurate they are, in one process on one thread.
 
     python benchmarks/curves.py --output results/benchmarks.json [--reproduction]
 
-Times are medians of repeats in one run; the repeats of what is compared are interleaved. `--reproduction` also times
-the default workflow from nothing, in a folder of its own.
+The file has the name of the machine and one key for each function below: operator_ms, column_ms, operator_rounding,
+memory_bytes, parts, line, curve. Times are medians of repeats in one run; the repeats of what is compared are
+interleaved. `--reproduction` also times the default workflow from nothing, in a folder of its own.
 """
 
 import argparse
@@ -19,26 +20,42 @@ import tempfile
 import time
 from functools import partial
 from pathlib import Path
-from unittest import mock
 
-os.environ.update(OMP_NUM_THREADS="1", NUMBA_NUM_THREADS="1")  # before numpy: everything on one core
-if (
-    "MALLOC_TRIM_THRESHOLD_" not in os.environ
-):  # as in the workflow, see workflow/rules/common.smk; read at the start only
-    os.environ.update(MALLOC_MMAP_THRESHOLD_=str(2**25), MALLOC_TRIM_THRESHOLD_=str(10**9))
-    os.execv(sys.executable, [sys.executable, *sys.argv])
-
+import ducc0
 import numpy as np
 import pandas as pd
 import scipy.fft
 
 import viscorough
 from viscorough import indent, reduce, self_affine_disc, self_affine_line
+from viscorough.contact.column_fft import Columns, good_length
 from viscorough.contact.halfspace import Halfspace
+from viscorough.io.atomic import atomic_write
 from viscorough_study.performance import timing
 
 ROOT = Path(__file__).resolve().parents[1]
 ELEMENTS, UNTIL, UNTIL_X = 257, 0.9, 30.0
+# One thread, and an allocator that keeps its pages as in the workflow: both are read when a process starts.
+ENVIRONMENT = {
+    "OMP_NUM_THREADS": "1",
+    "NUMBA_NUM_THREADS": "1",
+    "MALLOC_MMAP_THRESHOLD_": str(2**25),
+    "MALLOC_TRIM_THRESHOLD_": str(10**9),
+}
+# Functions whose share of the time is measured, by the part of the computation that they are.
+PARTS_OF_CURVE = {
+    "operator": ("viscorough.contact.halfspace.Halfspace.apply",),
+    "preconditioner": (
+        "viscorough.contact.preconditioner.Preconditioner.prepare",
+        "viscorough.contact.preconditioner.Preconditioner.apply",
+    ),
+    "dense": ("viscorough.contact.dense.solve", "viscorough.contact.dense.follow_events"),
+    "setup": (
+        "viscorough.contact.grid_solver.GridSolver.__init__",
+        "viscorough.contact.solver.ContactSolver.__init__",
+    ),
+}
+PARTS_OF_LINE = {"transform": ("ducc0.fft.r2r_fftpack",), "bins": ("viscorough.mdr._bin_gaps",)}
 
 
 def interleaved(functions, repeats):
@@ -52,14 +69,14 @@ def interleaved(functions, repeats):
 
 
 def curves(hursts, seeds, repeats):
-    """A loading curve of a disc: cost, and errors against levels that are many and solved to 1e-6."""
+    """Loading curves of discs: cost, and errors against many levels solved to 1e-6."""
     rows = []
     for hurst in hursts:
         for seed in seeds:
             disc = self_affine_disc(hurst, ELEMENTS, seed=seed)
             arguments = {"until_fraction": UNTIL, "until_force": 4 * UNTIL_X}
             curve = indent(disc, **arguments)
-            cost = interleaved({"curve": lambda d=disc, a=arguments: indent(d, **a)}, repeats)["curve"]
+            cost = interleaved({"curve": partial(indent, disc, **arguments)}, repeats)["curve"]
             at_levels = indent(disc, tolerance=1e-6, depths=curve.depth[curve.contact_count > 1])
             between = np.geomspace(curve.depth[0], curve.depth[-1] * (1 - 1e-9), 300)
             fine = indent(disc, tolerance=1e-6, depths=between)
@@ -89,7 +106,7 @@ def curves(hursts, seeds, repeats):
 
 
 def lines(hursts, points, repeats):
-    """An MDR line, generation included."""
+    """Loading curves of lines by the reduction of dimensionality, generation of the lines included."""
     rows = []
     for hurst in hursts:
 
@@ -101,61 +118,50 @@ def lines(hursts, points, repeats):
     return rows
 
 
-class Stopwatch:
-    """Seconds spent in the functions that are watched, given as "module.function" or "module.Class.method"."""
+@contextlib.contextmanager
+def stopwatch(parts):
+    """{part: processor seconds} spent within the context in the functions of each part, given by dotted names."""
+    seconds = dict.fromkeys(parts, 0.0)
 
-    def __init__(self, **watched):
-        self.seconds, self._patches = dict.fromkeys(watched, 0.0), []
-        for part, names in watched.items():
-            for name in names:
-                function = pkgutil.resolve_name(name)
-                self._patches.append(mock.patch(name, self._watch(part, function)))
-
-    def _watch(self, part, function):
-        def watched(*arguments, **options):
+    def timed(part, function):
+        def call(*arguments, **options):
             start = time.process_time()
             try:
                 return function(*arguments, **options)
             finally:
-                self.seconds[part] += time.process_time() - start
+                seconds[part] += time.process_time() - start
 
-        return watched
+        return call
 
-    def shares(self, function):
-        """Processor seconds of the function, and the share of every part in them."""
-        self.seconds = dict.fromkeys(self.seconds, 0.0)
-        with contextlib.ExitStack() as stack:
-            for patch in self._patches:
-                stack.enter_context(patch)
-            start = time.process_time()
-            function()
-            whole = time.process_time() - start
-        shares = {part: round(seconds / whole, 3) for part, seconds in self.seconds.items()}
-        return {"processor_s": round(whole, 4), **shares, "rest": round(1 - sum(shares.values()), 3)}
+    with contextlib.ExitStack() as restore:
+        for part, names in parts.items():
+            for name in names:
+                owner, function = pkgutil.resolve_name(name.rpartition(".")[0]), pkgutil.resolve_name(name)
+                restore.callback(setattr, owner, name.rpartition(".")[2], function)
+                setattr(owner, name.rpartition(".")[2], timed(part, function))
+        yield seconds
+
+
+def shares(function, parts):
+    """Processor seconds of a function, and the share of each part in them."""
+    with stopwatch(parts) as seconds:
+        _, _, whole = timing.timed(function)
+    of_parts = {part: round(spent / whole, 3) for part, spent in seconds.items()}
+    return {"processor_s": round(whole, 4), **of_parts, "rest": round(1 - sum(of_parts.values()), 3)}
 
 
 def parts(points):
-    """What the time of curves and of a line goes into: medians of shares over repeats, after a warm-up."""
-    of_curve = Stopwatch(
-        operator=["viscorough.contact.halfspace.Halfspace.apply"],
-        preconditioner=[f"viscorough.contact.preconditioner.Preconditioner.{name}" for name in ("prepare", "apply")],
-        dense=[f"viscorough.contact.dense.{name}" for name in ("solve", "follow_events")],
-        setup=[
-            "viscorough.contact.grid_solver.GridSolver.__init__",
-            "viscorough.contact.solver.ContactSolver.__init__",
-        ],
-    )
-    of_line = Stopwatch(transform=["ducc0.fft.r2r_fftpack"], bins=["viscorough.mdr._bin_gaps"])
+    """Shares of the parts of curves and of a line: medians over five repeats, after a first run."""
     rows = {}
     for across in (ELEMENTS, 1025):
         disc = self_affine_disc(0.6, across, seed=1)
-        arguments = {"until_fraction": UNTIL, "until_force": 4 * UNTIL_X}
-        rows[f"curve of a {across} disc"] = of_curve, lambda d=disc, a=arguments: indent(d, **a)
-    rows[f"line of {points} points"] = of_line, lambda: reduce(self_affine_line(0.6, points, seed=1))
+        curve = partial(indent, disc, until_fraction=UNTIL, until_force=4 * UNTIL_X)
+        rows[f"curve of a {across} disc"] = curve, PARTS_OF_CURVE
+    rows[f"line of {points} points"] = lambda: reduce(self_affine_line(0.6, points, seed=1)), PARTS_OF_LINE
     result = {}
-    for name, (stopwatch, function) in rows.items():
+    for name, (function, of_function) in rows.items():
         function()
-        repeats = pd.DataFrame([stopwatch.shares(function) for _ in range(5)])
+        repeats = pd.DataFrame([shares(function, of_function) for _ in range(5)])
         result[name] = repeats.median().to_dict()
         print(f"{name}: " + ", ".join(f"{part} {share:.3g}" for part, share in result[name].items()))
     heights, copy = np.zeros(points, np.float32), np.zeros(points, np.float32)
@@ -166,13 +172,13 @@ def parts(points):
 
 
 def scipy_operator(load, kernel):
-    """The same convolution, padded in full."""
+    """The same convolution with full padding."""
     shape = kernel.shape[:1] * 2
     return scipy.fft.irfft2(scipy.fft.rfft2(load, shape) * kernel, shape)
 
 
 def operators(repeats):
-    """One application of the half-space operator, and what it would take with scipy's transforms."""
+    """One application of the half-space operator [ms], and the same with scipy's transforms."""
     functions = {}
     for n in (257, 1025):
         load = np.random.default_rng(1).random((n, n))
@@ -188,8 +194,65 @@ def operators(repeats):
     return rows
 
 
+def columns(repeats):
+    """Convolution of the columns alone [ms], and by ducc0's transforms with the product between them."""
+    functions = {}
+    for rows in (257, 1025):
+        length = good_length(2 * (rows - 1))
+        spectrum = np.random.default_rng(1).random((length // 2 + 1, rows))
+        whole = spectrum[np.minimum(np.arange(length), length - np.arange(length))]
+        for name, precision in (("double", np.complex128), ("single", np.complex64)):
+            data = np.random.default_rng(2).random((rows, rows)).astype(precision)
+            convolution = Columns(rows, spectrum / length, data.real.dtype)
+            functions[f"{rows} {name}"] = partial(lambda c, d: c.apply(d.copy()), convolution, data)
+            functions[f"{rows} ducc0 {name}"] = partial(ducc0_columns, data, whole.astype(data.real.dtype))
+    milliseconds = {name: cost["wall_s"] * 1e3 for name, cost in interleaved(functions, repeats).items()}
+    print("columns [ms]: " + ", ".join(f"{name} {value:.2f}" for name, value in milliseconds.items()))
+    return milliseconds
+
+
+def ducc0_columns(data, spectrum):
+    """The convolution of columns with rows of zeros below the data."""
+    padded = np.zeros((len(spectrum), data.shape[1]), data.dtype)
+    padded[: len(data)] = data
+    transformed = ducc0.fft.c2c(padded, axes=[0])
+    transformed *= spectrum
+    return ducc0.fft.c2c(transformed, axes=[0], forward=False, inorm=2, out=transformed)[: len(data)]
+
+
+def rounding(repeats):
+    """Largest error of the operator in single precision over the largest deflection, in units of its rounding."""
+    result = {}
+    for n in (257, 1025):
+        double, single = Halfspace(n, n), Halfspace(n, n, np.float32)
+        errors = []
+        for seed in range(repeats):
+            load = np.random.default_rng(seed).random((n, n)).astype(np.float32)
+            double.load[:, :n], single.load[:, :n] = load, load
+            exact = double.apply()[:, :n]
+            errors.append(np.abs(single.apply()[:, :n] - exact).max() / np.abs(exact).max())
+        result[str(n)] = float(max(errors) / np.finfo(np.float32).eps)
+    print("rounding of the operator: " + ", ".join(f"{n} across {error:.2g}" for n, error in result.items()))
+    return result
+
+
+def memory(points):
+    """Peak memory of the arrays: bytes per point of the map of a disc, and over the heights of a line."""
+    across = 513
+    disc, disc_bytes = timing.with_memory(lambda: self_affine_disc(0.6, across, seed=1))
+    _, curve_bytes = timing.with_memory(partial(indent, disc, until_fraction=UNTIL))
+    line, line_bytes = timing.with_memory(lambda: self_affine_line(0.6, points, seed=1))
+    result = {
+        "curve, per point of the map": curve_bytes / across**2,
+        "disc, per point of its square": disc_bytes / across**2,
+        "line, over its heights": line_bytes / line.heights.nbytes,
+    }
+    print("memory: " + ", ".join(f"{name} {value:.3g}" for name, value in result.items()))
+    return result
+
+
 def reproduction(cores):
-    """The default workflow from nothing: wall seconds, jobs, and the largest memory of a job in MB."""
+    """The default workflow from nothing: wall seconds, jobs, and the peak memory of a job in MB."""
     with tempfile.TemporaryDirectory() as folder:
         command = [sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile"), "--cores", str(cores)]
         start = time.perf_counter()
@@ -198,11 +261,8 @@ def reproduction(cores):
         tables = list(Path(folder).glob("results/benchmarks/**/*.tsv"))
         rss = [float(next(csv.DictReader(table.open(), delimiter="\t"))["max_rss"] or 0) for table in tables]
     result = {"cores": cores, "wall_s": wall, "jobs": len(tables), "largest_job_mb": max(rss)}
-    print(
-        "default reproduction on {cores} cores: {wall_s:.0f} s, {jobs} jobs of at most {largest_job_mb:.0f} MB".format(
-            **result
-        )
-    )
+    about = "default reproduction on {cores} cores: {wall_s:.0f} s, {jobs} jobs of at most {largest_job_mb:.0f} MB"
+    print(about.format(**result))
     return result
 
 
@@ -213,10 +273,16 @@ def main():
     parser.add_argument("--cores", type=int, default=2, help="cores of the workflow")
     parser.add_argument("--repeats", type=int, default=5, help="repeats of which the median is taken")
     arguments = parser.parse_args()
+    if any(os.environ.get(name) != value for name, value in ENVIRONMENT.items()):
+        os.environ.update(ENVIRONMENT)
+        os.execv(sys.executable, [sys.executable, *sys.argv])
     result = {
         "machine": timing.machine(),
         "viscorough": viscorough.__version__,
         "operator_ms": operators(10 * arguments.repeats),
+        "column_ms": columns(10 * arguments.repeats),
+        "operator_rounding": rounding(arguments.repeats),
+        "memory_bytes": memory(4_000_000),
         "parts": parts(4_000_000),
         "line": lines((0.1, 0.6, 0.9), 4_000_000, 3 * arguments.repeats),
         "curve": curves((0.1, 0.4, 0.6, 0.9), (1, 2), arguments.repeats),
@@ -225,7 +291,8 @@ def main():
     if arguments.reproduction:
         result["reproduction"] = reproduction(arguments.cores)
     arguments.output.parent.mkdir(parents=True, exist_ok=True)
-    arguments.output.write_text(json.dumps(result, indent=1) + "\n")
+    with atomic_write(arguments.output) as temporary:
+        temporary.write_text(json.dumps(result, indent=1) + "\n")
     print(f"written to {arguments.output}")
 
 

@@ -14,7 +14,7 @@ from viscorough_study.performance.ablations import grid_only
 KINDS = ("uniform", "normal", "whole numbers", "hill", "rough disc", "steps", "strip", "ridge", "one spike", "flat")
 
 
-def generated_case(generator):
+def random_case(generator):
     """A small indenter of a random kind and scale, three depths, a tolerance, and whether to use the grid."""
     kind, rows, columns = generator.choice(KINDS), *generator.integers(1, 13, 2)
     row, column = np.mgrid[:rows, :columns] - np.array([rows, columns])[:, None, None] * generator.random((2, 1, 1))

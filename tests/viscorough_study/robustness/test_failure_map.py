@@ -18,7 +18,7 @@ from viscorough.viscous.stepping import march_steps
 from viscorough_study.performance import ablations
 from viscorough_study.robustness import failure_map
 from viscorough_study.robustness.failure_map import METHODS, VERDICTS, unnoticed
-from viscorough_study.robustness.random_indenters import generated_case, silent_failure
+from viscorough_study.robustness.random_indenters import random_case, silent_failure
 from viscorough_study.robustness.stress_cases import Difficulty, difficulties
 
 NUMERICAL = ["path, dense", "path, grid, double", "path, grid, single", "events"]
@@ -117,10 +117,10 @@ def test_curves():
 
 
 @pytest.mark.parametrize("block", range(4))
-def test_generated_cases_do_not_fail_silently(block):
+def test_random_cases_do_not_fail_silently(block):
     for case in range(60 * block, 60 * (block + 1)):
         generator = np.random.default_rng(np.random.SeedSequence(11, spawn_key=(case,)))
-        assert silent_failure(*generated_case(generator)) == "", f"case {case}"
+        assert silent_failure(*random_case(generator)) == "", f"case {case}"
 
 
 @pytest.mark.parametrize("broken", ["force", "pressure"])

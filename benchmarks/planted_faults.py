@@ -1,0 +1,163 @@
+"""Plant faults in copies of the project, one at a time, and count how many the tests catch.
+
+    python benchmarks/planted_faults.py --output results/planted_faults.json [--only NAME ...]
+
+The faults are those of planted_faults.yaml beside this file: a text that stands exactly once in a file, what it is
+replaced with, the tests to run, and why it matters. A fault is caught if one of its tests fails; first of all, every
+test must pass without any fault. The working tree is never changed.
+"""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+import click
+import yaml
+
+import viscorough
+from viscorough_study.performance import timing
+
+ROOT = Path(__file__).resolve().parents[1]
+FAULTS = Path(__file__).with_suffix(".yaml")
+LEFT_OUT = shutil.ignore_patterns(".git", ".venv*", ".snakemake", "results", ".pytest_cache", ".hypothesis")
+PASSED, FAILED = 0, 1  # exit codes of pytest; the others say that it could not run the tests
+
+
+@dataclass(frozen=True)
+class Fault:
+    """A wrong text in place of a right one; tests : arguments of pytest; why : what goes wrong with it."""
+
+    name: str
+    file: str
+    old: str
+    new: str
+    tests: tuple
+    why: str
+
+
+def read_faults(path=FAULTS):
+    """The faults of a file. Raises ValueError if two have the same name."""
+    faults = [Fault(**fields) for fields in yaml.safe_load(path.read_text(encoding="utf-8"))]
+    names = [fault.name for fault in faults]
+    if repeated := {name for name in names if names.count(name) > 1}:
+        raise ValueError(f"{path}: these names stand twice: {', '.join(sorted(repeated))}")
+    return faults
+
+
+def problems(fault, root=ROOT):
+    """Lines that say why a fault cannot be planted or its tests not be run; none if they can."""
+    file, lines = root / fault.file, []
+    count = file.read_text(encoding="utf-8").count(fault.old) if file.is_file() else 0
+    if count != 1:
+        lines.append(f"{fault.name}: the old text stands {count} times in {fault.file}, it must stand there once")
+    if fault.old == fault.new:
+        lines.append(f"{fault.name}: the new text is the old one")
+    for test in fault.tests:
+        path, *names = test.split("[")[0].split("::")
+        text = (root / path).read_text(encoding="utf-8") if (root / path).is_file() else ""
+        if not (root / path).exists() or any(f"def {name}(" not in text for name in names):
+            lines.append(f"{fault.name}: there is no test {test}")
+    return lines
+
+
+def plant(fault, folder):
+    """Write the wrong text, and remove compiled code that may contain the right one."""
+    file = folder / fault.file
+    text = file.read_text(encoding="utf-8")
+    file.write_text(text.replace(fault.old, fault.new), encoding="utf-8")
+    if "viscorough.compilation import" in text:
+        for module in importers(file, folder / "src"):
+            for compiled in module.parent.glob(f"__pycache__/{module.stem}.*.nb[ic]"):
+                compiled.unlink()
+
+
+def importers(file, source):
+    """The file and all that import it, directly or not: numba compiles what they call into their own code."""
+    texts = {module: module.read_text(encoding="utf-8") for module in source.rglob("*.py")}
+    found, new = set(), {file}
+    while new:
+        found |= new
+        names = {module.stem for module in new}
+        imports = re.compile(rf"^ *(from|import) .*\b({'|'.join(names)})\b", re.MULTILINE)
+        new = {module for module, text in texts.items() if imports.search(text)} - found
+    return found
+
+
+def run_tests(tests, folder, time_limit):
+    """(exit code of pytest, None beyond the time limit; its last line; seconds) of tests of a copy of the project."""
+    environment = os.environ | {"PYTHONPATH": str(folder / "src")}  # before the installed package
+    command = [sys.executable, "-m", "pytest", "-q", "-x", "-W", "ignore", "-p", "no:cacheprovider", *tests]
+    began = time.perf_counter()
+    try:
+        run = subprocess.run(
+            command, cwd=folder, env=environment, capture_output=True, text=True, timeout=time_limit, check=False
+        )
+    except subprocess.TimeoutExpired:
+        return None, f"not finished within {time_limit:g} s", time_limit
+    lines = [line for line in run.stdout.splitlines() if line.strip()] or run.stderr.splitlines() or [""]
+    return run.returncode, lines[-1], time.perf_counter() - began
+
+
+def prepare(folder, tests, time_limit):
+    """A copy of the project whose tests pass, with its functions compiled. Raises ClickException if they do not."""
+    shutil.copytree(ROOT, folder, ignore=LEFT_OUT)
+    (folder / "results").mkdir()
+    environment = os.environ | {"PYTHONPATH": str(folder / "src")}
+    where = [sys.executable, "-c", "import viscorough; print(viscorough.__file__)"]
+    imported = subprocess.run(where, cwd=folder, env=environment, capture_output=True, text=True, check=True).stdout
+    if not Path(imported.strip()).resolve().is_relative_to(folder.resolve()):
+        raise click.ClickException(f"the copy in {folder} would test the package in {imported.strip()}")
+    code, last, seconds = run_tests(tests, folder, time_limit)
+    if code != PASSED:
+        raise click.ClickException(f"tests fail without any fault: {last}")
+    return seconds
+
+
+def outcome(fault, clean, folder, time_limit):
+    """What becomes of one fault, as a dictionary for the file: caught, missed, or why neither is known."""
+    shutil.copytree(clean, folder)
+    try:
+        plant(fault, folder)
+        code, last, seconds = run_tests(fault.tests, folder, time_limit)
+    finally:
+        shutil.rmtree(folder)
+    verdict = {PASSED: "missed", FAILED: "caught", None: "not finished"}.get(code, "tests did not run")
+    about = {"name": fault.name, "verdict": verdict, "seconds": round(seconds, 1), "pytest": last}
+    return about | {"file": fault.file, "why": fault.why}
+
+
+@click.command(help=__doc__.splitlines()[0])
+@click.option("--output", type=click.Path(path_type=Path), required=True, help="File to write, JSON.")
+@click.option("--only", multiple=True, help="Name of a fault; may be given more than once  [default: all].")
+@click.option("--time-limit", default=300.0, show_default=True, help="Seconds for the tests of one fault.")
+def main(output, only, time_limit):
+    faults = [fault for fault in read_faults() if not only or fault.name in only]
+    if unknown := set(only) - {fault.name for fault in faults}:
+        raise click.UsageError(f"no fault has the name {', '.join(sorted(unknown))}")
+    if lines := [line for fault in faults for line in problems(fault)]:
+        raise click.ClickException("\n".join(lines))
+    with tempfile.TemporaryDirectory() as temporary:
+        clean = Path(temporary) / "clean"
+        tests = list(dict.fromkeys(test for fault in faults for test in fault.tests))
+        click.echo(f"all tests without any fault: {prepare(clean, tests, time_limit * len(faults)):.0f} s")
+        results = []
+        for fault in faults:
+            results.append(outcome(fault, clean, Path(temporary) / "planted", time_limit))
+            click.echo("{name}: {verdict} ({seconds:.0f} s)".format(**results[-1]))
+    caught = sum(result["verdict"] == "caught" for result in results)
+    about = {"machine": timing.machine(), "viscorough": viscorough.__version__, "faults": len(faults), "caught": caught}
+    output.parent.mkdir(parents=True, exist_ok=True)
+    output.write_text(json.dumps(about | {"results": results}, indent=1) + "\n", encoding="utf-8")
+    click.echo(f"{caught} of {len(faults)} faults caught; written to {output}")
+    sys.exit(caught < len(faults))
+
+
+if __name__ == "__main__":
+    main()

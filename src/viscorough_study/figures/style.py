@@ -1,7 +1,7 @@
 """What the figures share: style and sizes of the printed page, colours, looks of Hurst exponents, ticks, saving.
 
-A Hurst exponent has its colour by its value, and its marker and line style by its rank among the exponents drawn:
-figures of the same exponents agree, and exponents close to each other still differ.
+The colour of a Hurst exponent depends on its value, its marker and line style on its rank among the exponents drawn:
+figures of the same exponents agree, and exponents close to each other can still be told apart.
 """
 
 from pathlib import Path
@@ -61,7 +61,7 @@ def save_figure(figure, *paths):
 
 
 def require_rows(function, table):
-    """Raise ValueError, in the name of a plotting function, for a table without rows."""
+    """Raise ValueError, which names the plotting function, for a table without rows."""
     if table.empty:
         raise ValueError(f"{function}: the table has no rows; at least one is needed")
 

@@ -65,10 +65,10 @@ def drawn(discs, pooled, lines, scaling, combinations):
         "large": Drawn(plot_large(tables.large_table())),
         "speed": Drawn(plot_speed(tables.methods_table()), {"indenter": 2}),
         "growth": Drawn(plot_growth(tables.methods_table())),
-        "peers": Drawn(plot_other_solvers(tables.other_solvers_table())),
-        "scenes": Drawn(plot_level_placement(tables.level_placement_table())),
-        "stability": Drawn(plot_failure_map(tables.failure_table(LETTERS))),
-        "stability_curves": Drawn(plot_failure_curves(tables.failure_curves_table())),
+        "other_solvers": Drawn(plot_other_solvers(tables.other_solvers_table())),
+        "level_placement": Drawn(plot_level_placement(tables.level_placement_table())),
+        "failure_map": Drawn(plot_failure_map(tables.failure_table(LETTERS))),
+        "failure_curves": Drawn(plot_failure_curves(tables.failure_curves_table())),
     }
 
 
@@ -177,8 +177,8 @@ def test_panels_are_as_many_as_what_they_are_for(drawn):
 @pytest.mark.parametrize(
     ("name", "change", "fault"),
     [
-        ("stability_curves", ("Errors below", "(c) Exponents. Errors below"), "there is no panel (c)"),
-        ("stability_curves", ("(b)", ""), "panel (b) is not described"),
+        ("failure_curves", ("Errors below", "(c) Exponents. Errors below"), "there is no panel (c)"),
+        ("failure_curves", ("(b)", ""), "panel (b) is not described"),
         ("fig2_kinetics", ("Right:", "Below:"), "panel right is not described"),
         ("fig2_kinetics", ("time t", "t"), "axis time t is not described"),
         ("fig3_master_curve", ("right side", "left side"), "axis (Ft"),
@@ -193,7 +193,7 @@ def test_faults_of_captions_are_seen(drawn, name, change, fault):
 
 
 def test_letters_of_verdicts_are_explained():
-    explained = dict(re.findall(r"\b([A-Z]): ([\w ]+)", plain(read("stability"))))
+    explained = dict(re.findall(r"\b([A-Z]): ([\w ]+)", plain(read("failure_map"))))
     assert set(explained) == set(LETTERS.values())
 
 

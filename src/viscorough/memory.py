@@ -1,10 +1,10 @@
-"""Refusal of what cannot fit into memory, before any of it is taken."""
+"""Problems that do not fit into the available memory are refused before any of it is allocated."""
 
 import psutil
 
 
 def require(needed, what):
-    """Raise MemoryError, naming the bytes needed and available, unless `needed` bytes are there for `what`."""
+    """Raise MemoryError, which names both numbers, unless `needed` bytes are available for `what`."""
     available = psutil.virtual_memory().available
     if needed > available:
         raise MemoryError(f"{what} takes {needed:.3g} bytes of memory, {available:.3g} bytes are available")

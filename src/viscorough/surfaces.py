@@ -1,11 +1,12 @@
-"""Rigid indenters: height maps in general, self-affine discs and lines in particular.
+"""Self-affine discs, squares and lines with random heights.
 
-The spectral density is the paper's (Sec. III), C2D(q) ∝ q^(-2(H+1)) for a surface, and by C1D = π q C2D ∝
-q^(-(2H+1)) for a line (Eq. 13), which keeps the rms height. Spectra are isotropic, have no zero mode and
-reach from the period of the generated piece down to the Nyquist wavelength of two spacings. They need no
-prefactor, because every realization is scaled to its rms height.
+The power spectral density is the paper's (Sec. III): C2D(q) ∝ q^(-2(H+1)) for a surface, and from C1D = π q C2D,
+which keeps the rms height, C1D(q) ∝ q^(-(2H+1)) for a line (Eq. 13). Spectra are isotropic, have no zero mode and reach
+from the period of the surface down to the Nyquist wavelength of two spacings. They need no prefactor, because every
+realization is scaled to the requested rms height.
 """
 
+from functools import partial
 from numbers import Integral
 
 import numpy as np
@@ -15,8 +16,10 @@ from viscorough import memory
 from viscorough.compilation import njit
 from viscorough.indenter import Indenter, positive
 
-_BLOCK = 16384  # points of a line worked on at a time: arrays of this length stay in the cache
-_BYTES, _COPIES = 100, 2.1  # taken at most per point of a square, and times the heights of a line (measured)
+_BLOCK = 16384  # waves of a line computed at a time: arrays of this length stay in the processor's cache
+# Memory that must be available: three times what the arrays of a square take, per point; the heights of a line and a
+# copy of them, which the Fourier transform makes (more where the number of points has a large prime factor).
+_BYTES_PER_POINT, _COPIES_OF_LINE = 100, 2.1
 
 
 def self_affine_disc(
@@ -33,23 +36,23 @@ def self_affine_disc(
     rms_over="disc",
     seed,
 ):
-    """Disc of n = `elements_across` elements in diameter, cut from a periodic self-affine square.
+    """Disc with n = `elements_across` elements across its diameter, cut from a periodic self-affine square.
 
     hurst : Hurst exponent H, 0 to 1
     elements_across : n, at least 3; 257 gives 51433 elements
-    rms : standard deviation h of the heights, met by every realization [length]
+    rms : standard deviation h of the heights, exact in every realization [length]
     diameter : L; the spacing is L/n [length]
-    period : of the square [L], at least 1, rounded to whole spacings; 1: the disc spans the period, 2: it is
-        a piece of a surface of twice that period
-    corners : whether to fill the corners of the Fourier square beyond the Nyquist circle q = π/spacing
-    roll_off_wavelength : longest wave of the power law [L]; longer ones have its spectral density times
-        `roll_off_level` (0: they are absent, 1: a plateau)
+    period : of the square in diameters, at least 1, rounded to whole spacings; with 1 the disc spans the period, with
+        2 it is cut from a surface that repeats after two diameters
+    corners : whether waves in the corners of the Fourier square, beyond the Nyquist circle q = π/spacing, are present
+    roll_off_wavelength : longest wavelength of the power law, in diameters; longer waves have the spectral density at
+        this wavelength times `roll_off_level` (0: they are absent, 1: a plateau)
     amplitudes : "random": complex Gaussian, so that the heights are a Gaussian process; "fixed": exactly the
-        root of the spectrum, only the phases are random
+        square root of the spectrum, so that only the phases are random
     rms_over : "disc" or "square": the points over which h is taken
     seed : int or numpy SeedSequence; the same seed gives the same realization
 
-    Returns an Indenter with (n, n) heights, nan outside the disc (see `cut_disc`).
+    Returns an Indenter with heights of shape (n, n), nan outside the disc (see `cut_disc`).
     Raises ValueError for values outside these ranges.
     """
     n = _whole("elements_across", elements_across, at_least=3)
@@ -87,11 +90,11 @@ def self_affine_square(
     points : per period, at least 2
     roll_off_wavelength : as in `self_affine_disc`, but in points
 
-    White noise is filtered: its spectrum has the symmetry of real heights also where a wave is its own mirror
+    White noise is filtered: its spectrum has the symmetry of real heights, also where a wave is its own mirror
     image. Raises ValueError for values outside the allowed ranges.
     """
     points = _whole("points", points, at_least=2)
-    memory.require(_BYTES * points**2, f"a surface of {points} x {points} points")
+    memory.require(_BYTES_PER_POINT * points**2, f"a surface of {points} x {points} points")
     exponent = _hurst(hurst) + 1
     longest, level = _roll_off(roll_off_wavelength, roll_off_level, points)
     fixed = _fixed(amplitudes)
@@ -106,15 +109,15 @@ def self_affine_square(
         spectrum /= np.abs(spectrum)
     spectrum *= amplitude
     heights = fft.c2r(spectrum, lastsize=points, forward=False, allow_overwriting_input=True)
-    heights *= _factor(1.0, np.mean(heights**2))
+    heights *= _scale_factor(1.0, np.mean(heights**2))
     return heights
 
 
 def cut_disc(square, elements_across):
-    """Disc of n = `elements_across` from the corner [:n, :n] of a map of heights; (n, n), nan outside it.
+    """Disc cut from the corner [:n, :n] of a map of heights, n = `elements_across`; shape (n, n), nan outside.
 
-    An element belongs to it if x² + y² <= ((n-1)/2)², x and y from the centre of the piece in spacings.
-    Raises ValueError if the map is smaller than that.
+    An element belongs to the disc if x² + y² <= ((n-1)/2)², with x and y from the centre of the disc in spacings.
+    Raises ValueError if the map has fewer than n x n points.
     """
     n = _whole("elements_across", elements_across, at_least=1)
     if square.ndim != 2 or min(square.shape) < n:
@@ -135,15 +138,15 @@ def self_affine_line(
     seed,
     dtype=np.float32,
 ):
-    """Periodic self-affine line, C1D ∝ q^(-(2H+1)): an indenter for the method of dimensionality reduction.
+    """Periodic self-affine line, C1D ∝ q^(-(2H+1)): an indenter for the method of dimensionality reduction (MDR).
 
     hurst, rms, amplitudes, seed : as in `self_affine_disc`
     points : per period, at least 2
     length : L, also the period; the spacing is L/points [length]
-    roll_off_wavelength, roll_off_level : as in `self_affine_disc`, in lengths of the line
-    dtype : float32 or float64; the realization is the same, its gaps are resolved to 2e-7 h in float32
+    roll_off_wavelength, roll_off_level : as in `self_affine_disc`, the wavelength in lengths of the line
+    dtype : float32 or float64; the realization is the same up to rounding
 
-    Returns an Indenter with (points,) heights of mean 0. Raises ValueError for values outside these ranges.
+    Returns an Indenter with heights of shape (points,) and mean 0. Raises ValueError for values outside these ranges.
     """
     points = _whole("points", points, at_least=2)
     exponent = _hurst(hurst) + 0.5
@@ -154,47 +157,62 @@ def self_affine_line(
     fixed = _fixed(amplitudes)
     if (real := np.dtype(dtype)) not in (np.float32, np.float64):
         raise ValueError(f"dtype: must be float32 or float64, not {real}")
-    memory.require(_COPIES * real.itemsize * points, f"a line of {points} points")
+    memory.require(_COPIES_OF_LINE * real.itemsize * points, f"a line of {points} points")
 
-    # the spectrum stands where the heights will: the mean, then cosine and sine of wave after wave
+    # The heights overwrite their spectrum: the mean, then cosine and sine coefficients of wave after wave.
     packed = np.empty(1 + 2 * (points // 2), real)
     packed[0] = 0
-    waves = packed[1:].reshape(-1, 2)
-    words = _generator(seed).bit_generator
-    buffers = np.empty((3, min(_BLOCK, len(waves))), real)
-    pairs, square = (points - 1) // 2, 0.0  # waves that are not their own mirror image, and the heights' mean square
-    for start in range(0, len(waves), _BLOCK):
-        piece = waves[start : start + _BLOCK]
-        phase, deviate, cosine = buffers[:, : len(piece)]
-        _split(words.random_raw(len(piece)), phase, deviate)
-        amplitude = _amplitude(np.arange(start + 1, start + 1 + len(piece), dtype=real), exponent, longest, level)
-        np.cos(phase, out=cosine)
-        sine = np.sin(phase, out=phase)
-        if fixed:
-            deviate[:] = np.exp(-0.5)  # of which the root below is 1
-        square += 2 * _compose(amplitude, np.log(deviate, out=deviate), cosine, sine, piece, pairs - start)
-    if points % 2 == 0:  # the shortest wave is its own mirror image: only a cosine, of the same mean power
-        cosine, sine = waves[-1]
-        waves[-1, 0] = np.copysign(np.hypot(cosine, sine), cosine) if fixed else np.sqrt(2.0) * cosine
-        square += float(waves[-1, 0]) ** 2
-    packed *= _factor(rms, square)
+    amplitude = partial(_amplitude, exponent=exponent, longest=longest, level=level)
+    mean_square = _draw_waves(packed[1:].reshape(-1, 2), points, amplitude, _generator(seed), fixed=fixed)
+    packed *= _scale_factor(rms, mean_square)
     heights = packed[:points]
     fft.r2r_fftpack(heights, axes=[0], real2hermitian=False, forward=False, out=heights)
     return Indenter(heights, length / points)
 
 
+def _draw_waves(waves, points, amplitude, generator, *, fixed, block=_BLOCK):
+    """Fill `waves` with random cosine and sine coefficients; returns the mean square of the heights they make.
+
+    waves : shape (points // 2, 2), of 1, 2, ... waves per period
+    amplitude : function of an array of wavenumbers, the modulus
+    fixed : whether the modulus is not random but exactly `amplitude`
+    block : waves computed at a time
+    """
+    random = generator.bit_generator
+    buffers = np.empty((3, min(block, len(waves))), waves.dtype)
+    pairs, mean_square = (points - 1) // 2, 0.0  # waves that are not their own mirror image
+    for start in range(0, len(waves), block):
+        piece = waves[start : start + block]
+        phase, uniform, cosine = buffers[:, : len(piece)]
+        _phases_and_uniforms(random.random_raw(len(piece)), phase, uniform)
+        modulus = amplitude(np.arange(start + 1, start + 1 + len(piece), dtype=waves.dtype))
+        np.cos(phase, out=cosine)
+        sine = np.sin(phase, out=phase)
+        if fixed:
+            uniform[:] = np.exp(-0.5)  # for which √(-2 ln) is 1
+        logarithm = np.log(uniform, out=uniform)
+        mean_square += 2 * _coefficients(modulus, logarithm, cosine, sine, piece, pairs - start)
+    if points % 2 == 0:  # the shortest wave is its own mirror image: only a cosine, of the same mean power
+        cosine, sine = waves[-1]
+        waves[-1, 0] = np.copysign(np.hypot(cosine, sine), cosine) if fixed else np.sqrt(2.0) * cosine
+        mean_square += float(waves[-1, 0]) ** 2
+    return mean_square
+
+
 @njit
-def _split(words, phase, deviate):
-    """Phases in [0, 2π) from the lower, and numbers in (0, 1) from the upper halves of random words."""
-    for i in range(words.size):
-        phase[i] = (words[i] & 0xFFFFFFFF) * (2 * np.pi / 2**32)
-        deviate[i] = ((words[i] >> np.uint64(32)) + 0.5) * 2.0**-32
+def _phases_and_uniforms(integers, phase, uniform):
+    """Phases in [0, 2π) from the lower, numbers in (0, 1) from the upper halves of random 64-bit integers."""
+    for i in range(integers.size):
+        phase[i] = (integers[i] & 0xFFFFFFFF) * (2 * np.pi / 2**32)
+        uniform[i] = ((integers[i] >> np.uint64(32)) + 0.5) * 2.0**-32
 
 
 @njit(fastmath=True)
-def _compose(amplitude, logarithm, cosine, sine, waves, pairs):
-    """Cosine and sine of every wave, of modulus amplitude·√(-2 ln(0...1)): with a random phase, a complex Gaussian (Box
-    and Muller). Returns the sum of the squares of the first `pairs` moduli.
+def _coefficients(amplitude, logarithm, cosine, sine, waves, pairs):
+    """Fill `waves` with the cosine and sine coefficients of waves with the modulus amplitude·√(-2 ln(uniform)).
+
+    With a random phase they are complex Gaussian (Box and Muller). Returns the sum of the squares of the first `pairs`
+    moduli; `amplitude` is overwritten by the moduli.
     """
     square = 0.0
     for i in range(amplitude.size):
@@ -207,9 +225,12 @@ def _compose(amplitude, logarithm, cosine, sine, waves, pairs):
 
 
 def _amplitude(wavenumber, exponent, longest, level):
-    """Modulus k^-exponent of the waves of k per period; √level times that of k = longest for longer ones.
+    """Modulus k^-exponent of waves with wavenumber k per period; for k < longest √level times that of k = longest.
 
-    The zero mode gets a number, too, for the caller to remove.
+    longest : wavenumber per period of the roll-off, 0 if there is none
+    level : spectral density of longer waves relative to that at the roll-off
+
+    The zero mode gets a finite value, which the caller must remove.
     """
     amplitude = np.maximum(wavenumber, max(1, longest))
     np.power(amplitude, -exponent, out=amplitude)
@@ -219,24 +240,24 @@ def _amplitude(wavenumber, exponent, longest, level):
 
 
 def _roll_off(wavelength, level, points):
-    """Wavenumber per period and level of the roll-off at a wavelength in points; 0 if there is none."""
+    """Wavenumber per period (0 if there is no roll-off) and level of the roll-off at a wavelength in points."""
     if not 0 <= level < np.inf:
         raise ValueError(f"roll_off_level: must be a finite number >= 0, not {level!r}")
     if wavelength is None:
         return 0.0, level
-    rounding = 1 - 1e-12  # must not take away the waves of just that length
+    rounding = 1 - 1e-12  # so that waves of exactly this length belong to the power law
     return rounding * points / positive("roll_off_wavelength", wavelength), level
 
 
-def _factor(rms, square):
-    """What heights of mean 0 and the mean square `square` are to be multiplied with."""
-    if square == 0:
+def _scale_factor(rms, mean_square):
+    """Scale factor to the requested rms height."""
+    if mean_square == 0:
         raise ValueError("roll_off_wavelength: must leave at least one wave of two spacings or more")
-    return rms / np.sqrt(square)
+    return rms / np.sqrt(mean_square)
 
 
 def _generator(seed):
-    """Random numbers by SFC64, the fastest of numpy's generators."""
+    """Random numbers from SFC64, the fastest of numpy's generators."""
     known = isinstance(seed, np.random.SeedSequence)
     return np.random.Generator(np.random.SFC64(seed if known else _whole("seed", seed, at_least=0)))
 

@@ -5,6 +5,8 @@ power of every wave is its expectation times an exponential variate, whose logar
 variance π²/6. Slopes fitted to logarithms do not feel the scaling of each realization to its rms height.
 """
 
+import tracemalloc
+
 import numpy as np
 import pytest
 from scipy import stats
@@ -90,7 +92,7 @@ def test_waves_that_mirror_themselves():
 
 
 @pytest.mark.parametrize("amplitudes", ["random", "fixed"])
-@pytest.mark.parametrize("points", [2, 3, 4, 5, 257, 1000, surfaces._BLOCK * 2, surfaces._BLOCK * 2 + 3])
+@pytest.mark.parametrize("points", [2, 3, 4, 5, 257, 1000, 2**15, 2**15 + 3])
 def test_line_of_any_length(points, amplitudes):
     for dtype, rounding in ((np.float32, 1e-6), (np.float64, 1e-12)):
         line = self_affine_line(0.4, points, rms=2e-6, length=3.0, amplitudes=amplitudes, seed=9, dtype=dtype)
@@ -102,10 +104,38 @@ def test_line_of_any_length(points, amplitudes):
         assert abs(np.mean(line.heights, dtype=float)) < 2e-6 * rounding
 
 
-def test_blocks_leave_no_trace(monkeypatch):
-    whole = self_affine_line(0.4, 5000, seed=9).heights
-    monkeypatch.setattr(surfaces, "_BLOCK", 333)
-    np.testing.assert_allclose(self_affine_line(0.4, 5000, seed=9).heights, whole, atol=1e-6)
+@pytest.mark.parametrize("fixed", [False, True])
+@pytest.mark.parametrize("points", [5000, 5001])
+def test_waves_do_not_depend_on_how_many_are_computed_at_a_time(points, fixed):
+    """Blocks smaller than, equal to and larger than the line."""
+    drawn = []
+    for block in (333, points // 2, 16384):
+        waves = np.empty((points // 2, 2))
+        random = np.random.Generator(np.random.SFC64(9))
+        square = surfaces._draw_waves(waves, points, lambda k: k**-0.9, random, fixed=fixed, block=block)
+        drawn.append((waves, square))
+    for waves, square in drawn[1:]:
+        np.testing.assert_allclose(waves, drawn[0][0], rtol=1e-13, atol=1e-15)
+        assert square == pytest.approx(drawn[0][1], rel=1e-13)
+    assert len(np.unique(drawn[0][0])) > points // 2, "blocks are not repetitions of the first one"
+
+
+@pytest.mark.parametrize(
+    ("generate", "lowest", "highest"),
+    [
+        (lambda: self_affine_square(0.5, 300, seed=1), 25, surfaces._BYTES_PER_POINT),
+        (lambda: self_affine_line(0.5, 300_000, seed=1).heights, 4, 4 * surfaces._COPIES_OF_LINE),
+    ],
+    ids=["square", "line"],
+)
+def test_memory_that_is_asked_for_is_enough(generate, lowest, highest):
+    """Bytes per point that numpy allocates; the transform of a line adds a copy of its own, which is not counted."""
+    generate()
+    tracemalloc.start()
+    heights = generate()
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert lowest < peak / heights.size < highest
 
 
 def test_single_precision_is_the_same_line():

@@ -1,7 +1,7 @@
-"""The recommended law of region (b), vt/h = X^β/ζ, with numbers calibrated by boundary elements at the paper's scale.
+"""The recommended penetration law of region (b), vt/h = X^β/ζ, calibrated with boundary elements at the paper's scale.
 
-The numbers stand in data/calibration.csv, a copy of results/tables/calibration.csv of `make paper`: the geometric mean
-at fixed X, h the rms height of the disc, L its diameter, no Γ, over the whole of region (b).
+The numbers are those of data/calibration.csv, a copy of results/tables/calibration.csv from `make paper`. Conventions:
+geometric mean at fixed X, h the rms height of the disc, L its diameter, no factor Γ, fitted over the whole region (b).
 """
 
 import csv
@@ -29,7 +29,8 @@ COLUMNS = {
 class PenetrationLaw:
     """vt/h = X^beta/zeta for x_low <= X <= x_high, X = Ft/(4ηhL) (paper, Eqs. 1 to 3 and 10).
 
-    beta_interval, zeta_interval : 95 %, of the ensembles that they come from
+    hurst : Hurst exponent H
+    beta_interval, zeta_interval : 95 % confidence intervals from the ensembles of the calibration
     """
 
     hurst: float
@@ -41,7 +42,7 @@ class PenetrationLaw:
     x_high: float
 
     def velocity(self, x):
-        """vt/h at X, any shape. Raises ValueError outside the range of X, where the law was not seen to hold."""
+        """vt/h at X, any shape. Raises ValueError outside the range of X in which the law was calibrated."""
         x = np.asarray(x, dtype=float)
         if not np.all((x >= self.x_low) & (x <= self.x_high)):
             raise ValueError(
@@ -53,7 +54,7 @@ class PenetrationLaw:
 
 @cache
 def calibration():
-    """The calibrated numbers of discs: {column: values by ascending H}."""
+    """The calibrated numbers of discs, {column of COLUMNS: array over ascending H}."""
     with resources.files("viscorough").joinpath("data/calibration.csv").open(encoding="utf-8") as file:
         rows = [row for row in csv.DictReader(file) if row.pop("source") == "discs"]
     rows.sort(key=lambda row: float(row["hurst"]))
@@ -61,27 +62,28 @@ def calibration():
 
 
 def penetration_law(hurst):
-    """PenetrationLaw of a self-affine surface; between the calibrated Hurst exponents linear in H (X: in ln X).
+    """PenetrationLaw of a self-affine surface with Hurst exponent H.
 
-    Raises ValueError for a Hurst exponent outside those that were calibrated.
+    Between the calibrated exponents the numbers are interpolated linearly in H, the ends of the range as ln X.
+    Raises ValueError for a Hurst exponent outside the calibrated range.
     """
     table = calibration()
     low, high = table["hurst"][[0, -1]]
     if not low <= hurst <= high:
         raise ValueError(f"hurst of the penetration law: must be from {low:g} to {high:g}, not {hurst!r}")
 
-    def at(name):
+    def linear(name):
         return float(np.interp(hurst, table["hurst"], table[name]))
 
-    def in_logarithm(name):
+    def logarithmic(name):
         return float(np.exp(np.interp(hurst, table["hurst"], np.log(table[name]))))
 
     return PenetrationLaw(
         hurst=float(hurst),
-        beta=at("beta"),
-        beta_interval=(at("beta_low"), at("beta_high")),
-        zeta=at("zeta"),
-        zeta_interval=(at("zeta_low"), at("zeta_high")),
-        x_low=in_logarithm("x_low"),
-        x_high=in_logarithm("x_high"),
+        beta=linear("beta"),
+        beta_interval=(linear("beta_low"), linear("beta_high")),
+        zeta=linear("zeta"),
+        zeta_interval=(linear("zeta_low"), linear("zeta_high")),
+        x_low=logarithmic("x_low"),
+        x_high=logarithmic("x_high"),
     )

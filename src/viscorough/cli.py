@@ -178,8 +178,8 @@ def march(heights, spacing, output, *, method, force, viscosity, times, force_hi
     options = {"overlap": overlap, "until_fraction": until_fraction}
     if force_history:
         history = _read_history(force_history)
-        impulse = history[2]
-        marched = _integrate(indenter, method, np.unique(impulse[impulse > 0]) / viscosity, **options)
+        steps = np.unique(history.impulse[history.impulse > 0]) / viscosity
+        marched = _integrate(indenter, method, steps, **options)
         content = motion.integration_under_history(marched, history, viscosity, length_unit)
         force = force_history.name
     else:
@@ -207,18 +207,18 @@ def _check_options_of_method(method, has_history, times, overlap, until_fraction
 
 
 def _read_history(path):
-    """Times, forces and impulses of the force history in a file, of which at least one force is above zero."""
+    """The ForceHistory in a file. Raises ValueError if it is none, or if its force is zero at all times."""
     from viscorough.io.motion import read_force_history
     from viscorough.viscous.correspondence import impulses
 
     times, force = read_force_history(path)
     try:
-        times, force, impulse = impulses(force, times)
-        if not impulse[-1] > 0:
+        history = impulses(force, times)
+        if not history.impulse[-1] > 0:
             raise ValueError("the force is zero at all times; allowed: above zero at some time")
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from error
-    return times, force, impulse
+    return history
 
 
 def _integrate(indenter, method, steps, *, overlap, until_fraction):

@@ -1,4 +1,4 @@
-"""Rigid indenters: height maps and lines with the spacing of their points."""
+"""Rigid indenters: height maps and lines, with the spacing of their points."""
 
 from dataclasses import dataclass
 
@@ -9,8 +9,8 @@ import numpy as np
 class Indenter:
     """A rigid indenter: heights on a square grid, or along a line, of equal spacing.
 
-    heights : (rows, columns) map, nan outside the indenter, or (points,) line; larger is a higher peak,
-        the highest touches first [length]
+    heights : a map of shape (rows, columns), nan outside the indenter, or a line of shape (points,); larger is higher,
+        and the highest point touches first [length]
     spacing : distance of neighbouring points [length]
 
     Raises ValueError if the heights are not real numbers in one or two dimensions, are infinite, have no
@@ -44,7 +44,7 @@ class Indenter:
 
     @property
     def rms_slope(self):
-        """Root mean square of the slope |∇h| [1], from differences of neighbours; that of one element is 0."""
+        """Root mean square of the slope |∇h| [1], from differences between neighbours; 0 for a single element."""
         squares = 0.0
         for axis in range(self.heights.ndim):
             difference = np.diff(self.heights, axis=axis) / self.spacing
@@ -54,12 +54,12 @@ class Indenter:
 
     @property
     def initial_gap(self):
-        """Distances to the highest element [length], in shape and precision of the heights; nan outside."""
+        """Gap at first contact [length]: depth below the highest element; shape and precision of the heights."""
         return np.fmax.reduce(self.heights, axis=None) - self.heights
 
 
 def positive(name, value):
-    """The value as a float; ValueError, naming what it is, unless it is finite and above 0."""
+    """The value as a float. Raises ValueError with the name unless it is finite and above 0."""
     try:
         number = float(value)
     except (TypeError, ValueError):

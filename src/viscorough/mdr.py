@@ -1,8 +1,9 @@
 """The method of dimensionality reduction (MDR): a line of independent springs instead of the half-space.
 
-Springs of stiffness 4G Δx carry F/G = 4 Δx Σ(u - g)₊ at depth u, where g are the gaps to the highest point of
-the line; read with G → η they are dashpots of 4η Δx that carry ∫F dt/η (paper, Sec. V). Nothing has to be
-solved or marched in time: the curve follows from the sorted gaps, and narrow bins are sorted enough.
+Springs of stiffness 4G Δx carry F/G = 4 Δx Σ(u - g)₊ at depth u, where g are the initial gaps to the highest point of
+the line. With η for G they are dashpots of damping 4η Δx that carry ∫F dt/η (paper, Sec. V). No equation has to be
+solved or integrated in time: the loading curve follows from the sorted gaps, for which it is enough to count and add
+them in narrow bins.
 """
 
 import numpy as np
@@ -12,27 +13,27 @@ from viscorough.compilation import njit
 from viscorough.indenter import Indenter
 from viscorough.loading_curve import LoadingCurve
 
-_OCTAVES = 128  # binned below the largest gap; what is closer to the highest point counts as high as that
-_LANES = 4  # neighbours of a line share bins: each has its own counters, none waits for another's update
+_OCTAVES = 128  # of gaps that are binned, below the largest; smaller gaps count as zero
+_LANES = 4  # neighbouring points often fall into one bin: separate counters, so that no update waits for the one before
 
 
 def reduce(line, *, until_fraction=1.0, until_force=None, bins_per_octave=64):
-    """Loading curve of a line by the MDR.
+    """Loading curve of a line by the method of dimensionality reduction.
 
     line : Indenter with one-dimensional heights
     until_fraction : contact fraction at which to stop, in (0, 1]
-    until_force : F/G at which to stop [length²]; a line in full contact before, unless `until_fraction` stops it, goes
-        straight on to exactly this force
+    until_force : F/G at which to stop [length²]; if the line is in full contact before, a last level is added at just
+        this force, unless `until_fraction` stops the curve
     bins_per_octave : levels per factor of two in depth, a power of 2; with 64, bins are 0.8 to 1.6 % wide
 
     Levels are the edges of the bins in which contact grows. There force and stiffness
         F/G = 4 Δx Σ(u - g)₊,   k/G = 4 Δx (number of g < u)
     are exact, up to the rounding of gaps in the precision of the heights and of sums in double precision.
-    From one level to the next at most one point joins, where LoadingCurve.at_force is exact, or they are one
-    bin apart, where its depth is off by a small part of that (of self-affine lines, less than 1e-3).
-    At the first level only the highest points touch; the last one is the first to reach `until_fraction` or
-    `until_force`, or the second. A flat line, which has no depth of its own, has levels at half a spacing and
-    at one.
+    From one level to the next either at most one point comes into contact, and LoadingCurve.at_force is exact, or the
+    levels are one bin apart, and its depth has an error that is a small part of the bin's width.
+    At the first level only the highest points touch. The last level is the first to reach `until_fraction` or
+    `until_force`, but at least the second. A flat line, which sets no scale of depth, has levels at half a spacing and
+    at one spacing.
 
     Returns a LoadingCurve. Raises ValueError for a map instead of a line, or for values outside these ranges.
     Source: V. L. Popov and M. Heß, Method of Dimensionality Reduction in Contact Mechanics and Friction
@@ -47,16 +48,7 @@ def reduce(line, *, until_fraction=1.0, until_force=None, bins_per_octave=64):
     if bins_per_octave not in 2 ** np.arange(11):
         raise ValueError(f"reduce: bins_per_octave must be a power of 2 up to 1024, not {bins_per_octave!r}")
 
-    edges, counts, sums = _binned_gaps(line.heights, int(bins_per_octave))
-    grown = 1 + np.flatnonzero(counts[1:])
-    levels = np.union1d(grown, grown + 1)  # edge r is the lower one of bin r
-    depth, below = edges[levels], levels - 1
-    if levels.size == 0:
-        depth, below = np.array([0.5, 1.0]) * line.spacing, np.array([0, 0])
-    contact_count = np.cumsum(counts)[below]
-    stiffness = 4 * line.spacing * contact_count
-    force = stiffness * depth - 4 * line.spacing * np.cumsum(sums)[below]
-
+    depth, force, stiffness, contact_count = _levels(line, int(bins_per_octave))
     if until_force is not None and force[-1] < until_force:
         depth = np.append(depth, depth[-1] + (until_force - force[-1]) / stiffness[-1])
         force = np.append(force, until_force)
@@ -78,12 +70,30 @@ def reduce(line, *, until_fraction=1.0, until_force=None, bins_per_octave=64):
     )
 
 
-def line_of_surface(square, spacing, seed):
-    """Line with the spectrum of a periodic map, C1D = π q C2D (Eq. 13), and random phases.
+def _levels(line, bins_per_octave):
+    """Depth, force F/G, stiffness k/G and contact count at the edges of the bins in which contact grows."""
+    edges, counts, sums = _binned_gaps(line.heights, bins_per_octave)
+    grown = 1 + np.flatnonzero(counts[1:])
+    levels = np.union1d(grown, grown + 1)  # edge r is the lower one of bin r
+    depth, below = edges[levels], levels - 1
+    if levels.size == 0:
+        depth, below = np.array([0.5, 1.0]) * line.spacing, np.array([0, 0])
+    contact_count = np.cumsum(counts)[below]
+    stiffness = 4 * line.spacing * contact_count
+    force = stiffness * depth - 4 * line.spacing * np.cumsum(sums)[below]
+    return depth, force, stiffness, contact_count
 
-    square : heights, shape (n, n) [length]; spacing : of map and line [length]; seed : int or SeedSequence
-    The power of all waves of the map with wavenumbers from k - 1/2 to k + 1/2 per period is that of the wave k of the
-    line, up to the Nyquist wavelength. Returns an Indenter of n points. Raises ValueError for a map that is not square.
+
+def line_of_surface(square, spacing, seed):
+    """Line with the power spectrum of a periodic map, C1D = π q C2D (Eq. 13), and random phases.
+
+    square : heights, shape (n, n) [length]
+    spacing : of the points of map and line [length]
+    seed : int or SeedSequence
+
+    The wave with wavenumber k per period of the line has the power of all waves of the map with wavenumbers from
+    k - 1/2 to k + 1/2, up to the Nyquist wavelength. Returns an Indenter with heights of shape (n,). Raises ValueError
+    for a map that is not square.
     """
     n = len(square)
     if square.shape != (n, n):
@@ -102,15 +112,15 @@ def line_of_surface(square, spacing, seed):
 
 
 def _binned_gaps(heights, bins_per_octave):
-    """Gaps to the highest point in bins: edges, and of every bin the number and the sum of gaps.
+    """Initial gaps sorted into bins: the edges of the bins, and the number and the sum of the gaps in every bin.
 
-    Bin r holds edges[r] <= g < edges[r + 1], bin 0 all g < edges[1]. The leading bits of a floating-point
-    number are its bin: bins divide each octave evenly.
+    Bin r holds edges[r] <= g < edges[r + 1], bin 0 all g < edges[1]. The leading bits of a floating-point number
+    (exponent and first bits of the mantissa) are the number of its bin, so that bins divide every octave evenly.
     """
     if heights.dtype not in (np.float32, np.float64):
         heights = heights.astype(float)
     heights = np.ascontiguousarray(heights)
-    highest = heights.max() + heights.dtype.type(0)  # -0.0 would give gaps with the bit of a sign
+    highest = heights.max() + heights.dtype.type(0)  # turns -0.0 into 0.0; else gaps could have their sign bit set
     shift = np.uint64(52 - (bins_per_octave.bit_length() - 1))
     top = int(np.float64(highest - heights.min()).view(np.uint64) >> shift)
     base = max(0, top - _OCTAVES * bins_per_octave)
@@ -123,7 +133,7 @@ def _binned_gaps(heights, bins_per_octave):
 
 @njit
 def _bin_gaps(heights, highest, shift, base, table):
-    """Add number and sum of the gaps of every bin to table[bin, lane, :]."""
+    """Add the number and the sum of the gaps in every bin to table[bin, lane, :]."""
     for i in range(heights.size):
         gap = np.float64(highest - heights[i])
         bin_ = max(gap.view(np.uint64) >> shift, base) - base

@@ -1,12 +1,12 @@
-"""Exact solutions, and the paper's laws, to compare computations with.
+"""Exact solutions and the paper's laws, with which computations are compared.
 
-Everything elastic is normalised with the shear modulus G of an incompressible half-space (ν = 1/2, E* = 4G):
+Elastic quantities are normalised with the shear modulus G of an incompressible half-space (ν = 1/2, E* = 4G):
 force is F/G [length²], stiffness is k/G = d(F/G)/du [length]. The contact is frictionless and non-adhesive.
 
 The laws are dimensionless: X = F/(4GhL) (elastic) or Ft/(4ηhL) (viscous), κ = k/(4GL), with rms height h and
-indenter diameter L. Laws that the paper prints with a factor 1/Γ(2−α) have both readings: `gamma=False` is
-what Eq. 1 with Eq. 3 integrates to, `gamma=True` is the law as printed, which comes from Laplace-transforming
-a relation that is nonlinear in F/G.
+indenter diameter L. Laws that the paper prints with a factor 1/Γ(2−α) exist in two forms: with `gamma=False` what
+the integration of Eq. 1 with Eq. 3 gives, with `gamma=True` the law as printed, which results from a Laplace transform
+of a relation that is nonlinear in F/G.
 
 Sources: Hertz 1882; Love 1929 and 1939 (square element, cone); Sneddon 1965 (bodies of revolution);
 Johnson 1985, Contact Mechanics (flat ellipse); Lee and Radok 1960 (viscous sphere); Popov and Heß 2015
@@ -146,12 +146,12 @@ def stiffness_law(x, zeta, alpha):
 
 
 def zeta_elastic(hurst):
-    """ζ ≈ π(3 − H)/10, found for the elastic contact (Eq. 4)."""
+    """ζ ≈ π(3 − H)/10, the paper's fit to elastic contact (Eq. 4)."""
     return np.pi * (3 - hurst) / 10
 
 
 def exponent_alpha(hurst):
-    """α = 1/(1 + H), said to hold for H in (0.4, 1) (Eq. 5)."""
+    """α = 1/(1 + H), which the paper states for H in (0.4, 1) (Eq. 5)."""
     return 1 / (1 + hurst)
 
 
@@ -173,7 +173,7 @@ def exponent_beta(hurst):
 
 
 def zeta_viscous(hurst):
-    """ζ ≈ 2 − H, fitted to the viscous indentations (Eq. 11), with the factor 1/Γ(2−α) in the law."""
+    """ζ ≈ 2 − H, the paper's fit to viscous indentations (Eq. 11) by the law with the factor 1/Γ(2−α)."""
     return 2 - hurst
 
 
@@ -183,7 +183,7 @@ def rate_law(x, hurst, *, gamma=False):
 
 
 def line_spectrum(wavenumber, spectrum, transfer=np.pi):
-    """C1D(q) = λ q C2D(q), two-sided, for the line that stands for a surface; λ = π in Eq. 13.
+    """C1D(q) = λ q C2D(q), two-sided, of the line that represents a surface; λ = π in Eq. 13.
 
     λ = π gives line and surface the same rms height; in general λ = π (h1D/h2D)².
     """
@@ -191,7 +191,7 @@ def line_spectrum(wavenumber, spectrum, transfer=np.pi):
 
 
 def one_element_stiffness(elements_across):
-    """κ while one square element touches (region a): π/(K₀₀ n), n elements across L; vt/h = X/κ, slope 1.
+    """κ while one square element touches (region a): π/(K₀₀ n) with n elements across L; vt/h = X/κ has slope 1.
 
     A square of side d = L/n under uniform pressure p sinks by u = pd K₀₀/(πE*) at its centre.
     """

@@ -258,12 +258,20 @@ def test_warnings_are_written_once_and_on_one_line(run, capsys):
     assert capsys.readouterr().err == "viscorough indent: warning: the spacing is odd\n"
 
 
-def test_warnings_are_kept_in_the_file(here, capsys):
+def test_steep_slopes_are_warned_of_on_stderr_and_in_the_file(here, capsys):
     np.save("steep.npy", 100 * sphere_heights(9))
     assert cli.main(["indent", "steep.npy", *INDENT[2:]]) == 0
     line = capsys.readouterr().err
-    assert "warning: steep.npy: the rms slope is" in line
-    assert read_dataset("out.nc").attrs["warnings"] in line
+    assert line.startswith("viscorough indent: warning: steep.npy: the rms slope is ")
+    warned = read_dataset("out.nc").attrs["warnings"]
+    assert warned in line
+    assert "small slopes" in warned
+
+
+def test_gentle_slopes_do_not_warn(here, capsys):
+    assert cli.main(INDENT) == 0
+    assert capsys.readouterr().err == ""
+    assert "warnings" not in read_dataset("out.nc").attrs
 
 
 def test_errors_in_the_code_are_not_hidden(run):
@@ -431,7 +439,7 @@ def test_march_under_a_force_history(tmp_path, pulses, method, tolerance):
     ("history", "message"),
     [
         ("0,1\n1,-1\n", "sample 1 is -1.0; allowed: finite, 0 or more (without adhesion a pull opens the contact)"),
-        ("0,1\n0,1\n", "each later than the one before"),
+        ("0,1\n0,1\n", "each larger than the one before"),
         ("0,0\n1,0\n", "the force is zero at all times"),
         ("0\n1\n", "two columns, time and force"),
         ("0,1\n1,one\n", "not readable"),

@@ -40,16 +40,15 @@ def integration_under_history(march, history, viscosity, length_unit="m"):
     """A direct integration at the times of a force history, as a Content.
 
     march : viscous.events.Events, or viscous.stepping.Steps that end at every impulse/viscosity above zero
-    history : (times, forces, impulses) of viscous.correspondence.impulses
+    history : viscous.correspondence.ForceHistory
 
     Raises ValueError for an impulse beyond the last event.
     """
-    times, force, impulse = history
-    reached = impulse / viscosity
+    reached = history.impulse / viscosity
     if hasattr(march, "event_at"):
         if reached[-1] > march.impulse[-1] * (1 + 1e-10) and march.contact_count[-1] < march.elements:
             raise ValueError(
-                f"impulse: {impulse[-1]:.6g} is beyond the contact fraction at which events end; "
+                f"impulse: {history.impulse[-1]:.6g} is beyond the contact fraction at which events end; "
                 f"allowed: up to {march.impulse[-1] * viscosity:.6g}"
             )
         i, depth = march.event_at(reached), march.depth_at(reached)
@@ -59,10 +58,11 @@ def integration_under_history(march, history, viscosity, length_unit="m"):
     variables = {
         "depth": Variable(("level",), depth, level_attributes("depth", length_unit)),
         "contact_count": Variable(("level",), march.contact_count[i], level_attributes("contact_count", length_unit)),
-        "force": Variable(("level",), force, {"long_name": "force F at that time", "units": "1"}),
+        "force": Variable(("level",), history.force, {"long_name": "force F at that time", "units": "1"}),
     }
     title = "Penetration of a rigid indenter under a force history, integrated directly in time"
-    return with_motion(Content(variables, {"title": title}), times, force / (viscosity * march.resistance[i]))
+    velocity = history.force / (viscosity * march.resistance[i])
+    return with_motion(Content(variables, {"title": title}), history.times, velocity)
 
 
 def read_force_history(path):

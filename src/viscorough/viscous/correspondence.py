@@ -13,15 +13,16 @@ instead Laplace-transform the relation u(F/G), which is not linear, and so carry
 """
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
-ROUNDING = 1e-10  # relative; what summing a million force samples can add to an impulse
+_ROUNDING = 1e-10  # relative; the rounding error of an impulse summed over a million force samples
 
 
 @dataclass(frozen=True)
 class Kinetics:
-    """Penetration over time; arrays of one shape (times,), in the units of the curve, force and viscosity.
+    """Penetration over time; arrays of shape (times,), in the units of the curve, the force and the viscosity.
 
     time : t
     depth : u
@@ -33,18 +34,31 @@ class Kinetics:
     velocity: np.ndarray
 
 
+class ForceHistory(NamedTuple):
+    """A force over time and its integral; arrays of shape (times,).
+
+    times : t
+    force : F(t) ≥ 0
+    impulse : ∫F dt up to t
+    """
+
+    times: np.ndarray
+    force: np.ndarray
+    impulse: np.ndarray
+
+
 def kinetics(curve, force, viscosity, times=None):
     """Depth and velocity of an indenter with the given loading curve in a linearly viscous half-space.
 
     curve : LoadingCurve of the indenter
     force : a number, the constant force F > 0 applied at t = 0; or samples F ≥ 0 of shape (times,), linear in
-        between, applied from times[0] on. A step is two samples close together
-    viscosity : η > 0, in a unit such that F·t/η is a length², in the curve's unit of length
-    times : strictly increasing, for a constant force not negative; default, for a constant force only: the
-        times at which the curve's levels are reached, t = (F/G)·η/F
+        between, applied from times[0] on (a jump is two samples close together)
+    viscosity : η > 0, in a unit such that F·t/η is a length² in the curve's unit of length
+    times : strictly increasing, and not negative if the force is constant; the default, for a constant force only, is
+        the times at which the curve's levels are reached, t = (F/G)·η/F
 
-    Returns Kinetics at `times`. The velocity is 0 where the force is. Between the levels the curve is
-    interpolated (LoadingCurve.at_force); where it is not known, before its first level, the result is nan.
+    Returns Kinetics at `times`. The velocity is 0 where the force is 0. Between its levels the curve is interpolated
+    (LoadingCurve.at_force); before its first level, where that is not possible, the result is nan.
     Raises ValueError for values outside these ranges and for an impulse beyond the curve's last level.
     """
     if not (np.ndim(viscosity) == 0 and np.isfinite(viscosity) and viscosity > 0):
@@ -59,28 +73,29 @@ def kinetics(curve, force, viscosity, times=None):
 
     times, force, impulse = impulses(force, times)
     depth, stiffness = _at_impulse(curve, impulse / viscosity, viscosity)
-    # A resting indenter needs no stiffness, which matters before the first level.
+    # Without a force the velocity is 0 even before the first level, where the stiffness is nan.
     velocity = np.where(force == 0, 0.0, force / (viscosity * stiffness))
     return Kinetics(times, depth, velocity)
 
 
 def impulses(force, times):
-    """Times, forces and impulses ∫F dt of a force history F(t) ≥ 0, each of shape (times,).
+    """The ForceHistory of a force F(t) ≥ 0 at the given times.
 
     force : a constant F > 0 from t = 0 on, or samples of shape (times,), linear in between, from times[0] on
     times : strictly increasing
 
-    Raises ValueError for what is not a history of that kind. A force below zero would need adhesion: contact opens.
+    Raises ValueError for values outside these ranges: under a negative force the contact would open, which the
+    correspondence excludes.
     """
     times = np.array(times, dtype=float)
     if times.ndim != 1 or times.size == 0 or not np.isfinite(times).all() or not (np.diff(times) > 0).all():
-        raise ValueError("times: allowed is one row of finite numbers, each later than the one before")
+        raise ValueError("times: allowed is one row of finite numbers, each larger than the one before")
     if np.ndim(force) == 0:
         if times[0] < 0:
             raise ValueError(f"times: start at {times[0]:g}; allowed: from 0 on, where a constant force begins")
-        return times, np.full(times.shape, float(force)), force * times
+        return ForceHistory(times, np.full(times.shape, float(force)), force * times)
     force = _samples(force, times)
-    return times, force, np.append(0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(times)))
+    return ForceHistory(times, force, np.append(0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(times))))
 
 
 def _samples(force, times):
@@ -100,13 +115,13 @@ def _at_impulse(curve, loading, viscosity):
     """Depth and k/G at I/η = loading: those of the elastic curve at that F/G."""
     first, last = curve.force[0], curve.force[-1]
     largest = loading.max()
-    if largest > last * (1 + ROUNDING):
+    if largest > last * (1 + _ROUNDING):
         raise ValueError(
             f"impulse: {largest * viscosity:.6g} is beyond the curve's last level; "
             f"allowed: up to {last * viscosity:.6g}"
         )
-    # Impulses that are those of the outer levels but for rounding are not lost outside of the curve.
+    # An impulse that equals that of the first or last level up to rounding must not fall outside the curve.
     loading = np.minimum(loading, last)
-    loading = np.where(np.abs(loading - first) <= ROUNDING * first, first, loading)
+    loading = np.where(np.abs(loading - first) <= _ROUNDING * first, first, loading)
     depth, stiffness = curve.at_force(loading)
     return np.where(loading == 0, 0.0, depth), stiffness

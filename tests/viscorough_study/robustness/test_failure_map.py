@@ -6,9 +6,7 @@ from unittest.mock import patch
 import numpy as np
 import psutil
 import pytest
-import xarray as xr
 
-from viscorough import cli
 from viscorough.contact import grid_solver
 from viscorough.contact.loading_path import indent
 from viscorough.errors import AccuracyWarning
@@ -148,25 +146,6 @@ def test_long_steps_warn():
     force = indent(disc, depths=[1.0]).force
     with pytest.warns(AccuracyWarning, match=r"penetrates the surface by up to 0\.\d+ of its depth"):
         march_steps(disc, force)
-
-
-def test_warnings_reach_standard_error_and_the_file(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    np.save("steep.npy", 3.0 * self_affine_disc(0.7, 9, seed=1).heights)
-    assert cli.main(["indent", "steep.npy", "--spacing", "1", "-o", "out.nc"]) == 0
-    warned = capsys.readouterr().err
-    assert warned.startswith("viscorough indent: warning: steep.npy: its rms slope is ")
-    with xr.open_dataset("out.nc") as ds:
-        assert "small slopes" in ds.attrs["warnings"]
-
-
-def test_gentle_slopes_do_not_warn(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    np.save("gentle.npy", 0.01 * self_affine_disc(0.7, 9, seed=1).heights)
-    assert cli.main(["indent", "gentle.npy", "--spacing", "1", "-o", "out.nc"]) == 0
-    assert capsys.readouterr().err == ""
-    with xr.open_dataset("out.nc") as ds:
-        assert "warnings" not in ds.attrs
 
 
 def test_rms_slope_of_a_plane():

@@ -19,9 +19,9 @@ class LoadingCurve:
     contact_count : elements in contact, shape (levels,) [1]
     elements : number of elements of the indenter
     method : how the curve was obtained
-    tolerance : relative accuracy asked for
-    operator_applications : applications of the half-space operator on the grid that it took
-    residual : largest |gap in contact| or penetration over depth that was left, shape (levels,)
+    tolerance : requested relative accuracy
+    operator_applications : applications of the half-space operator on the grid that the curve took
+    residual : largest |gap| in contact or overlap outside it that was left, over the depth, shape (levels,)
 
     Read with G → η and F → ∫F dt it is the solution of the linearly viscous problem (Radok; paper, Sec. III).
     """
@@ -69,34 +69,49 @@ class LoadingCurve:
         depth[force == 0] = 0.0
 
         inside = (force > self.force[0]) & (force <= self.force[-1])
-        f = force[inside]
-        j = np.searchsorted(self.force, f, side="left")
-        f0, f1 = self.force[j - 1], self.force[j]
-        u0, u1 = self.depth[j - 1], self.depth[j]
-        k0, k1 = self.stiffness[j - 1], self.stiffness[j]
-
-        left, right = u0 + (f - f0) / k0, u1 - (f1 - f) / k1
-        tangents = np.minimum(left, right)
-        chord = u0 + (u1 - u0) * (f - f0) / (f1 - f0)
-
-        span = np.log(f1 / f0)
-        x = np.log(f / f0) / span
-        slope0, slope1 = f0 / (k0 * u0), f1 / (k1 * u1)
-        rise = np.log(u1 / u0)
-        c2 = 3 * rise - span * (2 * slope0 + slope1)
-        c3 = span * (slope0 + slope1) - 2 * rise
-        cubic = u0 * np.exp(x * (span * slope0 + x * (c2 + x * c3)))
-        local_slope = slope0 + x * (2 * c2 + 3 * x * c3) / span
-        with np.errstate(divide="ignore", invalid="ignore"):
-            cubic_stiffness = np.clip(f / (cubic * local_slope), k0, k1)
-        tangent_stiffness = np.where(left <= right, k0, k1)
-
-        # Exactly straight where at most one element joined; elsewhere the side of the triangle that confines it.
-        joined = self.contact_count[j] - self.contact_count[j - 1]
-        on_tangents = ((joined >= 0) & (joined <= 1)) | (cubic > tangents * (1 + 1e-12))
-        on_chord = ~on_tangents & (cubic < chord * (1 - 1e-12))
-        depth[inside] = np.select([on_tangents, on_chord], [tangents, chord], cubic)
-        stiffness[inside] = np.select(
-            [on_tangents, on_chord], [tangent_stiffness, (f1 - f0) / (u1 - u0)], cubic_stiffness
-        )
+        levels = self.depth, self.force, self.stiffness, self.contact_count
+        depth[inside], stiffness[inside] = interpolate_levels(*levels, force[inside])
         return depth, stiffness
+
+
+def interpolate_levels(depth, force, stiffness, contact_count, wanted):
+    """Depth and tangent stiffness at forces above the first and up to the last level; see LoadingCurve.at_force.
+
+    depth, force, stiffness, contact_count : of the levels, shape (levels,), in any consistent units
+    wanted : forces, shape (n,). Returns (depth, stiffness) of that shape.
+    """
+    j = np.searchsorted(force, wanted, side="left")
+    f0, f1 = force[j - 1], force[j]
+    u0, u1 = depth[j - 1], depth[j]
+    k0, k1 = stiffness[j - 1], stiffness[j]
+
+    left, right = u0 + (wanted - f0) / k0, u1 - (f1 - wanted) / k1
+    tangents = np.minimum(left, right)
+    chord = u0 + (u1 - u0) * (wanted - f0) / (f1 - f0)
+    cubic, cubic_stiffness = _hermite_in_logarithms(wanted, (f0, f1), (u0, u1), (k0, k1))
+    tangent_stiffness = np.where(left <= right, k0, k1)
+
+    # Exactly straight where at most one element joined; elsewhere the side of the triangle that confines it.
+    joined = contact_count[j] - contact_count[j - 1]
+    on_tangents = ((joined >= 0) & (joined <= 1)) | (cubic > tangents * (1 + 1e-12))
+    on_chord = ~on_tangents & (cubic < chord * (1 - 1e-12))
+    where = [on_tangents, on_chord]
+    return (
+        np.select(where, [tangents, chord], cubic),
+        np.select(where, [tangent_stiffness, (f1 - f0) / (u1 - u0)], cubic_stiffness),
+    )
+
+
+def _hermite_in_logarithms(force, forces, depths, stiffnesses):
+    """Depth and stiffness of the cubic Hermite interpolant of ln u over ln F between two levels."""
+    (f0, f1), (u0, u1), (k0, k1) = forces, depths, stiffnesses
+    span = np.log(f1 / f0)
+    x = np.log(force / f0) / span
+    slope0, slope1 = f0 / (k0 * u0), f1 / (k1 * u1)
+    rise = np.log(u1 / u0)
+    c2 = 3 * rise - span * (2 * slope0 + slope1)
+    c3 = span * (slope0 + slope1) - 2 * rise
+    cubic = u0 * np.exp(x * (span * slope0 + x * (c2 + x * c3)))
+    local_slope = slope0 + x * (2 * c2 + 3 * x * c3) / span
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return cubic, np.clip(force / (cubic * local_slope), k0, k1)

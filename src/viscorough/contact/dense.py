@@ -1,19 +1,40 @@
-"""Dense contact solutions for the few elements that can touch: exact to rounding, cheaper than any grid.
+"""Dense contact solutions for few elements in contact: exact to rounding, and cheaper than any grid.
 
-Elements are named by their rank in the order of increasing gap, so that those which can touch at a given
-depth are the first ones.
+Elements are named by their rank in the order of increasing initial gap, so that those which can be in contact at a
+given depth are the first ones.
 """
+
+from dataclasses import dataclass
 
 import numpy as np
 import scipy.linalg
 
 from viscorough.compilation import njit
+from viscorough.contact.growing_cholesky import append_element, solve_flat_punch
+from viscorough.contact.state import Contact
 from viscorough.errors import ConvergenceError
 from viscorough.interrupts import uninterrupted
 
+# What rounding may make of a gap over the depth, of a pressure over the largest, or of the depth of an event.
+_ROUNDING = 1e-12
+_MAX_ITERATIONS = 100
+
+
+@dataclass(frozen=True)
+class ContactEvents:
+    """Depths at which elements touch, one after the other; reduced, arrays of shape (events,).
+
+    depth, pressure_sum, tangent_sum : u, ΣP and Σq; count : elements in contact
+    """
+
+    depth: np.ndarray
+    pressure_sum: np.ndarray
+    tangent_sum: np.ndarray
+    count: np.ndarray
+
 
 @njit
-def _matrix(influence, row, column, members):
+def _influence_matrix(influence, row, column, members):
     """Influence matrix K of the members, shape (count, count)."""
     n = members.size
     matrix = np.empty((n, n))
@@ -36,152 +57,130 @@ def _deflection(influence, row, column, members, load, stop):
     return result
 
 
-def pressures(problem, members, depth):
-    """P and q = dP/du of the given contact set at the given depth, each of shape (count,)."""
-    matrix = _matrix(problem.influence, problem.row, problem.column, members)
-    right = np.stack([depth - problem.gap[members], np.ones(members.size)], axis=1)
+def gap_at_all(elements, contact):
+    """Gap e between the surfaces at every element, by rank."""
+    of_elements = elements.influence, elements.row, elements.column
+    deflection = _deflection(*of_elements, contact.members, contact.reduced_pressure, elements.count)
+    return deflection - contact.reduced_depth + elements.initial_gap
+
+
+def solve(elements, contact, depth, candidates, largest):
+    """The contact at a larger reduced depth by the primal-dual active set method; None above `largest` members.
+
+    Only the `candidates` elements of lowest rank have an initial gap below the depth and can be in contact. Starts from
+    the elements in contact before, whose pressures at the new depth are known, or from all candidates where there are
+    none. Raises ConvergenceError if the set does not settle.
+    """
+    if contact.count:
+        members, tangent = contact.members, contact.tangent
+        pressure = contact.reduced_pressure + (depth - contact.reduced_depth) * tangent
+    elif candidates > largest:
+        return None
+    else:
+        members = np.arange(candidates)
+        pressure, tangent = _pressure_and_tangent(elements, members, depth)
+    of_elements = elements.influence, elements.row, elements.column
+    for _ in range(_MAX_ITERATIONS):
+        deflection = _deflection(*of_elements, members, pressure, candidates)
+        # Rounding decides nothing: an element within it of the surface stays where it is, in contact or not.
+        wanted = deflection - depth + elements.initial_gap[:candidates] < -_ROUNDING * depth
+        wanted[members] = pressure >= -_ROUNDING * pressure.max()
+        wanted_members = np.flatnonzero(wanted)
+        if np.array_equal(wanted_members, members):
+            return _exact_contact(contact.units, depth, members, pressure, tangent)
+        if wanted_members.size > largest:
+            return None
+        members = wanted_members
+        pressure, tangent = _pressure_and_tangent(elements, members, depth)
+    raise ConvergenceError(
+        f"contact at depth {depth * contact.units.length:g}: the contact set of {members.size} elements does not settle"
+    )
+
+
+def follow_events(elements, contact, most, pressure_sum):
+    """Contact after contact at the depths at which the next elements touch, up to `most` elements or beyond ΣP.
+
+    Until the next element touches, pressures grow at the constant tangent q, so that depths are exact. Every element
+    that touches adds a row to the Cholesky factor of the influence matrix, so that hundreds of events cost as much as a
+    few dense solutions. The same recursion in time integrates the viscous problem (viscous.events).
+
+    Returns ContactEvents after the given contact, and the contact at the last event. Elements that touch at one depth,
+    to rounding, are one event.
+    """
+    with uninterrupted():
+        depth, total, stiffness, members = _follow(
+            elements.influence, elements.row, elements.column, elements.initial_gap, contact.reduced_depth,
+            contact.members, contact.reduced_pressure, min(most, elements.count), pressure_sum,
+        )  # fmt: skip
+    count = np.arange(contact.count, contact.count + depth.size)
+    # The first entry is the contact itself; the last event has all its elements only if another one follows.
+    complete = np.append(np.diff(depth) > _ROUNDING * depth[1:], members.size == elements.count)
+    complete[0] = False
+    events = ContactEvents(depth[complete], total[complete], stiffness[complete], count[complete])
+    if events.depth.size:
+        members = np.sort(members[: events.count[-1]])
+        last_depth = events.depth[-1]
+        solution = _pressure_and_tangent(elements, members, last_depth)
+        contact = _exact_contact(contact.units, last_depth, members, *solution)
+    return events, contact
+
+
+def _pressure_and_tangent(elements, members, depth):
+    """P and q of a contact set at a depth, each of shape (count,)."""
+    matrix = _influence_matrix(elements.influence, elements.row, elements.column, members)
+    right = np.stack([depth - elements.initial_gap[members], np.ones(members.size)], axis=1)
     factor = scipy.linalg.cho_factor(matrix, overwrite_a=True, check_finite=False)
     solution = scipy.linalg.cho_solve(factor, right, overwrite_b=True, check_finite=False)
     return solution[:, 0], solution[:, 1]
 
 
-def gaps(problem, contact):
-    """Gap e between the surfaces at every element, by rank."""
-    of_problem = problem.influence, problem.row, problem.column
-    deflection = _deflection(*of_problem, contact.members, contact.pressure, problem.elements)
-    return deflection - contact.depth + problem.gap
-
-
-def solve(problem, contact, depth, candidates, largest):
-    """The contact at `depth` by the primal-dual active set method: its members, P and q. None above `largest` members.
-
-    Only the `candidates` lowest-ranked elements have a gap below the depth and can be in contact. Starts from those in
-    contact before, whose pressures at the new depth are known, or from all candidates where there are none.
-    Raises ConvergenceError if the set does not settle.
-    """
-    if contact.count:
-        members, rate = contact.members, contact.rate
-        pressure = contact.pressure + (depth - contact.depth) * rate
-    elif candidates > largest:
-        return None
-    else:
-        members = np.arange(candidates)
-        pressure, rate = pressures(problem, members, depth)
-    for _ in range(100):
-        deflection = _deflection(problem.influence, problem.row, problem.column, members, pressure, candidates)
-        # Rounding decides nothing: an element within it of the surface stays as it is.
-        rounding = 1e-12 * depth
-        wanted = deflection - depth + problem.gap[:candidates] < -rounding
-        wanted[members] = pressure >= -1e-12 * pressure.max()
-        found = np.flatnonzero(wanted)
-        if np.array_equal(found, members):
-            return members, pressure, rate
-        if found.size > largest:
-            return None
-        members = found
-        pressure, rate = pressures(problem, members, depth)
-    raise ConvergenceError(f"contact at depth {depth:g}: the contact set of {members.size} elements does not settle")
-
-
-def follow_events(problem, contact, most, force):
-    """Contact after contact at the depths at which the next elements touch, up to `most` elements or beyond `force`.
-
-    Pressures grow at the constant rate q from event to event. Every element that touches adds a row to the Cholesky
-    factor of the influence matrix, so that 400 events cost no more than ten dense solutions (measured). The same
-    recursion, in time, integrates the viscous problem; that is a check of this and keeps code of its own (marching).
-
-    Returns depths, ΣP, Σq, numbers of elements in contact at the events, shape (events,), and the elements in the order
-    in which they touch. Elements that touch at one depth, to rounding, are one event.
-    """
-    with uninterrupted():
-        depth, total, stiffness, members = _follow(
-            problem.influence, problem.row, problem.column, problem.gap, contact.depth, contact.members,
-            contact.pressure, min(most, problem.elements), force,
-        )  # fmt: skip
-    count = np.arange(contact.count, contact.count + depth.size)
-    # The first entry is the contact itself; the last event has all its elements only if another one follows.
-    complete = np.append(np.diff(depth) > 1e-12 * depth[1:], members.size == problem.elements)
-    complete[0] = False
-    return depth[complete], total[complete], stiffness[complete], count[complete], members
+def _exact_contact(units, depth, members, pressure, tangent):
+    pressure = np.maximum(pressure, 0.0)  # exact zeros of elements that just touch, to rounding
+    return Contact(units, depth, members, pressure, tangent, pressure.sum(), tangent.sum())
 
 
 @njit(fastmath=True)
-def _follow(influence, row, column, gap, depth, start, pressure, most, force):
+def _follow(influence, row, column, initial_gap, depth, start, pressure, most, force):
+    """The events after a contact of the elements `start` with these pressures; plain arrays, since it is compiled."""
     factor, members = np.empty((most, most)), np.empty(most, np.int64)
-    forward, rate, load = np.zeros(most), np.zeros(most), np.zeros(most)
+    forward, tangent, load = np.zeros(most), np.zeros(most), np.zeros(most)
     depths, totals, stiffnesses = np.zeros(most), np.zeros(most), np.zeros(most)
-    inside = np.zeros(gap.size, np.bool_)
-    # What is known of an element's gap: at `known_at` it was `known`; it closes no faster than the depth grows.
-    known, known_at = gap.copy(), np.zeros(gap.size)
+    inside = np.zeros(initial_gap.size, np.bool_)
+    # The gap of an element was `last_gap` at `last_depth`, and it closes no faster than the depth grows.
+    last_gap, last_depth = initial_gap.copy(), np.zeros(initial_gap.size)
     count, total = 0, 0.0
     for t in range(start.size - 1):
-        _append(factor, influence, row, column, members, count, start[t], forward)
+        append_element(factor, influence, row, column, members, count, start[t], forward)
         inside[start[t]] = True
         count += 1
     load[: start.size] = pressure
     total, element, events = pressure.sum(), start[start.size - 1], 0
     while True:
-        _append(factor, influence, row, column, members, count, element, forward)
+        append_element(factor, influence, row, column, members, count, element, forward)
         inside[element] = True
         count += 1
-        stiffness = _rates(factor, count, forward, rate)
+        stiffness = solve_flat_punch(factor, count, forward, tangent)
         depths[events], totals[events], stiffnesses[events] = depth, total, stiffness
         events += 1
-        if count == most or total > force or rate[:count].min() < 0:
+        if count == most or total > force or tangent[:count].min() < 0:
             break
-        wait, element = np.inf, -1
-        for i in range(gap.size):  # by rank: elements further down cannot touch before the surface has met them
-            if gap[i] - depth >= wait:
+        depth_step, element = np.inf, -1
+        for i in range(initial_gap.size):  # by rank: elements further down cannot touch before the surface has met them
+            if initial_gap[i] - depth >= depth_step:
                 break
-            if inside[i] or known[i] + known_at[i] - depth >= wait:
+            if inside[i] or last_gap[i] + last_depth[i] - depth >= depth_step:
                 continue
-            sunk, speed = 0.0, 0.0
+            deflection, deflection_per_depth = 0.0, 0.0
             for t in range(count):
                 value = influence[abs(row[members[t]] - row[i]), abs(column[members[t]] - column[i])]
-                sunk += value * load[t]
-                speed += value * rate[t]
-            known[i], known_at[i] = sunk - depth + gap[i], depth
-            touch = max(known[i], 0.0) / max(1.0 - speed, 1e-300)
-            if touch < wait:
-                wait, element = touch, i
-        depth += wait
-        total += wait * stiffness
+                deflection += value * load[t]
+                deflection_per_depth += value * tangent[t]
+            last_gap[i], last_depth[i] = deflection - depth + initial_gap[i], depth
+            touch = max(last_gap[i], 0.0) / max(1.0 - deflection_per_depth, 1e-300)
+            if touch < depth_step:
+                depth_step, element = touch, i
+        depth += depth_step
+        total += depth_step * stiffness
         for t in range(count):
-            load[t] += wait * rate[t]
+            load[t] += depth_step * tangent[t]
     return depths[:events], totals[:events], stiffnesses[:events], members[:count]
-
-
-@njit(fastmath=True)
-def _append(factor, influence, row, column, members, count, element, forward):
-    """Add an element to the set: a row of the Cholesky factor L, and the entry of L⁻¹·1 that belongs to it."""
-    new = factor[count]
-    for t in range(count):
-        new[t] = influence[abs(row[members[t]] - row[element]), abs(column[members[t]] - column[element])]
-    square, total = influence[0, 0], 1.0
-    for i in range(count):
-        above = factor[i]
-        value = new[i]
-        for j in range(i):
-            value -= above[j] * new[j]
-        value /= above[i]
-        new[i] = value
-        square -= value * value
-        total -= value * forward[i]
-    new[count] = np.sqrt(square)
-    forward[count] = total / new[count]
-    members[count] = element
-
-
-@njit(fastmath=True)
-def _rates(factor, count, forward, rate):
-    """q = L⁻ᵀ (L⁻¹·1) of the set; returns its sum."""
-    rate[:count] = forward[:count]
-    total = 0.0
-    for i in range(count - 1, -1, -1):
-        below = factor[i]
-        value = rate[i] / below[i]
-        rate[i] = value
-        total += value
-        for j in range(i):
-            rate[j] -= below[j] * value
-    return total

@@ -1,387 +1,315 @@
-"""Contact on the grid by preconditioned steps on a contact set that shrinks to its solution.
+"""Contact on the grid: preconditioned conjugate gradients on a contact set that shrinks to that of the solution.
 
-The set to start from is the last contact set with everything that the predictor P + Δu q makes penetrate. It
-contains the solution's: between the two depths the true rate of deflection is that of a larger punch, so the
-surface sinks further than predicted. Elements that come under tension leave it. Along a search direction d the
-deflection K d is known on the whole grid, so the gap is, too, everywhere and at no further cost.
+The set to start from is the last contact set with every element that the predictor P + Δu q makes overlap the surface.
+It contains the set of the solution: between the two depths the surface deflects at the tangent of ever larger punches,
+that is further than predicted. Elements that come under tension leave it. Along a search direction d the deflection K d
+is known on the whole grid, hence also the gap, everywhere and at no further cost.
 
-While elements leave, steps have the preconditioner's own length, so that one operator serves the step and the loads
-of those that leave; once none does, steps are those of conjugate gradients.
+While elements leave, steps have the natural length of the preconditioner, so that one operator serves both the step and
+the removal of the elements that leave; afterwards steps are those of conjugate gradients.
 
-Arrays of the grid are flat, with a border as wide as the preconditioner reaches, so that neighbours need no special
-cases.
+Fields are flat, with a border as wide as the preconditioner reaches, so that elements at the edge need no special case.
+
+The search is done in single precision by default. What it searches for are corrections, and shrinking ones, so their
+rounding is small; a bound on the rounding error is tracked with every field, and the gap is recomputed in double
+precision from the pressure when the bound nears the tolerance.
 """
 
-from dataclasses import dataclass
+from dataclasses import replace
 
 import numpy as np
 
-from viscorough.compilation import njit
-from viscorough.contact import preconditioner
+from viscorough.contact import grid_kernels as kernels
 from viscorough.contact.halfspace import Halfspace
-from viscorough.contact.preconditioner import REACH
+from viscorough.contact.preconditioner import LEAST_EIGENVALUE, REACH, Preconditioner, load_redistribution_stencil
+from viscorough.contact.state import BoundedField, Contact, ContactSet, GridFields
 from viscorough.errors import ConvergenceError
 
-# Length of the steps in which elements leave (measured: 0.9 to 1.2 are alike), halved every so many of them, which
-# ends what a set that the preconditioner suits badly might begin. Usually there are about ten.
-_LENGTH, _PATIENCE = 1.0, 20
-# Largest relative error of q in energy, the square of which is that of the stiffness. No eigenvalue of the
-# preconditioned operator is smaller than the second number (tests/test_preconditioner.py).
-_RATE_TOLERANCE, _LEAST_EIGENVALUE = 1e-2, 0.35
-# Rounding of K q − 1 that is allowed, over the tolerance. Of it the stiffness has the mean, a tenth or less (measured).
-_RATE_ROUNDING = 5.0
-# Numbers of the search; the largest error of an operator by rounding, over the largest deflection, in units of theirs
-# (measured: up to 3.4 on 1025 × 1025); the tolerance below which gaps are computed anew in double precision.
-_PRECISION, _ROUNDING, _SINGLE = np.float32, 5.0, 1e-4
-_ITERATIONS = 2000
+# The release step is halved every so many releases: a guard against cycles on sets that suit the preconditioner badly.
+_HALVE_STEP_EVERY = 20
+# Largest relative error of q in energy, the square of which is that of the stiffness.
+_TANGENT_TOLERANCE = 1e-2
+# Rounding error of K q − 1 that is accepted, over the tolerance. The stiffness sees its mean over the set, not its
+# largest value, so that it stays within the tolerance (tests/viscorough/contact/test_loading_path.py).
+_TANGENT_ROUNDING = 5.0
+# Share of the tolerance that the search may use, so that residual and rounding together are within the tolerance.
+_SEARCH_SHARE = 0.999
 # Gap where there is no element; finite, since differences of gaps are taken.
 _OUTSIDE = 1e300
-
-
-@dataclass(frozen=True)
-class Fields:
-    """Contact on the grid, flat with border: P, gap e = w − u + g, q, and e_q = K q − 1; `place` of ranks.
-
-    rounding, rate_rounding : bounds of what rounding in single precision makes of errors of e and e_q
-    """
-
-    pressure: np.ndarray
-    gap: np.ndarray
-    rate: np.ndarray
-    rate_gap: np.ndarray
-    place: np.ndarray
-    rounding: float
-    rate_rounding: float
-
-    def gap_at(self, ranks):
-        """Gap e between the surfaces at the elements of given rank."""
-        return self.gap[self.place[ranks]]
-
-
-@njit(fastmath=True)
-def _product(left, right, slots):
-    """Σ left·right over the contact set, for arrays laid out as the operator's load."""
-    total = 0.0
-    for t in range(slots.size):
-        total += np.float64(left[slots[t]]) * np.float64(right[slots[t]])
-    return total
-
-
-@njit
-def _predict(advance, pressure, rate, gap, rate_gap):
-    """P + Δu q and e + Δu e_q everywhere."""
-    predicted, opening = np.empty_like(pressure), np.empty_like(gap)
-    for i in range(gap.size):
-        predicted[i], opening[i] = pressure[i] + advance * rate[i], gap[i] + advance * rate_gap[i]
-    return predicted, opening
-
-
-@njit
-def _combine(now, last, steady, lift, pressure, gap, pressure_before, gap_before, rate_before, rate_gap_before, free):
-    """A combination of two pressures and a rate as q, and K q − 1, everywhere; deflections are gaps without `free`."""
-    rate, rate_gap = np.empty_like(pressure), np.empty_like(gap)
-    for i in range(gap.size):
-        rate[i] = now * pressure[i] + last * pressure_before[i] + steady * rate_before[i]
-        deflection = now * (gap[i] - free[i]) + last * (gap_before[i] - free[i])
-        rate_gap[i] = deflection + steady * rate_gap_before[i] + lift
-    return rate, rate_gap
-
-
-@njit(fastmath=True)
-def _open(length, deflection, gap):
-    """e += α K d everywhere."""
-    rows, columns = deflection.shape
-    for i in range(rows):
-        start = (i + REACH) * (columns + 2 * REACH) + REACH
-        for j in range(columns):
-            gap[start + j] += length * deflection[i, j]
-
-
-@njit(fastmath=True)
-def _step(length, direction, pressure, gap, places, slots):
-    """P += α d on the set; returns largest |e| on the set and whether any P is negative."""
-    largest, lowest = 0.0, 0.0
-    for t in range(places.size):
-        i = places[t]
-        pressure[i] += length * direction[slots[t]]
-        largest = max(largest, abs(gap[i]))
-        lowest = min(lowest, pressure[i])
-    return largest, lowest < 0
-
-
-@njit(fastmath=True)
-def _turn(direction, result, factor, slots):
-    """d = β d − z on the set."""
-    for t in range(slots.size):
-        direction[slots[t]] = factor * direction[slots[t]] - result[t]
-
-
-@njit
-def _state(pressure, gap, places):
-    """Largest |e| on the set, and whether any pressure is negative."""
-    largest, lowest = 0.0, 0.0
-    for t in range(places.size):
-        largest = max(largest, abs(gap[places[t]]))
-        lowest = min(lowest, pressure[places[t]])
-    return largest, lowest < 0
-
-
-@njit
-def _pulls(length, direction, pressure, places, slots):
-    """Whether a step of that length would put any element under tension."""
-    lowest = 0.0
-    for t in range(places.size):
-        lowest = min(lowest, pressure[places[t]] + length * direction[slots[t]])
-    return lowest < 0
-
-
-@njit
-def _step_and_release(length, direction, pressure, inside, places, slots, relief, width, stride):
-    """P += α d; elements under tension leave the set. The direction becomes the whole change of pressure.
-
-    Taking away a pull p < 0 lifts its neighbours off. They give away as much pressure as eliminating the element does,
-    which saves iterations. None of it may make them pull.
-    """
-    for t in range(places.size):
-        direction[slots[t]] *= length
-        pressure[places[t]] += direction[slots[t]]
-        inside[places[t]] = pressure[places[t]] >= 0
-    for t in range(places.size):
-        i = places[t]
-        if inside[i]:
-            continue
-        pull = pressure[i]
-        direction[slots[t]] -= pull
-        pressure[i] = 0.0
-        for row in range(-1, 2):
-            for column in range(-1, 2):
-                near = i + row * width + column
-                if inside[near]:
-                    change = max(pull * relief[row + 1, column + 1], -0.5 * pressure[near])
-                    pressure[near] += change
-                    direction[slots[t] + row * stride + column] += change
-
-
-@njit
-def _admit(gap, inside, limit):
-    """Elements that penetrate by more than `limit` join the set; returns how many."""
-    joined = 0
-    for i in range(gap.size):
-        if gap[i] < -limit and not inside[i]:
-            inside[i] = True
-            joined += 1
-    return joined
+_PRECISIONS = {"single": np.float32, "double": np.float64}
 
 
 class GridSolver:
-    """Contact of the elements at (row, column), in the order of increasing gap, that lie in a box of the grid.
+    """Solves contacts of the elements that lie in a box of the grid, each from one at a smaller depth.
 
     box : (first row, first column, rows, columns)
+    row, column, initial_gap : of every element, shape (elements,), in any order; their order is that of ranks here
+    tolerance : largest |e| in contact or overlap outside it, over the depth; options : SolverOptions
 
-    Searches in single precision. Since what is searched for are corrections, and shrinking ones, their rounding is
-    small; where it is not small beside the tolerance, gaps are computed anew from the pressures in double precision.
+    place : of every element in flat fields, by rank (0: not in the box); initial_gap : flat field
     """
 
-    def __init__(self, box, row, column, gap, tolerance):
-        self.tolerance = tolerance
+    def __init__(self, box, row, column, initial_gap, tolerance, options):
         top, left, rows, columns = box
-        self._halfspace = Halfspace(rows, columns, _PRECISION)
-        self._exact = Halfspace(rows, columns) if tolerance < _SINGLE else self._halfspace
+        self._tolerance, self._options = tolerance, options
+        self._halfspace = Halfspace(rows, columns, _PRECISIONS[options.precision], padding=options.padding)
+        exact = tolerance < options.exact_gap_below
+        self._exact = Halfspace(rows, columns, padding=options.padding) if exact else self._halfspace
         self._rounding, self._exact_rounding = (
-            _ROUNDING * np.finfo(each.load.dtype).eps for each in (self._halfspace, self._exact)
+            options.operator_rounding * np.finfo(halfspace.load.dtype).eps
+            for halfspace in (self._halfspace, self._exact)
         )
         self._width = columns + 2 * REACH
         in_box = (row >= top) & (row < top + rows) & (column >= left) & (column < left + columns)
         self._ranks = np.flatnonzero(in_box)
         self.place = np.where(in_box, (row - top + REACH) * self._width + column - left + REACH, 0).astype(int)
-        self.gap = np.full((rows + 2 * REACH) * self._width, _OUTSIDE)
-        self.gap[self.place[self._ranks]] = gap[self._ranks]
+        self.initial_gap = np.full((rows + 2 * REACH) * self._width, _OUTSIDE)
+        self.initial_gap[self.place[self._ranks]] = initial_gap[self._ranks]
         # Where each place of the flat grid is in the operator's load.
         starts = np.arange(-REACH, rows + REACH, dtype=np.int32) * self._halfspace.load.shape[1]
         self._slot = np.add.outer(starts, np.arange(-REACH, columns + REACH, dtype=np.int32)).ravel()
-        self._inverse = preconditioner.Preconditioner(rows + 2 * REACH, self._width)
+        self._preconditioner = Preconditioner(rows + 2 * REACH, self._width, options.preconditioner)
 
     @property
     def operator_applications(self):
         """Applications of the half-space operator so far."""
-        return sum(each.count for each in {self._halfspace, self._exact})
+        return sum(halfspace.count for halfspace in {self._halfspace, self._exact})
 
     def fields(self, contact):
-        """The grid's fields of a dense solution; costs two operators."""
+        """The fields of a dense solution on this grid; costs two applications of the operator."""
         place = self.place[contact.members]
-        pressure, rate = np.zeros_like(self.gap), np.zeros_like(self.gap)
-        pressure[place], rate[place] = contact.pressure, contact.rate
-        gap, rate_gap = self.gap - contact.depth, np.full_like(self.gap, -1.0)
+        pressure, tangent = np.zeros_like(self.initial_gap), np.zeros_like(self.initial_gap)
+        pressure[place], tangent[place] = contact.reduced_pressure, contact.tangent
+        gap, tangent_gap = self.initial_gap - contact.reduced_depth, np.full_like(self.initial_gap, -1.0)
         if contact.count:
             gap += self._deflection(pressure)
-            rate_gap += self._deflection(rate)
+            tangent_gap += self._deflection(tangent)
         rounding = self._exact_rounding
-        return Fields(pressure, gap, rate, rate_gap, self.place, rounding * contact.depth, rounding)
+        return GridFields(
+            pressure,
+            BoundedField(gap, rounding * contact.reduced_depth),
+            tangent,
+            BoundedField(tangent_gap, rounding),
+            self.place,
+        )
 
     def solve(self, contact, depth):
-        """The contact at a larger depth; the entries of a contact.Contact. Raises ConvergenceError."""
-        before, advance = contact.fields, depth - contact.depth
-        pressure, gap = _predict(advance, before.pressure, before.rate, before.gap, before.rate_gap)
+        """The contact at a larger reduced depth. Raises ConvergenceError."""
+        before, last_depth = self._start_fields(contact), contact.reduced_depth
+        depth_step = depth - last_depth
+        pressure, gap = kernels.predict(
+            depth_step, before.pressure, before.tangent, before.gap.values, before.tangent_gap.values
+        )
+        gap = BoundedField(gap, before.gap.rounding + depth_step * before.tangent_gap.rounding)
         inside = pressure > 0
-        rounding = before.rounding + advance * before.rate_rounding
-
-        def anew():
-            return self._deflection(pressure) + self.gap - depth, self._exact_rounding * depth
-
-        limit = 0.999 * self.tolerance * depth  # so that the sum of residual and rounding is within the tolerance
-        _admit(gap, inside, 0.0)
-        places, rounding = self._search(pressure, gap, inside, limit, rounding, anew)
-        rate, rate_gap, rate_rounding = self._rate(
-            before, contact.depth, pressure, gap, rounding, depth, inside, places
-        )
-        left = gap[places]
-        ranks = self._ranks[inside[self.place[self._ranks]]]
-        on_set = self.place[ranks]
-        return (
-            depth,
-            ranks,
-            pressure[on_set],
-            rate[on_set],
-            pressure[places].sum() - rate[places] @ left,
-            rate[places].sum() - rate[places] @ rate_gap[places],
-            (max(np.abs(left).max(), -gap.min()) + rounding) / depth,
-            Fields(pressure, gap, rate, rate_gap, self.place, rounding, rate_rounding),
+        kernels.add_penetrating_elements(gap.values, inside, 0.0)
+        contact_set = self._solve_pressure(pressure, gap, inside, depth)
+        weights = self._tangent_weights(before, last_depth, pressure, gap, contact_set, depth)
+        tangent, tangent_gap = self._tangent_start(weights, before, last_depth, pressure, gap, depth)
+        self._solve_tangent(contact_set, tangent, tangent_gap)
+        places = contact_set.places
+        gap_left = gap.values[places]
+        ranks = self._ranks[contact_set.inside[self.place[self._ranks]]]
+        return Contact(
+            units=contact.units,
+            reduced_depth=depth,
+            members=ranks,
+            reduced_pressure=pressure[self.place[ranks]],
+            tangent=tangent[self.place[ranks]],
+            pressure_sum=pressure[places].sum() - tangent[places] @ gap_left,
+            tangent_sum=tangent[places].sum() - tangent[places] @ tangent_gap.values[places],
+            residual=(max(np.abs(gap_left).max(), -gap.values.min()) + gap.rounding) / depth,
+            fields=GridFields(pressure, gap, tangent, tangent_gap, self.place),
         )
 
-    def _rate(self, before, depth_before, pressure, gap, rounding, depth, inside, places):
-        """q with K q = 1 on the set, K q − 1 everywhere, and the bound of its rounding; `rounding` is that of the gaps.
+    def solve_flat_punch(self, inside, tangent, tangent_gap):
+        """Solve K q = 1 on a set, in place, from a start that vanishes outside it.
 
-        Starts from the combination of the last q and the two pressures that is nearest in energy.
+        inside : flags on the flat grid; tangent, tangent_gap : q and K q − 1, flat with border
+        Returns Σq, to the square of the error of q in energy.
         """
-        free = self.gap[places]
-        loads = np.array([pressure[places], before.pressure[places], before.rate[places]])
-        gaps = np.array(
-            [gap[places] - free + depth, before.gap[places] - free + depth_before, before.rate_gap[places] + 1]
-        )
-        if np.count_nonzero(loads[2]) < np.count_nonzero(before.rate):
-            loads, gaps = loads[:1], gaps[:1]  # an element was lost, within the tolerance: what loaded it is of no use
-        energy = loads @ gaps.T
-        scale = 1 / np.sqrt(np.maximum(np.diag(energy), np.finfo(float).tiny))
-        weights = scale * np.linalg.lstsq(scale[:, None] * energy * scale, scale * loads.sum(axis=1), rcond=1e-10)[0]
-        now, last, steady = *weights, *[0.0] * (3 - weights.size)
-        lift = now * depth + last * depth_before + steady - 1
-        of_before = before.pressure, before.gap, before.rate, before.rate_gap
-        rate, rate_gap = _combine(now, last, steady, lift, pressure, gap, *of_before, self.gap)
-        # These gaps have the errors of the last gaps and rates, too, which cancel in part; but not if computed anew.
-        advance = depth - depth_before
-        added = rounding - before.rounding - advance * before.rate_rounding
-        if added >= 0:
-            rounding = abs(now + last) * before.rounding + abs(now * advance + steady) * before.rate_rounding
-            rounding += abs(now) * added
-        else:
-            rounding = abs(now) * rounding + abs(last) * before.rounding + abs(steady) * before.rate_rounding
-        return rate, rate_gap, self._punch(inside, places, rate, rate_gap, rounding)
+        contact_set = self._contact_set(inside)
+        # The caller carries the gap on from set to set; nothing bounds its rounding.
+        self._solve_tangent(contact_set, tangent, BoundedField(tangent_gap, np.inf))
+        places = contact_set.places
+        return tangent[places].sum() - tangent[places] @ tangent_gap[places]
 
-    def punch(self, inside, rate, rate_gap):
-        """Solve K q = 1 on a set, in place, from a start that vanishes outside the set; Σq is exact to the tolerance.
+    def _start_fields(self, contact):
+        """The fields of the last contact; for a start from its pressure alone, with a tangent of zero."""
+        fields = contact.fields
+        if self._options.warm_start == "tangent":
+            return fields
+        no_tangent_gap = BoundedField(np.full_like(fields.pressure, -1.0), fields.tangent_gap.rounding)
+        return replace(fields, tangent=np.zeros_like(fields.tangent), tangent_gap=no_tangent_gap)
 
-        rate, rate_gap : q and K q − 1, flat with border. Returns Σq.
+    def _solve_pressure(self, pressure, gap, inside, depth):
+        """Pressure P ≥ 0 with |e| on the set below the limit and no overlap beyond it elsewhere.
+
+        Changes pressure, gap and set in place. Returns the contact set.
         """
-        places, _ = self._members(inside)
-        self._punch(inside, places, rate, rate_gap, np.inf)  # how often the start was carried on is not known here
-        return rate[places].sum() - rate[places] @ rate_gap[places]
-
-    def _punch(self, inside, places, rate, rate_gap, rounding):
-        """The same by conjugate gradients, from a start with this bound for its rounding; returns that of the end."""
-        tolerance = min(_RATE_TOLERANCE, np.sqrt(self.tolerance))
-        slots = self._slot[places]
-        direction, last = self._restart(inside, places), np.inf
-        largest, _ = _state(rate, rate_gap, places)
-        for _ in range(_ITERATIONS):
-            search = self._inverse.apply(rate_gap)
-            norm = search @ rate_gap[places]
-            # The error of Σq is eᵀK⁻¹e, of which the preconditioner gives nearly as much or more.
-            total = rate[places].sum()
-            error = np.sqrt(norm / (_LEAST_EIGENVALUE * total)) if total > 0 else np.inf
-            if error <= tolerance:
-                if rounding <= max(_RATE_ROUNDING * self.tolerance, self._exact_rounding):
-                    return rounding
-                rate_gap[:], rounding = self._deflection(rate) - 1, self._exact_rounding
-                direction, last = self._restart(inside, places), np.inf
-                continue
-            _turn(direction, search, norm / last, slots)
-            rounding, last = rounding + self._rounding * largest, norm
-            largest, _ = self._step(norm, rate, rate_gap, places, slots)
-        raise self._diverged(places, error, tolerance)
-
-    def _search(self, pressure, gap, inside, limit, rounding, anew):
-        """Pressure P ≥ 0 with |e| on the set below the limit, and no penetration beyond it elsewhere.
-
-        Changes pressure, gap and set in place. rounding : bound for that of e; anew : function that computes e anew and
-        returns it with its rounding. Returns the places of the set, and the rounding of e.
-        """
-        columns, stride = self._halfspace.shape[1], self._halfspace.load.shape[1]
+        limit = _SEARCH_SHARE * self._tolerance * depth
         changed, releases = True, 0
-        for _ in range(_ITERATIONS):
+        for _ in range(self._options.max_iterations):
             if changed:
-                places, slots = self._members(inside)
-                largest, tension = _state(pressure, gap, places)
-            # Rounding takes its part of the limit. Where that is most of it, gaps are computed anew as soon as they are
-            # no larger than it.
-            close_enough = max(limit - rounding, rounding)
+                contact_set = self._contact_set(inside)
+                largest, tension = kernels.gap_and_tension(pressure, gap.values, contact_set.places)
+            # The rounding error takes its part of the limit. Where that is most of it, the gap is recomputed as soon as
+            # it is no larger than its rounding error.
+            close_enough = max(limit - gap.rounding, gap.rounding)
             if largest <= close_enough and not tension:
-                if rounding <= 0.5 * limit:
-                    return places, rounding
-                gap[:], rounding = anew()
-                _admit(gap, inside, limit)
+                if gap.rounding <= 0.5 * limit:
+                    return contact_set
+                gap.values[:] = self._deflection(pressure) + self.initial_gap - depth
+                gap.rounding = self._exact_rounding * depth
+                kernels.add_penetrating_elements(gap.values, inside, limit)
                 changed = True
                 continue
             if changed:
-                direction, last = self._restart(inside, places), np.inf
-            search = self._inverse.apply(gap)
-            norm = search @ gap[places]  # both with the opposite sign: the residual is −e
-            _turn(direction, search, norm / last, slots)
-            rounding, last = rounding + self._rounding * largest, norm
-            length = _LENGTH * 0.5 ** (releases // _PATIENCE)
-            changed = _pulls(length, direction, pressure, places, slots)
+                search = _ConjugateGradients(self._halfspace, self._preconditioner, contact_set)
+            search.precondition(gap.values)
+            search.update_direction()
+            gap.rounding += self._rounding * largest
+            release_step = self._options.release_step * 0.5 ** (releases // _HALVE_STEP_EVERY)
+            changed = search.step_causes_tension(release_step, pressure)
             if changed:
-                of_set = inside, places, slots, preconditioner.relief(), self._width, stride
-                _step_and_release(length, direction, pressure, *of_set)
-                _open(1.0, self._halfspace.apply()[:, :columns], gap)
+                search.step_and_release(release_step, pressure, gap.values, self._width)
                 releases += 1
             else:
-                largest, tension = self._step(norm, pressure, gap, places, slots)
-            changed = _admit(gap, inside, close_enough) > 0 or changed
-        raise self._diverged(places, largest, limit)
+                largest, tension = search.step(pressure, gap.values)
+            changed = kernels.add_penetrating_elements(gap.values, inside, close_enough) > 0 or changed
+        raise self._not_converged(contact_set, largest, limit)
 
-    def _restart(self, inside, places):
-        """Direction of conjugate gradients, to begin with none, with the preconditioner of the set."""
-        if not np.array_equal(places, self._inverse.places):
-            self._inverse.prepare(inside, places)
-        self._halfspace.load[:] = 0
-        return self._halfspace.load.ravel()
+    def _tangent_weights(self, before, last_depth, pressure, gap, contact_set, depth):
+        """Weights of the pressure, the last pressure and the last tangent: their combination nearest to q in energy."""
+        places = contact_set.places
+        initial_gap = self.initial_gap[places]
+        loads = np.array([pressure[places], before.pressure[places], before.tangent[places]])
+        deflections = np.array(
+            [
+                gap.values[places] - initial_gap + depth,
+                before.gap.values[places] - initial_gap + last_depth,
+                before.tangent_gap.values[places] + 1,
+            ]
+        )
+        if np.count_nonzero(loads[2]) < np.count_nonzero(before.tangent):
+            # An element was lost, within the tolerance: what loaded it is of no use.
+            loads, deflections = loads[:1], deflections[:1]
+        energy = loads @ deflections.T
+        scale = 1 / np.sqrt(np.maximum(np.diag(energy), np.finfo(float).tiny))
+        weights = scale * np.linalg.lstsq(scale[:, None] * energy * scale, scale * loads.sum(axis=1), rcond=1e-10)[0]
+        return *weights, *[0.0] * (3 - weights.size)
 
-    def _step(self, norm, pressure, gap, places, slots):
-        """A step of conjugate gradients; returns largest |e| on the set and whether any P is negative."""
-        direction, deflection = self._halfspace.load.ravel(), self._halfspace.apply()
-        length = norm / _product(direction, deflection.ravel(), slots)
-        _open(length, deflection[:, : self._halfspace.shape[1]], gap)
-        return _step(length, direction, pressure, gap, places, slots)
+    def _tangent_start(self, weights, before, last_depth, pressure, gap, depth):
+        """The combination with these weights as a start of q, and K q − 1 everywhere with its rounding bound."""
+        now, last, steady = weights
+        tangent, tangent_gap = kernels.combine(
+            weights, now * depth + last * last_depth + steady - 1, pressure, gap.values,
+            before.pressure, before.gap.values, before.tangent, before.tangent_gap.values, self.initial_gap,
+        )  # fmt: skip
+        # The gap has the errors of the last gap and tangent, too, which cancel in part; but not if it was recomputed.
+        depth_step, last_rounding, tangent_rounding = (
+            depth - last_depth,
+            before.gap.rounding,
+            before.tangent_gap.rounding,
+        )
+        added = gap.rounding - last_rounding - depth_step * tangent_rounding
+        if added >= 0:
+            rounding = abs(now + last) * last_rounding + abs(now * depth_step + steady) * tangent_rounding
+            rounding += abs(now) * added
+        else:
+            rounding = abs(now) * gap.rounding + abs(last) * last_rounding + abs(steady) * tangent_rounding
+        return tangent, BoundedField(tangent_gap, rounding)
 
-    def _diverged(self, places, residual, limit):
+    def _solve_tangent(self, contact_set, tangent, tangent_gap):
+        """Solve K q = 1 on a set by conjugate gradients; changes q and K q − 1, with its rounding bound, in place."""
+        tolerance = min(_TANGENT_TOLERANCE, np.sqrt(self._tolerance))
+        accepted = max(_TANGENT_ROUNDING * self._tolerance, self._exact_rounding)
+        search = _ConjugateGradients(self._halfspace, self._preconditioner, contact_set)
+        largest, _ = kernels.gap_and_tension(tangent, tangent_gap.values, contact_set.places)
+        for _ in range(self._options.max_iterations):
+            norm = search.precondition(tangent_gap.values)
+            # The error of Σq is eᵀK⁻¹e, of which the preconditioner gives nearly as much or more.
+            total = tangent[contact_set.places].sum()
+            error = np.sqrt(norm / (LEAST_EIGENVALUE * total)) if total > 0 else np.inf
+            if error <= tolerance:
+                if tangent_gap.rounding <= accepted:
+                    return
+                tangent_gap.values[:] = self._deflection(tangent) - 1
+                tangent_gap.rounding = self._exact_rounding
+                search = _ConjugateGradients(self._halfspace, self._preconditioner, contact_set)
+                continue
+            search.update_direction()
+            tangent_gap.rounding += self._rounding * largest
+            largest, _ = search.step(tangent, tangent_gap.values)
+        raise self._not_converged(contact_set, error, tolerance)
+
+    def _not_converged(self, contact_set, residual, limit):
         return ConvergenceError(
-            f"contact of {places.size} elements: the residual {residual:.1e} does not fall below {limit:.1e} "
-            f"in {_ITERATIONS} steps; choose a larger tolerance"
+            f"contact of {contact_set.places.size} elements: the residual {residual:.1e} does not fall below "
+            f"{limit:.1e} in {self._options.max_iterations} steps; choose a larger tolerance"
         )
 
-    def _members(self, inside):
-        """Places in the bordered arrays, and in the operator's load, of the elements of the set."""
+    def _contact_set(self, inside):
         places = np.flatnonzero(inside)
-        return places, self._slot[places]
+        return ContactSet(inside, places, self._slot[places])
 
     def _deflection(self, pressure):
         """K P on the flat grid, in double precision where the tolerance needs it; its border is zero."""
+        columns = self._width - 2 * REACH
         self._exact.load[:] = 0
-        self._exact.load[:, : self._width - 2 * REACH] = self._interior(pressure)
+        self._exact.load[:, :columns] = self._interior(pressure)
         deflection = np.zeros_like(pressure)
-        self._interior(deflection)[:] = self._exact.apply()[:, : self._width - 2 * REACH]
+        self._interior(deflection)[:] = self._exact.apply()[:, :columns]
         return deflection
 
     def _interior(self, field):
         """View of a flat field without its border, in rows and columns."""
         return field.reshape(-1, self._width)[REACH:-REACH, REACH:-REACH]
+
+
+class _ConjugateGradients:
+    """Preconditioned conjugate gradients on one contact set, for K x = right side with the residual −e.
+
+    The search direction d is the load array of the half-space operator itself: applying the operator gives K d without
+    a copy. Only one search can therefore be under way on a half-space.
+    """
+
+    def __init__(self, halfspace, preconditioner, contact_set):
+        self._halfspace, self._preconditioner, self._set = halfspace, preconditioner, contact_set
+        if not np.array_equal(contact_set.places, preconditioner.places):
+            preconditioner.prepare(contact_set.inside, contact_set.places)
+        halfspace.load[:] = 0
+        self._direction = halfspace.load.ravel()  # a view: the direction is the operator's load
+        self._norm, self._last_norm = np.nan, np.inf
+
+    def precondition(self, gap):
+        """z = M e on the set; returns zᵀe."""
+        self._preconditioned = self._preconditioner.apply(gap)
+        self._norm = self._preconditioned @ gap[self._set.places]  # both with the opposite sign: the residual is −e
+        return self._norm
+
+    def update_direction(self):
+        """The direction conjugate to the last one, from the preconditioned residual."""
+        factor = self._norm / self._last_norm
+        kernels.update_search_direction(self._direction, self._preconditioned, factor, self._set.slots)
+        self._last_norm = self._norm
+
+    def step(self, pressure, gap):
+        """A step of conjugate gradients, in place; returns the largest |e| on the set and whether any P is negative."""
+        deflection, (_, columns) = self._halfspace.apply(), self._halfspace.shape
+        length = self._norm / kernels.inner_product(self._direction, deflection.ravel(), self._set.slots)
+        kernels.update_gap(length, deflection[:, :columns], gap)
+        return kernels.update_pressure(length, self._direction, pressure, gap, self._set.places, self._set.slots)
+
+    def step_causes_tension(self, length, pressure):
+        """Whether a step of that length along the direction puts any element under tension."""
+        return kernels.step_causes_tension(length, self._direction, pressure, self._set.places, self._set.slots)
+
+    def step_and_release(self, length, pressure, gap, width):
+        """A step of given length, after which elements under tension leave the set, in place."""
+        contact_set, stencil = self._set, load_redistribution_stencil()
+        kernels.step_and_release(
+            length, self._direction, pressure, contact_set.inside, contact_set.places, contact_set.slots,
+            stencil, width, self._halfspace.load.shape[1],
+        )  # fmt: skip
+        kernels.update_gap(1.0, self._halfspace.apply()[:, : self._halfspace.shape[1]], gap)

@@ -10,9 +10,9 @@ from viscorough.contact.column_fft import Columns, good_length
 
 # Beyond this distance (in elements) the series below is more accurate than the difference of logarithms.
 _FAR = 30
-# Rows a power of two apart in memory fall on the same places of the cache; so many numbers more between them make the
-# transforms along rows of 1025 × 1025 elements two to three times faster (measured).
-_PADDING = 16
+# Rows a power of two apart in memory compete for the same lines of the cache; so many more numbers between them
+# prevent it.
+_ROW_PADDING = 16
 
 
 @vectorize("float64(float64, float64)")
@@ -48,35 +48,41 @@ def influence_coefficient(x, y):
 
 
 @lru_cache(maxsize=2)
-def _spectrum(rows, columns):
+def _spectrum(rows, columns, padding):
     """Lengths of the periodic convolution, and the real spectrum of K over half of them, divided by their product.
 
     K and its spectrum are even, so that a cosine transform of the distances up to half the lengths gives all of it.
+    Without padding the distance to the nearest periodic image counts.
     """
     lengths = good_length(2 * (rows - 1)), 2 * ducc0.fft.good_size(max(columns - 1, 1), True)
     row, column = (np.arange(m // 2 + 1.0) for m in lengths)
+    if not padding:
+        row, column = (np.minimum(d, abs(n - d)) for d, n in ((row, rows), (column, columns)))
     return lengths, ducc0.fft.dct(influence_coefficient(row[:, None], column), type=1) / np.prod(lengths)
 
 
 class Halfspace:
-    """The operator w = K p on a grid of rows × columns square elements: w_i = Σ_j K(i − j) p_j.
+    """The half-space operator w = K p on a grid of rows × columns square elements: w_i = Σ_j K(i − j) p_j.
 
     K is even, so a periodic convolution over 2(n − 1) points per axis holds every distance up to n − 1 once and
     nothing wraps around; its spectrum is real. The rows beyond the grid carry no data in or out: their transforms
     along the rows are skipped (a quarter of the work of the padded transform), and they exist only where the columns
     are convolved.
 
-    `load` is the array to write p into: shape (rows, stride ≥ columns), zero wherever there is no pressure and in
-    the columns beyond the grid. `apply()` returns w in an array of the same layout (its columns beyond the grid
-    mean nothing), overwritten by the next call. `count` is the number of applications so far; `precision` the type
-    of the numbers. The deflection in the user's lengths is d/(πE*) K p.
+    load : the array to write p into, of shape (rows, stride ≥ columns); it must be zero wherever there is no pressure
+        and in the columns beyond the grid
+    count : number of applications so far
+    precision : type of the numbers; padding : whether the grid is padded, without which periodic images act on it
+
+    `apply()` returns w in an array of the layout of `load`, overwritten by the next call; its columns beyond the grid
+    mean nothing. In lengths the deflection is d/(πE*) K p.
     """
 
-    def __init__(self, rows, columns, precision=np.float64):
+    def __init__(self, rows, columns, precision=np.float64, *, padding=True):
         self.shape = (rows, columns)
-        (_, self._length), spectrum = _spectrum(rows, columns)
+        (_, self._length), spectrum = _spectrum(rows, columns, padding)
         self._columns = Columns(rows, spectrum, precision)
-        self.load = np.zeros((rows, self._length + _PADDING), dtype=precision)
+        self.load = np.zeros((rows, self._length + _ROW_PADDING), dtype=precision)
         self._transformed = np.empty((rows, spectrum.shape[1]), dtype=np.result_type(precision, np.complex64))
         self._deflection = np.empty_like(self.load)
         self.count = 0

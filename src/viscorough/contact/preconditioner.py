@@ -1,18 +1,21 @@
-"""Approximate inverse of the influence matrix of a contact set, for steps of conjugate gradients.
+"""Preconditioner of conjugate gradients: an approximate inverse of the influence matrix of a contact set.
 
-For the neighbourhood it is sparse: with G lower triangular, G K Gᵀ ≈ 1. Row i of G holds element i and those of the
-twelve nearest ones before it (in rows and columns) that are in contact, and is exact for these few elements alone
-(Kolotilina and Yeremin 1993). It depends on nothing but which of the twelve are in contact, so that all 4096 rows that
-can occur stand in a table.
+It is a factorized sparse approximate inverse (FSAI) with a multilevel coarse correction.
 
-What G K Gᵀ has besides 1 is smooth: the deflection by loads far away. It is taken over to blocks of elements. In a
-block the smooth part acts along one unit vector w, the row sums of G, so that with W these vectors of all blocks
+The sparse factor G is lower triangular with G K Gᵀ ≈ 1. Row i of G holds element i and those of the twelve nearest
+elements before it (in rows and columns) that are in contact, and is exact for these few elements alone (Kolotilina and
+Yeremin 1993). It depends only on which of the twelve are in contact, so that all 4096 possible rows stand in a table.
+
+What G K Gᵀ has besides 1 is smooth: the deflection by distant loads. The coarse correction represents it on blocks of
+elements, the next grid level. In a block the smooth part acts along one unit vector w, the row sums of G, so that with
+W the matrix of these vectors
 
     G K Gᵀ ≈ 1 + W (a K a) Wᵀ,     M = Gᵀ (1 − W (1 − (1 + a K a)⁻¹) Wᵀ) G ≈ K⁻¹
 
 with a the length of the row sums in each block and K between blocks as between elements. The inverse on the blocks is
-found in the same way, from blocks of blocks, down to few enough for a dense one. Eigenvalues of M K lie between about
-0.4 and 1.2 for contact sets of any size (tests/test_preconditioner.py); without blocks they reach 20 on 257 × 257.
+approximated in the same way with blocks of blocks, until there are few enough for a dense inverse. The eigenvalues of
+M K lie between 0.35 and 1.4 for contact sets of any shape (tests/viscorough/contact/test_preconditioner.py); without
+the coarse correction the largest grows with the size of the contact.
 """
 
 from functools import cache, lru_cache
@@ -23,24 +26,25 @@ import scipy.linalg
 from viscorough.compilation import njit
 from viscorough.contact.halfspace import influence_coefficient
 
-# Rows and columns by which neighbours reach out: the width of the border that grids need.
+# Largest distance of a neighbour, in rows or columns: the width of the border that fields need.
 REACH = 2
+# No eigenvalue of M K is smaller (tests/viscorough/contact/test_preconditioner.py).
+LEAST_EIGENVALUE = 0.35
 _ACROSS = 2 * REACH + 1
 _BEFORE = [(r, c) for r in range(-REACH, 1) for c in range(-REACH, REACH + 1) if (r, c) < (0, 0)]
 _NEIGHBOURS = len(_BEFORE)
-# Those of a block of elements: the nearest ones.
+# The neighbours of a block of elements: the nearest ones only.
 _BEFORE_BLOCK = [(-1, -1), (-1, 0), (-1, 1), (0, -1)]
-# Elements across a block, blocks across the next block, and blocks across a grid of them that is inverted densely
-# (measured on rough discs of 257: 6 to 12 elements and 3 to 5 blocks cost at most 5 % more operators).
+# Elements across a block, blocks across a block of the next grid level, and blocks across a grid level that is inverted
+# densely. The number of iterations depends weakly on all three.
 _SIDE, _RATIO, _DENSE = 8, 4, 9
-# K of a block on itself times its side. The mean over a square is 2.97; what G accounts for is left out (measured:
-# 0.75 to 1.25 are alike).
+# K of a block on itself times its side. The mean over a square is 2.97; what G accounts for already is left out.
 _OWN = 1.0
 
 
 @cache
-def table():
-    """Rows of G by pattern, bit s of which tells that neighbour s is in contact; the last entry is the element's own.
+def factor_rows():
+    """Rows of G by pattern, whose bit s says whether neighbour s is in contact; the last entry is that of the element.
 
     With A the influence matrix of the neighbours in contact and the element, the row is A⁻¹ e / (eᵀ A⁻¹ e)^½, e the
     unit vector of the element. Shape (4096, 13), zero where there is no contact.
@@ -50,7 +54,7 @@ def table():
     patterns = np.arange(1 << _NEIGHBOURS)
     present = np.ones((patterns.size, _NEIGHBOURS + 1), dtype=bool)
     present[:, :-1] = patterns[:, None] >> np.arange(_NEIGHBOURS) & 1
-    # Neighbours that are not there get an equation of their own.
+    # Absent neighbours are replaced by identity rows.
     both = present[:, :, None] & present[:, None, :]
     matrices = np.where(both, influence_coefficient(row, column), np.eye(_NEIGHBOURS + 1))
     own = np.zeros((patterns.size, _NEIGHBOURS + 1, 1))
@@ -60,16 +64,16 @@ def table():
 
 
 @cache
-def _sums():
-    """Row sums of the table."""
-    return table().sum(axis=1)
+def _row_sums():
+    """Row sums of G by pattern."""
+    return factor_rows().sum(axis=1)
 
 
 @cache
-def relief():
-    """Load that the eight neighbours of an element take over when it leaves the contact, per load; shape (3, 3).
+def load_redistribution_stencil():
+    """Load that the eight neighbours of an element take over, per load, when it leaves the contact; shape (3, 3).
 
-    Its elimination from the influence matrix of the 5 × 5 elements around it; the centre is −1.
+    Follows from eliminating the element from the influence matrix of the 5 × 5 elements around it; the centre is −1.
     """
     row, column = np.divmod(np.arange(25.0), 5)
     inverse = np.linalg.inv(influence_coefficient(row[:, None] - row, column[:, None] - column))
@@ -78,12 +82,12 @@ def relief():
 
 @njit
 def _rows(field, place, width):
-    """Views of a flat field that begin at the neighbours two rows before a place, one row before, and in its own."""
+    """Views of a flat field from the first neighbour on: two rows before a place, one row before, and in its row."""
     return field[place - 2 * width - REACH :], field[place - width - REACH :], field[place - REACH :]
 
 
 @njit
-def _survey(inside, places, width, sums, patterns, weights):
+def _neighbour_patterns(inside, places, width, sums, patterns, weights):
     """Pattern of neighbours in contact, and row sum of G, of every element of the set."""
     for t in range(places.size):
         far, near, own = _rows(inside, places[t], width)
@@ -97,13 +101,13 @@ def _survey(inside, places, width, sums, patterns, weights):
 def _factorise(amplitude, places, before, slots, kernel, rows, weights):
     """Rows of G for 1 + a K a between blocks, and G a. `kernel` is K between those of a row, the block itself last.
 
-    before, slots : their places relative to the block, and in the row; the other entries of which stay
+    before, slots : places of the neighbours relative to the block, and in the row, whose other entries stay as they are
     """
     count = before.size + 1
     matrix, near = np.empty((count, count)), np.empty(count, np.int64)
     for t in range(places.size):
         near[:-1], near[-1] = places[t] + before, places[t]
-        for i in range(count):  # Cholesky factor L of the matrix of these few
+        for i in range(count):  # Cholesky factor L of the matrix of block and neighbours
             for j in range(i + 1):
                 value = kernel[i, j] * amplitude[near[i]] * amplitude[near[j]] + (i == j)
                 for k in range(j):
@@ -120,7 +124,7 @@ def _factorise(amplitude, places, before, slots, kernel, rows, weights):
 
 @njit
 def _normalise(weights, blocks, squares):
-    """Weights to unit length in every block, and the squares of their lengths before."""
+    """Scale the weights to unit length in every block, in place, and store the squares of their former lengths."""
     squares[:] = 0
     for t in range(weights.size):
         squares[blocks[t]] += weights[t] * weights[t]
@@ -129,7 +133,7 @@ def _normalise(weights, blocks, squares):
 
 
 @njit(fastmath=True)
-def _gather(residual, places, index, rows, width, weights, blocks, values, loads):
+def _restrict(residual, places, index, rows, width, weights, blocks, values, loads):
     """values = G r on the set, and loads = Wᵀ G r of the blocks."""
     loads[:] = 0
     for t in range(places.size):
@@ -143,8 +147,8 @@ def _gather(residual, places, index, rows, width, weights, blocks, values, loads
 
 
 @njit(fastmath=True)
-def _spread(places, index, rows, width, weights, blocks, values, loads, work):
-    """values = Gᵀ (values − W loads); `work` is a grid of zeros and left so."""
+def _prolong(places, index, rows, width, weights, blocks, values, loads, work):
+    """values = Gᵀ (values − W loads); `work` is a flat field of zeros, and is again on return."""
     for t in range(places.size):
         row = rows[index[t]]
         value = values[t] - weights[t] * loads[blocks[t]]
@@ -160,11 +164,11 @@ def _spread(places, index, rows, width, weights, blocks, values, loads, work):
         work[places[t]] = 0.0
 
 
-class _Level:
-    """What elements and blocks have in common; `_coarser` is the level of the blocks above."""
+class _GridLevel:
+    """What the grid levels have in common; the elements of `_coarser`, the next one, are blocks of these."""
 
-    def _finish(self, places, index, rows, weights, blocks):
-        """Take G, the row sums of which are `weights`, in row index[t] of `rows` for every place, and go up."""
+    def _set_factor(self, places, index, rows, weights, blocks):
+        """Set G, whose row for place t is rows[index[t]] and has the sum weights[t], and prepare the coarser levels."""
         self.places = places
         _normalise(weights, blocks, self._coarser.squares)
         self._coarser.prepare()
@@ -172,32 +176,41 @@ class _Level:
         self._values, self._loads = np.empty(places.size), np.empty_like(self._coarser.squares)
 
     def apply(self, residual):
-        """M r on the set, valid until the next call, for a residual r on the grid."""
-        _gather(residual, *self._factor, self._values, self._loads)
+        """M r on the set, valid until the next call, for a residual r on the flat grid."""
+        _restrict(residual, *self._factor, self._values, self._loads)
         self._loads[self._coarser.places] -= self._coarser.apply(self._loads)
-        _spread(*self._factor, self._values, self._loads, self._work)
+        _prolong(*self._factor, self._values, self._loads, self._work)
         return self._values
 
 
-class Preconditioner(_Level):
-    """M ≈ K⁻¹ for one contact set after the other, on a flat grid with border of the given height and width."""
+class Preconditioner(_GridLevel):
+    """M ≈ K⁻¹ for one contact set after another, on a flat grid with border of the given height and width.
 
-    def __init__(self, height, width):
+    kind : "multilevel", "sparse" (without the coarse correction) or "none" (M = 1)
+    places : places of the set that it was prepared for
+    """
+
+    def __init__(self, height, width, kind="multilevel"):
         self.places = np.empty(0, dtype=int)
+        self._kind = kind
         self._width, self._work = width, np.zeros(height * width)
         across = -(-max(height, width) // _SIDE)
-        self._blocks = _block(height, width, _SIDE, across)
-        self._coarser = _blocks(_SIDE, across)
+        self._blocks = _block_of_places(height, width, _SIDE, across)
+        self._coarser = _coarse_level(_SIDE, across) if kind == "multilevel" else _NoCorrection(across)
+
+    def apply(self, residual):
+        """M r on the set, valid until the next call, for a residual r on the flat grid."""
+        return residual[self.places] if self._kind == "none" else super().apply(residual)
 
     def prepare(self, inside, places):
-        """For a set: flags on the grid, and its places."""
+        """Prepare for a contact set: its flags on the flat grid, and its places."""
         patterns, weights = np.empty(places.size, np.int16), np.empty(places.size)
-        _survey(inside, places, self._width, _sums(), patterns, weights)
-        self._finish(places, patterns, table(), weights, self._blocks[places])
+        _neighbour_patterns(inside, places, self._width, _row_sums(), patterns, weights)
+        self._set_factor(places, patterns, factor_rows(), weights, self._blocks[places])
 
 
-class _ManyBlocks(_Level):
-    """The approximate inverse of 1 + a K a; `squares`, of a, is to be filled in before `prepare`."""
+class _ManyBlocks(_GridLevel):
+    """The approximate inverse of 1 + a K a on blocks; `squares`, those of a, must be set before `prepare`."""
 
     def __init__(self, side, across):
         self._width, fewer = across + 2 * REACH, -(-across // _RATIO)
@@ -205,18 +218,18 @@ class _ManyBlocks(_Level):
         self._before = np.array(_BEFORE_BLOCK) @ [self._width, 1]
         self._slots = np.array([*map(_BEFORE.index, _BEFORE_BLOCK), _NEIGHBOURS])
         self._kernel = _coupling(side, *np.transpose([*_BEFORE_BLOCK, (0, 0)]))
-        self._blocks = _block(self._width, self._width, _RATIO, fewer)
-        self._coarser = _blocks(side * _RATIO, fewer)
+        self._blocks = _block_of_places(self._width, self._width, _RATIO, fewer)
+        self._coarser = _coarse_level(side * _RATIO, fewer)
 
     def prepare(self):
         places = np.flatnonzero(self.squares)
         rows, weights = np.zeros((places.size, _NEIGHBOURS + 1)), np.empty(places.size)
         _factorise(np.sqrt(self.squares), places, self._before, self._slots, self._kernel, rows, weights)
-        self._finish(places, np.arange(places.size), rows, weights, self._blocks[places])
+        self._set_factor(places, np.arange(places.size), rows, weights, self._blocks[places])
 
 
 class _FewBlocks:
-    """The inverse of 1 + a K a, dense."""
+    """The inverse of 1 + a K a on blocks, dense; `squares`, those of a, must be set before `prepare`."""
 
     def __init__(self, side, across):
         self.squares = np.zeros((across + 2 * REACH) ** 2)
@@ -233,13 +246,26 @@ class _FewBlocks:
         return scipy.linalg.cho_solve(self._factor, residual[self.places], check_finite=False)
 
 
-def _blocks(side, across):
-    """The level of blocks of so many elements a side, and so many of them a row."""
+class _NoCorrection:
+    """In place of a coarse level: the inverse is taken for 1, so that nothing is corrected."""
+
+    def __init__(self, across):
+        self.squares = np.zeros((across + 2 * REACH) ** 2)
+
+    def prepare(self):
+        self.places = np.flatnonzero(self.squares)
+
+    def apply(self, residual):
+        return residual[self.places]
+
+
+def _coarse_level(side, across):
+    """The grid level of blocks with `side` elements across, `across` of them in a row."""
     return _FewBlocks(side, across) if across <= _DENSE else _ManyBlocks(side, across)
 
 
-def _block(height, width, side, across):
-    """Place of the block of every place of a flat grid with border, on one of blocks with such a border."""
+def _block_of_places(height, width, side, across):
+    """Place of the block of every place of a flat grid; both grids have a border."""
     row, column = ((np.arange(n) - REACH) // side + REACH for n in (height, width))
     return (row[:, None] * (across + 2 * REACH) + column).ravel().astype(np.int32)
 
@@ -252,6 +278,6 @@ def _dense_coupling(side, across):
 
 
 def _coupling(side, row, column):
-    """K between blocks at (row, column): mean deflection of the one by a unit load, spread evenly, on the other."""
-    row, column = (abs(each[:, None] - each).astype(float) for each in (row, column))
+    """K between blocks at (row, column): mean deflection of one by a unit load, spread evenly, on the other."""
+    row, column = (abs(position[:, None] - position).astype(float) for position in (row, column))
     return np.where((row == 0) & (column == 0), _OWN, influence_coefficient(row, column)) / side

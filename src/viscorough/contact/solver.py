@@ -1,164 +1,126 @@
 """Frictionless contact of a rigid indenter with the elastic half-space at a given depth, started from a shallower one.
 
-Displacements are written w = K P with P = p d/(4πG), a length, so that F/G = 4π d ΣP for element side d.
-At depth u the contact satisfies P ≥ 0, e = w − u + g ≥ 0 and P e = 0, with g the gaps to the highest point.
-With q the solution of K q = 1 on the contact set (a flat punch of its shape), k/G = 4π d Σq is the exact
-tangent stiffness and P + Δu q the predictor for the depth u + Δu.
+Displacements are written w = K P with P = p d/(4πG), a length, so that F/G = 4π d ΣP for elements of side d.
+At depth u the contact satisfies P ≥ 0, e = w − u + g ≥ 0 and P e = 0, with g the initial gap. With q the solution of
+K q = 1 on the contact set (a flat punch of its shape), k/G = 4π d Σq is the exact tangent stiffness and P + Δu q the
+predictor for the depth u + Δu.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from viscorough import memory
-from viscorough.contact import dense, grid_solver
-from viscorough.contact.halfspace import influence_coefficient
+from viscorough.contact import dense
+from viscorough.contact.grid_solver import GridSolver
+from viscorough.contact.options import DEFAULT
+from viscorough.contact.state import Contact, elements_of
 from viscorough.errors import ConvergenceError
 
-# A dense factorisation is cheaper than a few dozen grid operators up to about these sizes (measured).
-_DENSE_MEMBERS = 400
-_DENSE_INTERACTIONS = 2_000_000
-
-# Memory that a contact takes at most per point of the map (measured).
+# Memory that a contact takes at most per point of the map (measured: `make large`, column memory of large.csv).
 _BYTES = 400
-# Room in depth that the box of a grid has beyond the depth asked for; part of the whole grid above which it is taken.
-_ROOM, _LARGE_BOX = 1.3, 0.8
-
-
-@dataclass(frozen=True)
-class Contact:
-    """State of the contact at one depth.
-
-    members : elements in contact, as ranks in the order of increasing gap, shape (count,)
-    pressure, rate : P and q = dP/du on the members, shape (count,)
-    force, stiffness : ΣP and Σq, corrected to second order by the residuals that were left
-    residual : largest |e| on the contact set or penetration outside it, over the depth
-    fields : the same on the grid (see grid_solver.Fields), None where the dense solution never needed it
-    """
-
-    depth: float
-    members: np.ndarray
-    pressure: np.ndarray
-    rate: np.ndarray
-    force: float
-    stiffness: float
-    residual: float
-    fields: grid_solver.Fields | None = None
-
-    @property
-    def count(self):
-        return self.members.size
+# Depth that the box of a grid allows for, over the depth asked for; share of the whole grid above which the box is it.
+_BOX_DEPTH_MARGIN, _LARGEST_BOX = 1.3, 0.8
+# Opening of an element that leaves the contact, over the tolerance, that is taken for an error of the solution.
+_LOST_CONTACT = 3
 
 
 class ContactSolver:
     """Solves the contact of one indenter, depth after depth, to a residual of `tolerance` times the depth.
 
-    Its lengths (depths, gaps, P) are in `unit`, the largest gap of the indenter; q has none. `place` are the rows and
-    columns in the indenter's heights of the elements by rank.
+    elements, units : state.Elements and state.Units of the indenter
+
+    Raises MemoryError where there is no room for the map.
     """
 
-    def __init__(self, indenter, tolerance):
+    def __init__(self, indenter, tolerance, options=DEFAULT):
         memory.require(_BYTES * indenter.heights.size, f"contact of a map of {indenter.heights.shape} heights")
-        rows, columns = np.nonzero(np.isfinite(indenter.heights))
-        gap = indenter.initial_gap[rows, columns].astype(float)
-        order = np.argsort(gap, kind="stable")
-        # The largest gap is the unit of length, so that results do not depend on the user's.
-        self.unit = gap.max() or 1.0
-        self.gap = gap[order] / self.unit
-        self.place = rows[order], columns[order]
-        self.row, self.column = ((i[order] - i.min()).astype(np.int32) for i in (rows, columns))
-        self.shape = (int(self.row.max()) + 1, int(self.column.max()) + 1)
-        self.tolerance = tolerance
-        distance = [np.arange(n, dtype=float) for n in self.shape]
-        self.influence = influence_coefficient(distance[0][:, None], distance[1][None, :])
-        self._grid, self._spent = None, 0
-
-    @property
-    def elements(self):
-        return self.gap.size
+        self.elements, self.units = elements_of(indenter)
+        self.tolerance, self.options = tolerance, options
+        self._grid, self._reach, self._former_applications = None, 0, 0
 
     @property
     def operator_applications(self):
         """Applications of the half-space operator on the grid so far."""
-        return self._spent + (self._grid.operator_applications if self._grid else 0)
+        return self._former_applications + (self._grid.operator_applications if self._grid else 0)
 
-    def gaps(self, contact):
-        """Gap e between the surfaces at every element, by rank."""
-        if contact.count * self.elements <= _DENSE_INTERACTIONS:
-            return dense.gaps(self, contact)
-        grid = self._grid_to(self.elements)
+    def unloaded_state(self):
+        """First touch: depth zero, no pressure, and no element in contact yet."""
+        nothing = np.empty(0)
+        return Contact(self.units, 0.0, nothing.astype(int), nothing, nothing, 0.0, 0.0)
+
+    def advance(self, contact, depth):
+        """The contact at a larger depth [length]. Raises ConvergenceError if it is not solved to the tolerance."""
+        return self.advance_reduced(contact, depth / self.units.length)
+
+    def advance_reduced(self, contact, depth):
+        """The contact at a larger depth, given in units of the largest initial gap."""
+        candidates = int(np.searchsorted(self.elements.initial_gap, depth))
+        if contact.fields is None and self._is_small(candidates, contact):
+            solution = dense.solve(self.elements, contact, depth, candidates, self.options.dense_contacts)
+            if solution is not None:
+                return self._checked(contact, solution)
+        grid = self._grid_up_to(max(candidates, 1))
+        if not _belongs(contact, grid):
+            contact = replace(contact, fields=grid.fields(contact))
+        return self._checked(contact, grid.solve(contact, depth))
+
+    def follow_events(self, contact, most, pressure_sum):
+        """Events at which the next elements touch, and the contact at the last one; see dense.follow_events."""
+        return dense.follow_events(self.elements, contact, most, pressure_sum)
+
+    def gap(self, contact):
+        """Gap e between the deformed surfaces at every element, by rank [length]."""
+        return self.reduced_gap(contact) * self.units.length
+
+    def reduced_gap(self, contact):
+        """The same over the largest initial gap."""
+        if self._is_small(self.elements.count, contact):
+            return dense.gap_at_all(self.elements, contact)
+        grid = self._grid_up_to(self.elements.count)
         fields = contact.fields if _belongs(contact, grid) else grid.fields(contact)
         return fields.gap_at(slice(None))
 
-    def touch(self):
-        """First touch: depth zero, no pressure, and no element in contact yet."""
-        nothing = np.empty(0)
-        return Contact(0.0, nothing.astype(int), nothing, nothing, 0.0, 0.0, 0.0)
+    def _is_small(self, candidates, contact):
+        """Whether a dense evaluation is cheaper than the grid."""
+        return candidates * contact.count <= self.options.dense_interactions
 
-    def follow_events(self, contact, most, force):
-        """Depths, ΣP, Σq and elements in contact at the events that follow, and the contact at the last one.
-
-        An event is the depth at which the next elements touch. Until then pressures grow at the constant rate q, so
-        that depths are exact. Ends with `most` elements in contact or beyond the force.
-        """
-        *levels, members = dense.follow_events(self, contact, most, force)
-        depth, count = levels[0], levels[-1]
-        if depth.size:
-            members = np.sort(members[: count[-1]])
-            contact = _dense_contact(depth[-1], members, *dense.pressures(self, members, depth[-1]))
-        return levels, contact
-
-    def advance(self, contact, depth):
-        """The contact at a larger depth. Raises ConvergenceError if it cannot be found to the tolerance."""
-        candidates = int(np.searchsorted(self.gap, depth))
-        if contact.fields is None and candidates * contact.count <= _DENSE_INTERACTIONS:
-            found = dense.solve(self, contact, depth, candidates, _DENSE_MEMBERS)
-            if found is not None:
-                return self._checked(contact, _dense_contact(depth, *found))
-        grid = self._grid_to(max(candidates, 1))
-        if not _belongs(contact, grid):
-            contact = replace(contact, fields=grid.fields(contact))
-        return self._checked(contact, Contact(*grid.solve(contact, depth)))
-
-    def _grid_to(self, rank):
+    def _grid_up_to(self, rank):
         """The grid solver of a box around the elements up to a rank: the last one, or else a larger one.
 
-        Only elements whose gap is below the depth can touch.
+        Only elements whose initial gap is below the depth can touch.
         """
         if self._grid is None or rank > self._reach:
-            # With room for some depths to come, or the whole grid where little is saved.
-            reach = max(rank, int(np.searchsorted(self.gap, _ROOM * self.gap[rank - 1])))
-            first, last = ([pick(each[:reach]) for each in (self.row, self.column)] for pick in (np.min, np.max))
+            # The box has room for some depths to come, or is the whole grid where little would be saved.
+            gap, row, column = self.elements.initial_gap, self.elements.row, self.elements.column
+            reach = max(rank, int(np.searchsorted(gap, _BOX_DEPTH_MARGIN * gap[rank - 1])))
+            first, last = ([pick(place[:reach]) for place in (row, column)] for pick in (np.min, np.max))
             box = [int(n) for n in (*first, *np.subtract(last, first) + 1)]
-            if box[2] * box[3] > _LARGE_BOX * self.shape[0] * self.shape[1]:
-                reach, box = self.elements, (0, 0, *self.shape)
-            self._spent, self._reach = self.operator_applications, reach
-            self._grid = grid_solver.GridSolver(box, self.row, self.column, self.gap, self.tolerance)
+            rows, columns = self.elements.shape
+            if box[2] * box[3] > _LARGEST_BOX * rows * columns:
+                reach, box = self.elements.count, (0, 0, rows, columns)
+            self._former_applications, self._reach = self.operator_applications, reach
+            self._grid = GridSolver(box, row, column, gap, self.tolerance, self.options)
         return self._grid
 
     def _checked(self, before, after):
-        """Complementarity: no tension and no penetration beyond the tolerance, and contact only grew."""
-        if after.residual > self.tolerance or after.pressure.min() < 0:
+        """The contact after a step, if it has no tension, a residual within the tolerance, and has only grown."""
+        if after.residual > self.tolerance or after.reduced_pressure.min() < 0:
             raise ConvergenceError(
                 f"contact at depth {after.depth:g}: residual {after.residual:.1e} of the depth is above "
                 f"the tolerance {self.tolerance:g}; choose a larger tolerance"
             )
-        kept = np.zeros(self.elements, dtype=bool)
+        kept = np.zeros(self.elements.count, dtype=bool)
         kept[after.members] = True
         lost = before.members[~kept[before.members]]
         if lost.size:
-            opened = after.fields.gap_at(lost).max() if after.fields is not None else np.inf
-            if opened > 3 * self.tolerance * after.depth:
+            opening = after.fields.gap_at(lost).max() if after.fields is not None else np.inf
+            if opening > _LOST_CONTACT * self.tolerance * after.reduced_depth:
                 raise ConvergenceError(
-                    f"contact at depth {after.depth:g}: {lost.size} elements lost contact by up to {opened:g} "
-                    "although contact can only grow; choose a smaller tolerance"
+                    f"contact at depth {after.depth:g}: {lost.size} elements lost contact by up to "
+                    f"{opening * self.units.length:g} although contact can only grow; choose a smaller tolerance"
                 )
         return after
-
-
-def _dense_contact(depth, members, pressure, rate):
-    pressure = np.maximum(pressure, 0.0)  # exact zeros of elements that just touch, to rounding
-    return Contact(depth, members, pressure, rate, pressure.sum(), rate.sum(), 0.0)
 
 
 def _belongs(contact, grid):

@@ -1,9 +1,9 @@
 """Direct integration of the viscous problem in time, never using its correspondence with the elastic one.
 
-The surface sinks at ẇ = (1/4πη) ∫ p/r dA. With Q = p d/(4πη), a rate of length, ẇ = K Q and F/η = 4π d ΣQ. While the
+The surface moves down at ẇ = (1/4πη) ∫ p/r dA. With Q = p d/(4πη), a velocity, ẇ = K Q and F/η = 4π d ΣQ. While the
 contact set does not change, its elements move with the indenter: K Q = v, hence Q = v q with K q = 1 on the set,
-v = F/(4π d η Σq), and everything outside sinks at v K q. Depth, pressure impulse ∫Q dt and surface are then linear in
-the impulse ∫F dt, so the next element to touch, and when, is known exactly: an event.
+v = F/(4π d η Σq), and the surface outside moves at v K q. Depth, pressure impulse ∫Q dt and surface are then linear in
+the impulse ∫F dt, so that the next contact event, the depth at which the next element touches, is known exactly.
 """
 
 from dataclasses import dataclass
@@ -12,6 +12,7 @@ import numpy as np
 
 from viscorough import memory
 from viscorough.compilation import njit
+from viscorough.contact.growing_cholesky import append_element, solve_flat_punch
 from viscorough.contact.halfspace import influence_coefficient
 from viscorough.errors import ConvergenceError
 from viscorough.interrupts import uninterrupted
@@ -19,7 +20,7 @@ from viscorough.interrupts import uninterrupted
 
 @dataclass(frozen=True)
 class Events:
-    """The penetration of an indenter, contact event by contact event; arrays of shape (events,).
+    """The penetration of an indenter from contact event to contact event; arrays of shape (events,).
 
     impulse : ∫F dt/η at which the contact set grew [length²]
     depth : u at that impulse [length]
@@ -35,7 +36,7 @@ class Events:
     elements: int
 
     def depth_at(self, impulse):
-        """Depth at given impulses ∫F dt/η, linear between events; beyond the last one its set stays in contact."""
+        """Depth at given impulses ∫F dt/η, linear between events and beyond the last one."""
         i = self.event_at(impulse)
         return self.depth[i] + (impulse - self.impulse[i]) / self.resistance[i]
 
@@ -48,8 +49,8 @@ def march_events(indenter, *, until_fraction=1.0):
     """Penetration of a rigid indenter into a linearly viscous half-space, exact from contact event to contact event.
 
     Every event adds one element to the contact set and one row to the Cholesky factor of its influence matrix. The
-    surface is integrated as the response to the pressure impulse. Only elements that can touch next are looked at:
-    gaps close at v at most.
+    surface is integrated as the response to the pressure impulse. Only elements that can touch next are evaluated: no
+    gap closes faster than the indenter moves.
 
     indenter : Indenter with two-dimensional heights
     until_fraction : contact fraction at which to stop, in (0, 1]
@@ -89,85 +90,50 @@ def _respond(influence, row, column, members, count, first, second, element):
     return a, b
 
 
-@njit(fastmath=True)
-def _append(factor, influence, row, column, members, count, element, forward):
-    """Add an element to the set: a row of the Cholesky factor L, and the entry of L⁻¹·1 that belongs to it."""
-    new = factor[count]
-    for t in range(count):
-        new[t] = influence[abs(row[members[t]] - row[element]), abs(column[members[t]] - column[element])]
-    square, total = influence[0, 0], 1.0
-    for i in range(count):
-        above = factor[i]
-        value = new[i]
-        for j in range(i):
-            value -= above[j] * new[j]
-        value /= above[i]
-        new[i] = value
-        square -= value * value
-        total -= value * forward[i]
-    new[count] = np.sqrt(square)
-    forward[count] = total / new[count]
-    members[count] = element
-
-
-@njit(fastmath=True)
-def _rates(factor, count, forward, rate):
-    """q = L⁻ᵀ (L⁻¹·1) of the contact set; returns its sum."""
-    rate[:count] = forward[:count]
-    total = 0.0
-    for i in range(count - 1, -1, -1):
-        below = factor[i]
-        value = rate[i] / below[i]
-        rate[i] = value
-        total += value
-        for j in range(i):
-            rate[j] -= below[j] * value
-    return total
-
-
 @njit
-def _march(influence, row, column, gap, most):
-    """Impulse/(4π d), depth and Σq at every event; and the place in the set of an element under tension, or −1."""
-    elements = gap.size
+def _march(influence, row, column, initial_gap, most):
+    """Impulse/(4π d), depth and Σq at every event, and the index in the set of an element under tension, or −1."""
+    elements = initial_gap.size
     factor = np.empty((most, most))
     members = np.empty(most, np.int64)
-    forward, rate, load = np.zeros(most), np.zeros(most), np.zeros(most)
+    forward, tangent, load = np.zeros(most), np.zeros(most), np.zeros(most)
     inside = np.zeros(elements, np.bool_)
-    # What is known of the distance e to the indenter: at `known_at` it was `known`, since then it shrank by less than
-    # the indenter went down.
-    known, known_at = gap.copy(), np.zeros(elements)
+    # The gap of an element was `last_gap` at `last_depth`; since then it closed by no more than the indenter went down.
+    last_gap, last_depth = initial_gap.copy(), np.zeros(elements)
     impulse, depth, resistance = np.zeros(most), np.zeros(most), np.zeros(most)
-    element, u, total = 0, 0.0, 0.0
+    element, depth_now, total = 0, 0.0, 0.0
     for count in range(1, most + 1):
-        _append(factor, influence, row, column, members, count - 1, element, forward)
+        append_element(factor, influence, row, column, members, count - 1, element, forward)
         inside[element] = True
-        stiffness = _rates(factor, count, forward, rate)
+        stiffness = solve_flat_punch(factor, count, forward, tangent)
         for t in range(count):
-            if rate[t] < 0:
+            if tangent[t] < 0:
                 return impulse, depth, resistance, t
-        impulse[count - 1], depth[count - 1], resistance[count - 1] = total, u, stiffness
+        impulse[count - 1], depth[count - 1], resistance[count - 1] = total, depth_now, stiffness
         if count == most:
             break
 
         nearest, element = np.inf, -1
         for i in range(elements):
-            if not inside[i] and known[i] + known_at[i] < nearest:
-                nearest, element = known[i] + known_at[i], i
-        wait, next_element = np.inf, -1
-        candidate = element  # the likeliest first: it rules most others out
+            if not inside[i] and last_gap[i] + last_depth[i] < nearest:
+                nearest, element = last_gap[i] + last_depth[i], i
+        depth_step, next_to_touch = np.inf, -1
+        candidate = element  # the most likely one first: it rules out most others
         for i in range(-1, elements):
             if i >= 0:
                 candidate = i
-                if inside[i] or known[i] + known_at[i] - u >= wait:
+                if inside[i] or last_gap[i] + last_depth[i] - depth_now >= depth_step:
                     continue
-            sunk, speed = _respond(influence, row, column, members, count, load, rate, candidate)
-            known[candidate], known_at[candidate] = sunk - u + gap[candidate], u
-            until_touch = max(known[candidate], 0.0) / max(1.0 - speed, 1e-300)
-            if until_touch < wait:
-                wait, next_element = until_touch, candidate
-        element = next_element
-        u += wait
-        total += wait * stiffness
+            deflection, deflection_per_depth = _respond(
+                influence, row, column, members, count, load, tangent, candidate
+            )
+            last_gap[candidate], last_depth[candidate] = deflection - depth_now + initial_gap[candidate], depth_now
+            step_to_touch = max(last_gap[candidate], 0.0) / max(1.0 - deflection_per_depth, 1e-300)
+            if step_to_touch < depth_step:
+                depth_step, next_to_touch = step_to_touch, candidate
+        element = next_to_touch
+        depth_now += depth_step
+        total += depth_step * stiffness
         for t in range(count):
-            load[t] += wait * rate[t]
+            load[t] += depth_step * tangent[t]
     return impulse, depth, resistance, -1

@@ -12,6 +12,7 @@ import numpy as np
 
 from viscorough import reference
 from viscorough.contact.loading_path import indent
+from viscorough.contact.options import DEFAULT
 from viscorough.mdr import reduce
 from viscorough.surfaces import self_affine_line
 from viscorough.viscous.events import march_events
@@ -61,9 +62,9 @@ def _automatic(problem, tolerance):
     return _interpolated(problem, curve)
 
 
-def _at_levels(problem, tolerance):
+def _at_levels(problem, tolerance, options=DEFAULT):
     """Exactly the problem's depths, with the exact tangent stiffness there."""
-    curve = indent(problem.indenter, tolerance=tolerance, depths=problem.depth)
+    curve = indent(problem.indenter, tolerance=tolerance, depths=problem.depth, options=options)
     return Answer(curve.force / curve.stiffness, curve.operator_applications, curve.depth.size)
 
 
@@ -83,11 +84,6 @@ def _uniform(problem, levels):
 def _interpolated(problem, curve):
     _, stiffness = curve.at_force(problem.force)
     return Answer(problem.force / stiffness, curve.operator_applications, curve.depth.size)
-
-
-def _without(part, problem, tolerance):
-    with part():
-        return _at_levels(problem, tolerance)
 
 
 # ---- direct integration
@@ -171,19 +167,19 @@ STEPS = (16, 64, 256, 1024)
 LARGEST = {"logarithmic": 257, "uniform": 129}  # elements across, by the spacing of the time steps
 OVERLAPS = (1e-1, 3e-2, 1e-2, 3e-3)
 PARTS = {
-    "path, double precision": ablations.double_precision,
-    "path, single precision only": ablations.single_precision_only,
-    "path, no preconditioner": ablations.no_preconditioner,
-    "path, preconditioner without blocks": ablations.no_blocks,
-    "path, no tangent": ablations.no_tangent,
+    "path, double precision": ablations.DOUBLE_PRECISION,
+    "path, single precision only": ablations.SINGLE_PRECISION_ONLY,
+    "path, no preconditioner": ablations.NO_PRECONDITIONER,
+    "path, no coarse correction": ablations.NO_COARSE_CORRECTION,
+    "path, no tangent": ablations.NO_TANGENT,
 }
 
 METHODS = (
     Method("path, automatic levels", "path", "tolerance", TOLERANCES, _automatic, growth=(1e-3,)),
     Method("path, at the depths", "path", "tolerance", FINE_TOLERANCES, _at_levels, growth=(1e-6,)),
     *(
-        Method(name, "path without a part", "tolerance", (1e-3, 1e-6, 1e-9), partial(_without, part), 257)
-        for name, part in PARTS.items()
+        Method(name, "path without a part", "tolerance", (1e-3, 1e-6, 1e-9), partial(_at_levels, options=options), 257)
+        for name, options in PARTS.items()
     ),
     Method("path, each depth alone", "path without a part", "tolerance", (1e-3, 1e-6, 1e-9), _each_alone, 257),
     Method("path, uniform levels", "path without a part", "levels", (8, 32, 128), _uniform, 257),

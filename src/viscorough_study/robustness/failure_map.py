@@ -9,7 +9,6 @@ reason or warned, or, for a model, be outside of what its documentation states. 
 
 import warnings
 from collections.abc import Callable
-from contextlib import ExitStack
 from dataclasses import dataclass
 from functools import partial
 
@@ -25,7 +24,7 @@ from viscorough.surfaces import self_affine_disc, self_affine_line
 from viscorough.viscous import correspondence
 from viscorough.viscous.events import march_events
 from viscorough.viscous.stepping import march_steps
-from viscorough_study.performance.ablations import dense_only, grid_only, no_padding
+from viscorough_study.performance.ablations import DENSE_ONLY, GRID_ONLY, NO_PADDING
 from viscorough_study.robustness.stress_cases import Difficulty
 
 QUESTIONS = 6  # depths asked for
@@ -72,31 +71,30 @@ class _Question:
 
 def _question(difficulty, questions=QUESTIONS):
     """Depths, and F/G at them by dense solutions."""
-    with dense_only():
-        solver = ContactSolver(difficulty.indenter, 1e-11)
-        depths = _depths(solver, difficulty, questions)
-        state, force, count = solver.touch(), [], []
-        for depth in depths:
-            state = solver.advance(state, depth)
-            force.append(state.force)
-            count.append(state.count)
-    scale = 4 * np.pi * difficulty.indenter.spacing * solver.unit
-    return _Question(depths * solver.unit, scale * np.array(force), np.array(count))
+    solver = ContactSolver(difficulty.indenter, 1e-11, DENSE_ONLY)
+    depths = _reduced_depths(solver, difficulty, questions)
+    contact, force, count = solver.unloaded_state(), [], []
+    for depth in depths:
+        contact = solver.advance_reduced(contact, depth)
+        force.append(contact.force)
+        count.append(contact.count)
+    return _Question(depths * solver.units.length, np.array(force), np.array(count))
 
 
-def _depths(solver, difficulty, questions):
+def _reduced_depths(solver, difficulty, questions):
     """Depths in equal ratios between those at which the contact fractions are reached."""
     first, last = difficulty.fractions
-    state, depth = solver.touch(), 0.0
+    contact, depth = solver.unloaded_state(), 0.0
+    gap, elements = solver.elements.initial_gap, solver.elements.count
     found, levels = [], []
     # Depths double until the fraction is met, then halve the interval: cheap, and no curve is needed.
     for fraction in (first, min(last, 1.0)):
-        low, high = depth, max(2 * depth, solver.gap[solver.gap > 0][0] if solver.gap[-1] > 0 else 1.0)
-        while solver.advance(state, high).count < fraction * solver.elements:
+        low, high = depth, max(2 * depth, gap[gap > 0][0] if gap[-1] > 0 else 1.0)
+        while solver.advance_reduced(contact, high).count < fraction * elements:
             low, high = high, 2 * high
         for _ in range(12):
             middle = 0.5 * (low + high)
-            if solver.advance(state, middle).count < fraction * solver.elements:
+            if solver.advance_reduced(contact, middle).count < fraction * elements:
                 low = middle
             else:
                 high = middle
@@ -109,20 +107,15 @@ def _depths(solver, difficulty, questions):
 # ---- methods
 
 
-def _path(difficulty, question):
+def _path(options, difficulty, question):
     """Forces at the depths."""
-    curve = indent(difficulty.indenter, tolerance=difficulty.tolerance, depths=question.depth)
+    curve = indent(difficulty.indenter, tolerance=difficulty.tolerance, depths=question.depth, options=options)
     return curve.force / question.force
 
 
-def _path_dense(difficulty, question):
-    with dense_only():
-        return _path(difficulty, question)
-
-
 def _path_grid(precision, difficulty, question):
-    with grid_only(precision), no_padding() if difficulty.periodic else ExitStack():
-        return _path(difficulty, question)
+    options = NO_PADDING if difficulty.periodic else GRID_ONLY
+    return _path(options[precision], difficulty, question)
 
 
 def _events(difficulty, question):
@@ -187,7 +180,7 @@ class _Method:
 
 
 METHODS = (
-    _Method("path, dense", _path_dense, lambda d: 10 * d.tolerance),
+    _Method("path, dense", partial(_path, DENSE_ONLY), lambda d: 10 * d.tolerance),
     _Method("path, grid, double", partial(_path_grid, "double"), lambda d: 10 * d.tolerance),
     _Method("path, grid, single", partial(_path_grid, "single"), lambda d: 10 * d.tolerance),
     _Method("events", _events, lambda d: LIMIT_EVENTS),

@@ -1,15 +1,14 @@
 """Small indenters of every kind, generated at random, and what their solutions must not be wrong about in silence."""
 
-from contextlib import ExitStack
-
 import numpy as np
 
+from viscorough.contact.options import DEFAULT
 from viscorough.contact.solver import ContactSolver
 from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
 from viscorough.viscous.events import march_events
-from viscorough_study.performance.ablations import grid_only
+from viscorough_study.performance.ablations import GRID_ONLY
 
 KINDS = ("uniform", "normal", "whole numbers", "hill", "rough disc", "steps", "strip", "ridge", "one spike", "flat")
 
@@ -49,33 +48,32 @@ def random_case(generator):
     return indenter, depths, 10.0 ** -generator.uniform(1, 11), bool(generator.random() < 0.6)
 
 
-def silent_failure(indenter, depths, tolerance, on_grid):
+def silent_failure(indenter, depths, tolerance, on_grid, solver_type=ContactSolver):
     """What is wrong, in words, with a solution that claims to have converged; "" if nothing is.
 
     Tension, and gap in contact or penetration outside over ten times the tolerance, are looked for with the dense
     influence matrix; the force is compared with events, which share no code with the path but influence coefficients.
     A ConvergenceError is no silent failure. Heights are known to rounding, which is allowed for at small depths.
     """
-    solver, wrong = ContactSolver(indenter, tolerance), ""
-    influence = solver.influence[abs(solver.row[:, None] - solver.row), abs(solver.column[:, None] - solver.column)]
+    solver, wrong = solver_type(indenter, tolerance, GRID_ONLY["single"] if on_grid else DEFAULT), ""
+    row, column = solver.elements.row, solver.elements.column
+    influence = solver.elements.influence[abs(row[:, None] - row), abs(column[:, None] - column)]
     events = march_events(indenter)
-    scale = 4 * np.pi * indenter.spacing * solver.unit
-    with grid_only("single") if on_grid else ExitStack():
-        state = solver.touch()
-        for depth in depths / solver.unit:
-            try:
-                state = solver.advance(state, depth)
-            except ConvergenceError:
-                return ""
-            allowed = 10 * tolerance + 1e-13 / min(depth, 1.0)
-            gap = influence[:, state.members] @ state.pressure - depth + solver.gap
-            force, at = scale * state.force, depth * solver.unit
-            exact = np.interp(at, events.depth, events.impulse)
-            exact += max(at - events.depth[-1], 0.0) * events.resistance[-1]
-            if state.pressure.min() < 0:
-                wrong = f"tension {state.pressure.min():.2g}"
-            elif max(-gap.min(), np.abs(gap[state.members]).max()) > allowed * depth:
-                wrong = f"penetration {-gap.min():.2g}, gap {gap[state.members].max():.2g} at depth {depth:.2g}"
-            elif abs(force / exact - 1) > allowed:
-                wrong = f"force off by {force / exact - 1:.2g}, tolerance {tolerance:.2g}, depth {depth:.2g}"
+    contact = solver.unloaded_state()
+    for depth in depths:
+        try:
+            contact = solver.advance(contact, depth)
+        except ConvergenceError:
+            return ""
+        reduced = contact.reduced_depth
+        allowed = 10 * tolerance + 1e-13 / min(reduced, 1.0)
+        gap = influence[:, contact.members] @ contact.reduced_pressure - reduced + solver.elements.initial_gap
+        exact = np.interp(depth, events.depth, events.impulse)
+        exact += max(depth - events.depth[-1], 0.0) * events.resistance[-1]
+        if contact.pressure.min() < 0:
+            wrong = f"tension {contact.pressure.min():.2g}"
+        elif max(-gap.min(), np.abs(gap[contact.members]).max()) > allowed * reduced:
+            wrong = f"overlap {-gap.min():.2g}, gap {gap[contact.members].max():.2g} at depth {reduced:.2g}"
+        elif abs(contact.force / exact - 1) > allowed:
+            wrong = f"force off by {contact.force / exact - 1:.2g}, tolerance {tolerance:.2g}, depth {reduced:.2g}"
     return wrong

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.integrate import dblquad
 
-from viscorough.contact import grid_solver
 from viscorough.contact.halfspace import Halfspace, influence_coefficient
+from viscorough.contact.options import SolverOptions
 
 
 def test_known_coefficients():
@@ -55,4 +55,4 @@ def test_rounding_stays_within_the_bound_that_the_search_counts_on(shape):
         deflections.append(halfspace.apply()[:, : shape[1]])
     single, double = deflections
     error = np.abs(single - double).max() / np.abs(double).max()
-    assert error < grid_solver._ROUNDING * np.finfo(np.float32).eps
+    assert error < SolverOptions().operator_rounding * np.finfo(np.float32).eps

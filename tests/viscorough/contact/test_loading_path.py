@@ -5,9 +5,9 @@ import pytest
 from scipy.optimize import nnls
 
 from viscorough import reference
-from viscorough.contact import loading_path
 from viscorough.contact.halfspace import influence_coefficient
 from viscorough.contact.loading_path import indent
+from viscorough.contact.options import SolverOptions
 from viscorough.contact.solver import ContactSolver
 from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
@@ -80,13 +80,12 @@ def test_flat_ellipse_converges_at_first_order(aspect):
 
 # ---- against the dense complementarity problem -----------------------------------------------------------------------
 @pytest.mark.parametrize("hurst", [0.1, 0.5, 0.9])
-def test_path_solves_the_dense_problem(hurst, monkeypatch):
+def test_path_solves_the_dense_problem(hurst):
     disc = self_affine_disc(hurst, 21, seed=5)
     depths = np.nanmax(disc.initial_gap) * np.array([0.1, 0.3, 0.6, 0.9, 1.4])
     expected = np.array([dense_complementarity(disc, depth) for depth in depths]).T
     for largest in (400, 0):  # the dense solver, then the grid from the first depth on
-        monkeypatch.setattr("viscorough.contact.solver._DENSE_MEMBERS", largest)
-        curve = indent(disc, tolerance=1e-11, depths=depths)
+        curve = indent(disc, tolerance=1e-11, depths=depths, options=SolverOptions(dense_contacts=largest))
         assert (curve.operator_applications > 0) == (largest == 0)
         np.testing.assert_allclose(curve.force, expected[0], rtol=1e-9)
         np.testing.assert_allclose(curve.stiffness, expected[1], rtol=1e-3 if largest == 0 else 1e-9)
@@ -104,7 +103,7 @@ def test_error_of_force_is_of_second_order_in_the_tolerance():
 
 
 def test_residual_is_what_it_says():
-    """Gap and penetration recomputed from nothing: force at the level by the dense matrix on the found contact set."""
+    """Gap and overlap recomputed from nothing: force at the level by the dense matrix on the found contact set."""
     disc = self_affine_disc(0.6, 33, seed=2)
     depth = 0.5 * np.nanmax(disc.initial_gap)
     force, _, count = dense_complementarity(disc, depth)
@@ -118,17 +117,18 @@ def test_residual_and_stiffness_keep_their_promise_level_after_level(tolerance):
     """Rounding adds up from level to level: what is reported bounds it. The stiffness is as good as the tolerance."""
     disc = self_affine_disc(0.8, 65, seed=6)
     solver = ContactSolver(disc, tolerance)
-    contact = solver.touch()
+    contact = solver.unloaded_state()
     for depth in np.geomspace(0.02, 0.5, 25):
-        contact = solver.advance(contact, depth)
-        row, column = (each[contact.members] for each in solver.place)
+        contact = solver.advance_reduced(contact, depth)
+        row, column = (place[contact.members] for place in solver.elements.map_place)
         pressure = np.zeros(disc.initial_gap.shape)
-        pressure[row, column] = 4 * np.pi * contact.pressure
+        pressure[row, column] = contact.pressure
         # Levels of a dense solution are exact: their residual is given as zero.
-        assert residual_of(disc.initial_gap / solver.unit, pressure, contact.depth) <= max(contact.residual, 1e-12)
+        left = residual_of(disc.initial_gap / disc.spacing, pressure, contact.depth / disc.spacing)
+        assert left <= max(contact.residual, 1e-12)
         matrix = influence_coefficient((row[:, None] - row).astype(float), (column[:, None] - column).astype(float))
         exact = np.linalg.solve(matrix, np.ones(row.size)).sum()
-        assert contact.stiffness == pytest.approx(exact, rel=max(tolerance, 1e-11))
+        assert contact.tangent_sum == pytest.approx(exact, rel=max(tolerance, 1e-11))
     assert contact.fields is not None
 
 
@@ -145,12 +145,12 @@ def test_interpolation_stays_within_the_tolerance(hurst):
     assert np.median(np.abs(stiffness / fine.stiffness[inside] - 1)) < 1e-3
 
 
-def test_single_and_double_precision_agree_far_below_the_tolerance(monkeypatch):
+def test_single_and_double_precision_agree_far_below_the_tolerance():
     disc, depths = self_affine_disc(0.4, 65, seed=8), np.geomspace(0.5, 8.0, 12)
-    curves = []
-    for threshold in (1e-4, 1.0):
-        monkeypatch.setattr("viscorough.contact.grid_solver._SINGLE", threshold)
-        curves.append(indent(disc, tolerance=1e-4, depths=depths))
+    curves = [
+        indent(disc, tolerance=1e-4, depths=depths, options=SolverOptions(exact_gap_below=threshold))
+        for threshold in (1e-4, 1.0)
+    ]
     assert curves[0].operator_applications > 0
     np.testing.assert_allclose(curves[0].force, curves[1].force, rtol=2e-6)
     # A residual that rounding had falsified would differ from one recomputed in double precision.
@@ -251,19 +251,16 @@ def test_refuses_lines():
         indent(Indenter(np.zeros(5), 1.0))
 
 
-def test_raises_when_it_does_not_converge(monkeypatch):
-    monkeypatch.setattr("viscorough.contact.solver._DENSE_MEMBERS", 0)
-    monkeypatch.setattr("viscorough.contact.grid_solver._ITERATIONS", 2)
+def test_raises_when_it_does_not_converge():
+    few = SolverOptions(dense_contacts=0, max_iterations=2)
     with pytest.raises(ConvergenceError, match="residual"):
-        indent(self_affine_disc(0.5, 33, seed=1), tolerance=1e-8, depths=[1.0])
+        indent(self_affine_disc(0.5, 33, seed=1), tolerance=1e-8, depths=[1.0], options=few)
 
 
-def test_estimate_of_interpolation_error_is_exact_for_a_power_law():
-    class Level:
-        def __init__(self, depth):
-            self.depth, self.force, self.stiffness, self.count = depth, depth**1.7, 1.7 * depth**0.7, 100 * depth
-
-    levels = [Level(u) for u in (1.0, 2.0, 3.0)]
-    assert loading_path._interpolation_error(*levels) < 1e-12
-    levels[1].force *= 1.01
-    assert loading_path._interpolation_error(*levels) > 5e-3
+@pytest.mark.parametrize(("hurst", "elements"), [(0.9, 65), (0.9, 129)])
+def test_levels_before_the_start_only_lead_there(hurst, elements):
+    disc = self_affine_disc(hurst, elements, seed=4)
+    curve = indent(disc, tolerance=1e-3, start_fraction=0.1, until_fraction=0.4)
+    assert (np.diff(curve.depth) > 0).all()
+    assert (np.diff(curve.force) > 0).all()
+    assert np.count_nonzero(curve.contact_fraction < 0.05) < 12

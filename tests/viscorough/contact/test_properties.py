@@ -4,8 +4,6 @@ Neither more depth nor more or higher elements can lower the force, and contact 
 matrix has no positive entry off its diagonal (computed up to 25 × 25 elements).
 """
 
-from unittest import mock
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -14,6 +12,7 @@ from hypothesis.extra.numpy import array_shapes, arrays
 
 from viscorough.contact.halfspace import influence_coefficient
 from viscorough.contact.loading_path import indent
+from viscorough.contact.options import SolverOptions
 from viscorough.contact.solver import ContactSolver
 from viscorough.indenter import Indenter
 from viscorough.mdr import reduce
@@ -25,8 +24,11 @@ TOLERANCE = 1e-9
 # The force is of second order in the tolerance. So is the stiffness in that of q, which on the grid is only the root,
 # times some factor that grows with the set.
 STIFFNESS, FORCE = 1e-8, 1e-10
-LARGEST_DENSE = {"dense": 10**9, "grid": 0}
-both_routes = pytest.mark.parametrize("route", LARGEST_DENSE)
+OPTIONS = {
+    "dense": SolverOptions(dense_contacts=10**9, dense_interactions=10**9),
+    "grid": SolverOptions(dense_contacts=0, dense_interactions=0),
+}
+both_routes = pytest.mark.parametrize("route", OPTIONS)
 some = settings(max_examples=60, deadline=None, derandomize=True)
 
 shapes = array_shapes(min_dims=2, max_dims=2, max_side=12)
@@ -52,14 +54,8 @@ def pressings(draw):
     return indenter, (np.nanmax(indenter.initial_gap) or indenter.spacing) * 1.3 ** np.sort(steps)
 
 
-def on_route(route):
-    largest = LARGEST_DENSE[route]
-    return mock.patch.multiple("viscorough.contact.solver", _DENSE_MEMBERS=largest, _DENSE_INTERACTIONS=largest)
-
-
 def press(heights, spacing, depths, route):
-    with on_route(route):
-        curve = indent(Indenter(heights, spacing), tolerance=TOLERANCE, depths=depths)
+    curve = indent(Indenter(heights, spacing), tolerance=TOLERANCE, depths=depths, options=OPTIONS[route])
     assert (curve.operator_applications > 0) == (route == "grid")
     return curve
 
@@ -90,44 +86,43 @@ def test_stiffness_is_that_of_a_flat_punch_of_the_contact_set(route, pressing):
     """k/G = 4π d Σq with K q = 1 on the set, and F/G = 4π d Σ q (u − g)."""
     indenter, depths = pressing
     curve = press(indenter.heights, indenter.spacing, depths, route)
-    with on_route(route):
-        solver = ContactSolver(indenter, TOLERANCE)
-        contact = solver.touch()
-        for i, depth in enumerate(depths):
-            contact = solver.advance(contact, depth / solver.unit)
-            row, column = (each[contact.members] for each in solver.place)
-            rate = np.linalg.solve(influence_matrix(row, column), np.ones(row.size))
-            scale = 4 * np.pi * indenter.spacing
-            assert contact.count == curve.contact_count[i]
-            np.testing.assert_allclose(curve.stiffness[i], scale * rate.sum(), rtol=STIFFNESS)
-            force = scale * rate @ (depth - indenter.initial_gap[row, column])
-            np.testing.assert_allclose(curve.force[i], force, rtol=FORCE)
+    solver = ContactSolver(indenter, TOLERANCE, OPTIONS[route])
+    contact = solver.unloaded_state()
+    for i, depth in enumerate(depths):
+        contact = solver.advance(contact, depth)
+        row, column = (place[contact.members] for place in solver.elements.map_place)
+        tangent = np.linalg.solve(influence_matrix(row, column), np.ones(row.size))
+        scale = 4 * np.pi * indenter.spacing
+        assert contact.count == curve.contact_count[i]
+        np.testing.assert_allclose(curve.stiffness[i], scale * tangent.sum(), rtol=STIFFNESS)
+        force = scale * tangent @ (depth - indenter.initial_gap[row, column])
+        np.testing.assert_allclose(curve.force[i], force, rtol=FORCE)
 
 
 @both_routes
 @given(pressings())
 @some
 def test_complementarity(route, pressing):
-    """No tension, no penetration, no gap in contact, and no element that loses contact."""
+    """No tension, no overlap, no gap in contact, and no element that loses contact."""
     indenter, depths = pressing
-    with on_route(route):
-        solver = ContactSolver(indenter, TOLERANCE)
-        matrix = influence_matrix(*solver.place)
-        contact, inside = solver.touch(), np.zeros(indenter.elements, dtype=bool)
-        for depth in depths / solver.unit:
-            contact = solver.advance(contact, depth)
-            pressure, known_gap = np.zeros(indenter.elements), solver.gaps(contact)
-            pressure[contact.members] = contact.pressure
-            gap = matrix @ pressure - depth + indenter.initial_gap[solver.place] / solver.unit
-            limit = TOLERANCE * depth
-            # The search adds up its steps in single precision: that must stay far below the tolerance.
-            np.testing.assert_allclose(known_gap, gap, rtol=0, atol=0.05 * limit)
+    solver = ContactSolver(indenter, TOLERANCE, OPTIONS[route])
+    place = solver.elements.map_place
+    matrix = influence_matrix(*place) * indenter.spacing / (4 * np.pi)
+    contact, inside = solver.unloaded_state(), np.zeros(indenter.elements, dtype=bool)
+    for depth in depths:
+        contact = solver.advance(contact, depth)
+        pressure, known_gap = np.zeros(indenter.elements), solver.gap(contact)
+        pressure[contact.members] = contact.pressure
+        gap = matrix @ pressure - depth + indenter.initial_gap[place]
+        limit = TOLERANCE * depth
+        # The search adds up its steps in single precision: that must stay far below the tolerance.
+        np.testing.assert_allclose(known_gap, gap, rtol=0, atol=0.05 * limit)
 
-            before, inside = inside, np.isin(np.arange(indenter.elements), contact.members)
-            assert np.all(inside[before])
-            assert np.all(pressure >= 0)
-            assert np.all(known_gap >= -limit)
-            assert np.all(np.abs(known_gap[inside]) <= limit)
+        before, inside = inside, np.isin(np.arange(indenter.elements), contact.members)
+        assert np.all(inside[before])
+        assert np.all(pressure >= 0)
+        assert np.all(known_gap >= -limit)
+        assert np.all(np.abs(known_gap[inside]) <= limit)
 
 
 @both_routes

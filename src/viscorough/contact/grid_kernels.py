@@ -1,0 +1,133 @@
+"""Compiled loops of the grid solver, over flat fields with a border or over the places of a contact set.
+
+Compiled functions take plain arrays, and as many as a formula has, because they know neither keyword-only arguments nor
+the types of `state`. Fields are changed in place where the text says so.
+"""
+
+import numpy as np
+
+from viscorough.compilation import njit
+from viscorough.contact.preconditioner import REACH
+
+
+@njit(fastmath=True)
+def inner_product(left, right, slots):
+    """Σ left·right over the contact set in double precision, for arrays laid out as the operator's load."""
+    total = 0.0
+    for t in range(slots.size):
+        total += np.float64(left[slots[t]]) * np.float64(right[slots[t]])
+    return total
+
+
+@njit
+def predict(depth_step, pressure, tangent, gap, tangent_gap):
+    """P + Δu q and e + Δu e_q everywhere."""
+    predicted, predicted_gap = np.empty_like(pressure), np.empty_like(gap)
+    for i in range(gap.size):
+        predicted[i] = pressure[i] + depth_step * tangent[i]
+        predicted_gap[i] = gap[i] + depth_step * tangent_gap[i]
+    return predicted, predicted_gap
+
+
+@njit
+def combine(weights, shift, pressure, gap, last_pressure, last_gap, last_tangent, last_tangent_gap, initial_gap):
+    """q as a combination of two pressures and a tangent, and K q − 1, everywhere.
+
+    weights : of the pressure, of the last pressure and of the last tangent
+    shift : what K q − 1 has besides the combination of gaps, from which the initial gap is taken
+    """
+    now, last, steady = weights
+    tangent, tangent_gap = np.empty_like(pressure), np.empty_like(gap)
+    for i in range(gap.size):
+        tangent[i] = now * pressure[i] + last * last_pressure[i] + steady * last_tangent[i]
+        deflection = now * (gap[i] - initial_gap[i]) + last * (last_gap[i] - initial_gap[i])
+        tangent_gap[i] = deflection + steady * last_tangent_gap[i] + shift
+    return tangent, tangent_gap
+
+
+@njit(fastmath=True)
+def update_gap(length, deflection, gap):
+    """e += α K d everywhere, in place."""
+    rows, columns = deflection.shape
+    for i in range(rows):
+        start = (i + REACH) * (columns + 2 * REACH) + REACH
+        for j in range(columns):
+            gap[start + j] += length * deflection[i, j]
+
+
+@njit(fastmath=True)
+def update_pressure(length, direction, pressure, gap, places, slots):
+    """P += α d on the set, in place; returns the largest |e| there and whether any pressure is negative."""
+    largest, lowest = 0.0, 0.0
+    for t in range(places.size):
+        i = places[t]
+        pressure[i] += length * direction[slots[t]]
+        largest = max(largest, abs(gap[i]))
+        lowest = min(lowest, pressure[i])
+    return largest, lowest < 0
+
+
+@njit(fastmath=True)
+def update_search_direction(direction, preconditioned, factor, slots):
+    """d = β d − z on the set, in place, with z the preconditioned residual."""
+    for t in range(slots.size):
+        direction[slots[t]] = factor * direction[slots[t]] - preconditioned[t]
+
+
+@njit
+def gap_and_tension(pressure, gap, places):
+    """Largest |e| on the set, and whether any pressure is negative."""
+    largest, lowest = 0.0, 0.0
+    for t in range(places.size):
+        largest = max(largest, abs(gap[places[t]]))
+        lowest = min(lowest, pressure[places[t]])
+    return largest, lowest < 0
+
+
+@njit
+def step_causes_tension(length, direction, pressure, places, slots):
+    """Whether a step of that length would put any element under tension."""
+    lowest = 0.0
+    for t in range(places.size):
+        lowest = min(lowest, pressure[places[t]] + length * direction[slots[t]])
+    return lowest < 0
+
+
+@njit
+def step_and_release(length, direction, pressure, inside, places, slots, stencil, width, stride):
+    """P += α d; elements under tension leave the set; the direction becomes the whole change of pressure, in place.
+
+    Removing a tension p < 0 lifts the neighbours off the surface. They give up as much pressure as eliminating the
+    element from the influence matrix would take from them, which saves iterations, but at most half of what they have.
+
+    stencil : preconditioner.load_redistribution_stencil; width : of a row of flat fields; stride : of the load array
+    """
+    for t in range(places.size):
+        direction[slots[t]] *= length
+        pressure[places[t]] += direction[slots[t]]
+        inside[places[t]] = pressure[places[t]] >= 0
+    for t in range(places.size):
+        i = places[t]
+        if inside[i]:
+            continue
+        tension = pressure[i]
+        direction[slots[t]] -= tension
+        pressure[i] = 0.0
+        for row in range(-1, 2):
+            for column in range(-1, 2):
+                near = i + row * width + column
+                if inside[near]:
+                    change = max(tension * stencil[row + 1, column + 1], -0.5 * pressure[near])
+                    pressure[near] += change
+                    direction[slots[t] + row * stride + column] += change
+
+
+@njit
+def add_penetrating_elements(gap, inside, limit):
+    """Elements that overlap the surface by more than `limit` join the set, in place; returns how many did."""
+    joined = 0
+    for i in range(gap.size):
+        if gap[i] < -limit and not inside[i]:
+            inside[i] = True
+            joined += 1
+    return joined

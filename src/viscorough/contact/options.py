@@ -1,0 +1,56 @@
+"""How contacts are solved: the choices of the solver that are not part of a question."""
+
+from dataclasses import dataclass
+
+PRECISIONS = ("single", "double")
+PRECONDITIONERS = ("multilevel", "sparse", "none")
+WARM_STARTS = ("tangent", "pressure")
+
+
+@dataclass(frozen=True)
+class SolverOptions:
+    """Options of the contact solver. The defaults suit every indenter; other values show what a part contributes.
+
+    precision : "single" or "double", of the search on the grid. What is searched for are corrections to the start of
+        a level, so that rounding to single precision stays far below the tolerance
+    exact_gap_below : tolerance below which the gap is recomputed in double precision when the bound on its rounding
+        error nears the tolerance; 0: never
+    operator_rounding : bound on the rounding error of one application of the half-space operator, over the largest
+        deflection and the machine precision; 0: rounding is ignored
+    preconditioner : "multilevel": sparse approximate inverse with a multilevel coarse correction; "sparse": without the
+        correction; "none"
+    release_step : length of the steps in which elements leave the contact, in units of the preconditioned residual;
+        0 for weaker preconditioners, which have no natural length: elements then leave at steps of conjugate gradients
+    warm_start : "tangent": a level starts from P + Δu q; "pressure": from the pressure of the level before
+    max_iterations : iterations after which ConvergenceError is raised
+    dense_contacts : elements in contact up to which a level is solved densely
+    dense_interactions : candidates times elements in contact up to which a level is solved densely
+    padding : whether the grid is padded against periodic images; without it the indenter has images at its own distance
+
+    Raises ValueError for a value that is not among those named here.
+    """
+
+    precision: str = "single"
+    exact_gap_below: float = 1e-4
+    operator_rounding: float = 5.0
+    preconditioner: str = "multilevel"
+    release_step: float = 1.0
+    warm_start: str = "tangent"
+    max_iterations: int = 2000
+    dense_contacts: int = 400
+    dense_interactions: int = 2_000_000
+    padding: bool = True
+
+    def __post_init__(self):
+        allowed = {"precision": PRECISIONS, "preconditioner": PRECONDITIONERS, "warm_start": WARM_STARTS}
+        for name, values in allowed.items():
+            if getattr(self, name) not in values:
+                raise ValueError(f"{name}: must be one of {', '.join(values)}, not {getattr(self, name)!r}")
+        for name in ("exact_gap_below", "operator_rounding", "release_step", "dense_contacts", "dense_interactions"):
+            if not getattr(self, name) >= 0:
+                raise ValueError(f"{name}: must not be negative, not {getattr(self, name)!r}")
+        if self.max_iterations < 1:
+            raise ValueError(f"max_iterations: must be at least 1, not {self.max_iterations!r}")
+
+
+DEFAULT = SolverOptions()

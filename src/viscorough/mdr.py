@@ -22,8 +22,8 @@ def reduce(line, *, until_fraction=1.0, until_force=None, bins_per_octave=64):
 
     line : Indenter with one-dimensional heights
     until_fraction : contact fraction at which to stop, in (0, 1]
-    until_force : F/G at which to stop [length²]; if the line is in full contact before, a last level is added at just
-        this force, unless `until_fraction` stops the curve
+    until_force : F/G at which to stop [length²]; if the line is in full contact before, one more level is added at
+        exactly this force, unless `until_fraction` stops the curve
     bins_per_octave : levels per factor of two in depth, a power of 2; with 64, bins are 0.8 to 1.6 % wide
 
     Levels are the edges of the bins in which contact grows. There force and stiffness

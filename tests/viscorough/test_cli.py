@@ -44,7 +44,7 @@ def sphere(tmp_path_factory):
 
 @pytest.fixture
 def here(tmp_path, monkeypatch):
-    """An empty working folder but for a small heights.npy."""
+    """A working folder that holds only a small heights.npy."""
     monkeypatch.chdir(tmp_path)
     np.save("heights.npy", sphere_heights(9))
     return tmp_path
@@ -60,10 +60,10 @@ def complaint(capsys):
     return captured.err
 
 
-# ---- what the files hold
+# ---- contents of the files
 
 
-def test_curve_file_is_as_the_contract_says(sphere):
+def test_curve_file_follows_the_contract(sphere):
     ds = xr.open_dataset(sphere / "curve.nc")
     names = {"depth", "force", "stiffness", "contact_count", "contact_fraction"}
     assert names <= set(ds.data_vars)
@@ -76,7 +76,7 @@ def test_curve_file_is_as_the_contract_says(sphere):
     assert (ds.spacing, ds.heights, ds.tolerance) == (1, "heights.npy", 1e-3)
 
 
-def test_files_hold_what_the_functions_return(sphere):
+def test_files_contain_the_results_of_the_functions(sphere):
     curve = loading_path.indent(Indenter(sphere_heights(), 1.0), until_fraction=0.5)
     stored = curve_from_content(netcdf.read(sphere / "curve.nc"))
     for name in ("depth", "force", "stiffness", "contact_count"):
@@ -93,7 +93,7 @@ def test_kinetics_file_adds_to_the_curve(sphere):
     assert "exact" in kinetics.correspondence
 
 
-def test_sphere_sinks_as_lee_and_radok_say(sphere):
+def test_sphere_follows_lee_and_radok(sphere):
     """u^(3/2) = 3Ft/(16η√R), within the errors of square elements of side d in a contact of radius a.
 
     For a > 5d the depth is off by up to 0.05 (d/a)², second order as for any smooth shape, until the
@@ -136,7 +136,7 @@ def test_tolerance_is_passed_on(here):
         assert float(ds.residual.max()) <= float(tolerance)
 
 
-# ---- what the user got wrong
+# ---- mistakes of the user
 
 INDENT = ["indent", "heights.npy", "--spacing", "1", "-o", "out.nc"]
 KINETICS = ["kinetics", "curve.nc", "--force", "1", "--viscosity", "1", "-o", "out.nc"]
@@ -418,18 +418,18 @@ def test_march_under_a_force_history(tmp_path, pulses, method, tolerance):
     output = tmp_path / "kin.nc"
     history = ["--force-history", str(tmp_path / "force.csv")]
     assert cli.main([*command, "--method", *method.split(), *history, "-o", str(output)]) == 0
-    found = xr.load_dataset(output, decode_times=False)
-    times, force = found["time"].values, found["force"].values
+    ds = xr.load_dataset(output, decode_times=False)
+    times, force = ds["time"].values, ds["force"].values
     np.testing.assert_array_equal(times, [1, 2, 4, 5, 9, 9.5, 10])
     np.testing.assert_array_equal(force, [0, 1, 1, 0, 0, 6, 0])
     impulse = np.array([0, 0.5, 2.5, 3, 3, 4.5, 6])
-    depth = found["depth"].values
+    depth = ds["depth"].values
     assert depth[0] == 0
     np.testing.assert_array_equal(depth[3], depth[4])  # at rest
     elastic = loading_path.indent(disc, tolerance=1e-11, depths=np.unique(depth[1:]))
     reached = np.unique(impulse[1:]) / 4
     np.testing.assert_allclose(elastic.force, reached, rtol=3 * tolerance)
-    velocity = found["velocity"].values
+    velocity = ds["velocity"].values
     np.testing.assert_array_equal(velocity[force == 0], 0)
     pushed = np.searchsorted(reached, impulse[force > 0] / 4)
     np.testing.assert_allclose(velocity[force > 0], force[force > 0] / (4 * elastic.stiffness[pushed]), rtol=0.02)

@@ -1,8 +1,8 @@
 """Generated surfaces against the theory of Gaussian processes with a power-law spectrum.
 
-Spectra are measured by numpy's own transform of whole periodic pieces, where they are known without bias: the
-power of every wave is its expectation times an exponential variate, whose logarithm has the mean -γ and the
-variance π²/6. Slopes fitted to logarithms do not feel the scaling of each realization to its rms height.
+Spectra are computed with numpy's transform of whole periods, which is unbiased: the power of every wave is its
+expectation times an exponential variate, whose logarithm has the mean -γ and the variance π²/6. Slopes fitted to
+logarithms do not depend on the scaling of a realization to its rms height.
 """
 
 import tracemalloc
@@ -129,7 +129,7 @@ def test_waves_do_not_depend_on_how_many_are_computed_at_a_time(points, fixed):
     ids=["square", "line"],
 )
 def test_memory_that_is_asked_for_is_enough(generate, lowest, highest):
-    """Bytes per point that numpy allocates; the transform of a line adds a copy of its own, which is not counted."""
+    """Bytes per point that numpy allocates; the transform of a line makes a copy that is not counted."""
     generate()
     tracemalloc.start()
     heights = generate()
@@ -163,7 +163,7 @@ def test_random_amplitudes_are_complex_gaussian():
         power = np.abs(wave * k_**exponent) ** 2
         power /= power.mean()
         phase = np.angle(wave) / (2 * np.pi) + 0.5
-        # chance of a false alarm 1e-4 each; estimating the mean makes the first one milder still
+        # chance of a false alarm 1e-4 each; estimating the mean makes the first one smaller still
         assert stats.kstest(power, "expon").pvalue > 1e-4
         assert stats.kstest(phase, "uniform").pvalue > 1e-4
         # means of N independent variates of variance 1 (products of unit powers), 1/2 (cosines)

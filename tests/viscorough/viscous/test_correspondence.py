@@ -26,7 +26,7 @@ def curve_of(depth, force, stiffness, contact_count, scale=1.0):
 
 
 def curve_of_body(body, scale=1.0):
-    """Levels over six decades of depth, ten elements joining at each: smooth for the interpolation."""
+    """Levels over six decades of depth; ten elements come into contact at each, so that at_force interpolates smoothly."""
     depth = np.geomspace(1e-5, 10, 61)
     return curve_of(depth, body.force(depth), body.stiffness(depth), 10 * np.arange(1, 62), scale)
 
@@ -79,7 +79,7 @@ def test_ramp(sphere_curve):
 
 
 def test_pulses_and_rests(sphere_curve):
-    """Three triangular pulses with rests: no motion at rest, then on from where it stopped."""
+    """Three triangular pulses separated by rests, during which nothing moves."""
     times = np.arange(13.0)
     force = np.array([0, 3, 0, 0, 0, 1, 0, 0, 0, 5, 0, 0, 0.0])
     result = kinetics(sphere_curve, force, VISCOSITY, times)
@@ -101,7 +101,7 @@ def test_step_of_force(sphere_curve):
 
 
 def test_varying_force_against_time_integration(sphere_curve):
-    """du/dt = F(t)/(8η√(Ru)), a flat punch of the present contact, stepped in time without any impulse."""
+    """du/dt = F(t)/(8η√(Ru)), a flat punch of the present contact radius, integrated in time without using the impulse."""
     times = np.linspace(0, 6, 25)
     force = np.random.default_rng(3).uniform(0, 4, times.size)
     result = kinetics(sphere_curve, force, VISCOSITY, times)
@@ -143,7 +143,7 @@ def test_dashpots_contact_by_contact():
 @pytest.mark.parametrize("length", [1e-12, 1.0, 1e12])
 @pytest.mark.parametrize("clock", [1e-12, 1e12])
 def test_invariance_to_units(length, clock, sphere_curve):
-    """The same motion in other units of length, time and viscosity, the force's following from them."""
+    """The same motion in other units of length, time and viscosity, from which that of the force follows."""
     poise = 1e-12
     times = np.linspace(0, 4, 9)
     force = np.array([0, 1, 2, 0, 0, 3, 1, 1, 0.5])
@@ -155,8 +155,8 @@ def test_invariance_to_units(length, clock, sphere_curve):
     np.testing.assert_allclose(result.velocity, expected.velocity * length / clock, rtol=1e-11)
 
 
-def test_times_of_the_levels_give_the_levels_back(sphere_curve):
-    """Rounding in F·t/η, up or down, pushes no level off the curve's ends."""
+def test_times_of_the_levels_reproduce_the_levels(sphere_curve):
+    """Rounding of F·t/η, up or down, moves no level beyond the ends of the curve."""
     for force in np.random.default_rng(5).uniform(0.1, 10, 50):
         levels = kinetics(sphere_curve, force, VISCOSITY)
         again = kinetics(sphere_curve, force, VISCOSITY, levels.time)
@@ -172,7 +172,9 @@ def test_sum_of_many_samples_reaches_the_last_level(sphere_curve):
 
 
 def test_before_the_first_level(sphere_curve):
-    """The start is known, the way to a round body's first level is not; that of one element is a line."""
+    """At zero force the depth is zero. Between there and the first level the curve of a round body is undetermined, that
+    of one element is a straight line.
+    """
     times = np.array([0, 1e-12, 1])
     result = kinetics(sphere_curve, 1.0, VISCOSITY, times)
     np.testing.assert_array_equal(np.isnan(result.depth), [False, True, False])

@@ -13,6 +13,7 @@ _MODULE_OF = {
     "LoadingCurve": "loading_curve",
     "ConvergenceError": "errors",
     "AccuracyWarning": "errors",
+    "SolverOptions": "contact.options",
     "indent": "contact.loading_path",
     "reduce": "mdr",
     "kinetics": "viscous.correspondence",

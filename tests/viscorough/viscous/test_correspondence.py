@@ -26,7 +26,7 @@ def curve_of(depth, force, stiffness, contact_count, scale=1.0):
 
 
 def curve_of_body(body, scale=1.0):
-    """Levels over six decades of depth; ten elements come into contact at each, so that at_force interpolates smoothly."""
+    """Levels over six decades of depth; ten elements join at each, so that at_force interpolates smoothly."""
     depth = np.geomspace(1e-5, 10, 61)
     return curve_of(depth, body.force(depth), body.stiffness(depth), 10 * np.arange(1, 62), scale)
 

@@ -1,9 +1,10 @@
-"""Take verdicts and calibrated numbers from results into the project: docs/, README.md, the package's data.
+"""Take verdicts and calibrated numbers from results into the project: docs/, README.md, the data of the package.
 
     python benchmarks/publish.py --results results
 
-What `make paper` has made should be published, so that all are of one run; what `make seeds` has made is taken along.
-The workflow writes only results.
+The results should be those of `make paper`, so that all published numbers come from one run; those of `make seeds` are
+taken as well where there are any. Without results (`--readme-only`) only README.md is written, from docs/ and from the
+statements in resources/paper/claims.yaml. The workflow writes only into results/.
 """
 
 import json
@@ -13,50 +14,61 @@ from pathlib import Path
 
 import click
 import pandas as pd
-import yaml
 
+from viscorough_study.paper_data import read_paper
 from viscorough_study.verdicts import markdown, overall
 
 ROOT = Path(__file__).resolve().parents[1]
-SEEDS = ROOT / "docs/seeds.json"
+CLAIMS, SEEDS = ROOT / "docs/claims.csv", ROOT / "docs/seeds.json"
 BEGIN, END = "<!-- verdicts: by benchmarks/publish.py -->\n", "<!-- end of verdicts -->\n"
 
 
 def verdicts():
-    """The table of docs/claims.csv in Markdown, and what docs/seeds.json says about other root seeds."""
-    claims = yaml.safe_load((ROOT / "resources/paper/claims.yaml").read_text(encoding="utf-8"))
-    table = pd.read_csv(ROOT / "docs/claims.csv", keep_default_na=False, na_values=[""])
+    """The verdicts of docs/claims.csv as a table in Markdown, and how they change with the root seed."""
+    claims = read_paper(ROOT / "resources/paper", "claims")
+    table = pd.read_csv(CLAIMS, keep_default_na=False, na_values=[""])
     text = markdown(table, claims)
-    return text + "\n" + seeds(overall(table)) if SEEDS.is_file() else text
+    return text + "\n" + other_seeds(overall(table)) if SEEDS.is_file() else text
 
 
-def seeds(published):
-    """What docs/seeds.json says: the verdicts that move, and those that are not the published ones."""
-    found = json.loads(SEEDS.read_text(encoding="utf-8"))
-    every = {name: {each[name] for each in found["verdicts"].values()} for name in published}
-    moved = "; ".join(f"{name} ({', '.join(sorted(words))})" for name, words in every.items() if len(words) > 1)
-    same = {name: min(words) for name, words in every.items() if len(words) == 1}
-    other = "; ".join(f"{name} ({word})" for name, word in same.items() if word != published[name])
-    number, link = len(found["verdicts"]), "[docs/seeds.csv](docs/seeds.csv)"
-    text = f"At the default scale with {number} root seeds (`make seeds`, {link}): verdicts that move with the seed: "
-    text += f"{moved or 'none'}; other verdicts than those above: {other or 'none'}."
+def other_seeds(published):
+    """Sentence on docs/seeds.json: the verdicts that change with the root seed, and those that are not as published."""
+    runs = json.loads(SEEDS.read_text(encoding="utf-8"))["verdicts"]
+    outcomes = {claim: {run[claim] for run in runs.values()} for claim in published}
+    change = "; ".join(f"{claim} ({', '.join(sorted(words))})" for claim, words in outcomes.items() if len(words) > 1)
+    same = {claim: min(words) for claim, words in outcomes.items() if len(words) == 1}
+    differ = "; ".join(f"{claim} ({word})" for claim, word in same.items() if word != published[claim])
+    text = (
+        f"At the default scale with {len(runs)} root seeds (`make seeds`, [docs/seeds.csv](docs/seeds.csv)), verdicts"
+    )
+    text += (
+        f" that change with the seed: {change or 'none'}; verdicts that differ from those above: {differ or 'none'}."
+    )
     return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False) + "\n"
 
 
-@click.command(help=__doc__.splitlines()[0])
-@click.option("--results", type=click.Path(exists=True, path_type=Path), default=ROOT / "results", show_default=True)
-def main(results):
-    shutil.copyfile(results / "tables/claims.csv", ROOT / "docs/claims.csv")
+def copy_results(results):
+    """Copy claims, seeds and calibration from a folder of results to where the project keeps them."""
+    shutil.copyfile(results / "tables/claims.csv", CLAIMS)
     if (results / "seeds.json").is_file():
         shutil.copyfile(results / "seeds.json", SEEDS)
-        shutil.copyfile(results / "seeds.csv", ROOT / "docs/seeds.csv")
-    data = ROOT / "src/viscorough/data"
-    data.mkdir(exist_ok=True)
-    shutil.copyfile(results / "tables/calibration.csv", data / "calibration.csv")
+        shutil.copyfile(results / "seeds.csv", SEEDS.with_suffix(".csv"))
+    shutil.copyfile(results / "tables/calibration.csv", ROOT / "src/viscorough/data/calibration.csv")
+
+
+@click.command(help=__doc__.splitlines()[0])
+@click.option("--results", type=click.Path(path_type=Path), default=ROOT / "results", show_default=True)
+@click.option("--readme-only", is_flag=True, help="Write README.md from docs/, and take nothing from results.")
+def main(results, readme_only):
+    if not readme_only:
+        if not (results / "tables/claims.csv").is_file():
+            raise click.UsageError(f"{results}: no tables/claims.csv there; `make paper` makes it")
+        copy_results(results)
     readme = ROOT / "README.md"
     before, rest = readme.read_text(encoding="utf-8").split(BEGIN)
     readme.write_text(before + BEGIN + "\n" + verdicts() + "\n" + END + rest.split(END)[1], encoding="utf-8")
-    click.echo("docs/claims.csv, src/viscorough/data/calibration.csv and README.md have these verdicts and numbers")
+    updated = "README.md" if readme_only else "docs/claims.csv, src/viscorough/data/calibration.csv and README.md"
+    click.echo(f"written: {updated}")
 
 
 if __name__ == "__main__":

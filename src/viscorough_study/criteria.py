@@ -1,328 +1,185 @@
-"""What claims are judged by: for each a quantity with its interval, and whether that meets the criterion.
+"""Criteria of the paper's claims: for each a quantity with its interval, and whether that meets the criterion.
 
-Whoever draws other surfaces gets other numbers, and a verdict must not depend on the draw: with a 95 % interval the
-claim fails where the whole interval lies outside what the tolerance allows, and cannot be tested where the interval is
-much wider than that. Where a claim fails under the conventions shown but holds under others that the paper leaves open,
-the verdict says so, and under which.
+With other random surfaces the numbers differ, and a verdict must not depend on them: where a quantity has a 95 %
+interval, a claim fails if the whole interval lies outside of what the tolerance allows, and it cannot be tested if the
+interval is much wider than that.
 
-A judge is a function of the evidence (claims.Evidence) and the tolerance; it returns rows as `_row` makes them.
+A criterion is a function of the evidence (viscorough_study.evidence.Evidence) and the tolerance of the claim; it
+returns the cases of the claim. `JUDGES` has the criterion of every claim in resources/paper/claims.yaml.
 """
-
-from itertools import product
 
 import numpy as np
 from scipy import stats
 
 from viscorough import reference
 from viscorough.surfaces import cut_disc
-from viscorough_study.ensembles import combine
-from viscorough_study.power_law import fit_power_law
+from viscorough_study import law_criteria
+from viscorough_study.evidence import UNDEFINED, Case, judged
+from viscorough_study.law_criteria import hurst_name
 
-VERDICTS = ("reproduced", "reproduced under a stated convention", "not reproduced", "not testable")
-SAID_ABOVE = 0.4  # Hurst exponent above which the paper says that β = H/(1 + H)
-WIDE = 2.0  # width of an interval, over that of the allowed range, beyond which it tells nothing
-CONVENTIONS = ["rms_convention", "average", "window_rule", "gamma", "diameter_convention"]
-
-
-def _row(case, value, low, high, expected, met, convention=""):
-    """One case; met : whether the criterion is, None where it cannot be said."""
-    if met is None or not np.isfinite(value):
-        return case, value, low, high, expected, "not testable", ""
-    verdict = VERDICTS[0] if met else VERDICTS[1] if convention else VERDICTS[2]
-    return case, value, low, high, expected, verdict, "" if met else convention
-
-
-def _within(low, high, allowed_low, allowed_high):
-    """Whether a value with its 95 % interval may lie in a range; None where the interval is too wide to tell."""
-    if low > allowed_high or high < allowed_low:
-        return False
-    return True if high - low <= WIDE * (allowed_high - allowed_low) else None
-
-
-def _hurst(hurst):
-    return f"H = {hurst:g}"
-
+ONE_ELEMENT = 1 + 1e-9  # elements in contact, interpolated in the logarithm, up to which a single one touches
 
 # ---- form and regions
 
 
-def _collapse(evidence, tolerance):
+def collapse(evidence, tolerance):
     """Scatter of ln(vt/h) over combinations, over that between Hurst exponents, at one X in all regions (b).
 
-    That of combinations is without what their few realizations would scatter anyhow: the component of variance between
-    them, with its interval from the F distribution (analysis of variance). Where the realizations are so few that their
-    means scatter by more than the tolerance, nothing can be told.
+    The scatter of combinations is the component of variance between them (`excess_variance`), without the scatter that
+    the means of their few realizations would have anyway. Where this alone exceeds the tolerance, the claim cannot be
+    tested.
     """
-    found = {hurst: evidence.pooled(hurst) for hurst in evidence.discs}
-    windows = [window for _, window in found.values() if window is not None]
-    if len(windows) < 2 or len(windows) < len(found):
-        return [_row(_hurst(hurst), np.nan, np.nan, np.nan, np.nan, None) for hurst in found]
-    x = next(iter(found.values()))[0]["x"].values
+    windows = [window for window in evidence.regions.values() if window is not None]
+    if len(windows) < 2 or len(windows) < len(evidence.regions):
+        return [judged(hurst_name(hurst), UNDEFINED, np.nan, None) for hurst in evidence.regions]
+    x = next(iter(evidence.pooled.values()))["x"].values
     at = int(np.argmin(np.abs(np.log(x) - np.mean(np.log(windows)))))
-    logs = {
-        hurst: [
-            np.log(each.sel(rms_convention=evidence.shown["rms_convention"])["velocity"].values[:, at])
-            for each in ensembles
-        ]
-        for hurst, ensembles in evidence.discs.items()
+    logarithms = {
+        hurst: [np.log(ensemble["velocity"].values[:, at]) for ensemble in ensembles]
+        for hurst, ensembles in evidence.combinations.items()
     }
-    between = np.std([np.mean(np.concatenate(each)) for each in logs.values()], ddof=1)
-    rows = []
-    for hurst, each in logs.items():
-        *ratio, of_realizations = np.sqrt(_excess_variance(each)) / between
-        met = bool(ratio[1] <= tolerance) if of_realizations <= tolerance else None
-        rows.append(_row(_hurst(hurst), *ratio, np.nan, met))
-    return rows
+    between_hursts = np.std([np.mean(np.concatenate(groups)) for groups in logarithms.values()], ddof=1)
+    cases = []
+    for hurst, groups in logarithms.items():
+        *values, of_few_realizations = np.sqrt(excess_variance(groups)) / between_hursts
+        met = bool(values[1] <= tolerance) if of_few_realizations <= tolerance else None
+        cases.append(judged(hurst_name(hurst), values, np.nan, met))
+    return cases
 
 
-def _excess_variance(groups):
-    """Variance between groups beyond what scatter within makes of their means: median, 95 % interval, at least 0.
+def excess_variance(groups):
+    """Component of variance between groups, from a one-way analysis of variance with random effects.
 
-    And that of their means by the scatter within.
+    groups : samples of each group, shape (realizations,), nan where undefined
+
+    With n realizations per group, MS_between/MS_within over 1 + n σ_b²/σ_w² has the F distribution, so that
+    σ_b² = (MS_between/MS_within/F_p − 1) σ_w²/n at its quantiles F_p, or 0 where that is negative. With MS_within for
+    σ_w² the interval is exact for the ratio of the two variances.
+    Returns the median, the two ends of the 95 % interval, and σ_w²/n, the variance that the means of the groups have by
+    the scatter within them; nan for too few groups or realizations.
     """
-    groups = [each[np.isfinite(each)] for each in groups]
-    size = np.mean([each.size for each in groups])
-    freedom = len(groups) - 1, sum(each.size - 1 for each in groups)
+    groups = [group[np.isfinite(group)] for group in groups]
+    size = np.mean([group.size for group in groups])
+    freedom = len(groups) - 1, sum(group.size - 1 for group in groups)
     if min(freedom) < 1:
         return np.full(4, np.nan)
-    within = sum(each.size * each.var() for each in groups) / freedom[1]
-    ratio = size * np.var([each.mean() for each in groups], ddof=1) / within
+    within = sum(group.size * group.var() for group in groups) / freedom[1]
+    ratio = size * np.var([group.mean() for group in groups], ddof=1) / within
     excess = np.maximum(ratio / stats.f.ppf([0.5, 0.975, 0.025], *freedom) - 1, 0.0)
     return np.append(excess, 1.0) * within / size
 
 
-def _first_region(evidence, tolerance):
+def first_region(evidence, tolerance):
     """κ while one element touches, over π/(K₀₀ n)."""
-    rows = []
-    for hurst, ensembles in evidence.discs.items():
-        mean = combine(ensembles).sel(rms_convention=evidence.shown["rms_convention"])
-        alone = mean["contact_count"].values <= 1 + 1e-9
-        ratio = mean["stiffness"].values[alone] / reference.one_element_stiffness(evidence.across)
-        bounds = (np.median(ratio), ratio.min(), ratio.max()) if ratio.size else (np.nan,) * 3
+    cases = []
+    for hurst, ensemble in evidence.pooled.items():
+        alone = ensemble["contact_count"].values <= ONE_ELEMENT
+        ratio = ensemble["stiffness"].values[alone] / reference.one_element_stiffness(evidence.across)
+        values = (np.median(ratio), ratio.min(), ratio.max()) if ratio.size else UNDEFINED
         met = bool(np.all(np.abs(ratio - 1) <= tolerance)) if ratio.size else None
-        rows.append(_row(_hurst(hurst), *bounds, 1.0, met))
-    return rows
+        cases.append(judged(hurst_name(hurst), values, 1.0, met))
+    return cases
 
 
-def _last_region(evidence, tolerance):
-    """Xh/(vt), which is κ, and the slope of vt/h where curves end."""
-    rows = []
-    for hurst, ensembles in evidence.discs.items():
-        mean = combine(ensembles).sel(rms_convention=evidence.shown["rms_convention"])
-        whole = np.flatnonzero(mean["fraction_defined"].values == 1)
-        last = mean["stiffness"].values[:, whole[-1]]
-        spread = last.mean(), last.min(), last.max()
-        rows.append(_row(f"{_hurst(hurst)}, prefactor", *spread, 1.0, abs(spread[0] - 1) <= tolerance))
-        end = mean["x"].values >= mean["x"].values[whole[-1]] / 10**0.25
-        end[whole[-1] + 1 :] = False
-        log_x = np.log(mean["x"].values[end])
-        slopes = np.polyfit(log_x, np.log(mean["velocity"].values[:, end]).T, 1)[0]
-        spread = slopes.mean(), slopes.min(), slopes.max()
-        rows.append(_row(f"{_hurst(hurst)}, slope", *spread, 1.0, abs(spread[0] - 1) <= tolerance))
-    return rows
+def last_region(evidence, tolerance):
+    """Xh/(vt), which is κ, and the slope of ln(vt/h) over ln X, where curves end."""
+    slope_said, cases = evidence.said("regions", "slope_last"), []
+    for hurst, ensemble in evidence.pooled.items():
+        x, stiffness = ensemble["x"].values, ensemble["stiffness"].values
+        last = np.flatnonzero(ensemble["fraction_defined"].values == 1)[-1]
+        end = np.flatnonzero(x >= x[last] / 10 ** evidence.rules["end_decades"])[0]
+        velocity = ensemble["velocity"].values[:, end : last + 1]
+        slopes = np.polyfit(np.log(x[end : last + 1]), np.log(velocity).T, 1)[0]
+        complete = reference.COMPLETE_CONTACT_STIFFNESS
+        for name, samples, said in (("prefactor", stiffness[:, last], complete), ("slope", slopes, slope_said)):
+            values = samples.mean(), samples.min(), samples.max()
+            met = bool(abs(values[0] - said) <= tolerance)
+            cases.append(judged(f"{hurst_name(hurst)}, {name}", values, said, met))
+    return cases
 
 
-def _power_law(evidence, tolerance):
-    """Deviation of ln(vt/h) from a straight line, and the decades of region (b)."""
-    rows = []
+def power_law(evidence, tolerance):
+    """Rms deviation of ln(vt/h) from a straight line, and the decades of region (b)."""
+    cases = []
     for hurst, fit in evidence.fits("discs").iterrows():
+        names = f"{hurst_name(hurst)}, deviation", f"{hurst_name(hurst)}, decades (log₁₀X from, to)"
         deviation, decades = fit["residual"], fit["decades"]
-        testable = np.isfinite(deviation)
-        rows.append(
-            _row(f"{_hurst(hurst)}, deviation", deviation, 0.0, deviation, np.nan, deviation <= tolerance)
-            if testable
-            else _row(f"{_hurst(hurst)}, deviation", np.nan, np.nan, np.nan, np.nan, None)
-        )
-        span = (decades, np.log10(fit["x_low"]), np.log10(fit["x_high"])) if testable else (0.0, np.nan, np.nan)
-        rows.append(_row(f"{_hurst(hurst)}, decades (log₁₀X from, to)", *span, np.nan, bool(decades >= 1)))
-    return rows
+        if np.isfinite(deviation):
+            ends = np.log10(fit["x_low"]), np.log10(fit["x_high"])
+            cases.append(judged(names[0], (deviation, 0.0, deviation), np.nan, deviation <= tolerance))
+        else:
+            ends = np.nan, np.nan
+            cases.append(judged(names[0], UNDEFINED, np.nan, None))
+        cases.append(judged(names[1], (decades, *ends), np.nan, bool(decades >= evidence.rules["decades_min"])))
+    return cases
 
 
-# ---- exponents and prefactors
-
-
-def _against_law(evidence, source, column, law, tolerance, *, relative=False, above=-1.0, **conventions):
-    """Rows of a fitted quantity against a law, at the Hurst exponents for which it is said.
-
-    conventions : those that the claim fixes. Where it fails under the others as shown, the convention is named under
-    which all Hurst exponents meet the law, with the least deviation.
-    """
-
-    def deviations(table):
-        table = table[table.index > above]
-        expected = law(table.index.to_numpy())
-        return np.abs(table[column] - expected) / (expected if relative else 1)
-
-    fits = evidence.fits(source, **conventions)
-    shown, best, least = deviations(fits), "", tolerance
-    open_ones = evidence.scaling[(evidence.scaling["source"] == source) & (evidence.scaling["case_group"] == "base")]
-    for name, value in conventions.items():
-        open_ones = open_ones[open_ones[name] == value]
-    for values, table in open_ones.groupby(CONVENTIONS, sort=False):
-        found = deviations(table.set_index("hurst").sort_index())
-        if len(found) == len(shown) and found.notna().all() and found.max() <= least:
-            named = zip(CONVENTIONS, values, strict=True)
-            best, least = ", ".join(f"{name} {value}" for name, value in named), found.max()
-    rows = []
-    for hurst in shown.index:
-        interval = fits.loc[hurst, [column, f"{column}_low", f"{column}_high"]]
-        margin = tolerance * (law(hurst) if relative else 1)
-        met = _within(*interval[1:], law(hurst) - margin, law(hurst) + margin)
-        rows.append(_row(_hurst(hurst), *interval, law(hurst), met, best))
-    return rows
-
-
-def _beta(evidence, tolerance, source="discs"):
-    return _against_law(evidence, source, "beta", reference.exponent_beta, tolerance, above=SAID_ABOVE)
-
-
-def _beta_lines(evidence, tolerance):
-    return _beta(evidence, tolerance, "lines")
-
-
-def _coincide(evidence, tolerance):
-    """β of lines less β of discs, under the conventions shown and under those with the least difference."""
-
-    def differences(conventions):
-        one, other = (evidence.fits(source, **conventions) for source in ("discs", "lines"))
-        return one, other.reindex(one.index), other["beta"].reindex(one.index) - one["beta"]
-
-    discs, lines, shown = differences({})
-    best, least = "", tolerance
-    names = CONVENTIONS[:3]  # the others change no exponent
-    for values in product(*(evidence.scaling[name].unique() for name in names)):
-        conventions = dict(zip(names, values, strict=True))
-        found = np.abs(differences(conventions)[2])
-        if len(found) == len(shown) and found.notna().all() and found.max() <= least:
-            best, least = ", ".join(f"{name} {value}" for name, value in conventions.items()), found.max()
-    rows = []
-    for hurst, difference in shown.items():
-        one, other = discs.loc[hurst], lines.loc[hurst]
-        below = np.hypot(other["beta"] - other["beta_low"], one["beta_high"] - one["beta"])
-        above = np.hypot(other["beta_high"] - other["beta"], one["beta"] - one["beta_low"])
-        bounds = difference - below, difference + above
-        met = _within(*bounds, -tolerance, tolerance)
-        rows.append(_row(_hurst(hurst), difference, *bounds, 0.0, met, best))
-    return rows
-
-
-def _zeta_elastic(evidence, tolerance):
-    law = reference.zeta_elastic
-    return _against_law(evidence, "discs", "zeta", law, tolerance, relative=True, gamma="without")
-
-
-def _zeta_viscous(evidence, tolerance):
-    """Eq. 11 was found with Eq. 9, which has the factor."""
-    law = reference.zeta_viscous
-    return _against_law(evidence, "discs", "zeta", law, tolerance, relative=True, gamma="with")
-
-
-def _at_centre(evidence, tolerance, quantity):
-    """Rows of a quantity that should be 1 at the geometric centre of region (b); not testable without a region.
-
-    quantity : function of H, ensemble, fit of region (b) and centre; gives the value and its 95 % interval
-    """
-    how = {"average": evidence.shown["average"], "resamples": evidence.resamples, "seed": evidence.seed}
-    rows = []
-    for hurst in evidence.discs:
-        mean, window = evidence.pooled(hurst)
-        if window is None:
-            rows.append(_row(_hurst(hurst), np.nan, np.nan, np.nan, 1.0, None))
-            continue
-        fit = fit_power_law(mean["x"].values, mean["velocity"].values, window, **how)
-        value, *interval = quantity(hurst, mean, fit, np.sqrt(np.prod(window)))
-        rows.append(_row(_hurst(hurst), value, *interval, 1.0, _within(*interval, 1 - tolerance, 1 + tolerance)))
-    return rows
-
-
-def _depth(evidence, tolerance):
-    """(1 - α)κu/(hX) at the centre, where u/h = ∫dX/κ, κ constant below the first abscissa."""
-
-    def ratio(hurst, mean, fit, centre):
-        x, softness = mean["x"].values, 1 / mean["stiffness"].values
-        upto = int(np.argmin(np.abs(np.log(x / centre)))) + 1
-        depth = x[0] * softness[:, 0] + np.trapezoid(softness[:, :upto], x[:upto], axis=1)
-        found = fit.beta * depth / (x[upto - 1] * softness[:, upto - 1])
-        error = 1.96 * found.std(ddof=1) / np.sqrt(found.size)
-        return found.mean(), found.mean() - error, found.mean() + error
-
-    return _at_centre(evidence, tolerance, ratio)
-
-
-def _gamma(evidence, tolerance):
-    """Depth of direct integrations over the elastic depth at the force GI/η; the factor would be in it."""
-    rows = []
-    for case, part in evidence.direct.groupby("case", sort=False):
-        ratio, expected = part["depth_ratio"], part["with_gamma"].iloc[0]
-        met = bool((np.abs(ratio - expected) <= tolerance).all())
-        rows.append(_row(case, ratio.median(), ratio.min(), ratio.max(), expected, met))
-    return rows
-
-
-def _master_curve(evidence, tolerance):
-    """vt/h over the right side of Eq. 12 as printed, at the centre of region (b)."""
-
-    def ratio(hurst, mean, fit, centre):
-        law = reference.rate_law(centre, hurst, gamma=True)
-        samples = fit.prefactor_samples * centre**fit.beta_samples / law
-        return fit.prefactor * centre**fit.beta / law, *np.quantile(samples, [0.025, 0.975])
-
-    return _at_centre(evidence, tolerance, ratio)
+def gamma(evidence, tolerance):
+    """Depth of direct integrations in time over the elastic depth, against the factor of Eq. 8."""
+    cases = []
+    for name, rows in evidence.direct.groupby("case", sort=False):
+        ratio, factor = rows["depth_ratio"], rows["with_gamma"].iloc[0]
+        met = bool((np.abs(ratio - factor) <= tolerance).all())
+        cases.append(judged(name, (ratio.median(), ratio.min(), ratio.max()), factor, met))
+    return cases
 
 
 # ---- reduction of dimensionality
 
 
-def _line_spectrum(evidence, tolerance):
-    """λ, which is π if the line needs no correction."""
+def line_spectrum(evidence, tolerance):
+    """λ, which is π if the line needs no correction; reproduced if it differs at some Hurst exponent."""
     fits = evidence.fits("discs")[["lambda", "lambda_low", "lambda_high"]]
-    excluded = (fits["lambda_low"] > np.pi) | (fits["lambda_high"] < np.pi)
-    differs = excluded & (np.abs(fits["lambda"] / np.pi - 1) > tolerance)
-    return [_row(_hurst(hurst), *values, np.pi, differs.any()) for hurst, values in fits.iterrows()]
+    excludes_pi = (fits["lambda_low"] > np.pi) | (fits["lambda_high"] < np.pi)
+    differs = (excludes_pi & (np.abs(fits["lambda"] / np.pi - 1) > tolerance)).any()
+    return [judged(hurst_name(hurst), values.tolist(), np.pi, differs) for hurst, values in fits.iterrows()]
 
 
-def _bodies_of_revolution(evidence, tolerance):
-    """Largest error of the reduction on the finest grid, and on the coarsest."""
-    table = evidence.validation[evidence.validation["case"].str.endswith("_reduction")]
-    rows = []
-    for (case, quantity), part in table.groupby(["case", "quantity"], sort=False):
-        error = part.sort_values("elements")["error"]
-        body = case.removesuffix("_reduction")
-        bounds = error.iloc[-1], error.min(), error.max()
-        # The stiffness counts points, so that it is as exact as the line is fine.
-        met = error.iloc[-1] <= (tolerance if quantity == "depth" else 2 / part["elements"].max())
-        rows.append(_row(f"{body}, {quantity}", *bounds, 0.0, met))
-    return rows
+def bodies_of_revolution(evidence, tolerance):
+    """Error of the reduction on the finest grid, with the least and the largest of all grids."""
+    rows = evidence.validation[evidence.validation["case"].str.endswith("_reduction")]
+    cases = []
+    for (case, quantity), grids in rows.groupby(["case", "quantity"], sort=False):
+        error = grids.sort_values("elements")["error"]
+        # The stiffness of a line is its number of points in contact, so it is exact up to the distance of two points.
+        limit = tolerance if quantity == "depth" else 2 / grids["elements"].max()
+        values = error.iloc[-1], error.min(), error.max()
+        cases.append(judged(f"{case.removesuffix('_reduction')}, {quantity}", values, 0.0, error.iloc[-1] <= limit))
+    return cases
 
 
-def _elements(evidence, tolerance):
-    count = np.isfinite(cut_disc(np.zeros((257, 257)), 257)).sum()
-    return [_row("257 across", count, count, count, 51432, abs(count - 51432) <= tolerance)]
+# ---- numbers
 
 
-def _computing_time(evidence, tolerance):
-    """Contact events of one indentation, to the end of the curves: one contact problem each for explicit steps."""
-    ensembles = [each.isel(rms_convention=0) for every in evidence.discs.values() for each in every]
-    counts = np.concatenate([each["contact_count"].max("abscissa").values for each in ensembles])
-    bounds = np.median(counts), counts.min(), counts.max()
-    return [("events of an indentation", *bounds, np.nan, "not testable", "")]
+def elements(evidence, tolerance):
+    """Elements of a disc as large as the paper's."""
+    across, said = (evidence.said("boundary_elements", name) for name in ("elements_across", "elements"))
+    count = np.isfinite(cut_disc(np.zeros((across, across)), across)).sum()
+    return [judged(f"{across} across", (count, count, count), said, bool(abs(count - said) <= tolerance))]
+
+
+def computing_time(evidence, tolerance):
+    """Contact events of one indentation to the end of its curve, each of them a contact problem for explicit steps."""
+    counts = [ensemble["contact_count"].max("abscissa").values for ensemble in evidence.pooled.values()]
+    counts = np.concatenate(counts)
+    return [Case("events of an indentation", np.median(counts), counts.min(), counts.max(), np.nan, "not testable")]
 
 
 JUDGES = {
-    "collapse": _collapse,
-    "first_region": _first_region,
-    "last_region": _last_region,
-    "power_law": _power_law,
-    "beta": _beta,
-    "beta_lines": _beta_lines,
-    "coincide": _coincide,
-    "depth": _depth,
-    "zeta_elastic": _zeta_elastic,
-    "zeta_viscous": _zeta_viscous,
-    "gamma": _gamma,
-    "master_curve": _master_curve,
-    "line_spectrum": _line_spectrum,
-    "bodies_of_revolution": _bodies_of_revolution,
-    "elements": _elements,
-    "computing_time": _computing_time,
+    "collapse": collapse,
+    "first_region": first_region,
+    "last_region": last_region,
+    "power_law": power_law,
+    "beta": law_criteria.beta,
+    "beta_lines": law_criteria.beta_lines,
+    "coincide": law_criteria.coincide,
+    "depth": law_criteria.depth,
+    "zeta_elastic": law_criteria.zeta_elastic,
+    "zeta_viscous": law_criteria.zeta_viscous,
+    "gamma": gamma,
+    "master_curve": law_criteria.master_curve,
+    "line_spectrum": line_spectrum,
+    "bodies_of_revolution": bodies_of_revolution,
+    "elements": elements,
+    "computing_time": computing_time,
 }

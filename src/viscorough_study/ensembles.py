@@ -93,36 +93,13 @@ def on_abscissae(curves, rms, diameter, x):
     return stiffness, count
 
 
-def combine(ensembles):
-    """Pool the realizations of batches or cases of one Hurst exponent into one ensemble, averages renewed.
-
-    ensembles : datasets of aggregate() with the same abscissae, rms conventions, Hurst exponent and elements
-    Case and diameter, where they differ, become coordinates of the realizations. Raises ValueError where the
-    ensembles differ in what must be the same.
-    """
-    ensembles = list(ensembles)
-    if not ensembles:
-        raise ValueError("combine: at least one ensemble is needed, there is none")
-    first = ensembles[0]
-    for name in ("x", "rms_convention", "hurst", "elements"):
-        if any(not np.array_equal(first[name].values, other[name].values) for other in ensembles[1:]):
-            raise ValueError(f"combine: the ensembles differ in {name}, it must be the same in all")
-
-    def pooled(name):
-        return np.concatenate([each[name].values for each in ensembles], axis=1)
-
-    def of_realizations(name):
-        values = np.concatenate([np.broadcast_to(each[name].values, each.sizes["realization"]) for each in ensembles])
-        return values[0] if np.all(values == values[0]) else ("realization", values)
-
-    coords = {"hurst": first["hurst"].item(), "elements": first["elements"].item()}
-    coords |= {"case": of_realizations("case"), "diameter": of_realizations("diameter")}
-    conventions = first["rms_convention"].values.tolist()
-    return ensemble_dataset(conventions, first["x"].values, pooled("stiffness"), pooled("contact_count"), coords)
-
-
 def ensemble_dataset(conventions, x, stiffness, count, coords):
-    """Ensemble dataset from κ and elements in contact of shape (conventions, realizations, abscissae)."""
+    """Ensemble dataset with its averages.
+
+    conventions : names of the rms conventions; x : X, shape (abscissae,)
+    stiffness, count : κ and elements in contact, shape (conventions, realizations, abscissae), nan where undefined
+    coords : hurst, case, diameter, elements
+    """
     velocity = x / stiffness
     defined = np.isfinite(velocity)
     number = defined.sum(axis=1)

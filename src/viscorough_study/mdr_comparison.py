@@ -1,7 +1,7 @@
 """The reduction of dimensionality against boundary elements, surface by surface.
 
-The line that stands for a surface has its spectrum, C1D = π q C2D (Eq. 13): here that of the very realization, ring by
-ring, with phases of its own, since the method says nothing about them.
+The line that stands for a surface has the spectrum C1D = π q C2D (Eq. 13): here that of the same realization of the
+surface, ring by ring of the wave vectors, with independent random phases, which the method does not specify.
 """
 
 import numpy as np
@@ -29,59 +29,65 @@ COLUMNS = {
     "correlation": ("correlation of ln κ of discs and their lines over the realizations", "1"),
     "realizations": ("realizations", "1"),
 }
+FORCE_MARGIN = 1.01  # by which the curve of a disc reaches beyond the last force compared, so that it is defined there
 
 
 def compare_reduction(hursts, elements, realizations, x, *, tolerance, seed, progress=iter):
     """Lines against the discs whose spectra they have; a pandas.DataFrame with the columns of `COLUMNS`.
 
+    hursts : Hurst exponents; realizations : number of discs for each
     elements : across a disc of diameter and rms height 1, cut from a square of one period; x : X, shape (abscissae,)
-    Abscissae that not every curve reaches are left out.
+    tolerance : of the loading curves of the discs; seed : root of the surfaces' seeds; progress : wraps the loop
+    Abscissae that some curve does not reach are left out.
     """
-    rows = []
+    force, rows = 4 * x, []  # F/G = 4hLX with h = L = 1
     for hurst in hursts:
-        found, force = [], 4 * x
+        compared = []
         for number in progress(range(realizations)):
-            key = realization_seed(seed, *mdr_comparison_key(hurst, number))
-            of_surface, of_line = key.spawn(2)
-            square = self_affine_square(hurst, elements, seed=of_surface)
-            square /= np.nanstd(cut_disc(square, elements))
-            disc = Indenter(cut_disc(square, elements), 1 / elements)
-            line = line_of_surface(square, 1 / elements, of_line)
-            curves = indent(disc, tolerance=tolerance, until_force=1.01 * force[-1]), reduce(line)
-            found.append(_compared(*curves, force))
-        rows += _rows(hurst, x, np.array(found))
+            seed_of_both = realization_seed(seed, *mdr_comparison_key(hurst, number))
+            disc, line = _disc_and_line(hurst, elements, *seed_of_both.spawn(2))
+            disc_curve = indent(disc, tolerance=tolerance, until_force=FORCE_MARGIN * force[-1])
+            compared.append(_compare(disc_curve, reduce(line), force))
+        rows += _rows(hurst, x, np.array(compared))
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
-def _compared(disc, line, force):
+def _disc_and_line(hurst, elements, surface_seed, line_seed):
+    """A disc of rms height 1, cut from a square, and the line with the spectrum of the square."""
+    square = self_affine_square(hurst, elements, seed=surface_seed)
+    square /= np.nanstd(cut_disc(square, elements))
+    disc = Indenter(cut_disc(square, elements), 1 / elements)
+    return disc, line_of_surface(square, 1 / elements, line_seed)
+
+
+def _compare(disc, line, force):
     """ln of κ, of contact fraction and of force at the disc's depth: shape (3 quantities, disc and line, abscissae)."""
-    depth, stiffness = disc.at_force(force)
-    _, of_line = line.at_force(force)
+    depth, disc_stiffness = disc.at_force(force)
+    _, line_stiffness = line.at_force(force)
     fractions = [
         np.interp(np.log(force), np.log(curve.force), np.log(curve.contact_fraction)) for curve in (disc, line)
     ]
-    at_depth = np.interp(np.log(depth), np.log(line.depth), np.log(line.force))
-    return np.log([stiffness / 4, of_line / 4]), fractions, [np.log(force), at_depth]
+    line_force = np.interp(np.log(depth), np.log(line.depth), np.log(line.force))
+    return np.log([disc_stiffness / 4, line_stiffness / 4]), fractions, [np.log(force), line_force]
 
 
-def _rows(hurst, x, found):
-    """Rows of one Hurst exponent; found : what _compared gives, shape (realizations, 3, 2, abscissae)."""
-    stiffness, fraction, force = np.moveaxis(found, 1, 0)
-    number = len(found)
+def _rows(hurst, x, compared):
+    """Rows of one Hurst exponent; compared : results of _compare, shape (realizations, 3, 2, abscissae)."""
+    stiffness, fraction, force = np.moveaxis(compared, 1, 0)
+    number = len(compared)
     ratio = stiffness[:, 1] - stiffness[:, 0]
     error = 1.96 * ratio.std(axis=0, ddof=1) / np.sqrt(number)
-    with np.errstate(invalid="ignore", divide="ignore"):
+    with np.errstate(invalid="ignore", divide="ignore"):  # nan where all realizations have the same κ
         correlation = [np.corrcoef(stiffness[:, 0, i], stiffness[:, 1, i])[0, 1] for i in range(x.size)]
-    values = np.transpose(
-        [
-            np.exp(stiffness[:, 0].mean(axis=0)),
-            np.exp(ratio.mean(axis=0)),
-            np.exp(ratio.mean(axis=0) - error),
-            np.exp(ratio.mean(axis=0) + error),
-            ratio.std(axis=0, ddof=1),
-            np.exp((fraction[:, 1] - fraction[:, 0]).mean(axis=0)),
-            np.exp((force[:, 1] - force[:, 0]).mean(axis=0)),
-            correlation,
-        ]
-    )
-    return [(hurst, at, *each, number) for at, each in zip(x, values, strict=True) if np.isfinite(each[:-1]).all()]
+    columns = [
+        np.exp(stiffness[:, 0].mean(axis=0)),
+        np.exp(ratio.mean(axis=0)),
+        np.exp(ratio.mean(axis=0) - error),
+        np.exp(ratio.mean(axis=0) + error),
+        ratio.std(axis=0, ddof=1),
+        np.exp((fraction[:, 1] - fraction[:, 0]).mean(axis=0)),
+        np.exp((force[:, 1] - force[:, 0]).mean(axis=0)),
+        correlation,
+    ]
+    rows = zip(x, np.transpose(columns), strict=True)
+    return [(hurst, at, *values, number) for at, values in rows if np.isfinite(values[:-1]).all()]

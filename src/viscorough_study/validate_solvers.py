@@ -1,9 +1,9 @@
-"""Validation: errors and observed orders of every method against exact solutions, on the grids in use.
+"""Validation: errors and observed orders of every method against exact solutions, on grids from coarse to fine.
 
 The bodies have exact solutions (viscorough.reference) and stand on grids of n elements across L = 1. Errors are root
-mean squares, over a range of contact radii, of the relative deviation from the exact value: at one radius alone they
+mean squares, over a range of contact radii, of the relative deviation from the exact value: at a single radius they
 oscillate with how the circle of contact happens to cut the grid. The observed order is the slope of ln(error) over
-ln(1/n). Boundary elements are solved to a tolerance at which what is left is the error of the grid.
+ln(1/n). Boundary elements are solved to a tolerance so small that the error of the grid dominates.
 """
 
 import numpy as np
@@ -20,18 +20,20 @@ from viscorough.viscous.events import march_events
 BODIES = {"sphere": reference.sphere(1.0), "cone": reference.cone(0.1)}
 RADII = np.linspace(0.2, 0.45, 26)  # contact radii at which solutions are compared [L]
 SEMI_AXES = {"disc": (0.5, 0.5), "ellipse": (0.5, 0.25)}  # of the flat punches [L]
-FORCE, VISCOSITY = 10.0, 1e6  # of the viscous cases; F/η is far from 1, so that neither drops out by chance
-TOLERANCE = 1e-5
+FORCE, VISCOSITY = 10.0, 1e6  # of the viscous cases; F/η is far from 1, so that a missing F or η shows
+TOLERANCE = 1e-5  # of the contact problems on bodies and punches
+ROUGH = {"hurst": 0.7, "seed": 1}  # arguments of self_affine_disc
+EVENTS = 600  # contact events over which a rough disc is integrated directly; more only repeat the comparison
+EVENTS_APART = 20  # of these events every twentieth depth is compared
+CORRESPONDENCE_TOLERANCE = 1e-11  # of the elastic curve against direct integration
 
-# Uniform pressure on square elements, met at their centres, has an error of second order in force on a smooth body,
-# and of first order where an edge singularity or a count of elements enters. Depth and velocity at a given impulse
-# inherit that of force and of stiffness. The error of an ellipse changes sign on the way: no order to be observed.
-# Direct integration of the viscous problem and the correspondence are both exact on the same grid: no order at all.
+# Uniform pressure on square elements, collocated at their centres, has an error of second order in force on a smooth
+# body, and of first order where an edge singularity or a count of elements enters. Depth and velocity at a given
+# impulse inherit the order of force and of stiffness. The error of an ellipse changes sign between the grids, so that
+# no order can be observed; direct integration and the correspondence are both exact on the same grid.
 ORDERS = {"force": 2, "depth": 2, "stiffness": 1, "velocity": 1, "area": 1, "punch_stiffness": 1, "correspondence": 0}
 WITHOUT_ORDER = ("ellipse", "rough_disc")
-ROUGH = {"hurst": 0.7, "seed": 1}  # arguments of self_affine_disc
-EVENTS = 600  # contact events over which a rough disc is integrated directly
-ORDER_MARGIN = 0.3  # by which an observed order may fall short of the expected one
+GRIDS_FOR_ORDER = 3  # fewest grids on which an order can be told from scatter
 
 COLUMNS = {
     "case": ("body and method", ""),
@@ -45,43 +47,53 @@ COLUMNS = {
 }
 
 
-def validation_table(elements, limits):
+def validation_table(elements, limits, order_margin):
     """Errors of every case on every grid.
 
     elements : numbers of elements n across L, each at least 9
     limits : {quantity: largest relative error allowed on the finest grid}, one for each of `ORDERS`
+    order_margin : by which an observed order may be below the expected one
 
     Returns a pandas.DataFrame with the columns of `COLUMNS`: a row per case, quantity and grid, grids from coarse to
-    fine. `passed` tells whether the case's error on the finest grid is within its limit and, where three grids or
-    more allow one to be observed, its order no more than `ORDER_MARGIN` below the expected one.
-    Raises ValueError if the limits are not those of `ORDERS`.
+    fine. `passed` is 1 if the case's error on the finest grid is within its limit and, on three grids or more, its
+    order within the margin. Raises ValueError if the limits are not those of `ORDERS`.
     """
     if set(limits) != set(ORDERS):
         raise ValueError(f"limits of validation: {', '.join(limits)}; needed: {', '.join(ORDERS)}")
     grids = sorted(elements)
+    return judge_errors(grids, errors_on_grids(grids), limits, order_margin)
+
+
+def errors_on_grids(grids):
+    """{(case, quantity): list of its errors, one for each grid}."""
     errors = {}
     for n in grids:
         for case, quantities in _errors_on_grid(n).items():
             for quantity, error in quantities.items():
                 errors.setdefault((case, quantity), []).append(error)
+    return errors
+
+
+def judge_errors(grids, errors, limits, order_margin):
+    """The validation table of errors on grids from coarse to fine; limits, order_margin : as in validation_table."""
     rows = []
     for (case, quantity), on_grids in errors.items():
         order, expected = np.nan, ORDERS[quantity]
-        if len(grids) >= 3 and case not in WITHOUT_ORDER:
+        if len(grids) >= GRIDS_FOR_ORDER and case not in WITHOUT_ORDER:
             order = -np.polyfit(np.log(grids), np.log(on_grids), 1)[0]
         limit = limits[quantity]
-        passed = on_grids[-1] <= limit and not order < expected - ORDER_MARGIN
+        passed = on_grids[-1] <= limit and not order < expected - order_margin
         for n, error in zip(grids, on_grids, strict=True):
             rows.append((case, quantity, n, error, order, expected, limit, int(passed)))
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
-def failures(table):
+def failures(table, order_margin):
     """One line per case and quantity of a validation table that did not pass: its error and order, what is allowed."""
     finest = table[(table["passed"] == 0) & (table["elements"] == table["elements"].max())]
     return [
         f"{row.case} {row.quantity}: error {row.error:.2g} on {row.elements} elements, order {row.order:.2g}; "
-        f"allowed: error up to {row.limit:.2g}, order from {row.expected_order - ORDER_MARGIN:.2g}"
+        f"allowed: error up to {row.limit:.2g}, order from {row.expected_order - order_margin:.2g}"
         for row in finest.itertuples()
     ]
 
@@ -92,23 +104,30 @@ def _errors_on_grid(n):
     for name, body in BODIES.items():
         indenter = body.indenter(n)
         cases[name] = _indentation(indenter, body)
-        cases |= {f"{name}_{history}_force": e for history, e in _penetration(indenter, body).items()}
+        for history, errors in _penetration(indenter, body).items():
+            cases[f"{name}_{history}_force"] = errors
         cases[f"{name}_reduction"] = _reduction(body.mdr_line(n), body)
-    x = (np.arange(n) - (n - 1) / 2) / n
     for name, (major, minor) in SEMI_AXES.items():
-        flat = np.where((x[:, None] / minor) ** 2 + (x / major) ** 2 <= 1, 0.0, np.nan)
-        punch = Indenter(cut_disc(np.zeros((n, n)), n) if name == "disc" else flat, 1 / n)
-        exact = reference.flat_ellipse_stiffness(major, minor)
-        cases[name] = {"punch_stiffness": _error(indent(punch, tolerance=TOLERANCE).stiffness, exact)}
+        stiffness = indent(_flat_punch(name, n), tolerance=TOLERANCE).stiffness
+        cases[name] = {"punch_stiffness": _error(stiffness, reference.flat_ellipse_stiffness(major, minor))}
     cases["rough_disc"] = {"correspondence": _correspondence(self_affine_disc(elements_across=n, **ROUGH))}
     return cases
+
+
+def _flat_punch(name, n):
+    """Flat disc, of the elements of which rough discs consist, or flat ellipse of n elements across."""
+    if name == "disc":
+        return Indenter(cut_disc(np.zeros((n, n)), n), 1 / n)
+    major, minor = SEMI_AXES[name]
+    x = (np.arange(n) - (n - 1) / 2) / n
+    return Indenter(np.where((x[:, None] / minor) ** 2 + (x / major) ** 2 <= 1, 0.0, np.nan), 1 / n)
 
 
 def _correspondence(disc):
     """Depths at which elements touch, integrated event by event, against the elastic depths under the same impulse."""
     events = march_events(disc, until_fraction=min(1.0, EVENTS / disc.elements))
-    depth = np.unique(events.depth[1:])[::20]
-    elastic = indent(disc, depths=depth, tolerance=1e-11)
+    depth = np.unique(events.depth[1:])[::EVENTS_APART]
+    elastic = indent(disc, depths=depth, tolerance=CORRESPONDENCE_TOLERANCE)
     return _error(events.depth_at(elastic.force), depth)
 
 
@@ -124,7 +143,7 @@ def _indentation(indenter, body):
 
 
 def _penetration(indenter, body):
-    """The correspondence, on a curve with levels of its own choice, against the viscous solution.
+    """The correspondence, on a curve whose levels `indent` chooses, against the viscous solution.
 
     Constant force: F = FORCE. Rising force: F(t) = 2 FORCE t/T until T, with the same impulse at T.
     """

@@ -4,9 +4,11 @@ import numpy as np
 import pandas as pd
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
+from support.study import fit_row
+from viscorough_study.conventions import of_source
 from viscorough_study.ensembles import abscissa
+from viscorough_study.fit_table import COLUMNS as SCALING_COLUMNS
 from viscorough_study.performance import measurement
-from viscorough_study.power_law import COLUMNS as SCALING_COLUMNS
 
 HURST = (0.4, 0.9)
 COMBINATIONS = {
@@ -117,20 +119,12 @@ def level_placement_table():
     return pd.DataFrame(rows, columns=["scene", "choice", "accuracy", "error", "reached", "ratio"])
 
 
-def sizes_table(conventions):
+def sizes_table():
     """Discs and lines of two Hurst exponents on three grids, the coarsest without region (b), and one control."""
     rows = [
-        {
-            **conventions,
-            "source": source,
-            "hurst": hurst,
-            "elements": n,
-            "beta": beta,
-            "beta_low": 0.2,
-            "beta_high": 0.4,
-        }
-        | ({"rms_convention": "line"} if source == "lines" else {})
-        | {"case_group": "sizes"}
+        fit_row(case_group="sizes", hurst=hurst, beta=beta, beta_low=0.2, beta_high=0.4)
+        | of_source(source)
+        | {"elements": n}
         for source in ("discs", "lines")
         for hurst in (0.3, 0.7)
         for n, beta in ((100, np.nan), (1000, 0.3), (10000, 0.31))

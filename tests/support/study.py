@@ -1,60 +1,130 @@
-"""Ensembles that obey a law exactly, and the evidence and conventions that claims are judged by."""
+"""Ensembles of known curves, and the evidence and conventions that claims are judged by."""
 
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
-import yaml
+import xarray as xr
 
 from viscorough import reference
-from viscorough_study.ensembles import abscissa, combine, ensemble_dataset
+from viscorough.loading_curve import LoadingCurve
+from viscorough_study.conventions import FITTED, PLAIN
+from viscorough_study.ensembles import abscissa, ensemble_dataset
+from viscorough_study.evidence import Evidence
+from viscorough_study.fit_table import COLUMNS, fit_rows
 from viscorough_study.gamma_factor import compare_direct
-from viscorough_study.power_law import scaling_rows
-from viscorough_study.verdicts import Evidence
+from viscorough_study.paper_data import read_paper
+from viscorough_study.pool import OF_REALIZATIONS, VARIABLES, ensembles
 
-SHOWN = {
-    "average": "geometric",
-    "rms_convention": "disc",
-    "window_rule": "default",
-    "gamma": "without",
-    "diameter_convention": "diameter",
-}
 ROOT = Path(__file__).resolve().parents[2]
-CLAIMS = yaml.safe_load((ROOT / "resources/paper/claims.yaml").read_text(encoding="utf-8"))
+CLAIMS, NUMBERS = (read_paper(ROOT / "resources/paper", name) for name in ("claims", "numbers"))
+SHOWN = {"average": "geometric", "rms_convention": "disc", "window_rule": "default", **PLAIN}
+LIMITS = {
+    "elements_min": 10,
+    "stiffness_max": 0.2,
+    "slope_max": 0.8,
+    "slope_half_width": 0.25,
+    "fraction_min": 0.95,
+    "decades_min": 0.5,
+}
+RULES = {"interval_ratio_max": 2.0, "decades_min": 1.0, "end_decades": 0.25}
+BOOTSTRAP = {"resamples": 50, "seed": 1}
 X = abscissa(1e-7, 30.0, 20)
 HURST = (0.4, 0.6, 0.9)
-LIMITS = {"elements_min": 10, "stiffness_max": 0.2, "slope_max": 0.8}
+ACROSS, ELEMENTS = 257, 51433
 
 
 def ensemble(hurst, case, zeta, *, bent=0.0, scatter=0.02, seed=0, square=1.0):
-    """Discs with κ = ζ X^α up to the complete contact, one element in contact at first; `square` scales κ there."""
+    """Discs with κ = ζ X^α from one element in contact to complete contact; with h of the square, ζ is `square` ζ.
+
+    bent : added to α; scatter : standard deviation of ln ζ over 20 realizations
+    """
     random = np.random.default_rng([seed, round(hurst * 1e6)])
     alpha = reference.exponent_alpha(hurst) + bent
-    one = reference.one_element_stiffness(257)
+    one = reference.one_element_stiffness(ACROSS)
     factor = np.exp(scatter * random.standard_normal((20, 1)))
-    kappa = np.clip(zeta * factor * X**alpha, one, 1.0)
-    stiffness = np.stack([kappa, np.clip(square * zeta * factor * X**alpha, one, 1.0)])
-    count = np.where(stiffness > one, np.maximum(51433 * stiffness**2, 2.0), 1.0)
-    return ensemble_dataset(
-        ["disc", "square"], X, stiffness, count, {"hurst": hurst, "case": case, "diameter": 1.0, "elements": 51433}
-    )
+    stiffness = np.clip([scale * zeta * factor * X**alpha for scale in (1.0, square)], one, 1.0)
+    count = np.where(stiffness > one, np.maximum(ELEMENTS * stiffness**2, 2.0), 1.0)
+    coords = {"hurst": hurst, "case": case, "diameter": 1.0, "elements": ELEMENTS}
+    return ensemble_dataset(["disc", "square"], X, stiffness, count, coords)
+
+
+def pool_of(members, group="base"):
+    """Pool of ensembles, each of one case, without their averages."""
+    parts = []
+    for member in members:
+        coords = {name: member[name].item() for name in OF_REALIZATIONS if name != "group"} | {"group": group}
+        part = member[list(VARIABLES)].drop_vars([name for name in coords if name != "group"])
+        size = member.sizes["realization"]
+        parts.append(part.assign_coords({name: ("realization", [value] * size) for name, value in coords.items()}))
+    return xr.concat(parts, "realization")
 
 
 def evidence(zeta=reference.zeta_elastic, **options):
-    discs = {hurst: [ensemble(hurst, f"c{i}", zeta(hurst), seed=i, **options) for i in range(4)] for hurst in HURST}
-    lines = {
-        hurst: each[0].sel(rms_convention=["disc"]).assign_coords(rms_convention=["line"])
-        for hurst, each in discs.items()
-    }
-    how = {"resamples": 50, "seed": 1, "stiffness_range": [0.03, 0.3], **LIMITS}
-    rows = []
-    for hurst, each in discs.items():
-        rows += scaling_rows(combine(each), source="discs", case_group="base", lines=lines[hurst], **how)
-        rows += scaling_rows(lines[hurst], source="lines", case_group="base", **how)
+    """Evidence of four combinations and three Hurst exponents, with lines that equal the first combination.
+
+    zeta : function of H; options : of ensemble
+    """
+    members = [ensemble(hurst, f"c{i}", zeta(hurst), seed=i, **options) for hurst in HURST for i in range(4)]
+    discs, first = pool_of(members), dict(zip(HURST, members[::4], strict=True))
+    how, rows = {**BOOTSTRAP, "stiffness_range": [0.03, 0.3], **LIMITS}, []
+    for hurst, pooled in ensembles(discs, "hurst").items():
+        lines = first[hurst].sel(rms_convention=["disc"]).assign_coords(rms_convention=["line"])
+        rows += fit_rows(pooled, source="discs", case_group="base", lines=lines, **how)
+        rows += fit_rows(lines, source="lines", case_group="base", **how)
     validation = pd.DataFrame(
         [("sphere_reduction", "depth", n, 1 / n**2) for n in (65, 129)],
         columns=["case", "quantity", "elements", "error"],
     )
-    direct = compare_direct(HURST, 17, 1)
-    about = {"shown": SHOWN, "across": 257, "limits": LIMITS, "resamples": 50, "seed": 1}
-    return Evidence(discs, lines, pd.DataFrame(rows), validation, direct, **about)
+    return Evidence(
+        discs=discs,
+        scaling=pd.DataFrame(rows, columns=list(COLUMNS)),
+        validation=validation,
+        direct=compare_direct(HURST, 17, 25, 1),
+        numbers=NUMBERS,
+        shown=SHOWN,
+        across=ACROSS,
+        limits=LIMITS,
+        rules=RULES,
+        **BOOTSTRAP,
+    )
+
+
+def fit_row(**columns):
+    """A row of the table of fits in the conventions shown, nan in the columns that are not given."""
+    return dict.fromkeys(COLUMNS, np.nan) | {name: SHOWN[name] for name in FITTED} | columns
+
+
+def three_regions(x):
+    """κ at X: (a) one element of a million, (b) 1.2 X^0.6, (c) 1."""
+    return np.clip(1.2 * x**0.6, 1e-6, 1)
+
+
+def ensemble_of(x, stiffness, *, elements=10**6, rms_convention="disc", hurst=0.7):
+    """What fits read of an ensemble dataset, made without the module; κ N of N elements are in contact.
+
+    x : X, shape (abscissae,); stiffness : κ, shape (realizations, abscissae) or (abscissae,) for one realization
+    """
+    stiffness = np.maximum(np.atleast_2d(stiffness), 1 / elements)
+    geometric = np.exp(np.nanmean(np.log(stiffness), axis=0))
+    averages = {
+        "stiffness_geometric": geometric,
+        "velocity_geometric": x / geometric,
+        "contact_count_median": elements * np.nanmedian(stiffness, axis=0),
+        "fraction_defined": np.isfinite(stiffness).mean(axis=0),
+    }
+    dataset = xr.Dataset({name: (("rms_convention", "abscissa"), [row]) for name, row in averages.items()})
+    dataset["velocity"] = (("rms_convention", "realization", "abscissa"), [x / stiffness])
+    return dataset.assign_coords(x=("abscissa", x), rms_convention=[rms_convention], hurst=hurst)
+
+
+def line_curve(gaps, length=1.0, levels=None):
+    """Exact curve of N springs, each event a level, and one beyond: F/G = 4 Δx Σ(u−g)₊, k/G = 4 Δx number."""
+    gaps = np.sort(np.asarray(gaps, dtype=float))
+    spacing = length / gaps.size
+    depth = np.append(gaps[1:], 3 * gaps[-1])
+    touching = np.arange(1, gaps.size + 1)
+    force = 4 * spacing * np.maximum(depth[:, None] - gaps, 0).sum(axis=1)
+    columns = (depth, force, 4 * spacing * touching, touching)
+    columns = [column[:levels] for column in columns]
+    return LoadingCurve(*columns, gaps.size, "by hand", 1e-12, 0, 0 * columns[0])

@@ -7,7 +7,7 @@ import pytest
 import viscorough
 from support.study import SHOWN, evidence
 from viscorough.calibrated_law import COLUMNS, calibration
-from viscorough_study.tables import calibrated
+from viscorough_study.fit_table import calibrated
 
 
 def test_numbers_are_the_calibrated_ones():

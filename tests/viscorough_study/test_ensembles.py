@@ -5,20 +5,9 @@ import warnings
 import numpy as np
 import pytest
 
+from support.study import line_curve
 from viscorough.loading_curve import LoadingCurve
-from viscorough_study.ensembles import abscissa, aggregate, combine
-
-
-def line_curve(gaps, length=1.0, levels=None):
-    """Exact curve of N springs, each event a level, and one beyond: F/G = 4 Δx Σ(u−g)₊, k/G = 4 Δx number."""
-    gaps = np.sort(np.asarray(gaps, dtype=float))
-    spacing = length / gaps.size
-    depth = np.append(gaps[1:], 3 * gaps[-1])
-    touching = np.arange(1, gaps.size + 1)
-    force = 4 * spacing * np.maximum(depth[:, None] - gaps, 0).sum(axis=1)
-    columns = (depth, force, 4 * spacing * touching, touching)
-    columns = [column[:levels] for column in columns]
-    return LoadingCurve(*columns, gaps.size, "by hand", 1e-12, 0, 0 * columns[0])
+from viscorough_study.ensembles import abscissa, aggregate
 
 
 def line_stiffness(gaps, rms, x):
@@ -143,36 +132,6 @@ def test_averages_at_fixed_abscissa_are_averages_at_fixed_time(gaps):
     np.testing.assert_allclose(
         ensemble.velocity_arithmetic.values[0], np.mean(velocity, axis=0) * time / rms, rtol=1e-12
     )
-
-
-def test_combine_equals_one_large_ensemble(gaps):
-    x, curves, rms = abscissa(1e-3, 3, 10), [line_curve(g) for g in gaps], gaps.std(axis=1)
-    whole = aggregate(curves, {"disc": rms, "square": 1.0}, 1.0, x, hurst=0.5, case="a")
-    parts = [
-        aggregate(curves[part], {"disc": rms[part], "square": 1.0}, 1.0, x, hurst=0.5, case=name)
-        for part, name in ((slice(0, 5), "a_c1"), (slice(5, 12), "a_c2"))
-    ]
-    pooled = combine(parts)
-    for name in whole.data_vars:
-        np.testing.assert_allclose(pooled[name], whole[name], rtol=1e-12, err_msg=name)
-    assert pooled.case.values.tolist() == ["a_c1"] * 5 + ["a_c2"] * 7
-    assert pooled.hurst == 0.5
-    assert pooled.elements == 40
-    again = combine([pooled, parts[0]])
-    assert again.sizes["realization"] == 17
-
-
-def test_combine_refuses_unlike_ensembles(gaps):
-    x, curves = abscissa(1e-3, 3, 10), [line_curve(g) for g in gaps]
-    one = aggregate(curves, {"line": 1.0}, 1.0, x, hurst=0.5, case="a")
-    with pytest.raises(ValueError, match="differ in hurst"):
-        combine([one, aggregate(curves, {"line": 1.0}, 1.0, x, hurst=0.6, case="a")])
-    with pytest.raises(ValueError, match="differ in x"):
-        combine([one, aggregate(curves, {"line": 1.0}, 1.0, x[1:], hurst=0.5, case="a")])
-    with pytest.raises(ValueError, match="differ in rms_convention"):
-        combine([one, aggregate(curves, {"disc": 1.0}, 1.0, x, hurst=0.5, case="a")])
-    with pytest.raises(ValueError, match="at least one"):
-        combine([])
 
 
 def test_every_variable_is_described(gaps):

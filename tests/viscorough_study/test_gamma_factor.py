@@ -8,7 +8,7 @@ from viscorough_study.gamma_factor import COLUMNS, compare_direct
 
 @pytest.fixture(scope="module")
 def table():
-    return compare_direct([0.4, 0.8], 33, 1)
+    return compare_direct([0.4, 0.8], across=33, impulses=25, seed=1)
 
 
 def test_rough_discs_have_the_elastic_depth(table):

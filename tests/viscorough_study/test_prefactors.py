@@ -1,17 +1,16 @@
-"""The prefactor under every convention: scaling by the factor, the nearest combination, the figure."""
+"""The prefactor in every combination of conventions: scaling by the factor, and the nearest combination."""
 
 import numpy as np
 import pytest
 
 from support.study import SHOWN, evidence
+from viscorough.reference import zeta_elastic
 from viscorough_study.prefactors import COLUMNS, combinations, nearest, prefactors, rows_of
 
 
 @pytest.fixture(scope="module")
 def table():
     """Surfaces with ζ twice Eq. 4 in h of the disc, and just Eq. 4 in h of the square."""
-    from viscorough.reference import zeta_elastic
-
     return prefactors(evidence(lambda hurst: 2 * zeta_elastic(hurst), square=0.5).scaling)
 
 

@@ -21,8 +21,8 @@ rule compare_direct:
     resources:
         mem_mb=1000,
     params:
+        **config["direct"],
         hursts=config["discs"]["hurst"],
-        elements=config["direct"]["elements"],
         seed=config["seed"],
     message:
         "Direct integration against both readings of the law"
@@ -60,7 +60,6 @@ rule plot_direct:
 rule judge_claims:
     input:
         discs="results/ensembles/discs.nc",
-        lines="results/ensembles/lines.nc",
         scaling=rules.fit_scaling.output.csv,
         validation=rules.validate.output.csv,
         direct=rules.compare_direct.output.csv,
@@ -84,10 +83,12 @@ rule judge_claims:
     resources:
         mem_mb=2000,
     params:
-        claims=read_yaml("resources/paper/claims.yaml"),
+        claims=paper("claims"),
+        numbers=paper("numbers"),
+        rules=config["verdicts"],
         shown=config["figures"],
         across=config["discs"]["elements"],
-        limits={name: config["scaling"][name] for name in ("elements_min", "stiffness_max", "slope_max")},
+        limits=region_limits(),
         resamples=config["scaling"]["resamples"],
         seed=config["seed"],
     message:

@@ -9,6 +9,7 @@ from pathlib import Path
 import yaml
 
 from viscorough_study import cases
+from viscorough_study.paper_data import read_paper
 from viscorough_study.settings import SettingsError, check_settings
 from viscorough_study.source_digest import SourceDigests
 
@@ -76,6 +77,16 @@ def names_of_pool(wildcards):
 def groups_of_pool(wildcards):
     """Group of each batch of a pool."""
     return [cases_of_pool(wildcards.pool)[case]["group"] for case in names_of_pool(wildcards)]
+
+
+def paper(name):
+    """Content of a file in resources/paper."""
+    return read_paper(Path(workflow.basedir) / "resources" / "paper", name)
+
+
+def region_limits():
+    """Settings by which region (b) is found: those of the fits without the ones that only fits need."""
+    return {name: value for name, value in config["scaling"].items() if name not in ("stiffness_range", "resamples")}
 
 
 def combinations():

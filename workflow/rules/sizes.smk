@@ -33,6 +33,7 @@ rule fit_sizes:
     params:
         seed=config["seed"],
         fit=config["scaling"],
+        tolerance=paper("claims")["beta"]["tolerance"],
         shown=config["figures"],
     message:
         "Exponents on grids from coarse to fine"

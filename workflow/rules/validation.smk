@@ -42,6 +42,8 @@ rule check_validation:
     threads: 1
     resources:
         mem_mb=500,
+    params:
+        order_margin=config["validation"]["order_margin"],
     message:
         "Verdict on the comparison with exact solutions"
     script:

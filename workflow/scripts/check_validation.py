@@ -8,10 +8,10 @@ from viscorough_study.job_log import log_to
 from viscorough_study.validate_solvers import failures
 
 
-def main(table, passed):
+def main(table, passed, *, order_margin):
     """Write what passed; raise ValueError with a part for every failed comparison of the table."""
     comparisons = pd.read_csv(table)
-    if failed := failures(comparisons):
+    if failed := failures(comparisons, order_margin):
         raise ValueError(f"validation failed, see {table}: " + "; ".join(failed))
     names = (comparisons["case"] + " " + comparisons["quantity"]).unique()
     Path(passed).write_text("\n".join(names) + "\n", encoding="utf-8")
@@ -19,4 +19,4 @@ def main(table, passed):
 
 if job := globals().get("snakemake"):
     log_to(job.log[0])
-    main(job.input.table, job.output.passed)
+    main(job.input.table, job.output.passed, **job.params)

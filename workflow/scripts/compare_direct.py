@@ -5,10 +5,12 @@ from viscorough_study.job_log import log_to
 from viscorough_study.tables import write_table
 
 
-def main(csv, nc, *, hursts, elements, seed):
+def main(csv, nc, *, hursts, elements, impulses, seed):
     """Integrate indenters of so many elements across, and tabulate."""
     title = "Direct integration and the readings of the law"
-    write_table(compare_direct(hursts, elements, seed), csv, nc, columns=COLUMNS, dimension="point", title=title)
+    write_table(
+        compare_direct(hursts, elements, impulses, seed), csv, nc, columns=COLUMNS, dimension="point", title=title
+    )
 
 
 if job := globals().get("snakemake"):

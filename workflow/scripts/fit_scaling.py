@@ -5,16 +5,16 @@ import logging
 import pandas as pd
 
 from viscorough.io.datasets import read_dataset
+from viscorough_study.fit_table import COLUMNS, fit_rows
 from viscorough_study.job_log import log_to
 from viscorough_study.pool import ensembles, select
-from viscorough_study.power_law import COLUMNS, scaling_rows
 from viscorough_study.tables import write_table
 
 
 def main(discs, lines, csv, nc, *, seed, fit):
     """Fit discs, one ensemble for each group and Hurst exponent, and lines; lines of the same exponent give lambda.
 
-    discs, lines : pools; fit : further arguments of scaling_rows
+    discs, lines : pools; fit : further arguments of fit_rows
     """
     discs, lines = read_dataset(discs), ensembles(read_dataset(lines), "hurst")
     rows = []
@@ -22,10 +22,10 @@ def main(discs, lines, csv, nc, *, seed, fit):
         for hurst, ensemble in ensembles(select(discs, group=group), "hurst").items():
             logging.info("discs, %s, H = %g", group, hurst)
             about = {"source": "discs", "case_group": group, "lines": lines[hurst] if group == "base" else None}
-            rows += scaling_rows(ensemble, **about, seed=seed, **fit)
+            rows += fit_rows(ensemble, **about, seed=seed, **fit)
     for hurst, ensemble in lines.items():
         logging.info("lines, H = %g", hurst)
-        rows += scaling_rows(ensemble, source="lines", case_group="base", seed=seed, **fit)
+        rows += fit_rows(ensemble, source="lines", case_group="base", seed=seed, **fit)
     table = pd.DataFrame(rows, columns=list(COLUMNS))
     write_table(table, csv, nc, columns=COLUMNS, dimension="fit", title="Power laws in region (b)")
 

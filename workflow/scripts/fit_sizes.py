@@ -3,31 +3,32 @@
 import pandas as pd
 
 from viscorough.io.datasets import read_dataset
+from viscorough_study.fit_table import COLUMNS, fit_rows
 from viscorough_study.grid_trends import COLUMNS as TRENDS
 from viscorough_study.grid_trends import trends
 from viscorough_study.job_log import log_to, progress
 from viscorough_study.pool import ensembles, select
-from viscorough_study.power_law import COLUMNS, scaling_rows
 from viscorough_study.tables import write_table
 
 
-def main(discs, lines, csv, nc, trends_csv, trends_nc, *, seed, fit, shown):
+def main(discs, lines, csv, nc, trends_csv, trends_nc, *, seed, fit, shown, tolerance):
     """Fit every ensemble by itself.
 
-    discs, lines : pools; fit : further arguments of scaling_rows; shown : conventions of the figures
+    discs, lines : pools; fit : further arguments of fit_rows; shown : conventions of the figures
+    tolerance : of the exponents
     """
     discs, lines = read_dataset(discs), read_dataset(lines)
     rows = []
     for source, group, pool in (("discs", "sizes", discs), ("discs", "controls", discs), ("lines", "sizes", lines)):
         cases = ensembles(select(pool, group=group), "case").values()
         for ensemble in progress(cases, len(cases), f"{source}, {group}"):
-            fits = scaling_rows(ensemble, source=source, case_group=group, seed=seed, **fit)
+            fits = fit_rows(ensemble, source=source, case_group=group, seed=seed, **fit)
             rows += [row | {"elements": ensemble["elements"].item()} for row in fits]
     columns = COLUMNS | {"elements": ("elements of an indenter: of a disc, points of a line", "1")}
     table = pd.DataFrame(rows, columns=list(columns))
     write_table(table, csv, nc, columns=columns, dimension="fit", title="Power laws on grids from coarse to fine")
     about = {"columns": TRENDS, "dimension": "trend", "title": "Trends of exponents over the number of elements"}
-    write_table(trends(table, shown), trends_csv, trends_nc, **about)
+    write_table(trends(table, shown, tolerance), trends_csv, trends_nc, **about)
 
 
 if job := globals().get("snakemake"):

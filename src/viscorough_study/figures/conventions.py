@@ -7,9 +7,9 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, LogLocator, MaxNLocator, NullFormatter, NullLocator
 
 from viscorough import reference
+from viscorough_study.conventions import fits
 from viscorough_study.figures.labels import CONVENTION_LABELS
 from viscorough_study.figures.style import GREY, MM, STYLE, WIDE, hurst_looks, mark_with_interval
-from viscorough_study.tables import fits
 
 VARIANTS = {
     "longer_period": "longer period",
@@ -70,7 +70,8 @@ def _changes(discs, conventions):
     base = conventions | {"case_group": "base"}
     rows = [("as in other figures", base)]
     for column, labels in CONVENTION_LABELS.items():
-        others = [value for value in labels if value != conventions[column] and value in set(discs[column])]
+        available = set(discs[column]) if column in discs else set(labels)  # readings of the law are derived from a fit
+        others = [value for value in labels if value != conventions[column] and value in available]
         rows += [(labels[value], base | {column: value}) for value in others]
     groups = [name for name in discs["case_group"].unique() if name != "base"]
     return rows + [(VARIANTS.get(name, name.replace("_", " ")), conventions | {"case_group": name}) for name in groups]

@@ -6,8 +6,8 @@ from matplotlib.figure import Figure
 from matplotlib.legend_handler import HandlerTuple
 
 from viscorough import reference
+from viscorough_study.conventions import fits
 from viscorough_study.figures.style import GREY, MM, NARROW, PALE, STYLE, hurst_looks, mark_with_interval
-from viscorough_study.tables import fits
 
 
 @rc_context(STYLE)

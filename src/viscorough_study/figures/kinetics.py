@@ -6,9 +6,9 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 
 from viscorough import reference
+from viscorough_study.conventions import fits
 from viscorough_study.figures.mean_curve import length_over_diameter, mean_curve
 from viscorough_study.figures.style import GREY, MM, PALE, STYLE, WIDE, hurst_handles, hurst_looks, logarithmic_ticks
-from viscorough_study.tables import fits
 
 
 @rc_context(STYLE)

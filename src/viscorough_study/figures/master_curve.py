@@ -7,9 +7,9 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator
 
 from viscorough import reference
+from viscorough_study.conventions import fits
 from viscorough_study.figures.mean_curve import mean_curve
 from viscorough_study.figures.style import GREY, MM, NARROW, STYLE, hurst_handles, hurst_looks, logarithmic_ticks
-from viscorough_study.tables import fits
 
 
 @rc_context(STYLE)

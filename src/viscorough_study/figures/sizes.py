@@ -5,6 +5,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from viscorough.reference import exponent_beta
+from viscorough_study.conventions import fits
 from viscorough_study.figures.style import (
     GREY,
     MM,
@@ -16,7 +17,6 @@ from viscorough_study.figures.style import (
     mark_with_interval,
     require_rows,
 )
-from viscorough_study.tables import fits
 
 
 @rc_context(STYLE)

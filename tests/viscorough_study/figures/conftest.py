@@ -4,13 +4,15 @@ import pandas as pd
 import pytest
 
 from support.figures import COMBINATIONS, ELEMENTS, HURST, X, case_of
+from support.study import LIMITS, pool_of
 from viscorough.contact.loading_path import indent
 from viscorough.mdr import reduce
 from viscorough.surfaces import self_affine_disc, self_affine_line
-from viscorough_study.ensembles import aggregate, combine
-from viscorough_study.power_law import COLUMNS, scaling_rows
+from viscorough_study.ensembles import aggregate
+from viscorough_study.fit_table import COLUMNS, fit_rows
+from viscorough_study.pool import ensembles
 
-SCALING = {"elements_min": 3, "stiffness_max": 0.2, "slope_max": 0.8, "stiffness_range": (0.03, 0.3)}
+SCALING = LIMITS | {"elements_min": 3, "stiffness_range": (0.03, 0.3)}
 
 
 @pytest.fixture(scope="session")
@@ -44,7 +46,7 @@ def discs(curves):
 
 @pytest.fixture(scope="session")
 def pooled(discs):
-    return [combine([ds for ds in discs if ds["hurst"] == hurst]) for hurst in HURST]
+    return list(ensembles(pool_of(discs), "hurst").values())
 
 
 @pytest.fixture(scope="session")
@@ -61,9 +63,9 @@ def scaling(pooled, lines):
     rows = []
     for ensemble, line in zip(pooled, lines, strict=True):
         how = {"resamples": 20, "seed": 1, **SCALING}
-        rows += scaling_rows(ensemble, source="discs", case_group="base", lines=line, **how)
-        rows += scaling_rows(ensemble, source="discs", case_group="roll_off", **how)
-        rows += scaling_rows(line, source="lines", case_group="base", **how)
+        rows += fit_rows(ensemble, source="discs", case_group="base", lines=line, **how)
+        rows += fit_rows(ensemble, source="discs", case_group="roll_off", **how)
+        rows += fit_rows(line, source="lines", case_group="base", **how)
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 

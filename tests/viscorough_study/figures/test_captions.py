@@ -61,7 +61,7 @@ def drawn(discs, pooled, lines, scaling, combinations):
         "validation": Drawn(plot_validation(tables.validation_table()), {"quantity": 2}),
         "direct": Drawn(plot_direct_integration(tables.direct_table())),
         "reduction": Drawn(plot_mdr_comparison(tables.mdr_table())),
-        "sizes": Drawn(plot_sizes(tables.sizes_table(SHOWN), SHOWN)),
+        "sizes": Drawn(plot_sizes(tables.sizes_table(), SHOWN)),
         "large": Drawn(plot_large(tables.large_table())),
         "speed": Drawn(plot_speed(tables.methods_table()), {"indenter": 2}),
         "growth": Drawn(plot_growth(tables.methods_table())),

@@ -7,6 +7,7 @@ import pytest
 from support.figures import HURST, markers, whole_on_page, without_region
 from support.study import SHOWN
 from viscorough import reference
+from viscorough_study.conventions import select
 from viscorough_study.figures.conventions import plot_conventions
 
 pytestmark = pytest.mark.filterwarnings("error")
@@ -27,8 +28,7 @@ def test_conventions_has_a_row_for_each_change(scaling):
             rows = {int(line.get_ydata()[0]): line.get_xdata()[0] for line in markers(panel)}
             for y, change in enumerate(changes):
                 wanted = SHOWN | {"source": "discs", "case_group": "base", "hurst": hurst} | change
-                (row,) = (scaling[list(wanted)] == list(wanted.values())).all(axis=1).to_numpy().nonzero()[0]
-                value = scaling[quantity][row]
+                (value,) = select(scaling, wanted)[quantity]
                 assert rows.get(y) == value if np.isfinite(value) else y not in rows
     laws = {
         line.get_xdata()[0] for line in grid[1, 1].lines if len(set(line.get_xdata())) == 1 and line.get_zorder() == 1

@@ -5,9 +5,9 @@ import pytest
 
 from support.figures import dashed, markers, whole_on_page, without_region
 from support.study import SHOWN
+from viscorough_study.conventions import fits
 from viscorough_study.figures.conventions import plot_conventions
 from viscorough_study.figures.exponent import plot_exponent
-from viscorough_study.tables import fits
 
 pytestmark = pytest.mark.filterwarnings("error")
 

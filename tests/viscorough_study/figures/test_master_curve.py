@@ -7,8 +7,8 @@ from matplotlib.colors import to_rgb
 from support.figures import X, dashed, whole_on_page, without_region
 from support.study import SHOWN
 from viscorough import reference
+from viscorough_study.conventions import fits
 from viscorough_study.figures.master_curve import plot_master_curve
-from viscorough_study.tables import fits
 
 pytestmark = pytest.mark.filterwarnings("error")
 

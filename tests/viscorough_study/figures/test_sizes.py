@@ -8,7 +8,7 @@ from viscorough_study.figures.sizes import plot_sizes
 
 
 def test_a_marker_for_every_ensemble_with_a_region():
-    table = sizes_table(SHOWN)
+    table = sizes_table()
     figure = plot_sizes(table, SHOWN)
     for axes, control in zip(figure.axes, ([0.01], []), strict=True):
         markers = [line for line in axes.lines if line.get_marker() not in ("None", "", "_", "|")]

@@ -1,0 +1,84 @@
+"""Criteria: their statistics against known distributions, and their limits."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from support.study import evidence
+from viscorough_study.criteria import excess_variance, last_region, power_law
+from viscorough_study.evidence import judged
+
+
+def test_variance_between_groups_is_covered_at_the_stated_rate():
+    """Of 4000 draws, each end of the 95 % interval misses the true ratio of variances in 2.5 %, the median in half.
+
+    The counts must lie in the 99.99 % range of the binomial distribution: 64 to 140 of 4000 for the ends.
+    """
+    random, draws, between, within = np.random.default_rng(7), 4000, 0.5, 2.0
+    beyond = np.zeros(3)
+    for _ in range(draws):
+        means = np.sqrt(between) * random.standard_normal(6)
+        groups = means[:, None] + np.sqrt(within) * random.standard_normal((6, 8))
+        median, low, high, of_means = excess_variance(list(groups))
+        truth = between / (within / 8) * of_means
+        beyond += median > truth, low > truth, high < truth
+    for count, share in zip(beyond, (0.5, 0.025, 0.025), strict=True):
+        fewest, most = stats.binom.interval(0.9999, draws, share)
+        assert fewest <= count <= most
+
+
+def test_interval_of_the_variance_between_groups_inverts_the_f_distribution():
+    """At the ends, MS_between/MS_within over 1 + n σ_b²/σ_w² is at the 97.5 % and the 2.5 % point of F."""
+    groups = 3 * np.arange(5)[:, None] + np.random.default_rng(3).standard_normal((5, 9))
+    *bounds, of_means = excess_variance([*groups])
+    within = groups.var(axis=1, ddof=1).mean()
+    ratio = 9 * groups.mean(axis=1).var(ddof=1) / within
+    probabilities = [stats.f.cdf(ratio / (1 + 9 * bound / within), 4, 40) for bound in bounds]
+    assert probabilities == pytest.approx([0.5, 0.975, 0.025], rel=1e-9)
+    assert of_means == pytest.approx(within / 9)
+
+
+def test_variance_between_groups_is_never_negative_and_needs_two_groups():
+    same = [np.array([0.0, 1.0, np.nan])] * 3
+    np.testing.assert_array_equal(excess_variance(same)[:2], 0)
+    assert np.isnan(excess_variance(same[:1])).all()
+    assert np.isnan(excess_variance([np.zeros(1)] * 4)).all()
+
+
+@pytest.mark.parametrize(
+    ("interval", "verdict"),
+    [((0.1, 0.3), True), ((1.05, 1.2), False), ((-2.0, -1.05), False), ((0.9, 1.2), True), ((-1.9, 2.2), None)],
+)
+def test_interval_against_a_range(interval, verdict):
+    """[-1, 1] is the range: inside, beyond either end, over an end, and more than twice as wide."""
+    assert evidence().may_lie_within(interval, -1.0, 1.0) is verdict
+
+
+def test_outcomes_of_a_case():
+    values = 1.0, 0.9, 1.1
+    assert judged("a", values, 1.0, True, "rms_convention square").verdict == "reproduced"
+    assert judged("a", values, 1.0, True, "rms_convention square").convention == ""
+    under_other = judged("a", values, 1.0, False, "rms_convention square")
+    assert under_other.verdict == "reproduced under a stated convention"
+    assert under_other.convention == "rms_convention square"
+    assert judged("a", values, 1.0, False).verdict == "not reproduced"
+    assert judged("a", values, 1.0, None).verdict == "not testable"
+    assert judged("a", (np.nan, 0.0, 1.0), 1.0, False).verdict == "not testable"
+
+
+def test_settings_decide_how_long_a_power_law_must_be():
+    found = evidence()
+    decades = max(case.value for case in power_law(found, 0.05) if "decades" in case.name)
+    longer = dataclasses.replace(found, rules=found.rules | {"decades_min": decades + 0.1})
+    verdicts = {case.verdict for case in power_law(longer, 0.05) if "decades" in case.name}
+    assert verdicts == {"not reproduced"}
+
+
+def test_slope_of_the_last_region_is_over_the_end_of_the_curves():
+    """Over the last twentieth of a decade κ is constant; over two decades the power law enters."""
+    found = evidence()
+    for decades, verdict in ((0.25, "reproduced"), (3.0, "not reproduced")):
+        changed = dataclasses.replace(found, rules=found.rules | {"end_decades": decades})
+        assert {case.verdict for case in last_region(changed, 0.05) if "slope" in case.name} == {verdict}

@@ -1,0 +1,63 @@
+"""Pools of batches: what is taken out of them is what one large ensemble would be."""
+
+import json
+
+import numpy as np
+import pytest
+
+from support.study import line_curve
+from viscorough.io.curves import stack_curves
+from viscorough.io.netcdf import Variable
+from viscorough_study.ensembles import abscissa, aggregate
+from viscorough_study.pool import ensembles, pool_batches, select
+
+X = abscissa(1e-3, 3, 10)
+RMS = np.linspace(0.8, 1.2, 12)
+
+
+@pytest.fixture(scope="module")
+def curves():
+    heights = np.random.default_rng(1).normal(size=(12, 40))
+    return [line_curve(gaps) for gaps in heights.max(axis=1, keepdims=True) - heights]
+
+
+def batch(curves, rms, hurst=0.5):
+    content = stack_curves(curves)
+    for name, dimensions, values in (("hurst", (), hurst), ("diameter", (), 1.0), ("rms_line", ("realization",), rms)):
+        content.variables[name] = Variable(dimensions, np.asarray(values), {})
+    content.attributes["settings"] = json.dumps({"seed": 1})
+    return content
+
+
+@pytest.fixture(scope="module")
+def pool(curves):
+    parts = ((slice(0, 5), "a_c1"), (slice(5, 9), "a_c2"), (slice(9, 12), "a_c2"))
+    batches = [(case, "base", batch(curves[part], RMS[part])) for part, case in parts]
+    other = ("b_c1", "variant", batch(curves[:2], RMS[:2], hurst=0.7))
+    return pool_batches([*batches, other], ["line"], X)
+
+
+def test_ensemble_of_a_hurst_exponent_is_one_large_ensemble(curves, pool):
+    pooled = ensembles(pool, "hurst")[0.5]
+    whole = aggregate(curves, {"line": RMS}, 1.0, X, hurst=0.5, case="a")
+    assert set(pooled.data_vars) == set(whole.data_vars)
+    for name in whole.data_vars:
+        np.testing.assert_allclose(pooled[name], whole[name], rtol=1e-12, err_msg=name)
+    assert pooled["case"].values.tolist() == ["a_c1"] * 5 + ["a_c2"] * 7
+    assert (pooled["hurst"].item(), pooled["elements"].item(), pooled["diameter"].item()) == (0.5, 40, 1.0)
+
+
+def test_ensembles_of_cases(curves, pool):
+    of_cases = ensembles(select(pool, group="base"), "case")
+    assert list(of_cases) == ["a_c1", "a_c2"]
+    second = aggregate(curves[5:], {"line": RMS[5:]}, 1.0, X, hurst=0.5, case="a_c2")
+    np.testing.assert_allclose(of_cases["a_c2"]["velocity_geometric"], second["velocity_geometric"], rtol=1e-12)
+    assert of_cases["a_c2"]["case"].item() == "a_c2"
+    assert select(pool, group="variant", hurst=0.7).sizes["realization"] == 2
+    assert select(pool, group="variant", hurst=0.5).sizes["realization"] == 0
+
+
+def test_unlike_realizations_make_no_ensemble(pool):
+    mixed = pool.assign_coords(group=("realization", ["all"] * pool.sizes["realization"]))
+    with pytest.raises(ValueError, match="all: the realizations differ in hurst"):
+        ensembles(mixed, "group")

@@ -34,7 +34,7 @@ def main(cases, seed, output):
     began, failures = time.perf_counter(), []
     for case in tqdm(range(cases), unit="indenter", mininterval=2):
         try:
-            wrong = silent_failure(*random_case(case_generator(seed, case)))
+            wrong = silent_failure(random_case(case_generator(seed, case)))
         except Exception as error:  # any exception counts as a failure of its case, and the campaign continues
             wrong = f"{type(error).__name__}: {error}"
         if wrong:

@@ -146,7 +146,7 @@ def failure_table(verdicts):
         for rank, verdict in enumerate(verdicts)
         for method, error in (("path, dense", 0.0), ("explicit steps", 1e-3))
     ]
-    return pd.DataFrame(rows, columns=["group", "difficulty", "method", "error", "verdict"])
+    return pd.DataFrame(rows, columns=["group", "case", "method", "error", "verdict"])
 
 
 def failure_curves_table():

@@ -152,10 +152,10 @@ def test_stability(fresh):
     for figure in ("stability", "stability_curves"):
         for kind in ("png", "pdf"):
             assert (fresh / f"results/figures/{figure}.{kind}").stat().st_size > 5000
-    atlas = pd.read_csv(fresh / "results/tables/stability.csv")
+    table = pd.read_csv(fresh / "results/tables/stability.csv")
     with xr.open_dataset(fresh / "results/tables/stability.nc") as nc:
-        assert nc["verdict"].values.tolist() == atlas["verdict"].tolist()
-    assert "unnoticed" not in set(atlas["verdict"])
+        assert nc["verdict"].values.tolist() == table["verdict"].tolist()
+    assert "unnoticed" not in set(table["verdict"])
 
 
 def test_sizes_and_large_discs(fresh):

@@ -1,20 +1,21 @@
-"""Table of every method in every difficulty."""
+"""The failure map: every method on every stress-test case."""
 
 import logging
 
 from viscorough_study.job_log import log_to
-from viscorough_study.robustness.failure_map import COLUMNS, table, unnoticed
-from viscorough_study.robustness.stress_cases import difficulties
+from viscorough_study.robustness.failure_map import COLUMNS, failure_map, unnoticed
+from viscorough_study.robustness.stress_cases import stress_cases
 from viscorough_study.seeds import failure_map_key, realization_seed
 from viscorough_study.tables import write_table
 
 
 def main(csv, nc, *, seed, across, grids):
-    """Write the table; what fails unnoticed is also said in the log."""
-    atlas = table(difficulties(realization_seed(seed, *failure_map_key()), across, grids), logging.info)
-    for row in unnoticed(atlas).itertuples():
-        logging.warning("%s: %s fails unnoticed, error %.2g", row.difficulty, row.method, row.error)
-    write_table(atlas, csv, nc, columns=COLUMNS, dimension="cell", title="Every method in every difficulty")
+    """Write the table, and a warning to the log for every failure that is unnoticed."""
+    cases = stress_cases(realization_seed(seed, *failure_map_key()), across, grids)
+    table = failure_map(cases, report=logging.info)
+    for row in unnoticed(table).itertuples():
+        logging.warning("%s: %s fails unnoticed, error %.2g", row.case, row.method, row.error)
+    write_table(table, csv, nc, columns=COLUMNS, dimension="cell", title="Every method on every stress-test case")
 
 
 if job := globals().get("snakemake"):

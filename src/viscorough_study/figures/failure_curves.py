@@ -31,7 +31,7 @@ COLORS = (BLACK, BLUE, SKY_BLUE, PURPLE, GREEN, VERMILION, ORANGE, "#999999", YE
 def plot_failure_curves(table):
     """Error against the number of explicit steps (a) and against the contact fraction (b).
 
-    table : curves of viscorough_study.robustness.failure_map. Raises ValueError for a table without rows.
+    table : of viscorough_study.robustness.failure_curves. Raises ValueError for a table without rows.
     """
     require_rows("plot_failure_curves", table)
     figure = Figure(figsize=(WIDE, 80 * MM))

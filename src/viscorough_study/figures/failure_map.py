@@ -28,12 +28,12 @@ def plot_failure_map(table):
     """
     require_rows("plot_failure_map", table)
     methods = list(dict.fromkeys(table["method"]))
-    rows = list(dict.fromkeys(zip(table["group"], table["difficulty"], strict=True)))
+    rows = list(dict.fromkeys(zip(table["group"], table["case"], strict=True)))
     figure = Figure(figsize=(WIDE, (4.1 * len(rows) + 32) * MM))
     axes = figure.subplots()
     errors = np.full((len(rows), len(methods)), np.nan)
     for cell in table.itertuples():
-        i, j = rows.index((cell.group, cell.difficulty)), methods.index(cell.method)
+        i, j = rows.index((cell.group, cell.case)), methods.index(cell.method)
         if cell.verdict != "refused":
             errors[i, j] = max(cell.error, FLOOR)
         color = "white" if NORM(errors[i, j]) < 0.55 else "black"

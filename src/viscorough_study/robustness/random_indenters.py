@@ -1,4 +1,6 @@
-"""Small indenters of every kind, generated at random, and what their solutions must not be wrong about in silence."""
+"""Random small indenters for detecting silent failures: solutions that claim to have converged but are wrong."""
+
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -13,31 +15,19 @@ from viscorough_study.performance.ablations import GRID_ONLY
 KINDS = ("uniform", "normal", "whole numbers", "hill", "rough disc", "steps", "strip", "ridge", "one spike", "flat")
 
 
+@dataclass(frozen=True)
+class RandomCase:
+    """An indenter, increasing depths, a tolerance, and whether the grid solver is used from the first element on."""
+
+    indenter: Indenter
+    depths: np.ndarray
+    tolerance: float
+    on_grid: bool
+
+
 def random_case(generator):
-    """A small indenter of a random kind and scale, three depths, a tolerance, and whether to use the grid."""
-    kind, rows, columns = generator.choice(KINDS), *generator.integers(1, 13, 2)
-    row, column = np.mgrid[:rows, :columns] - np.array([rows, columns])[:, None, None] * generator.random((2, 1, 1))
-    if kind == "normal":
-        heights = generator.standard_normal((rows, columns))
-    elif kind == "whole numbers":
-        heights = generator.integers(0, generator.integers(2, 6), (rows, columns)).astype(float)
-    elif kind == "hill":
-        heights = -(np.hypot(row, column) ** generator.uniform(0.5, 4))
-    elif kind == "rough disc":
-        heights = self_affine_disc(
-            generator.random(), int(generator.integers(3, 13)), seed=int(generator.integers(2**32))
-        ).heights
-    elif kind == "steps":
-        heights = np.floor(generator.uniform(0.1, 2) * row + generator.uniform(0.1, 2) * column)
-    elif kind == "strip":
-        heights = generator.random((1, int(generator.integers(1, 100))))
-    elif kind == "ridge":
-        heights = -abs(row + generator.normal() * column) + 1e-3 * generator.random((rows, columns))
-    elif kind == "one spike":
-        heights = 1e-6 * generator.random((rows, columns))
-        heights[rows // 2, columns // 2] = 1.0
-    else:
-        heights = np.zeros((rows, columns)) if kind == "flat" else generator.random((rows, columns))
+    """A RandomCase: a small indenter of a random kind and scale, and random questions; from a numpy Generator."""
+    heights = _random_heights(generator)
     if generator.random() < 0.3 and heights.size > 3:
         heights = np.where(generator.random(heights.shape) < generator.random() * 0.8, np.nan, heights)
         heights.flat[generator.integers(heights.size)] = 0.5
@@ -45,28 +35,55 @@ def random_case(generator):
     indenter = Indenter(height * heights, length)
     span = np.nanmax(indenter.initial_gap) or length
     depths = np.sort(span * 10.0 ** generator.uniform(-3, 1.5, 3))
-    return indenter, depths, 10.0 ** -generator.uniform(1, 11), bool(generator.random() < 0.6)
+    return RandomCase(indenter, depths, 10.0 ** -generator.uniform(1, 11), bool(generator.random() < 0.6))
 
 
-def silent_failure(indenter, depths, tolerance, on_grid, solver_type=ContactSolver):
-    """What is wrong, in words, with a solution that claims to have converged; "" if nothing is.
+def _random_heights(generator):
+    """Heights of one of the KINDS, up to 12 elements across; a strip of up to 99."""
+    kind, rows, columns = generator.choice(KINDS), *generator.integers(1, 13, 2)
+    row, column = np.mgrid[:rows, :columns] - np.array([rows, columns])[:, None, None] * generator.random((2, 1, 1))
+    if kind == "normal":
+        return generator.standard_normal((rows, columns))
+    if kind == "whole numbers":
+        return generator.integers(0, generator.integers(2, 6), (rows, columns)).astype(float)
+    if kind == "hill":
+        return -(np.hypot(row, column) ** generator.uniform(0.5, 4))
+    if kind == "rough disc":
+        hurst, across, seed = generator.random(), generator.integers(3, 13), generator.integers(2**32)
+        return self_affine_disc(hurst, int(across), seed=int(seed)).heights
+    if kind == "steps":
+        return np.floor(generator.uniform(0.1, 2) * row + generator.uniform(0.1, 2) * column)
+    if kind == "strip":
+        return generator.random((1, int(generator.integers(1, 100))))
+    if kind == "ridge":
+        return -abs(row + generator.normal() * column) + 1e-3 * generator.random((rows, columns))
+    if kind == "one spike":
+        heights = 1e-6 * generator.random((rows, columns))
+        heights[rows // 2, columns // 2] = 1.0
+        return heights
+    return np.zeros((rows, columns)) if kind == "flat" else generator.random((rows, columns))
 
-    Tension, and gap in contact or penetration outside over ten times the tolerance, are looked for with the dense
-    influence matrix; the force is compared with events, which share no code with the path but influence coefficients.
-    A ConvergenceError is no silent failure. Heights are known to rounding, which is allowed for at small depths.
+
+def silent_failure(case, solver_type=ContactSolver):
+    """What is wrong, in words, with a solution of a RandomCase that claims to have converged; "" if nothing is.
+
+    With the dense influence matrix it is checked for tension, and for gap in contact or overlap outside it of more than
+    ten times the tolerance. The force is compared with that of the direct integration in time, which shares nothing
+    with the path but the influence coefficients. At small depths the rounding of the heights is allowed for.
+    A ConvergenceError is not a silent failure; a level solved before it can be one.
     """
-    solver, wrong = solver_type(indenter, tolerance, GRID_ONLY["single"] if on_grid else DEFAULT), ""
+    options = GRID_ONLY["single"] if case.on_grid else DEFAULT
+    solver, events = solver_type(case.indenter, case.tolerance, options), march_events(case.indenter)
     row, column = solver.elements.row, solver.elements.column
     influence = solver.elements.influence[abs(row[:, None] - row), abs(column[:, None] - column)]
-    events = march_events(indenter)
-    contact = solver.unloaded_state()
-    for depth in depths:
+    contact, wrong = solver.unloaded_state(), ""
+    for depth in case.depths:
         try:
             contact = solver.advance(contact, depth)
         except ConvergenceError:
-            return ""
+            return wrong
         reduced = contact.reduced_depth
-        allowed = 10 * tolerance + 1e-13 / min(reduced, 1.0)
+        allowed = 10 * case.tolerance + 1e-13 / min(reduced, 1.0)
         gap = influence[:, contact.members] @ contact.reduced_pressure - reduced + solver.elements.initial_gap
         exact = np.interp(depth, events.depth, events.impulse)
         exact += max(depth - events.depth[-1], 0.0) * events.resistance[-1]
@@ -75,5 +92,5 @@ def silent_failure(indenter, depths, tolerance, on_grid, solver_type=ContactSolv
         elif max(-gap.min(), np.abs(gap[contact.members]).max()) > allowed * reduced:
             wrong = f"overlap {-gap.min():.2g}, gap {gap[contact.members].max():.2g} at depth {reduced:.2g}"
         elif abs(contact.force / exact - 1) > allowed:
-            wrong = f"force off by {contact.force / exact - 1:.2g}, tolerance {tolerance:.2g}, depth {reduced:.2g}"
+            wrong = f"force off by {contact.force / exact - 1:.2g}, tolerance {case.tolerance:.2g}, depth {reduced:.2g}"
     return wrong

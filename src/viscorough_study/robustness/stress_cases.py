@@ -1,4 +1,4 @@
-"""Difficulties that methods are driven into: indenters, and what is asked of them."""
+"""Stress-test cases: indenters, and what is asked of the methods that press them."""
 
 from dataclasses import dataclass
 
@@ -9,21 +9,21 @@ from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
 
 NOT_SELF_AFFINE = "the indenter is no isotropic self-affine surface, which a line with its spectrum stands for"
-SMALL = "Eq. 5 is said to hold above H = 0.4"
+SMALL_HURST = "Eq. 5 is said to hold above H = 0.4"
 ROLL_OFF = "the spectrum rolls off: there is no power law"
 
 
 @dataclass(frozen=True)
-class Difficulty:
-    """An indenter, and what is asked of it.
+class StressCase:
+    """An indenter, and what is asked of the methods.
 
-    hurst : the exponent that a user of the power law, and of a line with the same spectrum, would take
-    fractions : contact fractions between which depths are asked for
-    body : of revolution with a power-law profile, whose line is exact
-    tolerance : of the elastic path; steps : of explicit marching
-    force : F at equal times, whose impulses are those asked for; constant by default
-    stated : why models are documented not to hold here
-    periodic : the grid of the elastic path without padding, so that images of the indenter press as well
+    hurst : Hurst exponent that a user would assume for the power law, and for a line with the same spectrum
+    fractions : contact fractions between which the solutions are compared
+    body : the body of revolution with a power-law profile that the indenter is, whose line is exact; or None
+    tolerance : of the elastic path; steps : number of steps of explicit marching
+    force : F at equal intervals of time; constant by default
+    stated : why, according to their documentation, models do not hold for this case
+    periodic : whether the grid of the elastic path has no padding, so that periodic images of the indenter press, too
     """
 
     group: str
@@ -39,57 +39,105 @@ class Difficulty:
     periodic: bool = False
 
 
-def difficulties(seed, across, grids):
-    """Every difficulty of the atlas, on maps of `across` elements, and on `grids` where the size is the difficulty."""
+def stress_cases(seed, across, grids):
+    """Every stress-test case of the failure map, group by group.
 
-    def disc(hurst, elements=across, **options):
-        return self_affine_disc(hurst, elements, seed=seed, **options)
+    seed : SeedSequence of the rough discs; across : elements across the maps
+    grids : elements across the discs of the group that varies the grid
+    """
+    maps = _Maps(seed, across)
+    yield from _time_stepping_cases(maps)
+    yield from _hurst_cases(maps)
+    yield from _grid_cases(maps, grids)
+    yield from _contact_cases(maps)
+    yield from _tied_cases(maps)
+    yield from _shape_cases(maps)
+    yield from _padding_cases(maps)
+    yield from _scale_cases(maps)
+    yield from _force_cases(maps)
+    yield from _tolerance_cases(maps)
 
-    def of(shape):
-        """The map of a shape over x and y from −1 to 1, times 0.1; spacing 2 / across."""
-        x = (np.arange(across) - (across - 1) / 2) * 2 / across
-        return Indenter(0.1 * (shape(x[:, None], x) + np.zeros((across, across))), 2 / across)
 
-    def shaped(name, shape, **options):
-        return Difficulty("shape", name, of(shape), stated=NOT_SELF_AFFINE, **options)
+@dataclass(frozen=True)
+class _Maps:
+    """Height maps of `across` elements across."""
+
+    seed: np.random.SeedSequence
+    across: int
+
+    def disc(self, hurst, elements=None, **options):
+        return self_affine_disc(hurst, elements or self.across, seed=self.seed, **options)
+
+    @property
+    def usual(self):
+        """The disc that most cases share, and its Hurst exponent."""
+        return {"indenter": self.disc(0.7), "hurst": 0.7}
+
+    def shape(self, function):
+        """Heights 0.1 times a function of x and y from −1 to 1; spacing 2/across."""
+        x = (np.arange(self.across) - (self.across - 1) / 2) * 2 / self.across
+        return Indenter(0.1 * (function(x[:, None], x) + np.zeros((self.across, self.across))), 2 / self.across)
+
+
+def _time_stepping_cases(maps):
+    yield StressCase("step size", "4096 steps", **maps.usual, steps=4096)
+    yield StressCase("step size", "256 steps", **maps.usual)
+    yield StressCase("step size", "16 steps", **maps.usual, steps=16)
+    yield StressCase("step size", "one step", **maps.usual, steps=1)
+
+
+def _hurst_cases(maps):
+    for hurst in (0.0, 0.2, 0.4, 0.7, 1.0):
+        stated = SMALL_HURST if hurst <= 0.4 else ""
+        yield StressCase("Hurst exponent", f"H = {hurst:g}", maps.disc(hurst), hurst, stated=stated)
+    rolled_off = maps.disc(0.7, roll_off_wavelength=0.2, roll_off_level=1.0)
+    yield StressCase("Hurst exponent", "H = 0.7, roll-off", rolled_off, 0.7, stated=ROLL_OFF)
+
+
+def _grid_cases(maps, grids):
+    for n in grids:
+        fractions = (0.05, 0.5) if n < 65 else (30 / n**2, 300 / n**2)
+        steps = 256 if n < 257 else 64
+        yield StressCase("grid", f"{n} elements across", maps.disc(0.7, n), 0.7, fractions, steps=steps)
+
+
+def _contact_cases(maps):
+    usual = maps.usual
+    elements = usual["indenter"].elements
+    yield StressCase("contact", "up to 2 elements", **usual, fractions=(1 / elements, 2 / elements))
+    yield StressCase("contact", "95 % to all but one", **usual, fractions=(0.95, 1 - 1 / elements))
+    yield StressCase("contact", "to all elements", **usual, fractions=(0.5, 1.0))
+    yield StressCase("contact", "past all elements", **usual, fractions=(0.9, 1.1))
+
+
+def _tied_cases(maps):
+    """Elements of exactly the same height."""
 
     def tied(name, heights, **options):
-        return Difficulty(
-            "ties", name, Indenter(np.asarray(heights, dtype=float), 1.0), stated=NOT_SELF_AFFINE, **options
-        )
+        indenter = Indenter(np.asarray(heights, dtype=float), 1.0)
+        return StressCase("ties", name, indenter, stated=NOT_SELF_AFFINE, **options)
 
-    rough = disc(0.7)
-    usual = {"indenter": rough, "hurst": 0.7}
-    elements, random = rough.elements, np.random.default_rng(seed)
+    across = maps.across
     checkered = np.add.outer(np.arange(across), np.arange(across)) % 2
     apart = np.full((across, across), np.nan)
     apart[0, 0], apart[-1, -1] = 0, -0.1
-
-    yield Difficulty("step size", "4096 steps", **usual, steps=4096)
-    yield Difficulty("step size", "256 steps", **usual)
-    yield Difficulty("step size", "16 steps", **usual, steps=16)
-    yield Difficulty("step size", "one step", **usual, steps=1)
-    for hurst in (0.0, 0.2, 0.4, 0.7, 1.0):
-        yield Difficulty("Hurst exponent", f"H = {hurst:g}", disc(hurst), hurst, stated=SMALL if hurst <= 0.4 else "")
-    rolled = {"roll_off_wavelength": 0.2, "roll_off_level": 1.0}
-    yield Difficulty("Hurst exponent", "H = 0.7, roll-off", disc(0.7, **rolled), 0.7, stated=ROLL_OFF)
-    for n in grids:
-        few = (0.05, 0.5) if n < 65 else (30 / n**2, 300 / n**2)
-        yield Difficulty("grid", f"{n} elements across", disc(0.7, n), 0.7, few, steps=256 if n < 257 else 64)
-    yield Difficulty("contact", "up to 2 elements", **usual, fractions=(1 / elements, 2 / elements))
-    yield Difficulty("contact", "95 % to all but one", **usual, fractions=(0.95, 1 - 1 / elements))
-    yield Difficulty("contact", "to all elements", **usual, fractions=(0.5, 1.0))
-    yield Difficulty("contact", "past all elements", **usual, fractions=(0.9, 1.1))
     yield tied("exactly flat", np.zeros((across, across)))
     yield tied("one element", [[1.0]])
     yield tied("two, far apart", apart, fractions=(0.5, 1.0))
-    yield tied("plateau on a hill", of(lambda x, y: -np.maximum(np.hypot(x, y), 0.3)).heights * 10)
-    yield tied("terraces", of(lambda x, y: -np.floor(6 * np.hypot(x, y))).heights)
-    yield tied("one step", of(lambda x, y: -1.0 * (x > 0.1)).heights)
+    yield tied("plateau on a hill", maps.shape(lambda x, y: -np.maximum(np.hypot(x, y), 0.3)).heights * 10)
+    yield tied("terraces", maps.shape(lambda x, y: -np.floor(6 * np.hypot(x, y))).heights)
+    yield tied("one step", maps.shape(lambda x, y: -1.0 * (x > 0.1)).heights)
     yield tied("checkered", -0.5 * checkered, fractions=(0.5, 1.0))
-    yield tied("whole numbers", random.integers(0, 4, (across, across)))
-    yield Difficulty("shape", "sphere", of(lambda x, y: -(x**2 + y**2) / 2), body=reference.PowerLawBody(0.05, 2))
-    yield Difficulty("shape", "cone", of(lambda x, y: -np.hypot(x, y)), body=reference.PowerLawBody(0.1, 1))
+    yield tied("whole numbers", np.random.default_rng(maps.seed).integers(0, 4, (across, across)))
+
+
+def _shape_cases(maps):
+    def shaped(name, function, **options):
+        return StressCase("shape", name, maps.shape(function), stated=NOT_SELF_AFFINE, **options)
+
+    sphere, cone = reference.PowerLawBody(0.05, 2), reference.PowerLawBody(0.1, 1)
+    yield StressCase("shape", "sphere", maps.shape(lambda x, y: -(x**2 + y**2) / 2), body=sphere)
+    yield StressCase("shape", "cone", maps.shape(lambda x, y: -np.hypot(x, y)), body=cone)
     yield shaped("ridge", lambda x, y: -(x**2))
     yield shaped("wedge", lambda x, y: -abs(x))
     yield shaped("two spheres", lambda x, y: -np.minimum((x - 0.5) ** 2, (x + 0.5) ** 2) - y**2)
@@ -97,9 +145,17 @@ def difficulties(seed, across, grids):
     yield shaped("elongated", lambda x, y: -(x**2) - (y / 8) ** 2)
     yield shaped("tilted plane", lambda x, y: x + y / 2)
     yield shaped("steep: slope 20", lambda x, y: -200 * np.hypot(x, y))
-    low = (2 / elements, 20 / elements)
-    yield Difficulty("no padding", "2 to 20 elements", **usual, fractions=low, periodic=True)
-    yield Difficulty("no padding", "up to half of all", **usual, periodic=True)
+
+
+def _padding_cases(maps):
+    usual = maps.usual
+    low = (2 / usual["indenter"].elements, 20 / usual["indenter"].elements)
+    yield StressCase("no padding", "2 to 20 elements", **usual, fractions=low, periodic=True)
+    yield StressCase("no padding", "up to half of all", **usual, periodic=True)
+
+
+def _scale_cases(maps):
+    rough = maps.disc(0.7)
     for name, height, length in (
         ("heights times 1e12", 1e12, 1.0),
         ("heights times 1e-12", 1e-12, 1.0),
@@ -107,8 +163,10 @@ def difficulties(seed, across, grids):
         ("spacing times 1e-12", 1.0, 1e-12),
         ("heights 1e-12, spacing 1e12", 1e-12, 1e12),
     ):
-        scaled = Indenter(height * rough.heights, length * rough.spacing)
-        yield Difficulty("scale", name, scaled, 0.7)
+        yield StressCase("scale", name, Indenter(height * rough.heights, length * rough.spacing), 0.7)
+
+
+def _force_cases(maps):
     for name, force in (
         ("ramp", (0.0, 1.0)),
         ("step", (0.1, 0.1, 0.1, 1.0, 1.0, 1.0)),
@@ -116,6 +174,9 @@ def difficulties(seed, across, grids):
         ("zero at first", (0.0, 0.0, 0.0, 0.0, 1.0, 1.0)),
         ("negative for a while", (1.0, 1.0, -0.1, 1.0)),
     ):
-        yield Difficulty("force in time", name, **usual, force=force)
+        yield StressCase("force in time", name, **maps.usual, force=force)
+
+
+def _tolerance_cases(maps):
     for tolerance in (1e-1, 1e-3, 1e-10, 1e-12, 1e-14):
-        yield Difficulty("tolerance", f"{tolerance:g}", **usual, tolerance=tolerance)
+        yield StressCase("tolerance", f"{tolerance:g}", **maps.usual, tolerance=tolerance)

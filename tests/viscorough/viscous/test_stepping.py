@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from viscorough.contact.loading_path import indent
+from viscorough.errors import AccuracyWarning
 from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
 from viscorough.viscous.events import march_events
@@ -85,3 +87,10 @@ def test_refuses(disc, change, message):
     arguments = {"indenter": disc, "impulses": [1.0], **change}
     with pytest.raises(ValueError, match=message):
         march_steps(arguments.pop("indenter"), arguments.pop("impulses"), **arguments)
+
+
+def test_long_steps_warn():
+    disc = self_affine_disc(0.7, 17, seed=1)
+    force = indent(disc, depths=[1.0]).force
+    with pytest.warns(AccuracyWarning, match=r"overlaps the surface by up to 0\.\d+ of its depth"):
+        march_steps(disc, force)

@@ -1,0 +1,175 @@
+"""Solutions of a stress-test case by every method, over the reference solution.
+
+The reference is the dense solution on the same elements, exact to rounding: forces at given depths. By the principle of
+correspondence they are also the impulses ∫F dt/η that bring an indenter to these depths in a viscous half-space.
+Elastic methods give the forces at the depths, the others the depths at the forces or impulses.
+"""
+
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from viscorough import reference
+from viscorough.contact.loading_path import indent
+from viscorough.contact.solver import ContactSolver
+from viscorough.errors import AccuracyWarning
+from viscorough.mdr import reduce
+from viscorough.surfaces import self_affine_line
+from viscorough.viscous.correspondence import impulses
+from viscorough.viscous.events import march_events
+from viscorough.viscous.stepping import march_steps
+from viscorough_study.performance.ablations import DENSE_ONLY, GRID_ONLY, NO_PADDING
+
+DEPTHS = 6  # at which solutions are compared
+REFERENCE_TOLERANCE = 1e-11
+BISECTIONS = 12  # in the search for the depth of a contact fraction
+BEYOND_FULL_CONTACT = 3.0  # times the depth of full contact
+LINE_POINTS = 2**14  # of the line that stands for a surface in the reduction of dimensionality
+LIMIT_EVENTS, LIMIT_STEPS, LIMIT_MODEL = 1e-9, 0.02, 1.0  # for one realization, a model may be off by a factor of 2
+
+
+@dataclass(frozen=True)
+class Solution:
+    """The reference solution of a case; arrays of shape (depths,).
+
+    depth [length], force : F/G [length²], count : elements in contact
+    """
+
+    depth: np.ndarray
+    force: np.ndarray
+    count: np.ndarray
+
+
+@dataclass(frozen=True)
+class StressedMethod:
+    """A method; `ratios(case, solution)` are its depths or forces over those of the reference solution.
+
+    limit : largest error with which the method counts as holding, a function of the case
+    model : whether it is a model, which is not meant to be exact
+    """
+
+    name: str
+    ratios: Callable
+    limit: Callable
+    model: bool = False
+
+
+def reference_solution(case, number=DEPTHS):
+    """Solution of a case at a number of depths, in equal ratios between those of the case's contact fractions."""
+    solver = ContactSolver(case.indenter, REFERENCE_TOLERANCE, DENSE_ONLY)
+    first = _depth_of_fraction(solver, case.fractions[0], 0.0)
+    last = _depth_of_fraction(solver, min(case.fractions[1], 1.0), first)
+    depths = np.geomspace(first, last, number) if last > first else first * np.arange(1.0, number + 1)
+    depths *= BEYOND_FULL_CONTACT if case.fractions[1] > 1 else 1.0
+    contact, force, count = solver.unloaded_state(), [], []
+    for depth in depths:
+        contact = solver.advance_reduced(contact, depth)
+        force.append(contact.force)
+        count.append(contact.count)
+    return Solution(depths * solver.units.length, np.array(force), np.array(count))
+
+
+def _depth_of_fraction(solver, fraction, low):
+    """Reduced depth above `low` at which a contact fraction is reached: doubled until it is, then by bisection."""
+    start, gap = solver.unloaded_state(), solver.elements.initial_gap
+
+    def reached(depth):
+        return solver.advance_reduced(start, depth).count >= fraction * solver.elements.count
+
+    high = max(2 * low, gap[gap > 0][0] if gap[-1] > 0 else 1.0)
+    while not reached(high):
+        low, high = high, 2 * high
+    for _ in range(BISECTIONS):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if reached(middle) else (middle, high)
+    return high
+
+
+# ---- methods
+
+
+def _path(options, case, solution):
+    """Forces of the elastic loading path."""
+    curve = indent(case.indenter, tolerance=case.tolerance, depths=solution.depth, options=options)
+    return curve.force / solution.force
+
+
+def _path_on_grid(precision, case, solution):
+    options = NO_PADDING if case.periodic else GRID_ONLY
+    return _path(options[precision], case, solution)
+
+
+def _events(case, solution):
+    """Depths of the direct integration from contact event to contact event."""
+    until = min(1.0, (1.1 * solution.count[-1] + 2) / case.indenter.elements)
+    return march_events(case.indenter, until_fraction=until).depth_at(solution.force) / solution.depth
+
+
+def explicit_steps(case, solution):
+    """Steps of explicit marching for a case: as many as it says, in time, or for a constant force in equal ratios."""
+    ends = []
+    if case.steps > 1 and min(case.force) == max(case.force):
+        ends = np.geomspace(solution.force[0] / case.steps, solution.force[-1], case.steps)
+    elif case.steps > 1:
+        samples = np.arange(len(case.force))
+        times = np.linspace(0, samples[-1], case.steps)
+        impulse = impulses(np.interp(times, samples, case.force), times).impulse
+        ends = solution.force[-1] * np.unique(impulse[impulse > 0]) / impulse[-1]
+    return march_steps(case.indenter, np.union1d(ends, solution.force), scheme="explicit")
+
+
+def depth_ratios(steps, solution):
+    """Depths of explicit steps over those of the reference solution."""
+    return steps.depth[np.searchsorted(steps.impulse, solution.force)] / solution.depth
+
+
+def _steps(case, solution):
+    return depth_ratios(explicit_steps(case, solution), solution)
+
+
+def _reduction(case, solution):
+    """Depths by the MDR, with the exact line of a body of revolution or a random line of the same h, L and H."""
+    across = case.indenter.spacing * len(case.indenter.heights)
+    if case.body is not None:
+        line = case.body.mdr_line(LINE_POINTS, across)
+    else:
+        rms = np.nanstd(case.indenter.heights)
+        line = self_affine_line(case.hurst, LINE_POINTS, rms=rms, length=across, seed=1)
+    depth, _ = reduce(line, until_force=1.01 * solution.force[-1]).at_force(solution.force)
+    return depth / solution.depth
+
+
+def _power_law(gamma, case, solution):
+    """Depths by Eq. 6, or with gamma Eq. 8, with Eqs. 4 and 5, or the exact α and ζ of a body of revolution."""
+    across, rms = case.indenter.spacing * len(case.indenter.heights), np.nanstd(case.indenter.heights)
+    zeta, alpha = reference.zeta_elastic(case.hurst), reference.exponent_alpha(case.hurst)
+    if case.body is not None:
+        alpha = 1 / (1 + case.body.exponent)
+        x, kappa = (1 / (4 * rms * across), 1 / (4 * across))
+        zeta = case.body.stiffness(1.0) * kappa / (case.body.force(1.0) * x) ** alpha
+    if rms == 0:
+        raise ValueError("power law: the rms height is 0; allowed: above 0")
+    if gamma:
+        text = "the factor 1/Γ(2−α) comes from the Laplace transform of a nonlinear relation"
+        warnings.warn(text, AccuracyWarning, stacklevel=1)
+    x = solution.force / (4 * rms * across)
+    return rms * reference.depth_law(x, zeta, alpha, gamma=gamma) / solution.depth
+
+
+def _limit_of_path(case):
+    return 10 * case.tolerance
+
+
+METHODS = (
+    StressedMethod("path, dense", partial(_path, DENSE_ONLY), _limit_of_path),
+    StressedMethod("path, grid, double", partial(_path_on_grid, "double"), _limit_of_path),
+    StressedMethod("path, grid, single", partial(_path_on_grid, "single"), _limit_of_path),
+    StressedMethod("events", _events, lambda case: LIMIT_EVENTS),
+    StressedMethod("explicit steps", _steps, lambda case: LIMIT_STEPS),
+    StressedMethod("MDR", _reduction, lambda case: LIMIT_MODEL, model=True),
+    StressedMethod("power law", partial(_power_law, False), lambda case: LIMIT_MODEL, model=True),
+    StressedMethod("power law with Γ", partial(_power_law, True), lambda case: LIMIT_MODEL, model=True),
+)

@@ -1,0 +1,59 @@
+"""Random small indenters: none of their solutions is wrong in silence, and a wrong one is found."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from viscorough.contact.solver import ContactSolver
+from viscorough.errors import ConvergenceError
+from viscorough.surfaces import self_affine_disc
+from viscorough_study.robustness.random_indenters import RandomCase, random_case, silent_failure
+from viscorough_study.seeds import random_indenter_key, realization_seed
+
+
+@pytest.mark.parametrize("block", range(4))
+def test_random_cases_do_not_fail_silently(block):
+    for number in range(60 * block, 60 * (block + 1)):
+        generator = np.random.default_rng(realization_seed(11, *random_indenter_key(number)))
+        assert silent_failure(random_case(generator)) == "", f"case {number}"
+
+
+CASE = RandomCase(self_affine_disc(0.7, 11, seed=1), np.array([0.5, 1.0]), 1e-6, on_grid=True)
+
+
+def altered(**factors):
+    """A solver whose contacts have some of their fields multiplied."""
+
+    class Altered(ContactSolver):
+        def advance(self, contact, depth):
+            contact = super().advance(contact, depth)
+            return replace(contact, **{name: getattr(contact, name) * factor for name, factor in factors.items()})
+
+    return Altered
+
+
+def test_a_silent_failure_is_found():
+    assert silent_failure(CASE) == ""
+    assert silent_failure(CASE, altered(pressure_sum=1.0001)).startswith("force off by 0.0001")
+    assert silent_failure(CASE, altered(reduced_pressure=1.0001)).startswith("overlap ")
+    assert silent_failure(CASE, altered(reduced_pressure=-1.0)).startswith("tension ")
+    for name in ("pressure_sum", "reduced_pressure"):
+        assert silent_failure(replace(CASE, tolerance=1e-3), altered(**{name: 1.0001})) == ""  # within ten times that
+
+
+def test_a_convergence_error_is_no_silent_failure_but_does_not_hide_one():
+    class Refusing(altered(pressure_sum=1.0001)):
+        def advance(self, contact, depth):
+            if depth > self.refused_above:
+                raise ConvergenceError("no")
+            return super().advance(contact, depth)
+
+    class AtOnce(Refusing):
+        refused_above = 0.0
+
+    class AfterOneLevel(Refusing):
+        refused_above = 0.7
+
+    assert silent_failure(CASE, AtOnce) == ""
+    assert silent_failure(CASE, AfterOneLevel) != ""

@@ -1,0 +1,128 @@
+"""The grid solver by itself: its solution, tangent, rounding bounds and box, against dense matrices."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from viscorough.contact.grid_solver import GridSolver
+from viscorough.contact.halfspace import influence_coefficient
+from viscorough.contact.options import DEFAULT, SolverOptions
+from viscorough.contact.preconditioner import REACH
+from viscorough.contact.solver import ContactSolver
+from viscorough.contact.state import elements_of
+from viscorough.surfaces import self_affine_disc
+
+DOUBLE = SolverOptions(precision="double", exact_gap_below=0.0)
+
+
+def influence_matrix(row, column):
+    return influence_coefficient(np.subtract.outer(row, row) * 1.0, np.subtract.outer(column, column) * 1.0)
+
+
+def whole_grid(indenter, tolerance, options=DEFAULT):
+    elements, units = elements_of(indenter)
+    box = 0, 0, *elements.shape
+    return elements, units, GridSolver(box, elements.row, elements.column, elements.initial_gap, tolerance, options)
+
+
+def contact_on(grid, indenter, depth):
+    """The contact at a reduced depth, from the unloaded state."""
+    start = ContactSolver(indenter, 1e-6).unloaded_state()
+    return grid.solve(replace(start, fields=grid.fields(start)), depth)
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-8])
+def test_solution_meets_complementarity_and_its_residual(tolerance):
+    disc = self_affine_disc(0.7, 25, seed=3)
+    elements, _, grid = whole_grid(disc, tolerance)
+    contact = contact_on(grid, disc, 0.5)
+    pressure = np.zeros(elements.count)
+    pressure[contact.members] = contact.reduced_pressure
+    gap = influence_matrix(elements.row, elements.column) @ pressure - 0.5 + elements.initial_gap
+    assert (contact.reduced_pressure >= 0).all()
+    left = max(np.abs(gap[contact.members]).max(), -gap.min()) / 0.5
+    assert left <= contact.residual <= tolerance
+    np.testing.assert_allclose(contact.fields.gap_at(slice(None)), gap, atol=contact.fields.gap.rounding)
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-6])
+@pytest.mark.parametrize("hurst", [0.1, 0.5, 0.9])
+def test_tangent_has_the_energy_error_that_is_allowed(hurst, tolerance):
+    """|q − q*| in energy over that of q* is at most √tolerance, and at most a hundredth; its square is that of k."""
+    disc = self_affine_disc(hurst, 33, seed=5)
+    elements, _, grid = whole_grid(disc, tolerance)
+    allowed = min(1e-2, tolerance**0.5)
+    for share in (0.02, 0.1, 0.4, 0.9):
+        ranks = np.arange(round(share * elements.count))
+        inside, tangent = np.zeros(grid.initial_gap.size, dtype=bool), np.zeros(grid.initial_gap.size)
+        inside[grid.place[ranks]] = True
+        total = grid.solve_flat_punch(inside, tangent, np.full_like(tangent, -1.0))
+        matrix = influence_matrix(elements.row[ranks], elements.column[ranks])
+        exact = np.linalg.solve(matrix, np.ones(ranks.size))
+        error = tangent[grid.place[ranks]] - exact
+        assert np.sqrt(error @ matrix @ error / exact.sum()) <= allowed
+        assert total == pytest.approx(exact.sum(), rel=allowed**2)
+
+
+def test_rounding_bound_holds_level_after_level():
+    """In single precision without recomputation the error of the gap grows, and its bound with it."""
+    disc = self_affine_disc(0.6, 25, seed=2)
+    never = SolverOptions(exact_gap_below=0.0, max_iterations=500)
+    elements, _, grid = whole_grid(disc, 1e-3, never)
+    matrix = influence_matrix(elements.row, elements.column)
+    contact = contact_on(grid, disc, 0.2)
+    bounds = []
+    for depth in (0.3, 0.4, 0.5, 0.6, 0.7):
+        contact = grid.solve(contact, depth)
+        pressure = np.zeros(elements.count)
+        pressure[contact.members] = contact.reduced_pressure
+        gap = matrix @ pressure - depth + elements.initial_gap
+        bounds.append(contact.fields.gap.rounding)
+        assert np.abs(contact.fields.gap_at(slice(None)) - gap).max() <= bounds[-1]
+        tangent = np.zeros(elements.count)
+        tangent[contact.members] = contact.tangent
+        tangent_gap = contact.fields.tangent_gap.values[contact.fields.place]
+        error = np.abs(tangent_gap - (matrix @ tangent - 1)).max()
+        assert error <= contact.fields.tangent_gap.rounding
+    assert 0 < bounds[0] < bounds[-1] < 1e-3
+
+
+def test_a_box_gives_the_solution_of_the_whole_grid():
+    """Elements outside the box, whose initial gaps exceed the depth, do not matter; fields have a border."""
+    disc = self_affine_disc(0.9, 33, seed=4)
+    depth = 0.12
+    elements, _, grid = whole_grid(disc, 1e-8, DOUBLE)
+    inside = elements.initial_gap < depth
+    first = [place[inside].min() for place in (elements.row, elements.column)]
+    size = [np.ptp(place[inside]) + 1 for place in (elements.row, elements.column)]
+    assert size[0] * size[1] < 0.8 * 33**2
+    box = GridSolver((*first, *size), elements.row, elements.column, elements.initial_gap, 1e-8, DOUBLE)
+    assert box.initial_gap.size == (size[0] + 2 * REACH) * (size[1] + 2 * REACH)
+    whole, part = contact_on(grid, disc, depth), contact_on(box, disc, depth)
+    np.testing.assert_array_equal(whole.members, part.members)
+    np.testing.assert_allclose(whole.reduced_pressure, part.reduced_pressure, atol=1e-7 * depth)
+    assert whole.tangent_sum == pytest.approx(part.tangent_sum, rel=1e-7)
+
+
+def test_boxes_grow_with_the_depth_and_count_all_operators():
+    disc = self_affine_disc(0.9, 65, seed=4)
+    solver = ContactSolver(disc, 1e-6, SolverOptions(dense_contacts=0, dense_interactions=0))
+    contact, applications, sizes = solver.unloaded_state(), 0, []
+    for depth in (0.02, 0.1, 0.6):
+        contact = solver.advance_reduced(contact, depth)
+        assert solver.operator_applications > applications
+        applications = solver.operator_applications
+        sizes.append(contact.fields.pressure.size)
+    assert sizes[0] < sizes[1] <= sizes[2] == (65 + 2 * REACH) ** 2
+
+
+@pytest.mark.parametrize("options", [DOUBLE, SolverOptions(preconditioner="sparse", release_step=0.0),
+                                     SolverOptions(preconditioner="none", release_step=0.0),
+                                     SolverOptions(warm_start="pressure")])  # fmt: skip
+def test_options_change_the_way_and_not_the_solution(options):
+    disc = self_affine_disc(0.5, 33, seed=1)
+    grids = [whole_grid(disc, 1e-6, choice)[2] for choice in (DEFAULT, options)]
+    levels = [grid.solve(contact_on(grid, disc, 0.5), 0.6) for grid in grids]
+    assert levels[0].pressure_sum == pytest.approx(levels[1].pressure_sum, rel=1e-7)
+    assert levels[0].tangent_sum == pytest.approx(levels[1].tangent_sum, rel=1e-4)

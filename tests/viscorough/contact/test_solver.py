@@ -1,0 +1,107 @@
+"""The contact solver: units, events, and its guards."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from viscorough.contact.options import SolverOptions
+from viscorough.contact.solver import ContactSolver
+from viscorough.errors import ConvergenceError
+from viscorough.indenter import Indenter
+from viscorough.surfaces import self_affine_disc
+
+ROUTES = {"dense": SolverOptions(dense_contacts=10**9, dense_interactions=10**9),
+          "grid": SolverOptions(dense_contacts=0, dense_interactions=0)}  # fmt: skip
+both_routes = pytest.mark.parametrize("options", ROUTES.values(), ids=ROUTES)
+
+
+def test_an_element_that_loses_contact_on_the_grid_is_an_error():
+    """Contact only grows with depth; a step back, in which it shrinks, stands for any solution in which it does not."""
+    disc = self_affine_disc(0.6, 33, seed=1)
+    solver = ContactSolver(disc, 1e-4, ROUTES["grid"])
+    deeper = solver.advance_reduced(solver.unloaded_state(), 0.8)
+    with pytest.raises(ConvergenceError, match=r"elements lost contact by up to .* although contact can only grow"):
+        solver.advance_reduced(deeper, 0.5)
+
+
+def test_an_element_that_loses_contact_in_a_dense_solution_is_an_error():
+    """An element that was not in contact, said to have been."""
+    solver = ContactSolver(self_affine_disc(0.6, 33, seed=1), 1e-4, ROUTES["dense"])
+    contact = solver.advance_reduced(solver.unloaded_state(), 0.5)
+    candidates = np.searchsorted(solver.elements.initial_gap, 0.51)
+    outside = np.setdiff1d(np.arange(candidates), contact.members)[-1:]
+    nothing = np.zeros(1)
+    wrong = replace(
+        contact,
+        members=np.append(contact.members, outside),
+        reduced_pressure=np.append(contact.reduced_pressure, nothing),
+        tangent=np.append(contact.tangent, nothing - 1.0),
+    )
+    with pytest.raises(ConvergenceError, match="1 elements lost contact"):
+        solver.advance_reduced(wrong, 0.51)
+    assert solver.advance_reduced(contact, 0.51).count >= contact.count
+
+
+@both_routes
+def test_quantities_have_the_unit_of_the_indenter(options):
+    """Heights times a, spacing times b: depth times a, F/G times ab, k/G times b, p/G times a/b, gap times a."""
+    disc, a, b = self_affine_disc(0.6, 17, seed=1), 2.0**-20, 2.0**-7
+    results = []
+    for indenter, depth in ((disc, 1.5), (Indenter(a * disc.heights, b * disc.spacing), a * 1.5)):
+        solver = ContactSolver(indenter, 1e-6, options)
+        contact = solver.advance(solver.unloaded_state(), depth)
+        results.append((contact, solver.gap(contact)))
+    (one, gap), (other, other_gap) = results
+    assert (other.depth, other.force, other.stiffness) == (a * one.depth, a * b * one.force, b * one.stiffness)
+    np.testing.assert_array_equal(other.pressure, a / b * one.pressure)
+    np.testing.assert_array_equal(other_gap, a * gap)
+    assert one.force == pytest.approx(one.pressure.sum() * disc.spacing**2, rel=1e-6)
+
+
+def test_events_are_the_dense_contacts_at_their_depths():
+    disc = self_affine_disc(0.7, 17, seed=2)
+    solver = ContactSolver(disc, 1e-10, ROUTES["dense"])
+    start = solver.advance_reduced(solver.unloaded_state(), solver.elements.initial_gap[1])
+    events, last = solver.follow_events(start, 40, np.inf)
+    assert (np.diff(events.depth) > 0).all()
+    assert events.count.tolist() == list(range(2, 41))[: events.count.size]
+    for depth, pressure_sum, tangent_sum in zip(events.depth, events.pressure_sum, events.tangent_sum, strict=True):
+        # Just beyond the event, where the element that touched carries load.
+        contact = solver.advance_reduced(solver.unloaded_state(), depth * (1 + 1e-9))
+        assert contact.pressure_sum == pytest.approx(pressure_sum, rel=1e-7)
+        assert contact.tangent_sum == pytest.approx(tangent_sum, rel=1e-9)
+    assert (last.reduced_depth, last.count) == (events.depth[-1], events.count[-1])
+
+
+def test_events_end_at_the_force_and_ties_are_one_event():
+    disc = self_affine_disc(0.7, 17, seed=2)
+    solver = ContactSolver(disc, 1e-10)
+    start = solver.advance_reduced(solver.unloaded_state(), solver.elements.initial_gap[1])
+    whole, _ = solver.follow_events(start, 40, np.inf)
+    until = 0.5 * (whole.pressure_sum[9] + whole.pressure_sum[10])
+    part, _ = solver.follow_events(start, 40, until)
+    np.testing.assert_array_equal(part.depth, whole.depth[: part.depth.size])
+    assert part.pressure_sum[-1] <= until
+    corners = Indenter(np.array([[1.0, 0.5, 1.0], [0.5, 0.0, 0.5], [1.0, 0.5, 1.0]]), 1.0)
+    solver = ContactSolver(corners, 1e-10)
+    four = solver.advance_reduced(solver.unloaded_state(), 1e-6)
+    events, last = solver.follow_events(four, 9, np.inf)
+    assert events.count.tolist() == [8, 9]  # the four sides touch at once
+    assert last.count == 9
+
+
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [
+        ({"precision": "half"}, "precision: must be one of single, double, not 'half'"),
+        ({"preconditioner": "ilu"}, "preconditioner: must be one of"),
+        ({"warm_start": "cold"}, "warm_start: must be one of"),
+        ({"release_step": -1.0}, "release_step: must not be negative"),
+        ({"operator_rounding": np.nan}, "operator_rounding: must not be negative"),
+        ({"max_iterations": 0}, "max_iterations: must be at least 1"),
+    ],
+)
+def test_options_refuse_what_they_do_not_know(wrong, message):
+    with pytest.raises(ValueError, match=message):
+        SolverOptions(**wrong)

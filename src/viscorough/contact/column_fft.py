@@ -1,27 +1,26 @@
-"""Convolution of the columns of a grid with an even kernel: Fourier transforms of many columns side by side.
+"""Convolution of the columns of a grid with an even kernel, by Fourier transforms of many columns side by side.
 
-Own transforms, because the convolution leaves out most of what a library's would have to do: rows without data are
-neither stored nor copied, and frequencies stay in the order in which the transform leaves them. On 257 rows it takes
-half the time of ducc0's transforms with the product between them (measured).
+The transforms are our own because a convolution needs less than a library's transforms do: rows without data are
+neither stored nor copied, and frequencies stay in the order in which the transform leaves them.
 
-Columns are taken in blocks, the real parts of a row of which stand together and its imaginary parts beside them, so
-that every line of code below acts on as many columns at once as the processor's registers hold.
+Columns are processed in blocks. Within a row of a block the real parts are contiguous and the imaginary parts follow,
+so that every line of code below acts on as many columns at once as a register of the processor holds.
 """
 
 import numpy as np
 
 from viscorough.compilation import njit
 
-# Columns of a block that stays in the cache, and how many more the last one may have (measured: 64 to 128 are alike).
+# Columns of a block, which shall stay in the cache, and how many more the last block may have.
 _BLOCK, _REST = 64, 8
-# Numbers from real to imaginary parts, and from row to row: not a power of two, whose multiples fall on the same places
-# of the cache (measured: three times slower). Constants, for the compiler to see which numbers are distinct.
+# Numbers from real to imaginary parts, and from row to row: no powers of two, multiples of which compete for the same
+# lines of the cache. They are constants so that the compiler can see which numbers do not overlap.
 _PARTS = _BLOCK + _REST
 _ROW = 2 * _PARTS + 8
 
 
 def good_length(least):
-    """Smallest length 2^a 3^b ≥ least with a ≥ 2, for which there are transforms."""
+    """Smallest length 2^a 3^b ≥ least with a ≥ 2: the lengths for which there are transforms."""
     most = int(np.ceil(np.log2(max(least, 4))))
     lengths = [2**a * 3**b for a in range(2, most + 1) for b in range(most)]
     return min(length for length in lengths if length >= least)
@@ -37,26 +36,28 @@ def _radices(length):
 
 @njit
 def _at(x, row, j):
+    """The complex number in column j of a row."""
     return complex(x[row, j], x[row, _PARTS + j])
 
 
 @njit
 def _put(y, group, member, j, value):
+    """Store a complex number in column j of a member of a group of rows."""
     y[group, member * _ROW + j] = value.real
     y[group, member * _ROW + _PARTS + j] = value.imag
 
 
 @njit
-def _turned(z):
+def _times_minus_i(z):
     """−i z."""
     return complex(z.imag, -z.real)
 
 
 @njit
-def _four(a, b, c, d):
+def _transform_of_four(a, b, c, d):
     """Transform of four numbers."""
-    even, odd, even_turned, odd_turned = a + c, b + d, a - c, _turned(b - d)
-    return even + odd, even_turned + odd_turned, even - odd, even_turned - odd_turned
+    even, odd, even_rotated, odd_rotated = a + c, b + d, a - c, _times_minus_i(b - d)
+    return even + odd, even_rotated + odd_rotated, even - odd, even_rotated - odd_rotated
 
 
 @njit(fastmath=True)
@@ -70,7 +71,7 @@ def _stage_of_three(x, source, y, before, factors, width):
         w1, w2 = w[1], w[2]
         for j in range(width):
             a, b, c = _at(x, i, j), _at(x, k, j), _at(x, m, j)
-            both, apart = a - (b + c) * half, _turned(b - c) * root
+            both, apart = a - (b + c) * half, _times_minus_i(b - c) * root
             _put(out, p, 0, j, a + b + c)
             _put(out, p, 1, j, (both + apart) * w1)
             _put(out, p, 2, j, (both - apart) * w2)
@@ -85,7 +86,7 @@ def _stage_of_four(x, source, y, before, factors, width):
         w = factors[p // before]
         w1, w2, w3 = w[1], w[2], w[3]
         for j in range(width):
-            a, b, c, d = _four(_at(x, i, j), _at(x, k, j), _at(x, m, j), _at(x, n, j))
+            a, b, c, d = _transform_of_four(_at(x, i, j), _at(x, k, j), _at(x, m, j), _at(x, n, j))
             _put(out, p, 0, j, a)
             _put(out, p, 1, j, b * w1)
             _put(out, p, 2, j, c * w2)
@@ -103,9 +104,9 @@ def _stage_of_eight(x, source, y, before, factors, width):
         w = factors[p // before]
         w1, w2, w3, w4, w5, w6, w7 = w[1], w[2], w[3], w[4], w[5], w[6], w[7]
         for j in range(width):
-            a, b, c, d = _four(_at(x, i0, j), _at(x, i2, j), _at(x, i4, j), _at(x, i6, j))
-            e, f, g, h = _four(_at(x, i1, j), _at(x, i3, j), _at(x, i5, j), _at(x, i7, j))
-            f, g, h = (f + _turned(f)) * root, _turned(g), (_turned(h) - h) * root
+            a, b, c, d = _transform_of_four(_at(x, i0, j), _at(x, i2, j), _at(x, i4, j), _at(x, i6, j))
+            e, f, g, h = _transform_of_four(_at(x, i1, j), _at(x, i3, j), _at(x, i5, j), _at(x, i7, j))
+            f, g, h = (f + _times_minus_i(f)) * root, _times_minus_i(g), (_times_minus_i(h) - h) * root
             _put(out, p, 0, j, a + e)
             _put(out, p, 1, j, (b + f) * w1)
             _put(out, p, 2, j, (c + g) * w2)
@@ -118,10 +119,10 @@ def _stage_of_eight(x, source, y, before, factors, width):
 
 @njit
 def _transform(x, y, source, same, radices, factors, width):
-    """Transform from rows source[0], source[1], … of x; returns the array that has it, x or y, and the other.
+    """Transform of the rows source[0], source[1], … of x; returns the array that holds it, x or y, and the other one.
 
-    Every stage reads rows n/r apart and writes r rows side by side: of every r places the first is of frequencies 0
-    modulo r, the next of 1, and so on (the decimation in frequency with constant geometry of Pease 1968).
+    Every stage reads rows n/r apart and writes r rows side by side, of which the first holds frequencies that are 0
+    modulo r, the next those that are 1, and so on (decimation in frequency with constant geometry; Pease 1968).
 
     factors : the twiddle factors of the stages, one stage after the other, r for each group
     """
@@ -143,7 +144,7 @@ def _transform(x, y, source, same, radices, factors, width):
 
 @njit
 def _load(data, first, x, width):
-    """Columns from the first one on; the row below them is zero."""
+    """Copy columns from the first one on into the block x, and set the row after the last one to zero."""
     for i in range(data.shape[0]):
         row = data[i][first:]
         for j in range(width):
@@ -153,7 +154,7 @@ def _load(data, first, x, width):
 
 @njit
 def _multiply(x, spectrum, y, width):
-    """Product with real and imaginary parts exchanged, of which the transform is the inverse one, exchanged as well."""
+    """Product with the spectrum, real and imaginary parts exchanged: its transform is the inverse one, so exchanged."""
     for i in range(spectrum.shape[0]):
         for j in range(width):
             real = spectrum[i, j] * x[i, j]
@@ -163,6 +164,7 @@ def _multiply(x, spectrum, y, width):
 
 @njit
 def _store(x, place, data, first, width):
+    """Copy the block x, with real and imaginary parts exchanged back, to the columns from the first one on."""
     for i in range(data.shape[0]):
         row, at = data[i][first:], place[i]
         for j in range(width):
@@ -171,6 +173,7 @@ def _store(x, place, data, first, width):
 
 @njit
 def _convolve(data, edges, spectra, radices, factors, padded, place, same, x, y):
+    """Convolve the columns of data in place; compiled, so that the plan comes in plain arrays (ColumnConvolution)."""
     for block in range(spectra.shape[0]):
         first, width = edges[block], edges[block + 1] - edges[block]
         _load(data, first, x, width)
@@ -180,12 +183,12 @@ def _convolve(data, edges, spectra, radices, factors, padded, place, same, x, y)
         _store(times, place, data, first, width)
 
 
-class Columns:
-    """Convolution of every column with a kernel of its own.
+class ColumnConvolution:
+    """Convolution of every column with its kernel.
 
     rows : rows with data
-    spectrum : real transforms of the kernels along the columns, divided by their length: the frequencies up to half of
-        it, shape (length/2 + 1, columns), where length is a good_length above `rows`
+    spectrum : real transforms of the kernels along the columns, divided by the length of the transform: the frequencies
+        up to half of it, shape (length/2 + 1, columns), where length is a good_length above `rows`
     precision : type of the numbers
     """
 

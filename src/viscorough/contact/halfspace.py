@@ -6,7 +6,7 @@ import ducc0
 import numpy as np
 
 from viscorough.compilation import vectorize
-from viscorough.contact.column_fft import Columns, good_length
+from viscorough.contact.column_fft import ColumnConvolution, good_length
 
 # Beyond this distance (in elements) the series below is more accurate than the difference of logarithms.
 _FAR = 30
@@ -81,7 +81,7 @@ class Halfspace:
     def __init__(self, rows, columns, precision=np.float64, *, padding=True):
         self.shape = (rows, columns)
         (_, self._length), spectrum = _spectrum(rows, columns, padding)
-        self._columns = Columns(rows, spectrum, precision)
+        self._columns = ColumnConvolution(rows, spectrum, precision)
         self.load = np.zeros((rows, self._length + _ROW_PADDING), dtype=precision)
         self._transformed = np.empty((rows, spectrum.shape[1]), dtype=np.result_type(precision, np.complex64))
         self._deflection = np.empty_like(self.load)

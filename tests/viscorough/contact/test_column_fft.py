@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from viscorough.contact.column_fft import Columns, good_length
+from viscorough.contact.column_fft import ColumnConvolution, good_length
 
 
 @pytest.mark.parametrize("precision", [np.float32, np.float64])
@@ -14,7 +14,7 @@ def test_convolution_is_that_of_library_transforms(length, columns, precision):
     rows = length // 2 + 1
     spectrum = rng.standard_normal((rows, columns))  # of even kernels: frequency and −frequency alike
     every = np.concatenate([spectrum, spectrum[-2:0:-1]])
-    convolution = Columns(rows, spectrum, precision)
+    convolution = ColumnConvolution(rows, spectrum, precision)
     for _ in range(2):  # the second time must not see anything of the first
         data = rng.standard_normal((rows, columns)) + 1j * rng.standard_normal((rows, columns))
         padded = np.fft.fft(data, n=length, axis=0)

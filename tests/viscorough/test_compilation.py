@@ -113,7 +113,7 @@ class Interrupt(event.Listener):
 
 
 def test_interrupt_waits_for_the_compiler():
-    function = njit(lambda x: x + 1)
+    function = njit(eval("lambda x: x + 1"))  # of no file, so that it is not loaded from a cache
     with pytest.raises(KeyboardInterrupt), event.install_listener("numba:compile", Interrupt()):
         function(1.0)
     assert len(function.signatures) == 1, "compiled to the end"

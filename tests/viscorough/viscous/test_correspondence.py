@@ -101,7 +101,7 @@ def test_step_of_force(sphere_curve):
 
 
 def test_varying_force_against_time_integration(sphere_curve):
-    """du/dt = F(t)/(8η√(Ru)), a flat punch of the present contact radius, integrated in time without using the impulse."""
+    """du/dt = F(t)/(8η√(Ru)), a flat punch of the present contact radius, integrated in time without the impulse."""
     times = np.linspace(0, 6, 25)
     force = np.random.default_rng(3).uniform(0, 4, times.size)
     result = kinetics(sphere_curve, force, VISCOSITY, times)

@@ -172,7 +172,7 @@ def test_sum_of_many_samples_reaches_the_last_level(sphere_curve):
 
 
 def test_before_the_first_level(sphere_curve):
-    """At zero force the depth is zero. Between there and the first level the curve of a round body is undetermined, that
+    """At zero force the depth is zero. Between there and the first level the curve of a round body is undetermined, and
     of one element is a straight line.
     """
     times = np.array([0, 1e-12, 1])

@@ -20,8 +20,9 @@ from dataclasses import replace
 import numpy as np
 
 from viscorough.contact import grid_kernels as kernels
+from viscorough.contact.conjugate_gradients import ConjugateGradients
 from viscorough.contact.halfspace import Halfspace
-from viscorough.contact.preconditioner import LEAST_EIGENVALUE, REACH, Preconditioner, load_redistribution_stencil
+from viscorough.contact.preconditioner import LEAST_EIGENVALUE, REACH, Preconditioner
 from viscorough.contact.state import BoundedField, Contact, ContactSet, GridFields
 from viscorough.errors import ConvergenceError
 
@@ -165,7 +166,7 @@ class GridSolver:
                 changed = True
                 continue
             if changed:
-                search = _ConjugateGradients(self._halfspace, self._preconditioner, contact_set)
+                search = ConjugateGradients(self._halfspace, self._preconditioner, contact_set)
             search.precondition(gap.values)
             search.update_direction()
             gap.rounding += self._rounding * largest
@@ -224,7 +225,7 @@ class GridSolver:
         """Solve K q = 1 on a set by conjugate gradients; changes q and K q − 1, with its rounding bound, in place."""
         tolerance = min(_TANGENT_TOLERANCE, np.sqrt(self._tolerance))
         accepted = max(_TANGENT_ROUNDING * self._tolerance, self._exact_rounding)
-        search = _ConjugateGradients(self._halfspace, self._preconditioner, contact_set)
+        search = ConjugateGradients(self._halfspace, self._preconditioner, contact_set)
         largest, _ = kernels.gap_and_tension(tangent, tangent_gap.values, contact_set.places)
         for _ in range(self._options.max_iterations):
             norm = search.precondition(tangent_gap.values)
@@ -236,7 +237,7 @@ class GridSolver:
                     return
                 tangent_gap.values[:] = self._deflection(tangent) - 1
                 tangent_gap.rounding = self._exact_rounding
-                search = _ConjugateGradients(self._halfspace, self._preconditioner, contact_set)
+                search = ConjugateGradients(self._halfspace, self._preconditioner, contact_set)
                 continue
             search.update_direction()
             tangent_gap.rounding += self._rounding * largest
@@ -265,51 +266,3 @@ class GridSolver:
     def _interior(self, field):
         """View of a flat field without its border, in rows and columns."""
         return field.reshape(-1, self._width)[REACH:-REACH, REACH:-REACH]
-
-
-class _ConjugateGradients:
-    """Preconditioned conjugate gradients on one contact set, for K x = right side with the residual −e.
-
-    The search direction d is the load array of the half-space operator itself: applying the operator gives K d without
-    a copy. Only one search can therefore be under way on a half-space.
-    """
-
-    def __init__(self, halfspace, preconditioner, contact_set):
-        self._halfspace, self._preconditioner, self._set = halfspace, preconditioner, contact_set
-        if not np.array_equal(contact_set.places, preconditioner.places):
-            preconditioner.prepare(contact_set.inside, contact_set.places)
-        halfspace.load[:] = 0
-        self._direction = halfspace.load.ravel()  # a view: the direction is the operator's load
-        self._norm, self._last_norm = np.nan, np.inf
-
-    def precondition(self, gap):
-        """z = M e on the set; returns zᵀe."""
-        self._preconditioned = self._preconditioner.apply(gap)
-        self._norm = self._preconditioned @ gap[self._set.places]  # both with the opposite sign: the residual is −e
-        return self._norm
-
-    def update_direction(self):
-        """The direction conjugate to the last one, from the preconditioned residual."""
-        factor = self._norm / self._last_norm
-        kernels.update_search_direction(self._direction, self._preconditioned, factor, self._set.slots)
-        self._last_norm = self._norm
-
-    def step(self, pressure, gap):
-        """A step of conjugate gradients, in place; returns the largest |e| on the set and whether any P is negative."""
-        deflection, (_, columns) = self._halfspace.apply(), self._halfspace.shape
-        length = self._norm / kernels.inner_product(self._direction, deflection.ravel(), self._set.slots)
-        kernels.update_gap(length, deflection[:, :columns], gap)
-        return kernels.update_pressure(length, self._direction, pressure, gap, self._set.places, self._set.slots)
-
-    def step_causes_tension(self, length, pressure):
-        """Whether a step of that length along the direction puts any element under tension."""
-        return kernels.step_causes_tension(length, self._direction, pressure, self._set.places, self._set.slots)
-
-    def step_and_release(self, length, pressure, gap, width):
-        """A step of given length, after which elements under tension leave the set, in place."""
-        contact_set, stencil = self._set, load_redistribution_stencil()
-        kernels.step_and_release(
-            length, self._direction, pressure, contact_set.inside, contact_set.places, contact_set.slots,
-            stencil, width, self._halfspace.load.shape[1],
-        )  # fmt: skip
-        kernels.update_gap(1.0, self._halfspace.apply()[:, : self._halfspace.shape[1]], gap)

@@ -2,7 +2,7 @@
 
 Compiled for the two places that follow contact events: the dense elastic path and the direct integration of the viscous
 problem. The latter checks the former; what they share is this linear algebra, which is tested against a full
-factorisation, and no mechanics.
+factorisation, and no mechanics. Compiled functions take plain arrays, hence their many arguments.
 """
 
 import numpy as np

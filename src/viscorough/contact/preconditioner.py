@@ -16,6 +16,8 @@ with a the length of the row sums in each block and K between blocks as between 
 approximated in the same way with blocks of blocks, until there are few enough for a dense inverse. The eigenvalues of
 M K lie between 0.35 and 1.4 for contact sets of any shape (tests/viscorough/contact/test_preconditioner.py); without
 the coarse correction the largest grows with the size of the contact.
+
+Compiled functions take plain arrays, hence their many arguments.
 """
 
 from functools import cache, lru_cache

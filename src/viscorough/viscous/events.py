@@ -80,7 +80,7 @@ def march_events(indenter, *, until_fraction=1.0):
 
 @njit(fastmath=True)
 def _respond(influence, row, column, members, count, first, second, element):
-    """Σ_j K_ij first_j and Σ_j K_ij second_j over the contact set, at one element i."""
+    """Σ_j K_ij first_j and Σ_j K_ij second_j over the contact set, at one element i; plain arrays, being compiled."""
     a, b = 0.0, 0.0
     r, c = row[element], column[element]
     for t in range(count):

@@ -1,0 +1,54 @@
+"""Preconditioned conjugate gradients on one contact set of a grid."""
+
+import numpy as np
+
+from viscorough.contact import grid_kernels as kernels
+from viscorough.contact.preconditioner import load_redistribution_stencil
+
+
+class ConjugateGradients:
+    """A search for x with K x given on a contact set, where the residual is −e, the gap with opposite sign.
+
+    The search direction d is the load array of the half-space operator itself: applying the operator gives K d without
+    a copy. Only one search can therefore be under way on a half-space.
+    """
+
+    def __init__(self, halfspace, preconditioner, contact_set):
+        self._halfspace, self._preconditioner, self._set = halfspace, preconditioner, contact_set
+        if not np.array_equal(contact_set.places, preconditioner.places):
+            preconditioner.prepare(contact_set.inside, contact_set.places)
+        halfspace.load[:] = 0
+        self._direction = halfspace.load.ravel()  # a view: the direction is the operator's load
+        self._norm, self._last_norm = np.nan, np.inf
+
+    def precondition(self, gap):
+        """z = M e on the set; returns zᵀe."""
+        self._preconditioned = self._preconditioner.apply(gap)
+        self._norm = self._preconditioned @ gap[self._set.places]  # both with the opposite sign: the residual is −e
+        return self._norm
+
+    def update_direction(self):
+        """The direction conjugate to the last one, from the preconditioned residual."""
+        factor = self._norm / self._last_norm
+        kernels.update_search_direction(self._direction, self._preconditioned, factor, self._set.slots)
+        self._last_norm = self._norm
+
+    def step(self, pressure, gap):
+        """A step of conjugate gradients, in place; returns the largest |e| on the set and whether any P is negative."""
+        deflection, (_, columns) = self._halfspace.apply(), self._halfspace.shape
+        length = self._norm / kernels.inner_product(self._direction, deflection.ravel(), self._set.slots)
+        kernels.update_gap(length, deflection[:, :columns], gap)
+        return kernels.update_pressure(length, self._direction, pressure, gap, self._set.places, self._set.slots)
+
+    def step_causes_tension(self, length, pressure):
+        """Whether a step of that length along the direction puts any element under tension."""
+        return kernels.step_causes_tension(length, self._direction, pressure, self._set.places, self._set.slots)
+
+    def step_and_release(self, length, pressure, gap, width):
+        """A step of given length, after which elements under tension leave the set, in place."""
+        contact_set, stencil = self._set, load_redistribution_stencil()
+        kernels.step_and_release(
+            length, self._direction, pressure, contact_set.inside, contact_set.places, contact_set.slots,
+            stencil, width, self._halfspace.load.shape[1],
+        )  # fmt: skip
+        kernels.update_gap(1.0, self._halfspace.apply()[:, : self._halfspace.shape[1]], gap)

@@ -10,7 +10,7 @@ Some statements of a module always count if anything of the module is used: deco
 can register what it decorates, and every statement other than an import, a definition or an assignment to names,
 because it runs for its effect. If a use cannot be followed, as with `from module import *` or a module that is passed
 on as an object, the whole module counts. What is reached only through names computed at run time, such as getattr or
-importlib, is not seen, except for the names that viscorough/__init__.py imports on first use (its table `_HOME`).
+importlib, is not seen, except for the names that viscorough/__init__.py imports on first use (its table `_MODULE_OF`).
 """
 
 import ast
@@ -126,7 +126,7 @@ class _Module:
     @property
     def lazy_imports(self):
         """{name: module of the package that holds it} of a package that imports its names on first use."""
-        for statement in self.definitions.get("_HOME", ()):
+        for statement in self.definitions.get("_MODULE_OF", ()):
             return ast.literal_eval(statement.node.value)
         return {}
 

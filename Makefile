@@ -65,7 +65,7 @@ test: environment
 	$(BIN)/snakefmt --check .
 	$(BIN)/lint-imports
 	$(BIN)/snakemake --lint
-	$(BIN)/python -m pytest -n $(CORES) --dist loadgroup
+	$(BIN)/python -m pytest -n $(CORES) --dist worksteal
 
 bench: environment
 	$(BIN)/python benchmarks/curves.py --reproduction --cores $(CORES) --output results/benchmarks.json

@@ -1,9 +1,9 @@
-"""Run a command that makes results, and write what they cost: time and memory of every rule, size on disk.
+"""Run a command that makes results, and write their cost: time and memory of every rule, size on disk.
 
     python benchmarks/costs.py --output results/costs.json -- snakemake --cores 2 --configfile config/paper.yaml
 
-Time and memory of jobs are those of Snakemake's benchmark files, so that jobs of an earlier, interrupted run count,
-too; the wall time is that of this run.
+Time and memory of jobs are those of Snakemake's benchmark files, which include the jobs of an earlier, interrupted run;
+the wall time is that of this run.
 """
 
 import json
@@ -16,17 +16,17 @@ import click
 
 import viscorough
 from viscorough_study.performance import timing
-from viscorough_study.rule_costs import prices
+from viscorough_study.rule_costs import rule_costs
 
 
 def sizes(folder):
-    """{folder: megabytes} of what lies in the results."""
-    found = {}
+    """{folder: size in megabytes} of the results."""
+    megabytes = {}
     for path in folder.rglob("*"):
         if path.is_file():
             name = path.relative_to(folder).parts[0]
-            found[name] = found.get(name, 0) + path.stat().st_size / 1e6
-    return {name: round(size, 2) for name, size in sorted(found.items(), key=lambda item: -item[1])}
+            megabytes[name] = megabytes.get(name, 0) + path.stat().st_size / 1e6
+    return {name: round(size, 2) for name, size in sorted(megabytes.items(), key=lambda item: -item[1])}
 
 
 @click.command(help=__doc__.splitlines()[0])
@@ -39,12 +39,12 @@ def main(output, results, command):
     seconds = time.perf_counter() - start
     if code:
         sys.exit(code)
-    of_rules = prices(results / "benchmarks").set_index("rule").to_dict("index")
+    of_rules = rule_costs(results / "benchmarks").set_index("rule").to_dict("index")
     of_folders = sizes(results)
     total = {
         "wall_s": round(seconds, 1),
-        "jobs_s": round(sum(each["seconds"] for each in of_rules.values()), 1),
-        "memory_mb": max((each["memory_mb"] for each in of_rules.values()), default=0),
+        "jobs_s": round(sum(rule["seconds"] for rule in of_rules.values()), 1),
+        "memory_mb": max((rule["memory_mb"] for rule in of_rules.values()), default=0),
         "results_mb": round(sum(of_folders.values()), 1),
     }
     about = {"machine": timing.machine(), "viscorough": viscorough.__version__, "command": " ".join(command)}

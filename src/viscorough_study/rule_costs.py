@@ -1,4 +1,4 @@
-"""What the rules of the workflow cost, from the benchmark files that Snakemake writes for every job."""
+"""Cost of the rules of the workflow, from the benchmark files that Snakemake writes for every job."""
 
 from pathlib import Path
 
@@ -7,21 +7,21 @@ import pandas as pd
 COLUMNS = {
     "rule": ("rule of the workflow", ""),
     "jobs": ("jobs of the rule", "1"),
-    "seconds": ("wall time of all of them", "s"),
-    "longest_s": ("longest wall time of one", "s"),
-    "memory_mb": ("largest resident memory of one", "MB"),
+    "seconds": ("wall time of all jobs", "s"),
+    "longest_s": ("longest wall time of one job", "s"),
+    "memory_mb": ("largest resident memory of one job", "MB"),
 }
 
 
-def prices(folder):
-    """Time and memory of every rule, the dearest first; a pandas.DataFrame with the columns of `COLUMNS`.
+def rule_costs(folder):
+    """Time and memory of every rule, most expensive first; a pandas.DataFrame with the columns of `COLUMNS`.
 
     folder : of benchmark files, <rule>.tsv or <rule>/<job>.tsv; without any, the table has no rows
     """
     rows = []
     for path in sorted(Path(folder).rglob("*.tsv")):
         job = pd.read_csv(path, sep="\t").iloc[-1]
-        # Jobs of less than a moment have no memory measured.
+        # Snakemake measures no memory of the shortest jobs.
         seconds, memory = pd.to_numeric(job[["s", "max_rss"]], errors="coerce").fillna(0)
         rows.append((Path(path.relative_to(folder).parts[0]).stem, seconds, memory))
     by_rule = pd.DataFrame(rows, columns=["rule", "s", "memory"]).groupby("rule")

@@ -1,17 +1,22 @@
 """Copies of the project, Snakemake runs in them, and their plans."""
 
+import fcntl
 import importlib.util
 import os
 import re
 import shutil
 import subprocess
 import sys
+from contextlib import contextmanager
 from pathlib import Path
 
 import yaml
 
 ROOT = Path(__file__).resolve().parents[2]
+SCRIPTS = ROOT / "workflow/scripts"
 TEST = ("--configfile", "config/test.yaml")
+TARGETS = {"all", "figures", "tables", "validation", "speed", "stability", "sizes", "large", "costs"}
+TARGETS |= {f"figure_{number}" for number in range(1, 5)}
 
 
 def copy_project(folder):
@@ -19,6 +24,32 @@ def copy_project(folder):
     for name in ("workflow", "config", "profiles", "resources", "src"):
         shutil.copytree(ROOT / name, folder / name)  # with numba's caches beside the modules
     shutil.copy(ROOT / "Snakefile", folder)
+    return folder
+
+
+@contextmanager
+def locked(path):
+    """Context that one process at a time can enter."""
+    with open(path, "w") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        yield
+
+
+def made_once(tmp_path_factory, name, make):
+    """A folder that the first test to need it makes, whichever process of the test session it is in; not to be changed.
+
+    make : function of the new, empty folder
+    """
+    common = tmp_path_factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        common = common.parent
+    folder, made = common / name, common / f"{name}.made"
+    with locked(common / f"{name}.lock"):
+        if not made.exists():
+            shutil.rmtree(folder, ignore_errors=True)
+            folder.mkdir()
+            make(folder)
+            made.touch()
     return folder
 
 
@@ -52,13 +83,11 @@ def jobs(text):
         assert "Nothing to be done" in text
         return {}
     numbers = {name: int(number) for name, number in re.findall(r"(\w+) +(\d+)\n", table["rows"])}
-    targets = {"total", "all", "figures", "tables", "validation", "speed", "stability", "sizes", "large", "prices"} | {
-        f"figure_{number}" for number in range(1, 5)
-    }
-    return {name: number for name, number in numbers.items() if name not in targets}
+    return {name: number for name, number in numbers.items() if name not in {"total", *TARGETS}}
 
 
 def plan(folder, *arguments):
+    """{rule: number of jobs} that a run would have."""
     return jobs(snakemake(folder, "--dry-run", *arguments))
 
 
@@ -69,14 +98,14 @@ def settings_file(folder, name, **settings):
 
 
 def load_script(name):
-    spec = importlib.util.spec_from_file_location(name, ROOT / "workflow" / "scripts" / f"{name}.py")
+    spec = importlib.util.spec_from_file_location(name, SCRIPTS / f"{name}.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
 
 
 def merged(base, extra):
-    """What Snakemake makes of --configfile: mappings are merged, everything else is replaced."""
+    """Settings with those of a --configfile over them: mappings are merged, everything else is replaced."""
     if not (isinstance(base, dict) and isinstance(extra, dict)):
         return extra
     return base | {key: merged(base.get(key), value) for key, value in extra.items()}

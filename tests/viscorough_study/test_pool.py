@@ -61,3 +61,7 @@ def test_unlike_realizations_make_no_ensemble(pool):
     mixed = pool.assign_coords(group=("realization", ["all"] * pool.sizes["realization"]))
     with pytest.raises(ValueError, match="all: the realizations differ in hurst"):
         ensembles(mixed, "group")
+
+
+def test_settings_of_every_case_are_kept(pool):
+    assert json.loads(pool.attrs["settings"])["a_c2"] == {"seed": 1}

@@ -1,39 +1,24 @@
-"""Projects in which the workflow was run, shared by the tests of the session."""
+"""Projects in which the workflow is run, made once for all processes of a test session; every test gets a copy."""
 
-import os
-from types import SimpleNamespace
+import shutil
 
 import pytest
 
-from support.workflow import ROOT, TEST, copy_project, read_settings, snakemake
-
-
-@pytest.fixture(scope="session")
-def finished(tmp_path_factory):
-    """A project after one full run of the small settings. Tests must leave its results complete."""
-    folder = copy_project(tmp_path_factory.mktemp("finished"))
-    snakemake(folder, *TEST)
-    return folder
-
-
-@pytest.fixture(scope="session")
-def fresh(tmp_path_factory):
-    """A project in which nothing has been made."""
-    return copy_project(tmp_path_factory.mktemp("fresh"))
-
-
-@pytest.fixture(scope="session")
-def common():
-    """The functions of common.smk and settings.smk, which are plain Python."""
-    names = {"workflow": SimpleNamespace(basedir=str(ROOT))}
-    before = dict(os.environ)
-    for name in ("common.smk", "settings.smk"):
-        exec(compile((ROOT / "workflow/rules" / name).read_text(), name, "exec"), names)
-    os.environ.clear()
-    os.environ.update(before)
-    return SimpleNamespace(**names)
+from support.workflow import TEST, copy_project, made_once, snakemake
 
 
 @pytest.fixture
-def settings():
-    return read_settings("config")
+def finished(tmp_path_factory, tmp_path):
+    """A project after one full run of the small settings."""
+
+    def make(folder):
+        copy_project(folder)
+        snakemake(folder, *TEST)
+
+    return shutil.copytree(made_once(tmp_path_factory, "finished", make), tmp_path / "finished")
+
+
+@pytest.fixture(scope="session")
+def unmade(tmp_path_factory):
+    """A project in which nothing has been made. Tests must not make anything."""
+    return copy_project(tmp_path_factory.mktemp("unmade"))

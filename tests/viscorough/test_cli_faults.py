@@ -1,0 +1,127 @@
+"""Faults of files and disks under the command line: full disks, damaged files, places that cannot be written."""
+
+import os
+import shutil
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from support.command_line import VISCOROUGH, sphere_heights
+from support.faults import DAMAGES, NO_LARGE_FILES, contents, namespace, no_privileges
+
+INDENT = ["indent", "heights.npy", "--spacing", "1", "-o", "out.nc"]
+KINETICS = ["kinetics", "curve.nc", "--force", "1", "--viscosity", "1", "-o", "out.nc"]
+
+# A disk of its own, with so many bytes left on it.
+FULL_DISK = """
+mount -t tmpfs -o size=100k none disk && cp heights.npy curve.nc out.nc disk && cd disk || exit 77
+head -c "$1" /dev/zero > room; head -c 1000000 /dev/zero > rest 2> /dev/null; rm room; shift
+"$@"; code=$?
+cmp out.nc ../out.nc && test "$(ls -A | tr '\\n' ' ')" = "curve.nc heights.npy out.nc rest " || exit 78
+exit $code
+"""
+
+
+@pytest.fixture(scope="module")
+def indented(tmp_path_factory):
+    """Folder with heights.npy and curve.nc."""
+    folder = tmp_path_factory.mktemp("indented")
+    np.save(folder / "heights.npy", sphere_heights(9))
+    subprocess.run([VISCOROUGH, *INDENT[:-1], "curve.nc"], cwd=folder, capture_output=True, check=True)
+    return folder
+
+
+@pytest.fixture
+def here(indented, tmp_path):
+    """A folder of the same, and an older out.nc that nothing may harm."""
+    for name in ("heights.npy", "curve.nc"):
+        shutil.copy(indented / name, tmp_path)
+    shutil.copy(indented / "curve.nc", tmp_path / "out.nc")
+    return tmp_path
+
+
+def complaint(folder, *arguments):
+    """The one line of a command that fails and changes no file."""
+    before = contents(folder)
+    done = subprocess.run(arguments, cwd=folder, capture_output=True, text=True, timeout=60, check=False)
+    assert (done.returncode, done.stdout) == (2, ""), done.stderr
+    assert len(done.stderr.splitlines()) == 1, done.stderr
+    assert contents(folder) == before
+    return done.stderr
+
+
+# ---- full disk
+
+
+@pytest.mark.parametrize("size", [100, 8000])
+def test_full_disk_leaves_the_older_file(here, size):
+    line = complaint(here, sys.executable, "-c", NO_LARGE_FILES, str(size), VISCOROUGH, *INDENT)
+    assert line.startswith("viscorough indent: out.nc: not written (")
+
+
+@pytest.mark.parametrize("arguments", [INDENT, KINETICS], ids=["indent", "kinetics"])
+@pytest.mark.parametrize("room", [0, 8192])
+def test_disk_that_is_really_full(here, arguments, room):
+    unshare = namespace("--user", "--map-root-user", "--mount")
+    (here / "disk").mkdir()
+    line = complaint(here, *unshare, "sh", "-c", FULL_DISK, "sh", str(room), VISCOROUGH, *arguments)
+    assert line.startswith(f"viscorough {arguments[0]}: out.nc: not written (")
+    assert "room on a writable disk is needed" in line
+
+
+# ---- damaged files
+
+
+@pytest.mark.parametrize("damage", DAMAGES)
+def test_damaged_curve_is_named(here, damage):
+    whole = (here / "curve.nc").read_bytes()
+    (here / "curve.nc").write_bytes(DAMAGES[damage](whole))
+    assert complaint(here, VISCOROUGH, *KINETICS).startswith("viscorough kinetics: curve.nc: not readable (")
+
+
+REDUCE = """
+import sys, numpy as np
+from viscorough import Indenter, reduce
+print(reduce(Indenter(np.load(sys.argv[1])[4], 1.0)).force[-1])
+"""
+
+
+@pytest.mark.parametrize("suffix", ["nbi", "nbc"])
+def test_damaged_compiled_code_is_compiled_again(here, suffix):
+    def run():
+        options = {"capture_output": True, "text": True, "check": True, "timeout": 60}
+        cache = os.environ | {"NUMBA_CACHE_DIR": str(here / "cache")}
+        done = subprocess.run([sys.executable, "-c", REDUCE, "heights.npy"], cwd=here, env=cache, **options)
+        return done.stdout, done.stderr.splitlines()
+
+    expected, _ = run()
+    (file,) = here.glob(f"cache/**/*.{suffix}")
+    whole = file.read_bytes()
+    for damage in DAMAGES.values():
+        file.write_bytes(damage(whole))
+        found, lines = run()
+        assert found == expected
+        assert len(lines) <= 1, "a bit of the stamp in the index is that of another version"
+        assert all("is damaged" in line and "compiled again" in line for line in lines)
+        assert run() == (expected, []), "what was compiled again is kept"
+    file.write_bytes(b"")
+    assert "is damaged" in run()[1][0]
+
+
+# ---- places that cannot be written
+
+
+def test_folder_that_may_not_be_written(here):
+    here.chmod(0o555)
+    try:
+        line = complaint(here, *no_privileges(), VISCOROUGH, *INDENT)
+    finally:
+        here.chmod(0o755)
+    assert line == "viscorough indent: out.nc: the folder . is not writable; a writable folder is needed\n"
+
+
+def test_file_in_the_place_of_a_folder(here):
+    line = complaint(here, VISCOROUGH, *INDENT[:-1], "curve.nc/out.nc")
+    assert "curve.nc/out.nc: there is no folder curve.nc" in line

@@ -1,0 +1,66 @@
+"""Tables of cases: names, spawn keys, batches, memory."""
+
+import pytest
+
+from support.workflow import merged, read_settings
+from viscorough_study import cases
+
+
+@pytest.fixture
+def settings():
+    return read_settings("config")
+
+
+def test_spawn_keys_do_not_depend_on_order(settings):
+    discs, lines = cases.disc_cases(settings), cases.line_cases(settings)
+    keys = [case["spawn_key"] for case in (discs | lines).values()]
+    assert len(set(keys)) == len(keys) == 4 * 13 + 21 + 5 * (5 + 9) + 5
+    assert discs["h01000_c3"]["spawn_key"] == (1, 100000, 3)
+    assert lines["h01000"]["spawn_key"] == (3, 100000)
+    assert discs["h01000_n257"]["spawn_key"] == (8, 100000, 257)
+    assert lines["h01000_n4096"]["spawn_key"] == (9, 100000, 4096)
+    settings["discs"]["hurst"].reverse()
+    settings["discs"]["combinations"].reverse()
+    settings["variants"]["cases"] = settings["variants"]["cases"][::-1]
+    settings["sizes"]["elements"] = settings["sizes"]["elements"][::-1]
+    assert cases.disc_cases(settings) == discs
+
+
+def test_every_case_is_in_one_pool(settings):
+    discs, lines = cases.disc_cases(settings), cases.line_cases(settings)
+    for table, pools in ((discs, ("discs", "size_discs")), (lines, ("lines", "size_lines"))):
+        pooled = [case for pool in pools for case, _ in cases.pool_batches(table, pool)]
+        assert set(pooled) == set(table)
+    assert len(cases.pool_batches(discs, "discs")) == 52
+    assert cases.pool_batches(lines, "size_lines")[:2] == [("h01000_n64", "0000-0007"), ("h01000_n64", "0008-0015")]
+
+
+def test_variants_change_only_what_they_name(settings):
+    discs = cases.disc_cases(settings)
+    base, variant = discs["h04000_c1"]["surface"], discs["h04000_longer_period"]["surface"]
+    assert {key for key in base if base[key] != variant[key]} == {"period", "rms", "diameter"}
+    assert (variant["period"], variant["rms"], variant["diameter"]) == (2.0, 1.0, 1.0)
+
+
+def test_batches():
+    assert cases.batches({"realizations": 10, "batch": 4}) == ["0000-0003", "0004-0007", "0008-0009"]
+    assert cases.batches({"realizations": 2, "batch": 8}) == ["0000-0001"]
+    assert cases.realizations("0008-0009") == [8, 10]
+
+
+def test_example_discs_are_those_of_the_first_combination(settings):
+    examples = cases.example_discs(settings)
+    assert [disc["hurst"] for disc in examples["discs"]] == settings["discs"]["hurst"]
+    assert examples["spawn_keys"][0] == cases.disc_cases(settings)["h01000_c1"]["spawn_key"]
+    assert {(disc["rms"], disc["diameter"]) for disc in examples["discs"]} == {(1.0, 1.0)}
+
+
+@pytest.mark.parametrize("name", ["config", "paper"])
+def test_memory_of_every_job_is_below_two_gigabytes(settings, name):
+    settings = merged(settings, read_settings(name))
+    discs, lines = cases.disc_cases(settings), cases.line_cases(settings)
+    needed = [cases.disc_memory(case) for case in discs.values()] + [cases.line_memory(case) for case in lines.values()]
+    for table, pools in ((discs, ("discs", "size_discs")), (lines, ("lines", "size_lines"))):
+        needed += [cases.pool_memory(table, pool, settings["ensemble"]) for pool in pools]
+    assert min(needed) >= cases.BASE_MEMORY
+    assert max(needed) < 2000

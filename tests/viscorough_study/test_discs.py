@@ -1,0 +1,46 @@
+"""Surfaces and curves of realizations, as the scripts make them."""
+
+import numpy as np
+import pytest
+
+from support.workflow import load_script, read_settings
+from viscorough.io import netcdf
+from viscorough.surfaces import cut_disc, self_affine_square
+from viscorough_study import cases
+from viscorough_study.discs import ensemble_disc
+from viscorough_study.seeds import realization_seed
+
+
+@pytest.mark.parametrize("rms_over", ["disc", "square"])
+def test_both_rms_heights_are_those_of_the_surface(rms_over):
+    surface = {"hurst": 0.4, "rms": 2e-6, "diameter": 1e-2, "period": 2.0, "rms_over": rms_over}
+    for number in range(3):
+        seed = realization_seed(1, 1, number)
+        disc, rms = ensemble_disc(33, surface, seed)
+        assert rms["disc"] == pytest.approx(np.nanstd(disc.heights), rel=1e-12)
+        assert rms[rms_over] == pytest.approx(2e-6, rel=1e-12)
+        assert rms["peak"] == pytest.approx(np.nanmax(disc.heights) - np.nanmean(disc.heights), rel=1e-12)
+        square = self_affine_square(0.4, 66, seed=realization_seed(1, 1, number))
+        ratio = np.nanstd(cut_disc(square, 33)) / square.std()
+        assert rms["disc"] / rms["square"] == pytest.approx(ratio, rel=1e-12)
+        assert disc.spacing == pytest.approx(1e-2 / 33)
+
+
+@pytest.mark.parametrize("kind", ["discs", "lines"])
+def test_a_realization_is_the_same_in_every_batch(tmp_path, kind):
+    settings = read_settings("config")
+    case = {"discs": cases.disc_cases(settings)["h04000_c3"], "lines": cases.line_cases(settings)["h04000"]}[kind]
+    about = {"seed": 7, "spawn_key": case["spawn_key"], "surface": case["surface"]}
+    if kind == "discs":
+        about |= {"elements": 17, "indentation": {"tolerance": 1e-3, "until_fraction": 0.5, "until_x": 30.0}}
+    else:
+        about |= {"points": 512, "until_x": 30.0}
+    curves = {}
+    for first in (0, 2):
+        load_script(f"indent_{kind}").main(tmp_path / "curves.nc", realizations=[first, 3], **about)
+        content = netcdf.read(tmp_path / "curves.nc")
+        assert content.variables["realization"].values.tolist() == list(range(first, 3))
+        force = content.variables["force"].values
+        curves[first] = [row[np.isfinite(row)] for row in force]
+    np.testing.assert_array_equal(curves[0][2], curves[2][0])
+    assert not np.array_equal(curves[0][2], curves[0][0])

@@ -1,0 +1,68 @@
+"""The form of the workflow: rules, scripts, profiles and lock files that go together."""
+
+import re
+
+import yaml
+
+from support.workflow import ROOT, TEST, copy_project, plan
+
+
+def rules():
+    """{rule: its text} of all rules with a script."""
+    text = "\n".join(path.read_text() for path in (ROOT / "workflow/rules").glob("*.smk"))
+    return dict(re.findall(r"^rule (\w+):\n(.*?)(?=\n\S|\Z)", text, re.MULTILINE | re.DOTALL))
+
+
+def test_scripts_are_short_and_named_like_their_rules():
+    scripts = {path.stem: path.read_text() for path in (ROOT / "workflow/scripts").glob("*.py")}
+    assert set(scripts) == set(rules())
+    for name, text in rules().items():
+        assert f'"../scripts/{name}.py"' in text
+    for name, text in scripts.items():
+        assert text.count("\n") <= 40, name
+        assert re.search(r'^if job := globals\(\).get\("snakemake"\):$', text, re.MULTILINE), name
+
+
+def test_rules_that_draw_only_draw():
+    """So that a changed label reruns one plot: what a rule plots, it reads from tables, pools and examples."""
+    for name, text in rules().items():
+        draws = "results/figures/" in text
+        assert draws == name.startswith("plot_"), name
+        assert not (draws and "results/tables/" in text), name
+
+
+def test_functions_stand_apart_from_rules():
+    for path in [ROOT / "Snakefile", *(ROOT / "workflow/rules").glob("*.smk")]:
+        assert ("def " in path.read_text()) == (path.name == "common.smk")
+
+
+def test_short_rules_run_where_snakemake_runs():
+    """Only what computes for long goes through a cluster's queue."""
+    queued = {name for name, text in rules().items() if "localrule: True" not in text}
+    assert queued == {
+        *("indent_discs", "indent_lines", "validate", "compare_reduction", "measure_large", "map_failures"),
+        *("measure_failure_curves", "measure_methods", "time_other_solvers", "compare_level_placement"),
+    }
+
+
+def test_slurm_profile(tmp_path):
+    """It names existing rules, and plans what a local run does; without its executor, which is not installed."""
+    profile = yaml.safe_load((ROOT / "profiles/slurm/config.yaml").read_text())
+    for key in ("set-resources", "set-threads"):
+        assert set(profile[key]) <= set(rules()), key
+    assert profile.pop("executor") == "slurm"
+    folder = copy_project(tmp_path)
+    (folder / "local").mkdir()
+    (folder / "local/config.yaml").write_text(yaml.safe_dump(profile))
+    assert plan(folder, *TEST, "--profile", "local", "--", "all", "speed") == plan(folder, *TEST, "--", "all", "speed")
+
+
+def test_slurm_lock_goes_with_the_other_lock():
+    """Both are installed into one environment, so no package may be in both; and neither may hold an address."""
+    names = {}
+    for name in ("requirements.lock", "requirements-slurm.lock"):
+        text = (ROOT / name).read_text()
+        names[name] = set(re.findall(r"^([\w.-]+)==", text, re.MULTILINE))
+        assert "://" not in text
+    assert "snakemake-executor-plugin-slurm" in names["requirements-slurm.lock"]
+    assert not set.intersection(*names.values())

@@ -1,0 +1,120 @@
+"""Targets beside the default one, and the plans of every scale."""
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+
+from support.workflow import TEST, copy_project, plan, settings_file, snakemake
+from viscorough.surfaces import cut_disc
+
+
+@pytest.fixture
+def fresh(tmp_path):
+    """A project in which nothing has been made."""
+    return copy_project(tmp_path)
+
+
+@pytest.fixture(scope="session")
+def default_plan(unmade):
+    return plan(unmade, *TEST)
+
+
+def drawn(folder, *figures):
+    """Whether the figures are there, with more in them than axes."""
+    files = [folder / f"results/figures/{figure}.{kind}" for figure in figures for kind in ("png", "pdf")]
+    return all(file.stat().st_size > 5000 for file in files)
+
+
+@pytest.mark.parametrize(
+    ("name", "indent_discs", "indent_lines"),
+    [("config", 4 * (9 + 4), 21), ("paper", 4 * (9 * 2 + 4 * 2), 101), ("test", 2 * (2 + 1), 2 * 2)],
+)
+def test_plans_of_every_scale(unmade, name, indent_discs, indent_lines):
+    planned = plan(unmade, "--configfile", f"config/{name}.yaml")
+    assert (planned.pop("indent_discs"), planned.pop("indent_lines")) == (indent_discs, indent_lines)
+    assert planned.pop("pool_curves") == 2
+    assert set(planned.values()) == {1}
+    assert {"check_validation", "fit_scaling", "judge_claims"} < set(planned)
+    assert indent_discs + indent_lines + sum(planned.values()) <= (130 if name == "config" else 250)
+
+
+def test_one_figure_needs_only_its_own(unmade):
+    assert plan(unmade, *TEST, "--", "figure_1") == {"generate_example_discs": 1, "plot_surfaces": 1}
+
+
+def test_stability(fresh, default_plan):
+    """From scripts to figures, on the smallest maps."""
+    rules = ("map_failures", "measure_failure_curves", "plot_failure_map", "plot_failure_curves")
+    assert plan(fresh, *TEST, "--", "stability") == dict.fromkeys(rules, 1)
+    assert not set(rules) & set(default_plan)
+    snakemake(fresh, *TEST, "--", "stability")
+    assert drawn(fresh, "failure_map", "failure_curves")
+    table = pd.read_csv(fresh / "results/tables/failure_map.csv")
+    with xr.open_dataset(fresh / "results/tables/failure_map.nc") as nc:
+        assert nc["verdict"].values.tolist() == table["verdict"].tolist()
+    assert "unnoticed" not in set(table["verdict"])
+
+
+def test_sizes_and_large_discs(fresh, default_plan):
+    """Ensembles on their own grids, fitted and plotted; cost of one disc."""
+    planned = plan(fresh, *TEST, "--", "sizes", "large")
+    assert planned["indent_discs"] == 2 * planned["indent_lines"] == 2 * planned["measure_large"] == 4
+    assert not set(planned) & {"fit_sizes", "plot_sizes", "measure_large"} & set(default_plan)
+    snakemake(fresh, *TEST, "--", "sizes", "large")
+    sizes = pd.read_csv(fresh / "results/tables/sizes.csv")
+    discs = sizes[(sizes["source"] == "discs") & (sizes["case_group"] == "sizes")]
+    assert set(sizes.loc[sizes["case_group"] == "controls", "elements"]) == set(discs["elements"])
+    assert "finding" in pd.read_csv(fresh / "results/tables/sizes_trends.csv")
+    assert sorted(set(discs["elements"])) == [disc_elements(across) for across in (17, 33)]
+    assert sorted(set(sizes.loc[sizes["source"] == "lines", "elements"])) == [64, 1024]
+    costs = pd.read_csv(fresh / "results/tables/large.csv")
+    assert costs["across"].tolist() == [17, 33]
+    assert (costs["memory"] > 1e7).all()
+    assert drawn(fresh, "sizes", "large")
+
+
+def disc_elements(across):
+    return np.isfinite(cut_disc(np.zeros((across, across)), across)).sum()
+
+
+def test_speed_is_a_target_of_its_own(unmade, default_plan):
+    planned = plan(unmade, *TEST, "--", "speed")
+    assert planned.pop("measure_methods") == 3  # sphere, cone, one rough disc
+    tables = {"tabulate_methods", "time_other_solvers", "compare_level_placement"}
+    figures = {"plot_speed", "plot_growth", "plot_other_solvers", "plot_level_placement"}
+    assert planned == dict.fromkeys(tables | figures, 1)
+    assert not set(planned) & set(default_plan)
+
+
+def test_speed_without_other_solvers(fresh):
+    """Placement of levels and tables of few methods, from their scripts to the figures."""
+    tasks = [{"name": "few", "elements": 17, "levels": 3, "fractions": [0.02, 0.5], "residual": 1e-6, "threads": [1]}]
+    few = {"elements": [9], "bodies_elements": [9], "tasks": tasks, "scenes": {"elements": 17, "hurst": 0.7}}
+    snakemake(fresh, *TEST, settings_file(fresh, "few", methods=few), "--", "speed")
+    assert drawn(fresh, "speed", "growth", "other_solvers", "level_placement")
+    methods = pd.read_csv(fresh / "results/tables/methods.csv")
+    assert set(methods["problem"]) == {"sphere", "cone", "rough disc, H = 0.4"}
+    assert not set(methods["group"]) & {"peer", "other solver"}
+    with xr.open_dataset(fresh / "results/tables/other_solvers.nc") as table:
+        assert "cores" in table.attrs["title"]
+        assert table["solver"].values.tolist() == ["viscorough"]
+    assert "is not installed: left out" in (fresh / "results/logs/time_other_solvers.log").read_text()
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("discs: {elemnts: 33}\n", "unknown key elemnts in discs; did you mean elements?"),
+        ("# nothing\n", "Config file must be given as JSON or YAML with keys at top level."),
+    ],
+    ids=["misspelt", "empty"],
+)
+def test_wrong_settings_are_one_line_without_a_traceback(unmade, tmp_path, text, message):
+    (tmp_path / "wrong.yaml").write_text(text)
+    output = snakemake(unmade, "--dry-run", "--configfile", tmp_path / "wrong.yaml", fails=True)
+    assert len([line for line in output.splitlines() if message in line]) == 1
+    assert "Traceback" not in output
+    assert "File " not in output
+    # besides it: which profile is in use, that the file extends the default one, or the kind of error
+    assert len(output.splitlines()) <= 3

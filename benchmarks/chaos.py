@@ -1,10 +1,10 @@
-"""Kill the workflow again and again, and see whether it ends with what an undisturbed run makes.
+"""Kill the workflow repeatedly, and compare what it finally makes with the results of an undisturbed run.
 
     python benchmarks/chaos.py --kills 50 --seed 1 --output results/chaos.json
 
-A run of the small settings from nothing is killed (SIGKILL) after a random time, all of it or one of its jobs, and
-started again, until it finishes. Then there must be the files of an undisturbed run and no others, equal to the last
-byte: figures, tables, ensembles and curves. Of logs and benchmarks, which hold times, only the names must agree.
+A run of the small settings, which starts without results, is killed (SIGKILL) after a random time, either all of it or
+one of its jobs, and started again, until it finishes. Its files must then be those of an undisturbed run, equal to the
+last byte: figures, tables, ensembles and curves. Of logs and benchmarks, which contain times, only the names must agree.
 """
 
 import contextlib
@@ -24,19 +24,19 @@ import numpy as np
 import psutil
 
 import viscorough
-from viscorough.io.datasets import read_dataset
+from viscorough.io import netcdf
 from viscorough_study.performance import timing
 
 ROOT = Path(__file__).resolve().parents[1]
 SNAKEMAKE = [sys.executable, "-m", "snakemake", "--cores", "2", "--nocolor", "--configfile", "config/test.yaml"]
-# The longest wait for a kill, as a share of an undisturbed run: kills follow each other in the same run, so that they
-# fall on its end as often as on its beginning, and most runs are killed several times.
+# The longest wait for a kill, as a share of the time of an undisturbed run: most runs are killed several times, and
+# their ends as often as their beginnings.
 LONGEST_WAIT = 1 / 3
-HANGS = 600  # seconds after which a run will not end by itself
+HANGS = 600  # seconds after which a run is taken to hang
 
 
 def copy_project(folder):
-    """What git tracks or would, and numba's caches beside the modules: compiling would take most of the time."""
+    """What git tracks or would track, and numba's caches beside the modules: compiling would take most of the time."""
     tracked = subprocess.run(
         ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
         cwd=ROOT,
@@ -47,9 +47,8 @@ def copy_project(folder):
     for name in tracked.rstrip("\0").split("\0"):
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy2(ROOT / name, folder / name)
-    caches = Path("src/viscorough/__pycache__")
-    if (ROOT / caches).is_dir():
-        shutil.copytree(ROOT / caches, folder / caches)
+    for caches in (ROOT / "src").rglob("__pycache__"):
+        shutil.copytree(caches, folder / caches.relative_to(ROOT))
 
 
 def remove_results(folder):
@@ -59,7 +58,7 @@ def remove_results(folder):
 
 @contextlib.contextmanager
 def started(folder, *arguments, log="chaos.log", mode="w"):
-    """Snakemake in a session of its own, of which nothing is left afterwards; it writes to a log in the folder."""
+    """Snakemake in its own session, all of whose processes are killed afterwards; it writes to a log in the folder."""
     environment = os.environ | {"PYTHONPATH": str(folder / "src")}  # before the installed package
     with (folder / log).open(mode) as log:
         run = subprocess.Popen(
@@ -73,14 +72,14 @@ def started(folder, *arguments, log="chaos.log", mode="w"):
         run.wait()
 
 
-def to_the_end(folder, *arguments):
-    """Run Snakemake; what went wrong in a line, or None."""
+def run_to_end(folder, *arguments):
+    """Run Snakemake; one line on what went wrong, or None."""
     with started(folder, *arguments) as run:
         return verdict(folder, run)
 
 
 def verdict(folder, run):
-    """Wait for a run that nobody disturbs any more; what went wrong in a line, or None."""
+    """Wait for the end of a run that is not disturbed any more; one line on what went wrong, or None."""
     try:
         code = run.wait(HANGS)
     except subprocess.TimeoutExpired:
@@ -91,7 +90,7 @@ def verdict(folder, run):
 
 
 def job_processes(run):
-    """{process: rule} of the jobs under way, which are what runs a script, not the shells around it."""
+    """{process: rule} of the running jobs: the processes that run a script, not the shells around them."""
     jobs = {}
     for process in psutil.Process(run.pid).children(recursive=True):
         with contextlib.suppress(psutil.Error):
@@ -102,7 +101,7 @@ def job_processes(run):
 
 
 def kill(run, random):
-    """Kill one random job, or everything if a coin says so or there is no job; what it was."""
+    """Kill one random job or, with probability 1/2 and if there is no job, everything; return which."""
     jobs = list(job_processes(run).items())
     if jobs and random.random() < 0.5:
         process, rule = jobs[random.integers(len(jobs))]
@@ -119,12 +118,12 @@ def jobs_done(folder):
     return len(list((folder / "results/benchmarks").rglob("*.tsv")))
 
 
-def life(folder, random, longest_wait, kills, report):
-    """A run from nothing to its end, killed up to `kills` times; what went wrong besides, or None."""
+def killed_run(folder, random, longest_wait, kills, report):
+    """A run without results until its end, killed up to `kills` times; one line on what else went wrong, or None."""
     remove_results(folder)
     killed = 0
     while True:
-        if any((folder / ".snakemake/locks").glob("*")) and (wrong := to_the_end(folder, "--unlock")):
+        if any((folder / ".snakemake/locks").glob("*")) and (wrong := run_to_end(folder, "--unlock")):
             return f"--unlock {wrong}"
         with started(folder) as run:
             if killed == kills:
@@ -149,27 +148,27 @@ def contents(folder):
     }
 
 
-def compare(found, wanted):
-    """One line per file that differs from what is wanted."""
-    lines = [f"{name}: is missing" for name in wanted if name not in found]
-    lines += [f"{name}: is left over" for name in found if name not in wanted]
-    return lines + [f"{name}: differs" for name in wanted if found.get(name, wanted[name]) != wanted[name]]
+def compare(actual, expected):
+    """One line per file that differs from the expected contents."""
+    lines = [f"{name}: is missing" for name in expected if name not in actual]
+    lines += [f"{name}: is left over" for name in actual if name not in expected]
+    return lines + [f"{name}: differs" for name in expected if actual.get(name, expected[name]) != expected[name]]
 
 
 def undisturbed(folder):
-    """Contents after a run from nothing, and its seconds."""
+    """Contents after a run that starts without results, and its seconds."""
     remove_results(folder)
     start = time.perf_counter()
-    if wrong := to_the_end(folder):
+    if wrong := run_to_end(folder):
         raise click.ClickException(f"the undisturbed run {wrong}")
     seconds = time.perf_counter() - start
     for path in (folder / "results").rglob("*.nc"):
-        read_dataset(path)  # then every file with the same bytes opens, too
+        netcdf.read(path)  # so that every file with the same bytes can be read, too
     return contents(folder), seconds
 
 
 def chaos(folder, kills, seed):
-    """Lives with so many kills in all, as a dictionary for the file."""
+    """Runs with so many kills in total, as a dictionary for the file."""
     copy_project(folder)
     wanted, seconds = undisturbed(folder)  # compiles what is not in numba's caches
     again, seconds = undisturbed(folder)
@@ -181,12 +180,12 @@ def chaos(folder, kills, seed):
     def report(what, wait, done):
         log.append({"killed": what, "after_s": round(wait, 2), "jobs_done": done})
         left = (time.perf_counter() - start) / len(log) * (kills - len(log)) + seconds * (1 - done / jobs)
-        about = f"{what} after {wait:.1f} s, {done} of {jobs} jobs done"
-        click.echo(f"kill {len(log)} of {kills}: {about}; about {left / 60:.1f} min to go")
+        event = f"{what} after {wait:.1f} s, {done} of {jobs} jobs done"
+        click.echo(f"kill {len(log)} of {kills}: {event}; about {left / 60:.1f} min to go")
 
     while len(log) < kills:
         lives += 1
-        wrong = life(folder, random, seconds * LONGEST_WAIT, kills - len(log), report)
+        wrong = killed_run(folder, random, seconds * LONGEST_WAIT, kills - len(log), report)
         lines = [wrong] if wrong else compare(contents(folder), wanted)
         differences += [f"run {lives}: {line}" for line in lines]
         recovered += not lines
@@ -200,19 +199,21 @@ def chaos(folder, kills, seed):
         "undisturbed_s": round(seconds, 1),
         "files_compared": len(wanted),
         "jobs": jobs,
-        "killed": dict(Counter(each["killed"] for each in log).most_common()),
+        "killed": dict(Counter(event["killed"] for event in log).most_common()),
         "log": log,
     }
 
 
 @click.command(help=__doc__.splitlines()[0])
-@click.option("--kills", type=click.IntRange(1), default=50, show_default=True, help="Kills in all.")
-@click.option("--seed", type=click.IntRange(0), default=1, show_default=True, help="Of times and victims.")
+@click.option("--kills", type=click.IntRange(1), default=50, show_default=True, help="Total number of kills.")
+@click.option(
+    "--seed", type=click.IntRange(0), default=1, show_default=True, help="Seed of the times and of what is killed."
+)
 @click.option("--output", type=click.Path(path_type=Path), required=True, help="File to write, JSON.")
 @click.option(
     "--folder",
     type=click.Path(path_type=Path),
-    help="New folder to work in, which stays  [default: a temporary one]",
+    help="New folder to work in, which is kept  [default: a temporary one]",
 )
 def main(kills, seed, output, folder):
     if folder:

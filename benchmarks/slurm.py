@@ -1,12 +1,12 @@
-"""Run the workflow through Slurm, undisturbed and disturbed, and see whether it ends with what a local run makes.
+"""Run the workflow through Slurm, undisturbed and disturbed, and compare its results with those of a local run.
 
     python benchmarks/slurm.py --output results/slurm.json
 
-As root on Debian: slurm-wlm and munge are installed where they are missing, and a cluster of this one machine is
-started on loopback, with its files in a temporary folder and nothing of the machine's own settings. The small settings
-are then run three times, each in a copy of the project: locally, through Slurm with profiles/slurm, and through Slurm
-while a job is cancelled, the node is drained and then lost. There must be the files of the local run and no others,
-equal to the last byte; of logs and benchmarks, which hold times, only the names must agree.
+As root on Debian: slurm-wlm and munge are installed unless they are present, and a cluster of this one machine is
+started on the loopback interface, with its files in a temporary folder and without the machine's own settings. The small
+settings are then run three times, each in a copy of the project: locally, through Slurm with profiles/slurm, and through
+Slurm while a job is cancelled, the node is drained and then lost. The files must be those of the local run, equal to the
+last byte; of logs and benchmarks, which contain times, only the names must agree.
 """
 
 import contextlib
@@ -32,17 +32,19 @@ import viscorough
 from viscorough_study.performance import timing
 
 NODE = socket.gethostname().split(".")[0]
-# There is no accounting, jobs take seconds, and nobody else asks for states.
+# There is no accounting, jobs take seconds, and no other user queries their states.
 QUICK = ("--slurm-status-command", "squeue", "--slurm-init-seconds-before-status-checks", "3")
 THROUGH_SLURM = ("--profile", "profiles/slurm", *QUICK)
-COMMANDS = 3  # the same command up to so often until it ends well; the profile's retries should spare the second
-HELD = 10  # seconds for which a drained node must get no job
+COMMANDS = (
+    3  # how often the command is run at most until it succeeds; thanks to the retries of the profile, once should do
+)
+HELD = 10  # seconds during which a drained node must not start a job
 PACKAGES = ("slurm-wlm", "munge")
 
 MUNGED = "munged --foreground --force --num-threads 2 --socket {0}/munge.socket --key-file {0}/munge.key \
 --pid-file {0}/munged.pid --log-file {0}/munged.log --seed-file {0}/munged.seed"
 
-# Inside a job the executor drops SLURM_CONF from the environment of srun, which elsewhere finds /etc/slurm by itself.
+# Inside a job, the executor removes SLURM_CONF from the environment of srun, which would then look in /etc/slurm.
 SRUN = '#!/bin/sh\nSLURM_CONF={conf} exec {srun} "$@"\n'
 
 SLURM_CONF = """\
@@ -74,9 +76,9 @@ PartitionName=test Nodes={node} Default=YES MaxTime=INFINITE State=UP
 
 
 def install():
-    """Debian's packages, unless the programs are there."""
+    """Install the packages of Debian, unless the programs are present."""
     if os.geteuid():
-        raise click.ClickException("this needs root, who alone can start daemons that run jobs")
+        raise click.ClickException("root is needed to start daemons that run jobs")
     if all(shutil.which(name) for name in ("munged", "slurmctld", "slurmd", "sbatch")):
         return
     if not shutil.which("apt-get"):
@@ -106,14 +108,14 @@ def wait_for(condition, what, seconds=120):
 def free_ports(number):
     with contextlib.ExitStack() as stack:
         sockets = [stack.enter_context(socket.socket()) for _ in range(number)]
-        for each in sockets:
-            each.bind(("127.0.0.1", 0))
-        return [each.getsockname()[1] for each in sockets]
+        for free in sockets:
+            free.bind(("127.0.0.1", 0))
+        return [free.getsockname()[1] for free in sockets]
 
 
 @contextlib.contextmanager
 def cluster(folder):
-    """Munge and Slurm's daemons, of which nothing is left afterwards, whatever happens in between."""
+    """The daemons of Munge and Slurm, which are stopped at the end in any case."""
     conf = folder / "slurm.conf"
     for name in ("state", "spool", "bin"):
         (folder / name).mkdir()
@@ -125,7 +127,7 @@ def cluster(folder):
     (folder / "bin" / "srun").write_text(SRUN.format(conf=conf, srun=shutil.which("srun")))
     (folder / "bin" / "srun").chmod(0o755)
     os.environ["PATH"] = f"{folder / 'bin'}:{os.environ['PATH']}"
-    os.environ["SLURM_CONF"] = str(conf)  # of the daemons, of every command and, handed on by it, of every job
+    os.environ["SLURM_CONF"] = str(conf)  # for the daemons, every command and, passed on by it, every job
     try:
         start(folder, MUNGED.format(folder).split())
         wait_for((folder / "munge.socket").exists, "start of munged")
@@ -136,7 +138,7 @@ def cluster(folder):
     finally:
         with contextlib.suppress(click.ClickException, subprocess.SubprocessError, OSError):
             output("scancel", "--quiet", "--user", "root")
-            wait_for(lambda: not output("squeue", "--noheader"), "end of the jobs that are left", 60)
+            wait_for(lambda: not output("squeue", "--noheader"), "end of the remaining jobs", 60)
         stop(str(conf))
 
 
@@ -154,7 +156,7 @@ def processes(conf):
 
 
 def stop(conf):
-    """End all processes of the cluster; what one of them starts in the meantime has its turn in the next round."""
+    """End all processes of the cluster; a process that one of them starts in the meantime is ended in the next round."""
     for end in ("terminate", "kill", "kill"):
         own = list(processes(conf))
         for process in own:
@@ -164,7 +166,7 @@ def stop(conf):
 
 
 def state():
-    """State of the node, such as idle; None while the daemons are not there."""
+    """State of the node, such as idle; None while the daemons are not running."""
     done = subprocess.run(["sinfo", "--noheader", "--format", "%T"], capture_output=True, text=True, check=False)
     return done.stdout.strip() or None
 
@@ -174,12 +176,12 @@ def set_state(value):
 
 
 def jobs(kind):
-    """Slurm's numbers of the jobs that are RUNNING or PENDING."""
+    """Slurm's numbers of the jobs that are RUNNING or PENDING, as `kind` says."""
     return output("squeue", "--noheader", "--array", "--states", kind, "--format", "%i").split()
 
 
 def ended(cluster_folder, folder):
-    """Number of jobs submitted for a copy of the project, and {state: times} of their ends; a lost one ends again."""
+    """Number of jobs submitted for a copy of the project, and {final state: how often}; a job that is requeued ends twice."""
     lines = [line for line in (cluster_folder / "jobs").read_text().splitlines() if f"WorkDir={folder} " in line]
     numbers, states = ([re.search(rf"\b{key}=(\w+)", line)[1] for line in lines] for key in ("JobId", "JobState"))
     return {"jobs_submitted": len(set(numbers)), "ends_of_jobs": dict(Counter(states))}
@@ -189,7 +191,7 @@ def ended(cluster_folder, folder):
 
 
 def run_project(folder, *arguments, disturb=None):
-    """Run a copy to its end, with the same command again where it fails; seconds and number of commands."""
+    """Run a copy to its end, repeating the command if it fails; seconds and number of commands."""
     begin = time.perf_counter()
     for command in range(1, COMMANDS + 1):
         with started(folder, *arguments, log="slurm.log", mode="a") as run:
@@ -202,7 +204,7 @@ def run_project(folder, *arguments, disturb=None):
 
 
 def disturbances(log):
-    """What happens to a run in its course; `log` takes what was done and when."""
+    """Function that disturbs a run; what it does, and when, is appended to `log`."""
 
     def note(run, what):
         log.append({"after_s": round(time.time() - psutil.Process(run.pid).create_time(), 1), "what": what})
@@ -273,7 +275,7 @@ def compare_runs(folder):
 @click.option(
     "--folder",
     type=click.Path(path_type=Path),
-    help="New folder to work in, which stays  [default: a temporary one]",
+    help="New folder to work in, which is kept  [default: a temporary one]",
 )
 def main(target, folder):
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # as an exception, so that the daemons are ended
@@ -283,7 +285,7 @@ def main(target, folder):
     place = contextlib.nullcontext(folder) if folder else tempfile.TemporaryDirectory()
     with place as working:
         working = Path(working).resolve()
-        working.chmod(0o755)  # munged wants a path to its socket that is open to all
+        working.chmod(0o755)  # munged requires that all users can reach its socket
         result = {"machine": timing.machine(), "viscorough": viscorough.__version__, **compare_runs(working)}
     target.parent.mkdir(parents=True, exist_ok=True)
     target.write_text(json.dumps(result, indent=1) + "\n")

@@ -1,0 +1,156 @@
+"""Digests follow what a script uses, and nothing else."""
+
+import textwrap
+
+import pytest
+
+from support.workflow import ROOT, SCRIPTS
+from viscorough_study.source_digest import SourceDigests
+
+FILES = {
+    "src/viscorough/__init__.py": """
+        _HOME = {"solve": "deep.solver"}
+
+        def __getattr__(name):
+            return getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
+        """,
+    "src/viscorough/deep/__init__.py": "",
+    "src/viscorough/deep/solver.py": '''
+        """Of a subpackage."""
+        from viscorough.deep import parts
+        LIMIT = 3
+
+        def solve(x):
+            """Solve."""
+            return parts.first(x, LIMIT)
+
+        def unused():
+            return 0
+        ''',
+    "src/viscorough/deep/parts.py": """
+        def first(x, limit):
+            def inner():
+                'Of a function inside.'
+                return limit
+            return inner() * second(x)
+
+        def second(x):
+            return 2 * x
+
+        def third(x):
+            return 5 * x
+        """,
+    "src/viscorough_study/__init__.py": "",
+    "src/viscorough_study/registry.py": """
+        TABLE = {}
+
+        def entry(function):
+            TABLE[function.__name__] = function
+            return function
+
+        @entry
+        def registered():
+            return 1
+
+        def plain():
+            return 2
+
+        TABLE["plain"] = 3
+        """,
+    "src/viscorough_study/handed_on.py": "from viscorough.deep.parts import third as other\nOWN = 1\n",
+    "src/viscorough_study/everything.py": "from viscorough.deep.parts import *\n\ndef use():\n    return third(1)\n",
+    "scripts/direct.py": "from viscorough.deep.solver import solve\n\ndef main():\n    return solve(1)\n",
+    "scripts/lazy.py": "from viscorough import solve\n\ndef main():\n    return solve(1)\n",
+    "scripts/attribute.py": "import viscorough\n\ndef main():\n    return viscorough.solve(1)\n",
+    "scripts/inside.py": "def main():\n    from viscorough_study import registry\n    return registry.TABLE\n",
+    "scripts/passed.py": "from viscorough.deep import parts\n\ndef main(show):\n    show(parts)\n",
+    "scripts/again.py": "from viscorough_study.handed_on import other\n\ndef main():\n    return other(1)\n",
+    "scripts/star.py": "from viscorough_study.everything import use\n\ndef main():\n    return use()\n",
+    "scripts/nothing.py": "import json\n\ndef main():\n    return json.dumps(1)\n",
+}
+SOLVER = {"direct", "lazy", "attribute"}
+
+
+@pytest.fixture
+def project(tmp_path):
+    for name, text in FILES.items():
+        path = tmp_path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(textwrap.dedent(text))
+    return tmp_path
+
+
+def digests(project):
+    sources = SourceDigests(project / "src")
+    return {path.stem: sources.digest(path) for path in (project / "scripts").glob("*.py")}
+
+
+def changed_by(project, name, old, new):
+    """Scripts whose digest an edit changes."""
+    before, path = digests(project), project / name
+    text = path.read_text()
+    assert text.count(old) == 1
+    path.write_text(text.replace(old, new))
+    after = digests(project)
+    return {script for script in before if before[script] != after[script]}
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new", "scripts"),
+    [
+        ("viscorough/deep/solver.py", "LIMIT = 3", "LIMIT = 4", SOLVER),
+        ("viscorough/deep/solver.py", "return 0", "return 1", set()),
+        ("viscorough/deep/parts.py", "return 2 * x", "return 3 * x", SOLVER | {"passed", "star"}),
+        ("viscorough/deep/parts.py", "return 5 * x", "return 6 * x", {"passed", "again", "star"}),
+        ("viscorough_study/registry.py", "return 1", "return 4", {"inside"}),
+        ("viscorough_study/registry.py", "= 3", "= 4", {"inside"}),
+        ("viscorough_study/registry.py", "return 2", "return 4", set()),
+        ("viscorough_study/handed_on.py", "OWN = 1", "OWN = 2", set()),
+        ("viscorough/__init__.py", '"deep.solver"', '"deep.parts"', {"lazy", "attribute"}),
+    ],
+)
+def test_a_change_counts_where_it_is_used(project, name, old, new, scripts):
+    assert changed_by(project, f"src/{name}", old, new) == scripts
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new"),
+    [
+        ("src/viscorough/deep/solver.py", '"""Solve."""', '"""Solve it,\n\n    in other words."""'),
+        ("src/viscorough/deep/solver.py", '"""Of a subpackage."""', "# a comment"),
+        ("src/viscorough/deep/parts.py", "'Of a function inside.'", "'Other words.'"),
+        ("scripts/direct.py", "def main():", "def main():  # a comment\n"),
+        ("scripts/direct.py", "def main():", 'def main():\n    """Say what it does."""'),
+    ],
+)
+def test_wording_and_layout_do_not_count(project, name, old, new):
+    assert changed_by(project, name, old, new) == set()
+
+
+def test_a_changed_script_counts_for_itself(project):
+    assert changed_by(project, "scripts/nothing.py", "dumps(1)", "dumps(2)") == {"nothing"}
+
+
+def test_relative_imports_are_refused(project):
+    (project / "src/viscorough/deep/parts.py").write_text("from . import solver\n")
+    with pytest.raises(ValueError, match="relative imports are not followed"):
+        digests(project)
+
+
+def used(script):
+    names = SourceDigests(ROOT / "src").used_names(SCRIPTS / f"{script}.py")
+    return {str(path.relative_to(ROOT / "src")) for path in names if path.is_relative_to(ROOT / "src")}
+
+
+def test_scripts_of_the_workflow():
+    boundary_elements = {"indent_discs", "compare_direct", "compare_reduction", "validate", "map_failures"}
+    boundary_elements |= {"measure_failure_curves", "measure_large", "measure_methods", "time_other_solvers"}
+    boundary_elements |= {"compare_level_placement"}
+    for script in sorted(path.stem for path in SCRIPTS.glob("*.py")):
+        modules = used(script)
+        assert ("viscorough/contact/column_fft.py" in modules) == (script in boundary_elements), script
+        assert not (script.startswith("plot_") and "viscorough/surfaces.py" in modules), script
+        assert any(name.startswith("viscorough_study/figures/") for name in modules) == script.startswith("plot_"), (
+            script
+        )
+    assert "viscorough/mdr.py" in used("indent_lines")

@@ -4,7 +4,7 @@
 
 A run of the small settings, which starts without results, is killed (SIGKILL) after a random time, either all of it or
 one of its jobs, and started again, until it finishes. Its files must then be those of an undisturbed run, equal to the
-last byte: figures, tables, ensembles and curves. Of logs and benchmarks, which contain times, only the names must agree.
+last byte: figures, tables, ensembles and curves. Of logs and benchmarks, which contain times, only names must agree.
 """
 
 import contextlib

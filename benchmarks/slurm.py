@@ -3,10 +3,10 @@
     python benchmarks/slurm.py --output results/slurm.json
 
 As root on Debian: slurm-wlm and munge are installed unless they are present, and a cluster of this one machine is
-started on the loopback interface, with its files in a temporary folder and without the machine's own settings. The small
-settings are then run three times, each in a copy of the project: locally, through Slurm with profiles/slurm, and through
-Slurm while a job is cancelled, the node is drained and then lost. The files must be those of the local run, equal to the
-last byte; of logs and benchmarks, which contain times, only the names must agree.
+started on the loopback interface, with its files in a temporary folder and without the machine's own settings. The
+small settings are then run three times, each in a copy of the project: locally, through Slurm with profiles/slurm, and
+through Slurm while a job is cancelled, the node is drained and then lost. The files must be those of the local run,
+equal to the last byte; of logs and benchmarks, which contain times, only names must agree.
 """
 
 import contextlib
@@ -35,9 +35,7 @@ NODE = socket.gethostname().split(".")[0]
 # There is no accounting, jobs take seconds, and no other user queries their states.
 QUICK = ("--slurm-status-command", "squeue", "--slurm-init-seconds-before-status-checks", "3")
 THROUGH_SLURM = ("--profile", "profiles/slurm", *QUICK)
-COMMANDS = (
-    3  # how often the command is run at most until it succeeds; thanks to the retries of the profile, once should do
-)
+COMMANDS = 3  # the most times the command is run until it succeeds; with the retries of the profile, once should do
 HELD = 10  # seconds during which a drained node must not start a job
 PACKAGES = ("slurm-wlm", "munge")
 
@@ -156,7 +154,7 @@ def processes(conf):
 
 
 def stop(conf):
-    """End all processes of the cluster; a process that one of them starts in the meantime is ended in the next round."""
+    """End all processes of the cluster; what one of them starts in the meantime is ended in the next round."""
     for end in ("terminate", "kill", "kill"):
         own = list(processes(conf))
         for process in own:
@@ -181,7 +179,7 @@ def jobs(kind):
 
 
 def ended(cluster_folder, folder):
-    """Number of jobs submitted for a copy of the project, and {final state: how often}; a job that is requeued ends twice."""
+    """Number of jobs submitted for a copy of the project, and {final state: how often}; a requeued job ends twice."""
     lines = [line for line in (cluster_folder / "jobs").read_text().splitlines() if f"WorkDir={folder} " in line]
     numbers, states = ([re.search(rf"\b{key}=(\w+)", line)[1] for line in lines] for key in ("JobId", "JobState"))
     return {"jobs_submitted": len(set(numbers)), "ends_of_jobs": dict(Counter(states))}

@@ -76,6 +76,7 @@ rule plot_kinetics:
     params:
         combinations=combinations(),
         conventions=config["figures"],
+        fraction_min=config["scaling"]["fraction_min"],
     message:
         "Figure 2, kinetics"
     script:
@@ -107,6 +108,7 @@ rule plot_master_curve:
         mem_mb=1000,
     params:
         conventions=config["figures"],
+        fraction_min=config["scaling"]["fraction_min"],
     message:
         "Figure 3, master curve"
     script:

@@ -6,18 +6,19 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 
 from viscorough import reference
-from viscorough_study.conventions import fits
-from viscorough_study.figures.mean_curve import length_over_diameter, mean_curve
+from viscorough_study.conventions import LENGTH, fits
+from viscorough_study.figures.mean_curve import mean_curve
 from viscorough_study.figures.style import GREY, MM, PALE, STYLE, WIDE, hurst_handles, hurst_looks, logarithmic_ticks
 
 
 @rc_context(STYLE)
-def plot_kinetics(ensembles, combinations, scaling, conventions):
+def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min):
     """Velocity over time in SI units, and vt/h over Ft/(hηL) computed from them (Eq. 2).
 
     ensembles : ensemble datasets, one for each case
     combinations : {case: force [N], viscosity [Pa s], diameter [m], rms [m]}
     scaling : scaling table, which has region (b); conventions : {column of it: value}
+    fraction_min : smallest share of the realizations defined, for a mean to be drawn
 
     Grey where one element is in contact, region (a), of which one decade is drawn; bars at the bottom are the windows
     of region (b). The rms height is that of the combination, which is exact if h is measured where it was prescribed.
@@ -25,12 +26,13 @@ def plot_kinetics(ensembles, combinations, scaling, conventions):
     looks = hurst_looks(ds["hurst"].item() for ds in ensembles)
     figure = Figure(figsize=(WIDE, 95 * MM))
     raw, collapsed = figure.subplots(1, 2, width_ratios=(1, 1.3))
-    curves = [mean_curve(ds, conventions) for ds in ensembles]
+    curves = [mean_curve(ds, conventions, fraction_min) for ds in ensembles]
+    length_over_diameter = LENGTH[conventions["diameter_convention"]]
     start = min((curve.x[curve.several][0] for curve in curves if curve.several.any()), default=0) / 10
     ends = {}
     for ds, curve in zip(ensembles, curves, strict=True):
         case, look = ds["case"].item(), looks[ds["hurst"].item()] | {"marker": "", "linewidth": 0.8}
-        time, velocity, dimensionless = _in_units(curve, combinations[case], length_over_diameter(conventions))
+        time, velocity, dimensionless = _in_units(curve, combinations[case], length_over_diameter)
         single = (~curve.several | np.append(True, ~curve.several[:-1])) & (curve.x >= start)  # and the point after it
         for axes, (x, y) in ((raw, (time, velocity)), (collapsed, dimensionless)):
             axes.plot(x[single], y[single], color=PALE, zorder=1)
@@ -43,7 +45,7 @@ def plot_kinetics(ensembles, combinations, scaling, conventions):
         halo = [withStroke(linewidth=2, foreground="white")]
         raw.annotate(name, end, (0, -3), textcoords="offset points", ha="center", va="top", path_effects=halo)
     collapsed.set(xscale="log", yscale="log", xlabel=r"$Ft/(h\eta L)$", ylabel="$vt/h$")
-    _mark_limits(collapsed, _elements_across(ensembles[0]["elements"].item()), length_over_diameter(conventions))
+    _mark_limits(collapsed, _elements_across(ensembles[0]["elements"].item()), length_over_diameter)
     _mark_windows(collapsed, looks, scaling, conventions)
     collapsed.legend(handles=hurst_handles(looks, marker=""), loc="upper left")
     logarithmic_ticks(raw, collapsed)

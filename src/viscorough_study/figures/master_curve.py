@@ -13,11 +13,12 @@ from viscorough_study.figures.style import GREY, MM, NARROW, STYLE, hurst_handle
 
 
 @rc_context(STYLE)
-def plot_master_curve(discs, lines, scaling, conventions):
+def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
     """vt/h over the right side of Eq. 12 with its Γ, and below the ratio of the two.
 
     discs, lines : ensemble datasets, one for each Hurst exponent; lines have the rms height of the discs (Eq. 13)
     scaling : scaling table, which has region (b); conventions : {column of it: value}
+    fraction_min : smallest share of the realizations defined, for a mean to be drawn
 
     Symbols, about eight for each decade of X, are filled in region (b); bars are two standard errors to either side.
     Region (a) is left out. The lower panel is cut to the range of region (b).
@@ -31,9 +32,9 @@ def plot_master_curve(discs, lines, scaling, conventions):
     for ds in discs:
         hurst = ds["hurst"].item()
         windows = fits(scaling, conventions, source="discs", case_group="base", hurst=hurst)
-        ratios += _draw_discs(panels, mean_curve(ds, conventions), hurst, windows, looks[hurst])
+        ratios += _draw_discs(panels, mean_curve(ds, conventions, fraction_min), hurst, windows, looks[hurst])
     for ds in lines:
-        hurst, curve = ds["hurst"].item(), mean_curve(ds, conventions)
+        hurst, curve = ds["hurst"].item(), mean_curve(ds, conventions, fraction_min)
         right_side = reference.rate_law(curve.x, hurst, gamma=True)
         for axes, y in ((law, curve.velocity), (ratio, curve.velocity / right_side)):
             axes.plot(right_side[curve.several], y[curve.several], color=looks[hurst]["color"], zorder=3)

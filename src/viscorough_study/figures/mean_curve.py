@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-FRACTION_MIN = 0.95  # of the realizations, for a mean to be drawn; as in viscorough_study.power_law.find_region
+from viscorough_study.conventions import LENGTH
 
 
 @dataclass(frozen=True)
@@ -22,19 +22,18 @@ class MeanCurve:
     several: np.ndarray
 
 
-def mean_curve(ensemble, conventions):
-    """MeanCurve of an ensemble dataset; conventions : {column of the scaling table: value}."""
+def mean_curve(ensemble, conventions, fraction_min):
+    """MeanCurve of an ensemble dataset.
+
+    conventions : {column of the scaling table: value}
+    fraction_min : smallest share of the realizations defined, for a mean to be drawn
+    """
     available = ensemble["rms_convention"].values.tolist()  # lines have one, their own
     mean = ensemble.sel(rms_convention=conventions["rms_convention"] if len(available) > 1 else available[0])
-    defined = mean["fraction_defined"].values >= FRACTION_MIN
+    defined = mean["fraction_defined"].values >= fraction_min
     return MeanCurve(
-        mean["x"].values / length_over_diameter(conventions),
+        mean["x"].values / LENGTH[conventions["diameter_convention"]],
         np.where(defined, mean[f"velocity_{conventions['average']}"].values, np.nan),
         2 * mean["velocity_spread"].values / np.sqrt(np.maximum(mean["realizations_defined"].values, 1)),
         defined & (mean["contact_count_median"].values > 1),
     )
-
-
-def length_over_diameter(conventions):
-    """L over the diameter of the indenter."""
-    return 0.5 if conventions["diameter_convention"] == "radius" else 1.0

@@ -15,7 +15,7 @@ pytestmark = pytest.mark.filterwarnings("error")
 
 def test_kinetics_are_those_of_the_curves_in_real_units(curves, discs, combinations, scaling):
     """Against viscorough.viscous.correspondence, which does not know of X: geometric mean of v at the times drawn."""
-    raw, collapsed = plot_kinetics(discs, combinations, scaling, SHOWN).axes
+    raw, collapsed = plot_kinetics(discs, combinations, scaling, SHOWN, fraction_min=0.95).axes
     for axes in (raw, collapsed):
         drawn = {line.get_label() for line in axes.lines} & set(combinations)
         assert drawn == set(combinations)
@@ -35,7 +35,7 @@ def test_kinetics_are_those_of_the_curves_in_real_units(curves, discs, combinati
 
 
 def test_kinetics_collapse_from_decades_apart(discs, combinations, scaling):
-    raw, collapsed = plot_kinetics(discs, combinations, scaling, SHOWN).axes
+    raw, collapsed = plot_kinetics(discs, combinations, scaling, SHOWN, fraction_min=0.95).axes
     for hurst in HURST:
         pairs = []
         for axes in (raw, collapsed):
@@ -51,7 +51,7 @@ def test_kinetics_collapse_from_decades_apart(discs, combinations, scaling):
 @pytest.mark.parametrize(("convention", "length"), [("diameter", 1.0), ("radius", 0.5)])
 def test_kinetics_mark_the_regions(discs, combinations, scaling, convention, length):
     shown = SHOWN | {"diameter_convention": convention}
-    figure = plot_kinetics(discs, combinations, scaling, shown)
+    figure = plot_kinetics(discs, combinations, scaling, shown, fraction_min=0.95)
     axes = figure.axes[1]
     bars = [line.get_xdata() for line in axes.lines if line.get_transform() == axes.get_xaxis_transform()]
     fitted = fits(scaling, shown, source="discs", case_group="base")
@@ -70,6 +70,15 @@ def test_kinetics_mark_the_regions(discs, combinations, scaling, convention, len
 
 
 def test_kinetics_of_one_case_without_region(discs, combinations, scaling):
-    figure = plot_kinetics(discs[:1], combinations, without_region(scaling, 0.4), SHOWN)
+    figure = plot_kinetics(discs[:1], combinations, without_region(scaling, 0.4), SHOWN, fraction_min=0.95)
     assert whole_on_page(figure)
     assert not any(line.get_linewidth() == 2.5 for line in figure.axes[1].lines[:-1])
+
+
+@pytest.mark.parametrize(("fraction_min", "drawn"), [(0.5, True), (0.6, False)])
+def test_means_over_few_realizations_are_left_out(discs, combinations, scaling, fraction_min, drawn):
+    beyond = discs[0]["x"] > 1.0
+    few = discs[0].assign(fraction_defined=discs[0]["fraction_defined"].where(~beyond, 0.5))
+    figure = plot_kinetics([few], combinations, scaling, SHOWN, fraction_min=fraction_min)
+    (line,) = [line for line in figure.axes[1].lines if line.get_label() in combinations]
+    assert (line.get_xdata().max() > 4 * 1.1) == drawn

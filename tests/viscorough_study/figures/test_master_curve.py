@@ -16,7 +16,7 @@ pytestmark = pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("average", ["geometric", "arithmetic"])
 def test_master_curve_draws_both_sides_of_the_law(pooled, lines, scaling, average):
     shown = SHOWN | {"average": average}
-    figure = plot_master_curve(pooled, lines, scaling, shown)
+    figure = plot_master_curve(pooled, lines, scaling, shown, fraction_min=0.95)
     law, ratio = figure.axes
     (identity,) = dashed(law)
     np.testing.assert_array_equal(identity.get_xdata(), identity.get_ydata())
@@ -52,7 +52,7 @@ def test_master_curve_of_one_realization_without_region(discs, lines, scaling):
     for ds in single:  # as the ensemble of one realization has it
         ds["velocity_spread"] = ds["velocity_spread"] * np.nan
         ds["realizations_defined"] = ds["realizations_defined"] * 0 + 1
-    figure = plot_master_curve(single, lines[:1], without_region(scaling, 0.4), SHOWN)
+    figure = plot_master_curve(single, lines[:1], without_region(scaling, 0.4), SHOWN, fraction_min=0.95)
     inside, outside = figure.axes[0].containers[:2]
     assert inside[0].get_xdata().size == 0
     assert outside[0].get_xdata().size > 3

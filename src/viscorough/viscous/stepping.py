@@ -19,7 +19,7 @@ from viscorough.indenter import Indenter
 
 SCHEMES = ("explicit", "heun", "implicit")
 # Overlap over the depth from which on a warning is given: the error of the depth is about as large
-# (measured: `make stability`, results/tables/stability_curves.csv).
+# (measured: `make stability`, results/tables/failure_curves.csv).
 _WARN_OVERLAP = 0.01
 _FAR = 1e290  # gaps where there is no element are larger
 # Accuracy of the impulse of an implicit step, over the tolerance of its contact problem, and most iterations for it.

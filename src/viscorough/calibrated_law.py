@@ -29,8 +29,13 @@ COLUMNS = {
 class PenetrationLaw:
     """vt/h = X^beta/zeta for x_low <= X <= x_high, X = Ft/(4ηhL) (paper, Eqs. 1 to 3 and 10).
 
+    All quantities are dimensionless.
+
     hurst : Hurst exponent H
-    beta_interval, zeta_interval : 95 % confidence intervals from the ensembles of the calibration
+    beta, zeta : exponent β and prefactor ζ
+    beta_interval, zeta_interval : (lower, upper) ends of their 95 % confidence intervals, from the ensembles of the
+        calibration
+    x_low, x_high : ends of region (b) in X
     """
 
     hurst: float
@@ -64,7 +69,8 @@ def calibration():
 def penetration_law(hurst):
     """PenetrationLaw of a self-affine surface with Hurst exponent H.
 
-    Between the calibrated exponents the numbers are interpolated linearly in H, the ends of the range as ln X.
+    Between the calibrated exponents, β, ζ and their intervals are interpolated linearly in H, as is ln X at
+    the ends of region (b).
     Raises ValueError for a Hurst exponent outside the calibrated range.
     """
     table = calibration()

@@ -110,11 +110,11 @@ def kinetics(curve, force, viscosity, output):
         loading = curve_from_content(content)
     except ValueError as error:
         raise ValueError(f"{curve}: {error}") from error
-    moving = correspondence.kinetics(loading, force, viscosity)
-    if not np.isfinite([moving.time, moving.velocity]).all():
+    motion = correspondence.kinetics(loading, force, viscosity)
+    if not np.isfinite([motion.time, motion.velocity]).all():
         raise ValueError(f"--force {force:g}, --viscosity {viscosity:g}: times overflow; closer values are allowed")
     write_output(
-        with_motion(content, moving.time, moving.velocity),
+        with_motion(content, motion.time, motion.velocity),
         output,
         title="Penetration of a rigid indenter into a linearly viscous half-space under a constant force",
         force=force,
@@ -122,7 +122,7 @@ def kinetics(curve, force, viscosity, output):
         correspondence="depth at a time is the elastic one at F/G = force * time / viscosity, velocity is "
         "force / (viscosity * k/G) there; exact for every topography, without 1/Gamma(2 - alpha)",
     )
-    click.echo(f"{output}: {moving.time.size} levels, depth {moving.depth[-1]:.6g} at time {moving.time[-1]:.6g}")
+    click.echo(f"{output}: {motion.time.size} levels, depth {motion.depth[-1]:.6g} at time {motion.time[-1]:.6g}")
 
 
 @cli.command(short_help="Penetration over time by direct integration.")
@@ -179,16 +179,16 @@ def march(heights, spacing, output, *, method, force, viscosity, times, force_hi
     if force_history:
         history = _read_history(force_history)
         steps = np.unique(history.impulse[history.impulse > 0]) / viscosity
-        marched = _integrate(indenter, method, steps, **options)
-        content = motion.integration_under_history(marched, history, viscosity, length_unit)
+        integrated = _integrate(indenter, method, steps, **options)
+        content = motion.integration_under_history(integrated, history, viscosity, length_unit)
         force = force_history.name
     else:
         force = force or 1.0
         per_time = force / viscosity
-        marched = _integrate(indenter, method, None if times is None else per_time * np.array(times), **options)
-        content = motion.integration_to_content(marched, per_time, length_unit)
-    about = {"method": method, "force": force, "viscosity": viscosity, "heights": heights.name, "spacing": spacing}
-    write_output(content, output, **about)
+        integrated = _integrate(indenter, method, None if times is None else per_time * np.array(times), **options)
+        content = motion.integration_to_content(integrated, per_time, length_unit)
+    attributes = {"method": method, "force": force, "viscosity": viscosity, "heights": heights.name, "spacing": spacing}
+    write_output(content, output, **attributes)
     time, depth, count = (content.variables[name].values for name in ("time", "depth", "contact_count"))
     click.echo(
         f"{output}: {time.size} levels, depth {depth[-1]:.6g} at time {time[-1]:.6g} "
@@ -197,7 +197,7 @@ def march(heights, spacing, output, *, method, force, viscosity, times, force_hi
 
 
 def _check_options_of_method(method, has_history, times, overlap, until_fraction):
-    """Raise UsageError for options that the method needs but has not, or has no use for."""
+    """Raise UsageError if an option that the method requires is missing, or one is given that does not apply to it."""
     if not has_history and (method == "events") != (times is None):
         raise click.UsageError(f"--times is {'not for' if times else 'needed by'} --method {method}")
     if overlap is not None and method not in ("explicit", "heun"):
@@ -207,7 +207,7 @@ def _check_options_of_method(method, has_history, times, overlap, until_fraction
 
 
 def _read_history(path):
-    """The ForceHistory in a file. Raises ValueError if it is none, or if its force is zero at all times."""
+    """The ForceHistory in a file. Raises ValueError if the file holds none, or if the force is zero at all times."""
     from viscorough.io.motion import read_force_history
     from viscorough.viscous.correspondence import impulses
 
@@ -222,7 +222,10 @@ def _read_history(path):
 
 
 def _integrate(indenter, method, steps, *, overlap, until_fraction):
-    """Direct integration by a method; steps: impulse/viscosity at the ends of the steps [length²], not for events."""
+    """Events or Steps of a direct integration.
+
+    steps : impulse/viscosity at the ends of the steps [length²]; not used by the method events
+    """
     from viscorough.viscous.events import march_events
     from viscorough.viscous.stepping import march_steps
 
@@ -233,7 +236,7 @@ def _integrate(indenter, method, steps, *, overlap, until_fraction):
 
 
 def _report(command, error):
-    """Write the one line on an error to stderr."""
+    """Write one line about an error to stderr."""
     hint = ""
     if isinstance(error, click.ClickException):
         text = error.format_message()
@@ -255,7 +258,7 @@ def _exit_at_once(*_):
 def main(arguments=None, commands=cli):
     """Run the command line and return its exit code.
 
-    arguments : default: those of the process
+    arguments : list of texts; default: those of the process
     commands : the click.Group to run
     """
     arguments = list(sys.argv[1:] if arguments is None else arguments)

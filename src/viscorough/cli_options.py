@@ -10,7 +10,7 @@ import click
 from viscorough.errors import AccuracyWarning
 from viscorough.interrupts import on_interrupt
 
-_STEEP = 0.3  # rms slope above which the theory of small slopes is in doubt, and users are warned
+_STEEP_SLOPE = 0.3  # rms slope above which the theory of small slopes is doubtful, so that users are warned
 
 
 class PositiveNumber(click.ParamType):
@@ -60,9 +60,9 @@ def output_option(metavar):
 
 
 def read_indenter(heights, spacing, output):
-    """The indenter in a file and its unit of length, after the output is known to be possible.
+    """The indenter in a file and its unit of length, read after a check that the output can be written.
 
-    Raises ValueError for an impossible output or bad heights; warns of steep ones.
+    Raises ValueError for an output that cannot be written and for invalid heights; steep ones give an AccuracyWarning.
     """
     from viscorough.io.atomic import check_output
     from viscorough.io.heights import length_unit_of, read_heights
@@ -71,14 +71,14 @@ def read_indenter(heights, spacing, output):
     if target.exists() and heights.exists() and target.samefile(heights):
         raise ValueError(f"{output}: would replace the heights; another name is needed")
     indenter = read_heights(heights, spacing)
-    if (slope := indenter.rms_slope) > _STEEP:
-        text = f"{heights}: the rms slope is {slope:.2g}; the theory holds for small slopes, below about {_STEEP}"
+    if (slope := indenter.rms_slope) > _STEEP_SLOPE:
+        text = f"{heights}: the rms slope is {slope:.2g}; the theory holds for small slopes, below about {_STEEP_SLOPE}"
         warnings.warn(text, AccuracyWarning, stacklevel=2)
     return indenter, length_unit_of(heights)
 
 
 def write_output(content, output, **attributes):
-    """Write an io.netcdf.Content with attributes added, and the warnings so far in one of them."""
+    """Write an io.netcdf.Content with attributes added; the attribute `warnings` holds the warnings given so far."""
     from viscorough.io import netcdf
 
     if texts := warning_texts(click.get_current_context().obj):
@@ -88,5 +88,5 @@ def write_output(content, output, **attributes):
 
 
 def warning_texts(caught):
-    """Text of each different warning, on one line."""
+    """The texts of the different warnings, each on one line."""
     return list(dict.fromkeys(" ".join(str(warning.message).split()) for warning in caught))

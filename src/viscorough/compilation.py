@@ -1,8 +1,8 @@
-"""Compiled functions, kept on disk: damaged files there are compiled again, and an interrupt waits for the compiler.
+"""Compiled functions cached on disk: damaged cache files are detected, and an interrupt waits for the compiler.
 
-numba keeps compiled code beside the modules (or in NUMBA_CACHE_DIR) and trusts what it reads. The files of functions
-that are compiled here end with a SHA-256 checksum, which numba's own reader ignores. Only these functions are changed:
-numba and the compiled functions of other packages stay what they are.
+numba caches compiled code beside the modules (or in NUMBA_CACHE_DIR) and does not check what it reads. The cache files
+of functions that are compiled here end with a SHA-256 checksum, which numba's own reader ignores; where it is wrong,
+the function is compiled again. Only these functions are affected, not numba itself or functions of other packages.
 """
 
 import functools
@@ -48,15 +48,15 @@ class _CheckedCache(caching.FunctionCache):
 
 
 def _cache(function):
-    """The cache of a function's compiled code; none where there is no folder for it."""
+    """The cache of a function's compiled code; an inactive one if there is no folder for it."""
     try:
         return _CheckedCache(function)
-    except RuntimeError:  # no place of numba's choice can be written, or the function has no source file
+    except RuntimeError:  # numba finds no writable folder, or the function has no source file
         return caching.NullCache()
 
 
 def njit(function=None, **options):
-    """numba.njit with the options, kept on disk."""
+    """numba.njit with the given options, cached on disk. Use as a decorator, with or without options."""
     if function is None:
         return functools.partial(njit, **options)
     compiled = numba.njit(function, **options)
@@ -68,7 +68,7 @@ def njit(function=None, **options):
 
 
 def vectorize(*signatures):
-    """numba.vectorize for these signatures, kept on disk; compiled or loaded when it is first called."""
+    """Decorator: numba.vectorize for these signatures, cached on disk; compiled or loaded at the first call."""
 
     def decorated(function):
         @functools.cache

@@ -6,4 +6,4 @@ class ConvergenceError(RuntimeError):
 
 
 class AccuracyWarning(UserWarning):
-    """A result is less accurate than users would expect: what happened, and what helps."""
+    """A result may be less accurate than expected; the message says why and what helps."""

@@ -11,7 +11,7 @@ class Indenter:
 
     heights : a map of shape (rows, columns), nan outside the indenter, or a line of shape (points,); larger is higher,
         and the highest point touches first [length]
-    spacing : distance of neighbouring points [length]
+    spacing : distance between neighbouring points [length]
 
     Raises ValueError if the heights are not real numbers in one or two dimensions, are infinite, have no
     element or, on a line, have a nan; or if the spacing is not a positive number.
@@ -54,7 +54,7 @@ class Indenter:
 
     @property
     def initial_gap(self):
-        """Gap at first contact [length]: depth below the highest element; shape and precision of the heights."""
+        """Initial gap [length]: depth below the highest element; shape and precision are those of the heights."""
         return np.fmax.reduce(self.heights, axis=None) - self.heights
 
 

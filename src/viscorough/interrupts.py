@@ -7,32 +7,32 @@ import threading
 
 @contextlib.contextmanager
 def on_interrupt(handler):
-    """Context in which an interrupt calls handler(signal number, frame); gives the handler that held before.
+    """Context in which an interrupt calls handler(signal number, frame); yields the previous handler.
 
-    Outside the main thread, which interrupts never reach, nothing is changed and None is given.
+    Outside the main thread, which interrupts never reach, nothing is changed and None is yielded.
     """
     if threading.current_thread() is not threading.main_thread():
         yield None
         return
-    before = signal.signal(signal.SIGINT, handler)
+    previous = signal.signal(signal.SIGINT, handler)
     try:
-        yield before
+        yield previous
     finally:
-        signal.signal(signal.SIGINT, before)
+        signal.signal(signal.SIGINT, previous)
 
 
 @contextlib.contextmanager
 def uninterrupted():
-    """Context that an interrupt waits for: it is handled at the end.
+    """Context in which an interrupt is deferred: it is handled at the end.
 
-    In LLVM's callbacks into Python it would be lost or crash the process, and it does crash where a compiled function
-    that was interrupted returns its results.
+    In LLVM's callbacks into Python an interrupt would be lost or crash the process, and a compiled function that was
+    interrupted crashes when it returns its results.
     """
     arrived = []
-    before = None
+    previous = None
     try:
-        with on_interrupt(lambda *arguments: arrived.append(arguments)) as before:
+        with on_interrupt(lambda *arguments: arrived.append(arguments)) as previous:
             yield
     finally:
-        if arrived and callable(before):
-            before(*arrived[-1])
+        if arrived and callable(previous):
+            previous(*arrived[-1])

@@ -1,7 +1,7 @@
-"""The loading curve: the one result of every contact computation.
+"""The loading curve: the common result of all contact computations.
 
-An elastic loading curve carries the whole viscous problem (paper, Eqs. 1-3): every force,
-viscosity and time is a rescaling of it.
+The elastic loading curve determines the solution of the viscous problem (paper, Eqs. 1-3): other forces, viscosities
+and times only rescale it.
 """
 
 from dataclasses import dataclass
@@ -11,17 +11,17 @@ import numpy as np
 
 @dataclass(frozen=True)
 class LoadingCurve:
-    """Depth, force and tangent stiffness of a rigid indenter pressed into an elastic half-space, level by level.
+    """Depth, force and tangent stiffness of a rigid indenter pressed into an elastic half-space, at successive levels.
 
     depth : u, shape (levels,), strictly increasing and positive [length]
     force : F/G, shape (levels,) [length²], G the shear modulus of the incompressible half-space
-    stiffness : k/G = d(F/G)/du, shape (levels,) [length]; with the elements in contact at that level
+    stiffness : k/G = d(F/G)/du, shape (levels,) [length], of the elements in contact at that level
     contact_count : elements in contact, shape (levels,) [1]
     elements : number of elements of the indenter
     method : how the curve was obtained
     tolerance : requested relative accuracy
-    operator_applications : applications of the half-space operator on the grid that the curve took
-    residual : largest |gap| in contact or overlap outside it that was left, over the depth, shape (levels,)
+    operator_applications : number of applications of the half-space operator on the grid
+    residual : largest remaining |gap| in contact or overlap outside it, over the depth, shape (levels,) [1]
 
     Read with G → η and F → ∫F dt it is the solution of the linearly viscous problem (Radok; paper, Sec. III).
     """
@@ -46,7 +46,7 @@ class LoadingCurve:
         return self.force / (4 * rms * diameter), self.stiffness / (4 * diameter)
 
     def at_force(self, force):
-        """Depth u and stiffness k/G at given F/G, between the levels; nan beyond the last one.
+        """Depth u and stiffness k/G at given F/G, interpolated between the levels; nan beyond the last one.
 
         Where at most one element joined the contact from one level to the next, the curve is made of the two
         tangents, exactly. Elsewhere ln u is a cubic Hermite interpolant in ln F (a power law is met exactly),
@@ -91,7 +91,7 @@ def interpolate_levels(depth, force, stiffness, contact_count, wanted):
     cubic, cubic_stiffness = _hermite_in_logarithms(wanted, (f0, f1), (u0, u1), (k0, k1))
     tangent_stiffness = np.where(left <= right, k0, k1)
 
-    # Exactly straight where at most one element joined; elsewhere the side of the triangle that confines it.
+    # Tangents where at most one element joined; elsewhere the cubic, or the side of the triangle that it crosses.
     joined = contact_count[j] - contact_count[j - 1]
     on_tangents = ((joined >= 0) & (joined <= 1)) | (cubic > tangents * (1 + 1e-12))
     on_chord = ~on_tangents & (cubic < chord * (1 - 1e-12))

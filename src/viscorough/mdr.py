@@ -1,9 +1,9 @@
-"""The method of dimensionality reduction (MDR): a line of independent springs instead of the half-space.
+"""The method of reduction of dimensionality (MDR): a line of independent springs instead of the half-space.
 
-Springs of stiffness 4G Δx carry F/G = 4 Δx Σ(u - g)₊ at depth u, where g are the initial gaps to the highest point of
-the line. With η for G they are dashpots of damping 4η Δx that carry ∫F dt/η (paper, Sec. V). No equation has to be
-solved or integrated in time: the loading curve follows from the sorted gaps, for which it is enough to count and add
-them in narrow bins.
+Springs of stiffness 4G Δx, one per point of the line with spacing Δx, carry F/G = 4 Δx Σ(u - g)₊ at depth u, where g
+are the initial gaps, measured from the highest point. With η for G they are dashpots of damping 4η Δx that carry
+∫F dt/η (paper, Sec. V). No equation has to be solved or integrated in time: the loading curve follows from the sorted
+gaps, and it is enough to count and add them in narrow bins.
 """
 
 import numpy as np
@@ -13,12 +13,12 @@ from viscorough.compilation import njit
 from viscorough.indenter import Indenter
 from viscorough.loading_curve import LoadingCurve
 
-_OCTAVES = 128  # of gaps that are binned, below the largest; smaller gaps count as zero
-_LANES = 4  # neighbouring points often fall into one bin: separate counters, so that no update waits for the one before
+_OCTAVES = 128  # octaves below the largest gap that are divided into bins; smaller gaps share one bin
+_LANES = 4  # neighbouring points often fall into one bin: separate counters avoid waiting for the last update
 
 
 def reduce(line, *, until_fraction=1.0, until_force=None, bins_per_octave=64):
-    """Loading curve of a line by the method of dimensionality reduction.
+    """Loading curve of a line by the method of reduction of dimensionality (MDR).
 
     line : Indenter with one-dimensional heights
     until_fraction : contact fraction at which to stop, in (0, 1]
@@ -88,7 +88,7 @@ def line_of_surface(square, spacing, seed):
     """Line with the power spectrum of a periodic map, C1D = π q C2D (Eq. 13), and random phases.
 
     square : heights, shape (n, n) [length]
-    spacing : of the points of map and line [length]
+    spacing : distance between the points of both map and line [length]
     seed : int or SeedSequence
 
     The wave with wavenumber k per period of the line has the power of all waves of the map with wavenumbers from

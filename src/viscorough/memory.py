@@ -1,4 +1,4 @@
-"""Problems that do not fit into the available memory are refused before any of it is allocated."""
+"""Check of the available memory, so that problems too large for it are refused before anything is allocated."""
 
 import psutil
 

@@ -4,13 +4,13 @@ Elastic quantities are normalised with the shear modulus G of an incompressible 
 force is F/G [length²], stiffness is k/G = d(F/G)/du [length]. The contact is frictionless and non-adhesive.
 
 The laws are dimensionless: X = F/(4GhL) (elastic) or Ft/(4ηhL) (viscous), κ = k/(4GL), with rms height h and
-indenter diameter L. Laws that the paper prints with a factor 1/Γ(2−α) exist in two forms: with `gamma=False` what
-the integration of Eq. 1 with Eq. 3 gives, with `gamma=True` the law as printed, which results from a Laplace transform
+indenter diameter L. Laws that the paper prints with a factor 1/Γ(2−α) exist in two forms: with `gamma=False` the
+result of integrating Eq. 1 with Eq. 3, with `gamma=True` the law as printed, which results from a Laplace transform
 of a relation that is nonlinear in F/G.
 
 Sources: Hertz 1882; Love 1929 and 1939 (square element, cone); Sneddon 1965 (bodies of revolution);
 Johnson 1985, Contact Mechanics (flat ellipse); Lee and Radok 1960 (viscous sphere); Popov and Heß 2015
-(reduction of dimensionality).
+(method of reduction of dimensionality, MDR).
 """
 
 from dataclasses import dataclass
@@ -35,6 +35,8 @@ class PowerLawBody:
 
     coefficient : c > 0 [length^(1−n)]
     exponent : n > 0; 1 is a cone, 2 a sphere (as a paraboloid)
+
+    Raises ValueError unless both are finite and positive.
     """
 
     coefficient: float
@@ -55,7 +57,7 @@ class PowerLawBody:
         return (depth / self.mdr_profile(1.0)) ** (1 / self.exponent)
 
     def force(self, depth):
-        """F/G at depth u."""
+        """F/G [length²] at depth u."""
         return 8 * self.exponent / (self.exponent + 1) * depth * self.contact_radius(depth)
 
     def depth(self, force):
@@ -64,7 +66,7 @@ class PowerLawBody:
         return self.mdr_profile((force * (n + 1) / (8 * n * self.mdr_profile(1.0))) ** (1 / (n + 1)))
 
     def stiffness(self, depth):
-        """k/G = 8a at depth u."""
+        """k/G = 8a [length] at depth u."""
         return 8 * self.contact_radius(depth)
 
     def indenter(self, elements_across, width=1.0):
@@ -73,12 +75,12 @@ class PowerLawBody:
         return Indenter(-self.coefficient * np.hypot(x[:, None], x) ** self.exponent, width / elements_across)
 
     def mdr_line(self, points, width=1.0):
-        """Line of the given width that stands for this body in the reduction of dimensionality."""
+        """Indenter on a line of the given width that represents this body in the MDR."""
         return Indenter(-self.mdr_profile(_element_centres(points, width)), width / points)
 
 
 def sphere(radius):
-    """Sphere z = r²/(2R): F = (4/3)E*√R u^(3/2), a = √(Ru) (Hertz)."""
+    """Sphere z = r²/(2R), R = `radius`: F = (4/3)E*√R u^(3/2), a = √(Ru) (Hertz)."""
     _require_positive("radius of a sphere", radius)
     return PowerLawBody(1 / (2 * radius), 2)
 
@@ -89,9 +91,10 @@ def cone(slope):
 
 
 def flat_ellipse_stiffness(major, minor):
-    """k/G of a flat punch with the semi-axes major ≥ minor > 0: k = πE*a/K(m), m = 1 − b²/a² (Johnson).
+    """k/G [length] of a flat elliptical punch with semi-axes a = `major` ≥ b = `minor` (Johnson): k = πE*a/K(m).
 
-    The force is k u at every depth u. Equal semi-axes give the flat disc, k = 2E*a.
+    K is the complete elliptic integral of the first kind of parameter m = 1 − b²/a². The force is k u at every depth u.
+    Equal semi-axes give the flat disc, k = 2E*a. Raises ValueError unless major ≥ minor > 0 and both are finite.
     """
     if not np.all((np.asarray(minor) > 0) & (np.asarray(major) >= minor) & np.isfinite(major)):
         raise ValueError(f"semi-axes of an ellipse: {major}, {minor}; allowed: finite, major >= minor > 0")
@@ -99,12 +102,12 @@ def flat_ellipse_stiffness(major, minor):
 
 
 def flat_disc_stiffness(radius):
-    """k/G = 8a of a flat disc of radius a; the force is k u at every depth u."""
+    """k/G = 8a [length] of a flat disc of radius a; the force is k u at every depth u."""
     return flat_ellipse_stiffness(radius, radius)
 
 
 def mdr_profile(slope, x):
-    """Profile g of the reduction of dimensionality for any body of revolution (the paper's refs. 24 and 25).
+    """One-dimensional profile g of the MDR for any body of revolution z = f(r) (the paper's refs. 24 and 25).
 
     g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr = |x| ∫₀^(π/2) f′(|x| sin φ) dφ, with which the one-dimensional
     foundation has the depth, force F/G = 4∫(u − g)₊dx and stiffness of the half-space, exactly.
@@ -156,7 +159,7 @@ def exponent_alpha(hurst):
 
 
 def depth_law(x, zeta, alpha, *, gamma=False):
-    """u/h = X^(1−α)/(ζ(1−α)) (Eq. 6); with `gamma` divided by Γ(2−α) (Eq. 8). Needs α < 1."""
+    """u/h = X^(1−α)/(ζ(1−α)) (Eq. 6); with `gamma` divided by Γ(2−α) (Eq. 8). Raises ValueError unless α < 1."""
     if not np.all(np.asarray(alpha) < 1):
         raise ValueError(f"exponent alpha of the depth law: {alpha}; allowed: below 1")
     return velocity_law(x, zeta, alpha, gamma=gamma) / (1 - alpha)
@@ -173,7 +176,7 @@ def exponent_beta(hurst):
 
 
 def zeta_viscous(hurst):
-    """ζ ≈ 2 − H, the paper's fit to viscous indentations (Eq. 11) by the law with the factor 1/Γ(2−α)."""
+    """ζ ≈ 2 − H, the paper's fit of the law with the factor 1/Γ(2−α) to viscous indentation (Eq. 11)."""
     return 2 - hurst
 
 
@@ -183,7 +186,7 @@ def rate_law(x, hurst, *, gamma=False):
 
 
 def line_spectrum(wavenumber, spectrum, transfer=np.pi):
-    """C1D(q) = λ q C2D(q), two-sided, of the line that represents a surface; λ = π in Eq. 13.
+    """C1D(q) = λ q C2D(q), the two-sided spectrum of the line that represents a surface; λ = `transfer` is π in Eq. 13.
 
     λ = π gives line and surface the same rms height; in general λ = π (h1D/h2D)².
     """
@@ -191,7 +194,7 @@ def line_spectrum(wavenumber, spectrum, transfer=np.pi):
 
 
 def one_element_stiffness(elements_across):
-    """κ while one square element touches (region a): π/(K₀₀ n) with n elements across L; vt/h = X/κ has slope 1.
+    """κ while one square element is in contact (region a): π/(K₀₀ n), n elements across L; vt/h = X/κ has slope 1.
 
     A square of side d = L/n under uniform pressure p sinks by u = pd K₀₀/(πE*) at its centre.
     """

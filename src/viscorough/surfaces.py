@@ -17,8 +17,8 @@ from viscorough.compilation import njit
 from viscorough.indenter import Indenter, positive
 
 _BLOCK = 16384  # waves of a line computed at a time: arrays of this length stay in the processor's cache
-# Memory that must be available: three times what the arrays of a square take, per point; the heights of a line and a
-# copy of them, which the Fourier transform makes (more where the number of points has a large prime factor).
+# Memory that must be available: for a square, bytes per point, three times what its arrays take; for a line, multiples
+# of its heights, since the Fourier transform copies them (more if the number of points has a large prime factor).
 _BYTES_PER_POINT, _COPIES_OF_LINE = 100, 2.1
 
 
@@ -87,7 +87,7 @@ def self_affine_square(
     """Heights of a periodic self-affine square, shape (points, points), of mean 0 and rms 1.
 
     hurst, corners, roll_off_level, amplitudes, seed : as in `self_affine_disc`
-    points : per period, at least 2
+    points : number of points per period, at least 2
     roll_off_wavelength : as in `self_affine_disc`, but in points
 
     White noise is filtered: its spectrum has the symmetry of real heights, also where a wave is its own mirror
@@ -138,12 +138,12 @@ def self_affine_line(
     seed,
     dtype=np.float32,
 ):
-    """Periodic self-affine line, C1D ∝ q^(-(2H+1)): an indenter for the method of dimensionality reduction (MDR).
+    """Periodic self-affine line, C1D ∝ q^(-(2H+1)): an indenter for the method of reduction of dimensionality (MDR).
 
     hurst, rms, amplitudes, seed : as in `self_affine_disc`
-    points : per period, at least 2
-    length : L, also the period; the spacing is L/points [length]
-    roll_off_wavelength, roll_off_level : as in `self_affine_disc`, the wavelength in lengths of the line
+    points : number of points per period, at least 2
+    length : L, which is also the period; the spacing is L/points [length]
+    roll_off_wavelength, roll_off_level : as in `self_affine_disc`, but the wavelength in units of the length
     dtype : float32 or float64; the realization is the same up to rounding
 
     Returns an Indenter with heights of shape (points,) and mean 0. Raises ValueError for values outside these ranges.
@@ -174,9 +174,9 @@ def _draw_waves(waves, points, amplitude, generator, *, fixed, block=_BLOCK):
     """Fill `waves` with random cosine and sine coefficients; returns the mean square of the heights they make.
 
     waves : shape (points // 2, 2), of 1, 2, ... waves per period
-    amplitude : function of an array of wavenumbers, the modulus
-    fixed : whether the modulus is not random but exactly `amplitude`
-    block : waves computed at a time
+    amplitude : function of an array of wavenumbers that gives the moduli
+    fixed : whether moduli are exactly those of `amplitude`, not random
+    block : number of waves computed at a time
     """
     random = generator.bit_generator
     buffers = np.empty((3, min(block, len(waves))), waves.dtype)
@@ -201,7 +201,7 @@ def _draw_waves(waves, points, amplitude, generator, *, fixed, block=_BLOCK):
 
 @njit
 def _phases_and_uniforms(integers, phase, uniform):
-    """Phases in [0, 2π) from the lower, numbers in (0, 1) from the upper halves of random 64-bit integers."""
+    """Store phases in [0, 2π) from the lower and numbers in (0, 1) from the upper halves of random 64-bit integers."""
     for i in range(integers.size):
         phase[i] = (integers[i] & 0xFFFFFFFF) * (2 * np.pi / 2**32)
         uniform[i] = ((integers[i] >> np.uint64(32)) + 0.5) * 2.0**-32
@@ -258,8 +258,8 @@ def _scale_factor(rms, mean_square):
 
 def _generator(seed):
     """Random numbers from SFC64, the fastest of numpy's generators."""
-    known = isinstance(seed, np.random.SeedSequence)
-    return np.random.Generator(np.random.SFC64(seed if known else _whole("seed", seed, at_least=0)))
+    is_sequence = isinstance(seed, np.random.SeedSequence)
+    return np.random.Generator(np.random.SFC64(seed if is_sequence else _whole("seed", seed, at_least=0)))
 
 
 def _hurst(hurst):

@@ -1,1 +1,1 @@
-"""Frictionless contact with the elastic half-space by boundary elements."""
+"""Frictionless contact of a rigid indenter with the elastic half-space, solved with boundary elements."""

@@ -1,20 +1,20 @@
 """Convolution of the columns of a grid with an even kernel, by Fourier transforms of many columns side by side.
 
-The transforms are our own because a convolution needs less than a library's transforms do: rows without data are
-neither stored nor copied, and frequencies stay in the order in which the transform leaves them.
+The transforms are implemented here because a convolution needs less than a library's transforms provide: rows without
+data are neither stored nor copied, and frequencies stay in the order in which the transform leaves them.
 
 Columns are processed in blocks. Within a row of a block the real parts are contiguous and the imaginary parts follow,
-so that every line of code below acts on as many columns at once as a register of the processor holds.
+so that every operation below acts on as many columns at once as a register of the processor holds.
 """
 
 import numpy as np
 
 from viscorough.compilation import njit
 
-# Columns of a block, which shall stay in the cache, and how many more the last block may have.
+# Columns of a block, which is small enough for the cache, and how many more columns the last block may have.
 _BLOCK, _REST = 64, 8
-# Numbers from real to imaginary parts, and from row to row: no powers of two, multiples of which compete for the same
-# lines of the cache. They are constants so that the compiler can see which numbers do not overlap.
+# Distances in memory from real to imaginary parts and from row to row: no powers of two, multiples of which compete for
+# the same cache lines. They are constants so that the compiler can see which numbers do not overlap.
 _PARTS = _BLOCK + _REST
 _ROW = 2 * _PARTS + 8
 
@@ -124,9 +124,13 @@ def _transform(x, y, source, same, radices, factors, width):
     Every stage reads rows n/r apart and writes r rows side by side, of which the first holds frequencies that are 0
     modulo r, the next those that are 1, and so on (decimation in frequency with constant geometry; Pease 1968).
 
+    x, y : two blocks, which the stages read and write in turn
+    source : rows that the first stage reads; same : 0, 1, 2, …, the rows that the other stages read
+    radices : r of every stage
     factors : the twiddle factors of the stages, one stage after the other, r for each group
+    width : columns of the block
     """
-    before, start = 1, 0
+    before, start = 1, 0  # `before`: product of the radices of the stages before
     for radix in radices:
         groups = same.size // (before * radix)
         stop = start + groups * radix
@@ -154,7 +158,7 @@ def _load(data, first, x, width):
 
 @njit
 def _multiply(x, spectrum, y, width):
-    """Product with the spectrum, real and imaginary parts exchanged: its transform is the inverse one, so exchanged."""
+    """Product with the spectrum, real and imaginary parts exchanged, so that the next transform is an inverse one."""
     for i in range(spectrum.shape[0]):
         for j in range(width):
             real = spectrum[i, j] * x[i, j]
@@ -173,23 +177,23 @@ def _store(x, place, data, first, width):
 
 @njit
 def _convolve(data, edges, spectra, radices, factors, padded, place, same, x, y):
-    """Convolve the columns of data in place; compiled, so that the plan comes in plain arrays (ColumnConvolution)."""
+    """Convolve the columns of data in place; takes the plan of ColumnConvolution as plain arrays, being compiled."""
     for block in range(spectra.shape[0]):
         first, width = edges[block], edges[block + 1] - edges[block]
         _load(data, first, x, width)
         frequencies, other = _transform(x, y, padded, same, radices, factors, width)
         _multiply(frequencies, spectra[block], other, width)
-        times, _ = _transform(other, frequencies, place, same, radices, factors, width)
-        _store(times, place, data, first, width)
+        convolved, _ = _transform(other, frequencies, place, same, radices, factors, width)
+        _store(convolved, place, data, first, width)
 
 
 class ColumnConvolution:
-    """Convolution of every column with its kernel.
+    """Convolution of every column of a grid with its own even kernel.
 
-    rows : rows with data
+    rows : number of rows with data
     spectrum : real transforms of the kernels along the columns, divided by the length of the transform: the frequencies
         up to half of it, shape (length/2 + 1, columns), where length is a good_length above `rows`
-    precision : type of the numbers
+    precision : floating-point type of the computation
     """
 
     def __init__(self, rows, spectrum, precision):

@@ -7,7 +7,9 @@ from viscorough.contact.preconditioner import load_redistribution_stencil
 
 
 class ConjugateGradients:
-    """A search for x with K x given on a contact set, where the residual is −e, the gap with opposite sign.
+    """Conjugate gradients for x with K x given on a contact set; x is P or q, the residual −e or −e_q.
+
+    halfspace : Halfspace; preconditioner : Preconditioner; contact_set : ContactSet
 
     The search direction d is the load array of the half-space operator itself: applying the operator gives K d without
     a copy. Only one search can therefore be under way on a half-space.
@@ -22,19 +24,22 @@ class ConjugateGradients:
         self._norm, self._last_norm = np.nan, np.inf
 
     def precondition(self, gap):
-        """z = M e on the set; returns zᵀe."""
+        """Compute the preconditioned gap z = M e on the set; returns zᵀe."""
         self._preconditioned = self._preconditioner.apply(gap)
         self._norm = self._preconditioned @ gap[self._set.places]  # both with the opposite sign: the residual is −e
         return self._norm
 
     def update_direction(self):
-        """The direction conjugate to the last one, from the preconditioned residual."""
+        """Update the search direction: conjugate to the last one, from the preconditioned residual."""
         factor = self._norm / self._last_norm
         kernels.update_search_direction(self._direction, self._preconditioned, factor, self._set.slots)
         self._last_norm = self._norm
 
     def step(self, pressure, gap):
-        """A step of conjugate gradients, in place; returns the largest |e| on the set and whether any P is negative."""
+        """Take a step of conjugate gradients, which changes pressure and gap in place.
+
+        Returns the largest |e| on the set and whether any pressure is negative.
+        """
         deflection, (_, columns) = self._halfspace.apply(), self._halfspace.shape
         length = self._norm / kernels.inner_product(self._direction, deflection.ravel(), self._set.slots)
         kernels.update_gap(length, deflection[:, :columns], gap)
@@ -45,7 +50,10 @@ class ConjugateGradients:
         return kernels.step_causes_tension(length, self._direction, pressure, self._set.places, self._set.slots)
 
     def step_and_release(self, length, pressure, gap, width):
-        """A step of given length, after which elements under tension leave the set, in place."""
+        """Take a step of given length, after which elements under tension leave the set; all in place.
+
+        width : of a row of flat fields
+        """
         contact_set, stencil = self._set, load_redistribution_stencil()
         kernels.step_and_release(
             length, self._direction, pressure, contact_set.inside, contact_set.places, contact_set.slots,

@@ -1,6 +1,6 @@
 """Dense contact solutions for few elements in contact: exact to rounding, and cheaper than any grid.
 
-Elements are named by their rank in the order of increasing initial gap, so that those which can be in contact at a
+Elements are identified by their rank in the order of increasing initial gap, so that those which can be in contact at a
 given depth are the first ones.
 """
 
@@ -15,7 +15,7 @@ from viscorough.contact.state import Contact
 from viscorough.errors import ConvergenceError
 from viscorough.interrupts import uninterrupted
 
-# What rounding may make of a gap over the depth, of a pressure over the largest, or of the depth of an event.
+# Rounding error allowed for in a gap over the depth, in a pressure over the largest one, and in the depth of an event.
 _ROUNDING = 1e-12
 _MAX_ITERATIONS = 100
 
@@ -24,7 +24,8 @@ _MAX_ITERATIONS = 100
 class ContactEvents:
     """Depths at which elements touch, one after the other; reduced, arrays of shape (events,).
 
-    depth, pressure_sum, tangent_sum : u, ΣP and Σq; count : elements in contact
+    depth, pressure_sum, tangent_sum : u, ΣP and Σq
+    count : elements in contact just beyond the event
     """
 
     depth: np.ndarray
@@ -58,23 +59,23 @@ def _deflection(influence, row, column, members, load, stop):
 
 
 def gap_at_all(elements, contact):
-    """Gap e between the surfaces at every element, by rank."""
+    """Reduced gap e between the deformed surfaces at every element, by rank."""
     of_elements = elements.influence, elements.row, elements.column
     deflection = _deflection(*of_elements, contact.members, contact.reduced_pressure, elements.count)
     return deflection - contact.reduced_depth + elements.initial_gap
 
 
-def solve(elements, contact, depth, candidates, largest):
-    """The contact at a larger reduced depth by the primal-dual active set method; None above `largest` members.
+def solve(elements, contact, depth, candidates, max_count):
+    """The contact at a larger reduced depth by the primal-dual active set method; None beyond `max_count` members.
 
-    Only the `candidates` elements of lowest rank have an initial gap below the depth and can be in contact. Starts from
-    the elements in contact before, whose pressures at the new depth are known, or from all candidates where there are
-    none. Raises ConvergenceError if the set does not settle.
+    Only the `candidates` elements of lowest rank have an initial gap below the depth and can be in contact. The first
+    set is that of the given contact, with the pressure P + Δu q, or all candidates if the given contact has no members.
+    Raises ConvergenceError if the set still changes after the largest number of iterations.
     """
     if contact.count:
         members, tangent = contact.members, contact.tangent
         pressure = contact.reduced_pressure + (depth - contact.reduced_depth) * tangent
-    elif candidates > largest:
+    elif candidates > max_count:
         return None
     else:
         members = np.arange(candidates)
@@ -82,15 +83,15 @@ def solve(elements, contact, depth, candidates, largest):
     of_elements = elements.influence, elements.row, elements.column
     for _ in range(_MAX_ITERATIONS):
         deflection = _deflection(*of_elements, members, pressure, candidates)
-        # Rounding decides nothing: an element within it of the surface stays where it is, in contact or not.
-        wanted = deflection - depth + elements.initial_gap[:candidates] < -_ROUNDING * depth
-        wanted[members] = pressure >= -_ROUNDING * pressure.max()
-        wanted_members = np.flatnonzero(wanted)
-        if np.array_equal(wanted_members, members):
+        # Rounding must not decide: an element whose gap or pressure is zero to rounding keeps its state.
+        in_contact = deflection - depth + elements.initial_gap[:candidates] < -_ROUNDING * depth
+        in_contact[members] = pressure >= -_ROUNDING * pressure.max()
+        next_members = np.flatnonzero(in_contact)
+        if np.array_equal(next_members, members):
             return _exact_contact(contact.units, depth, members, pressure, tangent)
-        if wanted_members.size > largest:
+        if next_members.size > max_count:
             return None
-        members = wanted_members
+        members = next_members
         pressure, tangent = _pressure_and_tangent(elements, members, depth)
     raise ConvergenceError(
         f"contact at depth {depth * contact.units.length:g}: the contact set of {members.size} elements does not settle"
@@ -98,14 +99,17 @@ def solve(elements, contact, depth, candidates, largest):
 
 
 def follow_events(elements, contact, most, pressure_sum):
-    """Contact after contact at the depths at which the next elements touch, up to `most` elements or beyond ΣP.
+    """The contact events after a contact: the depths at which the next elements touch, computed one after the other.
 
     Until the next element touches, pressures grow at the constant tangent q, so that depths are exact. Every element
     that touches adds a row to the Cholesky factor of the influence matrix, so that hundreds of events cost as much as a
     few dense solutions. The same recursion in time integrates the viscous problem (viscous.events).
 
-    Returns ContactEvents after the given contact, and the contact at the last event. Elements that touch at one depth,
-    to rounding, are one event.
+    most : number of elements in contact at which to stop
+    pressure_sum : reduced ΣP at which to stop
+
+    Returns ContactEvents after the given contact, and the Contact at the last event. Elements that touch at the same
+    depth, to rounding, are one event.
     """
     with uninterrupted():
         depth, total, stiffness, members = _follow(
@@ -113,7 +117,7 @@ def follow_events(elements, contact, most, pressure_sum):
             contact.members, contact.reduced_pressure, min(most, elements.count), pressure_sum,
         )  # fmt: skip
     count = np.arange(contact.count, contact.count + depth.size)
-    # The first entry is the contact itself; the last event has all its elements only if another one follows.
+    # The first entry is the given contact. The last event is known to be complete only if no element is left.
     complete = np.append(np.diff(depth) > _ROUNDING * depth[1:], members.size == elements.count)
     complete[0] = False
     events = ContactEvents(depth[complete], total[complete], stiffness[complete], count[complete])
@@ -135,13 +139,17 @@ def _pressure_and_tangent(elements, members, depth):
 
 
 def _exact_contact(units, depth, members, pressure, tangent):
-    pressure = np.maximum(pressure, 0.0)  # exact zeros of elements that just touch, to rounding
+    """The Contact of a dense solution."""
+    pressure = np.maximum(pressure, 0.0)  # of elements that just touch, rounding can make it negative
     return Contact(units, depth, members, pressure, tangent, pressure.sum(), tangent.sum())
 
 
 @njit(fastmath=True)
 def _follow(influence, row, column, initial_gap, depth, start, pressure, most, force):
-    """The events after a contact of the elements `start` with these pressures; plain arrays, since it is compiled."""
+    """The events after a contact of the elements `start` with these pressures; plain arrays, since it is compiled.
+
+    Returns the depth, ΣP and Σq of every event, the first of which is the given contact, and all elements in contact.
+    """
     factor, members = np.empty((most, most)), np.empty(most, np.int64)
     forward, tangent, load = np.zeros(most), np.zeros(most), np.zeros(most)
     depths, totals, stiffnesses = np.zeros(most), np.zeros(most), np.zeros(most)
@@ -165,7 +173,8 @@ def _follow(influence, row, column, initial_gap, depth, start, pressure, most, f
         if count == most or total > force or tangent[:count].min() < 0:
             break
         depth_step, element = np.inf, -1
-        for i in range(initial_gap.size):  # by rank: elements further down cannot touch before the surface has met them
+        # By rank: a gap is at least initial_gap − depth, so that elements beyond the break cannot touch next.
+        for i in range(initial_gap.size):
             if initial_gap[i] - depth >= depth_step:
                 break
             if inside[i] or last_gap[i] + last_depth[i] - depth >= depth_step:

@@ -1,7 +1,7 @@
 """Compiled loops of the grid solver, over flat fields with a border or over the places of a contact set.
 
-Compiled functions take plain arrays, and as many as a formula has, because they know neither keyword-only arguments nor
-the types of `state`. Fields are changed in place where the text says so.
+Compiled functions take plain arrays, hence their many arguments: they accept neither keyword-only arguments nor the
+types of `state`, whose symbols are used here. Fields are changed in place only where the docstring says so.
 """
 
 import numpy as np
@@ -34,14 +34,16 @@ def combine(weights, shift, pressure, gap, last_pressure, last_gap, last_tangent
     """q as a combination of two pressures and a tangent, and K q − 1, everywhere.
 
     weights : of the pressure, of the last pressure and of the last tangent
-    shift : what K q − 1 has besides the combination of gaps, from which the initial gap is taken
+    shift : constant part of K q − 1, from K P = e − g + u for both pressures and K q = e_q + 1 for the last tangent
     """
-    now, last, steady = weights
+    pressure_weight, last_pressure_weight, tangent_weight = weights
     tangent, tangent_gap = np.empty_like(pressure), np.empty_like(gap)
     for i in range(gap.size):
-        tangent[i] = now * pressure[i] + last * last_pressure[i] + steady * last_tangent[i]
-        deflection = now * (gap[i] - initial_gap[i]) + last * (last_gap[i] - initial_gap[i])
-        tangent_gap[i] = deflection + steady * last_tangent_gap[i] + shift
+        tangent[i] = (
+            pressure_weight * pressure[i] + last_pressure_weight * last_pressure[i] + tangent_weight * last_tangent[i]
+        )
+        deflection = pressure_weight * (gap[i] - initial_gap[i]) + last_pressure_weight * (last_gap[i] - initial_gap[i])
+        tangent_gap[i] = deflection + tangent_weight * last_tangent_gap[i] + shift
     return tangent, tangent_gap
 
 
@@ -95,12 +97,14 @@ def step_causes_tension(length, direction, pressure, places, slots):
 
 @njit
 def step_and_release(length, direction, pressure, inside, places, slots, stencil, width, stride):
-    """P += α d; elements under tension leave the set; the direction becomes the whole change of pressure, in place.
+    """P += α d; elements under tension leave the set; the direction becomes the total change of pressure; all in place.
 
-    Removing a tension p < 0 lifts the neighbours off the surface. They give up as much pressure as eliminating the
-    element from the influence matrix would take from them, which saves iterations, but at most half of what they have.
+    When an element under tension leaves, the load of its neighbours changes. They take the change that eliminating the
+    element from the influence matrix would give, which saves iterations, but lose at most half of their pressure.
 
-    stencil : preconditioner.load_redistribution_stencil; width : of a row of flat fields; stride : of the load array
+    stencil : preconditioner.load_redistribution_stencil
+    width : length of a row of flat fields
+    stride : length of a row of the load array
     """
     for t in range(places.size):
         direction[slots[t]] *= length

@@ -1,18 +1,19 @@
 """Contact on the grid: preconditioned conjugate gradients on a contact set that shrinks to that of the solution.
 
-The set to start from is the last contact set with every element that the predictor P + Δu q makes overlap the surface.
-It contains the set of the solution: between the two depths the surface deflects at the tangent of ever larger punches,
-that is further than predicted. Elements that come under tension leave it. Along a search direction d the deflection K d
-is known on the whole grid, hence also the gap, everywhere and at no further cost.
+The initial set is the last contact set and every element that overlaps the surface after the predictor P + Δu q. It
+contains the set of the solution: between the two depths the contact grows, so that the surface outside it deflects
+further than predicted. Elements that come under tension leave the set. The operator gives the deflection K d of a
+search direction d on the whole grid, and thus the gap everywhere at no further cost.
 
-While elements leave, steps have the natural length of the preconditioner, so that one operator serves both the step and
-the removal of the elements that leave; afterwards steps are those of conjugate gradients.
+While elements leave, the length of a step is fixed in units of the preconditioned residual, so that one application of
+the operator serves both the step and the removal of these elements; afterwards steps are those of conjugate gradients.
 
-Fields are flat, with a border as wide as the preconditioner reaches, so that elements at the edge need no special case.
+Symbols and reduced units are those of contact.state. Fields are flat arrays with a border as wide as the preconditioner
+reaches, so that elements at the edge need no special treatment.
 
-The search is done in single precision by default. What it searches for are corrections, and shrinking ones, so their
-rounding is small; a bound on the rounding error is tracked with every field, and the gap is recomputed in double
-precision from the pressure when the bound nears the tolerance.
+The iterations run in single precision by default. They compute corrections that become ever smaller, so that the
+rounding error is small; a bound on it is tracked with every field, and the gap is recomputed in double precision from
+the pressure when the bound nears the tolerance.
 """
 
 from dataclasses import replace
@@ -26,12 +27,12 @@ from viscorough.contact.preconditioner import LEAST_EIGENVALUE, REACH, Precondit
 from viscorough.contact.state import BoundedField, Contact, ContactSet, GridFields
 from viscorough.errors import ConvergenceError
 
-# The release step is halved every so many releases: a guard against cycles on sets that suit the preconditioner badly.
+# The release step is halved after every so many of them: a safeguard against cycles where the preconditioner is poor.
 _HALVE_STEP_EVERY = 20
-# Largest relative error of q in energy, the square of which is that of the stiffness.
+# Largest relative error of q in the energy norm; its square is the relative error of the stiffness.
 _TANGENT_TOLERANCE = 1e-2
-# Rounding error of K q − 1 that is accepted, over the tolerance. The stiffness sees its mean over the set, not its
-# largest value, so that it stays within the tolerance (tests/viscorough/contact/test_loading_path.py).
+# Rounding error of e_q = K q − 1 that is accepted, over the tolerance. The stiffness depends on its mean over the set,
+# not on its largest value, and therefore stays within the tolerance (tests/viscorough/contact/test_loading_path.py).
 _TANGENT_ROUNDING = 5.0
 # Share of the tolerance that the search may use, so that residual and rounding together are within the tolerance.
 _SEARCH_SHARE = 0.999
@@ -41,13 +42,16 @@ _PRECISIONS = {"single": np.float32, "double": np.float64}
 
 
 class GridSolver:
-    """Solves contacts of the elements that lie in a box of the grid, each from one at a smaller depth.
+    """Solves the contact of the elements in a box of the grid, starting from a contact at a smaller depth.
 
     box : (first row, first column, rows, columns)
-    row, column, initial_gap : of every element, shape (elements,), in any order; their order is that of ranks here
-    tolerance : largest |e| in contact or overlap outside it, over the depth; options : SolverOptions
+    row, column, initial_gap : of every element, shape (elements,), in any order; the rank of an element is its
+        position in these arrays
+    tolerance : largest |e| in contact or overlap outside it, over the depth
+    options : SolverOptions
 
-    place : of every element in flat fields, by rank (0: not in the box); initial_gap : flat field
+    place : index of every element in flat fields, by rank (0: not in the box)
+    initial_gap : flat field
     """
 
     def __init__(self, box, row, column, initial_gap, tolerance, options):
@@ -66,7 +70,7 @@ class GridSolver:
         self.place = np.where(in_box, (row - top + REACH) * self._width + column - left + REACH, 0).astype(int)
         self.initial_gap = np.full((rows + 2 * REACH) * self._width, _OUTSIDE)
         self.initial_gap[self.place[self._ranks]] = initial_gap[self._ranks]
-        # Where each place of the flat grid is in the operator's load.
+        # Index of every place of the flat grid in the flattened load array of the operator.
         starts = np.arange(-REACH, rows + REACH, dtype=np.int32) * self._halfspace.load.shape[1]
         self._slot = np.add.outer(starts, np.arange(-REACH, columns + REACH, dtype=np.int32)).ravel()
         self._preconditioner = Preconditioner(rows + 2 * REACH, self._width, options.preconditioner)
@@ -77,7 +81,7 @@ class GridSolver:
         return sum(halfspace.count for halfspace in {self._halfspace, self._exact})
 
     def fields(self, contact):
-        """The fields of a dense solution on this grid; costs two applications of the operator."""
+        """GridFields of a dense solution on this grid; costs two applications of the operator."""
         place = self.place[contact.members]
         pressure, tangent = np.zeros_like(self.initial_gap), np.zeros_like(self.initial_gap)
         pressure[place], tangent[place] = contact.reduced_pressure, contact.tangent
@@ -95,7 +99,10 @@ class GridSolver:
         )
 
     def solve(self, contact, depth):
-        """The contact at a larger reduced depth. Raises ConvergenceError."""
+        """The Contact at a larger reduced depth, from a contact with GridFields on this grid.
+
+        Raises ConvergenceError if the tolerance is not reached in max_iterations.
+        """
         before, last_depth = self._start_fields(contact), contact.reduced_depth
         depth_step = depth - last_depth
         pressure, gap = kernels.predict(
@@ -124,19 +131,22 @@ class GridSolver:
         )
 
     def solve_flat_punch(self, inside, tangent, tangent_gap):
-        """Solve K q = 1 on a set, in place, from a start that vanishes outside it.
+        """Solve K q = 1 on a set by iteration from the given q, which must be zero outside the set; changes q in place.
 
-        inside : flags on the flat grid; tangent, tangent_gap : q and K q − 1, flat with border
-        Returns Σq, to the square of the error of q in energy.
+        inside : whether an element is in the set, flat field
+        tangent, tangent_gap : q and e_q = K q − 1, flat fields
+
+        Returns Σq, whose relative error is the square of that of q in the energy norm.
+        Raises ConvergenceError if the tolerance is not reached in max_iterations.
         """
         contact_set = self._contact_set(inside)
-        # The caller carries the gap on from set to set; nothing bounds its rounding.
+        # The caller passes the tangent gap on from set to set, so that no bound on its rounding error is known.
         self._solve_tangent(contact_set, tangent, BoundedField(tangent_gap, np.inf))
         places = contact_set.places
         return tangent[places].sum() - tangent[places] @ tangent_gap[places]
 
     def _start_fields(self, contact):
-        """The fields of the last contact; for a start from its pressure alone, with a tangent of zero."""
+        """The fields of the last contact; if the warm start uses the pressure only, with a tangent of zero."""
         fields = contact.fields
         if self._options.warm_start == "tangent":
             return fields
@@ -154,8 +164,8 @@ class GridSolver:
             if changed:
                 contact_set = self._contact_set(inside)
                 largest, tension = kernels.gap_and_tension(pressure, gap.values, contact_set.places)
-            # The rounding error takes its part of the limit. Where that is most of it, the gap is recomputed as soon as
-            # it is no larger than its rounding error.
+            # Residual and rounding error together must not exceed the limit. Where the rounding error takes most of it,
+            # the gap is recomputed as soon as it is no larger than its rounding error.
             close_enough = max(limit - gap.rounding, gap.rounding)
             if largest <= close_enough and not tension:
                 if gap.rounding <= 0.5 * limit:
@@ -181,7 +191,7 @@ class GridSolver:
         raise self._not_converged(contact_set, largest, limit)
 
     def _tangent_weights(self, before, last_depth, pressure, gap, contact_set, depth):
-        """Weights of the pressure, the last pressure and the last tangent: their combination nearest to q in energy."""
+        """Weights of pressure, last pressure and last tangent in the combination of them closest to q in energy."""
         places = contact_set.places
         initial_gap = self.initial_gap[places]
         loads = np.array([pressure[places], before.pressure[places], before.tangent[places]])
@@ -193,7 +203,7 @@ class GridSolver:
             ]
         )
         if np.count_nonzero(loads[2]) < np.count_nonzero(before.tangent):
-            # An element was lost, within the tolerance: what loaded it is of no use.
+            # An element left the contact, within the tolerance: fields that load it cannot be part of q.
             loads, deflections = loads[:1], deflections[:1]
         energy = loads @ deflections.T
         scale = 1 / np.sqrt(np.maximum(np.diag(energy), np.finfo(float).tiny))
@@ -201,13 +211,14 @@ class GridSolver:
         return *weights, *[0.0] * (3 - weights.size)
 
     def _tangent_start(self, weights, before, last_depth, pressure, gap, depth):
-        """The combination with these weights as a start of q, and K q − 1 everywhere with its rounding bound."""
-        now, last, steady = weights
+        """The combination with these weights as initial q, and e_q = K q − 1 everywhere with its rounding bound."""
+        pressure_weight, last_pressure_weight, tangent_weight = weights
+        shift = pressure_weight * depth + last_pressure_weight * last_depth + tangent_weight - 1
         tangent, tangent_gap = kernels.combine(
-            weights, now * depth + last * last_depth + steady - 1, pressure, gap.values,
+            weights, shift, pressure, gap.values,
             before.pressure, before.gap.values, before.tangent, before.tangent_gap.values, self.initial_gap,
         )  # fmt: skip
-        # The gap has the errors of the last gap and tangent, too, which cancel in part; but not if it was recomputed.
+        # Unless it was recomputed, the gap has the errors of the last gap and tangent gap, which partly cancel here.
         depth_step, last_rounding, tangent_rounding = (
             depth - last_depth,
             before.gap.rounding,
@@ -215,21 +226,23 @@ class GridSolver:
         )
         added = gap.rounding - last_rounding - depth_step * tangent_rounding
         if added >= 0:
-            rounding = abs(now + last) * last_rounding + abs(now * depth_step + steady) * tangent_rounding
-            rounding += abs(now) * added
+            rounding = abs(pressure_weight + last_pressure_weight) * last_rounding
+            rounding += abs(pressure_weight * depth_step + tangent_weight) * tangent_rounding
+            rounding += abs(pressure_weight) * added
         else:
-            rounding = abs(now) * gap.rounding + abs(last) * last_rounding + abs(steady) * tangent_rounding
+            rounding = abs(pressure_weight) * gap.rounding + abs(last_pressure_weight) * last_rounding
+            rounding += abs(tangent_weight) * tangent_rounding
         return tangent, BoundedField(tangent_gap, rounding)
 
     def _solve_tangent(self, contact_set, tangent, tangent_gap):
-        """Solve K q = 1 on a set by conjugate gradients; changes q and K q − 1, with its rounding bound, in place."""
+        """Solve K q = 1 on a set by conjugate gradients; changes q and e_q, with its rounding bound, in place."""
         tolerance = min(_TANGENT_TOLERANCE, np.sqrt(self._tolerance))
         accepted = max(_TANGENT_ROUNDING * self._tolerance, self._exact_rounding)
         search = ConjugateGradients(self._halfspace, self._preconditioner, contact_set)
         largest, _ = kernels.gap_and_tension(tangent, tangent_gap.values, contact_set.places)
         for _ in range(self._options.max_iterations):
             norm = search.precondition(tangent_gap.values)
-            # The error of Σq is eᵀK⁻¹e, of which the preconditioner gives nearly as much or more.
+            # The error of Σq is e_qᵀ K⁻¹ e_q, which is at most e_qᵀ M e_q / LEAST_EIGENVALUE.
             total = tangent[contact_set.places].sum()
             error = np.sqrt(norm / (LEAST_EIGENVALUE * total)) if total > 0 else np.inf
             if error <= tolerance:

@@ -1,8 +1,8 @@
 """Cholesky factor L of the influence matrix of a contact set that grows element by element.
 
-Compiled for the two places that follow contact events: the dense elastic path and the direct integration of the viscous
-problem. The latter checks the former; what they share is this linear algebra, which is tested against a full
-factorisation, and no mechanics. Compiled functions take plain arrays, hence their many arguments.
+It serves the two methods that follow contact events: the dense elastic path and the direct integration of the viscous
+problem. The latter checks the former; all they share are the influence coefficients and this linear algebra, which is
+tested against a full factorisation. Compiled functions take plain arrays, hence their many arguments.
 """
 
 import numpy as np
@@ -12,10 +12,13 @@ from viscorough.compilation import njit
 
 @njit(fastmath=True)
 def append_element(factor, influence, row, column, members, count, element, forward):
-    """Add an element to the set of `count` members: a row of L, and its entry of L⁻¹·1; all in place.
+    """Add an element to the set of `count` members: a row of L and an entry of L⁻¹·1, in place.
 
-    influence : K by distance in rows and columns; row, column : of every element
-    factor : L, shape (most, most); members : the elements of the set, shape (most,); forward : L⁻¹·1, shape (most,)
+    influence : influence coefficients K by distance in rows and columns
+    row, column : positions of all elements on the grid
+    factor : L, shape (most, most), most being the largest number of members
+    members : the elements of the set, shape (most,)
+    forward : L⁻¹·1, shape (most,)
     """
     new = factor[count]
     for t in range(count):
@@ -37,7 +40,7 @@ def append_element(factor, influence, row, column, members, count, element, forw
 
 @njit(fastmath=True)
 def solve_flat_punch(factor, count, forward, tangent):
-    """q = L⁻ᵀ (L⁻¹·1) of the set, in place; returns its sum."""
+    """Store the tangent q = L⁻ᵀ (L⁻¹·1) of the `count` members, the solution of K q = 1, in `tangent`; returns Σq."""
     tangent[:count] = forward[:count]
     total = 0.0
     for i in range(count - 1, -1, -1):

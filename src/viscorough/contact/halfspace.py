@@ -10,8 +10,8 @@ from viscorough.contact.column_fft import ColumnConvolution, good_length
 
 # Beyond this distance (in elements) the series below is more accurate than the difference of logarithms.
 _FAR = 30
-# Rows a power of two apart in memory compete for the same lines of the cache; so many more numbers between them
-# prevent it.
+# Rows that lie a power of two apart in memory compete for the same cache lines; this many extra numbers per row prevent
+# that.
 _ROW_PADDING = 16
 
 
@@ -19,8 +19,8 @@ _ROW_PADDING = 16
 def influence_coefficient(x, y):
     """K(x, y): displacement at distance (x, y), in element sides, of a unit square under uniform pressure.
 
-    Love's solution for the square, u = p d/(πE*) K with element side d (Love 1929). Near the square it is the
-    closed form, the sum over the four corners of ±(a ln(b + ρ) + b ln(a + ρ)); far from it, where that loses
+    Love's solution for the square, w = p d/(πE*) K = p d/(4πG) K with element side d (Love 1929). Near the square
+    it is the closed form, the sum over the four corners of ±(a ln(b + ρ) + b ln(a + ρ)); far from it, where that loses
     digits to cancellation, the moment expansion of ∫∫ dA/r to fourth order. Accurate to 1e-11 relative.
     K(0, 0) = 4 ln(1 + √2) = 3.5254943481.
 
@@ -49,10 +49,10 @@ def influence_coefficient(x, y):
 
 @lru_cache(maxsize=2)
 def _spectrum(rows, columns, padding):
-    """Lengths of the periodic convolution, and the real spectrum of K over half of them, divided by their product.
+    """Lengths of the periodic convolution along both axes, and the real spectrum of K, divided by their product.
 
-    K and its spectrum are even, so that a cosine transform of the distances up to half the lengths gives all of it.
-    Without padding the distance to the nearest periodic image counts.
+    K and its spectrum are even, so that a cosine transform over distances up to half the lengths gives the spectrum at
+    all frequencies. Without padding, the distance is that to the nearest periodic image.
     """
     lengths = good_length(2 * (rows - 1)), 2 * ducc0.fft.good_size(max(columns - 1, 1), True)
     row, column = (np.arange(m // 2 + 1.0) for m in lengths)
@@ -62,20 +62,25 @@ def _spectrum(rows, columns, padding):
 
 
 class Halfspace:
-    """The half-space operator w = K p on a grid of rows × columns square elements: w_i = Σ_j K(i − j) p_j.
+    """The half-space operator w = K P on a grid of rows × columns square elements: w_i = Σ_j K(i − j) P_j.
+
+    With P = p d/(4πG) the result w is the deflection of the surface.
 
     K is even, so a periodic convolution over 2(n − 1) points per axis holds every distance up to n − 1 once and
     nothing wraps around; its spectrum is real. The rows beyond the grid carry no data in or out: their transforms
-    along the rows are skipped (a quarter of the work of the padded transform), and they exist only where the columns
-    are convolved.
+    along the rows are skipped (a quarter of the work of the padded transform), and they are stored only while the
+    columns are convolved.
 
-    load : the array to write p into, of shape (rows, stride ≥ columns); it must be zero wherever there is no pressure
+    rows, columns : of the grid
+    precision : floating-point type of the computation
+    padding : whether the grid is padded; if not, periodic images of the grid act on it
+
+    load : the array to write P into, of shape (rows, stride ≥ columns); it must be zero wherever there is no pressure
         and in the columns beyond the grid
     count : number of applications so far
-    precision : type of the numbers; padding : whether the grid is padded, without which periodic images act on it
 
     `apply()` returns w in an array of the layout of `load`, overwritten by the next call; its columns beyond the grid
-    mean nothing. In lengths the deflection is d/(πE*) K p.
+    are undefined.
     """
 
     def __init__(self, rows, columns, precision=np.float64, *, padding=True):
@@ -88,7 +93,7 @@ class Halfspace:
         self.count = 0
 
     def apply(self):
-        """Deflection w = K p of the pressure in `load`, in the same layout; valid until the next call."""
+        """Deflection w = K P of the pressure in `load`, in the same layout; valid until the next call."""
         length, data = self._length, self._transformed
         ducc0.fft.r2c(self.load[:, :length], axes=[1], out=data)
         self._columns.apply(data)

@@ -1,8 +1,9 @@
-"""The elastic loading path of a rigid indenter by boundary elements, level after level of increasing depth.
+"""The elastic loading path of a rigid indenter by boundary elements, from level to level of increasing depth.
 
-One path carries the viscous problem for every force history (viscorough.viscous.correspondence). While few elements are
-in contact, every contact event (the next element touches) is a level: between events the curve is straight, so nothing
-is left to interpolate. Later, levels stand where interpolation between them needs them (step_control).
+One path determines the solution of the viscous problem for every force history (viscorough.viscous.correspondence).
+While few elements are in contact, every contact event (the next element touches) is a level: between events the curve
+is straight, so that interpolation is exact. Later, levels are placed where interpolation between them needs them
+(step_control).
 """
 
 import numpy as np
@@ -12,7 +13,7 @@ from viscorough.contact.solver import ContactSolver
 from viscorough.contact.step_control import APPROACH_DEPTH_RATIO, Level, StepControl
 from viscorough.loading_curve import LoadingCurve
 
-# Share of the start fraction up to which the approach takes its long steps.
+# The approach to the start fraction takes long steps up to this share of it.
 _APPROACH_SHARE = 0.7
 
 
@@ -36,15 +37,17 @@ def indent(
         relative error of the force there is of second order in it (measured: `make bench`, key curve, force_error).
         Also the relative error of the depth interpolated between levels by LoadingCurve.at_force, down to 1e-5.
         Between 1e-12 and 0.1
-    depths : exactly these depths, increasing [length]; default: levels placed as the tolerance needs them
-    start_fraction : contact fraction from which on the curve is wanted, below `until_fraction`; before it stand only
-        the few levels that lead there, and interpolation is not held to the tolerance; ignored where depths are given
+    depths : exactly these depths, increasing [length]; default: levels are placed as the tolerance requires
+    start_fraction : contact fraction from which on the curve is needed, below `until_fraction`; at smaller fractions it
+        has only a few levels, and interpolation between these is not held to the tolerance; ignored where depths are
+        given
     until_fraction : contact fraction at which to stop, in (0, 1]; ignored where depths are given
     until_force : F/G at which to stop [length²]; ignored where depths are given
     options : SolverOptions
 
     Returns a LoadingCurve. The last level is the first one at or beyond `until_fraction` or `until_force`.
-    An indenter of one height has a single level, at a depth of one spacing: its curve is the line through it.
+    An indenter of one height has a single level, at a depth of one spacing: its curve is the straight line from the
+    origin through it.
     Raises ValueError for arguments out of range, ConvergenceError if a level cannot be solved to the tolerance.
     """
     if indenter.heights.ndim != 2:
@@ -91,50 +94,51 @@ def _checked_depths(depths):
 
 
 class _LoadingPath:
-    """The path from first touch to the contact fraction or force at which to stop; works in reduced units."""
+    """The path from first contact to the contact fraction or force at which to stop; works in reduced units."""
 
     def __init__(self, solver, spacing, until_fraction, until_force):
         self._solver, self._control = solver, StepControl(solver.tolerance)
-        self._most, self._until = until_fraction * solver.elements.count, until_force / solver.units.force
-        # The first level lies on the straight line of first touch: nothing else is in contact before its gap is closed.
+        self._until_count = until_fraction * solver.elements.count
+        self._until_pressure_sum = until_force / solver.units.force
+        # Up to the smallest positive initial gap, only the highest elements are in contact and the curve is straight.
         gap = solver.elements.initial_gap
         open_gap = gap[gap > 0]
         self._contact = solver.advance_reduced(solver.unloaded_state(), open_gap[0] if open_gap.size else spacing)
         self._levels = [Level.of(self._contact)]
-        self._ahead = []  # contacts at larger depths, solved already, the next one last
+        self._ahead = []  # contacts already solved at larger depths, the nearest one last
 
     def levels_from(self, start_fraction):
-        """All levels; before the start fraction only the few that lead there."""
+        """All levels; only a few of them below the start fraction."""
         self._approach(start_fraction * self._solver.elements.count)
         self._follow_events()
         self._step_to_the_end()
         return self._levels
 
-    def _goes_on(self):
-        return self._contact.count < self._most and self._contact.pressure_sum < self._until
+    def _is_unfinished(self):
+        return self._contact.count < self._until_count and self._contact.pressure_sum < self._until_pressure_sum
 
     def _add(self, contact):
         self._contact = contact
         self._levels.append(Level.of(contact))
 
     def _approach(self, start_count):
-        """Long steps to where the curve is wanted, shorter ones where they would lead beyond it."""
+        """Take long steps towards the contact count from which on the curve is needed, shorter ones close to it."""
         ratio, most = APPROACH_DEPTH_RATIO, _APPROACH_SHARE * start_count
-        while self._goes_on() and self._contact.count < most and ratio > self._control.min_ratio:
+        while self._is_unfinished() and self._contact.count < most and ratio > self._control.min_ratio:
             contact = self._solver.advance_reduced(self._contact, self._contact.reduced_depth * ratio)
-            # A level must not lie beyond the start: the interval before it would be wanted in part.
-            if contact.count > start_count or contact.pressure_sum > self._until:
+            # A contact beyond the start is kept for later: the interval that contains the start must be a short one.
+            if contact.count > start_count or contact.pressure_sum > self._until_pressure_sum:
                 self._ahead.append(contact)
             else:
                 self._add(contact)
-            if self._ahead:  # from the first one on, levels approach the nearest contact that is too deep
+            if self._ahead:  # then levels approach the nearest of these contacts
                 ratio = (self._ahead[-1].reduced_depth / self._contact.reduced_depth) ** 0.5
 
     def _follow_events(self):
-        if not (self._goes_on() and self._contact.count < self._control.events):
+        if not (self._is_unfinished() and self._contact.count < self._control.events):
             return
-        most = min(self._control.events, int(np.ceil(self._most)))
-        events, self._contact = self._solver.follow_events(self._contact, most, self._until)
+        most = min(self._control.events, int(np.ceil(self._until_count)))
+        events, self._contact = self._solver.follow_events(self._contact, most, self._until_pressure_sum)
         columns = events.depth, events.pressure_sum, events.tangent_sum, events.count
         self._levels += [Level(*event) for event in zip(*columns, strict=True)]
         nearest = self._control.min_ratio * self._contact.reduced_depth
@@ -142,7 +146,7 @@ class _LoadingPath:
 
     def _step_to_the_end(self):
         ratio = self._control.first_ratio(self._levels)
-        while self._goes_on():
+        while self._is_unfinished():
             if not self._ahead:
                 self._ahead.append(self._advance(ratio))
             step = self._ahead[-1].reduced_depth / self._contact.reduced_depth
@@ -155,9 +159,13 @@ class _LoadingPath:
             ratio = self._control.next_ratio(step, error)
 
     def _advance(self, ratio):
-        """The contact at a depth larger by a ratio, or by less where the force to stop at is reached before."""
+        """The contact at a depth larger by a ratio, or by less where the force at which to stop is reached before."""
         contact = self._contact
-        # The tangent underestimates the force: the last level is at or just beyond the force to stop at.
-        enough = contact.reduced_depth + (self._until - contact.pressure_sum) / contact.tangent_sum
-        depth = max(min(contact.reduced_depth * ratio, enough), contact.reduced_depth * self._control.min_ratio)
+        # The curve lies above its tangent: at this depth the force at which to stop is reached or just exceeded.
+        sufficient_depth = (
+            contact.reduced_depth + (self._until_pressure_sum - contact.pressure_sum) / contact.tangent_sum
+        )
+        depth = max(
+            min(contact.reduced_depth * ratio, sufficient_depth), contact.reduced_depth * self._control.min_ratio
+        )
         return self._solver.advance_reduced(contact, depth)

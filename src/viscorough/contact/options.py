@@ -1,4 +1,4 @@
-"""How contacts are solved: the choices of the solver that are not part of a question."""
+"""Options of the contact solver: how a contact is computed, as opposed to which contact and how accurately."""
 
 from dataclasses import dataclass
 
@@ -9,25 +9,27 @@ WARM_STARTS = ("tangent", "pressure")
 
 @dataclass(frozen=True)
 class SolverOptions:
-    """Options of the contact solver. The defaults suit every indenter; other values show what a part contributes.
+    """Options of the contact solver. The defaults suit every indenter; other values serve to measure what a part gains.
 
-    precision : "single" or "double", of the search on the grid. What is searched for are corrections to the start of
-        a level, so that rounding to single precision stays far below the tolerance
+    precision : "single" or "double": floating-point type of the iterations on the grid. They compute corrections to the
+        predicted contact, so that rounding to single precision stays far below the tolerance
     exact_gap_below : tolerance below which the gap is recomputed in double precision when the bound on its rounding
-        error nears the tolerance; 0: never
+        error nears the tolerance; 0: the gap is never recomputed
     operator_rounding : bound on the rounding error of one application of the half-space operator, over the largest
         deflection and the machine precision; 0: rounding is ignored
     preconditioner : "multilevel": sparse approximate inverse with a multilevel coarse correction; "sparse": without the
         correction; "none"
     release_step : length of the steps in which elements leave the contact, in units of the preconditioned residual;
-        0 for weaker preconditioners, which have no natural length: elements then leave at steps of conjugate gradients
-    warm_start : "tangent": a level starts from P + Δu q; "pressure": from the pressure of the level before
-    max_iterations : iterations after which ConvergenceError is raised
+        0 for the weaker preconditioners, for which no fixed length is suitable: elements then leave at steps of
+        conjugate gradients
+    warm_start : "tangent": the iterations of a level start from P + Δu q of the level before; "pressure": from its P
+    max_iterations : iterations of one level after which ConvergenceError is raised
     dense_contacts : elements in contact up to which a level is solved densely
-    dense_interactions : candidates times elements in contact up to which a level is solved densely
+    dense_interactions : number of elements that can be in contact, times the number of those in contact at the level
+        before, up to which a level is solved densely
     padding : whether the grid is padded against periodic images; without it the indenter has images at its own distance
 
-    Raises ValueError for a value that is not among those named here.
+    Raises ValueError for other texts, for negative numbers, and for max_iterations below 1.
     """
 
     precision: str = "single"

@@ -2,20 +2,22 @@
 
 It is a factorized sparse approximate inverse (FSAI) with a multilevel coarse correction.
 
-The sparse factor G is lower triangular with G K Gᵀ ≈ 1. Row i of G holds element i and those of the twelve nearest
-elements before it (in rows and columns) that are in contact, and is exact for these few elements alone (Kolotilina and
-Yeremin 1993). It depends only on which of the twelve are in contact, so that all 4096 possible rows stand in a table.
+The sparse factor G (in this module not the shear modulus) is lower triangular with G K Gᵀ ≈ 1. Row i of G holds entries
+for element i and for those of the twelve nearest elements before it (in rows and columns) that are in contact, and is
+exact if no other elements are in contact (Kolotilina and Yeremin 1993). It depends only on which of the twelve are in
+contact, so that all 4096 possible rows are tabulated.
 
-What G K Gᵀ has besides 1 is smooth: the deflection by distant loads. The coarse correction represents it on blocks of
-elements, the next grid level. In a block the smooth part acts along one unit vector w, the row sums of G, so that with
-W the matrix of these vectors
+The remainder G K Gᵀ − 1 is smooth: it is the deflection by distant loads. The coarse correction represents it on blocks
+of elements, the next grid level. In a block the smooth part acts along one vector, the row sums of G. With W the matrix
+of these vectors, normalised to unit length,
 
     G K Gᵀ ≈ 1 + W (a K a) Wᵀ,     M = Gᵀ (1 − W (1 − (1 + a K a)⁻¹) Wᵀ) G ≈ K⁻¹
 
-with a the length of the row sums in each block and K between blocks as between elements. The inverse on the blocks is
-approximated in the same way with blocks of blocks, until there are few enough for a dense inverse. The eigenvalues of
-M K lie between 0.35 and 1.4 for contact sets of any shape (tests/viscorough/contact/test_preconditioner.py); without
-the coarse correction the largest grows with the size of the contact.
+where a is the length of the vector of row sums in a block, and K couples blocks as it couples elements. The inverse on
+the blocks is approximated in the same way with blocks of blocks, until there are few enough for a dense inverse. The
+eigenvalues of M K lie between 0.35 and 1.4 for contact sets of any shape
+(tests/viscorough/contact/test_preconditioner.py); without the coarse correction the largest grows with the size of the
+contact.
 
 Compiled functions take plain arrays, hence their many arguments.
 """
@@ -30,9 +32,10 @@ from viscorough.contact.halfspace import influence_coefficient
 
 # Largest distance of a neighbour, in rows or columns: the width of the border that fields need.
 REACH = 2
-# No eigenvalue of M K is smaller (tests/viscorough/contact/test_preconditioner.py).
+# Lower bound of the eigenvalues of M K (tests/viscorough/contact/test_preconditioner.py).
 LEAST_EIGENVALUE = 0.35
 _ACROSS = 2 * REACH + 1
+# Relative positions (row, column) of the neighbours.
 _BEFORE = [(r, c) for r in range(-REACH, 1) for c in range(-REACH, REACH + 1) if (r, c) < (0, 0)]
 _NEIGHBOURS = len(_BEFORE)
 # The neighbours of a block of elements: the nearest ones only.
@@ -40,15 +43,16 @@ _BEFORE_BLOCK = [(-1, -1), (-1, 0), (-1, 1), (0, -1)]
 # Elements across a block, blocks across a block of the next grid level, and blocks across a grid level that is inverted
 # densely. The number of iterations depends weakly on all three.
 _SIDE, _RATIO, _DENSE = 8, 4, 9
-# K of a block on itself times its side. The mean over a square is 2.97; what G accounts for already is left out.
+# K of a block on itself, times its side: less than 2.97, the mean over a uniformly loaded square, because G already
+# accounts for near neighbours.
 _OWN = 1.0
 
 
 @cache
 def factor_rows():
-    """Rows of G by pattern, whose bit s says whether neighbour s is in contact; the last entry is that of the element.
+    """Rows of G by pattern: bit s of a pattern is set if neighbour s is in contact. The last entry is for the element.
 
-    With A the influence matrix of the neighbours in contact and the element, the row is A⁻¹ e / (eᵀ A⁻¹ e)^½, e the
+    With A the influence matrix of the neighbours in contact and the element, the row is A⁻¹ b / (bᵀ A⁻¹ b)^½, b the
     unit vector of the element. Shape (4096, 13), zero where there is no contact.
     """
     places = np.array([*_BEFORE, (0, 0)], dtype=float)
@@ -73,9 +77,9 @@ def _row_sums():
 
 @cache
 def load_redistribution_stencil():
-    """Load that the eight neighbours of an element take over, per load, when it leaves the contact; shape (3, 3).
+    """Share of an element's load that each of its eight neighbours takes over when it leaves the contact, shape (3, 3).
 
-    Follows from eliminating the element from the influence matrix of the 5 × 5 elements around it; the centre is −1.
+    Obtained by eliminating the element from the influence matrix of the 5 × 5 elements around it; the centre is −1.
     """
     row, column = np.divmod(np.arange(25.0), 5)
     inverse = np.linalg.inv(influence_coefficient(row[:, None] - row, column[:, None] - column))
@@ -84,13 +88,13 @@ def load_redistribution_stencil():
 
 @njit
 def _rows(field, place, width):
-    """Views of a flat field from the first neighbour on: two rows before a place, one row before, and in its row."""
+    """Views of a flat field from a place's first neighbour on, in three rows: two before, one before, and its own."""
     return field[place - 2 * width - REACH :], field[place - width - REACH :], field[place - REACH :]
 
 
 @njit
 def _neighbour_patterns(inside, places, width, sums, patterns, weights):
-    """Pattern of neighbours in contact, and row sum of G, of every element of the set."""
+    """Store the pattern of neighbours in contact, and the row sum of G, of every element of the set."""
     for t in range(places.size):
         far, near, own = _rows(inside, places[t], width)
         pattern = own[0] << 2 * _ACROSS | own[1] << 2 * _ACROSS + 1
@@ -101,9 +105,11 @@ def _neighbour_patterns(inside, places, width, sums, patterns, weights):
 
 @njit
 def _factorise(amplitude, places, before, slots, kernel, rows, weights):
-    """Rows of G for 1 + a K a between blocks, and G a. `kernel` is K between those of a row, the block itself last.
+    """Store the rows of G for the matrix 1 + a K a between blocks in `rows`, and G a in `weights`.
 
-    before, slots : places of the neighbours relative to the block, and in the row, whose other entries stay as they are
+    amplitude : a, flat field; places : of the blocks in it
+    before, slots : places of the neighbours relative to the block, and their indices in a row of G
+    kernel : K between the neighbours and the block, which comes last
     """
     count = before.size + 1
     matrix, near = np.empty((count, count)), np.empty(count, np.int64)
@@ -116,7 +122,7 @@ def _factorise(amplitude, places, before, slots, kernel, rows, weights):
                     value -= matrix[i, k] * matrix[j, k]
                 matrix[i, j] = np.sqrt(value) if i == j else value / matrix[j, j]
         row, weights[t] = rows[t], 0.0
-        for i in range(count - 1, -1, -1):  # the last row of L⁻¹ is A⁻¹ e / (eᵀ A⁻¹ e)^½
+        for i in range(count - 1, -1, -1):  # the last row of L⁻¹ is A⁻¹ b / (bᵀ A⁻¹ b)^½
             value = 1.0 * (i == count - 1)
             for k in range(i + 1, count):
                 value -= matrix[k, i] * row[slots[k]]
@@ -150,7 +156,7 @@ def _restrict(residual, places, index, rows, width, weights, blocks, values, loa
 
 @njit(fastmath=True)
 def _prolong(places, index, rows, width, weights, blocks, values, loads, work):
-    """values = Gᵀ (values − W loads); `work` is a flat field of zeros, and is again on return."""
+    """values = Gᵀ (values − W loads); `work` is a flat field of zeros on entry and on return."""
     for t in range(places.size):
         row = rows[index[t]]
         value = values[t] - weights[t] * loads[blocks[t]]
@@ -167,10 +173,10 @@ def _prolong(places, index, rows, width, weights, blocks, values, loads, work):
 
 
 class _GridLevel:
-    """What the grid levels have in common; the elements of `_coarser`, the next one, are blocks of these."""
+    """Common part of the grid levels: the sparse factor G, and the correction by the next grid level, `_coarser`."""
 
     def _set_factor(self, places, index, rows, weights, blocks):
-        """Set G, whose row for place t is rows[index[t]] and has the sum weights[t], and prepare the coarser levels."""
+        """Set G, whose row for places[t] is rows[index[t]] with the sum weights[t], and prepare the coarser levels."""
         self.places = places
         _normalise(weights, blocks, self._coarser.squares)
         self._coarser.prepare()
@@ -186,10 +192,10 @@ class _GridLevel:
 
 
 class Preconditioner(_GridLevel):
-    """M ≈ K⁻¹ for one contact set after another, on a flat grid with border of the given height and width.
+    """M ≈ K⁻¹ for one contact set after another, on a flat grid of the given height and width, border included.
 
     kind : "multilevel", "sparse" (without the coarse correction) or "none" (M = 1)
-    places : places of the set that it was prepared for
+    places : indices in flat fields of the contact set for which it was prepared last
     """
 
     def __init__(self, height, width, kind="multilevel"):
@@ -205,7 +211,10 @@ class Preconditioner(_GridLevel):
         return residual[self.places] if self._kind == "none" else super().apply(residual)
 
     def prepare(self, inside, places):
-        """Prepare for a contact set: its flags on the flat grid, and its places."""
+        """Prepare for a contact set.
+
+        inside, places : as in state.ContactSet
+        """
         patterns, weights = np.empty(places.size, np.int16), np.empty(places.size)
         _neighbour_patterns(inside, places, self._width, _row_sums(), patterns, weights)
         self._set_factor(places, patterns, factor_rows(), weights, self._blocks[places])
@@ -249,7 +258,7 @@ class _FewBlocks:
 
 
 class _NoCorrection:
-    """In place of a coarse level: the inverse is taken for 1, so that nothing is corrected."""
+    """Replaces the coarse levels by a unit matrix, so that nothing is corrected."""
 
     def __init__(self, across):
         self.squares = np.zeros((across + 2 * REACH) ** 2)
@@ -280,6 +289,6 @@ def _dense_coupling(side, across):
 
 
 def _coupling(side, row, column):
-    """K between blocks at (row, column): mean deflection of one by a unit load, spread evenly, on the other."""
+    """K between blocks at (row, column): mean deflection of a block by a unit load distributed evenly over another."""
     row, column = (abs(position[:, None] - position).astype(float) for position in (row, column))
     return np.where((row == 0) & (column == 0), _OWN, influence_coefficient(row, column)) / side

@@ -1,9 +1,9 @@
 """Frictionless contact of a rigid indenter with the elastic half-space at a given depth, started from a shallower one.
 
-Displacements are written w = K P with P = p d/(4πG), a length, so that F/G = 4π d ΣP for elements of side d.
-At depth u the contact satisfies P ≥ 0, e = w − u + g ≥ 0 and P e = 0, with g the initial gap. With q the solution of
-K q = 1 on the contact set (a flat punch of its shape), k/G = 4π d Σq is the exact tangent stiffness and P + Δu q the
-predictor for the depth u + Δu.
+Deflections are written w = K P with P = p d/(4πG), a length, so that F/G = 4π d ΣP for elements of side d (symbols:
+contact.state). At depth u the contact satisfies P ≥ 0, e = w − u + g ≥ 0 and P e = 0, with g the initial gap. With the
+tangent q, the solution of K q = 1 on the contact set (a flat punch of its shape), k/G = 4π d Σq is the exact tangent
+stiffness and P + Δu q the predictor for the depth u + Δu.
 """
 
 from dataclasses import replace
@@ -19,18 +19,24 @@ from viscorough.errors import ConvergenceError
 
 # Memory that a contact takes at most per point of the map (measured: `make large`, column memory of large.csv).
 _BYTES = 400
-# Depth that the box of a grid allows for, over the depth asked for; share of the whole grid above which the box is it.
+# Depth that the box of a grid allows for, over the requested depth; a box that would cover more than this share of the
+# whole grid is replaced by the whole grid.
 _BOX_DEPTH_MARGIN, _LARGEST_BOX = 1.3, 0.8
-# Opening of an element that leaves the contact, over the tolerance, that is taken for an error of the solution.
+# Contact only grows with depth. Within the accuracy of the solution an element may leave it, with a gap up to this
+# multiple of the tolerance times the depth; a larger gap is an error.
 _LOST_CONTACT = 3
 
 
 class ContactSolver:
-    """Solves the contact of one indenter, depth after depth, to a residual of `tolerance` times the depth.
+    """Solves the contact of one indenter at increasing depths, to a residual of `tolerance` times the depth.
+
+    indenter : Indenter with two-dimensional heights
+    tolerance : largest |e| in contact or overlap outside it, over the depth
+    options : SolverOptions
 
     elements, units : state.Elements and state.Units of the indenter
 
-    Raises MemoryError where there is no room for the map.
+    Raises MemoryError if the available memory does not suffice for the map.
     """
 
     def __init__(self, indenter, tolerance, options=DEFAULT):
@@ -45,23 +51,26 @@ class ContactSolver:
         return self._former_applications + (self._grid.operator_applications if self._grid else 0)
 
     def unloaded_state(self):
-        """First touch: depth zero, no pressure, and no element in contact yet."""
+        """The Contact at depth zero: no pressure, and no element in contact yet."""
         nothing = np.empty(0)
         return Contact(self.units, 0.0, nothing.astype(int), nothing, nothing, 0.0, 0.0)
 
     def advance(self, contact, depth):
-        """The contact at a larger depth [length]. Raises ConvergenceError if it is not solved to the tolerance."""
+        """The Contact at a depth [length] larger than that of `contact`.
+
+        Raises ConvergenceError if it is not solved to the tolerance.
+        """
         return self.advance_reduced(contact, depth / self.units.length)
 
     def advance_reduced(self, contact, depth):
-        """The contact at a larger depth, given in units of the largest initial gap."""
+        """The Contact at a larger depth, given in units of the largest initial gap. Raises what `advance` raises."""
         candidates = int(np.searchsorted(self.elements.initial_gap, depth))
         if contact.fields is None and self._is_small(candidates, contact):
             solution = dense.solve(self.elements, contact, depth, candidates, self.options.dense_contacts)
             if solution is not None:
                 return self._checked(contact, solution)
         grid = self._grid_up_to(max(candidates, 1))
-        if not _belongs(contact, grid):
+        if not _has_fields_on(grid, contact):
             contact = replace(contact, fields=grid.fields(contact))
         return self._checked(contact, grid.solve(contact, depth))
 
@@ -74,11 +83,11 @@ class ContactSolver:
         return self.reduced_gap(contact) * self.units.length
 
     def reduced_gap(self, contact):
-        """The same over the largest initial gap."""
+        """Gap e at every element, by rank, in units of the largest initial gap."""
         if self._is_small(self.elements.count, contact):
             return dense.gap_at_all(self.elements, contact)
         grid = self._grid_up_to(self.elements.count)
-        fields = contact.fields if _belongs(contact, grid) else grid.fields(contact)
+        fields = contact.fields if _has_fields_on(grid, contact) else grid.fields(contact)
         return fields.gap_at(slice(None))
 
     def _is_small(self, candidates, contact):
@@ -86,12 +95,12 @@ class ContactSolver:
         return candidates * contact.count <= self.options.dense_interactions
 
     def _grid_up_to(self, rank):
-        """The grid solver of a box around the elements up to a rank: the last one, or else a larger one.
+        """The grid solver of a box around the elements up to a rank: the current one, or else one with a larger box.
 
         Only elements whose initial gap is below the depth can touch.
         """
         if self._grid is None or rank > self._reach:
-            # The box has room for some depths to come, or is the whole grid where little would be saved.
+            # The box allows for larger depths to come, or is the whole grid where it would save little.
             gap, row, column = self.elements.initial_gap, self.elements.row, self.elements.column
             reach = max(rank, int(np.searchsorted(gap, _BOX_DEPTH_MARGIN * gap[rank - 1])))
             first, last = ([pick(place[:reach]) for place in (row, column)] for pick in (np.min, np.max))
@@ -123,6 +132,6 @@ class ContactSolver:
         return after
 
 
-def _belongs(contact, grid):
-    """Whether a contact has fields, and on this grid."""
+def _has_fields_on(grid, contact):
+    """Whether a contact has fields that are those of this grid."""
     return contact.fields is not None and contact.fields.place is grid.place

@@ -1,7 +1,17 @@
-"""The types that the parts of the contact solver exchange.
+"""The types that the parts of the contact solver exchange, and the symbols that describe them.
 
-Inside the solver, lengths are in units of the largest initial gap, so that results do not depend on the user's unit of
-length; such quantities are called reduced. `Units` converts them, and nothing else does.
+For square elements of side d on an incompressible half-space of shear modulus G:
+
+    u                  depth of the indenter below first contact
+    g                  initial gap, between the undeformed surfaces at first contact
+    P = p d/(4πG)      pressure p of an element, expressed as a length
+    K                  influence coefficients, dimensionless: w = K P is the deflection of the surface
+    e = w − u + g      gap between the deformed surfaces, zero in contact
+    q = dP/du          tangent, dimensionless: K q = 1 on the contact set, q = 0 outside it
+    e_q = K q − 1      tangent gap de/du, dimensionless, zero in contact
+
+Inside the solver, u, g, P and e are in units of the largest initial gap, so that results do not depend on the user's
+unit of length; such quantities are called reduced. `Units` holds the factors that convert them.
 """
 
 from dataclasses import dataclass
@@ -13,9 +23,9 @@ from viscorough.contact.halfspace import influence_coefficient
 
 @dataclass(frozen=True)
 class Units:
-    """What reduced quantities are multiplied by.
+    """Factors that convert reduced quantities to the user's units.
 
-    length : the largest initial gap; of an indenter without gaps 1 [length]
+    length : the largest initial gap, or 1 for an indenter of one height [length]
     spacing : side d of an element [length]
     """
 
@@ -24,29 +34,29 @@ class Units:
 
     @property
     def stiffness(self):
-        """k/G = 4π d Σq [length]."""
+        """Factor 4π d of the tangent stiffness k/G = 4π d Σq [length]."""
         return 4 * np.pi * self.spacing
 
     @property
     def force(self):
-        """F/G = 4π d ΣP [length²]."""
+        """Factor of the force F/G = 4π d ΣP [length²]."""
         return 4 * np.pi * self.spacing * self.length
 
     @property
     def pressure(self):
-        """p/G = 4π P/d [1]."""
+        """Factor of the pressure p/G = 4π P/d [1]."""
         return 4 * np.pi * self.length / self.spacing
 
 
 @dataclass(frozen=True)
 class Elements:
-    """The elements of an indenter by rank: in the order of increasing initial gap. Arrays of shape (elements,).
+    """The elements of an indenter, ranked in the order of increasing initial gap; arrays of shape (elements,).
 
-    row, column : positions on the grid, from the first row and column with an element on
-    initial_gap : reduced distance to the surface when the highest element touches
-    map_place : rows and columns in the indenter's heights
+    row, column : positions on the grid, counted from the first row and column that have an element
+    initial_gap : g, reduced
+    map_place : (rows, columns) of the elements in the indenter's heights
     shape : rows and columns of the smallest grid with all elements
-    influence : K by distance in rows and columns, of that shape
+    influence : influence coefficients K by distance in rows and columns, of that shape
     """
 
     row: np.ndarray
@@ -63,7 +73,7 @@ class Elements:
 
 
 def elements_of(indenter):
-    """The Elements of an indenter, and the Units in which their initial gaps are."""
+    """The Elements of an indenter, and the Units in which their initial gaps are expressed."""
     rows, columns = np.nonzero(np.isfinite(indenter.heights))
     gap = indenter.initial_gap[rows, columns].astype(float)
     order = np.argsort(gap, kind="stable")
@@ -78,7 +88,7 @@ def elements_of(indenter):
 
 @dataclass
 class BoundedField:
-    """A field on the flat grid, and a bound on the rounding error accumulated in it."""
+    """A reduced field on the grid, as a flat array, and a bound on the rounding error accumulated in it."""
 
     values: np.ndarray
     rounding: float
@@ -88,9 +98,9 @@ class BoundedField:
 class ContactSet:
     """The elements of a grid that are in contact.
 
-    inside : whether each place of the flat grid is in contact
-    places : the places in contact, in flat fields
-    slots : the same elements in the load array of the half-space operator, which has no border
+    inside : for every place of the flat grid, whether it is in contact
+    places : indices of the elements in contact in flat fields, shape (count,)
+    slots : indices of the same elements in the flattened load array of the half-space operator, which has no border
     """
 
     inside: np.ndarray
@@ -100,13 +110,13 @@ class ContactSet:
 
 @dataclass(frozen=True)
 class GridFields:
-    """A contact on the grid; flat arrays with a border, reduced.
+    """A contact on the grid: reduced fields as flat arrays with a border.
 
     pressure : P
     gap : e = w − u + g, zero in contact
     tangent : q = dP/du
-    tangent_gap : e_q = K q − 1, zero in contact; the gap opens by e_q per depth
-    place : places of the elements, by rank
+    tangent_gap : e_q = K q − 1 = de/du, zero in contact
+    place : indices of the elements in the flat arrays, by rank
     """
 
     pressure: np.ndarray
@@ -116,7 +126,7 @@ class GridFields:
     place: np.ndarray
 
     def gap_at(self, ranks):
-        """Gap e at the elements of given rank."""
+        """Reduced gap e at the elements of given ranks."""
         return self.gap.values[self.place[ranks]]
 
 
@@ -124,13 +134,14 @@ class GridFields:
 class Contact:
     """The contact at one depth.
 
-    units : of the reduced quantities
+    units : Units of the reduced quantities
     reduced_depth : u
     members : elements in contact, as ranks, shape (count,)
     reduced_pressure, tangent : P and q = dP/du on the members, shape (count,)
-    pressure_sum, tangent_sum : ΣP and Σq, corrected to second order by the residuals that were left
+    pressure_sum, tangent_sum : reduced ΣP, and Σq, corrected for the remaining residuals, so that the errors of both
+        are of second order in these
     residual : largest |e| on the contact set or overlap outside it, rounding included, over the depth
-    fields : the same on the grid, None where the dense solution never needed it
+    fields : GridFields of this contact; None for a dense solution, as long as no grid is needed
     """
 
     units: Units
@@ -165,5 +176,5 @@ class Contact:
 
     @property
     def pressure(self):
-        """p/G on the members, shape (count,) [1]."""
+        """Pressure p/G = 4π P/d on the members, shape (count,) [1]."""
         return self.reduced_pressure * self.units.pressure

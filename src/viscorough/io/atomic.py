@@ -11,14 +11,14 @@ import psutil
 
 
 def reason(error):
-    """What an error says, on one line."""
+    """The message of an error, on one line."""
     return " ".join(str(getattr(error, "strerror", None) or error).split())
 
 
 def check_output(path):
     """The path with links resolved, so that a link's target is replaced and not the link.
 
-    Raises ValueError unless the folder exists and is writable and the path is free or a regular file.
+    Raises ValueError unless the folder exists and is writable, and the path does not exist yet or is a regular file.
     """
     target, folder = Path(os.path.realpath(path)), Path(path).parent
     if not target.parent.is_dir():
@@ -32,18 +32,18 @@ def check_output(path):
 
 @contextmanager
 def atomic_write(path):
-    """Context that gives a temporary path beside `path`; the file written there replaces `path` on success.
+    """Context that yields a temporary path beside `path`; the file written there replaces `path` on success.
 
-    On an error the temporary file is removed and `path` stays what it was. Temporary files that killed processes of
-    this machine left for the same path are removed, too. Raises what check_output raises, and OSError if writing fails.
+    On an error the temporary file is removed and `path` is not changed. Temporary files that killed processes of this
+    machine left for the same path are removed, too. Raises what check_output raises, and OSError if writing fails.
     """
     target = check_output(path)
     stem = f".{target.name[:60]}.{platform.node()}"
     temporary = target.with_name(f"{stem}.{os.getpid()}.{uuid.uuid4().hex[:8]}.part")
-    for left in target.parent.glob(f"{glob.escape(stem)}.*.part"):
-        process = left.name.removeprefix(stem).split(".")[1]
+    for leftover in target.parent.glob(f"{glob.escape(stem)}.*.part"):
+        process = leftover.name.removeprefix(stem).split(".")[1]
         if process.isdecimal() and not psutil.pid_exists(int(process)):
-            left.unlink(missing_ok=True)
+            leftover.unlink(missing_ok=True)
     try:
         yield temporary
         with open(temporary, "rb") as file:

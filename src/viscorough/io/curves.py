@@ -11,7 +11,7 @@ COMMENT = (
     "Rigid indenter on an incompressible half-space, no friction, no adhesion. Depth is from first contact, "
     "force is F/G, stiffness is d(F/G)/du. With viscosity for G and impulse for F it is the viscous solution."
 )
-# variable over levels: (long_name, power of the length unit)
+# Variables over levels: long_name, and the power of the length unit that is their unit.
 OVER_LEVELS = {
     "depth": ("depth of indentation u", 1),
     "force": ("normal force over shear modulus F/G", 2),
@@ -30,7 +30,10 @@ PER_CURVE = {
 
 
 def check_curve(curve):
-    """Raise ValueError for what is no loading curve: overflow or a damaged file must not pass for a result."""
+    """Raise ValueError for an invalid LoadingCurve, as overflow or a damaged file can produce.
+
+    It needs at least one level, finite positive values, and depth and force that increase.
+    """
     if curve.depth.size == 0:
         raise ValueError("loading curve: there is no level; at least one is needed")
     for name in ("depth", "force"):
@@ -58,7 +61,7 @@ def curve_to_content(curve, length_unit="m"):
 
     length_unit : of the curve, as UDUNITS spells it; "1" if it is not known
 
-    Raises ValueError unless depth and force increase and all numbers are positive and finite.
+    Raises ValueError for an invalid curve (check_curve).
     """
     check_curve(curve)
     variables = {
@@ -69,18 +72,18 @@ def curve_to_content(curve, length_unit="m"):
 
 
 def curve_from_content(content):
-    """The LoadingCurve of a Content made by curve_to_content. Raises ValueError if it does not hold one."""
-    stored, about = {}, {}
+    """The LoadingCurve in a Content made by curve_to_content. Raises ValueError if it does not hold a valid one."""
+    level_fields, curve_fields = {}, {}
     for name in STORED:
         variable = content.variables.get(name)
         if variable is None or variable.dimensions != ("level",) or variable.values.dtype.kind not in "iuf":
             raise ValueError(f"no numbers {name}(level); a loading curve of viscorough indent is needed")
-        stored[name] = variable.values
+        level_fields[name] = variable.values
     for name, (convert, _) in PER_CURVE.items():
         if name not in content.attributes:
             raise ValueError(f"no attribute {name}; a loading curve of viscorough indent is needed")
-        about[name] = convert(content.attributes[name])
-    curve = LoadingCurve(**stored, **about)
+        curve_fields[name] = convert(content.attributes[name])
+    curve = LoadingCurve(**level_fields, **curve_fields)
     check_curve(curve)
     return curve
 
@@ -89,7 +92,7 @@ def stack_curves(curves, length_unit="m"):
     """LoadingCurves as one Content over (realization, level), nan beyond each curve's last level.
 
     Per realization: `levels`, the number of levels, and PER_CURVE. Raises ValueError for an empty list and
-    for what is no loading curve (check_curve).
+    for an invalid curve (check_curve).
     """
     if not curves:
         raise ValueError("stack_curves: there is no curve; at least one is needed")
@@ -102,22 +105,22 @@ def stack_curves(curves, length_unit="m"):
         for row, curve in zip(padded, curves, strict=True):
             row[: curve.depth.size] = getattr(curve, name)
         variables[name] = Variable(("realization", "level"), padded, level_attributes(name, length_unit))
-    about = {"long_name": "number of levels of the curve", "units": "1"}
-    variables["levels"] = Variable(("realization",), levels, about)
+    attributes = {"long_name": "number of levels of the curve", "units": "1"}
+    variables["levels"] = Variable(("realization",), levels, attributes)
     for name, (kind, long_name) in PER_CURVE.items():
         values = np.array([getattr(curve, name) for curve in curves], dtype=object if kind is str else kind)
-        about = {"long_name": long_name} | ({} if kind is str else {"units": "1"})
-        variables[name] = Variable(("realization",), values, about)
+        attributes = {"long_name": long_name} | ({} if kind is str else {"units": "1"})
+        variables[name] = Variable(("realization",), values, attributes)
     return Content(variables, {"title": "Loading curves of rigid indenters", "comment": COMMENT})
 
 
 def unstack_curves(content):
-    """The LoadingCurves of a Content made by stack_curves, in order."""
+    """The LoadingCurves in a Content made by stack_curves, in order. Raises KeyError if a variable is missing."""
     values = {name: content.variables[name].values for name in (*STORED, *PER_CURVE, "levels")}
     curves = []
     for index, levels in enumerate(values["levels"].tolist()):
-        stored = {name: values[name][index, :levels] for name in STORED}
-        stored["contact_count"] = stored["contact_count"].astype(int)  # floats only because of nan
-        about = {name: convert(values[name][index]) for name, (convert, _) in PER_CURVE.items()}
-        curves.append(LoadingCurve(**stored, **about))
+        level_fields = {name: values[name][index, :levels] for name in STORED}
+        level_fields["contact_count"] = level_fields["contact_count"].astype(int)  # stored as floats because of nan
+        curve_fields = {name: convert(values[name][index]) for name, (convert, _) in PER_CURVE.items()}
+        curves.append(LoadingCurve(**level_fields, **curve_fields))
     return curves

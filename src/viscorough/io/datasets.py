@@ -12,10 +12,9 @@ from viscorough.io.atomic import atomic_write
 def write_dataset(ds, path):
     """Write a dataset as CF-1.11 NetCDF, atomically.
 
-    Every data variable needs `long_name`, and `units` unless it holds text. Adds the attributes Conventions
-    and source ("viscorough <version>"), compresses large floats; nothing depends on when or where the file is
-    written. Raises ValueError for missing attributes and for a path where no file can appear, OSError if
-    writing fails.
+    Every data variable needs `long_name`, and `units` unless it holds text. Adds the attributes Conventions and source
+    ("viscorough <version>"), and compresses large numeric arrays; nothing depends on when or where the file is written.
+    Raises ValueError for missing attributes and for a path that cannot be written, OSError if writing fails.
     """
     for name, variable in ds.data_vars.items():
         netcdf.check_attributes(path, name, variable.dtype, variable.attrs)
@@ -31,7 +30,7 @@ def write_dataset(ds, path):
 
 
 def read_dataset(path):
-    """Read a NetCDF file into memory and close it; a one-line ValueError if it is missing or damaged."""
+    """Read a NetCDF file into memory and close it. Raises a one-line ValueError if it is missing or damaged."""
     as_stored = {"decode_times": False, "decode_timedelta": False}
     with netcdf.faults_named(path), xr.open_dataset(path, engine="netcdf4", **as_stored) as ds:
         return ds.load().drop_encoding()

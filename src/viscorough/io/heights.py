@@ -1,7 +1,7 @@
 """Maps of heights read from files.
 
-Lengths are in the unit of the user's choice. A NetCDF file may state it, and CF files of results need one that can be
-parsed: "1" where it is not known, the numbers being multiples of whatever unit the heights have.
+Lengths are in a unit of the user's choice, which a NetCDF file may state. CF files of results need a unit that can be
+parsed: where the unit is not known it is "1", and the numbers are multiples of the unit of the heights.
 """
 
 from pathlib import Path
@@ -14,10 +14,10 @@ from viscorough.io.atomic import reason
 
 
 def read_heights(path, spacing):
-    """Read a map of heights (larger = higher peak, touches first; nan = outside the indenter) as an Indenter.
+    """Read a map of heights as an Indenter: the highest point touches first, points that are nan lie outside it.
 
     path : .npy of shape (rows, columns), or .nc with one two-dimensional variable or one named `heights`
-    spacing : of neighbouring points, in the unit of the heights
+    spacing : distance between neighbouring points, in the unit of the heights
 
     Heights are converted to double precision. Raises a one-line ValueError that names the file and what is wrong.
     """
@@ -30,14 +30,14 @@ def read_heights(path, spacing):
     if heights.ndim != 2:
         raise ValueError(f"{path}: heights have the shape {heights.shape}; a two-dimensional map is needed")
     try:
-        # compiled loops take neither foreign byte orders nor half precision
+        # compiled loops accept neither foreign byte orders nor half precision
         return Indenter(np.ascontiguousarray(heights, dtype=float), spacing)
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from error
 
 
 def length_unit_of(path):
-    """Unit that the heights in a .nc file state; "1" if none, and for .npy files."""
+    """Unit that a .nc file states for the heights; "1" if it states none, and for .npy files."""
     if Path(path).suffix != ".nc":
         return "1"
     unit = _with_height_variable(path, netcdf.attributes_of).get("units")

@@ -11,7 +11,7 @@ from viscorough.io.netcdf import Content, Variable
 
 
 def with_motion(content, time, velocity):
-    """A Content that has depth(level), with time [s] and velocity over levels added."""
+    """The Content with time [s] and velocity [length unit of its depth per s] over levels added."""
     unit = content.variables["depth"].attributes.get("units", "1")
     unit = "s-1" if unit == "1" else f"{unit} s-1"
     added = {
@@ -21,52 +21,57 @@ def with_motion(content, time, velocity):
     return Content(content.variables | added, content.attributes)
 
 
-def integration_to_content(march, force_per_viscosity, length_unit="m"):
+def integration_to_content(integration, force_per_viscosity, length_unit="m"):
     """A direct integration (viscous.events.Events or viscous.stepping.Steps) under constant force as a Content.
 
-    force_per_viscosity : F/η, by which impulse/viscosity becomes time
+    force_per_viscosity : F/η; the time is the impulse over the viscosity, divided by it
     """
     variables = {
-        name: Variable(("level",), getattr(march, name), level_attributes(name, length_unit))
+        name: Variable(("level",), getattr(integration, name), level_attributes(name, length_unit))
         for name in ("depth", "contact_count")
     }
     overlap = {"long_name": "largest overlap of indenter and surface, over depth", "units": "1"}
-    variables["overlap"] = Variable(("level",), getattr(march, "overlap", np.zeros_like(march.depth)), overlap)
+    variables["overlap"] = Variable(
+        ("level",), getattr(integration, "overlap", np.zeros_like(integration.depth)), overlap
+    )
     content = Content(variables, {"title": "Penetration of a rigid indenter, integrated directly in time"})
-    return with_motion(content, march.impulse / force_per_viscosity, force_per_viscosity / march.resistance)
+    return with_motion(content, integration.impulse / force_per_viscosity, force_per_viscosity / integration.resistance)
 
 
-def integration_under_history(march, history, viscosity, length_unit="m"):
-    """A direct integration at the times of a force history, as a Content.
+def integration_under_history(integration, history, viscosity, length_unit="m"):
+    """A direct integration under a force history as a Content; its levels are the times of the history.
 
-    march : viscous.events.Events, or viscous.stepping.Steps that end at every impulse/viscosity above zero
+    integration : viscous.events.Events, or viscous.stepping.Steps that end at every impulse of the history above zero,
+        over the viscosity
     history : viscous.correspondence.ForceHistory
 
     Raises ValueError for an impulse beyond the last event.
     """
     reached = history.impulse / viscosity
-    if hasattr(march, "event_at"):
-        if reached[-1] > march.impulse[-1] * (1 + 1e-10) and march.contact_count[-1] < march.elements:
+    if hasattr(integration, "event_at"):
+        if reached[-1] > integration.impulse[-1] * (1 + 1e-10) and integration.contact_count[-1] < integration.elements:
             raise ValueError(
                 f"impulse: {history.impulse[-1]:.6g} is beyond the contact fraction at which events end; "
-                f"allowed: up to {march.impulse[-1] * viscosity:.6g}"
+                f"allowed: up to {integration.impulse[-1] * viscosity:.6g}"
             )
-        i, depth = march.event_at(reached), march.depth_at(reached)
+        i, depth = integration.event_at(reached), integration.depth_at(reached)
     else:
-        i = np.searchsorted(march.impulse, reached * (1 - 1e-12))
-        depth = np.where(reached > 0, march.depth[i], 0.0)
+        i = np.searchsorted(integration.impulse, reached * (1 - 1e-12))
+        depth = np.where(reached > 0, integration.depth[i], 0.0)
     variables = {
         "depth": Variable(("level",), depth, level_attributes("depth", length_unit)),
-        "contact_count": Variable(("level",), march.contact_count[i], level_attributes("contact_count", length_unit)),
+        "contact_count": Variable(
+            ("level",), integration.contact_count[i], level_attributes("contact_count", length_unit)
+        ),
         "force": Variable(("level",), history.force, {"long_name": "force F at that time", "units": "1"}),
     }
     title = "Penetration of a rigid indenter under a force history, integrated directly in time"
-    velocity = history.force / (viscosity * march.resistance[i])
+    velocity = history.force / (viscosity * integration.resistance[i])
     return with_motion(Content(variables, {"title": title}), history.times, velocity)
 
 
 def read_force_history(path):
-    """Times and forces in a file of two columns of numbers: .csv (a line of names may come first) or .npy.
+    """Times and forces, both of shape (times,), in a file of two columns: .csv (with or without a header) or .npy.
 
     Raises a one-line ValueError that names the file and what is wrong. Whether the numbers are a force history is
     checked by viscous.correspondence.impulses.
@@ -78,8 +83,8 @@ def read_force_history(path):
     else:
         try:
             lines = Path(path).read_text(encoding="utf-8").splitlines()
-            first = 1 if lines and any(letter.isalpha() for letter in lines[0].lower().replace("e", "")) else 0
-            table = np.loadtxt(lines[first:], delimiter=",", ndmin=2)
+            header = 1 if lines and any(letter.isalpha() for letter in lines[0].lower().replace("e", "")) else 0
+            table = np.loadtxt(lines[header:], delimiter=",", ndmin=2)
         except (OSError, ValueError) as error:
             text = f"{path}: not readable ({reason(error)}); two columns, time and force, are needed"
             raise ValueError(text) from error

@@ -1,4 +1,4 @@
-"""CF NetCDF files, by the NetCDF library alone: `io.datasets` is for xarray, which takes long to import."""
+"""CF NetCDF files read and written with netCDF4 alone, since xarray (`io.datasets`) takes long to import."""
 
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -10,8 +10,14 @@ import numpy as np
 from viscorough import __version__
 from viscorough.io.atomic import atomic_write, reason
 
-COMPRESSED_FROM = 4096  # values; below, chunks cost more than compression saves
-_PACKING = ("_FillValue", "missing_value", "scale_factor", "add_offset", "_Unsigned")  # undone by reading
+COMPRESSED_FROM = 4096  # number of values; for fewer, chunks cost more than compression saves
+_PACKING = (
+    "_FillValue",
+    "missing_value",
+    "scale_factor",
+    "add_offset",
+    "_Unsigned",
+)  # reading undoes the packing that these describe
 
 
 class Variable(NamedTuple):
@@ -24,7 +30,7 @@ class Variable(NamedTuple):
 
 @dataclass(frozen=True)
 class Content:
-    """What a NetCDF file holds: variables {name: Variable} and global attributes {name: value}."""
+    """The content of a NetCDF file: variables {name: Variable} and global attributes {name: value}."""
 
     variables: dict
     attributes: dict
@@ -40,7 +46,7 @@ def global_attributes():
 
 
 def compression(size):
-    """Keyword arguments of netCDF4 that compress a variable of so many values; none if it is small."""
+    """Keyword arguments of netCDF4 that compress a variable of `size` values; none if it is small."""
     return {"zlib": True, "complevel": 4, "shuffle": True} if size >= COMPRESSED_FROM else {}
 
 
@@ -55,7 +61,7 @@ def write(content, path):
     """Write a Content of numbers as CF-1.11 NetCDF, atomically; nan is the fill value.
 
     Adds global_attributes and compresses large arrays. Raises ValueError for missing attributes (check_attributes) and
-    for a path where no file can appear, OSError if writing fails.
+    for a path that cannot be written, OSError if writing fails.
     """
     for name, variable in content.variables.items():
         check_attributes(path, name, np.asarray(variable.values).dtype, variable.attributes)
@@ -80,7 +86,7 @@ def _write_variable(file, name, dimensions, values, attributes):
 def faults_named(path):
     """Context in which a file is read: any fault of it becomes a one-line ValueError that names it."""
     try:
-        open(path, "rb").close()  # its message says more than the NetCDF library's
+        open(path, "rb").close()  # its message is clearer than that of the NetCDF library
         yield
     except (OSError, RuntimeError, ValueError, LookupError, TypeError, AttributeError) as error:
         raise ValueError(f"{path}: not readable ({reason(error)}); a whole NetCDF file is needed") from error
@@ -88,13 +94,13 @@ def faults_named(path):
 
 @contextmanager
 def opened(path):
-    """Context that gives the netCDF4.Dataset of a file; any fault of the file is a one-line ValueError."""
+    """Context that yields the netCDF4.Dataset of a file; any fault of the file becomes a one-line ValueError."""
     with faults_named(path), netCDF4.Dataset(path) as file:
         yield file
 
 
 def read(path):
-    """Read a NetCDF file into memory as a Content; a one-line ValueError if it is missing or damaged."""
+    """Read a NetCDF file into memory as a Content. Raises a one-line ValueError if it is missing or damaged."""
     with opened(path) as file:
         variables = {
             name: Variable(variable.dimensions, read_values(variable), attributes_of(variable))

@@ -1,10 +1,10 @@
 """Kinetics of penetration: the loading curve read as the solution of the viscous problem.
 
-The surface of a linearly viscous half-space moves with w_t = (1/4πη)∫p/r dA. Integrated over time, with
-P = ∫p dt, this is the elastic relation w = (1/4πη)∫P/r dA, and ∫P dA = I = ∫F dt, the impulse. The elastic
-pressure at the force F/G = I/η meets every condition of the viscous problem at every time: more load on a
+The surface of a linearly viscous half-space moves at ẇ = (1/4πη)∫p/r dA. Integrated over time, with the pressure
+impulse J = ∫p dt, this is the elastic relation w = (1/4πη)∫J/r dA, and ∫J dA = I = ∫F dt, the impulse. The elastic
+solution at the force F/G = I/η meets every condition of the viscous problem at every time: more load on a
 frictionless, non-adhesive contact adds the flat-punch pressure of the elements in contact, which is nowhere
-negative, so the contact only grows and no pressure turns tensile. Hence, for any topography and any F(t) ≥ 0,
+negative, so the contact only grows and no pressure becomes tensile. Hence, for any topography and any F(t) ≥ 0,
 
     u(t) = u_el(F/G = I(t)/η),    v(t) = F(t)/(η·k/G),    k/G taken at I(t)/η    (paper, Eq. 1),
 
@@ -111,17 +111,17 @@ def _samples(force, times):
     return force
 
 
-def _at_impulse(curve, loading, viscosity):
-    """Depth and k/G at I/η = loading: those of the elastic curve at that F/G."""
+def _at_impulse(curve, elastic_force, viscosity):
+    """Depth and k/G at the impulse over viscosity I/η: those of the loading curve at F/G = `elastic_force` = I/η."""
     first, last = curve.force[0], curve.force[-1]
-    largest = loading.max()
+    largest = elastic_force.max()
     if largest > last * (1 + _ROUNDING):
         raise ValueError(
             f"impulse: {largest * viscosity:.6g} is beyond the curve's last level; "
             f"allowed: up to {last * viscosity:.6g}"
         )
     # An impulse that equals that of the first or last level up to rounding must not fall outside the curve.
-    loading = np.minimum(loading, last)
-    loading = np.where(np.abs(loading - first) <= _ROUNDING * first, first, loading)
-    depth, stiffness = curve.at_force(loading)
-    return np.where(loading == 0, 0.0, depth), stiffness
+    elastic_force = np.minimum(elastic_force, last)
+    elastic_force = np.where(np.abs(elastic_force - first) <= _ROUNDING * first, first, elastic_force)
+    depth, stiffness = curve.at_force(elastic_force)
+    return np.where(elastic_force == 0, 0.0, depth), stiffness

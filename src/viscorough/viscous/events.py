@@ -1,4 +1,4 @@
-"""Direct integration of the viscous problem in time, never using its correspondence with the elastic one.
+"""Direct integration of the viscous problem in time, without its correspondence with the elastic one.
 
 The surface moves down at ẇ = (1/4πη) ∫ p/r dA. With Q = p d/(4πη), a velocity, ẇ = K Q and F/η = 4π d ΣQ. While the
 contact set does not change, its elements move with the indenter: K Q = v, hence Q = v q with K q = 1 on the set,
@@ -36,12 +36,12 @@ class Events:
     elements: int
 
     def depth_at(self, impulse):
-        """Depth at given impulses ∫F dt/η, linear between events and beyond the last one."""
+        """Depth [length] at impulses ∫F dt/η [length²] of any shape; linear between events and beyond the last one."""
         i = self.event_at(impulse)
         return self.depth[i] + (impulse - self.impulse[i]) / self.resistance[i]
 
     def event_at(self, impulse):
-        """Number of the last event at given impulses."""
+        """Index of the last event at or before impulses ∫F dt/η [length²] of any shape."""
         return np.searchsorted(self.impulse, impulse, side="right") - 1
 
 
@@ -56,7 +56,7 @@ def march_events(indenter, *, until_fraction=1.0):
     until_fraction : contact fraction at which to stop, in (0, 1]
 
     Returns Events. Memory is 8 (until_fraction · elements)² bytes, time of third order in the elements in contact.
-    Raises ValueError for arguments out of range, MemoryError where that memory is not there, ConvergenceError if an
+    Raises ValueError for arguments out of range, MemoryError if that memory is not available, ConvergenceError if an
     element comes under tension: contact could then open, which it cannot without adhesion and with F ≥ 0.
     """
     if indenter.heights.ndim != 2:
@@ -71,16 +71,18 @@ def march_events(indenter, *, until_fraction=1.0):
     most = max(1, int(np.ceil(until_fraction * gap.size)))
     memory.require(8 * most**2, f"march_events: the factor for {most} elements in contact")
     with uninterrupted():
-        impulse, depth, resistance, pulling = _march(influence, row[order], column[order], gap[order], most)
-    if pulling >= 0:
-        raise ConvergenceError(f"march_events: tension on element {pulling} of the contact set; contact would open")
+        impulse, depth, resistance, tension_index = _march(influence, row[order], column[order], gap[order], most)
+    if tension_index >= 0:
+        raise ConvergenceError(
+            f"march_events: tension on element {tension_index} of the contact set; contact would open"
+        )
     scale = 4 * np.pi * indenter.spacing
     return Events(scale * impulse, depth, scale * resistance, np.arange(1, most + 1), gap.size)
 
 
 @njit(fastmath=True)
 def _respond(influence, row, column, members, count, first, second, element):
-    """Σ_j K_ij first_j and Σ_j K_ij second_j over the contact set, at one element i; plain arrays, being compiled."""
+    """Σ_j K_ij first_j and Σ_j K_ij second_j over the contact set, at one element i."""
     a, b = 0.0, 0.0
     r, c = row[element], column[element]
     for t in range(count):

@@ -2,8 +2,8 @@
 
 Nothing here uses the correspondence with the elastic problem. As in viscorough.viscous.events the clock is the impulse
 ∫F dt/η: for a given contact set the velocity per force does not depend on the force, so steps of impulse serve any
-F(t) ≥ 0. The explicit schemes hold the contact set over a step, so that elements which should have touched meanwhile
-overlap the surface; the implicit scheme demands contact without overlap at the end of the step.
+F(t) ≥ 0. The explicit schemes hold the contact set over a step, so that elements which should have come into contact
+during the step overlap the surface; the implicit scheme demands contact without overlap at the end of the step.
 """
 
 import warnings
@@ -35,7 +35,7 @@ class Steps:
     resistance : F/(ηv) of the contact at that impulse [length]
     contact_count : elements in contact
     overlap : largest overlap of indenter and surface, over the depth [1]
-    steps : contact problems solved in all
+    steps : number of steps taken, those into which steps were divided included
     """
 
     impulse: np.ndarray
@@ -58,7 +58,7 @@ def march_steps(indenter, impulses, *, scheme="explicit", overlap=np.inf, tolera
     exact for steps of any size, because contact only grows.
 
     indenter : Indenter with two-dimensional heights
-    impulses : ends of the steps, positive and increasing [length²]; they start at zero impulse
+    impulses : ∫F dt/η at the ends of the steps, positive and increasing [length²]; the first step starts at zero
     scheme : one of SCHEMES
     overlap : explicit steps are divided so that no element is predicted to overlap the surface by more than this share
         of the depth
@@ -78,14 +78,14 @@ def march_steps(indenter, impulses, *, scheme="explicit", overlap=np.inf, tolera
         raise ValueError("march_steps: impulses must be positive and strictly increasing")
     if not overlap > 0:
         raise ValueError(f"march_steps: overlap must be positive, not {overlap!r}")
-    march = {"explicit": _Explicit, "heun": _Heun, "implicit": _Implicit}[scheme](indenter, tolerance)
+    integrator = {"explicit": _Explicit, "heun": _Heun, "implicit": _Implicit}[scheme](indenter, tolerance)
     scale, rows = 4 * np.pi * indenter.spacing, []
-    for left in np.diff(impulses / scale, prepend=0.0):
-        while left > 0:
-            step = min(left, march.longest_step(overlap))
-            march.step(step)
-            left -= step
-        rows.append((march.depth, march.resistance, march.count, march.overlap))
+    for remaining in np.diff(impulses / scale, prepend=0.0):
+        while remaining > 0:
+            step = min(remaining, integrator.longest_step(overlap))
+            integrator.step(step)
+            remaining -= step
+        rows.append((integrator.depth, integrator.resistance, integrator.count, integrator.overlap))
     depth, resistance, count, overlaps = np.array(rows).T
     if overlaps.max() > _WARN_OVERLAP:
         warnings.warn(
@@ -95,7 +95,7 @@ def march_steps(indenter, impulses, *, scheme="explicit", overlap=np.inf, tolera
             AccuracyWarning,
             stacklevel=2,
         )
-    return Steps(impulses, depth, scale * resistance, count.astype(int), overlaps, march.steps)
+    return Steps(impulses, depth, scale * resistance, count.astype(int), overlaps, integrator.steps)
 
 
 class _Explicit:
@@ -123,7 +123,7 @@ class _Explicit:
         if not ahead.any():
             return np.inf
         depth_step = (np.maximum(self._gap[ahead], 0) + overlap * self.depth) / closing[ahead]
-        # At first touch the depth is zero: start with the first event.
+        # At first contact the depth, and with it the overlap allowed, is zero; a step must not be.
         return self.resistance * max(depth_step.min(), np.finfo(float).tiny)
 
     def step(self, impulse):

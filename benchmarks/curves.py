@@ -28,7 +28,7 @@ import scipy.fft
 
 import viscorough
 from viscorough import indent, reduce, self_affine_disc, self_affine_line
-from viscorough.contact.column_fft import Columns, good_length
+from viscorough.contact.column_fft import ColumnConvolution, good_length
 from viscorough.contact.halfspace import Halfspace
 from viscorough.io.atomic import atomic_write
 from viscorough_study.performance import timing
@@ -203,7 +203,7 @@ def columns(repeats):
         whole = spectrum[np.minimum(np.arange(length), length - np.arange(length))]
         for name, precision in (("double", np.complex128), ("single", np.complex64)):
             data = np.random.default_rng(2).random((rows, rows)).astype(precision)
-            convolution = Columns(rows, spectrum / length, data.real.dtype)
+            convolution = ColumnConvolution(rows, spectrum / length, data.real.dtype)
             functions[f"{rows} {name}"] = partial(lambda c, d: c.apply(d.copy()), convolution, data)
             functions[f"{rows} ducc0 {name}"] = partial(ducc0_columns, data, whole.astype(data.real.dtype))
     milliseconds = {name: cost["wall_s"] * 1e3 for name, cost in interleaved(functions, repeats).items()}

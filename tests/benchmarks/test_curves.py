@@ -53,5 +53,5 @@ def test_columns_by_ducc0_are_the_same_convolution(curves):
     whole = spectrum[np.minimum(np.arange(length), length - np.arange(length))]
     data = np.random.default_rng(2).random((rows, 5)) + 0j
     expected = curves.ducc0_columns(data, whole)
-    curves.Columns(rows, spectrum / length, float).apply(data)
+    curves.ColumnConvolution(rows, spectrum / length, float).apply(data)
     np.testing.assert_allclose(data, expected, rtol=1e-12)

@@ -1,1 +1,1 @@
-"""What tests of several modules share."""
+"""Helpers that several test modules share."""

@@ -1,4 +1,4 @@
-"""The installed command, and a sphere to indent."""
+"""The installed command, and the heights of a sphere."""
 
 import sys
 from pathlib import Path
@@ -10,7 +10,7 @@ RADIUS = 100.0
 
 
 def sphere_heights(points=61):
-    """A cap of radius 100 spacings, nan outside a disc."""
+    """Cap of a sphere of radius 100 spacings, shape (points, points), nan outside a disc."""
     position = np.arange(points) - (points - 1) / 2
     squared = position[:, None] ** 2 + position**2
     return np.where(squared <= position[-1] ** 2, -squared / (2 * RADIUS), np.nan)

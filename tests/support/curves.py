@@ -1,4 +1,4 @@
-"""Loading curves of random numbers, to be written and read."""
+"""Loading curves of random numbers, for tests that write and read them."""
 
 import dataclasses
 
@@ -8,7 +8,7 @@ from viscorough.loading_curve import LoadingCurve
 
 
 def random_curve(levels=7, seed=0, **changes):
-    """Increasing numbers with all the digits that a double has; they describe no contact."""
+    """A LoadingCurve of increasing random numbers in full double precision, which describe no real contact."""
     random = np.random.default_rng(seed)
     values = {
         "depth": np.cumsum(random.random(levels) + 0.1) * 1e-7,
@@ -25,11 +25,11 @@ def random_curve(levels=7, seed=0, **changes):
 
 
 def assert_same_curve(one, other):
-    """Every field equal, in value and type."""
+    """Assert that every field is equal in value and type."""
     for field in dataclasses.fields(LoadingCurve):
-        ours, theirs = getattr(one, field.name), getattr(other, field.name)
-        np.testing.assert_array_equal(ours, theirs, err_msg=field.name, strict=True)
-        assert type(ours) is type(theirs), field.name
+        value, other_value = getattr(one, field.name), getattr(other, field.name)
+        np.testing.assert_array_equal(value, other_value, err_msg=field.name, strict=True)
+        assert type(value) is type(other_value), field.name
 
 
 def one_line(error):

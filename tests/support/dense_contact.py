@@ -1,13 +1,16 @@
 """Frictionless contact of a few elements by a dense influence matrix and an active set; needs numpy only.
 
-It shares no code with the package, so that it can check it, and the stand-ins for other solvers solve with it.
+It shares no code with the package, so that it can serve as a check of it; the stand-ins for other solvers use it.
 """
 
 import numpy as np
 
 
 def influence_matrix(rows, columns):
-    """K in w = d/(πE*) K p (Love 1929) for square elements, row by row: shape (n, n) with n = rows · columns."""
+    """Influence matrix K of w = d/(πE*) K p (Love 1929) for a grid of square elements of side d.
+
+    Elements are numbered row by row; shape (n, n) with n = rows · columns.
+    """
     y, x = (i.ravel() for i in np.mgrid[:rows, :columns])
     total = 0.0
     for sign_y in (-0.5, 0.5):
@@ -19,33 +22,33 @@ def influence_matrix(rows, columns):
 
 
 def displacement(pressure, contact_modulus, side=1.0):
-    """Displacement of the half-space of modulus E* under the pressure on each element of a grid."""
+    """Displacement of the half-space of modulus E* at the elements of a grid under the pressure on them."""
     matrix = influence_matrix(*pressure.shape)
     return (side / (np.pi * contact_modulus) * matrix @ pressure.ravel()).reshape(pressure.shape)
 
 
 def pressure_at_depth(gap, depth, contact_modulus, side=1.0):
-    """Pressure of a rigid indenter of that initial gap at a depth."""
-    return _solve(gap, contact_modulus, side, lambda one, of_gap: depth)
+    """Pressure of a rigid indenter with the given initial gap at a depth; same shape as the gap."""
+    return _solve(gap, contact_modulus, side, lambda tangent, of_gap: depth)
 
 
 def pressure_at_force(gap, force, contact_modulus, side=1.0):
-    """Pressure of a rigid indenter of that initial gap under a force."""
-    return _solve(gap, contact_modulus, side, lambda one, of_gap: (force / side**2 + of_gap.sum()) / one.sum())
+    """Pressure of a rigid indenter with the given initial gap under a force; same shape as the gap."""
+    return _solve(gap, contact_modulus, side, lambda tangent, of_gap: (force / side**2 + of_gap.sum()) / tangent.sum())
 
 
 def _solve(gap, contact_modulus, side, depth_of):
-    """`depth_of` is called with K⁻¹ 1 and K⁻¹ g on the contact set."""
+    """Pressure by an active set; `depth_of` is a function of K⁻¹ 1 and K⁻¹ g on the contact set."""
     matrix = side / (np.pi * contact_modulus) * influence_matrix(*gap.shape)
-    free, contact = gap.ravel(), np.zeros(gap.size, dtype=bool)
-    contact[free.argmin()] = True
+    initial_gap, contact = gap.ravel(), np.zeros(gap.size, dtype=bool)
+    contact[initial_gap.argmin()] = True
     for _ in range(10 * gap.size):
         pressure = np.zeros(gap.size)
-        right_hand_sides = np.array([np.ones(contact.sum()), free[contact]]).T
-        one, of_gap = np.linalg.solve(matrix[np.ix_(contact, contact)], right_hand_sides).T
-        depth = depth_of(one, of_gap)
-        pressure[contact] = depth * one - of_gap
-        overlap = depth - free - matrix @ pressure
+        right_hand_sides = np.array([np.ones(contact.sum()), initial_gap[contact]]).T
+        tangent, of_gap = np.linalg.solve(matrix[np.ix_(contact, contact)], right_hand_sides).T
+        depth = depth_of(tangent, of_gap)
+        pressure[contact] = depth * tangent - of_gap
+        overlap = depth - initial_gap - matrix @ pressure
         if (pressure < 0).any():
             contact &= pressure >= 0
         elif (overlap[~contact] > 1e-12 * depth).any():
@@ -56,7 +59,7 @@ def _solve(gap, contact_modulus, side, depth_of):
 
 
 def disturbed(pressure, length, contact_modulus, side=1.0):
-    """The pressure with more of it on the element that has most, so that it is displaced by that much more."""
+    """The pressure, raised on the element with the largest one such that this element is displaced by `length` more."""
     changed = np.array(pressure)
     changed.flat[pressure.argmax()] += length * np.pi * contact_modulus / (side * influence_matrix(1, 1)[0, 0])
     return changed

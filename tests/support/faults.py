@@ -1,4 +1,4 @@
-"""Faults of files and disks, and what they may not harm."""
+"""Faults of files and disks, and the contents of folders, which faults must not change."""
 
 import os
 import shutil
@@ -6,23 +6,23 @@ import subprocess
 
 import pytest
 
-# Fails in the middle of writing a file, as a full disk does.
+# Runs a command that fails in the middle of writing a file, as on a full disk.
 NO_LARGE_FILES = "import os, resource, sys; size = int(sys.argv[1]); "
 NO_LARGE_FILES += "resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)); os.execv(sys.argv[2], sys.argv[2:])"
 DAMAGES = {
     "truncated": lambda whole: whole[: len(whole) // 2],
     "bit in the header": lambda whole: whole[:36] + bytes([whole[36] ^ 1]) + whole[37:],
-    "half of it zeros": lambda whole: whole[: len(whole) // 2] + bytes(len(whole) - len(whole) // 2),
+    "second half zeros": lambda whole: whole[: len(whole) // 2] + bytes(len(whole) - len(whole) // 2),
 }
 
 
 def no_privileges():
-    """What to put before a command so that permissions hold for it, which they do not for root."""
+    """Prefix of a command that makes file permissions apply to it, which they do not for root."""
     return [] if os.geteuid() else namespace("--user")
 
 
 def namespace(*options):
-    """What to put before a command for its own namespaces; skips where the system has none."""
+    """Prefix of a command that runs it in its own namespaces; skips the test if the system has none."""
     unshare = ["unshare", *options]
     if not shutil.which("unshare") or subprocess.run([*unshare, "true"], capture_output=True, check=False).returncode:
         pytest.skip("needs user namespaces")
@@ -30,6 +30,7 @@ def namespace(*options):
 
 
 def contents(folder):
+    """{path in the folder: bytes} of all files except logs and benchmarks."""
     return {
         str(path.relative_to(folder)): path.read_bytes()
         for path in folder.rglob("*")

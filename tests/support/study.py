@@ -1,4 +1,4 @@
-"""Ensembles of known curves, and the evidence and conventions that claims are judged by."""
+"""Ensembles of known curves, and the evidence and conventions by which claims are judged."""
 
 from pathlib import Path
 
@@ -101,7 +101,7 @@ def three_regions(x):
 
 
 def ensemble_of(x, stiffness, *, elements=10**6, rms_convention="disc", hurst=0.7):
-    """What fits read of an ensemble dataset, made without the module; κ N of N elements are in contact.
+    """The part of an ensemble dataset that fits read, made without the module; κ N of N elements are in contact.
 
     x : X, shape (abscissae,); stiffness : κ, shape (realizations, abscissae) or (abscissae,) for one realization
     """
@@ -119,7 +119,7 @@ def ensemble_of(x, stiffness, *, elements=10**6, rms_convention="disc", hurst=0.
 
 
 def line_curve(gaps, length=1.0, levels=None):
-    """Exact curve of N springs, each event a level, and one beyond: F/G = 4 Δx Σ(u−g)₊, k/G = 4 Δx number."""
+    """Exact curve of N springs, every event a level, and one level beyond: F/G = 4 Δx Σ(u−g)₊, k/G = 4 Δx number."""
     gaps = np.sort(np.asarray(gaps, dtype=float))
     spacing = length / gaps.size
     depth = np.append(gaps[1:], 3 * gaps[-1])

@@ -36,7 +36,7 @@ def locked(path):
 
 
 def made_once(tmp_path_factory, name, make):
-    """A folder that the first test to need it makes, whichever process of the test session it is in; not to be changed.
+    """A folder that the first test that needs it makes, in any process of the test session; tests must not change it.
 
     make : function of the new, empty folder
     """
@@ -105,7 +105,7 @@ def load_script(name):
 
 
 def merged(base, extra):
-    """Settings with those of a --configfile over them: mappings are merged, everything else is replaced."""
+    """Settings overridden by those of a --configfile: mappings are merged, everything else is replaced."""
     if not (isinstance(base, dict) and isinstance(extra, dict)):
         return extra
     return base | {key: merged(base.get(key), value) for key, value in extra.items()}

@@ -1,7 +1,6 @@
-"""The recommended law: its numbers, its range, and that they come from the table of fits."""
+"""The recommended penetration law: its numbers and its range, and that they come from the table of fits."""
 
 import numpy as np
-import pandas as pd
 import pytest
 
 import viscorough
@@ -24,14 +23,14 @@ def test_numbers_are_the_calibrated_ones():
         assert law.velocity(middle) == pytest.approx(middle**law.beta / law.zeta)
 
 
-def test_between_calibrated_exponents():
+def test_interpolation_between_calibrated_exponents():
     law, low, high = (viscorough.penetration_law(hurst) for hurst in (0.5, 0.4, 0.6))
     assert law.beta == pytest.approx((low.beta + high.beta) / 2)
     assert law.zeta == pytest.approx((low.zeta + high.zeta) / 2)
     assert law.x_low == pytest.approx(np.sqrt(low.x_low * high.x_low))
 
 
-def test_range_is_said():
+def test_values_outside_the_calibrated_range_are_refused():
     law = viscorough.penetration_law(0.6)
     for x in (0.9 * law.x_low, 1.1 * law.x_high, np.nan):
         with pytest.raises(ValueError, match=r"allowed: .* region .b."):
@@ -41,9 +40,8 @@ def test_range_is_said():
             viscorough.penetration_law(hurst)
 
 
-def test_rows_are_those_shown():
+def test_calibration_takes_rows_in_the_conventions_shown():
     table = calibrated(evidence().scaling, SHOWN)
     assert list(table) == list(COLUMNS)
     assert table["source"].tolist() == ["discs"] * 3 + ["lines"] * 3
-    one = pd.Series({"beta": 0.375, "hurst": 0.6})
-    np.testing.assert_allclose(table.loc[table["hurst"] == 0.6, "beta"], one["beta"], atol=1e-6)
+    np.testing.assert_allclose(table.loc[table["hurst"] == 0.6, "beta"], 0.375, atol=1e-6)

@@ -97,7 +97,7 @@ def test_sphere_follows_lee_and_radok(sphere):
     """u^(3/2) = 3Ft/(16η√R), within the errors of square elements of side d in a contact of radius a.
 
     For a > 5d the depth is off by up to 0.05 (d/a)², second order as for any smooth shape, until the
-    tolerance takes over; the velocity, for which the count of elements decides, by up to 0.16 d/a. Allowed is
+    tolerance takes over; the velocity, for which the count of elements decides, by up to 0.16 d/a. The test allows
     about twice that.
     """
     ds = xr.open_dataset(sphere / "kinetics.nc")
@@ -258,7 +258,7 @@ def test_warnings_are_written_once_and_on_one_line(run, capsys):
     assert capsys.readouterr().err == "viscorough indent: warning: the spacing is odd\n"
 
 
-def test_steep_slopes_are_warned_of_on_stderr_and_in_the_file(here, capsys):
+def test_steep_slopes_give_a_warning_on_stderr_and_in_the_file(here, capsys):
     np.save("steep.npy", 100 * sphere_heights(9))
     assert cli.main(["indent", "steep.npy", *INDENT[2:]]) == 0
     line = capsys.readouterr().err
@@ -349,18 +349,18 @@ def test_march_methods_agree_with_kinetics(tmp_path):
     """The three direct integrations and the correspondence, through files."""
     disc = self_affine_disc(0.6, 17, seed=1)
     np.save(tmp_path / "heights.npy", disc.heights)
-    about = [str(tmp_path / "heights.npy"), "--spacing", str(disc.spacing)]
+    heights = [str(tmp_path / "heights.npy"), "--spacing", str(disc.spacing)]
     times = "1,3,9"
     common = ["--force", "2", "--viscosity", "4"]
-    assert cli.main(["march", *about, "--method", "events", *common, "-o", str(tmp_path / "events.nc")]) == 0
+    assert cli.main(["march", *heights, "--method", "events", *common, "-o", str(tmp_path / "events.nc")]) == 0
     steps = ["--method", "implicit", "--times", times, "-o", str(tmp_path / "implicit.nc")]
-    assert cli.main(["march", *about, *common, *steps]) == 0
+    assert cli.main(["march", *heights, *common, *steps]) == 0
     steps = ["--method", "explicit", "--times", times, "--overlap", "1e-3", "-o", str(tmp_path / "explicit.nc")]
-    assert cli.main(["march", *about, *common, *steps]) == 0
+    assert cli.main(["march", *heights, *common, *steps]) == 0
     ends = xr.load_dataset(tmp_path / "implicit.nc", decode_times=False)
     depths = ",".join(repr(float(u)) for u in ends["depth"].values)
     assert (
-        cli.main(["indent", *about, "--depths", depths, "--tolerance", "1e-9", "-o", str(tmp_path / "curve.nc")]) == 0
+        cli.main(["indent", *heights, "--depths", depths, "--tolerance", "1e-9", "-o", str(tmp_path / "curve.nc")]) == 0
     )
     assert cli.main(["kinetics", str(tmp_path / "curve.nc"), *common, "-o", str(tmp_path / "kin.nc")]) == 0
     exact = xr.load_dataset(tmp_path / "kin.nc", decode_times=False)
@@ -431,8 +431,8 @@ def test_march_under_a_force_history(tmp_path, pulses, method, tolerance):
     np.testing.assert_allclose(elastic.force, reached, rtol=3 * tolerance)
     velocity = ds["velocity"].values
     np.testing.assert_array_equal(velocity[force == 0], 0)
-    pushed = np.searchsorted(reached, impulse[force > 0] / 4)
-    np.testing.assert_allclose(velocity[force > 0], force[force > 0] / (4 * elastic.stiffness[pushed]), rtol=0.02)
+    levels = np.searchsorted(reached, impulse[force > 0] / 4)
+    np.testing.assert_allclose(velocity[force > 0], force[force > 0] / (4 * elastic.stiffness[levels]), rtol=0.02)
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ from support.faults import DAMAGES, NO_LARGE_FILES, contents, namespace, no_priv
 INDENT = ["indent", "heights.npy", "--spacing", "1", "-o", "out.nc"]
 KINETICS = ["kinetics", "curve.nc", "--force", "1", "--viscosity", "1", "-o", "out.nc"]
 
-# A disk of its own, with so many bytes left on it.
+# Runs a command on a separate disk on which the given number of bytes is free.
 FULL_DISK = """
 mount -t tmpfs -o size=100k none disk && cp heights.npy curve.nc out.nc disk && cd disk || exit 77
 head -c "$1" /dev/zero > room; head -c 1000000 /dev/zero > rest 2> /dev/null; rm room; shift
@@ -35,7 +35,7 @@ def indented(tmp_path_factory):
 
 @pytest.fixture
 def here(indented, tmp_path):
-    """A folder of the same, and an older out.nc that nothing may harm."""
+    """A folder with these files and an older out.nc, which must not be changed."""
     for name in ("heights.npy", "curve.nc"):
         shutil.copy(indented / name, tmp_path)
     shutil.copy(indented / "curve.nc", tmp_path / "out.nc")
@@ -43,7 +43,7 @@ def here(indented, tmp_path):
 
 
 def complaint(folder, *arguments):
-    """The one line of a command that fails and changes no file."""
+    """The one line on stderr of a command that fails and changes no file."""
     before = contents(folder)
     done = subprocess.run(arguments, cwd=folder, capture_output=True, text=True, timeout=60, check=False)
     assert (done.returncode, done.stdout) == (2, ""), done.stderr
@@ -63,7 +63,7 @@ def test_full_disk_leaves_the_older_file(here, size):
 
 @pytest.mark.parametrize("arguments", [INDENT, KINETICS], ids=["indent", "kinetics"])
 @pytest.mark.parametrize("room", [0, 8192])
-def test_disk_that_is_really_full(here, arguments, room):
+def test_full_disk_in_a_namespace(here, arguments, room):
     unshare = namespace("--user", "--map-root-user", "--mount")
     (here / "disk").mkdir()
     line = complaint(here, *unshare, "sh", "-c", FULL_DISK, "sh", str(room), VISCOROUGH, *arguments)
@@ -101,11 +101,11 @@ def test_damaged_compiled_code_is_compiled_again(here, suffix):
     whole = file.read_bytes()
     for damage in DAMAGES.values():
         file.write_bytes(damage(whole))
-        found, lines = run()
-        assert found == expected
-        assert len(lines) <= 1, "a bit of the stamp in the index is that of another version"
+        output, lines = run()
+        assert output == expected
+        assert len(lines) <= 1, "damage to the version stamp in the index means another version, without a message"
         assert all("is damaged" in line and "compiled again" in line for line in lines)
-        assert run() == (expected, []), "what was compiled again is kept"
+        assert run() == (expected, []), "the function that was compiled again is cached"
     file.write_bytes(b"")
     assert "is damaged" in run()[1][0]
 

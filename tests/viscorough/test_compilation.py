@@ -1,4 +1,4 @@
-"""Compiled functions of this package are guarded, those of other packages are numba's own."""
+"""Compiled functions of this package are protected, those of other packages are not affected."""
 
 import os
 import signal
@@ -73,8 +73,8 @@ def test_compiled_functions_of_other_packages_are_left_alone(tmp_path):
         run(USE_BOTH, tmp_path, PYTHONPATH=str(tmp_path), NUMBA_CACHE_DIR=str(tmp_path / "cache"))
 
 
-def test_function_without_a_place_for_its_cache_is_compiled():
-    """numba refuses to compile with a cache a function that has no source file."""
+def test_function_without_a_source_file_is_compiled_without_a_cache():
+    """numba itself refuses to compile such a function with a cache."""
     script = textwrap.dedent("""
         from viscorough.compilation import njit, vectorize
         assert njit(lambda x: x + 1)(1.0) == 2
@@ -83,7 +83,7 @@ def test_function_without_a_place_for_its_cache_is_compiled():
     assert run(script).stderr == ""
 
 
-def test_functions_run_without_compilation_where_numba_is_switched_off():
+def test_functions_run_without_compilation_where_numba_is_disabled():
     script = "from viscorough.compilation import njit; assert njit(fastmath=True)(lambda x: x + 1)(1) == 2"
     run(script, NUMBA_DISABLE_JIT="1")
 
@@ -113,7 +113,7 @@ class Interrupt(event.Listener):
 
 
 def test_interrupt_waits_for_the_compiler():
-    function = njit(eval("lambda x: x + 1"))  # of no file, so that it is not loaded from a cache
+    function = njit(eval("lambda x: x + 1"))  # without a source file, so that it is not loaded from a cache
     with pytest.raises(KeyboardInterrupt), event.install_listener("numba:compile", Interrupt()):
         function(1.0)
     assert len(function.signatures) == 1, "compiled to the end"

@@ -1,4 +1,4 @@
-"""What importing the library loads, what its top level offers, and that it works without the packages of the study."""
+"""Packages that importing the library loads, names of its top level, and its use without the packages of the study."""
 
 import json
 import subprocess
@@ -22,7 +22,7 @@ def python(*arguments, **options):
 
 
 def imported(script):
-    """Top-level packages that a script imports, by Python's own account."""
+    """Top-level packages that a script imports, as reported by Python."""
     lines = python("-X", "importtime", "-c", script).stderr.splitlines()
     return {line.rsplit("|", 1)[1].strip().split(".")[0] for line in lines if line.startswith("import time:")}
 
@@ -33,7 +33,7 @@ def test_solver_imports_nothing_of_the_study():
     assert not packages & set(STUDY_ONLY)
 
 
-def test_package_itself_imports_little():
+def test_package_imports_no_slow_package():
     assert not imported("import viscorough") & {*STUDY_ONLY, "numpy", "numba", "scipy", "netCDF4", "click"}
 
 
@@ -84,7 +84,7 @@ def test_command_line_needs_no_package_of_the_study(folder, arguments):
 
 
 def test_hidden_packages_cannot_be_imported():
-    """Else the test above could not fail."""
+    """Otherwise the test above could not fail."""
     done = subprocess.run([sys.executable, "-c", HIDE + "import pandas"], capture_output=True, text=True, check=False)
     assert "ModuleNotFoundError" in done.stderr
 

@@ -35,8 +35,8 @@ def test_power_law_is_exact_between_two_levels(exponent):
     level = np.array([1e-3, 1.0])
     curve = loading_curve(level, body.force(level), body.stiffness(level), [10, 500])
     depth = np.geomspace(1e-3, 1.0, 50)[1:-1]
-    found, stiffness = curve.at_force(body.force(depth))
-    np.testing.assert_allclose(found, depth, rtol=1e-12)
+    interpolated, stiffness = curve.at_force(body.force(depth))
+    np.testing.assert_allclose(interpolated, depth, rtol=1e-12)
     np.testing.assert_allclose(stiffness, body.stiffness(depth), rtol=1e-11)
 
 
@@ -50,13 +50,13 @@ def test_levels_themselves_are_met():
 
 
 def test_one_joining_element_makes_two_tangents():
-    """Three springs, contacts at depths 1 and 3; levels anywhere, at most one contact between two of them."""
+    """Three springs, contacts at depths 1 and 3; levels anywhere, at most one contact event between two of them."""
     gaps = np.array([0.0, 1.0, 3.0])
     curve = springs(gaps, [0.6, 1.1, 2.5, 3.7])
     depth = np.array([0.0, 0.1, 0.99, 1.01, 2.0, 2.99, 3.01, 3.7])
     force = np.maximum(depth[:, None] - gaps, 0).sum(axis=1)
-    found, stiffness = curve.at_force(force)
-    np.testing.assert_allclose(found, depth, rtol=1e-14, atol=1e-15)
+    interpolated, stiffness = curve.at_force(force)
+    np.testing.assert_allclose(interpolated, depth, rtol=1e-14, atol=1e-15)
     np.testing.assert_array_equal(stiffness, [1, 1, 1, 2, 2, 2, 3, 3])
 
 
@@ -119,15 +119,15 @@ def test_interpolation_of_a_smooth_curve_is_of_fourth_order():
     for intervals in (10, 20, 40):
         level = np.geomspace(1e-2, 10, intervals + 1)
         curve = loading_curve(level, force_at(level), stiffness_at(level), 10 * np.arange(1, intervals + 2))
-        found, _ = curve.at_force(np.clip(force_at(depth), curve.force[0], curve.force[-1]))
-        errors.append(np.max(np.abs(found / depth - 1)))
+        interpolated, _ = curve.at_force(np.clip(force_at(depth), curve.force[0], curve.force[-1]))
+        errors.append(np.max(np.abs(interpolated / depth - 1)))
     order = np.polyfit(np.log([1, 2, 4]), np.log(errors), 1)[0]
     assert -order > 3.7
     assert errors[-1] < 1e-5
 
 
 def test_outside_the_levels():
-    """Beyond the last level nothing is known; below the first, only what a line through the origin tells."""
+    """Beyond the last level the result is nan; below the first, too, unless the curve is a line through the origin."""
     one = springs(np.array([0.0, 0.5]), [0.2])
     depth, stiffness = one.at_force(np.array([0.0, 0.1, 0.2, 0.2000001, -0.1, np.nan]))
     np.testing.assert_allclose(depth, [0, 0.1, 0.2, np.nan, np.nan, np.nan], rtol=1e-15)

@@ -1,4 +1,4 @@
-"""The reduced line against sums over its sorted gaps, and against the exact solutions of round indenters."""
+"""MDR of lines against sums over their sorted gaps, and against the exact solutions of round indenters."""
 
 import numpy as np
 import pytest
@@ -141,7 +141,7 @@ def test_flat_line(points):
     assert reduce(Indenter(np.full(points, 3.0), 0.2), until_fraction=0.1).depth.size == 2
 
 
-def test_where_it_stops():
+def test_curve_stops_at_fraction_or_force():
     line = self_affine_line(0.5, 1000, seed=2)
     full = reduce(line)
     part = reduce(line, until_fraction=0.25)

@@ -1,4 +1,4 @@
-"""Sizes that do not fit into memory are refused before they are tried."""
+"""Problems too large for the available memory are refused before anything is allocated."""
 
 from types import SimpleNamespace
 
@@ -18,8 +18,8 @@ from viscorough.surfaces import self_affine_disc, self_affine_line
         (lambda: self_affine_line(0.5, 10**14, seed=1), "a line of 100000000000000 points takes"),
     ],
 )
-def test_what_cannot_fit_is_refused_before_it_is_tried(make, what):
-    """Sizes for which no machine has the memory; a 20 001-disc takes 40 GB to make and 160 GB to press."""
+def test_surfaces_too_large_for_any_memory_are_refused(make, what):
+    """Sizes for which no machine has the memory."""
     with pytest.raises(MemoryError, match=rf"{what} .* bytes of memory, .* bytes are available"):
         make()
 

@@ -1,4 +1,4 @@
-"""The exact solutions against half-space integrals they were not written from, the laws against Eq. 1."""
+"""The exact solutions against independent half-space integrals, the laws against Eq. 1."""
 
 from itertools import pairwise
 from pathlib import Path
@@ -93,7 +93,7 @@ def test_sphere_is_hertz_and_cone_is_love():
 
 
 @pytest.mark.parametrize(("coefficient", "exponent"), BODIES)
-def test_bodies_stand_on_grids_of_any_width(coefficient, exponent):
+def test_bodies_are_sampled_on_grids_of_any_width(coefficient, exponent):
     body = reference.PowerLawBody(coefficient, exponent)
     indenter, line = body.indenter(4, width=2.0), body.mdr_line(4, width=2.0)
     assert indenter.spacing == line.spacing == 0.5
@@ -111,7 +111,7 @@ def test_transform_of_a_round_tip_on_a_cone():
     np.testing.assert_allclose(profile, slope * x * np.arctan(x / tip), rtol=1e-11)
 
 
-def test_flat_ellipse_sinks_as_its_pressure_says():
+def test_depth_of_flat_ellipse_follows_from_its_pressure():
     """Depth at the centre, u = (1/4πG)∫p/r dA in polar coordinates, p = F/(2πab)·(1−x²/a²−y²/b²)^(−1/2)."""
     for a, b in [(1.0, 1.0), (3.0, 2.0), (5.0, 0.4)]:
         # the integrand is periodic and smooth, so the rectangle rule is exact to rounding
@@ -138,21 +138,21 @@ def test_complete_contact_and_one_element_are_limits_of_kappa():
     ("penetration", "body"),
     [(reference.sphere_penetration, reference.sphere), (reference.cone_penetration, reference.cone)],
 )
-def test_viscous_penetration_integrates_the_rate(penetration, body):
+def test_viscous_penetration_integrates_the_velocity(penetration, body):
     """v = F/(η·8a), a flat punch of the current contact radius, integrated in time from a start (Eq. 1)."""
     shape, force, viscosity = 0.8, 3.0, 50.0
     time = np.array([0.1, 1.0, 20.0])
     depth, velocity = penetration(time, shape, force, viscosity)
 
-    def rate(_, u):
+    def velocity_at(_, u):
         return force / (viscosity * body(shape).stiffness(u))
 
-    np.testing.assert_allclose(velocity, rate(time, depth), rtol=1e-13)
-    steps = solve_ivp(rate, (0.1, 20.0), depth[:1], t_eval=time, rtol=1e-11, atol=0, method="DOP853")
+    np.testing.assert_allclose(velocity, velocity_at(time, depth), rtol=1e-13)
+    steps = solve_ivp(velocity_at, (0.1, 20.0), depth[:1], t_eval=time, rtol=1e-11, atol=0, method="DOP853")
     np.testing.assert_allclose(steps.y[0], depth, rtol=1e-9)
 
 
-def test_lee_radok_contact_radius_and_what_gamma_makes_of_it():
+def test_lee_radok_contact_radius_without_and_with_gamma():
     """a³ = 3RFt/(16η). A sphere obeys Eq. 3 with α = 1/3; with Γ, depth and velocity are 1/Γ(5/3) = 1.108 too
     large, and so is a² = Ru; hence a³ by Γ(5/3)^(−3/2) = 1.166.
     """
@@ -183,9 +183,7 @@ def test_eq_1_with_eq_3_has_no_gamma(hurst):
     """
     zeta, alpha = reference.zeta_viscous(hurst), reference.exponent_alpha(hurst)
 
-    def depth_increment(
-        log_x,
-    ):  # with X = exp(s) the integrand's singularity at 0 becomes an exponential tail
+    def depth_increment(log_x):  # with X = exp(s) the integrand's singularity at 0 becomes an exponential tail
         return np.exp(log_x) / reference.stiffness_law(np.exp(log_x), zeta, alpha)
 
     def to_depth(x):
@@ -234,8 +232,8 @@ def printed(law, **values):
 def test_functions_are_the_printed_laws(name):
     law = LAWS[name]
     values = {"X": 3e-4, "zeta": 1.3, "alpha": 0.62, "H": 0.7, "q": 5.0, "C2D": 0.2}
-    reading = {"gamma": True} if law.get("gamma") else {}
-    computed = getattr(reference, law["function"])(*(values[name] for name in law["arguments"]), **reading)
+    options = {"gamma": True} if law.get("gamma") else {}
+    computed = getattr(reference, law["function"])(*(values[name] for name in law["arguments"]), **options)
     assert computed == pytest.approx(printed(name, **values), rel=1e-14)
 
 

@@ -74,7 +74,7 @@ def test_fixed_amplitudes_are_the_spectrum(hurst):
     np.testing.assert_allclose(weighted, weighted[0, 0], rtol=1e-9)
 
 
-def test_waves_that_mirror_themselves():
+def test_waves_that_are_their_own_mirror_image():
     """Cosines at the Nyquist wavelength: real amplitudes, yet of the same mean power as their neighbours.
 
     ln χ² of one degree of freedom has the mean -γ - ln 2 and the variance π²/2.
@@ -128,7 +128,7 @@ def test_waves_do_not_depend_on_how_many_are_computed_at_a_time(points, fixed):
     ],
     ids=["square", "line"],
 )
-def test_memory_that_is_asked_for_is_enough(generate, lowest, highest):
+def test_required_memory_is_enough(generate, lowest, highest):
     """Bytes per point that numpy allocates; the transform of a line makes a copy that is not counted."""
     generate()
     tracemalloc.start()
@@ -177,7 +177,7 @@ def test_random_amplitudes_are_complex_gaussian():
 def test_heights_are_gaussian(amplitudes):
     """Heights further apart than the roll-off wavelength are hardly correlated, hence a Gaussian sample.
 
-    The rms of one surface is that of hundreds of such patches, so that scaling to it does not show.
+    The rms of one surface is that of hundreds of such patches, so that scaling to it does not matter.
     """
     options = {"roll_off_wavelength": 8, "roll_off_level": 1.0, "amplitudes": amplitudes}
     sample = [self_affine_square(0.8, 128, seed=seed, **options)[::16, ::16] for seed in range(30)]

@@ -31,7 +31,7 @@ def plot_exponent(scaling, conventions):
     ]
     hurst = np.linspace(0, 1, 101)
     (law,) = axes.plot(hurst, reference.exponent_beta(hurst), "--", color=GREY)
-    legend = {"lines, dimensionality reduction": (band, solid), "$H/(1+H)$, Eq. 10": law}
+    legend = {"lines, reduction of dimensionality": (band, solid), "$H/(1+H)$, Eq. 10": law}
     handlers = {}
     if markers:
         legend["discs, boundary elements"] = examples = tuple(markers[:5])

@@ -7,24 +7,24 @@ from viscorough.contact.column_fft import ColumnConvolution, good_length
 
 
 @pytest.mark.parametrize("precision", [np.float32, np.float64])
-@pytest.mark.parametrize("columns", [1, 64, 72, 73, 137])  # one block, with a rest, and more than one
+@pytest.mark.parametrize("columns", [1, 64, 72, 73, 137])  # one block, one with extra columns, more than one
 @pytest.mark.parametrize("length", [4, 8, 12, 16, 32, 36, 64, 96, 108, 128, 216, 384])
 def test_convolution_is_that_of_library_transforms(length, columns, precision):
     rng = np.random.default_rng(length)
     rows = length // 2 + 1
     spectrum = rng.standard_normal((rows, columns))  # of even kernels: frequency and −frequency alike
-    every = np.concatenate([spectrum, spectrum[-2:0:-1]])
+    all_frequencies = np.concatenate([spectrum, spectrum[-2:0:-1]])
     convolution = ColumnConvolution(rows, spectrum, precision)
-    for _ in range(2):  # the second time must not see anything of the first
+    for _ in range(2):  # no data of the first application may remain in the second
         data = rng.standard_normal((rows, columns)) + 1j * rng.standard_normal((rows, columns))
         padded = np.fft.fft(data, n=length, axis=0)
-        expected = np.fft.ifft(every * length * padded, axis=0)[:rows]
-        found = data.astype(np.result_type(precision, np.complex64))
-        convolution.apply(found)
-        np.testing.assert_allclose(found, expected, rtol=0, atol=5 * np.finfo(precision).eps * abs(expected).max())
+        expected = np.fft.ifft(all_frequencies * length * padded, axis=0)[:rows]
+        convolved = data.astype(np.result_type(precision, np.complex64))
+        convolution.apply(convolved)
+        np.testing.assert_allclose(convolved, expected, rtol=0, atol=5 * np.finfo(precision).eps * abs(expected).max())
 
 
 def test_good_lengths_are_the_next_ones():
     products = sorted(2**a * 3**b for a in range(2, 14) for b in range(9))
     for least in (0, 1, 4, 5, 12, 13, 97, 128, 129, 400, 1025, 4000):
-        assert good_length(least) == min(each for each in products if each >= least)
+        assert good_length(least) == min(product for product in products if product >= least)

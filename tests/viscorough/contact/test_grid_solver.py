@@ -1,4 +1,4 @@
-"""The grid solver by itself: its solution, tangent, rounding bounds and box, against dense matrices."""
+"""The grid solver alone: its solution, tangent, rounding bounds and box, against dense matrices."""
 
 from dataclasses import replace
 
@@ -48,8 +48,8 @@ def test_solution_meets_complementarity_and_its_residual(tolerance):
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-6])
 @pytest.mark.parametrize("hurst", [0.1, 0.5, 0.9])
-def test_tangent_has_the_energy_error_that_is_allowed(hurst, tolerance):
-    """|q − q*| in energy over that of q* is at most √tolerance, and at most a hundredth; its square is that of k."""
+def test_tangent_has_an_energy_error_within_the_limit(hurst, tolerance):
+    """|q − q*|/|q*| in energy is at most √tolerance and at most 0.01; its square is the relative error of k."""
     disc = self_affine_disc(hurst, 33, seed=5)
     elements, _, grid = whole_grid(disc, tolerance)
     allowed = min(1e-2, tolerance**0.5)
@@ -65,7 +65,7 @@ def test_tangent_has_the_energy_error_that_is_allowed(hurst, tolerance):
         assert total == pytest.approx(exact.sum(), rel=allowed**2)
 
 
-def test_rounding_bound_holds_level_after_level():
+def test_rounding_bound_holds_from_level_to_level():
     """In single precision without recomputation the error of the gap grows, and its bound with it."""
     disc = self_affine_disc(0.6, 25, seed=2)
     never = SolverOptions(exact_gap_below=0.0, max_iterations=500)
@@ -105,7 +105,7 @@ def test_a_box_gives_the_solution_of_the_whole_grid():
     assert whole.tangent_sum == pytest.approx(part.tangent_sum, rel=1e-7)
 
 
-def test_boxes_grow_with_the_depth_and_count_all_operators():
+def test_boxes_grow_with_the_depth_and_all_operator_applications_are_counted():
     disc = self_affine_disc(0.9, 65, seed=4)
     solver = ContactSolver(disc, 1e-6, SolverOptions(dense_contacts=0, dense_interactions=0))
     contact, applications, sizes = solver.unloaded_state(), 0, []
@@ -120,7 +120,7 @@ def test_boxes_grow_with_the_depth_and_count_all_operators():
 @pytest.mark.parametrize("options", [DOUBLE, SolverOptions(preconditioner="sparse", release_step=0.0),
                                      SolverOptions(preconditioner="none", release_step=0.0),
                                      SolverOptions(warm_start="pressure")])  # fmt: skip
-def test_options_change_the_way_and_not_the_solution(options):
+def test_options_do_not_change_the_solution(options):
     disc = self_affine_disc(0.5, 33, seed=1)
     grids = [whole_grid(disc, 1e-6, choice)[2] for choice in (DEFAULT, options)]
     levels = [grid.solve(contact_on(grid, disc, 0.5), 0.6) for grid in grids]

@@ -20,12 +20,12 @@ def test_coefficient_is_the_potential_of_a_square(x, y):
     assert influence_coefficient(float(x), float(y)) == pytest.approx(exact, rel=2e-11)
 
 
-def test_coefficients_are_even_and_the_two_forms_meet():
+def test_coefficients_are_even_and_the_two_formulas_agree_where_they_meet():
     distance = np.arange(20.0, 45.0)
     values = influence_coefficient(distance, 0.0)
     assert np.array_equal(values, influence_coefficient(-distance, 0.0))
     assert np.array_equal(values, influence_coefficient(0.0, distance))
-    # K r = 1 + 1/(24 r²) + ...: what follows 1 must fall smoothly through the distance where the series takes over.
+    # K r = 1 + 1/(24 r²) + ...: the remainder must fall smoothly through the distance where the series takes over.
     beyond = (values * distance - 1) * distance**2
     assert np.all(np.abs(np.diff(beyond, 2)) < 2e-7)
 
@@ -36,7 +36,7 @@ def test_operator_is_the_dense_matrix(shape):
     matrix = influence_coefficient(rows[:, None] - rows, columns[:, None] - columns)
     pressure = np.random.default_rng(1).standard_normal(shape)
     halfspace = Halfspace(*shape)
-    for _ in range(2):  # the second application must not see anything of the first
+    for _ in range(2):  # no data of the first application may remain in the second
         halfspace.load[:, : shape[1]] = pressure
         deflection = halfspace.apply()[:, : shape[1]]
         expected = (matrix @ pressure.ravel()).reshape(shape)
@@ -45,7 +45,7 @@ def test_operator_is_the_dense_matrix(shape):
 
 
 @pytest.mark.parametrize("shape", [(257, 257), (200, 77)])
-def test_rounding_stays_within_the_bound_that_the_search_counts_on(shape):
+def test_rounding_stays_within_the_bound_that_the_solver_assumes(shape):
     """For loads of both signs, whose deflections cancel, as those of search directions do."""
     load = np.random.default_rng(3).standard_normal(shape).astype(np.float32)
     deflections = []

@@ -27,9 +27,9 @@ def dense_complementarity(indenter, depth):
     factor = np.linalg.cholesky(matrix)
     pressure, _ = nnls(factor.T, np.linalg.solve(factor, depth - gap), maxiter=10_000)
     inside = pressure > 0
-    rate = np.linalg.solve(matrix[np.ix_(inside, inside)], np.ones(inside.sum()))
+    tangent = np.linalg.solve(matrix[np.ix_(inside, inside)], np.ones(inside.sum()))
     scale = 4 * np.pi * indenter.spacing
-    return scale * pressure.sum(), scale * rate.sum(), inside.sum()
+    return scale * pressure.sum(), scale * tangent.sum(), inside.sum()
 
 
 # ---- exact solutions (E* = 4G), with observed orders -----------------------------------------------------------------
@@ -102,8 +102,8 @@ def test_error_of_force_is_of_second_order_in_the_tolerance():
         assert np.abs(curve.force / exact - 1).max() < 0.1 * tolerance
 
 
-def test_residual_is_what_it_says():
-    """Gap and overlap recomputed from nothing: force at the level by the dense matrix on the found contact set."""
+def test_loose_tolerance_gives_nearly_the_dense_solution():
+    """Force and contact count of a level against those of the dense complementarity problem."""
     disc = self_affine_disc(0.6, 33, seed=2)
     depth = 0.5 * np.nanmax(disc.initial_gap)
     force, _, count = dense_complementarity(disc, depth)
@@ -113,8 +113,8 @@ def test_residual_is_what_it_says():
 
 
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 1e-9])
-def test_residual_and_stiffness_keep_their_promise_level_after_level(tolerance):
-    """Rounding adds up from level to level: what is reported bounds it. The stiffness is as good as the tolerance."""
+def test_residual_is_bounded_and_stiffness_accurate_from_level_to_level(tolerance):
+    """Rounding errors add up; the reported residual bounds them at every level. The stiffness meets the tolerance."""
     disc = self_affine_disc(0.8, 65, seed=6)
     solver = ContactSolver(disc, tolerance)
     contact = solver.unloaded_state()
@@ -153,11 +153,11 @@ def test_single_and_double_precision_agree_far_below_the_tolerance():
     ]
     assert curves[0].operator_applications > 0
     np.testing.assert_allclose(curves[0].force, curves[1].force, rtol=2e-6)
-    # A residual that rounding had falsified would differ from one recomputed in double precision.
+    # A residual falsified by rounding errors would differ from one recomputed in double precision.
     np.testing.assert_allclose(curves[0].residual, curves[1].residual, atol=3e-5)
 
 
-def test_levels_are_fewer_for_a_coarser_question():
+def test_levels_are_fewer_for_a_larger_tolerance():
     disc = self_affine_disc(0.8, 65, seed=4)
     assert len(indent(disc, tolerance=3e-2).depth) < 0.7 * len(indent(disc, tolerance=1e-4).depth)
 
@@ -183,13 +183,13 @@ def test_stops_at_fraction_or_force():
     assert by_force.force[-2] < 2.0
 
 
-def test_first_line_is_one_element():
+def test_first_level_is_one_element_in_contact():
     disc = self_affine_disc(0.8, 65, seed=4)
     curve = indent(disc, until_fraction=0.01)
-    one = np.pi * 4 * disc.spacing / influence_coefficient(0.0, 0.0)
+    stiffness = np.pi * 4 * disc.spacing / influence_coefficient(0.0, 0.0)
     assert curve.contact_count[0] == 1
-    assert curve.stiffness[0] == pytest.approx(one, rel=1e-12)
-    assert curve.force[0] == pytest.approx(one * curve.depth[0], rel=1e-12)
+    assert curve.stiffness[0] == pytest.approx(stiffness, rel=1e-12)
+    assert curve.force[0] == pytest.approx(stiffness * curve.depth[0], rel=1e-12)
 
 
 def test_scaling_symmetry_and_cropping():
@@ -222,10 +222,10 @@ def test_small_and_tied_indenters(heights):
     curve = indent(indenter, tolerance=1e-6, until_fraction=1.0)
     assert curve.contact_fraction[-1] == 1.0
     force, stiffness, count = dense_complementarity(indenter, 2 * curve.depth[-1])
-    at = indent(indenter, tolerance=1e-6, depths=[2 * curve.depth[-1]])
-    assert at.force[0] == pytest.approx(force, rel=1e-6)
-    assert at.stiffness[0] == pytest.approx(stiffness, rel=1e-6)
-    assert at.contact_count[0] == count
+    level = indent(indenter, tolerance=1e-6, depths=[2 * curve.depth[-1]])
+    assert level.force[0] == pytest.approx(force, rel=1e-6)
+    assert level.stiffness[0] == pytest.approx(stiffness, rel=1e-6)
+    assert level.contact_count[0] == count
 
 
 # ---- refusals --------------------------------------------------------------------------------------------------------

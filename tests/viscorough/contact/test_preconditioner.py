@@ -1,4 +1,4 @@
-"""The approximate inverse against exact ones."""
+"""The preconditioner, an approximate inverse, against exact inverses of influence matrices."""
 
 import numpy as np
 import pytest
@@ -17,14 +17,14 @@ def influence(places, width=WIDTH):
 
 def approximate_inverse(inside, kind="multilevel"):
     """M as a matrix, column by column, on the set."""
-    places, level = np.flatnonzero(inside), Preconditioner(*inside.shape, kind)
-    level.prepare(inside.ravel(), places)
+    places, preconditioner = np.flatnonzero(inside), Preconditioner(*inside.shape, kind)
+    preconditioner.prepare(inside.ravel(), places)
     columns = []
     for place in places:
-        residual = np.full(inside.size, 1e300)  # what lies outside the set must not count
+        residual = np.full(inside.size, 1e300)  # values outside the set must not matter
         residual[places] = 0
         residual[place] = 1
-        columns.append(level.apply(residual).copy())
+        columns.append(preconditioner.apply(residual).copy())
     return places, np.array(columns).T
 
 
@@ -37,7 +37,7 @@ def test_sparse_part_is_exact_for_sets_within_reach(present):
 
 
 def sets():
-    """Contact sets on 96 × 96 elements, so many that blocks of blocks are needed, few enough for eigenvalues."""
+    """Contact sets on 96 × 96 elements, enough for blocks of blocks, few enough to compute eigenvalues."""
     row, column = np.mgrid[:96, :96]
     random = np.random.default_rng(1).random(row.shape)
     hills = sum(np.hypot(row - a, column - b) < 6 for a, b in np.random.default_rng(2).integers(8, 88, (14, 2))) > 0
@@ -59,7 +59,8 @@ def test_symmetric_and_close_to_the_inverse_for_any_set(name, present):
     places, inverse = approximate_inverse(inside)
     np.testing.assert_allclose(inverse, inverse.T, atol=1e-13)
     exact = influence(places, inside.shape[1])
-    # A step of length one, and conjugate gradients, live by these bounds (M K has the eigenvalues of Rᵀ M R, K = R Rᵀ).
+    # Steps of length one and the error estimate of the tangent rely on these bounds.
+    # With K = R Rᵀ the eigenvalues of M K are those of Rᵀ M R.
     root = scipy.linalg.cholesky(exact, lower=True)
     values = scipy.linalg.eigvalsh(root.T @ inverse @ root)
     assert values[0] > LEAST_EIGENVALUE
@@ -70,7 +71,7 @@ def test_load_redistribution_stencil_is_elimination_among_the_neighbours():
     row, column = np.divmod(np.arange(25), 5)
     inverse = np.linalg.inv(influence(row * WIDTH + column))
     others = np.arange(25) != 12
-    # Without the element the others solve their own system; the change is what it had from them.
+    # Without the element the others solve their own system; the change is the load that they take over from it.
     matrix = influence(row * WIDTH + column)
     deflection = np.random.default_rng(2).random(25)
     load = inverse @ deflection

@@ -1,4 +1,4 @@
-"""What holds for every indenter, whatever its heights: random small maps and lines, on both routes of the solver.
+"""Properties that hold for every indenter, on random small maps and lines, for both the dense and the grid solver.
 
 Neither more depth nor more or higher elements can lower the force, and contact only grows: the inverse of the influence
 matrix has no positive entry off its diagonal (computed up to 25 × 25 elements).
@@ -21,8 +21,8 @@ from viscorough.viscous.correspondence import kinetics
 from viscorough.viscous.events import march_events
 
 TOLERANCE = 1e-9
-# The force is of second order in the tolerance. So is the stiffness in that of q, which on the grid is only the root,
-# times some factor that grows with the set.
+# The relative error of the force is of second order in the tolerance. That of the stiffness is of second order in the
+# error of q, which on the grid is the root of the tolerance times a factor that grows with the contact set.
 STIFFNESS, FORCE = 1e-8, 1e-10
 OPTIONS = {
     "dense": SolverOptions(dense_contacts=10**9, dense_interactions=10**9),
@@ -33,10 +33,10 @@ some = settings(max_examples=60, deadline=None, derandomize=True)
 
 shapes = array_shapes(min_dims=2, max_dims=2, max_side=12)
 heights = st.floats(-4, 0, width=16) | st.integers(-3, 0) | st.just(np.nan)
-# Without a fill every element is drawn; with one, most are alike: a plateau, or nothing, with a few peaks and pits.
+# Without a fill every element is drawn; with one, most are equal: a plateau, or nan, with a few peaks and pits.
 maps = arrays(float, shapes, elements=heights, fill=st.nothing()) | arrays(float, shapes, elements=heights)
 seeds = st.integers(0, 10**6)
-indenters = st.builds(Indenter, maps.filter(lambda each: np.isfinite(each).any()), st.just(0.3)) | st.builds(
+indenters = st.builds(Indenter, maps.filter(lambda array: np.isfinite(array).any()), st.just(0.3)) | st.builds(
     self_affine_disc, st.floats(0, 1), st.integers(9, 17), seed=seeds
 )
 lines = st.builds(
@@ -111,18 +111,18 @@ def test_complementarity(route, pressing):
     contact, inside = solver.unloaded_state(), np.zeros(indenter.elements, dtype=bool)
     for depth in depths:
         contact = solver.advance(contact, depth)
-        pressure, known_gap = np.zeros(indenter.elements), solver.gap(contact)
+        pressure, solver_gap = np.zeros(indenter.elements), solver.gap(contact)
         pressure[contact.members] = contact.pressure
         gap = matrix @ pressure - depth + indenter.initial_gap[place]
         limit = TOLERANCE * depth
-        # The search adds up its steps in single precision: that must stay far below the tolerance.
-        np.testing.assert_allclose(known_gap, gap, rtol=0, atol=0.05 * limit)
+        # The solver adds up its steps in single precision: the rounding error must stay far below the tolerance.
+        np.testing.assert_allclose(solver_gap, gap, rtol=0, atol=0.05 * limit)
 
         before, inside = inside, np.isin(np.arange(indenter.elements), contact.members)
         assert np.all(inside[before])
         assert np.all(pressure >= 0)
-        assert np.all(known_gap >= -limit)
-        assert np.all(np.abs(known_gap[inside]) <= limit)
+        assert np.all(solver_gap >= -limit)
+        assert np.all(np.abs(solver_gap[inside]) <= limit)
 
 
 @both_routes
@@ -133,16 +133,16 @@ def test_bounded_by_flat_punches(route, pressing):
     indenter, depths = pressing
     curve = press(indenter.heights, indenter.spacing, depths, route)
     place = np.nonzero(np.isfinite(indenter.heights))
-    rate = 4 * np.pi * indenter.spacing * np.linalg.solve(influence_matrix(*place), np.ones(place[0].size))
-    one, full = 4 * np.pi * indenter.spacing / influence_coefficient(0.0, 0.0), rate.sum()
+    tangents = 4 * np.pi * indenter.spacing * np.linalg.solve(influence_matrix(*place), np.ones(place[0].size))
+    one, full = 4 * np.pi * indenter.spacing / influence_coefficient(0.0, 0.0), tangents.sum()
     for ratio in (curve.force / depths, curve.stiffness):
         assert np.all(ratio >= one * (1 - STIFFNESS))
         assert np.all(ratio <= full * (1 + STIFFNESS))
-    # Glued to the whole indenter the half-space would pull where it parts from it: less force, equal at full contact.
-    glued = full * depths - rate @ indenter.initial_gap[place]
-    assert np.all(curve.force >= glued - FORCE * full * depths)
+    # If all elements were bonded to the half-space, some would be in tension: less force, but the same at full contact.
+    bonded = full * depths - tangents @ indenter.initial_gap[place]
+    assert np.all(curve.force >= bonded - FORCE * full * depths)
     closed = curve.contact_count == indenter.elements
-    np.testing.assert_allclose(curve.force[closed], glued[closed], rtol=FORCE)
+    np.testing.assert_allclose(curve.force[closed], bonded[closed], rtol=FORCE)
 
 
 # ---- one indenter and another ----------------------------------------------------------------------------------------
@@ -226,14 +226,14 @@ forces = st.lists(st.integers(0, 9), min_size=1, max_size=6)
 @given(pressings(), forces, forces, st.integers(1, 5), st.floats(-6, 6))
 @some
 def test_indenter_never_rises_and_rests_without_force(pressing, earlier, later, rest, decades):
-    """Depth grows while there is force, and stays exactly where it is while there is none."""
+    """The depth grows under a force, and is exactly constant without one."""
     indenter, depths = pressing
     curve = press(indenter.heights, indenter.spacing, depths, "dense")
     force = np.array([*earlier, *np.zeros(1 + rest), *later, 1.0])
     times = np.linspace(0, 10**decades, force.size)
     viscosity = np.trapezoid(force, times) / curve.force[-1]  # the last level is reached in the end
     result = kinetics(curve, force, viscosity, times)
-    # Between first touch and the first level nothing is known.
+    # Between first contact and the first level the depth can be undetermined (nan).
     assert np.all(np.diff(result.depth[np.isfinite(result.depth)]) >= 0)
     assert np.all(result.velocity[(force > 0) & np.isfinite(result.velocity)] > 0)
     assert result.depth[-1] == pytest.approx(depths[-1], rel=1e-9)
@@ -251,15 +251,15 @@ def test_depth_is_a_function_of_force_times_time_over_viscosity(pressing, force_
     times = np.linspace(0, curve.force[-1], 30)[1:]
     expected = kinetics(curve, 1.0, 1.0, times).depth
     force, viscosity = 10**force_decades, 10**viscosity_decades
-    found = kinetics(curve, force, viscosity, times * viscosity / force).depth
-    np.testing.assert_allclose(found, expected, rtol=1e-12)
-    assert np.isfinite(found[-1])
+    depth = kinetics(curve, force, viscosity, times * viscosity / force).depth
+    np.testing.assert_allclose(depth, expected, rtol=1e-12)
+    assert np.isfinite(depth[-1])
 
 
 @given(indenters, seeds)
 @some
 def test_kinetics_is_the_direct_integration_in_time(indenter, seed):
-    """The correspondence with the elastic problem: marched from contact to contact, the depths are the same."""
+    """The correspondence with the elastic problem: integration from event to event in time gives the same depths."""
     curve, events = indent(indenter, tolerance=TOLERANCE, until_fraction=1.0), march_events(indenter)
     times = np.sort(np.random.default_rng(seed).random(30)) * curve.force[-1]
     np.testing.assert_allclose(kinetics(curve, 1.0, 1.0, times).depth, events.depth_at(times), rtol=1e-9)

@@ -1,4 +1,4 @@
-"""The contact solver: units, events, and its guards."""
+"""The contact solver: units, contact events, and its checks of solutions."""
 
 from dataclasses import replace
 
@@ -17,7 +17,7 @@ both_routes = pytest.mark.parametrize("options", ROUTES.values(), ids=ROUTES)
 
 
 def test_an_element_that_loses_contact_on_the_grid_is_an_error():
-    """Contact only grows with depth; a step back, in which it shrinks, stands for any solution in which it does not."""
+    """Contact only grows with depth; a step to a smaller depth stands for a wrong solution in which it shrinks."""
     disc = self_affine_disc(0.6, 33, seed=1)
     solver = ContactSolver(disc, 1e-4, ROUTES["grid"])
     deeper = solver.advance_reduced(solver.unloaded_state(), 0.8)
@@ -26,7 +26,7 @@ def test_an_element_that_loses_contact_on_the_grid_is_an_error():
 
 
 def test_an_element_that_loses_contact_in_a_dense_solution_is_an_error():
-    """An element that was not in contact, said to have been."""
+    """An element outside the contact is added to its members."""
     solver = ContactSolver(self_affine_disc(0.6, 33, seed=1), 1e-4, ROUTES["dense"])
     contact = solver.advance_reduced(solver.unloaded_state(), 0.5)
     candidates = np.searchsorted(solver.elements.initial_gap, 0.51)
@@ -102,6 +102,6 @@ def test_events_end_at_the_force_and_ties_are_one_event():
         ({"max_iterations": 0}, "max_iterations: must be at least 1"),
     ],
 )
-def test_options_refuse_what_they_do_not_know(wrong, message):
+def test_invalid_options_are_refused(wrong, message):
     with pytest.raises(ValueError, match=message):
         SolverOptions(**wrong)

@@ -74,10 +74,10 @@ def test_leftovers_of_killed_processes_are_removed(tmp_path):
     assert (tmp_path / "a.csv").read_text() == "complete"
 
 
-def test_places_where_no_file_can_appear(tmp_path):
+def test_paths_that_cannot_be_written(tmp_path):
     """A folder without permission to write is tested with the whole command, in a namespace without privileges."""
     (tmp_path / "folder").mkdir()
-    os.mkfifo(tmp_path / "pipe")  # of the kind of /dev/null, which must never be replaced by a file
+    os.mkfifo(tmp_path / "pipe")  # like /dev/null, it must never be replaced by a file
     for path in (tmp_path / "none" / "a.nc", tmp_path / "folder", tmp_path / "pipe"):
         with pytest.raises(ValueError, match=str(path)) as error:
             check_output(path)

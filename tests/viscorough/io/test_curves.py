@@ -1,4 +1,4 @@
-"""Loading curves in NetCDF files: every field is stored, units follow the length unit, what is no curve is refused."""
+"""Loading curves in NetCDF files: every field is stored, units follow the length unit, invalid curves are refused."""
 
 import dataclasses
 
@@ -63,7 +63,7 @@ def with_entry(index, value):
     return change
 
 
-def test_contents_that_are_no_curve():
+def test_contents_without_a_valid_curve_are_refused():
     good = curve_to_content(random_curve())
     without_stiffness = Content({k: v for k, v in good.variables.items() if k != "stiffness"}, good.attributes)
     scalar = Content(good.variables | {"depth": good.variables["depth"]._replace(dimensions=())}, good.attributes)
@@ -89,7 +89,7 @@ def test_contents_that_are_no_curve():
     [{"force": np.full(7, np.inf)}, {"depth": np.zeros(7)}, {"levels": 0}],
     ids=["infinite force", "zero depth", "no level"],
 )
-def test_curves_that_are_none_are_not_written(changes):
+def test_invalid_curves_are_not_written(changes):
     bad = random_curve(**changes)
     for make in (curve_to_content, lambda curve: stack_curves([random_curve(), curve])):
         with pytest.raises(ValueError, match="loading curve") as error:

@@ -1,4 +1,4 @@
-"""NetCDF files written and read without xarray: exact round trips, what xarray sees in them, bad files."""
+"""NetCDF files written and read without xarray: exact round trips, agreement with xarray, damaged files."""
 
 import os
 import subprocess
@@ -26,8 +26,8 @@ def test_bytes_are_reproducible_and_no_time_is_written(tmp_path):
     for name in ("one.nc", "two.nc"):
         netcdf.write(curve_to_content(random_curve(900)), tmp_path / name)
     assert (tmp_path / "one.nc").read_bytes() == (tmp_path / "two.nc").read_bytes()
-    about = {"elements", "operator_applications", "tolerance", "method"}
-    assert set(netcdf.read(tmp_path / "one.nc").attributes) == {"title", "comment", "Conventions", "source"} | about
+    of_curve = {"elements", "operator_applications", "tolerance", "method"}
+    assert set(netcdf.read(tmp_path / "one.nc").attributes) == {"title", "comment", "Conventions", "source"} | of_curve
 
 
 @pytest.mark.parametrize("levels", [1, 7, netcdf.COMPRESSED_FROM])
@@ -47,7 +47,7 @@ def test_xarray_writes_and_reads_the_same(tmp_path, levels):
 
 
 def test_content_survives_a_file_exactly(tmp_path):
-    """Variables of every kind that a file of the command line may bring, among them some that it does not know."""
+    """Variables of every kind that an input file may hold, known to the command line or not."""
     random = np.random.default_rng(0)
     variables = {
         "depth": Variable(("level",), np.append(random.random(4), np.nan), METRES),
@@ -136,7 +136,7 @@ def test_missing_foreign_and_truncated_files_are_one_line(tmp_path, read):
 
 
 @pytest.mark.parametrize("read", [netcdf.read, datasets.read_dataset], ids=["content", "dataset"])
-def test_damage_inside_compressed_data_is_noticed(tmp_path, read):
+def test_damage_inside_compressed_data_is_detected(tmp_path, read):
     netcdf.write(content_of(np.random.default_rng(0).random(50_000)), tmp_path / "a.nc")
     damaged = bytearray((tmp_path / "a.nc").read_bytes())
     middle = len(damaged) // 2

@@ -70,9 +70,9 @@ def test_kinetics_is_eq_2(sphere_curve):
 
 def test_ramp(sphere_curve):
     """F = ct from rest: I = ct²/2."""
-    rate, times = 0.8, np.linspace(0, 5, 11)
-    result = kinetics(sphere_curve, rate * times, VISCOSITY, times)
-    depth = exact_sphere_depth(rate * times**2 / 2)
+    force_rate, times = 0.8, np.linspace(0, 5, 11)
+    result = kinetics(sphere_curve, force_rate * times, VISCOSITY, times)
+    depth = exact_sphere_depth(force_rate * times**2 / 2)
     np.testing.assert_allclose(result.depth, depth, rtol=1e-12, atol=0)
     assert result.velocity[0] == 0
     np.testing.assert_allclose(result.velocity[1:], 4 / 3 * depth[1:] / times[1:], rtol=1e-11)
@@ -106,18 +106,18 @@ def test_varying_force_against_time_integration(sphere_curve):
     force = np.random.default_rng(3).uniform(0, 4, times.size)
     result = kinetics(sphere_curve, force, VISCOSITY, times)
 
-    def rate(t, u):
+    def velocity(t, u):
         return np.interp(t, times, force) / (8 * VISCOSITY * np.sqrt(RADIUS * u))
 
     depth = result.depth[1]
     for i in range(1, times.size - 1):  # kinks of the force only between the integrations
-        depth = solve_ivp(rate, times[i : i + 2], [depth], rtol=1e-11, atol=0, method="DOP853").y[0, -1]
+        depth = solve_ivp(velocity, times[i : i + 2], [depth], rtol=1e-11, atol=0, method="DOP853").y[0, -1]
         assert depth == pytest.approx(result.depth[i + 1], rel=1e-9)
-        assert rate(times[i + 1], depth) == pytest.approx(result.velocity[i + 1], rel=1e-9)
+        assert velocity(times[i + 1], depth) == pytest.approx(result.velocity[i + 1], rel=1e-9)
 
 
-def test_dashpots_contact_by_contact():
-    """Independent dashpots under a constant force, marched from contact to contact: v = F/(nd) in between."""
+def test_dashpots_from_contact_to_contact():
+    """Dashpots of damping d under a constant force, integrated from contact to contact: v = F/(nd) while n touch."""
     gaps = np.cumsum([0, 0.3, 0.1, 0.7, 0.2, 1.1])
     dashpot, force = 4 * VISCOSITY * 0.05, 0.6
     times, depths, velocities = [], [], []
@@ -142,14 +142,14 @@ def test_dashpots_contact_by_contact():
 
 @pytest.mark.parametrize("length", [1e-12, 1.0, 1e12])
 @pytest.mark.parametrize("clock", [1e-12, 1e12])
-def test_invariance_to_units(length, clock, sphere_curve):
+def test_invariance_under_change_of_units(length, clock, sphere_curve):
     """The same motion in other units of length, time and viscosity, from which that of the force follows."""
-    poise = 1e-12
+    viscosity_unit = 1e-12
     times = np.linspace(0, 4, 9)
     force = np.array([0, 1, 2, 0, 0, 3, 1, 1, 0.5])
     expected = kinetics(sphere_curve, force, VISCOSITY, times)
     curve = curve_of_body(reference.sphere(RADIUS), scale=length)
-    result = kinetics(curve, force * poise * length**2 / clock, VISCOSITY * poise, times * clock)
+    result = kinetics(curve, force * viscosity_unit * length**2 / clock, VISCOSITY * viscosity_unit, times * clock)
     np.testing.assert_allclose(result.time, times * clock, rtol=1e-15)
     np.testing.assert_allclose(result.depth, expected.depth * length, rtol=1e-12)
     np.testing.assert_allclose(result.velocity, expected.velocity * length / clock, rtol=1e-11)

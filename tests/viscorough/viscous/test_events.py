@@ -12,7 +12,7 @@ from viscorough.viscous.events import march_events
 
 @pytest.mark.parametrize(("hurst", "elements"), [(0.2, 33), (0.5, 33), (0.2, 65), (0.8, 65)])
 def test_agrees_with_the_correspondence_over_the_whole_curve(hurst, elements):
-    """t(u) under constant force, with no common code but the influence coefficients: the elastic force is F t/η."""
+    """t(u) under constant force: F/G of the elastic curve is F t/η. Common code: K and contact.growing_cholesky."""
     disc = self_affine_disc(hurst, elements, seed=3)
     events = march_events(disc)
     assert events.contact_count[-1] == disc.elements
@@ -33,7 +33,7 @@ def test_sphere_follows_lee_and_radok():
     assert np.abs(error).max() < 3e-3
 
 
-def test_one_element_sinks_at_constant_speed():
+def test_one_element_penetrates_at_constant_velocity():
     events = march_events(Indenter(np.array([[1.0]]), 0.5))
     assert events.contact_count.tolist() == [1]
     assert events.depth_at(2.0) == pytest.approx(2.0 * 4 * np.log(1 + np.sqrt(2)) / (4 * np.pi * 0.5))
@@ -49,7 +49,7 @@ def test_ties_and_scales():
     assert np.all(np.diff(events.resistance) >= 0)
 
 
-def test_refuses_what_does_not_fit_before_trying():
+def test_too_many_elements_for_the_memory_are_refused():
     with pytest.raises(MemoryError, match=r"elements in contact takes .* bytes of memory, .* bytes are available"):
         march_events(Indenter(np.random.default_rng(1).random((600, 600)), 1.0))
 

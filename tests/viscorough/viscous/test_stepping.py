@@ -25,42 +25,42 @@ def events(disc):
 def test_implicit_steps_are_exact_whatever_their_size(disc, events, steps):
     last = events.impulse[700]
     impulses = np.geomspace(last / 300, last, steps) if steps > 1 else np.array([last])
-    marched = march_steps(disc, impulses, scheme="implicit", tolerance=1e-8)
-    np.testing.assert_allclose(marched.depth, events.depth_at(impulses), rtol=1e-7)
-    assert marched.overlap.max() < 1e-7
+    result = march_steps(disc, impulses, scheme="implicit", tolerance=1e-8)
+    np.testing.assert_allclose(result.depth, events.depth_at(impulses), rtol=1e-7)
+    assert result.overlap.max() < 1e-7
     touching = np.searchsorted(events.impulse, impulses, side="right")
-    np.testing.assert_allclose(marched.contact_count, touching, atol=2)
+    np.testing.assert_allclose(result.contact_count, touching, atol=2)
 
 
-def test_explicit_steps_are_of_first_order_in_the_penetration_they_allow(disc, events):
+def test_explicit_steps_are_of_first_order_in_the_overlap_they_allow(disc, events):
     impulses = np.geomspace(events.impulse[3], events.impulse[700], 5)
     allowed, errors = np.array([1e-1, 3e-2, 1e-2, 3e-3, 1e-3]), []
-    for penetration in allowed:
-        marched = march_steps(disc, impulses, overlap=penetration)
-        assert marched.overlap.max() <= penetration * (1 + 1e-9)
-        errors.append(np.abs(marched.depth / events.depth_at(impulses) - 1).max())
+    for overlap in allowed:
+        result = march_steps(disc, impulses, overlap=overlap)
+        assert result.overlap.max() <= overlap * (1 + 1e-9)
+        errors.append(np.abs(result.depth / events.depth_at(impulses) - 1).max())
     assert errors[-1] < 2e-3
     assert np.polyfit(np.log(allowed), np.log(errors), 1)[0] == pytest.approx(1.0, abs=0.25)
 
 
-def test_mean_rates_of_a_step_are_more_accurate_than_those_at_its_start(disc, events):
+def test_mean_velocities_of_a_step_are_more_accurate_than_those_at_its_start(disc, events):
     errors = {"explicit": [], "heun": []}
     for steps in (32, 64, 128, 256):
         impulses = np.geomspace(events.impulse[1] / 10, events.impulse[700], steps)
-        for scheme, found in errors.items():
-            marched = march_steps(disc, impulses, scheme=scheme)
-            found.append(np.sqrt(np.mean((marched.depth / events.depth_at(impulses) - 1) ** 2)))
+        for scheme, of_scheme in errors.items():
+            result = march_steps(disc, impulses, scheme=scheme)
+            of_scheme.append(np.sqrt(np.mean((result.depth / events.depth_at(impulses) - 1) ** 2)))
     ratio = np.array(errors["heun"]) / errors["explicit"]
     assert ratio.max() < 0.8
     assert np.exp(np.mean(np.log(ratio))) < 0.5
     assert errors["heun"][-1] < 0.2 * errors["heun"][0]
 
 
-def test_long_explicit_steps_penetrate_deeply(disc, events):
-    """The failure that the scheme is known for is there, and is told."""
-    marched = march_steps(disc, np.linspace(0, events.impulse[700], 11)[1:])
-    assert marched.overlap[0] > 0.5
-    assert marched.depth[0] > 2 * events.depth_at(marched.impulse[0])
+def test_long_explicit_steps_overlap_the_surface_deeply(disc, events):
+    """The known failure of the scheme occurs and is reported in `overlap`."""
+    result = march_steps(disc, np.linspace(0, events.impulse[700], 11)[1:])
+    assert result.overlap[0] > 0.5
+    assert result.depth[0] > 2 * events.depth_at(result.impulse[0])
 
 
 def test_explicit_steps_of_any_size_are_exact_for_a_flat_punch():
@@ -68,8 +68,8 @@ def test_explicit_steps_of_any_size_are_exact_for_a_flat_punch():
     exact = march_events(punch)
     impulses = np.array([0.1, 2.0, 30.0])
     for scheme in ("explicit", "implicit"):
-        marched = march_steps(punch, impulses, scheme=scheme, tolerance=1e-9)
-        np.testing.assert_allclose(marched.depth, impulses / exact.resistance[-1], rtol=1e-8)
+        result = march_steps(punch, impulses, scheme=scheme, tolerance=1e-9)
+        np.testing.assert_allclose(result.depth, impulses / exact.resistance[-1], rtol=1e-8)
 
 
 @pytest.mark.parametrize(

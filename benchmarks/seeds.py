@@ -1,9 +1,9 @@
-"""Run the reproduction with other root seeds and see whether any verdict moves.
+"""Run the reproduction with several root seeds and report which verdicts change with the seed.
 
     python benchmarks/seeds.py --seeds 3 --output results/seeds.json
 
-Each runs from nothing in a folder of its own; what is compared are the verdicts on the paper's claims. What every claim
-was judged by, with every seed, goes to a table beside the output.
+Every run starts from nothing in a temporary folder; the verdicts on the paper's claims are compared. The tables of
+claims of all seeds are written beside the output, as CSV.
 """
 
 import json
@@ -23,12 +23,19 @@ ROOT = Path(__file__).resolve().parents[1]
 
 
 def claims(seed, cores, settings, folder):
-    """Table of claims of a reproduction with this root seed."""
+    """Table of claims of a reproduction with this root seed, made in a folder."""
     command = [sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile"), "--directory", folder]
     command += ["--cores", str(cores), "--quiet", "all", "--config", f"seed={seed}"]
     command += ["--configfile", str(settings)] if settings else []
     subprocess.run([*command, "--", "results/tables/claims.csv"], check=True)
     return pd.read_csv(Path(folder) / "results/tables/claims.csv", keep_default_na=False, na_values=[""])
+
+
+def changing(verdicts):
+    """{claim: verdict with each seed} of the claims whose verdict is not the same with all seeds."""
+    first, *_ = verdicts.values()
+    by_claim = {claim: [outcome[claim] for outcome in verdicts.values()] for claim in first}
+    return {claim: outcomes for claim, outcomes in by_claim.items() if len(set(outcomes)) > 1}
 
 
 @click.command(help=__doc__.splitlines()[0])
@@ -42,16 +49,15 @@ def main(seeds, cores, settings, output):
         with tempfile.TemporaryDirectory() as folder:
             tables[seed] = claims(seed, cores, settings and settings.resolve(), folder)
         click.echo(f"seed {seed}: {time.perf_counter() - start:.0f} s")
-    found = {seed: overall(table) for seed, table in tables.items()}
-    moved = {claim: [each[claim] for each in found.values()] for claim in found[1]}
-    moved = {claim: words for claim, words in moved.items() if len(set(words)) > 1}
+    verdicts = {seed: overall(table) for seed, table in tables.items()}
+    moved = changing(verdicts)
     about = {"machine": timing.machine(), "seconds": round(time.perf_counter() - start, 1)}
     output.parent.mkdir(parents=True, exist_ok=True)
     pd.concat(tables, names=["seed"]).droplevel(1).to_csv(output.with_suffix(".csv"))
-    output.write_text(json.dumps(about | {"moved": moved, "verdicts": found}, indent=1) + "\n", encoding="utf-8")
-    for claim, words in moved.items():
-        click.echo(f"{claim}: {', '.join(words)}")
-    click.echo(f"{len(moved)} of {len(found[1])} verdicts move with the seed; written to {output}")
+    output.write_text(json.dumps(about | {"moved": moved, "verdicts": verdicts}, indent=1) + "\n", encoding="utf-8")
+    for claim, outcomes in moved.items():
+        click.echo(f"{claim}: {', '.join(outcomes)}")
+    click.echo(f"{len(moved)} of {len(verdicts[1])} verdicts change with the seed; written to {output}")
     sys.exit(bool(moved))
 
 

@@ -1,10 +1,9 @@
 """Ensembles: realizations of one surface brought to common abscissae, their averages and their spread.
 
-The abscissa is X = F/(4GhL), which for the viscous problem reads Ft/(4ηhL) (paper, Eqs. 2 and 3). Where F, η,
-L and a nominal h are common to all realizations, fixed X is fixed time and vt/h is the velocity times a
-constant: averages at fixed X and at fixed t are then the same. They are not where h is measured on each
-realization, since X and vt/h are then in units of each one's own h. Both are rms conventions here, held side
-by side.
+The abscissa is X = F/(4GhL), which for the viscous problem is Ft/(4ηhL) (paper, Eqs. 2 and 3). Where F, η, L and a
+nominal h are common to all realizations, fixed X is fixed time and vt/h is the velocity times a constant: averages at
+fixed X and at fixed t are then the same. They differ where h is measured on each realization, since X and vt/h then
+are in units of the h of that realization. An ensemble contains several such rms conventions side by side.
 """
 
 import warnings
@@ -12,7 +11,7 @@ import warnings
 import numpy as np
 import xarray as xr
 
-_MEANING = {
+MEANING = {
     "x": ("dimensionless force F/(4GhL) or time Ft/(4ηhL)", "Eq. 2 and Eq. 3"),
     "velocity": ("dimensionless velocity vt/h = X/κ", "Eq. 2"),
     "stiffness": ("dimensionless stiffness κ = k/(4GL)", "Eq. 3"),
@@ -31,13 +30,13 @@ _MEANING = {
 def abscissa(low, high, per_decade):
     """Logarithmic grid of X: the multiples of 1/per_decade decades in [low, high], shape (abscissae,) [1].
 
-    Grids of one per_decade share their points whatever their ends. Raises ValueError for an empty grid.
+    Grids of the same per_decade share their points, whatever their ends. Raises ValueError for an empty grid.
     """
     if not (0 < low <= high < np.inf):
         raise ValueError(f"abscissa: low and high must be 0 < low <= high < inf, not {low} and {high}")
     if per_decade != int(per_decade) or per_decade < 1:
         raise ValueError(f"abscissa: per_decade must be a whole number >= 1, not {per_decade}")
-    rounding = 1e-9
+    rounding = 1e-9  # so that ends that are multiples belong to the grid
     first = np.ceil(per_decade * np.log10(low) - rounding)
     last = np.floor(per_decade * np.log10(high) + rounding)
     if last < first:
@@ -45,42 +44,31 @@ def abscissa(low, high, per_decade):
     return 10.0 ** (np.arange(first, last + 1) / per_decade)
 
 
-def aggregate(curves, rms, diameter, x, *, hurst, case):
-    """Loading curves of one case on common abscissae, with their averages: the ensemble dataset.
-
-    curves : LoadingCurve of each realization, all with the same number of elements
-    rms : {convention: rms heights h, shape (realizations,) or a number for all} [length]
-    diameter : L [length]
-    x : X, shape (abscissae,) [1]; strictly increasing
-    hurst, case : Hurst exponent and name of the case; kept as coordinates
-
-    Per rms convention, realization and abscissa: κ = k/(4GL) at F/G = 4hLX, vt/h = X/κ (Eqs. 2, 3) and the
-    elements in contact; nan where a curve says nothing (beyond its last level). Between levels ln(count) is
-    linear in ln F, below the first level it is the first level's. Averages are over the realizations defined
-    there. Raises ValueError for no curves, unlike numbers of elements, rms heights or abscissae out of range.
-    """
-    curves = list(curves)
-    stiffness, count = on_abscissae(curves, rms, diameter, x)
-    coords = {"hurst": hurst, "case": case, "diameter": diameter, "elements": curves[0].elements}
-    return ensemble_dataset(list(rms), np.asarray(x, dtype=float), stiffness, count, coords)
-
-
 def on_abscissae(curves, rms, diameter, x):
-    """κ and the elements in contact of `aggregate`, each of shape (rms conventions, realizations, abscissae)."""
+    """κ and the elements in contact on common abscissae, each of shape (rms conventions, realizations, abscissae).
+
+    curves : list of LoadingCurve, all with the same number of elements
+    rms : {convention: rms heights h, shape (realizations,) or a number for all} [length]
+    diameter : L [length]; x : X, shape (abscissae,) [1], strictly increasing
+
+    κ = k/(4GL) at F/G = 4hLX (Eq. 3); nan beyond the last level of a curve. Between levels ln(count) is linear in
+    ln F, and below the first level the count is that of the first level.
+    Raises ValueError for no curves, different numbers of elements, rms heights or abscissae out of range.
+    """
     x = np.asarray(x, dtype=float)
     if not curves:
-        raise ValueError("aggregate: at least one loading curve is needed, there is none")
+        raise ValueError("on_abscissae: there is no loading curve; at least one is needed")
     elements = curves[0].elements
     if any(curve.elements != elements for curve in curves):
-        raise ValueError("aggregate: all curves of an ensemble must have the same number of elements")
+        raise ValueError("on_abscissae: all curves of an ensemble must have the same number of elements")
     if not 0 < diameter < np.inf:
-        raise ValueError(f"aggregate: diameter must be positive and finite, not {diameter}")
+        raise ValueError(f"on_abscissae: diameter must be positive and finite, not {diameter}")
     if x.ndim != 1 or x.size == 0 or not (x[0] > 0 and np.all(np.diff(x) > 0) and x[-1] < np.inf):
-        raise ValueError("aggregate: x must be one-dimensional, positive and strictly increasing")
+        raise ValueError("on_abscissae: x must be one-dimensional, positive and strictly increasing")
     heights = np.empty((len(rms), len(curves)))
     for row, (name, values) in zip(heights, rms.items(), strict=True):
         if np.shape(values) not in ((), row.shape) or not np.all(np.isfinite(values) & (np.asarray(values) > 0)):
-            raise ValueError(f"aggregate: rms[{name!r}] must be {len(curves)} positive numbers, or one for all")
+            raise ValueError(f"on_abscissae: rms[{name!r}] must be {len(curves)} positive numbers, or one for all")
         row[:] = values
 
     stiffness = np.empty((*heights.shape, x.size))
@@ -93,6 +81,16 @@ def on_abscissae(curves, rms, diameter, x):
     return stiffness, count
 
 
+def _rms_heights(rms, number):
+    """rms heights, shape (rms conventions, realizations)."""
+    heights = np.empty((len(rms), number))
+    for row, (name, values) in zip(heights, rms.items(), strict=True):
+        if np.shape(values) not in ((), row.shape) or not np.all(np.isfinite(values) & (np.asarray(values) > 0)):
+            raise ValueError(f"on_abscissae: rms[{name!r}] must be {number} positive numbers, or one for all")
+        row[:] = values
+    return heights
+
+
 def ensemble_dataset(conventions, x, stiffness, count, coords):
     """Ensemble dataset with its averages.
 
@@ -101,6 +99,26 @@ def ensemble_dataset(conventions, x, stiffness, count, coords):
     coords : hurst, case, diameter, elements
     """
     velocity = x / stiffness
+    of_curves = ("rms_convention", "realization", "abscissa")
+    variables = {"velocity": velocity, "stiffness": stiffness, "contact_count": count}
+    variables = {name: (of_curves, values) for name, values in variables.items()}
+    variables |= {
+        name: (("rms_convention", "abscissa"), values)
+        for name, values in _averages(x, velocity, count, coords["elements"]).items()
+    }
+    dataset = xr.Dataset(variables, {"x": ("abscissa", x), "rms_convention": conventions, **coords})
+    for name, (long_name, equation) in MEANING.items():
+        dataset[name].attrs = {"long_name": long_name, "units": "1", "paper_equation": equation}
+    dataset["hurst"].attrs = {"long_name": "Hurst exponent", "units": "1"}
+    dataset["elements"].attrs = {"long_name": "elements of an indenter", "units": "1"}
+    dataset["diameter"].attrs = {"long_name": "diameter of the indenter", "units": "m"}
+    dataset["case"].attrs = {"long_name": "name of the case"}
+    dataset["rms_convention"].attrs = {"long_name": "where the rms height h is measured"}
+    return dataset
+
+
+def _averages(x, velocity, count, elements):
+    """Averages over the realizations that are defined, each of shape (rms conventions, abscissae)."""
     defined = np.isfinite(velocity)
     number = defined.sum(axis=1)
 
@@ -109,29 +127,16 @@ def ensemble_dataset(conventions, x, stiffness, count, coords):
 
     log_velocity = np.log(velocity)
     with warnings.catch_warnings(), np.errstate(invalid="ignore", divide="ignore"):
-        warnings.simplefilter("ignore", RuntimeWarning)  # nanmedian where no realization is defined: nan is meant
+        warnings.simplefilter("ignore", RuntimeWarning)  # of nanmedian where no realization is defined
         geometric = mean(log_velocity)
         squares = mean((log_velocity - geometric[:, None]) ** 2) * number
-        averages = {
+        return {
             "velocity_arithmetic": mean(velocity),
             "velocity_geometric": np.exp(geometric),
             "velocity_spread": np.sqrt(squares / (number - 1)),
             "stiffness_geometric": x / np.exp(geometric),
             "contact_count_median": np.nanmedian(count, axis=1),
-            "contact_fraction_mean": mean(count) / coords["elements"],
+            "contact_fraction_mean": mean(count) / elements,
             "realizations_defined": number,
             "fraction_defined": number / velocity.shape[1],
         }
-
-    each, mean_dims = ("rms_convention", "realization", "abscissa"), ("rms_convention", "abscissa")
-    variables = {"velocity": (each, velocity), "stiffness": (each, stiffness), "contact_count": (each, count)}
-    variables |= {name: (mean_dims, values) for name, values in averages.items()}
-    dataset = xr.Dataset(variables, {"x": ("abscissa", x), "rms_convention": conventions, **coords})
-    for name, (long_name, equation) in _MEANING.items():
-        dataset[name].attrs = {"long_name": long_name, "units": "1", "paper_equation": equation}
-    dataset["hurst"].attrs = {"long_name": "Hurst exponent", "units": "1"}
-    dataset["elements"].attrs = {"long_name": "elements of an indenter", "units": "1"}
-    dataset["diameter"].attrs = {"long_name": "diameter of the indenter", "units": "m"}
-    dataset["case"].attrs = {"long_name": "name of the case"}
-    dataset["rms_convention"].attrs = {"long_name": "where the rms height h is measured"}
-    return dataset

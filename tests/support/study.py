@@ -9,7 +9,7 @@ import xarray as xr
 from viscorough import reference
 from viscorough.loading_curve import LoadingCurve
 from viscorough_study.conventions import FITTED, PLAIN
-from viscorough_study.ensembles import abscissa, ensemble_dataset
+from viscorough_study.ensembles import abscissa, ensemble_dataset, on_abscissae
 from viscorough_study.evidence import Evidence
 from viscorough_study.fit_table import COLUMNS, fit_rows
 from viscorough_study.gamma_factor import compare_direct
@@ -128,3 +128,10 @@ def line_curve(gaps, length=1.0, levels=None):
     columns = (depth, force, 4 * spacing * touching, touching)
     columns = [column[:levels] for column in columns]
     return LoadingCurve(*columns, gaps.size, "by hand", 1e-12, 0, 0 * columns[0])
+
+
+def aggregate(curves, rms, diameter, x, *, hurst, case):
+    """Ensemble dataset of the loading curves of one case; arguments as in on_abscissae."""
+    stiffness, count = on_abscissae(curves, rms, diameter, x)
+    coords = {"hurst": hurst, "case": case, "diameter": diameter, "elements": curves[0].elements}
+    return ensemble_dataset(list(rms), np.asarray(x, dtype=float), stiffness, count, coords)

@@ -5,9 +5,9 @@ import warnings
 import numpy as np
 import pytest
 
-from support.study import line_curve
+from support.study import aggregate, line_curve
 from viscorough.loading_curve import LoadingCurve
-from viscorough_study.ensembles import abscissa, aggregate
+from viscorough_study.ensembles import abscissa
 
 
 def line_stiffness(gaps, rms, x):

@@ -4,12 +4,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from support.study import LIMITS, SHOWN, ensemble_of, three_regions
+from support.study import LIMITS, SHOWN, aggregate, ensemble_of, three_regions
 from viscorough import calibrated_law, reference
 from viscorough.mdr import reduce
 from viscorough.surfaces import self_affine_line
 from viscorough_study.conventions import FITTED, fits, interval_columns, readings
-from viscorough_study.ensembles import abscissa, aggregate
+from viscorough_study.ensembles import abscissa
 from viscorough_study.fit_table import COLUMNS, calibrated, fit_rows
 from viscorough_study.seeds import realization_seed
 

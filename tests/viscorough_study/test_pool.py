@@ -5,10 +5,10 @@ import json
 import numpy as np
 import pytest
 
-from support.study import line_curve
+from support.study import aggregate, line_curve
 from viscorough.io.curves import stack_curves
 from viscorough.io.netcdf import Variable
-from viscorough_study.ensembles import abscissa, aggregate
+from viscorough_study.ensembles import abscissa
 from viscorough_study.pool import ensembles, pool_batches, select
 
 X = abscissa(1e-3, 3, 10)

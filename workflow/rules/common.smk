@@ -9,7 +9,7 @@ from pathlib import Path
 import yaml
 
 from viscorough_study import cases
-from viscorough_study.paper_data import read_paper
+from viscorough_study.paper_data import number, read_paper
 from viscorough_study.settings import SettingsError, check_settings
 from viscorough_study.source_digest import SourceDigests
 

@@ -138,6 +138,7 @@ rule plot_exponent:
         mem_mb=1000,
     params:
         conventions=config["figures"],
+        hurst_range=paper("laws")["beta"]["hurst_range"],
     message:
         "Figure 4, exponent"
     script:

@@ -18,6 +18,7 @@ rule measure_methods:
         problem=lambda wildcards: PROBLEMS[wildcards.problem],
         seed=config["seed"],
         levels=config["methods"]["levels"],
+        region={name: config["scaling"][name] for name in ("elements_min", "stiffness_max")},
         repeats=config["methods"]["repeats"],
         longest=config["methods"]["longest"],
         peers=other_solvers(),

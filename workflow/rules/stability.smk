@@ -23,6 +23,7 @@ rule map_failures:
         seed=config["seed"],
         across=config["stability"]["across"],
         grids=config["stability"]["grids"],
+        hurst_min=number(paper("numbers"), "agreement", "beta_hurst_min"),
     message:
         "Every method in every stress-test case"
     script:

@@ -9,9 +9,9 @@ from viscorough_study.seeds import failure_map_key, realization_seed
 from viscorough_study.tables import write_table
 
 
-def main(csv, nc, *, seed, across, grids):
+def main(csv, nc, *, seed, across, grids, hurst_min):
     """Write the table, and a warning to the log for every failure that is unnoticed."""
-    cases = stress_cases(realization_seed(seed, *failure_map_key()), across, grids)
+    cases = stress_cases(realization_seed(seed, *failure_map_key()), across, grids, hurst_min)
     table = failure_map(cases, report=logging.info)
     for row in unnoticed(table).itertuples():
         logging.warning("%s: %s fails unnoticed, error %.2g", row.case, row.method, row.error)

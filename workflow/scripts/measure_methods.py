@@ -13,12 +13,13 @@ from viscorough_study.performance.other_solvers import OtherSolver
 from viscorough_study.performance.problems import named_problem
 
 
-def main(csv, *, problem, seed, levels, repeats, longest, peers):
+def main(csv, *, problem, seed, levels, region, repeats, longest, peers):
     """Measure the methods of the package and the installed other solvers on a problem, given by its settings."""
     solvers = [OtherSolver(name, *map(Path, paths)) for name, paths in peers.items()]
     methods = (*METHODS, *(other_solver_method(solver, longest) for solver in solvers if solver.installed))
     with threadpool_limits(1):  # Snakemake gives the job all cores, so that nothing runs beside it
-        table = measure(named_problem(**problem, levels=levels, root=seed), repeats, methods, report=logging.info)
+        indenter = named_problem(**problem, levels=levels, root=seed, region=region)
+        table = measure(indenter, repeats, methods, report=logging.info)
     with atomic_write(csv) as temporary:
         table.to_csv(temporary, index=False)
 

@@ -7,9 +7,9 @@ from viscorough_study.figures.style import save_figure
 from viscorough_study.job_log import log_to
 
 
-def main(scaling, png, pdf, *, conventions):
-    """Plot the scaling table; conventions : those of the figures, {column of the table: value}."""
-    save_figure(plot_exponent(pd.read_csv(scaling), conventions), png, pdf)
+def main(scaling, png, pdf, *, conventions, hurst_range):
+    """Plot the scaling table; conventions, hurst_range : as in plot_exponent."""
+    save_figure(plot_exponent(pd.read_csv(scaling), conventions, hurst_range), png, pdf)
 
 
 if job := globals().get("snakemake"):

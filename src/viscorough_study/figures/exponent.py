@@ -11,15 +11,16 @@ from viscorough_study.figures.style import GREY, MM, NARROW, PALE, STYLE, hurst_
 
 
 @rc_context(STYLE)
-def plot_exponent(scaling, conventions):
+def plot_exponent(scaling, conventions, hurst_range):
     """β over the Hurst exponent, with 95 % intervals: lines, discs and Eq. 10.
 
-    scaling : scaling table; conventions : {column of it: value}
+    scaling : scaling table; conventions : {convention: value}
+    hurst_range : in which the paper finds Eq. 10 accurate (resources/paper/laws.yaml)
     """
     looks = hurst_looks(scaling.loc[scaling["source"] == "discs", "hurst"])
     figure = Figure(figsize=(NARROW, 85 * MM))
     axes = figure.subplots()
-    axes.axvspan(0.4, 1, color="0.94", linewidth=0)
+    axes.axvspan(*hurst_range, color="0.94", linewidth=0)
     axes.text(0.98, 0.04, "where the paper finds Eq. 10 accurate", color=GREY, ha="right", transform=axes.transAxes)
     lines = fits(scaling, conventions, source="lines", case_group="base", rms_convention="line")
     band = axes.fill_between(lines["hurst"], lines["beta_low"], lines["beta_high"], color=PALE, linewidth=0)

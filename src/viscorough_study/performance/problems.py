@@ -15,7 +15,6 @@ from viscorough_study.seeds import method_problem_key, realization_seed
 
 BODIES = {"sphere": reference.sphere(1.0), "cone": reference.cone(0.1)}
 FINAL_X, FINAL_FRACTION = 30.0, 0.9  # where a rough disc's curve ends
-MIN_ELEMENTS_B, MAX_STIFFNESS_B = 10, 0.2  # of region (b): elements in contact, and κ
 REFERENCE_TOLERANCE = 1e-11  # of the velocities that rough discs are compared with
 
 
@@ -44,10 +43,11 @@ class Problem:
         return len(self.indenter.heights)
 
 
-def rough_problem(hurst, elements, levels, root):
+def rough_problem(hurst, elements, levels, root, region):
     """A self-affine disc, at depths in equal ratios from just beyond the second contact to FINAL_X or FINAL_FRACTION.
 
     hurst : Hurst exponent; elements : across the disc; levels : number of depths; root : root seed
+    region : elements_min in contact and stiffness_max κ of region (b)
     """
     seed = realization_seed(root, *method_problem_key(hurst, elements))
     disc = self_affine_disc(hurst, elements, seed=seed)
@@ -56,7 +56,7 @@ def rough_problem(hurst, elements, levels, root):
     depth = np.geomspace(1.5 * first, coarse.depth[-1], levels)
     exact = indent(disc, tolerance=REFERENCE_TOLERANCE, depths=depth)
     _, kappa = exact.normalised(1.0, 1.0)
-    region_b = (exact.contact_count >= MIN_ELEMENTS_B) & (kappa <= MAX_STIFFNESS_B)
+    region_b = (exact.contact_count >= region["elements_min"]) & (kappa <= region["stiffness_max"])
     name = f"rough disc, H = {hurst:g}, {elements}"
     return Problem(name, disc, depth, exact.force, exact.force / exact.stiffness, region_b, hurst, seed)
 
@@ -70,8 +70,8 @@ def body_problem(name, body, elements, levels):
     return Problem(f"{name}, {elements}", indenter, depth, force, force / body.stiffness(depth), everywhere, body=body)
 
 
-def named_problem(name, elements, levels, root, hurst=None):
-    """A problem by the name of its body, "sphere", "cone" or "rough disc"; the latter has a Hurst exponent."""
+def named_problem(name, elements, levels, *, root=None, hurst=None, region=None):
+    """A problem by the name of its body, "sphere", "cone" or "rough disc"; root, hurst, region : of a rough disc."""
     if name == "rough disc":
-        return rough_problem(hurst, elements, levels, root)
+        return rough_problem(hurst, elements, levels, root, region)
     return body_problem(name, BODIES[name], elements, levels)

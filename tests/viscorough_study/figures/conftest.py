@@ -4,11 +4,10 @@ import pandas as pd
 import pytest
 
 from support.figures import COMBINATIONS, ELEMENTS, HURST, X, case_of
-from support.study import LIMITS, pool_of
+from support.study import LIMITS, aggregate, pool_of
 from viscorough.contact.loading_path import indent
 from viscorough.mdr import reduce
 from viscorough.surfaces import self_affine_disc, self_affine_line
-from viscorough_study.ensembles import aggregate
 from viscorough_study.fit_table import COLUMNS, fit_rows
 from viscorough_study.pool import ensembles
 

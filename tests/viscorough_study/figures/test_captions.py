@@ -55,7 +55,7 @@ def drawn(discs, pooled, lines, scaling, combinations):
         "fig1_surfaces": Drawn(plot_surfaces([(h, heights, 1 / 9) for h in (0.1, 0.5, 0.9)]), {"Hurst exponent": 3}),
         "fig2_kinetics": Drawn(plot_kinetics(discs, combinations, scaling, SHOWN, fraction_min=0.95)),
         "fig3_master_curve": Drawn(plot_master_curve(pooled, lines, scaling, SHOWN, fraction_min=0.95)),
-        "fig4_exponent": Drawn(plot_exponent(scaling, SHOWN)),
+        "fig4_exponent": Drawn(plot_exponent(scaling, SHOWN, (0.4, 1.0))),
         "conventions": Drawn(plot_conventions(scaling, SHOWN), {"Hurst exponent": 2}),
         "prefactors": Drawn(plot_prefactors(prefactors(scaling), SHOWN)),
         "validation": Drawn(plot_validation(tables.validation_table()), {"quantity": 2}),

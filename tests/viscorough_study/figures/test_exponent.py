@@ -13,7 +13,7 @@ pytestmark = pytest.mark.filterwarnings("error")
 
 
 def test_exponent_draws_lines_discs_and_law(scaling):
-    figure = plot_exponent(scaling, SHOWN)
+    figure = plot_exponent(scaling, SHOWN, (0.4, 1.0))
     (axes,) = figure.axes
     solid = next(line for line in axes.lines if line.get_color() == "black")
     rows = fits(scaling, SHOWN, source="lines", case_group="base", rms_convention="line")
@@ -31,18 +31,18 @@ def test_exponent_draws_lines_discs_and_law(scaling):
 
 
 def test_exponent_leaves_out_what_has_no_region(scaling):
-    partial = plot_exponent(without_region(scaling, 0.4), SHOWN).axes[0]
-    whole = plot_exponent(scaling, SHOWN).axes[0]
+    partial = plot_exponent(without_region(scaling, 0.4), SHOWN, (0.4, 1.0)).axes[0]
+    whole = plot_exponent(scaling, SHOWN, (0.4, 1.0)).axes[0]
     (kept,) = markers(partial)
     assert kept.get_xdata().tolist() == [0.9]
     assert kept.get_marker() == markers(whole)[1].get_marker()  # as in the other figures
-    assert not markers(plot_exponent(scaling[scaling["source"] == "lines"], SHOWN).axes[0])
+    assert not markers(plot_exponent(scaling[scaling["source"] == "lines"], SHOWN, (0.4, 1.0)).axes[0])
 
 
 def test_an_interval_need_not_hold_its_value(scaling):
     """A bootstrap interval may not, and is drawn where it is."""
     scaling = scaling.assign(beta_low=scaling["beta"] + 0.1, beta_high=scaling["beta"] + 0.3)
-    axes = plot_exponent(scaling, SHOWN).axes[0]
+    axes = plot_exponent(scaling, SHOWN, (0.4, 1.0)).axes[0]
     ends = axes.containers[0].lines[2][0].get_segments()[0][:, 1]
     np.testing.assert_allclose(ends - markers(axes)[0].get_ydata(), [0.1, 0.3])
     assert markers(plot_conventions(scaling, SHOWN).axes[0])

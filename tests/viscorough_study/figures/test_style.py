@@ -28,7 +28,7 @@ def test_looks_of_a_hurst_exponent_do_not_depend_on_how_exponents_are_listed():
 def test_saved_files_are_reproducible(scaling, tmp_path, suffix):
     paths = [tmp_path / f"{name}.{suffix}" for name in "ab"]
     for path in paths:
-        save_figure(plot_exponent(scaling, SHOWN), path)
+        save_figure(plot_exponent(scaling, SHOWN, (0.4, 1.0)), path)
     first, second = (path.read_bytes() for path in paths)
     assert first == second
     assert first.startswith({"png": b"\x89PNG", "pdf": b"%PDF"}[suffix])

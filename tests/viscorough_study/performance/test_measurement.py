@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from support.study import LIMITS
 from viscorough.contact.loading_path import indent
 from viscorough.viscous.events import march_events
 from viscorough_study.performance import measurement, methods, problems
@@ -14,7 +15,7 @@ from viscorough_study.performance.pareto import pareto_front
 
 @pytest.fixture(scope="module")
 def problem():
-    return problems.rough_problem(0.7, 33, 6, 1)
+    return problems.rough_problem(0.7, 33, 6, 1, LIMITS)
 
 
 @pytest.fixture(scope="module")
@@ -84,7 +85,7 @@ def test_a_missing_velocity_counts_as_an_error_of_one(problem):
 
 
 def test_only_methods_that_apply_and_end_in_time_are_measured():
-    sphere = problems.named_problem("sphere", 17, 3, 1)
+    sphere = problems.named_problem("sphere", 17, 3)
     small = replace(methods.METHODS[1], values=(1e-3,), largest=16)
     rough = replace(methods.METHODS[1], values=(1e-3,), rough_only=True)
     kept = replace(methods.METHODS[1], name="kept", values=(1e-3,))
@@ -92,7 +93,7 @@ def test_only_methods_that_apply_and_end_in_time_are_measured():
 
 
 def test_sphere_has_the_exact_velocity():
-    sphere = problems.named_problem("sphere", 65, 5, 1)
+    sphere = problems.named_problem("sphere", 65, 5)
     curve = indent(sphere.indenter, tolerance=1e-6, depths=sphere.depth)
     np.testing.assert_allclose(curve.force / curve.stiffness, sphere.velocity, rtol=0.05)
 

@@ -2,6 +2,7 @@
 
 import pytest
 
+from support.study import LIMITS
 from viscorough.contact.options import SolverOptions
 from viscorough.errors import ConvergenceError
 from viscorough_study.performance import methods, problems
@@ -9,7 +10,7 @@ from viscorough_study.performance import methods, problems
 
 @pytest.fixture(scope="module")
 def problem():
-    return problems.rough_problem(0.7, 33, 6, 1)
+    return problems.rough_problem(0.7, 33, 6, 1, LIMITS)
 
 
 def test_convergence_error_passes_through(problem):

@@ -154,7 +154,7 @@ def test_another_solver_as_a_method_has_the_stiffness_by_differences(tmp_path):
         "         iterations=np.full((1, levels), 2), depth=request['depths'][None])\n"
     )
     method = methods.other_solver_method(other_solvers.OtherSolver("square", Path(sys.executable), adapter), 20)
-    problem = problems.named_problem("sphere", 9, 4, 1)
+    problem = problems.named_problem("sphere", 9, 4)
     answer = method.run(problem, 1e-4)
     np.testing.assert_allclose(answer.velocity, problem.depth / 2, rtol=1e-3)
     assert answer.steps == 16

@@ -19,7 +19,7 @@ REFUSED = {"negative for a while", "1e-14"}
 
 @pytest.fixture(scope="module")
 def table():
-    return failure_map(stress_cases(np.random.SeedSequence(3), 13, (9, 17)))
+    return failure_map(stress_cases(np.random.SeedSequence(3), 13, (9, 17), hurst_min=0.4))
 
 
 def cells(table, **wanted):

@@ -58,7 +58,12 @@ def command(*arguments):
 
 
 def environment(folder):
-    return os.environ | {"PYTHONPATH": str(folder / "src")}  # before the installed package
+    """The variables of this process, with the copy's packages before the installed ones.
+
+    Python may keep compiled sources: otherwise every job of a copy would compile them again.
+    """
+    kept = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+    return kept | {"PYTHONPATH": str(folder / "src")}
 
 
 def snakemake(folder, *arguments, fails=False):

@@ -1,4 +1,4 @@
-# Needs Python >= 3.11 and make. The environment is built in .venv from requirements.lock, anew only when that changes.
+# Needs Python >= 3.11 and make. The environment in .venv is built from requirements.lock, and again when that changes.
 PYTHON ?= python3
 CORES ?= 2
 UV ?= uv
@@ -10,21 +10,21 @@ SNAKEMAKE := $(BIN)/snakemake --cores $(CORES)
 
 help:
 	@echo "make reproduce   the default reproduction: figures, tables and validation in results/"
-	@echo "make paper       the same at the paper's full scale; what it costs, to results/costs.json"
-	@echo "make report      results/report.html, of what was made; SETTINGS=config/paper.yaml after make paper"
+	@echo "make paper       the same at the paper's full scale, and its cost in results/costs.json"
+	@echo "make report      results/report.html of the existing results; SETTINGS=config/paper.yaml after make paper"
 	@echo "make test        format, lint and every test"
-	@echo "make bench       what curves, lines and the whole reproduction cost, and their errors, to results/benchmarks.json"
-	@echo "make speed       every method by speed against accuracy, to results/figures/speed.png; 80 minutes"
-	@echo "make stability   where each method fails, and 12000 small indenters against a dense solution; two minutes"
+	@echo "make bench       cost and errors of curves and lines, and cost of the reproduction, in results/benchmarks.json"
+	@echo "make speed       speed against accuracy of every method, in results/figures/speed.png; 80 minutes"
+	@echo "make stability   where each method fails, and 12000 small indenters against dense solutions; two minutes"
 	@echo "make sizes       exponents on grids from 65 to 1025 elements across, and on lines"
 	@echo "make large       time and memory of a disc of up to 4097 elements across, 13 million in all"
 	@echo "make faults      faults planted in copies of the project, one at a time: how many do the tests catch?"
-	@echo "make seeds       the reproduction with three root seeds: does any verdict move?"
+	@echo "make seeds       the reproduction with three root seeds: does any verdict change?"
 	@echo "make publish     verdicts and calibrated numbers from results/ into README.md and the package, after make paper"
-	@echo "make chaos       a reproduction killed 50 times; its tables compared with an undisturbed one"
-	@echo "make test-slurm  the workflow through a Slurm of this machine's own, undisturbed and disturbed; Debian, as root"
-	@echo "make peers       the other solvers that make speed compares with, in environments of their own"
-	@echo "make lock        requirements.lock anew from pyproject.toml; needs uv, as do lock-peers and lock-slurm"
+	@echo "make chaos       a small reproduction killed 50 times, its results compared with those of an undisturbed run"
+	@echo "make test-slurm  the workflow through a Slurm cluster on this machine, undisturbed and disturbed; Debian, as root"
+	@echo "make peers       install the other solvers that make speed compares with, in separate environments"
+	@echo "make lock        renew requirements.lock from pyproject.toml; needs uv, as do lock-peers and lock-slurm"
 	@echo "make clean       remove results and caches, keep the environment"
 	@echo "CORES=$(CORES) and PYTHON=$(PYTHON) may be set."
 
@@ -53,7 +53,7 @@ reproduce: environment
 paper: environment
 	$(BIN)/python benchmarks/costs.py --output results/costs.json -- $(SNAKEMAKE) --configfile config/paper.yaml -- all costs
 
-# Of the targets that are not part of `all`, those that were made.
+# Includes the targets beside `all` that were made.
 report: environment
 	$(SNAKEMAKE) --report results/report.html $(if $(SETTINGS),--configfile $(SETTINGS)) -- all \
 		$(if $(wildcard results/tables/rule_costs.csv),costs) $(if $(wildcard results/figures/failure_map.png),stability) \
@@ -65,6 +65,7 @@ test: environment
 	$(BIN)/snakefmt --check .
 	$(BIN)/lint-imports
 	$(BIN)/snakemake --lint
+	$(BIN)/python -m viscorough_study.kernels
 	$(BIN)/python -m pytest -n $(CORES) --dist worksteal
 
 bench: environment
@@ -104,7 +105,7 @@ lock:
 	$(UV) pip compile pyproject.toml --extra build --extra study --extra test --universal --python-version 3.11 \
 		--generate-hashes --no-header --no-annotate --output-file requirements.lock
 
-# Only what requirements.lock has not, in versions that go with it.
+# Only packages that are not in requirements.lock, in versions that are compatible with it.
 lock-slurm:
 	$(UV) pip compile --quiet pyproject.toml --extra slurm --constraints requirements.lock --universal \
 		--python-version 3.11 --generate-hashes --no-header --no-annotate --output-file requirements-slurm.lock \

@@ -20,11 +20,16 @@ TARGETS |= {f"figure_{number}" for number in range(1, 5)}
 
 
 def copy_project(folder):
-    """A copy of everything that the workflow reads, so that tests can run, edit and break it."""
-    for name in ("workflow", "config", "profiles", "resources", "src"):
-        shutil.copytree(ROOT / name, folder / name)  # with numba's caches beside the modules
+    """A copy of the workflow, so that tests can run, edit and break it; it uses the packages of this project."""
+    for name in ("workflow", "config", "profiles", "resources"):
+        shutil.copytree(ROOT / name, folder / name)
     shutil.copy(ROOT / "Snakefile", folder)
     return folder
+
+
+def copy_sources(folder):
+    """Add a copy of the packages, so that tests can edit them."""
+    shutil.copytree(ROOT / "src", folder / "src", ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
 
 
 @contextmanager
@@ -58,12 +63,12 @@ def command(*arguments):
 
 
 def environment(folder):
-    """The variables of this process, with the copy's packages before the installed ones.
+    """The variables of this process, with the packages of the copy, if it has any, before the installed ones.
 
     Python may keep compiled sources: otherwise every job of a copy would compile them again.
     """
     kept = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
-    return kept | {"PYTHONPATH": str(folder / "src")}
+    return kept | {"PYTHONPATH": str((folder if (folder / "src").is_dir() else ROOT) / "src")}
 
 
 def snakemake(folder, *arguments, fails=False):

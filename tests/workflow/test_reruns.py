@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from support.workflow import TEST, jobs, plan, settings_file, snakemake
+from support.workflow import TEST, copy_sources, jobs, plan, settings_file, snakemake
 
 FITS = {"fit_scaling", "judge_claims", "compare_prefactors", "tabulate_calibration"}
 AFTER_FITS = {"plot_kinetics", "plot_master_curve", "plot_exponent", "plot_conventions", "plot_prefactors"}
@@ -19,6 +19,13 @@ def edit(path, change):
     text = path.read_text()
     assert change(text) != text, path
     path.write_text(change(text))
+
+
+@pytest.fixture
+def editable(finished):
+    """The finished project with its own copy of the packages."""
+    copy_sources(finished)
+    return finished
 
 
 def reworded(text):
@@ -78,16 +85,16 @@ def test_more_realizations_keep_those_that_are_there(finished):
     assert "indent_lines" not in planned
 
 
-def test_reworded_docstrings_and_comments_rerun_nothing(finished):
+def test_reworded_docstrings_and_comments_rerun_nothing(editable):
     """In every module of both packages, in every script and in the rules."""
-    files = [path for folder in ("src", "workflow/scripts") for path in (finished / folder).rglob("*.py")]
+    files = [path for folder in ("src", "workflow/scripts") for path in (editable / folder).rglob("*.py")]
     assert len(files) > 80
-    rules = sorted((finished / "workflow/rules").glob("*.smk"))
+    rules = sorted((editable / "workflow/rules").glob("*.smk"))
     for path in files:
         edit(path, reworded)
     for path in rules:
         edit(path, lambda text: f"# a comment\n{text}")
-    assert plan(finished, *TEST) == {}
+    assert plan(editable, *TEST) == {}
 
 
 @pytest.mark.parametrize(
@@ -118,9 +125,9 @@ def test_reworded_docstrings_and_comments_rerun_nothing(finished):
     ],
     ids=lambda value: value if isinstance(value, str) and value.endswith(".py") else "",
 )
-def test_a_changed_line_reruns_exactly_what_uses_it(finished, module, line, rerun):
+def test_a_changed_line_reruns_exactly_what_uses_it(editable, module, line, rerun):
     """The line is changed inside the definition that begins so."""
-    path = finished / "src" / module
+    path = editable / "src" / module
     assert path.read_text().count(f"\n{line}") == 1
 
     def change(text):
@@ -133,13 +140,13 @@ def test_a_changed_line_reruns_exactly_what_uses_it(finished, module, line, reru
         return "".join(lines)
 
     edit(path, change)
-    assert set(plan(finished, *TEST)) == rerun
+    assert set(plan(editable, *TEST)) == rerun
 
 
-def test_a_changed_script_reruns_its_rule_and_what_depends_on_it(finished):
-    script = finished / "workflow/scripts/compare_direct.py"
+def test_a_changed_script_reruns_its_rule_and_what_depends_on_it(editable):
+    script = editable / "workflow/scripts/compare_direct.py"
     edit(script, lambda text: text.replace("Direct integration and", "Integration and"))
-    assert set(plan(finished, *TEST)) == {"compare_direct", "plot_direct", "judge_claims"}
+    assert set(plan(editable, *TEST)) == {"compare_direct", "plot_direct", "judge_claims"}
 
 
 def test_forcing_one_rule(finished):

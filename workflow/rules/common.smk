@@ -141,19 +141,14 @@ def add_source_digests(rules):
 
 
 def compile_kernels():
-    """Fill numba's cache once before any job, because many processes that compile into it at once can crash.
+    """Fill numba's cache once before any job.
 
     Not a rule: an output that many jobs need would rerun them all when it is made again, and as an `ancient` input it
     hides changes of their parameters from Snakemake.
     """
     stamp = Path(".snakemake") / "kernels"
-    digest = f"{SOURCES.digest(script_of('indent_discs'))} {SOURCES.digest(script_of('indent_lines'))}"
+    digest = SOURCES.digest(Path(importlib.util.find_spec("viscorough_study.kernels").origin))
     if stamp.is_file() and stamp.read_text() == digest:
         return
-    code = (
-        "from viscorough import mdr, surfaces; from viscorough.contact import loading_path;"
-        "loading_path.indent(surfaces.self_affine_disc(0.6, 65, seed=0));"
-        "[mdr.reduce(surfaces.self_affine_line(0.6, 256, seed=0, dtype=dtype)) for dtype in ('f4', 'f8')]"
-    )
-    subprocess.run([sys.executable, "-c", code], check=True)
+    subprocess.run([sys.executable, "-m", "viscorough_study.kernels"], check=True)
     stamp.write_text(digest)

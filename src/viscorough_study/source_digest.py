@@ -10,7 +10,7 @@ Some statements of a module always count if anything of the module is used: deco
 can register what it decorates, and every statement other than an import, a definition or an assignment to names,
 because it runs for its effect. If a use cannot be followed, as with `from module import *` or a module that is passed
 on as an object, the whole module counts. What is reached only through names computed at run time, such as getattr or
-importlib, is not seen, except for the names that viscorough/__init__.py imports on first use (its table `_MODULE_OF`).
+importlib, is not seen, except for the names that viscorough/__init__.py imports on first use (`LAZY_IMPORTS`).
 """
 
 import ast
@@ -19,6 +19,7 @@ from functools import cached_property
 from pathlib import Path
 
 PACKAGES = ("viscorough", "viscorough_study")
+LAZY_IMPORTS = "_MODULE_OF"  # table of a package: {name that it imports on first use: module of the package}
 EVERYTHING = "*"  # stands for every name of a module
 EFFECTS = ""  # stands for the statements of a module that always count
 
@@ -85,11 +86,13 @@ class SourceDigests:
                 yield place.with_suffix(".py"), (parts[number + 1] if number + 1 < len(parts) else EVERYTHING)
                 return
             if not place.is_dir():  # a name in the __init__ of the package
-                homes = self._module(package).lazy_imports
-                if part in homes:
-                    yield from self._locate([*parts[:number], *homes[part].split("."), *parts[number:]])
-                else:
+                module = self._module(package)
+                if part in module.lazy_imports:
+                    yield from self._locate([*parts[:number], *module.lazy_imports[part].split("."), *parts[number:]])
+                elif part in module.definitions or part in module.imports or "__getattr__" not in module.definitions:
                     yield package, part
+                else:
+                    raise ValueError(f"{package}: no table {LAZY_IMPORTS} says where {part} comes from")
                 return
             if (place / "__init__.py").is_file():
                 yield place / "__init__.py", (EFFECTS if number + 1 < len(parts) else EVERYTHING)
@@ -126,7 +129,7 @@ class _Module:
     @property
     def lazy_imports(self):
         """{name: module of the package that holds it} of a package that imports its names on first use."""
-        for statement in self.definitions.get("_MODULE_OF", ()):
+        for statement in self.definitions.get(LAZY_IMPORTS, ()):
             return ast.literal_eval(statement.node.value)
         return {}
 

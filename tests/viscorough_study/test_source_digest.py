@@ -9,10 +9,10 @@ from viscorough_study.source_digest import SourceDigests
 
 FILES = {
     "src/viscorough/__init__.py": """
-        _HOME = {"solve": "deep.solver"}
+        _MODULE_OF = {"solve": "deep.solver"}
 
         def __getattr__(name):
-            return getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
+            return getattr(import_module(f"{__name__}.{_MODULE_OF[name]}"), name)
         """,
     "src/viscorough/deep/__init__.py": "",
     "src/viscorough/deep/solver.py": '''
@@ -135,6 +135,19 @@ def test_relative_imports_are_refused(project):
     (project / "src/viscorough/deep/parts.py").write_text("from . import solver\n")
     with pytest.raises(ValueError, match="relative imports are not followed"):
         digests(project)
+
+
+def test_a_name_from_an_unknown_place_is_an_error(project):
+    (project / "scripts/lazy.py").write_text("from viscorough import other\n\ndef main():\n    return other(1)\n")
+    with pytest.raises(ValueError, match="says where other comes from"):
+        digests(project)
+
+
+def test_lazy_imports_of_the_library(tmp_path):
+    (tmp_path / "lines.py").write_text("from viscorough import reduce\n\ndef main():\n    return reduce(1)\n")
+    names = SourceDigests(ROOT / "src").used_names(tmp_path / "lines.py")
+    assert "reduce" in names[ROOT / "src/viscorough/mdr.py"]
+    assert not any(path.is_relative_to(ROOT / "src/viscorough/contact") for path in names)
 
 
 def used(script):

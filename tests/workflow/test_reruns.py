@@ -6,7 +6,8 @@ import re
 
 import pytest
 
-from support.workflow import TEST, copy_sources, jobs, plan, settings_file, snakemake
+from support.workflow import SCRIPTS, TEST, copy_sources, jobs, plan, settings_file, snakemake
+from viscorough_study.source_digest import SourceDigests
 
 FITS = {"fit_scaling", "judge_claims", "compare_prefactors", "tabulate_calibration"}
 AFTER_FITS = {"plot_kinetics", "plot_master_curve", "plot_exponent", "plot_conventions", "plot_prefactors"}
@@ -41,6 +42,15 @@ def reworded(text):
     return "# a comment\n\n" + "".join(lines) + "# another\n"
 
 
+def with_another_statement(text):
+    """The same module with another statement at the end of every function."""
+    tree = ast.parse(text)
+    for node in ast.walk(tree):
+        if isinstance(node, ast.FunctionDef):
+            node.body.append(ast.Pass())
+    return ast.unparse(tree)
+
+
 @pytest.mark.parametrize(
     ("changed", "rerun"),
     [
@@ -57,8 +67,10 @@ def reworded(text):
             {"surface": {"period": 1.5}},  # not of the variant that has its own period, nor of lines
             FITS_AND_FIGURES | {"indent_discs", "pool_curves", "generate_example_discs", "plot_surfaces"},
         ),
-        ({"direct": {"elements": 31}}, {"compare_direct", "plot_direct", "judge_claims"}),
-        ({"reduction": {"per_decade": 5}}, {"compare_reduction", "plot_reduction"}),
+        (
+            {"direct": {"elements": 31}, "reduction": {"per_decade": 5}},
+            {"compare_direct", "plot_direct", "judge_claims", "compare_reduction", "plot_reduction"},
+        ),
     ],
     ids=lambda value: next(iter(value)) if isinstance(value, dict) else "",
 )
@@ -97,50 +109,49 @@ def test_reworded_docstrings_and_comments_rerun_nothing(editable):
     assert plan(editable, *TEST) == {}
 
 
+def test_a_changed_line_of_the_column_convolution_reruns_what_uses_boundary_elements(editable):
+    """And what depends on it, but neither lines nor example discs."""
+    edit(editable / "src/viscorough/contact/column_fft.py", with_another_statement)
+    after = {"pool_curves", "plot_direct", "plot_reduction", "check_validation", "plot_validation"}
+    assert set(plan(editable, *TEST)) == BOUNDARY_ELEMENTS | FITS_AND_FIGURES | after
+
+
 @pytest.mark.parametrize(
-    ("module", "line", "rerun"),
+    ("module", "scripts"),
     [
-        ("viscorough_study/power_law.py", "def find_region", FITS_AND_FIGURES),
-        (
-            "viscorough_study/validate_solvers.py",
-            "COLUMNS = {",
-            {"validate", "check_validation", "plot_validation", "judge_claims"},
-        ),
+        ("viscorough_study/power_law.py", {"fit_scaling", "fit_sizes", "judge_claims"}),
+        ("viscorough_study/validate_solvers.py", {"validate", "check_validation"}),
         (
             "viscorough/mdr.py",
-            "def reduce",
-            FITS_AND_FIGURES
-            | {"indent_lines", "pool_curves", "compare_reduction", "plot_reduction"}
-            | {"validate", "check_validation", "plot_validation"},
+            {
+                "indent_lines",
+                "compare_reduction",
+                "validate",
+                "map_failures",
+                "measure_failure_curves",
+                "measure_methods",
+            },
         ),
         (
-            "viscorough/contact/column_fft.py",
-            "class Columns",
-            FITS_AND_FIGURES
-            | BOUNDARY_ELEMENTS
-            | {"pool_curves", "plot_direct", "plot_reduction", "check_validation", "plot_validation"},
+            "viscorough_study/performance/timing.py",
+            {"measure_methods", "time_other_solvers", "compare_level_placement", "measure_large"}
+            | {"tabulate_methods", "tabulate_rule_costs"},
         ),
-        ("viscorough_study/performance/timing.py", "def interleaved", set()),
-        ("viscorough_study/figures/exponent.py", "def plot_exponent", {"plot_exponent"}),
+        ("viscorough_study/figures/exponent.py", {"plot_exponent"}),
     ],
-    ids=lambda value: value if isinstance(value, str) and value.endswith(".py") else "",
 )
-def test_a_changed_line_reruns_exactly_what_uses_it(editable, module, line, rerun):
-    """The line is changed inside the definition that begins so."""
-    path = editable / "src" / module
-    assert path.read_text().count(f"\n{line}") == 1
+def test_a_changed_module_concerns_exactly_the_scripts_that_use_it(tmp_path, module, scripts):
+    """A statement is added to every function of the module."""
+    copy_sources(tmp_path)
 
-    def change(text):
-        if line.startswith("COLUMNS"):
-            return text.replace(f"\n{line}", f'\n{line}"another": ("column", "1"),')
-        start = next(node for node in ast.parse(text).body if getattr(node, "name", "") == line.split()[1])
-        lines = text.splitlines(keepends=True)
-        first = start.body[1]
-        lines.insert(first.lineno - 1, " " * first.col_offset + "another_line = 1\n")
-        return "".join(lines)
+    def digests():
+        sources = SourceDigests(tmp_path / "src")
+        return {path.stem: sources.digest(path) for path in SCRIPTS.glob("*.py")}
 
-    edit(path, change)
-    assert set(plan(editable, *TEST)) == rerun
+    before = digests()
+    edit(tmp_path / "src" / module, with_another_statement)
+    after = digests()
+    assert {script for script in before if before[script] != after[script]} == scripts
 
 
 def test_a_changed_script_reruns_its_rule_and_what_depends_on_it(editable):

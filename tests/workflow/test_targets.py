@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 import xarray as xr
 
-from support.workflow import TEST, copy_project, plan, settings_file, snakemake
+from support.workflow import TEST, copy_project, jobs, plan, settings_file, snakemake
 from viscorough.surfaces import cut_disc
 
 
@@ -15,7 +15,7 @@ def fresh(tmp_path):
     return copy_project(tmp_path)
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def default_plan(unmade):
     return plan(unmade, *TEST)
 
@@ -46,9 +46,8 @@ def test_one_figure_needs_only_its_own(unmade):
 def test_stability(fresh, default_plan):
     """From scripts to figures, on the smallest maps."""
     rules = ("map_failures", "measure_failure_curves", "plot_failure_map", "plot_failure_curves")
-    assert plan(fresh, *TEST, "--", "stability") == dict.fromkeys(rules, 1)
     assert not set(rules) & set(default_plan)
-    snakemake(fresh, *TEST, "--", "stability")
+    assert jobs(snakemake(fresh, *TEST, "--", "stability")) == dict.fromkeys(rules, 1)
     assert drawn(fresh, "failure_map", "failure_curves")
     table = pd.read_csv(fresh / "results/tables/failure_map.csv")
     with xr.open_dataset(fresh / "results/tables/failure_map.nc") as nc:
@@ -58,10 +57,9 @@ def test_stability(fresh, default_plan):
 
 def test_sizes_and_large_discs(fresh, default_plan):
     """Ensembles on their own grids, fitted and plotted; cost of one disc."""
-    planned = plan(fresh, *TEST, "--", "sizes", "large")
+    planned = jobs(snakemake(fresh, *TEST, "--", "sizes", "large"))
     assert planned["indent_discs"] == 2 * planned["indent_lines"] == 2 * planned["measure_large"] == 4
     assert not set(planned) & {"fit_sizes", "plot_sizes", "measure_large"} & set(default_plan)
-    snakemake(fresh, *TEST, "--", "sizes", "large")
     sizes = pd.read_csv(fresh / "results/tables/sizes.csv")
     discs = sizes[(sizes["source"] == "discs") & (sizes["case_group"] == "sizes")]
     assert set(sizes.loc[sizes["case_group"] == "controls", "elements"]) == set(discs["elements"])
@@ -78,20 +76,16 @@ def disc_elements(across):
     return np.isfinite(cut_disc(np.zeros((across, across)), across)).sum()
 
 
-def test_speed_is_a_target_of_its_own(unmade, default_plan):
-    planned = plan(unmade, *TEST, "--", "speed")
-    assert planned.pop("measure_methods") == 3  # sphere, cone, one rough disc
-    tables = {"tabulate_methods", "time_other_solvers", "compare_level_placement"}
-    figures = {"plot_speed", "plot_growth", "plot_other_solvers", "plot_level_placement"}
-    assert planned == dict.fromkeys(tables | figures, 1)
-    assert not set(planned) & set(default_plan)
-
-
-def test_speed_without_other_solvers(fresh):
+def test_speed_without_other_solvers(fresh, default_plan):
     """Placement of levels and tables of few methods, from their scripts to the figures."""
     tasks = [{"name": "few", "elements": 17, "levels": 3, "fractions": [0.02, 0.5], "residual": 1e-6, "threads": [1]}]
     few = {"elements": [9], "bodies_elements": [9], "tasks": tasks, "scenes": {"elements": 17, "hurst": 0.7}}
-    snakemake(fresh, *TEST, settings_file(fresh, "few", methods=few), "--", "speed")
+    planned = jobs(snakemake(fresh, *TEST, settings_file(fresh, "few", methods=few), "--", "speed"))
+    assert not set(planned) & set(default_plan)
+    assert planned.pop("measure_methods") == 3  # sphere, cone, one rough disc
+    tables = {"tabulate_methods", "time_other_solvers", "compare_level_placement"}
+    plots = {"plot_speed", "plot_growth", "plot_other_solvers", "plot_level_placement"}
+    assert planned == dict.fromkeys(tables | plots, 1)
     assert drawn(fresh, "speed", "growth", "other_solvers", "level_placement")
     methods = pd.read_csv(fresh / "results/tables/methods.csv")
     assert set(methods["problem"]) == {"sphere", "cone", "rough disc, H = 0.4"}

@@ -27,7 +27,7 @@ MEASURED = "contains times and memory measured on a machine"
 
 @dataclass(frozen=True)
 class Changed:
-    """How a table of OLD is found in NEW.
+    """How a table of OLD differs from that in NEW.
 
     name : of its file in NEW; derive : function that gives the table of OLD from that of NEW, with its reason
     reworded : {column whose text is new: reason}; unlike : reason why the table is not compared at all

@@ -51,10 +51,10 @@ def main(seeds, cores, settings, output):
         click.echo(f"seed {seed}: {time.perf_counter() - start:.0f} s")
     verdicts = {seed: overall(table) for seed, table in tables.items()}
     moved = changing(verdicts)
-    about = {"machine": timing.machine(), "seconds": round(time.perf_counter() - start, 1)}
+    cost = {"machine": timing.machine(), "seconds": round(time.perf_counter() - start, 1)}
     output.parent.mkdir(parents=True, exist_ok=True)
     pd.concat(tables, names=["seed"]).droplevel(1).to_csv(output.with_suffix(".csv"))
-    output.write_text(json.dumps(about | {"moved": moved, "verdicts": verdicts}, indent=1) + "\n", encoding="utf-8")
+    output.write_text(json.dumps(cost | {"moved": moved, "verdicts": verdicts}, indent=1) + "\n", encoding="utf-8")
     for claim, outcomes in moved.items():
         click.echo(f"{claim}: {', '.join(outcomes)}")
     click.echo(f"{len(moved)} of {len(verdicts[1])} verdicts change with the seed; written to {output}")

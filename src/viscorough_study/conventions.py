@@ -82,7 +82,7 @@ def in_reading(fits, *, gamma, diameter_convention):
 
 
 def in_every_reading(fits):
-    """Fits in all readings of the law, one row each, the readings of a fit below each other."""
+    """Fits in all readings of the law, with the readings of one fit in consecutive rows."""
     parts = [in_reading(fits, **reading) for reading in readings()]
     return pd.concat(parts).sort_index(kind="stable").reset_index(drop=True)
 
@@ -98,12 +98,13 @@ def select(table, wanted):
     return in_reading(table, **{name: wanted[name] for name in READINGS}).sort_values("hurst", kind="stable")
 
 
-def fits(table, shown, **wanted):
-    """Rows of a table of fits in the conventions shown, replaced or added to by those wanted; by ascending H.
+def fits(table, conventions, **wanted):
+    """Rows of a table of fits in these conventions and with these values, by ascending H.
 
+    conventions, wanted : {column or convention: value}; those wanted replace conventions of the same name
     Rows without a region (b), which have no exponent, are left out.
     """
-    return select(table, shown | wanted).dropna(subset="beta")
+    return select(table, conventions | wanted).dropna(subset="beta")
 
 
 def of_source(source):

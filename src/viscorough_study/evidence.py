@@ -22,7 +22,7 @@ class Evidence:
 
     discs : pool of the base discs (viscorough_study.pool)
     scaling, validation, direct : the tables of these names
-    numbers : content of resources/paper/numbers.yaml; shown : conventions of the figures, {convention: value}
+    numbers : content of resources/paper/numbers.yaml; conventions : those of the figures, {convention: value}
     across : elements across a disc; limits : arguments of viscorough_study.power_law.find_region
     rules : interval_ratio_max, decades_min and end_decades, as the settings in section `verdicts`
     resamples, seed : of bootstraps
@@ -33,7 +33,7 @@ class Evidence:
     validation: pd.DataFrame
     direct: pd.DataFrame
     numbers: dict
-    shown: dict
+    conventions: dict
     across: int
     limits: dict
     rules: dict
@@ -42,19 +42,19 @@ class Evidence:
 
     @cached_property
     def pooled(self):
-        """{H: all discs of this Hurst exponent as one ensemble, in the rms convention shown}, by ascending H."""
-        ensembles = sorted(pool.ensembles(self._discs_shown, "hurst").items())
+        """{H: all discs of this exponent as one ensemble, in the rms convention of the figures}, by ascending H."""
+        ensembles = sorted(pool.ensembles(self._discs, "hurst").items())
         return {hurst: ensemble.isel(rms_convention=0) for hurst, ensemble in ensembles}
 
     @cached_property
     def combinations(self):
-        """{H: ensembles of the combinations of force, viscosity, size and rms height, in the rms convention shown}."""
-        by_case = {hurst: pool.ensembles(pool.select(self._discs_shown, hurst=hurst), "case") for hurst in self.pooled}
+        """{H: ensemble of every combination of force, viscosity, size and rms height}, otherwise as `pooled`."""
+        by_case = {hurst: pool.ensembles(pool.select(self._discs, hurst=hurst), "case") for hurst in self.pooled}
         return {hurst: [one.isel(rms_convention=0) for one in cases.values()] for hurst, cases in by_case.items()}
 
     @property
-    def _discs_shown(self):
-        return self.discs.sel(rms_convention=[self.shown["rms_convention"]])
+    def _discs(self):
+        return self.discs.sel(rms_convention=[self.conventions["rms_convention"]])
 
     @cached_property
     def regions(self):
@@ -67,9 +67,12 @@ class Evidence:
         except ValueError:
             return None
 
-    def fits(self, source, **conventions):
-        """Base fits of "discs" or "lines", a row for each Hurst exponent, in the conventions shown or those given."""
-        wanted = self.shown | conventions | of_source(source) | {"case_group": "base"}
+    def fits(self, source, **wanted):
+        """Base fits of "discs" or "lines", a row for each Hurst exponent, in the conventions of the figures.
+
+        wanted : conventions in place of those of the figures
+        """
+        wanted = self.conventions | wanted | of_source(source) | {"case_group": "base"}
         return select(self.scaling, wanted).set_index("hurst")
 
     def said(self, section, name):
@@ -92,7 +95,7 @@ class Case:
 
     name : Hurst exponent or part that the case is about; expected : what the paper says, nan if it is not a number
     value, low, high : the quantity and its 95 % interval, or its least and largest value
-    convention : under which the claim holds where it does not under those shown
+    convention : in which the claim holds where it does not in those of the figures
     """
 
     name: str
@@ -108,7 +111,7 @@ def judged(name, values, expected, met, convention=""):
     """Case with its verdict.
 
     values : value, low, high; met : whether the criterion is met, None where that cannot be said
-    convention : under which it is met where it is not under those shown, if any
+    convention : in which it is met where it is not in those of the figures, if any
     """
     if met is None or not np.isfinite(values[0]):
         return Case(name, *values, expected, "not testable")

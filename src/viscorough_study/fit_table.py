@@ -63,13 +63,13 @@ def fit_rows(ensemble, *, source, case_group, lines=None, resamples, seed, **lim
     rows = []
     for rms_convention in ensemble["rms_convention"].values.tolist():
         one = ensemble.sel(rms_convention=rms_convention)
-        about = {"source": source, "case_group": case_group, "hurst": ensemble["hurst"].item()}
-        about |= {"rms_convention": rms_convention, "realizations": one.sizes["realization"]}
+        ensemble_columns = {"source": source, "case_group": case_group, "hurst": ensemble["hurst"].item()}
+        ensemble_columns |= {"rms_convention": rms_convention, "realizations": one.sizes["realization"]}
         for average, (rule, window) in product(FITTED["average"], named_windows(one, **limits).items()):
             fitted = {}
             if window is not None:
                 fitted = _fit(one, lines, window, average=average, resamples=resamples, seed=seed)
-            row = {"decades": 0.0, **about, "average": average, "window_rule": rule, **fitted}
+            row = {"decades": 0.0, **ensemble_columns, "average": average, "window_rule": rule, **fitted}
             rows.append({name: row.get(name, np.nan) for name in COLUMNS})
     return rows
 
@@ -91,7 +91,7 @@ def _fit(ensemble, lines, window, **how):
     return columns
 
 
-def calibrated(table, shown):
-    """Fits of base discs and of lines in the conventions shown, with the columns of viscorough.calibrated_law."""
-    rows = [fits(table, shown | of_source(source), case_group="base") for source in ("discs", "lines")]
+def calibrated(table, conventions):
+    """Fits of base discs and of lines in these conventions, with the columns of viscorough.calibrated_law."""
+    rows = [fits(table, conventions | of_source(source), case_group="base") for source in ("discs", "lines")]
     return pd.concat(rows)[list(CALIBRATION)].sort_values(["source", "hurst"], ignore_index=True)

@@ -29,10 +29,10 @@ COLUMNS = {
 ERROR_MIN = 1e-12  # of an exponent, so that equal curves have a finite weight
 
 
-def trends(table, shown, tolerance):
+def trends(table, conventions, tolerance):
     """Trend of β over the logarithm of the number of elements, for every source and Hurst exponent.
 
-    table : of workflow/scripts/fit_sizes.py; shown : conventions, {convention: value}
+    table : of workflow/scripts/fit_sizes.py; conventions : {convention: value}
     tolerance : of β, that of the claims on β in resources/paper/claims.yaml
 
     The trend is a line by least squares, weighted by the intervals of β, and its own interval is widened where β
@@ -44,7 +44,7 @@ def trends(table, shown, tolerance):
     for name in ("discs", "controls", "lines"):
         wanted = of_source("lines" if name == "lines" else "discs")
         wanted["case_group"] = "controls" if name == "controls" else "sizes"
-        for hurst, grids in fits(table, shown | wanted).groupby("hurst"):
+        for hurst, grids in fits(table, conventions | wanted).groupby("hurst"):
             expected = 0.0 if name == "controls" else exponent_beta(hurst)
             rows.append((name, hurst, *_trend(grids.sort_values("elements"), expected, tolerance)))
     return pd.DataFrame(rows, columns=list(COLUMNS))

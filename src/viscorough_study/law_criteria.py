@@ -1,7 +1,7 @@
 """Criteria of claims that fitted exponents and prefactors follow a law of the paper.
 
-Where a claim fails in the conventions shown but holds in others that the paper leaves open, the verdict says so, and
-names the conventions with the smallest deviation.
+Where a claim fails in the conventions of the figures but holds in others that the paper leaves open, the verdict says
+so, and names the conventions with the smallest deviation.
 """
 
 from functools import partial
@@ -74,8 +74,8 @@ def _in_words(conventions):
 def beta(evidence, tolerance, source="discs"):
     """β against H/(1 + H), at the Hurst exponents above which the paper says that it holds."""
     above = evidence.said("agreement", "beta_hurst_min")
-    about = {"source": source, "column": "beta", "law": reference.exponent_beta, "above": above}
-    return law_cases(evidence, tolerance, **about)
+    law = reference.exponent_beta
+    return law_cases(evidence, tolerance, source=source, column="beta", law=law, above=above)
 
 
 def beta_lines(evidence, tolerance):
@@ -122,14 +122,16 @@ def _nearest_to_coincidence(evidence, hursts, tolerance):
 
 def zeta_elastic(evidence, tolerance):
     """ζ against Eq. 4, which is a law of the elastic contact, without the factor."""
-    about = {"source": "discs", "column": "zeta", "law": reference.zeta_elastic, "gamma": "without"}
-    return law_cases(evidence, tolerance, relative=True, **about)
+    return _zeta(evidence, tolerance, law=reference.zeta_elastic, gamma="without")
 
 
 def zeta_viscous(evidence, tolerance):
     """ζ against Eq. 11, which the paper fitted with Eq. 9, which has the factor."""
-    about = {"source": "discs", "column": "zeta", "law": reference.zeta_viscous, "gamma": "with"}
-    return law_cases(evidence, tolerance, relative=True, **about)
+    return _zeta(evidence, tolerance, law=reference.zeta_viscous, gamma="with")
+
+
+def _zeta(evidence, tolerance, *, law, gamma):
+    return law_cases(evidence, tolerance, source="discs", column="zeta", law=law, relative=True, gamma=gamma)
 
 
 def depth(evidence, tolerance):
@@ -162,7 +164,7 @@ def _cases_at_centre(evidence, tolerance, ratio):
 
     ratio : function of H, ensemble, fit of region (b) and centre; returns the value and its 95 % interval
     """
-    bootstrap = {"average": evidence.shown["average"], "resamples": evidence.resamples, "seed": evidence.seed}
+    bootstrap = {"average": evidence.conventions["average"], "resamples": evidence.resamples, "seed": evidence.seed}
     cases = []
     for hurst, ensemble in evidence.pooled.items():
         window = evidence.regions[hurst]

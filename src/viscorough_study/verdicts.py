@@ -22,7 +22,7 @@ COLUMNS = {
     "expected": ("what the paper says", "1"),
     "tolerance": ("tolerance of the criterion", "1"),
     "verdict": ("one of: " + "; ".join(VERDICTS), ""),
-    "convention": ("convention under which the claim holds, where it does not under those shown", ""),
+    "convention": ("convention in which the claim holds, where it does not in those of the figures", ""),
     "criterion": ("when the claim counts as reproduced", ""),
     "figure": ("figure that shows it", ""),
 }
@@ -42,8 +42,10 @@ def judge(claims, evidence):
             raise ValueError(f"claim {name}: no criterion computes it; known are {', '.join(JUDGES)}")
         for case in JUDGES[name](evidence, claim["tolerance"]):
             case_name, value, low, high, expected, verdict, convention = astuple(case)
-            about = claim["tolerance"], verdict, convention, claim["criterion"], claim["figure"]
-            rows.append((name, claim["where"], case_name, value, low, high, expected, *about))
+            numbers = value, low, high, expected, claim["tolerance"]
+            rows.append(
+                (name, claim["where"], case_name, *numbers, verdict, convention, claim["criterion"], claim["figure"])
+            )
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 

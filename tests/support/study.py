@@ -82,7 +82,7 @@ def evidence(zeta=reference.zeta_elastic, **options):
         validation=validation,
         direct=compare_direct(HURST, 17, 25, 1),
         numbers=NUMBERS,
-        shown=SHOWN,
+        conventions=SHOWN,
         across=ACROSS,
         limits=LIMITS,
         rules=RULES,
@@ -91,7 +91,7 @@ def evidence(zeta=reference.zeta_elastic, **options):
 
 
 def fit_row(**columns):
-    """A row of the table of fits in the conventions shown, nan in the columns that are not given."""
+    """A row of the table of fits in the conventions SHOWN, nan in the columns that are not given."""
     return dict.fromkeys(COLUMNS, np.nan) | {name: SHOWN[name] for name in FITTED} | columns
 
 

@@ -86,7 +86,7 @@ rule judge_claims:
         claims=paper("claims"),
         numbers=paper("numbers"),
         rules=config["verdicts"],
-        shown=config["figures"],
+        conventions=config["figures"],
         across=config["discs"]["elements"],
         limits=region_limits(),
         resamples=config["scaling"]["resamples"],

@@ -54,7 +54,7 @@ rule tabulate_calibration:
     resources:
         mem_mb=1000,
     params:
-        shown=config["figures"],
+        conventions=config["figures"],
     message:
         "Calibrated exponents and prefactors"
     script:

@@ -34,7 +34,7 @@ rule fit_sizes:
         seed=config["seed"],
         fit=config["scaling"],
         tolerance=paper("claims")["beta"]["tolerance"],
-        shown=config["figures"],
+        conventions=config["figures"],
     message:
         "Exponents on grids from coarse to fine"
     script:

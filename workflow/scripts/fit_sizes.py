@@ -11,10 +11,10 @@ from viscorough_study.pool import ensembles, select
 from viscorough_study.tables import write_table
 
 
-def main(discs, lines, csv, nc, trends_csv, trends_nc, *, seed, fit, shown, tolerance):
+def main(discs, lines, csv, nc, trends_csv, trends_nc, *, seed, fit, conventions, tolerance):
     """Fit every ensemble by itself.
 
-    discs, lines : pools; fit : further arguments of fit_rows; shown : conventions of the figures
+    discs, lines : pools; fit : further arguments of fit_rows; conventions : those of the figures
     tolerance : of the exponents
     """
     discs, lines = read_dataset(discs), read_dataset(lines)
@@ -28,7 +28,7 @@ def main(discs, lines, csv, nc, trends_csv, trends_nc, *, seed, fit, shown, tole
     table = pd.DataFrame(rows, columns=list(columns))
     write_table(table, csv, nc, columns=columns, dimension="fit", title="Power laws on grids from coarse to fine")
     about = {"columns": TRENDS, "dimension": "trend", "title": "Trends of exponents over the number of elements"}
-    write_table(trends(table, shown, tolerance), trends_csv, trends_nc, **about)
+    write_table(trends(table, conventions, tolerance), trends_csv, trends_nc, **about)
 
 
 if job := globals().get("snakemake"):

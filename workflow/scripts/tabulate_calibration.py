@@ -8,9 +8,9 @@ from viscorough_study.job_log import log_to
 from viscorough_study.tables import write_table
 
 
-def main(scaling, csv, nc, *, shown):
-    """Take the rows under the conventions shown, {column of the table: value}, from the scaling table."""
-    table = calibrated(pd.read_csv(scaling), shown)
+def main(scaling, csv, nc, *, conventions):
+    """Take the rows in these conventions, {convention: value}, from the scaling table."""
+    table = calibrated(pd.read_csv(scaling), conventions)
     write_table(table, csv, nc, columns=COLUMNS, dimension="fit", title="Calibrated exponents and prefactors")
 
 

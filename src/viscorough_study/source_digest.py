@@ -91,6 +91,8 @@ class SourceDigests:
                     yield from self._locate([*parts[:number], *module.lazy_imports[part].split("."), *parts[number:]])
                 elif part in module.definitions or part in module.imports or "__getattr__" not in module.definitions:
                     yield package, part
+                elif part.startswith("__"):  # such as __version__, which no other module holds
+                    yield package, "__getattr__"
                 else:
                     raise ValueError(f"{package}: no table {LAZY_IMPORTS} says where {part} comes from")
                 return

@@ -91,7 +91,7 @@ def importers(file, source):
 
 
 def run_tests(tests, folder, time_limit):
-    """(exit code of pytest, None beyond the time limit; its last line; seconds) of tests of a copy of the project."""
+    """(exit code of pytest, None beyond the time limit; what it says; seconds) of tests of a copy of the project."""
     environment = os.environ | {"PYTHONPATH": str(folder / "src")}  # before the installed package
     command = [sys.executable, "-m", "pytest", "-q", "-x", "-W", "ignore", "-p", "no:cacheprovider", *tests]
     began = time.perf_counter()
@@ -102,7 +102,8 @@ def run_tests(tests, folder, time_limit):
     except subprocess.TimeoutExpired:
         return None, f"not finished within {time_limit:g} s", time_limit
     lines = [line for line in run.stdout.splitlines() if line.strip()] or run.stderr.splitlines() or [""]
-    return run.returncode, lines[-1], time.perf_counter() - began
+    failed = [line for line in lines if line.startswith(("FAILED", "ERROR"))]  # its summary
+    return run.returncode, (failed or lines)[-1], time.perf_counter() - began
 
 
 def prepare(folder, tests, time_limit):
@@ -114,9 +115,9 @@ def prepare(folder, tests, time_limit):
     imported = subprocess.run(where, cwd=folder, env=environment, capture_output=True, text=True, check=True).stdout
     if not Path(imported.strip()).resolve().is_relative_to(folder.resolve()):
         raise click.ClickException(f"the copy in {folder} would test the package in {imported.strip()}")
-    code, last, seconds = run_tests(tests, folder, time_limit)
+    code, said, seconds = run_tests(tests, folder, time_limit)
     if code != PASSED:
-        raise click.ClickException(f"tests fail without any fault: {last}")
+        raise click.ClickException(f"tests fail without any fault: {said}")
     return seconds
 
 
@@ -125,11 +126,11 @@ def outcome(fault, clean, folder, time_limit):
     shutil.copytree(clean, folder)
     try:
         plant(fault, folder)
-        code, last, seconds = run_tests(fault.tests, folder, time_limit)
+        code, said, seconds = run_tests(fault.tests, folder, time_limit)
     finally:
         shutil.rmtree(folder)
     verdict = {PASSED: "missed", FAILED: "caught", None: "not finished"}.get(code, "tests did not run")
-    about = {"name": fault.name, "verdict": verdict, "seconds": round(seconds, 1), "pytest": last}
+    about = {"name": fault.name, "verdict": verdict, "seconds": round(seconds, 1), "pytest": said}
     return about | {"file": fault.file, "why": fault.why}
 
 

@@ -4,7 +4,7 @@
 
 The file has the name of the machine and one key for each function below: operator_ms, column_ms, operator_rounding,
 memory_bytes, parts, line, curve. Times are medians of repeats in one run; the repeats of what is compared are
-interleaved. `--reproduction` also times the default workflow from nothing, in a folder of its own.
+interleaved. `--reproduction` also times the default workflow from nothing, in a temporary folder.
 """
 
 import argparse

@@ -101,7 +101,13 @@ def methods_table():
             ):
                 row = {"problem": problem, "hurst": hurst, "elements": elements, "method": method, "group": group}
                 row |= {"value": value, "wall_s": wall, "processor_s": wall, "error": error, "largest_error": error}
-                row |= {"error_b": error / 2, "operator_applications": elements, "steps": 1, "memory": 1, "knob": ""}
+                row |= {
+                    "error_b": error / 2,
+                    "operator_applications": elements,
+                    "steps": 1,
+                    "memory": 1,
+                    "parameter": "",
+                }
                 rows.append(row)
     return pd.DataFrame(rows)[list(measurement.COLUMNS)]
 

@@ -21,7 +21,7 @@ COLUMNS = {
     "elements": ("elements across the indenter", "1"),
     "method": ("method", ""),
     "group": ("group of the method", ""),
-    "knob": ("parameter of the method that trades accuracy for cost", ""),
+    "parameter": ("parameter of the method that trades accuracy for cost", ""),
     "value": ("value of that parameter", "1"),
     "wall_s": ("wall time, median of interleaved repeats", "s"),
     "processor_s": ("processor time, median of interleaved repeats", "s"),
@@ -35,7 +35,7 @@ COLUMNS = {
 
 
 def measure(problem, repeats, methods=METHODS, report=lambda text: None):
-    """Cost and error of every method that can solve a problem, at every value of its knob.
+    """Cost and error of every method that can solve a problem, at every value of its parameter.
 
     repeats : number of interleaved repeats after the first run, which gives errors and memory, and the time of whatever
         takes longer than MAX_REPEATED
@@ -48,7 +48,7 @@ def measure(problem, repeats, methods=METHODS, report=lambda text: None):
         if problem.elements_across > method.largest or (method.rough_only and problem.hurst is None):
             continue
         for value in method.values if problem.elements_across <= LARGEST_COMPARED else method.growth:
-            report(f"{problem.name}: {method.name}, {method.knob} {value:g}")
+            report(f"{problem.name}: {method.name}, {method.parameter} {value:g}")
             function = partial(method.run, problem, value)
             (answer, memory), *seconds = timing.timed(partial(timing.with_memory, function))
             seconds = answer.seconds or seconds
@@ -72,7 +72,7 @@ def errors_and_costs(problem, method, value, answer, memory):
         "elements": problem.elements_across,
         "method": method.name,
         "group": method.group,
-        "knob": method.knob,
+        "parameter": method.parameter,
         "value": float(value),
         "error": np.sqrt(np.mean(deviation**2)),
         "error_b": np.sqrt(np.mean(deviation[problem.region_b] ** 2)) if problem.region_b.any() else np.nan,

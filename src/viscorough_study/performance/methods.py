@@ -1,7 +1,7 @@
 """Every method for the velocity of penetration.
 
-A method solves a Problem: it gives the velocities vt = (F/G)/(k/G) at the problem's levels. Each has a knob, a
-parameter that trades accuracy for cost. `measurement` measures both.
+A method solves a Problem: it gives the velocities vt = (F/G)/(k/G) at the problem's levels. Each has a parameter that
+trades accuracy for cost; `measurement` measures both.
 """
 
 from collections.abc import Callable
@@ -36,16 +36,16 @@ class Answer:
 
 @dataclass(frozen=True)
 class Method:
-    """`run(problem, value)` returns an Answer; `values` are those of the knob, from coarse to fine.
+    """`run(problem, value)` returns an Answer; `values` are those of its parameter, from coarse to fine.
 
     group : methods drawn alike in the figures; largest : elements across the indenter up to which it is measured
     rough_only : whether it applies to rough discs only
-    growth : values of the knob for indenters too large to compare errors on
+    growth : values of the parameter for indenters too large to compare errors on
     """
 
     name: str
     group: str
-    knob: str
+    parameter: str
     values: tuple
     run: Callable
     largest: int = 4097
@@ -127,7 +127,7 @@ def _implicit(problem, tolerance):
 def other_solver_method(solver, time_limit):
     """Another solver as a method: pairs of levels, and the stiffness by differences, since it reports none itself."""
     run = partial(_other_solver, solver, time_limit)
-    return Method(solver.name, "other solver", "tolerance", OTHER_SOLVER_TOLERANCES, run, 257, True)
+    return Method(solver.name, "other solver", "tolerance", OTHER_SOLVER_TOLERANCES, run, largest=257, rough_only=True)
 
 
 def _other_solver(solver, time_limit, problem, tolerance):

@@ -1,4 +1,4 @@
-"""Other public contact solvers, run on the same levels as the elastic loading path, each in an environment of its own.
+"""Other public contact solvers, run on the same levels as the elastic loading path, in separate environments.
 
 Each is driven by an adapter (workflow/peers), a script that runs under the Python of the other solver's environment,
 which does not have this package. Request and answer are .npz files, named on the adapter's command line. Lengths are in

@@ -58,7 +58,8 @@ def rough_problem(hurst, elements, levels, root, region):
     _, kappa = exact.normalised(1.0, 1.0)
     region_b = (exact.contact_count >= region["elements_min"]) & (kappa <= region["stiffness_max"])
     name = f"rough disc, H = {hurst:g}, {elements}"
-    return Problem(name, disc, depth, exact.force, exact.force / exact.stiffness, region_b, hurst, seed)
+    velocity = exact.force / exact.stiffness
+    return Problem(name, disc, depth, exact.force, velocity, region_b=region_b, hurst=hurst, seed=seed)
 
 
 def body_problem(name, body, elements, levels):
@@ -66,8 +67,8 @@ def body_problem(name, body, elements, levels):
     indenter = body.indenter(elements)
     depth = body.mdr_profile(np.geomspace(0.1, 0.45, levels))
     force = body.force(depth)
-    everywhere = np.ones(levels, dtype=bool)
-    return Problem(f"{name}, {elements}", indenter, depth, force, force / body.stiffness(depth), everywhere, body=body)
+    velocity, everywhere = force / body.stiffness(depth), np.ones(levels, dtype=bool)
+    return Problem(f"{name}, {elements}", indenter, depth, force, velocity, region_b=everywhere, body=body)
 
 
 def named_problem(name, elements, levels, *, root=None, hurst=None, region=None):

@@ -20,7 +20,7 @@ def problem():
 
 @pytest.fixture(scope="module")
 def few_values():
-    """Every method with a coarse and a fine value of its knob; where there are many, not the finest one."""
+    """Every method with a coarse and a fine value of its parameter; where there are many, not the finest one."""
 
     def chosen(values):
         return tuple(dict.fromkeys([values[0], values[-1 if len(values) < 4 else -2]]))

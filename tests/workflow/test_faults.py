@@ -58,7 +58,7 @@ def test_workflow_on_a_full_disk_goes_on_when_there_is_room(lines):
 
 def test_damaged_input_of_a_rule_is_named_and_can_be_made_again(lines):
     before = contents(lines)
-    (lines / CURVES).write_bytes(DAMAGES["half of it zeros"](before[CURVES]))
+    (lines / CURVES).write_bytes(DAMAGES["second half zeros"](before[CURVES]))
     damaged = contents(lines / "results/curves")
     shown = failure(lines, "--forcerun", "pool_curves", "--", TARGET)
     assert re.search("ERROR (.*)", shown)[1].startswith(f"ValueError: {CURVES}: not readable (")

@@ -102,6 +102,11 @@ def other_solvers():
     return {name: [python, str(adapters / f"{name.lower()}_adapter.py")] for name, python in pythons.items()}
 
 
+def adapter_digests():
+    """Digests of the adapters of the other solvers, which run in other environments than the scripts."""
+    return [SOURCES.digest(path) for path in sorted((WORKFLOW / "peers").glob("*.py"))]
+
+
 # ---- memory of a job [MB]
 
 

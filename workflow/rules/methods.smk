@@ -15,6 +15,7 @@ rule measure_methods:
     resources:
         mem_mb=8000,
     params:
+        adapter_digests(),
         problem=lambda wildcards: PROBLEMS[wildcards.problem],
         seed=config["seed"],
         levels=config["methods"]["levels"],
@@ -74,6 +75,7 @@ rule time_other_solvers:
     resources:
         mem_mb=8000,
     params:
+        adapter_digests(),
         seed=config["seed"],
         hurst=config["methods"]["hurst"],
         repeats=config["methods"]["repeats"],

@@ -112,7 +112,15 @@ class Interrupt(event.Listener):
         pass
 
 
-def test_interrupt_waits_for_the_compiler():
+@pytest.fixture
+def interrupts_raise():
+    """SIGINT raises KeyboardInterrupt, also where the tests were started in the background, which ignores it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def test_interrupt_waits_for_the_compiler(interrupts_raise):
     function = njit(eval("lambda x: x + 1"))  # without a source file, so that it is not loaded from a cache
     with pytest.raises(KeyboardInterrupt), event.install_listener("numba:compile", Interrupt()):
         function(1.0)
@@ -120,7 +128,7 @@ def test_interrupt_waits_for_the_compiler():
     assert function(1.0) == 2
 
 
-def test_interrupt_waits_for_the_end_of_a_block():
+def test_interrupt_waits_for_the_end_of_a_block(interrupts_raise):
     done = []
 
     def block():

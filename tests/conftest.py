@@ -2,5 +2,5 @@
 
 
 def pytest_collection_modifyitems(items):
-    """Tests that run the workflow first: they take longest, and no worker should be left alone with one at the end."""
-    items.sort(key=lambda item: "workflow" not in item.path.parts)
+    """Long tests first, so that no worker is left alone with one: whole targets, then other runs of the workflow."""
+    items.sort(key=lambda item: (item.path.stem != "test_targets", "workflow" not in item.path.parts))

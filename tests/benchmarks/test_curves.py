@@ -41,10 +41,13 @@ def test_stopwatch_counts_the_time_within(curves, monkeypatch):
     module = SimpleNamespace(work=work)
     monkeypatch.setitem(sys.modules, "stand_in", module)
     with curves.stopwatch({"work": ["stand_in.work"]}) as seconds:
+        start = time.process_time()
         module.work()
         module.work()
+        whole = time.process_time() - start
+        work()  # not through the module: not counted
     assert module.work is work
-    assert seconds["work"] == pytest.approx(0.04, abs=0.01)
+    assert 0.04 <= seconds["work"] <= whole  # a busy machine may make both longer
 
 
 def test_columns_by_ducc0_are_the_same_convolution(curves):

@@ -45,9 +45,12 @@ def test_force_is_of_second_order(table):
     assert order.between(1.8, 2.3).all()
 
 
-def test_flat_disc_is_of_first_order(table):
-    order = table[table["case"] == "disc"]["order"].iloc[0]
-    assert order == pytest.approx(1, abs=0.1)
+@pytest.mark.parametrize("punch", ["disc", "ellipse"])
+def test_flat_punches_are_of_first_order(table, punch):
+    """That of a single ellipse is not: at 33 elements across, two errors of its edge happen to cancel each other."""
+    rows = table[table["case"] == punch]
+    assert rows["order"].iloc[0] == pytest.approx(1, abs=0.15)
+    assert rows["error"].is_monotonic_decreasing
 
 
 def test_an_error_above_its_limit_is_named():

@@ -4,34 +4,44 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from viscorough.arrays import read_only
+
+_LARGEST_WHOLE = 2**53  # larger whole numbers are not all numbers of double precision
+
 
 @dataclass(frozen=True)
 class Indenter:
     """A rigid indenter: heights on a square grid, or along a line, of equal spacing.
 
     heights : a map of shape (rows, columns), nan outside the indenter, or a line of shape (points,); larger is higher,
-        and the highest point touches first [length]
+        and the highest point touches first [length]. They are copied and read-only; masked entries become nan, and
+        numbers other than those of single precision are kept in double precision
     spacing : distance between neighbouring points [length]
 
-    Raises ValueError if the heights are not real numbers in one or two dimensions, are infinite, have no
-    element or, on a line, have a nan; or if the spacing is not a positive number.
+    Raises ValueError if the heights are not real numbers in one or two dimensions, are whole numbers beyond 2**53,
+    are infinite, differ by more than double precision holds, have no element or, on a line, have a nan; or if the
+    spacing is not a positive number.
     """
 
     heights: np.ndarray
     spacing: float
 
     def __post_init__(self):
-        heights = np.asarray(self.heights)
+        heights = read_only(self.heights)
         if heights.dtype.kind not in "fiu":
             raise ValueError(f"indenter heights: must be real numbers, not {heights.dtype}")
         if heights.ndim not in (1, 2):
             raise ValueError(f"indenter heights: must have one or two dimensions, not {heights.ndim}")
-        if heights.dtype.kind != "f":
-            heights = heights.astype(float)
+        if not _exact(np.asanyarray(self.heights)):
+            raise ValueError("indenter heights: whole numbers must not exceed 2**53, some do")
+        heights = _native(heights)
         if heights.size == 0 or np.isnan(highest := np.fmax.reduce(heights, axis=None)):
             raise ValueError("indenter heights: must have at least one element that is not nan")
-        if np.isinf(highest) or np.isinf(np.fmin.reduce(heights, axis=None)):
+        lowest = np.fmin.reduce(heights, axis=None)
+        if np.isinf(highest) or np.isinf(lowest):
             raise ValueError("indenter heights: must be finite (nan: outside the indenter), some are infinite")
+        if float(highest) / 2 - float(lowest) / 2 > np.finfo(float).max / 2:
+            raise ValueError(f"indenter heights: must differ by at most {np.finfo(float).max:.2g}, not by more")
         if heights.ndim == 1 and np.isnan(heights.min()):
             raise ValueError("indenter heights: must not be nan on a line")
         object.__setattr__(self, "heights", heights)
@@ -46,16 +56,33 @@ class Indenter:
     def rms_slope(self):
         """Root mean square of the slope |∇h| [1], from differences between neighbours; 0 for a single element."""
         squares = 0.0
-        for axis in range(self.heights.ndim):
-            difference = np.diff(self.heights, axis=axis) / self.spacing
-            if np.isfinite(difference).any():
-                squares += np.nanmean(difference**2)
+        with np.errstate(over="ignore"):  # a slope that overflows is infinite
+            for axis in range(self.heights.ndim):
+                difference = np.diff(self.heights.astype(float), axis=axis) / self.spacing
+                if not np.isnan(difference).all():
+                    squares += np.nanmean(difference**2)
         return float(np.sqrt(squares))
 
     @property
     def initial_gap(self):
-        """Initial gap [length]: depth below the highest element; shape and precision are those of the heights."""
-        return np.fmax.reduce(self.heights, axis=None) - self.heights
+        """Initial gap [length]: depth below the highest element, in double precision; shape (rows, columns)."""
+        return np.subtract(np.fmax.reduce(self.heights, axis=None), self.heights, dtype=float)
+
+
+def _exact(values):
+    """Whether double precision holds these values exactly, if they are whole numbers; masked ones do not matter."""
+    if values.dtype.kind not in "iu" or np.ma.count(values) == 0:
+        return True
+    return int(values.min()) >= -_LARGEST_WHOLE and int(values.max()) <= _LARGEST_WHOLE
+
+
+def _native(heights):
+    """Heights in single or double precision, in rows and in the byte order of this machine."""
+    kept = np.float32 if heights.dtype == np.float32 else np.float64
+    with np.errstate(over="ignore"):  # what does not fit becomes infinite
+        native = np.ascontiguousarray(heights, dtype=kept)
+    native.flags.writeable = False
+    return native
 
 
 def positive(name, value):

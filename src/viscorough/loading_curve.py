@@ -8,6 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from viscorough.arrays import keep_read_only
+
 
 @dataclass(frozen=True)
 class LoadingCurve:
@@ -23,6 +25,7 @@ class LoadingCurve:
     operator_applications : number of applications of the half-space operator on the grid
     residual : largest remaining |gap| in contact or overlap outside it, over the depth, shape (levels,) [1]
 
+    Arrays are copied and read-only.
     Read with G → η and F → ∫F dt it is the solution of the linearly viscous problem (Radok; paper, Sec. III).
     """
 
@@ -35,6 +38,9 @@ class LoadingCurve:
     tolerance: float
     operator_applications: int
     residual: np.ndarray
+
+    def __post_init__(self):
+        keep_read_only(self)
 
     @property
     def contact_fraction(self):

@@ -28,7 +28,7 @@ def reduce(line, *, until_fraction=1.0, until_force=None, bins_per_octave=64):
 
     Levels are the edges of the bins in which contact grows. There force and stiffness
         F/G = 4 Δx Σ(u - g)₊,   k/G = 4 Δx (number of g < u)
-    are exact, up to the rounding of gaps in the precision of the heights and of sums in double precision.
+    are exact, up to the rounding of gaps and sums in double precision.
     From one level to the next either at most one point comes into contact, and LoadingCurve.at_force is exact, or the
     levels are one bin apart, and its depth has an error that is a small part of the bin's width.
     At the first level only the highest points touch. The last level is the first to reach `until_fraction` or
@@ -117,12 +117,9 @@ def _binned_gaps(heights, bins_per_octave):
     Bin r holds edges[r] <= g < edges[r + 1], bin 0 all g < edges[1]. The leading bits of a floating-point number
     (exponent and first bits of the mantissa) are the number of its bin, so that bins divide every octave evenly.
     """
-    if heights.dtype not in (np.float32, np.float64):
-        heights = heights.astype(float)
-    heights = np.ascontiguousarray(heights)
-    highest = heights.max() + heights.dtype.type(0)  # turns -0.0 into 0.0; else gaps could have their sign bit set
+    highest = np.float64(heights.max()) + 0.0  # turns -0.0 into 0.0; else gaps could have their sign bit set
     shift = np.uint64(52 - (bins_per_octave.bit_length() - 1))
-    top = int(np.float64(highest - heights.min()).view(np.uint64) >> shift)
+    top = int((highest - heights.min()).view(np.uint64) >> shift)
     base = max(0, top - _OCTAVES * bins_per_octave)
     table = np.zeros((top - base + 1, _LANES, 2))
     _bin_gaps(heights, highest, shift, np.uint64(base), table)
@@ -135,7 +132,7 @@ def _binned_gaps(heights, bins_per_octave):
 def _bin_gaps(heights, highest, shift, base, table):
     """Add the number and the sum of the gaps in every bin to table[bin, lane, :]."""
     for i in range(heights.size):
-        gap = np.float64(highest - heights[i])
+        gap = np.float64(highest - np.float64(heights[i]))
         bin_ = max(gap.view(np.uint64) >> shift, base) - base
         table[bin_, i % _LANES, 0] += 1
         table[bin_, i % _LANES, 1] += gap

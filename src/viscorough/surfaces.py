@@ -167,6 +167,7 @@ def self_affine_line(
     packed *= _scale_factor(rms, mean_square)
     heights = packed[:points]
     fft.r2r_fftpack(heights, axes=[0], real2hermitian=False, forward=False, out=heights)
+    packed.flags.writeable = heights.flags.writeable = False  # so that the indenter need not copy them
     return Indenter(heights, length / points)
 
 

@@ -1,12 +1,89 @@
-"""Rigid indenters."""
+"""Rigid indenters: heights of any real type, copied and kept; masks; numbers that do not fit."""
+
+import warnings
 
 import numpy as np
 import pytest
 
+from viscorough.contact.loading_path import indent
 from viscorough.indenter import Indenter
+from viscorough.mdr import reduce
 
 
 def test_rms_slope_of_a_plane():
     x, y = np.mgrid[:5, :7]
     assert Indenter(0.6 * x + 1.6 * y, 2.0).rms_slope == pytest.approx(np.hypot(0.3, 0.8))
     assert Indenter(np.array([[1.0]]), 1.0).rms_slope == 0
+
+
+def test_rms_slope_that_overflows_is_infinite():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for spacing in (1e-200, 1e-300):
+            assert Indenter(np.array([[0.0, 1e100]]), spacing).rms_slope == np.inf
+
+
+@pytest.mark.parametrize("change", [lambda heights: heights.__imul__(2), lambda heights: heights.fill(0)])
+def test_heights_do_not_change_with_those_that_were_given(change):
+    given = np.arange(4.0).reshape(2, 2)
+    indenter = Indenter(given, 1.0)
+    change(given)
+    np.testing.assert_array_equal(indenter.heights, [[0, 1], [2, 3]])
+
+
+@pytest.mark.parametrize("dtype", [float, np.float32, int])
+def test_masked_heights_lie_outside_the_indenter(dtype):
+    heights = np.ma.array([[1, 2], [3, 4]], mask=[[0, 1], [0, 0]], dtype=dtype)
+    heights.data[0, 1] = 10**6  # the fill value must not become the peak
+    for given in (heights, list(heights)):
+        indenter = Indenter(given, 1.0)
+        assert indenter.elements == 3
+        np.testing.assert_array_equal(indenter.initial_gap, [[3, np.nan], [1, 0]])
+        assert indent(indenter, until_fraction=1).elements == 3
+
+
+def test_masked_points_of_a_line_and_maps_without_any_point_are_refused():
+    with pytest.raises(ValueError, match="must not be nan on a line"):
+        Indenter(np.ma.array([1.0, 2.0], mask=[0, 1]), 1.0)
+    for dtype in (float, int):
+        with pytest.raises(ValueError, match="at least one element"):
+            Indenter(np.ma.masked_all((2, 2), dtype), 1.0)
+    with pytest.raises(ValueError, match="not bool"):
+        Indenter(np.ma.array([[True, False]], mask=[[0, 1]]), 1.0)
+
+
+@pytest.mark.parametrize("dtype", [np.float16, np.float32])
+def test_gaps_are_computed_in_double_precision(dtype):
+    """1 and 1 + 1e-3 are neighbours of half precision; 2048 - 0.001 is no number of it."""
+    heights = np.array([[2048, 0.001], [1, 1.001]]).astype(dtype)
+    exact = 2048 - heights.astype(float)
+    np.testing.assert_array_equal(Indenter(heights, 1.0).initial_gap, exact)
+    curves = [
+        [door(Indenter(given, 1.0), until_fraction=1) for given in (map_, map_.astype(float))]
+        for door, map_ in ((indent, heights), (reduce, heights.ravel()))
+    ]
+    for of_type, of_double in curves:
+        np.testing.assert_array_equal(of_type.depth, of_double.depth)
+        np.testing.assert_array_equal(of_type.force, of_double.force)
+
+
+@pytest.mark.parametrize(
+    ("heights", "what"),
+    [
+        (np.array([[0, 2**53 + 1]], np.uint64), r"whole numbers must not exceed 2\*\*53"),
+        (np.array([[0, -(2**53) - 1]]), r"whole numbers must not exceed 2\*\*53"),
+        (np.ma.array([[0, 2**60]], mask=[[1, 0]]), r"whole numbers must not exceed 2\*\*53"),
+        (np.array([[1e308, -1e308]]), "must differ by at most"),
+        (np.array([[np.longdouble("1e400"), 0]]), "some are infinite"),
+    ],
+    ids=["uint64", "int64", "masked", "range", "long double"],
+)
+def test_heights_that_double_precision_does_not_hold_are_refused(heights, what):
+    for given in (heights, heights[0]):
+        with pytest.raises(ValueError, match=what):
+            Indenter(given, 1.0)
+
+
+def test_largest_whole_numbers_are_kept():
+    heights = np.ma.array([[0, 2**53, 2**63]], np.uint64, mask=[[0, 0, 1]])
+    np.testing.assert_array_equal(Indenter(heights, 1.0).initial_gap, [[2.0**53, 0, np.nan]])

@@ -53,15 +53,16 @@ def test_levels_are_exact(hurst, dtype):
 def test_compiled_binning_agrees_with_numpy(dtype):
     heights = self_affine_line(0.6, 5001, seed=6, dtype=dtype).heights
     edges, counts, sums = _binned_gaps(heights, 64)
-    gaps = (heights.max() - heights).astype(float)
+    highest = float(heights.max())
+    gaps = highest - heights.astype(float)
     place = np.searchsorted(edges[1:-1], gaps, side="right")
     np.testing.assert_array_equal(counts, np.bincount(place, minlength=counts.size))
     np.testing.assert_allclose(sums, np.bincount(place, weights=gaps, minlength=counts.size), rtol=1e-13)
 
     compiled, plain = np.zeros((2, counts.size, 4, 2))
     key = (gaps.max().view(np.uint64) >> np.uint64(46)) - np.uint64(_OCTAVES * 64)
-    _bin_gaps(heights[:500], heights.max(), np.uint64(46), key, compiled)
-    _bin_gaps.py_func(heights[:500], heights.max(), np.uint64(46), key, plain)
+    _bin_gaps(heights[:500], highest, np.uint64(46), key, compiled)
+    _bin_gaps.py_func(heights[:500], highest, np.uint64(46), key, plain)
     np.testing.assert_array_equal(compiled, plain)
 
 

@@ -287,7 +287,7 @@ def test_gaps():
     heights = np.array([[1.0, np.nan], [3.0, 2.5]], dtype=np.float32)
     indenter = Indenter(heights, 1)
     np.testing.assert_array_equal(indenter.initial_gap, [[2.0, np.nan], [0.0, 0.5]])
-    assert indenter.initial_gap.dtype == np.float32
+    assert indenter.initial_gap.dtype == np.float64
     assert indenter.elements == 3
     assert Indenter([[1, 2], [3, 4]], 1).heights.dtype == np.float64
 

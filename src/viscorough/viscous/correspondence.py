@@ -17,12 +17,14 @@ from typing import NamedTuple
 
 import numpy as np
 
+from viscorough.arrays import keep_read_only, read_only
+
 _ROUNDING = 1e-10  # relative; the rounding error of an impulse summed over a million force samples
 
 
 @dataclass(frozen=True)
 class Kinetics:
-    """Penetration over time; arrays of shape (times,), in the units of the curve, the force and the viscosity.
+    """Penetration over time; read-only arrays of shape (times,), in the units of curve, force and viscosity.
 
     time : t
     depth : u
@@ -33,9 +35,12 @@ class Kinetics:
     depth: np.ndarray
     velocity: np.ndarray
 
+    def __post_init__(self):
+        keep_read_only(self)
+
 
 class ForceHistory(NamedTuple):
-    """A force over time and its integral; arrays of shape (times,).
+    """A force over time and its integral; read-only arrays of shape (times,).
 
     times : t
     force : F(t) ≥ 0
@@ -87,19 +92,21 @@ def impulses(force, times):
     Raises ValueError for values outside these ranges: under a negative force the contact would open, which the
     correspondence excludes.
     """
-    times = np.array(times, dtype=float)
+    times = read_only(times).astype(float)
     if times.ndim != 1 or times.size == 0 or not np.isfinite(times).all() or not (np.diff(times) > 0).all():
         raise ValueError("times: allowed is one row of finite numbers, each larger than the one before")
     if np.ndim(force) == 0:
         if times[0] < 0:
             raise ValueError(f"times: start at {times[0]:g}; allowed: from 0 on, where a constant force begins")
-        return ForceHistory(times, np.full(times.shape, float(force)), force * times)
-    force = _samples(force, times)
-    return ForceHistory(times, force, np.append(0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(times))))
+        force, impulse = np.full(times.shape, float(force)), force * times
+    else:
+        force = _samples(force, times)
+        impulse = np.append(0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(times)))
+    return ForceHistory(*map(read_only, (times, force, impulse)))
 
 
 def _samples(force, times):
-    force = np.asarray(force, dtype=float)
+    force = read_only(force).astype(float)
     if force.shape != times.shape:
         raise ValueError(f"force: samples of shape {force.shape}; allowed: one per time, shape {times.shape}")
     if not (np.isfinite(force) & (force >= 0)).all():

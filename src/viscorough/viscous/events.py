@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscorough import memory
+from viscorough.arrays import keep_read_only
 from viscorough.compilation import njit
 from viscorough.contact.growing_cholesky import append_element, solve_flat_punch
 from viscorough.contact.halfspace import influence_coefficient
@@ -20,7 +21,7 @@ from viscorough.interrupts import uninterrupted
 
 @dataclass(frozen=True)
 class Events:
-    """The penetration of an indenter from contact event to contact event; arrays of shape (events,).
+    """The penetration of an indenter from contact event to contact event; read-only arrays of shape (events,).
 
     impulse : ∫F dt/η at which the contact set grew [length²]
     depth : u at that impulse [length]
@@ -34,6 +35,9 @@ class Events:
     resistance: np.ndarray
     contact_count: np.ndarray
     elements: int
+
+    def __post_init__(self):
+        keep_read_only(self)
 
     def depth_at(self, impulse):
         """Depth [length] at impulses ∫F dt/η [length²] of any shape; linear between events and beyond the last one."""

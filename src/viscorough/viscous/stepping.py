@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from viscorough.arrays import keep_read_only, read_only
 from viscorough.contact.grid_solver import GridSolver
 from viscorough.contact.options import DEFAULT
 from viscorough.contact.solver import ContactSolver
@@ -28,7 +29,7 @@ _IMPULSE_ACCURACY, _MAX_NEWTON_ITERATIONS = 1e-2, 50
 
 @dataclass(frozen=True)
 class Steps:
-    """The penetration of an indenter at given impulses; arrays of shape (impulses,).
+    """The penetration of an indenter at given impulses; read-only arrays of shape (impulses,).
 
     impulse : ∫F dt/η [length²]
     depth : u [length]
@@ -44,6 +45,9 @@ class Steps:
     contact_count: np.ndarray
     overlap: np.ndarray
     steps: int
+
+    def __post_init__(self):
+        keep_read_only(self)
 
 
 def march_steps(indenter, impulses, *, scheme="explicit", overlap=np.inf, tolerance=1e-6):
@@ -67,7 +71,7 @@ def march_steps(indenter, impulses, *, scheme="explicit", overlap=np.inf, tolera
     Returns Steps. Warns (AccuracyWarning) where the indenter overlaps the surface by more than 1 % of the depth.
     Raises ValueError for arguments out of range, ConvergenceError if a contact problem is not solved.
     """
-    impulses = np.atleast_1d(np.asarray(impulses, dtype=float))
+    impulses = np.atleast_1d(read_only(impulses).astype(float))
     if indenter.heights.ndim != 2:
         raise ValueError("march_steps: the indenter's heights must be two-dimensional")
     if scheme not in SCHEMES:

@@ -1,0 +1,96 @@
+"""Arrays that objects keep: nobody changes them from outside, and masks are not lost."""
+
+import numpy as np
+import pytest
+
+from support.curves import random_curve
+from viscorough.arrays import read_only
+from viscorough.indenter import Indenter
+from viscorough.viscous.correspondence import impulses, kinetics
+from viscorough.viscous.events import march_events
+from viscorough.viscous.stepping import march_steps
+
+HILL = Indenter([[0.0, 1.0], [0.5, 0.2]], 1.0)
+
+
+@pytest.mark.parametrize(
+    "values", [np.arange(3.0), np.arange(6.0)[::2], [0.0, 2.0], (1, 2), np.broadcast_to(1.0, 3)], ids=repr
+)
+def test_values_are_copied(values):
+    kept = read_only(values)
+    np.testing.assert_array_equal(kept, values)
+    assert not kept.flags.writeable
+    assert not np.shares_memory(kept, values)
+
+
+def test_only_what_nobody_can_change_is_not_copied():
+    array = np.arange(3.0)
+    view = array[1:]
+    view.flags.writeable = False
+    assert not np.shares_memory(read_only(view), array), "the view is read-only, what it shows is not"
+    array.flags.writeable = False
+    assert np.shares_memory(read_only(array), array)
+    assert np.shares_memory(read_only(array[1:]), array)
+
+
+@pytest.mark.parametrize("dtype", [float, np.float32, int])
+def test_masked_entries_are_nan(dtype):
+    masked = np.ma.array([[1, 2], [3, 4]], mask=[[0, 1], [0, 0]], dtype=dtype)
+    expected = [[1, np.nan], [3, 4]]
+    for values in (masked, list(masked), tuple(masked)):
+        np.testing.assert_array_equal(read_only(values), expected)
+    np.testing.assert_array_equal(read_only(masked[1]), [3, 4])
+    assert read_only(masked[1]).dtype == dtype, "where nothing is masked the type stays"
+
+
+def arrays_of(result):
+    fields = result._asdict() if hasattr(result, "_asdict") else vars(result)
+    return {name: value for name, value in fields.items() if isinstance(value, np.ndarray)}
+
+
+@pytest.mark.parametrize(
+    "result",
+    [
+        random_curve(),
+        HILL,
+        kinetics(random_curve(), 1.0, 1.0),
+        impulses(1.0, [1.0, 2.0]),
+        march_events(HILL),
+        march_steps(HILL, np.array([0.1, 1.0])),
+    ],
+    ids=lambda result: type(result).__name__,
+)
+def test_arrays_of_inputs_and_results_are_read_only(result):
+    assert arrays_of(result)
+    for name, array in arrays_of(result).items():
+        with pytest.raises(ValueError, match="read-only"):
+            array *= 2
+        assert not array.flags.writeable, name
+
+
+def test_results_do_not_change_with_what_they_were_made_from():
+    """Scaling the motion would rescale the curve, whose depth it shares."""
+    arguments = {name: np.arange(1.0, 4.0) for name in ("depth", "force", "stiffness", "contact_count", "residual")}
+    curve = random_curve(**arguments)
+    arguments["depth"] *= 2
+    np.testing.assert_array_equal(curve.depth, [1, 2, 3])
+
+    times, force = np.array([0.0, 1.0]), np.array([1.0, 1.0])
+    motion, history = kinetics(curve, force, 1.0, times), impulses(force, times)
+    impulse = np.array([0.1, 0.2])
+    steps = march_steps(HILL, impulse)
+    for array in (times, force, impulse):
+        array *= 2
+    np.testing.assert_array_equal(motion.time, [0, 1])
+    np.testing.assert_array_equal(history.force, [1, 1])
+    np.testing.assert_array_equal(steps.impulse, [0.1, 0.2])
+
+
+def test_masked_samples_of_a_force_are_refused():
+    masked = np.ma.array([1.0, 2.0, 3.0], mask=[0, 1, 0])
+    with pytest.raises(ValueError, match="sample 1 is nan"):
+        impulses(masked, [0, 1, 2])
+    with pytest.raises(ValueError, match="times: allowed is one row of finite numbers"):
+        impulses([1, 2, 3], masked)
+    with pytest.raises(ValueError, match="finite numbers"):
+        march_steps(HILL, masked)

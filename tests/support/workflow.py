@@ -58,8 +58,9 @@ def made_once(tmp_path_factory, name, make):
     return folder
 
 
-def command(*arguments):
-    return [sys.executable, "-m", "snakemake", "--cores", "2", "--nocolor", *map(str, arguments)]
+def command(*arguments, cores=2):
+    number = () if cores is None else ("--cores", cores)
+    return [sys.executable, "-m", "snakemake", "--nocolor", *map(str, (*number, *arguments))]
 
 
 def environment(folder):
@@ -71,10 +72,10 @@ def environment(folder):
     return kept | {"PYTHONPATH": str((folder if (folder / "src").is_dir() else ROOT) / "src")}
 
 
-def snakemake(folder, *arguments, fails=False):
-    """Run Snakemake in a copy of the project; stdout and stderr together."""
+def snakemake(folder, *arguments, fails=False, cores=2):
+    """Run Snakemake in a copy of the project; stdout and stderr together. cores : None leaves --cores out"""
     done = subprocess.run(
-        command(*arguments),
+        command(*arguments, cores=cores),
         cwd=folder,
         env=environment(folder),
         stdout=subprocess.PIPE,

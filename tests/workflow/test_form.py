@@ -45,6 +45,16 @@ def test_short_rules_run_where_snakemake_runs():
     }
 
 
+def test_timed_jobs_run_alone():
+    """With all cores of a machine or, on a cluster, with a node that they do not share."""
+    timed = {name for name, text in rules().items() if "threads: ALL_CORES" in text}
+    assert timed == {"measure_large", "measure_methods", "time_other_solvers", "compare_level_placement"}
+    profile = yaml.safe_load((ROOT / "profiles/slurm/config.yaml").read_text())
+    assert timed == set(profile["set-threads"])
+    for name in timed:
+        assert profile["set-resources"][name]["slurm_extra"] == "'--exclusive'"
+
+
 def test_slurm_profile(tmp_path):
     """It names existing rules, and plans what a local run does; without its executor, which is not installed."""
     profile = yaml.safe_load((ROOT / "profiles/slurm/config.yaml").read_text())

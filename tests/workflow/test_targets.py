@@ -1,5 +1,7 @@
 """Targets beside the default one, and the plans of every scale."""
 
+import re
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -7,6 +9,8 @@ import xarray as xr
 
 from support.workflow import TEST, copy_project, jobs, plan, settings_file, snakemake
 from viscorough.surfaces import cut_disc
+
+TIMED = ("Cost and error of every method", "The same levels by other solvers", "Placement of levels: by the package")
 
 
 @pytest.fixture
@@ -72,15 +76,33 @@ def test_sizes_and_large_discs(fresh, default_plan):
     assert drawn(fresh, "sizes", "large")
 
 
+def run_beside(output):
+    """[(message of a job, numbers of the jobs that ran at any time beside it)] of a run's output."""
+    messages, beside, running = {}, {}, set()
+    for job, message, finished in re.findall(r"^Job (\d+): (.*)$|^Finished jobid: (\d+)", output, re.MULTILINE):
+        if finished:
+            running.discard(finished)
+            continue
+        messages[job], beside[job] = message, set(running)
+        for other in running:
+            beside[other].add(job)
+        running.add(job)
+    return [(message, beside[job]) for job, message in messages.items()]
+
+
 def disc_elements(across):
     return np.isfinite(cut_disc(np.zeros((across, across)), across)).sum()
 
 
 def test_speed_without_other_solvers(fresh, default_plan):
-    """Placement of levels and tables of few methods, from their scripts to the figures."""
+    """Placement of levels and tables of few methods, from their scripts to the figures; then what needs no cores."""
     tasks = [{"name": "few", "elements": 17, "levels": 3, "fractions": [0.02, 0.5], "residual": 1e-6, "threads": [1]}]
     few = {"elements": [9], "bodies_elements": [9], "tasks": tasks, "scenes": {"elements": 17, "hurst": 0.7}}
-    planned = jobs(snakemake(fresh, *TEST, settings_file(fresh, "few", methods=few), "--", "speed"))
+    few_methods = (*TEST, settings_file(fresh, "few", methods=few))
+    output = snakemake(fresh, *few_methods, "--", "speed")
+    assert [beside for message, beside in run_beside(output) if message.startswith(TIMED)] == [set()] * 5
+    assert any(beside for _, beside in run_beside(output)), "else it would not show that timed jobs run alone"
+    planned = jobs(output)
     assert not set(planned) & set(default_plan)
     assert planned.pop("measure_methods") == 3  # sphere, cone, one rough disc
     tables = {"tabulate_methods", "time_other_solvers", "compare_level_placement"}
@@ -94,6 +116,8 @@ def test_speed_without_other_solvers(fresh, default_plan):
         assert "cores" in table.attrs["title"]
         assert table["solver"].values.tolist() == ["viscorough"]
     assert "is not installed: left out" in (fresh / "results/logs/time_other_solvers.log").read_text()
+    for task in (("--unlock",), ("--summary",), ("--rulegraph",), ("--report", "report.html")):
+        snakemake(fresh, *few_methods, *task, "--", "speed", cores=None)
 
 
 @pytest.mark.parametrize(

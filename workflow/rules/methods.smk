@@ -1,5 +1,5 @@
 # Speed against accuracy of every method, ours and others': the target `speed` makes it, `all` does not, because it takes
-# over an hour. What is timed takes all cores, so that nothing runs beside it.
+# over an hour.
 
 
 rule measure_methods:
@@ -11,7 +11,7 @@ rule measure_methods:
         "results/benchmarks/measure_methods/{problem}.tsv"
     conda:
         "../envs/viscorough.yaml"
-    threads: lambda wildcards: workflow.cores
+    threads: ALL_CORES
     resources:
         mem_mb=8000,
     params:
@@ -71,7 +71,7 @@ rule time_other_solvers:
         "results/benchmarks/time_other_solvers.tsv"
     conda:
         "../envs/viscorough.yaml"
-    threads: lambda wildcards: workflow.cores
+    threads: ALL_CORES
     resources:
         mem_mb=8000,
     params:
@@ -103,7 +103,7 @@ rule compare_level_placement:
         "results/benchmarks/compare_level_placement.tsv"
     conda:
         "../envs/viscorough.yaml"
-    threads: lambda wildcards: workflow.cores
+    threads: ALL_CORES
     resources:
         mem_mb=4000,
     params:

@@ -80,7 +80,7 @@ rule measure_large:
         "results/benchmarks/measure_large/{elements}.tsv"
     conda:
         "../envs/viscorough.yaml"
-    threads: 1
+    threads: ALL_CORES
     resources:
         mem_mb=large_memory,
     params:

@@ -5,14 +5,15 @@ UV ?= uv
 BIN := .venv/bin
 SNAKEMAKE := $(BIN)/snakemake --cores $(CORES)
 
-.PHONY: help environment environment-slurm reproduce paper report test test-slurm bench speed stability sizes large \
-	faults seeds publish chaos peers lock lock-peers lock-slurm clean
+.PHONY: help environment environment-slurm reproduce paper report test docs test-slurm bench speed stability sizes \
+	large faults seeds publish chaos peers lock lock-peers lock-slurm clean
 
 help:
 	@echo "make reproduce   the default reproduction: figures, tables and validation in results/"
 	@echo "make paper       the same at the paper's full scale, and its cost in results/costs.json"
 	@echo "make report      results/report.html of the existing results; SETTINGS=config/paper.yaml after make paper"
-	@echo "make test        format, lint and every test"
+	@echo "make test        format, lint, documentation and every test"
+	@echo "make docs        the documentation as a site, in build/docs/index.html"
 	@echo "make bench       cost and errors of curves and lines, and cost of the reproduction, in results/benchmarks.json"
 	@echo "make speed       speed against accuracy of every method, in results/figures/speed.png; 80 minutes"
 	@echo "make stability   where each method fails, and 12000 small indenters against dense solutions; two minutes"
@@ -20,7 +21,7 @@ help:
 	@echo "make large       time and memory of a disc of up to 4097 elements across, 13 million in all"
 	@echo "make faults      faults planted in copies of the project, one at a time: how many do the tests catch?"
 	@echo "make seeds       the reproduction with three root seeds: does any verdict change?"
-	@echo "make publish     verdicts and calibrated numbers from results/ into README.md and the package, after make paper"
+	@echo "make publish     verdicts and numbers from results/ into README.md, docs/ and the package, after make paper"
 	@echo "make chaos       a small reproduction killed 50 times, its results compared with those of an undisturbed run"
 	@echo "make test-slurm  the workflow through a Slurm cluster on this machine, undisturbed and disturbed; Debian, as root"
 	@echo "make peers       install the other solvers that make speed compares with, in separate environments"
@@ -59,7 +60,11 @@ report: environment
 		$(if $(wildcard results/tables/rule_costs.csv),costs) $(if $(wildcard results/figures/failure_map.png),stability) \
 		$(patsubst results/figures/%.png,%,$(wildcard $(patsubst %,results/figures/%.png,speed sizes large)))
 
-test: environment
+# Written anew each time (-E): pages that are kept would hide the warnings of an earlier run.
+docs: environment
+	$(BIN)/sphinx-build -q -W -E -b html docs build/docs
+
+test: environment docs
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/snakefmt --check .

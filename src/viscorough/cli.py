@@ -1,7 +1,9 @@
 """The command line: `viscorough indent`, `viscorough kinetics` and `viscorough march`.
 
 A user's mistake is answered with one line on stderr, "viscorough COMMAND: what, where, what is allowed", exit code 2
-and no output file; exit code 1 means that a solver did not converge. Modules that take long to import are imported by
+and no output file; exit code 1 means that a solver did not converge, exit code 0 that the output file is complete, also
+if the closing line could not be written to stdout. Where warnings are errors (PYTHONWARNINGS=error), a warning is
+answered like a mistake. Modules that take long to import are imported by
 the commands that need them, so that help and messages come quickly.
 """
 
@@ -11,11 +13,20 @@ import warnings
 
 import click
 
+from viscorough.cli_messages import (
+    announce,
+    complain,
+    discard_what_cannot_be_written,
+    escape_letters_without_code,
+    report,
+)
 from viscorough.cli_options import (
     FILE,
     Increasing,
     PositiveNumber,
+    check_not_an_input,
     output_option,
+    printable_name,
     read_indenter,
     spacing_option,
     warning_texts,
@@ -69,11 +80,9 @@ def indent(heights, spacing, output, *, depths, tolerance, until_fraction):
 
     stop = {"until_fraction": until_fraction} if until_fraction else {}
     curve = indent(indenter, tolerance=tolerance, depths=depths, **stop)
-    write_output(curve_to_content(curve, length_unit), output, heights=heights.name, spacing=spacing)
-    click.echo(
-        f"{output}: {curve.depth.size} levels, the last at depth {curve.depth[-1]:.6g} "
-        f"with {curve.contact_count[-1]} of {curve.elements} elements in contact"
-    )
+    write_output(curve_to_content(curve, length_unit), output, heights=printable_name(heights), spacing=spacing)
+    count = f"{curve.contact_count[-1]} of {curve.elements} elements in contact"
+    announce(output, f"{curve.depth.size} levels, the last at depth {curve.depth[-1]:.6g} with {count}")
 
 
 @cli.command(short_help="Penetration over time under a constant force.")
@@ -122,7 +131,7 @@ def kinetics(curve, force, viscosity, output):
         correspondence="depth at a time is the elastic one at F/G = force * time / viscosity, velocity is "
         "force / (viscosity * k/G) there; exact for every topography, without 1/Gamma(2 - alpha)",
     )
-    click.echo(f"{output}: {motion.time.size} levels, depth {motion.depth[-1]:.6g} at time {motion.time[-1]:.6g}")
+    announce(output, f"{motion.time.size} levels, depth {motion.depth[-1]:.6g} at time {motion.time[-1]:.6g}")
 
 
 @cli.command(short_help="Penetration over time by direct integration.")
@@ -169,6 +178,8 @@ def march(heights, spacing, output, *, method, force, viscosity, times, force_hi
     if force_history and (force or times):
         raise click.UsageError("--force-history replaces --force and --times; they exclude each other")
     _check_options_of_method(method, bool(force_history), times, overlap, until_fraction)
+    if force_history:
+        check_not_an_input(output, force_history, "force history")
     indenter, length_unit = read_indenter(heights, spacing, output)
 
     import numpy as np
@@ -181,19 +192,23 @@ def march(heights, spacing, output, *, method, force, viscosity, times, force_hi
         steps = np.unique(history.impulse[history.impulse > 0]) / viscosity
         integrated = _integrate(indenter, method, steps, **options)
         content = motion.integration_under_history(integrated, history, viscosity, length_unit)
-        force = force_history.name
+        force = printable_name(force_history)
     else:
         force = force or 1.0
         per_time = force / viscosity
         integrated = _integrate(indenter, method, None if times is None else per_time * np.array(times), **options)
         content = motion.integration_to_content(integrated, per_time, length_unit)
-    attributes = {"method": method, "force": force, "viscosity": viscosity, "heights": heights.name, "spacing": spacing}
+    attributes = {
+        "method": method,
+        "force": force,
+        "viscosity": viscosity,
+        "heights": printable_name(heights),
+        "spacing": spacing,
+    }
     write_output(content, output, **attributes)
     time, depth, count = (content.variables[name].values for name in ("time", "depth", "contact_count"))
-    click.echo(
-        f"{output}: {time.size} levels, depth {depth[-1]:.6g} at time {time[-1]:.6g} "
-        f"with {count[-1]} of {indenter.elements} elements in contact"
-    )
+    contact = f"{count[-1]} of {indenter.elements} elements in contact"
+    announce(output, f"{time.size} levels, depth {depth[-1]:.6g} at time {time[-1]:.6g} with {contact}")
 
 
 def _check_options_of_method(method, has_history, times, overlap, until_fraction):
@@ -235,21 +250,6 @@ def _integrate(indenter, method, steps, *, overlap, until_fraction):
     return march_steps(indenter, steps, scheme=method, **options)
 
 
-def _report(command, error):
-    """Write one line about an error to stderr."""
-    hint = ""
-    if isinstance(error, click.ClickException):
-        text = error.format_message()
-        if isinstance(error, click.UsageError):
-            command = error.ctx.command_path if error.ctx else command
-            hint = f"; see {command} --help"
-    elif isinstance(error, MemoryError):
-        text = f"not enough memory{f' ({error})' if str(error) else ''}; a smaller map of heights is needed"
-    else:
-        text = str(error)
-    click.echo(f"{command}: {' '.join(text.split()).removesuffix('.')}{hint}", err=True)
-
-
 def _exit_at_once(*_):
     """End the process on an interrupt: an exception raised in a callback of the compiler would be lost."""
     os._exit(130)
@@ -263,6 +263,7 @@ def main(arguments=None, commands=cli):
     """
     arguments = list(sys.argv[1:] if arguments is None else arguments)
     command = "viscorough"
+    escape_letters_without_code()
     try:
         with (
             on_interrupt(_exit_at_once),
@@ -274,15 +275,19 @@ def main(arguments=None, commands=cli):
             finally:
                 command = f"{command} {context.invoked_subcommand or ''}".rstrip()
         for text in warning_texts(caught):
-            click.echo(f"{command}: warning: {text}", err=True)
+            complain(command, f"warning: {text}")
     except click.exceptions.Exit as done:
         return done.exit_code
+    except BrokenPipeError:  # what reads standard output has read enough, as in viscorough --help | head
+        return 0
     except KeyboardInterrupt:
         return 130
     except ConvergenceError as error:
-        _report(command, error)
+        report(command, error)
         return 1
-    except (click.ClickException, ValueError, OSError, MemoryError) as error:
-        _report(command, error)
+    except (click.ClickException, ValueError, OSError, MemoryError, Warning) as error:
+        report(command, error)
         return 2
+    finally:
+        discard_what_cannot_be_written()
     return 0

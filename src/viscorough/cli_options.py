@@ -59,6 +59,17 @@ def output_option(metavar):
     return click.option("-o", "--output", type=FILE, required=True, metavar=metavar, help="File to write or replace.")
 
 
+def check_not_an_input(output, file, kind):
+    """Raise ValueError if the output would replace a file that is read; `kind` says what it holds."""
+    if output.exists() and file.exists() and output.samefile(file):
+        raise ValueError(f"{output}: would replace the {kind}; another name is needed")
+
+
+def printable_name(file):
+    """Name of a file, for an attribute: bytes that are not letters appear with backslashes."""
+    return file.name.encode(errors="backslashreplace").decode()
+
+
 def read_indenter(heights, spacing, output):
     """The indenter in a file and its unit of length, read after a check that the output can be written.
 
@@ -67,9 +78,8 @@ def read_indenter(heights, spacing, output):
     from viscorough.io.atomic import check_output
     from viscorough.io.heights import length_unit_of, read_heights
 
-    target = check_output(output)
-    if target.exists() and heights.exists() and target.samefile(heights):
-        raise ValueError(f"{output}: would replace the heights; another name is needed")
+    check_output(output)
+    check_not_an_input(output, heights, "heights")
     indenter = read_heights(heights, spacing)
     if (slope := indenter.rms_slope) > _STEEP_SLOPE:
         text = f"{heights}: the rms slope is {slope:.2g}; the theory holds for small slopes, below about {_STEEP_SLOPE}"

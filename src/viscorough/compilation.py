@@ -2,11 +2,15 @@
 
 numba caches compiled code beside the modules (or in NUMBA_CACHE_DIR) and does not check what it reads. The cache files
 of functions that are compiled here end with a SHA-256 checksum, which numba's own reader ignores; where it is wrong,
-the function is compiled again. Only these functions are affected, not numba itself or functions of other packages.
+the function is compiled again. Where nothing can be kept on disk, functions are compiled in every process, and one line
+says so. Only these functions are affected, not numba itself or functions of other packages.
 """
 
+import contextlib
 import functools
+import inspect
 import logging
+import os
 from hashlib import sha256
 from pathlib import Path
 
@@ -43,8 +47,15 @@ class _CheckedCache(caching.FunctionCache):
         except Exception as error:  # unpickling and linking damaged bytes can fail in any way
             text = "compiled code of %s in %s is damaged (%s): it is compiled again"
             logging.warning(text, self._py_func.__name__, self.cache_path, error)
-            self.flush()
+            with contextlib.suppress(OSError):
+                self.flush()
             return None
+
+    def save_overload(self, sig, data):
+        try:
+            super().save_overload(sig, data)
+        except OSError:  # a full disk, for example
+            _say_that_nothing_is_kept()
 
 
 def _cache(function):
@@ -52,7 +63,17 @@ def _cache(function):
     try:
         return _CheckedCache(function)
     except RuntimeError:  # numba finds no writable folder, or the function has no source file
+        if os.path.exists(inspect.getfile(function)):
+            _say_that_nothing_is_kept()
         return caching.NullCache()
+
+
+@functools.cache  # said once
+def _say_that_nothing_is_kept():
+    logging.warning(
+        "compiled code cannot be kept on disk, so every process compiles it again, which takes up to a minute; "
+        "set NUMBA_CACHE_DIR to a folder that is writable and has room"
+    )
 
 
 def njit(function=None, **options):

@@ -7,16 +7,16 @@ import threading
 
 @contextlib.contextmanager
 def on_interrupt(handler):
-    """Context in which an interrupt calls handler(signal number, frame); yields the previous handler.
+    """Context in which an interrupt calls handler(signal number, frame).
 
-    Outside the main thread, which interrupts never reach, nothing is changed and None is yielded.
+    Outside the main thread, which interrupts never reach, nothing is changed.
     """
     if threading.current_thread() is not threading.main_thread():
-        yield None
+        yield
         return
     previous = signal.signal(signal.SIGINT, handler)
     try:
-        yield previous
+        yield
     finally:
         signal.signal(signal.SIGINT, previous)
 
@@ -29,10 +29,9 @@ def uninterrupted():
     interrupted crashes when it returns its results.
     """
     arrived = []
-    previous = None
     try:
-        with on_interrupt(lambda *arguments: arrived.append(arguments)) as previous:
+        with on_interrupt(lambda *arguments: arrived.append(arguments)):
             yield
     finally:
-        if arrived and callable(previous):
-            previous(*arrived[-1])
+        if arrived:
+            signal.raise_signal(signal.SIGINT)

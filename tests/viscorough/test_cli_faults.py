@@ -2,6 +2,7 @@
 
 import os
 import shutil
+import signal
 import subprocess
 import sys
 
@@ -10,6 +11,8 @@ import pytest
 
 from support.command_line import VISCOROUGH, sphere_heights
 from support.faults import DAMAGES, NO_LARGE_FILES, contents, namespace, no_privileges
+from viscorough.io import netcdf
+from viscorough.io.curves import curve_from_content
 
 INDENT = ["indent", "heights.npy", "--spacing", "1", "-o", "out.nc"]
 KINETICS = ["kinetics", "curve.nc", "--force", "1", "--viscosity", "1", "-o", "out.nc"]
@@ -125,3 +128,114 @@ def test_folder_that_may_not_be_written(here):
 def test_file_in_the_place_of_a_folder(here):
     line = complaint(here, VISCOROUGH, *INDENT[:-1], "curve.nc/out.nc")
     assert "curve.nc/out.nc: there is no folder curve.nc" in line
+
+
+# ---- standard output and standard error that cannot be written
+
+
+def shell(folder, command, **environment):
+    """Exit code and stderr of `viscorough` with the arguments and redirections of a line of a shell."""
+    line = command.replace("viscorough", str(VISCOROUGH))
+    options = {"capture_output": True, "text": True, "timeout": 60, "check": False, "env": os.environ | environment}
+    done = subprocess.run(["bash", "-o", "pipefail", "-c", line], cwd=folder, **options)
+    assert "Traceback" not in done.stderr
+    assert "Exception ignored" not in done.stderr
+    return done.returncode, done.stderr, done.stdout
+
+
+WRITING = "viscorough indent heights.npy --spacing 1 -o new.nc"
+
+
+@pytest.mark.parametrize("redirection", ["", ">&-", "2>&-", ">&- 2>&- <&-", "| true", ">/dev/full 2>/dev/full"])
+def test_complete_output_is_success_whoever_reads_the_closing_line(here, redirection):
+    code, error, _ = shell(here, f"{WRITING} {redirection}")
+    assert (code, error) == (0, "")
+    assert curve_from_content(netcdf.read(here / "new.nc")).depth.size
+
+
+def test_full_standard_output_is_a_warning(here):
+    code, error, _ = shell(here, f"{WRITING} >/dev/full")
+    assert code == 0
+    assert error == (
+        "viscorough indent: warning: new.nc is complete, but standard output cannot be written "
+        "(No space left on device)\n"
+    )
+    assert curve_from_content(netcdf.read(here / "new.nc")).depth.size
+
+
+def test_names_that_the_encoding_of_standard_output_lacks(here):
+    shutil.copy(here / "heights.npy", here / "ψ.npy")
+    command = "viscorough indent ψ.npy --spacing 1 -o ω.nc"
+    code, error, output = shell(here, command, PYTHONIOENCODING="latin-1")
+    assert (code, error) == (0, "")
+    assert output.startswith("\\u03c9.nc: ")
+    assert netcdf.read(here / "ω.nc").attributes["heights"] == "ψ.npy"
+    code, error, _ = shell(here, f"{command}/new.nc", PYTHONIOENCODING="latin-1")
+    assert code == 2
+    assert error.startswith("viscorough indent: \\u03c9.nc/new.nc: there is no folder")
+
+
+def test_names_of_files_that_are_no_text(here):
+    name = os.fsdecode(b"caf\xe9")
+    shutil.copy(here / "heights.npy", here / f"{name}.npy")
+    shutil.copy(here / "curve.nc", here / f"{name}.nc")
+    heights = ["indent", f"{name}.npy", "--spacing", "1", "-o"]
+    done = subprocess.run([VISCOROUGH, *heights, "new.nc"], cwd=here, capture_output=True, check=False)
+    assert (done.returncode, done.stderr) == (0, b"")
+    assert netcdf.read(here / "new.nc").attributes["heights"] == r"caf\udce9.npy"
+    assert "the name is no text" in complaint(here, VISCOROUGH, *heights, f"{name}.nc")
+    kinetics = ["kinetics", f"{name}.nc", *KINETICS[2:]]
+    assert complaint(here, VISCOROUGH, *kinetics).startswith(r"viscorough kinetics: caf\udce9.nc: not readable (")
+
+
+@pytest.mark.parametrize("arguments", ["--help", "indent --help", "--version"])
+def test_help_for_a_reader_who_has_read_enough(here, arguments):
+    assert shell(here, f"viscorough {arguments} | true")[:2] == (0, "")
+    code, error, _ = shell(here, f"viscorough {arguments} >/dev/full")
+    assert code == 2
+    assert error.endswith("standard output cannot be written (No space left on device)\n")
+    assert len(error.splitlines()) == 1
+
+
+@pytest.mark.parametrize("redirection", ["2>/dev/full", "2>&-", "2>&1 | true"])
+def test_mistakes_that_nobody_reads_keep_their_exit_code(here, redirection):
+    assert shell(here, f"viscorough indent {redirection}")[0] == 2
+
+
+# ---- interrupts and warnings
+
+
+INTERRUPTED = "import os, signal; os.kill(os.getpid(), signal.SIGINT)"
+
+
+@pytest.mark.parametrize("command", [[VISCOROUGH], [sys.executable, "-m", "viscorough"]], ids=["script", "module"])
+@pytest.mark.parametrize("module", ["click", "numpy", "psutil"])
+def test_interrupt_during_the_imports_is_quiet(here, tmp_path_factory, command, module):
+    """The first import of the command line, and one of a command."""
+    folder = tmp_path_factory.mktemp("interrupted")
+    (folder / f"{module}.py").write_text(INTERRUPTED)
+    environment = os.environ | {"PYTHONPATH": str(folder)}
+    done = subprocess.run(
+        [*command, *INDENT], cwd=here, env=environment, capture_output=True, check=False, preexec_fn=interrupts_arrive
+    )
+    assert (done.stdout, done.stderr) == (b"", b"")
+    assert done.returncode in (-signal.SIGINT, 130), "a shell reports 130 for both"
+
+
+def interrupts_arrive():
+    """A process started in the background would ignore them."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+@pytest.mark.parametrize(
+    ("heights", "code", "line"),
+    [(sphere_heights(9), 0, ""), (100 * sphere_heights(9), 2, "viscorough indent: heights.npy: the rms slope is ")],
+    ids=["gentle", "steep"],
+)
+def test_warnings_that_are_errors_are_one_line(here, heights, code, line):
+    np.save(here / "heights.npy", heights)
+    done = shell(here, WRITING, PYTHONWARNINGS="error")
+    assert done[0] == code
+    assert done[1].startswith(line)
+    assert len(done[1].splitlines()) == bool(line)
+    assert (here / "new.nc").exists() == (code == 0)

@@ -1,15 +1,19 @@
 """Compiled functions of this package are protected, those of other packages are not affected."""
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
 import textwrap
+from pathlib import Path
 
 import numpy as np
 import pytest
 from numba.core import event
 
+import viscorough
+from support.faults import no_privileges
 from viscorough.compilation import njit, vectorize
 from viscorough.interrupts import uninterrupted
 
@@ -81,6 +85,48 @@ def test_function_without_a_source_file_is_compiled_without_a_cache():
         assert vectorize("float64(float64)")(lambda x: x + 1)(1.0) == 2
     """)
     assert run(script).stderr == ""
+
+
+SPHERE = """
+import numpy as np, viscorough
+line = viscorough.Indenter(np.array([0.0, 1.0, 0.5]), 1.0)
+print(viscorough.reduce(line).force[-1])
+"""
+# The only folder that numba then considers lies below a file: nobody can write there, not even root.
+NOWHERE = {"NUMBA_CACHE_LOCATOR_CLASSES": "UserProvidedCacheLocator", "NUMBA_CACHE_DIR": f"{__file__}/cache"}
+NO_ROOM = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))"
+
+
+def test_without_a_folder_for_compiled_code_it_is_compiled_with_one_line_about_it():
+    done = run(SPHERE, **NOWHERE)
+    assert done.stdout == run(SPHERE).stdout
+    assert len(done.stderr.splitlines()) == 1, done.stderr
+    assert "compiled code cannot be kept on disk" in done.stderr
+    assert "set NUMBA_CACHE_DIR to a folder that is writable" in done.stderr
+
+
+def test_full_disk_for_compiled_code_is_one_line(tmp_path):
+    done = run(NO_ROOM + SPHERE, NUMBA_CACHE_DIR=str(tmp_path))
+    assert done.stdout == run(SPHERE).stdout
+    assert len(done.stderr.splitlines()) == 1, done.stderr
+    assert "compiled code cannot be kept on disk" in done.stderr
+
+
+def test_package_and_home_that_may_not_be_written(tmp_path):
+    """As in a container that runs under the number of a user whom it does not know."""
+    ignore = shutil.ignore_patterns("__pycache__")
+    shutil.copytree(Path(viscorough.__file__).parent, tmp_path / "viscorough", ignore=ignore)
+    for folder in (tmp_path, *tmp_path.rglob("")):
+        folder.chmod(0o555)
+    environment = os.environ | {"PYTHONPATH": str(tmp_path), "HOME": str(tmp_path), "PYTHONDONTWRITEBYTECODE": "1"}
+    environment.pop("NUMBA_CACHE_DIR", None)
+    environment.pop("XDG_CACHE_HOME", None)
+    command = [*no_privileges(), sys.executable, "-c", f"{SPHERE}print(viscorough.__file__)"]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.splitlines()[1].startswith(str(tmp_path))
+    assert [line for line in done.stderr.splitlines() if "cannot be kept" in line] == done.stderr.splitlines()
+    assert done.stderr
 
 
 def test_functions_run_without_compilation_where_numba_is_disabled():

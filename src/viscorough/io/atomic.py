@@ -1,10 +1,14 @@
 """Files written atomically: under a temporary name, which becomes the final one when the content is complete."""
 
+import contextlib
+import functools
 import glob
 import os
 import platform
+import stat
+import sys
 import uuid
-from contextlib import contextmanager
+from hashlib import sha256
 from pathlib import Path
 
 import psutil
@@ -18,9 +22,14 @@ def reason(error):
 def check_output(path):
     """The path with links resolved, so that a link's target is replaced and not the link.
 
-    Raises ValueError unless the folder exists and is writable, and the path does not exist yet or is a regular file.
+    Raises ValueError unless the folder exists and is writable, the path does not exist yet or is a regular file, and
+    its name is text (NetCDF libraries take no other).
     """
     target, folder = Path(os.path.realpath(path)), Path(path).parent
+    try:
+        str(target).encode(sys.getfilesystemencoding())
+    except UnicodeEncodeError as error:
+        raise ValueError(f"{path}: the name is no text in {error.encoding}; another name is needed") from error
     if not target.parent.is_dir():
         raise ValueError(f"{path}: there is no folder {folder}; an existing folder is needed")
     if not os.access(target.parent, os.W_OK | os.X_OK):
@@ -30,26 +39,43 @@ def check_output(path):
     return target
 
 
-@contextmanager
+@contextlib.contextmanager
 def atomic_write(path):
     """Context that yields a temporary path beside `path`; the file written there replaces `path` on success.
 
-    On an error the temporary file is removed and `path` is not changed. Temporary files that killed processes of this
-    machine left for the same path are removed, too. Raises what check_output raises, and OSError if writing fails.
+    A file that is replaced keeps its permissions. On an error the temporary file is removed and `path` is not changed.
+    Temporary files that killed processes left for the same path are removed, too, if this process can tell that they
+    are not alive. Raises what check_output raises, and OSError if writing fails.
     """
     target = check_output(path)
-    stem = f".{target.name[:60]}.{platform.node()}"
+    stem = f".{os.fsencode(target.name)[:60].decode(errors='ignore')}.{_place()}"
     temporary = target.with_name(f"{stem}.{os.getpid()}.{uuid.uuid4().hex[:8]}.part")
     for leftover in target.parent.glob(f"{glob.escape(stem)}.*.part"):
         process = leftover.name.removeprefix(stem).split(".")[1]
-        if process.isdecimal() and not psutil.pid_exists(int(process)):
-            leftover.unlink(missing_ok=True)
+        with contextlib.suppress(OSError, OverflowError):  # somebody else removed it; no number of a process
+            if process.isdecimal() and not psutil.pid_exists(int(process)):
+                leftover.unlink()
     try:
         yield temporary
         with open(temporary, "rb") as file:
             os.fsync(file.fileno())  # a full or remote disk may report its failure only here
+        if target.exists():
+            temporary.chmod(stat.S_IMODE(target.stat().st_mode))
         os.replace(temporary, target)
     except (OSError, RuntimeError) as error:  # the NetCDF library raises RuntimeError where the disk is full
         raise OSError(f"{path}: not written ({reason(error)}); room on a writable disk is needed") from error
     finally:
         temporary.unlink(missing_ok=True)
+
+
+@functools.cache
+def _place():
+    """A name for where the numbers of processes are those that this process sees: a running system or a container.
+
+    Systems that share a disk, or containers, may have one host name, so the name holds those of the system's start and
+    of the namespace of process numbers where the system (Linux) tells them.
+    """
+    identity = [platform.node()]
+    with contextlib.suppress(OSError):
+        identity += [Path("/proc/sys/kernel/random/boot_id").read_text(), os.readlink("/proc/self/ns/pid")]
+    return sha256("".join(identity).encode(errors="surrogateescape")).hexdigest()[:12]

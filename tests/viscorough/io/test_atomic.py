@@ -1,14 +1,15 @@
 """Files are replaced when their content is complete, and not touched otherwise."""
 
 import os
-import platform
 import subprocess
 import sys
 import textwrap
+from pathlib import Path
 
 import pytest
 
 from support.curves import one_line
+from support.faults import namespace
 from viscorough.io.atomic import atomic_write, check_output
 
 
@@ -66,12 +67,68 @@ def test_leftovers_of_killed_processes_are_removed(tmp_path):
         command = [sys.executable, "-c", script, str(tmp_path / "a.csv")]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         assert os.listdir(tmp_path) == [os.path.basename(done.stdout.strip())], "the one of the last process only"
-    running = tmp_path / f".a.csv.{platform.node()}.{os.getpid()}.1234abcd.part"
+    (leftover,) = tmp_path.iterdir()
+    _, place, _, _ = leftover.name.removeprefix(".a.csv").split(".", 3)
+    running = tmp_path / f".a.csv.{place}.{os.getpid()}.1234abcd.part"
     running.write_text("of a process that is alive")
+    (tmp_path / f".a.csv.{place}.{10**30}.1234abcd.part").write_text("of a number that no process has")
     with atomic_write(tmp_path / "a.csv") as temporary:
         temporary.write_text("complete")
-    assert sorted(path.name for path in tmp_path.iterdir()) == [running.name, "a.csv"]
+    assert sorted(path.name for path in tmp_path.iterdir() if str(10**30) not in path.name) == [running.name, "a.csv"]
     assert (tmp_path / "a.csv").read_text() == "complete"
+
+
+WRITE_UNTIL_TOLD = """
+import sys
+from viscorough.io.atomic import atomic_write
+with atomic_write(sys.argv[1]) as temporary:
+    temporary.write_text(sys.argv[2])
+    print(temporary, flush=True)
+    sys.stdin.readline()
+"""
+
+
+def test_file_of_a_live_process_in_another_container_is_left_alone(tmp_path):
+    """There the numbers of processes are others: that of the writer does not exist here, or is that of another."""
+    command = [sys.executable, "-c", WRITE_UNTIL_TOLD, str(tmp_path / "a.csv"), "of the container"]
+    container = namespace("--user", "--map-root-user", "--pid", "--fork", "--mount-proc")
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
+    with subprocess.Popen([*container, *command], **pipes) as writer:
+        part = Path(writer.stdout.readline().strip())
+        number = int(part.name.split(".")[-3])
+        assert number < 10, "the first processes of the container"
+        with atomic_write(tmp_path / "a.csv") as temporary:
+            temporary.write_text("ours")
+        assert part.exists()
+        writer.communicate("go on\n", timeout=60)
+    assert writer.returncode == 0
+    assert (tmp_path / "a.csv").read_text() == "of the container"
+    assert os.listdir(tmp_path) == ["a.csv"]
+
+
+@pytest.mark.parametrize("mode", [0o600, 0o664, 0o444])
+def test_file_that_is_replaced_keeps_its_permissions(tmp_path, mode):
+    path = tmp_path / "curve"
+    path.write_text("older")
+    path.chmod(mode)
+    with atomic_write(path) as temporary:
+        temporary.write_text("newer")
+    assert path.read_text() == "newer"
+    assert path.stat().st_mode & 0o7777 == mode
+
+
+def test_names_as_long_as_a_disk_allows(tmp_path):
+    for name in ("é" * 120, "a" * 255):
+        with atomic_write(tmp_path / name) as temporary:
+            temporary.write_text("content")
+        assert (tmp_path / name).read_text() == "content"
+
+
+def test_name_that_is_no_text_is_refused(tmp_path):
+    path = tmp_path / os.fsdecode(b"caf\xe9.nc")
+    with pytest.raises(ValueError, match="the name is no text in utf-8") as error:
+        check_output(path)
+    one_line(error)
 
 
 def test_paths_that_cannot_be_written(tmp_path):

@@ -22,7 +22,7 @@ help:
 	@echo "make faults      faults planted in copies of the project, one at a time: how many do the tests catch?"
 	@echo "make seeds       the reproduction with three root seeds: does any verdict change?"
 	@echo "make publish     verdicts and numbers from results/ into README.md, docs/ and the package, after make paper"
-	@echo "make chaos       a small reproduction killed 50 times, its results compared with those of an undisturbed run"
+	@echo "make chaos       a small reproduction killed 60 times, its results compared with those of an undisturbed run"
 	@echo "make test-slurm  the workflow through a Slurm cluster on this machine, undisturbed and disturbed; Debian, as root"
 	@echo "make peers       install the other solvers that make speed compares with, in separate environments"
 	@echo "make lock        renew requirements.lock from pyproject.toml; needs uv, as do lock-peers and lock-slurm"

@@ -45,6 +45,12 @@ onstart:
     compile_kernels()
 
 
+rule curves:
+    input:
+        curves_of_pool("discs"),
+        curves_of_pool("lines"),
+
+
 rule figure_1:
     input:
         rules.plot_surfaces.output,

@@ -1,10 +1,12 @@
 """Kill the workflow repeatedly, and compare what it finally makes with the results of an undisturbed run.
 
-    python benchmarks/chaos.py --kills 50 --seed 1 --output results/chaos.json
+    python benchmarks/chaos.py --kills 60 --seed 1 --output results/chaos.json
 
-A run of the small settings, which starts without results, is killed (SIGKILL) after a random time, either all of it or
-one of its jobs, and started again, until it finishes. Its files must then be those of an undisturbed run, equal to the
-last byte: figures, tables, ensembles and curves. Of logs and benchmarks, which contain times, only names must agree.
+A run of the small settings, which starts without results, is disturbed after a random time: half of the times all of it
+is killed (SIGKILL), a quarter of the times one of its jobs is, and a quarter of the times it is interrupted (SIGINT to
+its group, as by Ctrl-C). The same command is then given again, and nothing else (config/README.md, Interrupted runs),
+until it finishes. Its files must then be those of an undisturbed run, equal to the last byte: figures, tables, ensembles
+and curves. Of logs and benchmarks, which contain times, only names must agree.
 """
 
 import contextlib
@@ -62,7 +64,13 @@ def started(folder, *arguments, log="chaos.log", mode="w"):
     environment = os.environ | {"PYTHONPATH": str(folder / "src")}  # before the installed package
     with (folder / log).open(mode) as log:
         run = subprocess.Popen(
-            [*SNAKEMAKE, *arguments], cwd=folder, env=environment, stdout=log, stderr=log, start_new_session=True
+            [*SNAKEMAKE, *arguments],
+            cwd=folder,
+            env=environment,
+            stdout=log,
+            stderr=log,
+            start_new_session=True,
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # ignored in what runs in the background
         )
     try:
         yield run
@@ -70,12 +78,6 @@ def started(folder, *arguments, log="chaos.log", mode="w"):
         with contextlib.suppress(ProcessLookupError):
             os.killpg(run.pid, signal.SIGKILL)
         run.wait()
-
-
-def run_to_end(folder, *arguments):
-    """Run Snakemake; one line on what went wrong, or None."""
-    with started(folder, *arguments) as run:
-        return verdict(folder, run)
 
 
 def verdict(folder, run):
@@ -100,10 +102,14 @@ def job_processes(run):
     return jobs
 
 
-def kill(run, random):
-    """Kill one random job or, with probability 1/2 and if there is no job, everything; return which."""
+def disturb(run, random):
+    """Kill the whole run, kill one of its jobs (if it has none, the whole run) or interrupt it; return which."""
     jobs = list(job_processes(run).items())
-    if jobs and random.random() < 0.5:
+    draw = random.random()
+    if draw < 0.25:
+        os.killpg(run.pid, signal.SIGINT)
+        return "interrupt"
+    if draw < 0.5 and jobs:
         process, rule = jobs[random.integers(len(jobs))]
         with contextlib.suppress(psutil.NoSuchProcess):
             process.kill()
@@ -123,8 +129,6 @@ def killed_run(folder, random, longest_wait, kills, report):
     remove_results(folder)
     killed = 0
     while True:
-        if any((folder / ".snakemake/locks").glob("*")) and (wrong := run_to_end(folder, "--unlock")):
-            return f"--unlock {wrong}"
         with started(folder) as run:
             if killed == kills:
                 return verdict(folder, run)
@@ -133,9 +137,11 @@ def killed_run(folder, random, longest_wait, kills, report):
                 run.wait(wait)
             except subprocess.TimeoutExpired:
                 killed += 1
-                report(kill(run, random), wait, jobs_done(folder))
+                report(disturb(run, random), wait, jobs_done(folder))
                 with contextlib.suppress(subprocess.TimeoutExpired):
                     run.wait(HANGS)  # a run that has lost a job finishes its other one and ends with an error
+                if run.poll() is None:
+                    return f"does not end within {HANGS} s after this"
             else:
                 return verdict(folder, run)
 
@@ -159,8 +165,9 @@ def undisturbed(folder):
     """Contents after a run that starts without results, and its seconds."""
     remove_results(folder)
     start = time.perf_counter()
-    if wrong := run_to_end(folder):
-        raise click.ClickException(f"the undisturbed run {wrong}")
+    with started(folder) as run:
+        if wrong := verdict(folder, run):
+            raise click.ClickException(f"the undisturbed run {wrong}")
     seconds = time.perf_counter() - start
     for path in (folder / "results").rglob("*.nc"):
         netcdf.read(path)  # so that every file with the same bytes can be read, too
@@ -205,7 +212,7 @@ def chaos(folder, kills, seed):
 
 
 @click.command(help=__doc__.splitlines()[0])
-@click.option("--kills", type=click.IntRange(1), default=50, show_default=True, help="Total number of kills.")
+@click.option("--kills", type=click.IntRange(1), default=60, show_default=True, help="Total number of disturbances.")
 @click.option(
     "--seed", type=click.IntRange(0), default=1, show_default=True, help="Seed of the times and of what is killed."
 )

@@ -11,7 +11,7 @@ def log_to(path):
     """Log to a file, replacing it, and to stderr: messages, warnings and whatever ends the script early.
 
     The traceback of an uncaught exception goes to both; that of a ValueError or ConvergenceError, whose
-    message says what is wrong, only to the file: stderr gets the message.
+    message says what is wrong, only to the file: stderr gets the message. An interrupt has none.
     """
     in_file, on_stderr = logging.FileHandler(path, mode="w", encoding="utf-8"), logging.StreamHandler()
     form = {"format": "%(asctime)s %(levelname)s %(message)s", "datefmt": "%Y-%m-%d %H:%M:%S"}
@@ -20,11 +20,14 @@ def log_to(path):
     logging.getLogger("fontTools").setLevel(logging.WARNING)  # else a figure's fonts fill pages
 
     def report(kind, error, trace):
+        if issubclass(kind, KeyboardInterrupt):
+            logging.error("interrupted")
+            return
         logging.error("%s: %s", kind.__name__, " ".join(str(error).split()))
         details = "".join(traceback.format_exception(kind, error, trace)).rstrip()
         record = logging.root.makeRecord("root", logging.ERROR, __file__, 0, details, (), None)
         in_file.handle(record)
-        if not issubclass(kind, (ValueError, ConvergenceError, KeyboardInterrupt)):
+        if not issubclass(kind, (ValueError, ConvergenceError)):
             on_stderr.handle(record)
 
     sys.excepthook = report

@@ -15,7 +15,7 @@ import yaml
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPTS = ROOT / "workflow/scripts"
 TEST = ("--configfile", "config/test.yaml")
-TARGETS = {"all", "figures", "tables", "validation", "speed", "stability", "sizes", "large", "costs"}
+TARGETS = {"all", "curves", "figures", "tables", "validation", "speed", "stability", "sizes", "large", "costs"}
 TARGETS |= {f"figure_{number}" for number in range(1, 5)}
 
 

@@ -24,6 +24,15 @@ def root_logger():
     logging.captureWarnings(False)
 
 
+def test_an_interrupt_is_one_line(tmp_path):
+    script = "from viscorough_study.job_log import log_to; log_to('job.log'); raise KeyboardInterrupt"
+    done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode != 0
+    assert (tmp_path / "job.log").read_text() == done.stderr
+    assert done.stderr.endswith("ERROR interrupted\n")
+    assert done.stderr.count("\n") == 1
+
+
 @pytest.mark.parametrize(
     ("error", "on_stderr"),
     [

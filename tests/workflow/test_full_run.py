@@ -86,6 +86,12 @@ def test_a_second_run_has_nothing_to_do(finished):
     assert plan(finished, *TEST) == {}
 
 
+def test_deleted_curves_are_made_again_by_a_target(finished):
+    (finished / "results/curves/discs/h04000_c1/0000-0001.nc").unlink()
+    assert plan(finished, *TEST) == {}
+    assert plan(finished, *TEST, "--", "curves") == {"indent_discs": 1}
+
+
 def test_report(finished):
     snakemake(finished, *TEST, "--report", "report.html")
     page = (finished / "report.html").read_text()

@@ -1,58 +1,93 @@
-"""A run that is killed, and goes on."""
+"""Runs that are interrupted or killed, through make as its users do, and go on when the same command is typed again."""
 
 import os
+import shutil
 import signal
 import subprocess
+import sys
 import time
 
+import pytest
 import xarray as xr
 
-from support.workflow import TEST, command, copy_project, environment, settings_file, snakemake
+from support.workflow import ROOT, copy_project, environment, merged, read_settings, settings_file
+
+LONG = {
+    "discs": {"hurst": [0.9], "realizations": 2, "combinations": read_settings("config")["discs"]["combinations"][:1]},
+    "lines": {"hurst": [0.9], "points": 65536, "realizations": 300, "batch": 100},
+    "variants": {"cases": []},
+}
+LINES = [f"results/curves/lines/h09000/{batch}.nc" for batch in ("0000-0099", "0100-0199", "0200-0299")]
+POOL = "results/ensembles/lines.nc"
+GOES_ON = "The last run in this folder was killed: its lock is removed, its results are kept."
 
 
-def test_a_killed_run_leaves_no_incomplete_file_and_goes_on(tmp_path):
+@pytest.fixture
+def folder(tmp_path):
+    """A project whose `make reproduce` and `make paper` make one small ensemble."""
     folder = copy_project(tmp_path)
-    long = settings_file(
-        folder,
-        "long",
-        discs={"hurst": [0.9]},
-        lines={"hurst": [0.9], "points": 65536, "realizations": 300, "batch": 100},
-    )
-    target = "results/ensembles/lines.nc"
-    finished = [folder / f"results/curves/lines/h09000/{batch}.nc" for batch in ("0000-0099", "0100-0199", "0200-0299")]
-    run = subprocess.Popen(
-        command(*TEST, long, "--cores", "1", "--", target),
-        cwd=folder,
+    for name in ("benchmarks", "peers"):
+        shutil.copytree(ROOT / name, folder / name)
+    makefile = (ROOT / "Makefile").read_text()
+    assert makefile.count(" all costs\n") == 2
+    (folder / "Makefile").write_text(makefile.replace(" all costs\n", f" {POOL}\n"))
+    small = merged(merged(read_settings("config"), read_settings("test")), LONG)
+    for name in ("config", "paper"):
+        settings_file(folder / "config", name, **small)
+    return folder
+
+
+def make(folder, target):
+    """Start `make <target>` in its own group of processes, as a terminal does."""
+    runner = f"{sys.executable} -m snakemake --cores 1 --nocolor"
+    options = {"cwd": folder, "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
+    return subprocess.Popen(
+        ["make", "-o", "environment", f"BIN={os.path.dirname(sys.executable)}", f"SNAKEMAKE={runner}", target],
         env=environment(folder),
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
         start_new_session=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # the tests may run where it is ignored
+        **options,
     )
+
+
+def wait_until(reached, run):
     deadline = time.monotonic() + 120
-    while sum(path.exists() for path in finished) < 1 or not running(folder):
+    while not reached():
         assert time.monotonic() < deadline
-        assert run.poll() is None
+        assert run.poll() is None, run.communicate()[0]
         time.sleep(0.02)
-    os.killpg(run.pid, signal.SIGKILL)
-    run.wait()
-    done = [path for path in finished if path.exists()]
-    assert 1 <= len(done) < 3
-    assert not (folder / target).exists()
-    before = {path: path.read_bytes() for path in done}
-    for path in done:
-        with xr.open_dataset(path) as curves:
-            assert curves.sizes["realization"] == 100
 
-    snakemake(folder, *TEST, long, "--unlock")
-    snakemake(folder, *TEST, long, "--", target)
-    with xr.open_dataset(folder / target) as pool:
+
+def interrupted(folder, target, signal_number):
+    """Outputs of `make <target>` that is sent a signal while it makes its second batch, and that is typed again."""
+    with make(folder, target) as run:
+        wait_until(lambda: len(list((folder / "results/logs/indent_lines/h09000").glob("*.log"))) == 2, run)
+        os.killpg(run.pid, signal_number)
+        first, _ = run.communicate(timeout=60)
+    assert run.returncode != 0
+    done = {path: (folder / path).stat().st_mtime_ns for path in LINES if (folder / path).exists()}
+    assert done
+    assert not (folder / POOL).exists()
+    locked = list((folder / ".snakemake/locks").glob("*"))
+    assert bool(locked) == (signal_number == signal.SIGKILL), first
+    with make(folder, target) as run:
+        second, _ = run.communicate(timeout=120)
+    assert run.returncode == 0, second
+    assert {path: (folder / path).stat().st_mtime_ns for path in done} == done, "what was made is kept"
+    with xr.open_dataset(folder / POOL) as pool:
         assert pool.sizes["realization"] == 300
-    for path, content in before.items():
-        assert path.read_bytes() == content
     assert not list((folder / "results").rglob("*.part"))
+    return first, second
 
 
-def running(folder):
-    """Whether a job is under way that has logged its start but is not known to be finished."""
-    logs = set((folder / "results/logs/indent_lines").rglob("*.log"))
-    return len(logs) > len(list((folder / "results/curves/lines").rglob("*.nc")))
+def test_killed_reproduction_goes_on(folder):
+    _, second = interrupted(folder, "reproduce", signal.SIGKILL)
+    assert second.count(GOES_ON) == 1
+
+
+def test_interrupted_run_at_the_papers_scale_goes_on(folder):
+    """Its cost is measured by a process around Snakemake, which must not end before Snakemake has."""
+    first, second = interrupted(folder, "paper", signal.SIGINT)
+    assert "Traceback" not in first
+    assert GOES_ON not in second
+    assert (folder / "results/costs.json").exists()

@@ -12,6 +12,7 @@ from viscorough_study import cases
 from viscorough_study.paper_data import number, read_paper
 from viscorough_study.settings import SettingsError, check_settings
 from viscorough_study.source_digest import SourceDigests
+from viscorough_study.stale_locks import remove_stale_locks
 
 # One thread per job, for jobs run side by side. Numba only reads its own variable.
 os.environ.update(NUMBA_NUM_THREADS="1", OMP_NUM_THREADS="1")
@@ -23,6 +24,9 @@ os.environ.setdefault("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1")  # large pages
 # Threads of a timed job, so that no other job runs beside it: Snakemake reduces them to --cores. `workflow.cores` would
 # make --unlock, --summary, --rulegraph and --report fail without --cores.
 ALL_CORES = 10**6
+
+if workflow.is_main_process:  # not one of its jobs
+    remove_stale_locks()
 
 WORKFLOW = Path(workflow.basedir) / "workflow"
 SOURCES = SourceDigests(Path(importlib.util.find_spec("viscorough").origin).parents[1])
@@ -63,19 +67,19 @@ def cases_of_pool(pool):
     return LINES if pool.endswith("lines") else DISCS
 
 
-def batches_of_pool(wildcards):
+def batches_of_pool(pool):
     """[(case, batch)] of a pool."""
-    return cases.pool_batches(cases_of_pool(wildcards.pool), wildcards.pool)
+    return cases.pool_batches(cases_of_pool(pool), pool)
 
 
-def curves_of_pool(wildcards):
-    kind = "lines" if wildcards.pool.endswith("lines") else "discs"
-    return [f"results/curves/{kind}/{case}/{batch}.nc" for case, batch in batches_of_pool(wildcards)]
+def curves_of_pool(pool):
+    kind = "lines" if pool.endswith("lines") else "discs"
+    return [f"results/curves/{kind}/{case}/{batch}.nc" for case, batch in batches_of_pool(pool)]
 
 
 def names_of_pool(wildcards):
     """Case of each batch of a pool."""
-    return [case for case, _ in batches_of_pool(wildcards)]
+    return [case for case, _ in batches_of_pool(wildcards.pool)]
 
 
 def groups_of_pool(wildcards):

@@ -3,7 +3,7 @@
 
 rule pool_curves:
     input:
-        curves=curves_of_pool,
+        curves=lambda wildcards: curves_of_pool(wildcards.pool),
     output:
         pool="results/ensembles/{pool}.nc",
     log:

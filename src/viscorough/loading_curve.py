@@ -10,6 +10,9 @@ import numpy as np
 
 from viscorough.arrays import keep_read_only
 
+# Relative rounding error of forces and depths that is allowed for.
+_ROUNDING = 1e-12
+
 
 @dataclass(frozen=True)
 class LoadingCurve:
@@ -57,18 +60,19 @@ class LoadingCurve:
         Where at most one element joined the contact from one level to the next, the curve is made of the two
         tangents, exactly. Elsewhere ln u is a cubic Hermite interpolant in ln F (a power law is met exactly),
         kept inside the triangle of chord and tangents to which convexity of F(u) confines the curve.
-        Before the first level the curve is the straight line through the origin if the tangent there passes
-        through it (one element, or several of one height), nan otherwise; at zero force the depth is zero.
+        Before the first level the curve is the straight line through the origin if the elements in contact there are
+        of one height, so that the tangent passes through the origin to rounding; otherwise depth and stiffness are
+        nan, except that at zero force the depth is zero.
 
         force : F/G, any shape [length²]. Returns (depth, stiffness) of the same shape.
         """
         force = np.asarray(force, dtype=float)
         # A force computed back from a level may miss it by rounding.
         for end in (self.force[0], self.force[-1]):
-            force = np.where(np.abs(force - end) <= 1e-12 * end, end, force)
+            force = np.where(np.abs(force - end) <= _ROUNDING * end, end, force)
         depth, stiffness = np.full(force.shape, np.nan), np.full(force.shape, np.nan)
 
-        straight = abs(self.force[0] - self.stiffness[0] * self.depth[0]) <= max(self.tolerance, 1e-9) * self.force[0]
+        straight = abs(self.force[0] - self.stiffness[0] * self.depth[0]) <= _ROUNDING * self.force[0]
         first = (force >= 0) & (force <= self.force[0]) if straight else force == self.force[0]
         depth[first] = force[first] / self.force[0] * self.depth[0]
         stiffness[first] = self.stiffness[0]

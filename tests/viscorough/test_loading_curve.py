@@ -154,3 +154,10 @@ def test_normalised_and_contact_fraction():
     np.testing.assert_allclose(x, curve.force / 2.0, rtol=1e-15)
     np.testing.assert_allclose(kappa, curve.stiffness / 20.0, rtol=1e-15)
     np.testing.assert_array_equal(curve.contact_fraction, [0.001, 0.002])
+
+
+def test_a_force_that_is_no_number_has_no_depth():
+    curve = springs(np.array([0.0, 1.0, 3.0]), [0.6, 1.1, 2.5, 3.7])
+    depth, stiffness = curve.at_force([np.nan, curve.force[1]])
+    np.testing.assert_allclose(depth, [np.nan, 1.1])
+    np.testing.assert_allclose(stiffness, [np.nan, 1 if curve.contact_count[1] == 1 else 2])

@@ -16,7 +16,7 @@ from viscorough.errors import ConvergenceError
 from viscorough.interrupts import uninterrupted
 
 # Rounding error allowed for in a gap over the depth, in a pressure over the largest one, and in the depth of an event.
-_ROUNDING = 1e-12
+ROUNDING = 1e-12
 _MAX_ITERATIONS = 100
 
 
@@ -84,8 +84,8 @@ def solve(elements, contact, depth, candidates, max_count):
     for _ in range(_MAX_ITERATIONS):
         deflection = _deflection(*of_elements, members, pressure, candidates)
         # Rounding must not decide: an element whose gap or pressure is zero to rounding keeps its state.
-        in_contact = deflection - depth + elements.initial_gap[:candidates] < -_ROUNDING * depth
-        in_contact[members] = pressure >= -_ROUNDING * pressure.max()
+        in_contact = deflection - depth + elements.initial_gap[:candidates] < -ROUNDING * depth
+        in_contact[members] = pressure >= -ROUNDING * pressure.max()
         next_members = np.flatnonzero(in_contact)
         if np.array_equal(next_members, members):
             return _exact_contact(contact.units, depth, members, pressure, tangent)
@@ -118,7 +118,7 @@ def follow_events(elements, contact, most, pressure_sum):
         )  # fmt: skip
     count = np.arange(contact.count, contact.count + depth.size)
     # The first entry is the given contact. The last event is known to be complete only if no element is left.
-    complete = np.append(np.diff(depth) > _ROUNDING * depth[1:], members.size == elements.count)
+    complete = np.append(np.diff(depth) > ROUNDING * depth[1:], members.size == elements.count)
     complete[0] = False
     events = ContactEvents(depth[complete], total[complete], stiffness[complete], count[complete])
     if events.depth.size:

@@ -8,13 +8,15 @@ is straight, so that interpolation is exact. Later, levels are placed where inte
 
 import numpy as np
 
+from viscorough.contact.dense import ROUNDING
 from viscorough.contact.options import DEFAULT
 from viscorough.contact.solver import ContactSolver
-from viscorough.contact.step_control import APPROACH_DEPTH_RATIO, Level, StepControl
+from viscorough.contact.step_control import Level, StepControl, division
 from viscorough.loading_curve import LoadingCurve
 
-# The approach to the start fraction takes long steps up to this share of it.
-_APPROACH_SHARE = 0.7
+# The approach to the start fraction takes steps of this ratio of depths up to this share of it; they become shorter
+# until their ratio is the last number.
+_APPROACH_DEPTH_RATIO, _APPROACH_SHARE, _APPROACH_MIN_RATIO = 4.0, 0.7, 1.02
 
 
 def indent(
@@ -35,8 +37,8 @@ def indent(
     indenter : Indenter with two-dimensional heights
     tolerance : largest gap in contact, or overlap outside it, over the depth, at every level, rounding included; the
         relative error of the force there is of second order in it (measured: `make bench`, key curve, force_error).
-        Also the relative error of the depth interpolated between levels by LoadingCurve.at_force, down to 1e-5.
-        Between 1e-12 and 0.1
+        Also the largest relative error of the depth interpolated between levels by LoadingCurve.at_force, down to 1e-5,
+        where no depths are given. Between 1e-12 and 0.1
     depths : exactly these depths, increasing [length]; default: levels are placed as the tolerance requires
     start_fraction : contact fraction from which on the curve is needed, below `until_fraction`; at smaller fractions it
         has only a few levels, and interpolation between these is not held to the tolerance; ignored where depths are
@@ -123,8 +125,8 @@ class _LoadingPath:
 
     def _approach(self, start_count):
         """Take long steps towards the contact count from which on the curve is needed, shorter ones close to it."""
-        ratio, most = APPROACH_DEPTH_RATIO, _APPROACH_SHARE * start_count
-        while self._is_unfinished() and self._contact.count < most and ratio > self._control.min_ratio:
+        ratio, most = _APPROACH_DEPTH_RATIO, _APPROACH_SHARE * start_count
+        while self._is_unfinished() and self._contact.count < most and ratio > _APPROACH_MIN_RATIO:
             contact = self._solver.advance_reduced(self._contact, self._contact.reduced_depth * ratio)
             # A contact beyond the start is kept for later: the interval that contains the start must be a short one.
             if contact.count > start_count or contact.pressure_sum > self._until_pressure_sum:
@@ -135,11 +137,15 @@ class _LoadingPath:
                 ratio = (self._ahead[-1].reduced_depth / self._contact.reduced_depth) ** 0.5
 
     def _follow_events(self):
-        if not (self._is_unfinished() and self._contact.count < self._control.events):
+        """Add the contact events as levels while few elements are in contact; only a dense solution is exact enough."""
+        contact = self._contact
+        if not self._is_unfinished() or contact.fields is not None or contact.count >= self._control.events:
             return
         most = min(self._control.events, int(np.ceil(self._until_count)))
-        events, self._contact = self._solver.follow_events(self._contact, most, self._until_pressure_sum)
+        events, self._contact = self._solver.follow_events(contact, most, self._until_pressure_sum)
         columns = events.depth, events.pressure_sum, events.tangent_sum, events.count
+        if events.depth.size and events.depth[0] <= contact.reduced_depth * (1 + ROUNDING):
+            self._levels.pop()  # more elements touch at exactly that depth
         self._levels += [Level(*event) for event in zip(*columns, strict=True)]
         nearest = self._control.min_ratio * self._contact.reduced_depth
         self._ahead = [contact for contact in self._ahead if contact.reduced_depth > nearest]
@@ -150,13 +156,13 @@ class _LoadingPath:
             if not self._ahead:
                 self._ahead.append(self._advance(ratio))
             step = self._ahead[-1].reduced_depth / self._contact.reduced_depth
-            error = self._control.error(self._levels, Level.of(self._ahead[-1]))
-            if self._control.is_too_long(self._levels, step, error):
-                divided = self._contact.reduced_depth * np.sqrt(step)
+            excess = self._control.excess(self._contact, self._ahead[-1])
+            if self._control.is_too_long(step, excess):
+                divided = division(Level.of(self._contact), Level.of(self._ahead[-1]))
                 self._ahead.append(self._solver.advance_reduced(self._contact, divided))
                 continue
             self._add(self._ahead.pop())
-            ratio = self._control.next_ratio(step, error)
+            ratio = self._control.next_ratio(step, excess)
 
     def _advance(self, ratio):
         """The contact at a depth larger by a ratio, or by less where the force at which to stop is reached before."""

@@ -129,6 +129,9 @@ class ContactSolver:
                     f"contact at depth {after.depth:g}: {lost.size} elements lost contact by up to "
                     f"{opening * self.units.length:g} although contact can only grow; choose a smaller tolerance"
                 )
+        if self.elements.initial_gap[after.members[-1]] == 0:
+            # All touch from the outset: the curve is straight up to here, as LoadingCurve.at_force recognizes.
+            return replace(after, pressure_sum=after.reduced_depth * after.tangent_sum)
         return after
 
 

@@ -1,4 +1,9 @@
-"""Placement of the levels of a loading path: few of them, yet close enough for accurate interpolation between them."""
+"""Placement of the levels of a loading path: few of them, yet close enough for accurate interpolation between them.
+
+The curve is convex, so that between two levels it lies in the triangle of their tangents and their chord. This bounds
+the error of the interpolated depth in every interval, whatever the surface. On rough surfaces the error is far below
+the bound; twice the bound is accepted where the elements that join are predicted to touch evenly over the interval.
+"""
 
 from dataclasses import dataclass
 
@@ -9,24 +14,23 @@ from viscorough.loading_curve import interpolate_levels
 # Smallest accuracy of interpolation that is offered: a smaller one would require every contact event as a level, as in
 # direct integration.
 FINEST_ACCURACY = 1e-5
-# Ratios of the depths of successive levels: the largest one; the largest one of the first step after contact events;
-# the one below the start fraction; and the smallest one, which a high accuracy reduces further. A shorter step would
-# only resolve the kinks at which single elements join.
-_MAX_DEPTH_RATIO, _INITIAL_DEPTH_RATIO, APPROACH_DEPTH_RATIO, _MIN_DEPTH_RATIO = 2.0, 1.15, 4.0, 1.02
-_MIN_DEPTH_STEP_PER_ACCURACY = 200
+# Ratios of the depths of successive levels: the largest one; the first one where there are few contact events.
+_MAX_DEPTH_RATIO, _INITIAL_DEPTH_RATIO = 2.0, 1.15
 # An element that joins n others makes a kink of about 1/n in the stiffness: every event is a level up to a contact
 # count of the first number over the accuracy, but at most the second number.
 _EVENTS_PER_ACCURACY, _MAX_EVENTS = 0.4, 400
-# The next step aims at this share of the accuracy, for an error of third order in the logarithm of the depth ratio;
-# this logarithm changes by a factor between the last two numbers.
-_AIM, _ORDER, _LEAST_CHANGE, _LARGEST_CHANGE = 0.7, 3, 0.5, 1.6
-# A depth ratio is not reduced below this power of the preceding one: the estimated error is that of both intervals, and
-# a shorter step does not reduce the error of the preceding interval.
-_LAST_STEP_POWER = 0.3
-# Factor from the error at the middle level to that within the intervals, and share of the error of the stiffness in it:
-# a kink of the stiffness changes the depth within the intervals more than at the middle level. The estimate is not a
-# bound (`make bench`, key curve, interpolation_error).
-_MARGIN, _STIFFNESS_SHARE = 1.5, 0.03
+# The next step aims at this share of the admissible bound, which is of second order in the logarithm of the depth
+# ratio; this logarithm changes by a factor between the last two numbers.
+_AIM, _ORDER, _LEAST_CHANGE, _LARGEST_CHANGE = 0.75, 2, 0.3, 2.0
+# A step is divided within these shares of it.
+_DIVISION = 0.15, 0.85
+# Points of an interval at which the bound is evaluated, as shares of its force.
+_POINTS = np.linspace(0, 1, 18)[1:-1]
+# Bound over the accuracy up to which an interval is accepted if the elements that join touch evenly: at least so many
+# elements, of which the predicted depths of touch have a mean and a standard deviation (over the interval) near those
+# of an even distribution (0.29).
+_EVEN_BOUND, _EVEN_COUNT, _EVEN_MEAN_DEVIATION, _EVEN_SPREAD = 2.0, 10, 0.12, (0.21, 0.38)
+_TINY = 1e-30
 
 
 @dataclass(frozen=True)
@@ -46,52 +50,100 @@ class Level:
 
 
 class StepControl:
-    """Depth ratios of successive levels for a given relative error of the interpolated depth.
+    """Decides on the depths of successive levels for a given relative error of the interpolated depth.
 
-    tolerance : the error aimed at, not below FINEST_ACCURACY
+    tolerance : the error allowed, not below FINEST_ACCURACY
 
-    min_ratio : smallest ratio of the depths of successive levels
+    min_ratio : smallest ratio of the depths of successive levels; a triangle of this width is flatter than the accuracy
     events : contact count up to which every contact event is a level
     """
 
     def __init__(self, tolerance):
         self._accuracy = max(tolerance, FINEST_ACCURACY)
-        self.min_ratio = min(_MIN_DEPTH_RATIO, 1 + _MIN_DEPTH_STEP_PER_ACCURACY * self._accuracy)
+        self.min_ratio = 1 + self._accuracy
         self.events = int(min(_EVENTS_PER_ACCURACY / self._accuracy, _MAX_EVENTS))
 
     def first_ratio(self, levels):
-        """Ratio of the first step after contact events: about that of two events.
+        """Ratio of the first step after contact events, from the bound over the last quarter of them."""
+        first = levels[-1 - len(levels) // 4]
+        ratio = levels[-1].depth / first.depth
+        if ratio == 1:
+            return _INITIAL_DEPTH_RATIO
+        return self.next_ratio(ratio, interpolation_bound(first, levels[-1]) / self._accuracy)
 
-        If it were much larger than the step before, the error estimate, which covers both, would not be reliable.
+    def excess(self, before, after):
+        """Bound on the error of interpolation between two contacts, over the bound that is allowed there.
+
+        before, after : Contacts
         """
-        ratio = (levels[-1].depth / levels[-min(len(levels), 5)].depth) ** 0.5
-        return np.clip(ratio, self.min_ratio, _INITIAL_DEPTH_RATIO)
+        bound = interpolation_bound(Level.of(before), Level.of(after)) / self._accuracy
+        return bound / _EVEN_BOUND if _touch_evenly(before, after) else bound
 
-    def error(self, levels, ahead):
-        """Estimated relative error of the interpolated depth around the last level; 0 if no level precedes it."""
-        return interpolation_error(*levels[-2:], ahead) if len(levels) > 1 else 0.0
+    def is_too_long(self, ratio, excess):
+        """Whether a step with this ratio of depths is to be divided."""
+        return excess > 1 and ratio > self.min_ratio
 
-    def is_too_long(self, levels, ratio, error):
-        """Whether a step from the last level with this ratio and error is to be divided."""
-        limit = self.min_ratio**2
-        if len(levels) > 1:
-            limit = max(limit, (levels[-1].depth / levels[-2].depth) ** _LAST_STEP_POWER)
-        return error > self._accuracy and ratio > limit
-
-    def next_ratio(self, ratio, error):
-        """Ratio of the step after one with this ratio and error."""
-        change = (_AIM * self._accuracy / max(error, 1e-30)) ** (1 / _ORDER)
+    def next_ratio(self, ratio, excess):
+        """Ratio of the step after one with this ratio."""
+        change = (_AIM / max(excess, 1e-30)) ** (1 / _ORDER)
         return np.clip(ratio ** np.clip(change, _LEAST_CHANGE, _LARGEST_CHANGE), self.min_ratio, _MAX_DEPTH_RATIO)
 
 
-def interpolation_error(before, middle, after):
-    """Estimated relative error of the depth interpolated in the two intervals between three levels.
+def interpolation_bound(before, after):
+    """Bound on the relative error of the depth interpolated between two levels, from the convexity of the curve.
 
-    The curve is interpolated from the first level to the third and compared with the second.
+    It is the largest distance of the interpolated depth from the sides of the triangle of chord and tangents.
 
-    before, middle, after : Levels
+    before, after : Levels
     """
+    if after.count - before.count in (0, 1):
+        return 0.0  # the two tangents are the curve
+    force = before.pressure_sum + _POINTS * (after.pressure_sum - before.pressure_sum)
     ends = np.array([[level.depth, level.pressure_sum, level.tangent_sum, level.count] for level in (before, after)]).T
-    (depth,), (tangent_sum,) = interpolate_levels(*ends, np.array([middle.pressure_sum]))
-    depth_error, tangent_error = abs(depth / middle.depth - 1), abs(tangent_sum / middle.tangent_sum - 1)
-    return _MARGIN * (depth_error + _STIFFNESS_SHARE * tangent_error)
+    depth, _ = interpolate_levels(*ends, force)
+    chord = before.depth + _POINTS * (after.depth - before.depth)
+    tangents = np.minimum(
+        before.depth + (force - before.pressure_sum) / before.tangent_sum,
+        after.depth - (after.pressure_sum - force) / after.tangent_sum,
+    )
+    return (np.maximum(tangents - depth, depth - chord) / depth).max()
+
+
+def division(before, after):
+    """Depth at which to divide the interval between two levels: where their tangents meet.
+
+    If the stiffness jumps at one depth, it is this one. Otherwise it is near the middle of the interval.
+    """
+    width = after.depth - before.depth
+    rise = after.tangent_sum - before.tangent_sum
+    missing = after.tangent_sum * width - (after.pressure_sum - before.pressure_sum)
+    share = missing / (rise * width) if rise > 0 else 0.5
+    return before.depth + width * np.clip(share, *_DIVISION)
+
+
+def _touch_evenly(before, after):
+    """Whether the elements that join the contact between two contacts touch evenly over the interval.
+
+    The gap e of an element outside the contact is convex in the depth, so that it touches no earlier than at u₀ − e/e_q,
+    with the gap and the tangent gap before. Its pressure is concave, so that it touches no earlier than at u₁ − P/q,
+    with those after. The later of the two predicts its touch closely. The stiffness that it adds is taken as
+    proportional to e_q², as for the first element to join.
+    """
+    if before.fields is None:
+        return False
+    is_new = ~np.isin(after.members, before.members, assume_unique=True, kind="table")
+    place = before.fields.place[after.members[is_new]]
+    if place.size < _EVEN_COUNT or not place.all():  # place 0 is outside the grid of the contact before
+        return False
+    tangent_gap = np.minimum(before.fields.tangent_gap.values[place], -_TINY)
+    gap = np.maximum(before.fields.gap.values[place], 0)
+    width = after.reduced_depth - before.reduced_depth
+    from_before = -gap / tangent_gap / width
+    from_after = 1 - after.reduced_pressure[is_new] / np.maximum(after.tangent[is_new], _TINY) / width
+    touch = np.clip(np.maximum(from_before, from_after), 0, 1)
+    weight = tangent_gap**2 / (tangent_gap @ tangent_gap)
+    mean = weight @ touch
+    spread = np.sqrt(weight @ (touch - mean) ** 2)
+    rise = (after.pressure_sum - before.pressure_sum) / width - before.tangent_sum
+    true_mean = 1 - rise / (after.tangent_sum - before.tangent_sum)
+    return abs(mean - true_mean) <= _EVEN_MEAN_DEVIATION and _EVEN_SPREAD[0] <= spread <= _EVEN_SPREAD[1]

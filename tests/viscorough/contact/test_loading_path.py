@@ -12,6 +12,7 @@ from viscorough.contact.solver import ContactSolver
 from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
+from viscorough.viscous.events import march_events
 from viscorough_study.performance.other_solvers import residual_of
 
 
@@ -264,3 +265,47 @@ def test_levels_before_the_start_only_lead_there(hurst, elements):
     assert (np.diff(curve.depth) > 0).all()
     assert (np.diff(curve.force) > 0).all()
     assert np.count_nonzero(curve.contact_fraction < 0.05) < 12
+
+
+@pytest.mark.parametrize(
+    ("indenter", "start", "until"),
+    [
+        (self_affine_disc(0.5, 65, seed=4), 0.1, 0.4),
+        (Indenter(-np.add.outer((np.arange(24) - 11.5) ** 2, (np.arange(24) - 11.5) ** 2) / 200, 1.0), 0.7, 0.95),
+        (Indenter(-np.add.outer((np.arange(33) - 15.7) ** 2, (np.arange(33) - 16.2) ** 2) / 200, 1.0), 0.7, 0.95),
+    ],
+    ids=["disc", "paraboloid", "paraboloid off the grid"],
+)
+def test_levels_increase_and_are_finite_whatever_the_start(indenter, start, until):
+    curve = indent(indenter, tolerance=1e-3, start_fraction=start, until_fraction=until)
+    for values in (curve.depth, curve.force):
+        assert np.isfinite(values).all()
+        assert (np.diff(values, prepend=0) > 0).all()
+    assert curve.contact_fraction[-1] >= until
+
+
+def test_the_last_interval_of_a_small_curve_is_as_accurate_as_the_others():
+    indenter = Indenter(np.array([[0.52, 0.08, 0.73], [0.7, 0.74, 0.85], [0.22, 0.55, 0.55]]), 1.0)
+    curve, events = indent(indenter, tolerance=1e-5, until_fraction=0.5), march_events(indenter)
+    force = np.linspace(0, curve.force[-1], 200)[1:]
+    np.testing.assert_allclose(curve.at_force(force)[0], events.depth_at(force), rtol=1e-5)
+
+
+def test_nothing_is_said_before_a_given_depth_at_which_elements_of_several_heights_touch():
+    """The relief is smaller than the tolerance times the depth, and still bends the curve at small forces."""
+    indenter = Indenter(9e-4 * np.random.default_rng(0).random((20, 20)), 1.0)
+    curve = indent(indenter, tolerance=1e-3, depths=[1.0, 2.0])
+    depth, stiffness = curve.at_force(curve.force[0] * np.array([0.0, 0.01, 0.5, 1.0]))
+    np.testing.assert_allclose(depth, [0.0, np.nan, np.nan, 1.0])
+    assert np.isnan(stiffness[1:3]).all()
+
+
+@pytest.mark.parametrize("depths", [None, [0.5, 1.5]])
+def test_elements_of_one_height_give_a_straight_curve_from_the_origin(depths):
+    """Here on the grid, where forces are accurate to the tolerance only."""
+    plateau = Indenter(np.where(np.random.default_rng(0).random((40, 40)) < 0.5, 0.0, -2.0), 1.0)
+    curve = indent(plateau, tolerance=1e-2, depths=depths)
+    assert curve.operator_applications > 0
+    depth, stiffness = curve.at_force(curve.force[0] * np.array([0.01, 0.5]))
+    np.testing.assert_allclose(depth, curve.depth[0] * np.array([0.01, 0.5]), rtol=1e-12)
+    np.testing.assert_array_equal(stiffness, curve.stiffness[0])

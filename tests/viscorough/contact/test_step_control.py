@@ -1,0 +1,80 @@
+"""Placement of levels: bounds on the error between them, and where an interval is divided."""
+
+import numpy as np
+import pytest
+
+from viscorough.contact.loading_path import indent
+from viscorough.contact.solver import ContactSolver
+from viscorough.contact.step_control import Level, StepControl, division, interpolation_bound
+from viscorough.indenter import Indenter
+from viscorough.loading_curve import interpolate_levels
+from viscorough.surfaces import self_affine_disc
+from viscorough.viscous.events import march_events
+
+
+def springs(gaps, depth):
+    """The level of independent springs of stiffness 1 with these gaps."""
+    overlap = np.maximum(depth - gaps, 0)
+    return Level(depth, overlap.sum(), np.count_nonzero(overlap), np.count_nonzero(overlap))
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_bound_holds_for_any_convex_curve(seed):
+    random = np.random.default_rng(seed)
+    gaps = np.append(0, random.choice([random.random(200), 0.5 + 0.01 * random.random(200)]))
+    before, after = (springs(gaps, depth) for depth in (0.3, 0.8))
+    depth = np.linspace(0.3, 0.8, 100)[1:-1]
+    force = np.maximum(depth[:, None] - gaps, 0).sum(axis=1)
+    ends = np.array([[level.depth, level.pressure_sum, level.tangent_sum, level.count] for level in (before, after)]).T
+    error = np.abs(interpolate_levels(*ends, force)[0] / depth - 1).max()
+    # The bound is evaluated at a number of points of the interval, not at all of them.
+    assert error <= 1.02 * interpolation_bound(before, after)
+
+
+def test_one_element_that_joins_leaves_no_error():
+    gaps = np.array([0.0, 0.5])
+    assert interpolation_bound(springs(gaps, 0.3), springs(gaps, 0.8)) == 0.0
+    assert interpolation_bound(springs(np.append(gaps, 0.4), 0.3), springs(np.append(gaps, 0.4), 0.8)) > 0.01
+
+
+def test_an_interval_is_divided_where_the_stiffness_jumps():
+    gaps = np.append(0, np.full(50, 0.45))
+    assert division(springs(gaps, 0.3), springs(gaps, 0.8)) == pytest.approx(0.45, rel=1e-12)
+    close_to_the_end = np.append(0, np.full(50, 0.79999))
+    assert division(springs(close_to_the_end, 0.3), springs(close_to_the_end, 0.8)) < 0.8 - 0.07
+
+
+def boss_on_a_plate(across=24, radius=7):
+    """A boss of height 1 on a plate whose heights vary by 1e-3: the stiffness jumps when the plate touches."""
+    position = np.arange(across) - (across - 1) / 2
+    boss = np.add.outer(position**2, position**2) <= radius**2
+    return Indenter(boss + 1e-3 * np.random.default_rng(0).random(boss.shape), 1.0)
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-4, 1e-5])
+@pytest.mark.parametrize("start_fraction", [0.0, 0.2])
+def test_a_kink_is_resolved(tolerance, start_fraction):
+    boss = boss_on_a_plate()
+    events, curve = march_events(boss), indent(boss, tolerance=tolerance, start_fraction=start_fraction)
+    first = max(curve.force[curve.contact_fraction <= start_fraction], default=0.0)
+    impulse = events.impulse[(events.impulse > first) & (events.impulse <= curve.force[-1])]
+    impulse = np.union1d(impulse, (impulse[1:] + impulse[:-1]) / 2)
+    assert impulse.size > 500
+    depth, _ = curve.at_force(impulse)
+    assert np.abs(depth / events.depth_at(impulse) - 1).max() <= tolerance
+
+
+def test_the_bound_is_relaxed_only_where_elements_touch_evenly():
+    """On a rough surface twice the bound is accepted; where a plate touches at one depth it is not."""
+    excess = {}
+    for name, indenter, depths in (
+        ("rough", self_affine_disc(0.5, 129, seed=1), (0.6, 0.65)),
+        ("boss", boss_on_a_plate(56, 16), (1.3, 1.4)),
+    ):
+        solver, control = ContactSolver(indenter, 1e-6), StepControl(1e-3)
+        contact = solver.advance(solver.unloaded_state(), depths[0] / 2 * solver.units.length)
+        before = solver.advance_reduced(contact, depths[0])
+        after = solver.advance_reduced(before, depths[1])
+        bound = interpolation_bound(Level.of(before), Level.of(after)) / 1e-3
+        excess[name] = control.excess(before, after) / bound
+    assert excess == {"rough": 0.5, "boss": 1.0}

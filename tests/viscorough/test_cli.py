@@ -457,6 +457,17 @@ def test_march_refuses_histories(tmp_path, pulses, capsys, history, message):
     assert not output.exists()
 
 
+def test_output_does_not_replace_the_force_history(tmp_path, pulses, capsys):
+    _, command = pulses
+    history, content = tmp_path / "force.csv", (tmp_path / "force.csv").read_text()
+    (tmp_path / "link.csv").symlink_to(history)
+    for name in ("force.csv", "link.csv"):
+        arguments = ["--method", "events", "--force-history", str(history), "-o", str(tmp_path / name)]
+        assert cli.main([*command, *arguments]) == 2
+        assert "would replace the force history; another name is needed" in capsys.readouterr().err
+        assert history.read_text() == content
+
+
 def test_march_refuses_impulses_beyond_its_events(tmp_path, pulses, capsys):
     _, command = pulses
     arguments = ["--method", "events", "--until-fraction", "0.05", "--force-history", str(tmp_path / "force.csv")]

@@ -82,10 +82,22 @@ def curve_from_content(content):
     for name, (convert, _) in PER_CURVE.items():
         if name not in content.attributes:
             raise ValueError(f"no attribute {name}; a loading curve of viscorough indent is needed")
-        curve_fields[name] = convert(content.attributes[name])
+        curve_fields[name] = _converted(name, content.attributes[name], convert)
     curve = LoadingCurve(**level_fields, **curve_fields)
     check_curve(curve)
     return curve
+
+
+def _converted(name, value, kind):
+    """A global attribute as int, float or str. Raises ValueError unless it is a whole number, a number or text."""
+    try:
+        converted = kind(value)
+        if isinstance(value, str) if kind is str else np.ndim(value) == 0 and converted == value and value >= 0:
+            return converted
+    except (TypeError, ValueError, OverflowError):
+        pass
+    needed = {int: "a whole number from 0 on", float: "a number from 0 on", str: "text"}[kind]
+    raise ValueError(f"attribute {name} is {value!r}; {needed} is needed")
 
 
 def stack_curves(curves, length_unit="m"):

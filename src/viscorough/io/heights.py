@@ -11,6 +11,7 @@ import numpy as np
 from viscorough.indenter import Indenter
 from viscorough.io import netcdf
 from viscorough.io.atomic import reason
+from viscorough.io.unpacking import unpacked
 
 
 def read_heights(path, spacing):
@@ -19,19 +20,18 @@ def read_heights(path, spacing):
     path : .npy of shape (rows, columns), or .nc with one two-dimensional variable or one named `heights`
     spacing : distance between neighbouring points, in the unit of the heights
 
-    Heights are converted to double precision. Raises a one-line ValueError that names the file and what is wrong.
+    Missing values of a NetCDF file are nan. Raises a one-line ValueError that names the file and what is wrong.
     """
     suffix = Path(path).suffix
     if suffix not in (".npy", ".nc"):
         raise ValueError(f"{path}: unknown kind of file; heights are read from .npy and .nc")
-    heights = npy_array(path) if suffix == ".npy" else _with_height_variable(path, netcdf.read_values)
+    heights = npy_array(path) if suffix == ".npy" else _with_height_variable(path, unpacked)
     if heights.dtype.kind not in "iuf":
         raise ValueError(f"{path}: heights are of type {heights.dtype}; real numbers are needed")
     if heights.ndim != 2:
         raise ValueError(f"{path}: heights have the shape {heights.shape}; a two-dimensional map is needed")
     try:
-        # compiled loops accept neither foreign byte orders nor half precision
-        return Indenter(np.ascontiguousarray(heights, dtype=float), spacing)
+        return Indenter(heights, spacing)
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from error
 

@@ -1,5 +1,7 @@
 """Penetration over time in NetCDF files, and force histories read from files."""
 
+import contextlib
+import re
 from pathlib import Path
 
 import numpy as np
@@ -71,8 +73,9 @@ def integration_under_history(integration, history, viscosity, length_unit="m"):
 
 
 def read_force_history(path):
-    """Times and forces, both of shape (times,), in a file of two columns: .csv (with or without a header) or .npy.
+    """Times and forces, both of shape (times,), in a file of two columns: .csv or .npy.
 
+    The first row of a .csv file may be a header, in which no field is or starts like a number, nan or infinity.
     Raises a one-line ValueError that names the file and what is wrong. Whether the numbers are a force history is
     checked by viscous.correspondence.impulses.
     """
@@ -82,12 +85,21 @@ def read_force_history(path):
         table = npy_array(path)
     else:
         try:
-            lines = Path(path).read_text(encoding="utf-8").splitlines()
-            header = 1 if lines and any(letter.isalpha() for letter in lines[0].lower().replace("e", "")) else 0
-            table = np.loadtxt(lines[header:], delimiter=",", ndmin=2)
+            lines = [line for line in Path(path).read_text(encoding="utf-8-sig").splitlines() if line.strip()]
+            header = 1 if lines and not any(map(_starts_like_a_number, lines[0].split(","))) else 0
+            table = np.loadtxt(lines[header:], delimiter=",", ndmin=2) if lines[header:] else np.empty((0, 0))
         except (OSError, ValueError) as error:
             text = f"{path}: not readable ({reason(error)}); two columns, time and force, are needed"
             raise ValueError(text) from error
     if table.ndim != 2 or table.shape[1] != 2 or table.shape[0] < 2 or table.dtype.kind not in "iuf":
         raise ValueError(f"{path}: has the shape {table.shape}; two columns, time and force, and two rows are needed")
     return table[:, 0].astype(float), table[:, 1].astype(float)
+
+
+def _starts_like_a_number(field):
+    """Whether a field is a number, nan or infinite, or starts with a digit ("1N" is a mistake, not a heading)."""
+    field = field.strip().lower()
+    with contextlib.suppress(ValueError):
+        float(field)
+        return True
+    return bool(re.match(r"[-+]?\.?\d", field))

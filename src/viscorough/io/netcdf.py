@@ -8,16 +8,11 @@ import netCDF4
 import numpy as np
 
 from viscorough import __version__
+from viscorough.arrays import read_only
 from viscorough.io.atomic import atomic_write, reason
+from viscorough.io.unpacking import STORAGE, unpacked
 
 COMPRESSED_FROM = 4096  # number of values; for fewer, chunks cost more than compression saves
-_PACKING = (
-    "_FillValue",
-    "missing_value",
-    "scale_factor",
-    "add_offset",
-    "_Unsigned",
-)  # reading undoes the packing that these describe
 
 
 class Variable(NamedTuple):
@@ -53,8 +48,9 @@ def compression(size):
 def check_attributes(path, name, dtype, attributes):
     """Raise ValueError unless a variable has `long_name` and, if it holds numbers, `units`."""
     needed = ("long_name", "units") if dtype.kind in "biufc" else ("long_name",)
-    if missing := [attribute for attribute in needed if not attributes.get(attribute)]:
-        raise ValueError(f"{path}: variable {name} lacks {' and '.join(missing)}; all need both")
+    present = {attribute for attribute, value in attributes.items() if isinstance(value, str) and value}
+    if missing := [attribute for attribute in needed if attribute not in present]:
+        raise ValueError(f"{path}: variable {name} lacks {' and '.join(missing)}; text is needed for both")
 
 
 def write(content, path):
@@ -100,23 +96,18 @@ def opened(path):
 
 
 def read(path):
-    """Read a NetCDF file into memory as a Content. Raises a one-line ValueError if it is missing or damaged."""
+    """Read a NetCDF file into memory as a Content; missing values are nan.
+
+    Raises a one-line ValueError if the file is missing or damaged.
+    """
     with opened(path) as file:
         variables = {
-            name: Variable(variable.dimensions, read_values(variable), attributes_of(variable))
+            name: Variable(variable.dimensions, read_only(unpacked(variable)), attributes_of(variable))
             for name, variable in file.variables.items()
         }
         return Content(variables, {name: file.getncattr(name) for name in file.ncattrs()})
 
 
-def read_values(variable):
-    """The values of a netCDF4.Variable, unpacked; nan where they are missing."""
-    values = variable[...]
-    if not np.ma.is_masked(values):
-        return np.ma.getdata(values)
-    return values.astype(np.result_type(values, np.float32)).filled(np.nan)
-
-
 def attributes_of(variable):
-    """The attributes of a netCDF4.Variable, without those of its packing, which reading undoes."""
-    return {name: variable.getncattr(name) for name in variable.ncattrs() if name not in _PACKING}
+    """The attributes of a netCDF4.Variable, without those of its storage, which reading undoes."""
+    return {name: variable.getncattr(name) for name in variable.ncattrs() if name not in STORAGE}

@@ -85,6 +85,29 @@ def test_contents_without_a_valid_curve_are_refused():
 
 
 @pytest.mark.parametrize(
+    ("name", "value", "needed"),
+    [
+        ("elements", "many", "a whole number"),
+        ("elements", np.array([1, 2]), "a whole number"),
+        ("elements", 2.5, "a whole number"),
+        ("elements", -1, "a whole number"),
+        ("operator_applications", np.nan, "a whole number"),
+        ("operator_applications", np.inf, "a whole number"),
+        ("tolerance", "fine", "a number from 0 on"),
+        ("tolerance", np.array([1.0, 2.0]), "a number from 0 on"),
+        ("tolerance", np.nan, "a number from 0 on"),
+        ("method", 3, "text"),
+        ("method", np.array(["a", "b"]), "text"),
+    ],
+)
+def test_attributes_of_the_wrong_type_are_refused(name, value, needed):
+    good = curve_to_content(random_curve())
+    with pytest.raises(ValueError, match=f"attribute {name} is .*; {needed}.* is needed") as error:
+        curve_from_content(good.with_attributes(**{name: value}))
+    one_line(error)
+
+
+@pytest.mark.parametrize(
     "changes",
     [{"force": np.full(7, np.inf)}, {"depth": np.zeros(7)}, {"levels": 0}],
     ids=["infinite force", "zero depth", "no level"],

@@ -20,7 +20,7 @@ def test_heights_of_any_real_type_are_read_exactly(tmp_path, dtype):
     for array in (heights, np.asfortranarray(heights)):
         indenter = read_heights(heights_file(tmp_path, array), 0.5)
         np.testing.assert_array_equal(indenter.heights, heights)
-        assert indenter.heights.dtype == np.dtype(float)
+        assert indenter.heights.dtype == (np.float32 if dtype == "float32" else np.float64)
         assert indenter.heights.flags.c_contiguous
         assert indenter.spacing == 0.5
 

@@ -79,8 +79,9 @@ def test_packed_and_missing_values_are_unpacked(tmp_path):
 
 @pytest.mark.parametrize("attribute", ["units", "long_name"])
 def test_every_variable_needs_units_and_long_name(tmp_path, attribute):
-    with pytest.raises(ValueError, match=f"variable depth lacks {attribute}"):
-        netcdf.write(content_of([1.0], **{attribute: ""}), tmp_path / "a.nc")
+    for value in ("", 1, np.array([1, 2])):
+        with pytest.raises(ValueError, match=f"variable depth lacks {attribute}"):
+            netcdf.write(content_of([1.0], **{attribute: value}), tmp_path / "a.nc")
     assert os.listdir(tmp_path) == []
 
 

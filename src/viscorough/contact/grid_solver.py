@@ -36,6 +36,9 @@ _TANGENT_TOLERANCE = 1e-2
 _TANGENT_ROUNDING = 5.0
 # Share of the tolerance that the search may use, so that residual and rounding together are within the tolerance.
 _SEARCH_SHARE = 0.999
+# A box with more than this many times as many rows as columns is transposed: the operator works on blocks of columns,
+# which few columns do not fill.
+_TALL = 4
 # Gap where there is no element; finite, since differences of gaps are taken.
 _OUTSIDE = 1e300
 _PRECISIONS = {"single": np.float32, "double": np.float64}
@@ -56,6 +59,8 @@ class GridSolver:
 
     def __init__(self, box, row, column, initial_gap, tolerance, options):
         top, left, rows, columns = box
+        if rows > _TALL * columns:
+            row, column, top, left, rows, columns = column, row, left, top, columns, rows
         self._tolerance, self._options = tolerance, options
         self._halfspace = Halfspace(rows, columns, _PRECISIONS[options.precision], padding=options.padding)
         exact = tolerance < options.exact_gap_below

@@ -202,9 +202,8 @@ class Preconditioner(_GridLevel):
         self.places = np.empty(0, dtype=int)
         self._kind = kind
         self._width, self._work = width, np.zeros(height * width)
-        across = -(-max(height, width) // _SIDE)
-        self._blocks = _block_of_places(height, width, _SIDE, across)
-        self._coarser = _coarse_level(_SIDE, across) if kind == "multilevel" else _NoCorrection(across)
+        self._blocks, blocks = _block_of_places(height, width, _SIDE)
+        self._coarser = _coarse_level(_SIDE, *blocks) if kind == "multilevel" else _NoCorrection(*blocks)
 
     def apply(self, residual):
         """M r on the set, valid until the next call, for a residual r on the flat grid."""
@@ -223,14 +222,14 @@ class Preconditioner(_GridLevel):
 class _ManyBlocks(_GridLevel):
     """The approximate inverse of 1 + a K a on blocks; `squares`, those of a, must be set before `prepare`."""
 
-    def __init__(self, side, across):
-        self._width, fewer = across + 2 * REACH, -(-across // _RATIO)
-        self.squares, self._work = np.zeros((2, self._width**2))
+    def __init__(self, side, height, width):
+        self._width = width
+        self.squares, self._work = np.zeros((2, height * width))
         self._before = np.array(_BEFORE_BLOCK) @ [self._width, 1]
         self._slots = np.array([*map(_BEFORE.index, _BEFORE_BLOCK), _NEIGHBOURS])
         self._kernel = _coupling(side, *np.transpose([*_BEFORE_BLOCK, (0, 0)]))
-        self._blocks = _block_of_places(self._width, self._width, _RATIO, fewer)
-        self._coarser = _coarse_level(side * _RATIO, fewer)
+        self._blocks, blocks = _block_of_places(height, width, _RATIO)
+        self._coarser = _coarse_level(side * _RATIO, *blocks)
 
     def prepare(self):
         places = np.flatnonzero(self.squares)
@@ -242,9 +241,9 @@ class _ManyBlocks(_GridLevel):
 class _FewBlocks:
     """The inverse of 1 + a K a on blocks, dense; `squares`, those of a, must be set before `prepare`."""
 
-    def __init__(self, side, across):
-        self.squares = np.zeros((across + 2 * REACH) ** 2)
-        self._kernel = _dense_coupling(side, across)
+    def __init__(self, side, height, width):
+        self.squares = np.zeros(height * width)
+        self._kernel = _dense_coupling(side, height, width)
 
     def prepare(self):
         self.places = np.flatnonzero(self.squares)
@@ -260,8 +259,8 @@ class _FewBlocks:
 class _NoCorrection:
     """Replaces the coarse levels by a unit matrix, so that nothing is corrected."""
 
-    def __init__(self, across):
-        self.squares = np.zeros((across + 2 * REACH) ** 2)
+    def __init__(self, height, width):
+        self.squares = np.zeros(height * width)
 
     def prepare(self):
         self.places = np.flatnonzero(self.squares)
@@ -270,22 +269,23 @@ class _NoCorrection:
         return residual[self.places]
 
 
-def _coarse_level(side, across):
-    """The grid level of blocks with `side` elements across, `across` of them in a row."""
-    return _FewBlocks(side, across) if across <= _DENSE else _ManyBlocks(side, across)
+def _coarse_level(side, height, width):
+    """The grid level of blocks with `side` elements across, on a flat grid of this height and width, with its border."""
+    few = max(height, width) - 2 * REACH <= _DENSE
+    return _FewBlocks(side, height, width) if few else _ManyBlocks(side, height, width)
 
 
-def _block_of_places(height, width, side, across):
-    """Place of the block of every place of a flat grid; both grids have a border."""
+def _block_of_places(height, width, side):
+    """Place of the block of every place of a flat grid, and height and width of the grid of blocks, all with borders."""
     row, column = ((np.arange(n) - REACH) // side + REACH for n in (height, width))
-    return (row[:, None] * (across + 2 * REACH) + column).ravel().astype(np.int32)
+    blocks = [-(-(n - 2 * REACH) // side) + 2 * REACH for n in (height, width)]
+    return (row[:, None] * blocks[1] + column).ravel().astype(np.int32), blocks
 
 
 @lru_cache(maxsize=2)
-def _dense_coupling(side, across):
+def _dense_coupling(side, height, width):
     """K between all blocks of a grid with its border."""
-    width = across + 2 * REACH
-    return _coupling(side, *np.divmod(np.arange(width**2), width))
+    return _coupling(side, *np.divmod(np.arange(height * width), width))
 
 
 def _coupling(side, row, column):

@@ -20,31 +20,30 @@ def inner_product(left, right, slots):
 
 
 @njit
-def predict(depth_step, pressure, tangent, gap, tangent_gap):
-    """P + Δu q and e + Δu e_q everywhere."""
-    predicted, predicted_gap = np.empty_like(pressure), np.empty_like(gap)
+def predict(predicted, predicted_gap, depth_step, pressure, tangent, gap, tangent_gap):
+    """Store P + Δu q in `predicted` and e + Δu e_q in `predicted_gap`."""
     for i in range(gap.size):
         predicted[i] = pressure[i] + depth_step * tangent[i]
         predicted_gap[i] = gap[i] + depth_step * tangent_gap[i]
-    return predicted, predicted_gap
 
 
 @njit
-def combine(weights, shift, pressure, gap, last_pressure, last_gap, last_tangent, last_tangent_gap, initial_gap):
-    """q as a combination of two pressures and a tangent, and K q − 1, everywhere.
+def combine(
+    tangent, tangent_gap, weights, shift,
+    pressure, gap, last_pressure, last_gap, last_tangent, last_tangent_gap, initial_gap,
+):  # fmt: skip
+    """Store q as a combination of two pressures and a tangent in `tangent`, and K q − 1 in `tangent_gap`.
 
     weights : of the pressure, of the last pressure and of the last tangent
     shift : constant part of K q − 1, from K P = e − g + u for both pressures and K q = e_q + 1 for the last tangent
     """
     pressure_weight, last_pressure_weight, tangent_weight = weights
-    tangent, tangent_gap = np.empty_like(pressure), np.empty_like(gap)
     for i in range(gap.size):
         tangent[i] = (
             pressure_weight * pressure[i] + last_pressure_weight * last_pressure[i] + tangent_weight * last_tangent[i]
         )
         deflection = pressure_weight * (gap[i] - initial_gap[i]) + last_pressure_weight * (last_gap[i] - initial_gap[i])
         tangent_gap[i] = deflection + tangent_weight * last_tangent_gap[i] + shift
-    return tangent, tangent_gap
 
 
 @njit(fastmath=True)

@@ -110,12 +110,12 @@ class GridSolver:
         """
         before, last_depth = self._start_fields(contact), contact.reduced_depth
         depth_step = depth - last_depth
-        pressure, gap = kernels.predict(
-            depth_step, before.pressure, before.tangent, before.gap.values, before.tangent_gap.values
-        )
+        pressure, gap = np.zeros_like(self.initial_gap), np.zeros_like(self.initial_gap)
+        fields = before.pressure, before.tangent, before.gap.values, before.tangent_gap.values
+        kernels.predict(self._inner_rows(pressure), self._inner_rows(gap), depth_step, *map(self._inner_rows, fields))
         gap = BoundedField(gap, before.gap.rounding + depth_step * before.tangent_gap.rounding)
         inside = pressure > 0
-        kernels.add_penetrating_elements(gap.values, inside, 0.0)
+        self._add_penetrating_elements(gap.values, inside, 0.0)
         contact_set = self._solve_pressure(pressure, gap, inside, depth)
         weights = self._tangent_weights(before, last_depth, pressure, gap, contact_set, depth)
         tangent, tangent_gap = self._tangent_start(weights, before, last_depth, pressure, gap, depth)
@@ -177,7 +177,7 @@ class GridSolver:
                     return contact_set
                 gap.values[:] = self._deflection(pressure) + self.initial_gap - depth
                 gap.rounding = self._exact_rounding * depth
-                kernels.add_penetrating_elements(gap.values, inside, limit)
+                self._add_penetrating_elements(gap.values, inside, limit)
                 changed = True
                 continue
             if changed:
@@ -192,7 +192,7 @@ class GridSolver:
                 releases += 1
             else:
                 largest, tension = search.step(pressure, gap.values)
-            changed = kernels.add_penetrating_elements(gap.values, inside, close_enough) > 0 or changed
+            changed = self._add_penetrating_elements(gap.values, inside, close_enough) > 0 or changed
         raise self._not_converged(contact_set, largest, limit)
 
     def _tangent_weights(self, before, last_depth, pressure, gap, contact_set, depth):
@@ -219,10 +219,14 @@ class GridSolver:
         """The combination with these weights as initial q, and e_q = K q − 1 everywhere with its rounding bound."""
         pressure_weight, last_pressure_weight, tangent_weight = weights
         shift = pressure_weight * depth + last_pressure_weight * last_depth + tangent_weight - 1
-        tangent, tangent_gap = kernels.combine(
-            weights, shift, pressure, gap.values,
-            before.pressure, before.gap.values, before.tangent, before.tangent_gap.values, self.initial_gap,
+        tangent, tangent_gap = np.zeros_like(self.initial_gap), np.zeros_like(self.initial_gap)
+        fields = (
+            pressure, gap.values, before.pressure, before.gap.values, before.tangent, before.tangent_gap.values,
+            self.initial_gap,
         )  # fmt: skip
+        kernels.combine(
+            self._inner_rows(tangent), self._inner_rows(tangent_gap), weights, shift, *map(self._inner_rows, fields)
+        )
         # Unless it was recomputed, the gap has the errors of the last gap and tangent gap, which partly cancel here.
         depth_step, last_rounding, tangent_rounding = (
             depth - last_depth,
@@ -280,6 +284,13 @@ class GridSolver:
         deflection = np.zeros_like(pressure)
         self._interior(deflection)[:] = self._exact.apply()[:, :columns]
         return deflection
+
+    def _add_penetrating_elements(self, gap, inside, limit):
+        return kernels.add_penetrating_elements(self._inner_rows(gap), self._inner_rows(inside), limit)
+
+    def _inner_rows(self, field):
+        """View of a flat field without the rows of its border, which are most of the field of a strip."""
+        return field[REACH * self._width : -REACH * self._width]
 
     def _interior(self, field):
         """View of a flat field without its border, in rows and columns."""

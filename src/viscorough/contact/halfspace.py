@@ -13,6 +13,8 @@ _FAR = 30
 # Rows that lie a power of two apart in memory compete for the same cache lines; this many extra numbers per row prevent
 # that.
 _ROW_PADDING = 16
+# Fewer rows than this are folded before they are transformed.
+_FOLDED_BELOW = 4
 
 
 @vectorize("float64(float64, float64)")
@@ -52,13 +54,52 @@ def _spectrum(rows, columns, padding):
     """Lengths of the periodic convolution along both axes, and the real spectrum of K, divided by their product.
 
     K and its spectrum are even, so that a cosine transform over distances up to half the lengths gives the spectrum at
-    all frequencies. Without padding, the distance is that to the nearest periodic image.
+    all frequencies. Without padding, the distance is that to the nearest periodic image. A single row has no distances
+    along the columns: its length there is 1.
     """
-    lengths = good_length(2 * (rows - 1)), 2 * ducc0.fft.good_size(max(columns - 1, 1), True)
+    along_columns = good_length(2 * (rows - 1)) if rows > 1 else 1
+    lengths = along_columns, 2 * ducc0.fft.good_size(max(columns - 1, 1), True)
     row, column = (np.arange(m // 2 + 1.0) for m in lengths)
     if not padding:
         row, column = (np.minimum(d, abs(n - d)) for d, n in ((row, rows), (column, columns)))
-    return lengths, ducc0.fft.dct(influence_coefficient(row[:, None], column), type=1) / np.prod(lengths)
+    axes = [0, 1] if rows > 1 else [1]
+    return lengths, ducc0.fft.dct(influence_coefficient(row[:, None], column), axes=axes, type=1) / np.prod(lengths)
+
+
+class _RowTransforms:
+    """Real transforms of rows, and their inverses without a factor.
+
+    The library transforms many rows at once, in the lanes of the processor's registers, but a single row number by
+    number. Few rows of length A B are therefore folded: with n = B a + b and frequencies k + A l, transforms over a, of
+    columns b side by side, are multiplied by exp(−2πi b k/(A B)) and transformed over b.
+
+    frequency : of every entry of a transformed row, shape (A/2 + 1, B), with B = 1 for rows that are not folded
+    """
+
+    def __init__(self, rows, length, precision):
+        folds = 1 if rows >= _FOLDED_BELOW else max(n for n in range(1, int(length**0.5) + 1) if length % n == 0)
+        self._shape, self._length, self._folded = (rows, length // folds, folds), length // folds, folds > 1
+        first, second = np.arange(length // folds // 2 + 1)[:, None], np.arange(folds)
+        self.frequency = first + length // folds * second
+        self._twiddles = np.exp(-2j * np.pi / length * first * second).astype(np.result_type(precision, np.complex64))
+
+    def forward(self, data, out):
+        """Transform the rows of `data`, of which the columns beyond the length are left out."""
+        ducc0.fft.r2c(self._fold(data), axes=[1], out=out)
+        if self._folded:
+            out *= self._twiddles
+            ducc0.fft.c2c(out, axes=[2], out=out)
+
+    def backward(self, data, out):
+        """The inverse of `forward`, which overwrites `data`."""
+        if self._folded:
+            ducc0.fft.c2c(data, axes=[2], forward=False, out=data)
+            data *= self._twiddles.conj()
+        ducc0.fft.c2r(data, axes=[1], forward=False, lastsize=self._length, out=self._fold(out))
+
+    def _fold(self, data):
+        _, length, folds = self._shape
+        return data[:, : length * folds].reshape(self._shape)
 
 
 class Halfspace:
@@ -85,18 +126,25 @@ class Halfspace:
 
     def __init__(self, rows, columns, precision=np.float64, *, padding=True):
         self.shape = (rows, columns)
-        (_, self._length), spectrum = _spectrum(rows, columns, padding)
-        self._columns = ColumnConvolution(rows, spectrum, precision)
-        self.load = np.zeros((rows, self._length + _ROW_PADDING), dtype=precision)
-        self._transformed = np.empty((rows, spectrum.shape[1]), dtype=np.result_type(precision, np.complex64))
+        (_, length), spectrum = _spectrum(rows, columns, padding)
+        self._rows = _RowTransforms(rows, length, precision)
+        frequency = self._rows.frequency
+        spectrum = spectrum[:, np.minimum(frequency, length - frequency).ravel()]
+        self._columns = ColumnConvolution(rows, spectrum, precision) if rows > 1 else None
+        self._spectrum = spectrum.reshape(frequency.shape).astype(precision) if rows == 1 else None
+        self.load = np.zeros((rows, length + _ROW_PADDING), dtype=precision)
+        self._transformed = np.empty((rows, *frequency.shape), dtype=np.result_type(precision, np.complex64))
         self._deflection = np.empty_like(self.load)
         self.count = 0
 
     def apply(self):
         """Deflection w = K P of the pressure in `load`, in the same layout; valid until the next call."""
-        length, data = self._length, self._transformed
-        ducc0.fft.r2c(self.load[:, :length], axes=[1], out=data)
-        self._columns.apply(data)
-        ducc0.fft.c2r(data, axes=[1], forward=False, lastsize=length, out=self._deflection[:, :length])
+        data = self._transformed
+        self._rows.forward(self.load, data)
+        if self._columns:
+            self._columns.apply(data.reshape(len(data), -1))
+        else:  # a single row has nothing to convolve along its columns
+            data *= self._spectrum
+        self._rows.backward(data, self._deflection)
         self.count += 1
         return self._deflection

@@ -105,19 +105,24 @@ def _neighbour_patterns(inside, places, width, sums, patterns, weights):
 
 @njit
 def _factorise(amplitude, places, before, slots, kernel, rows, weights):
-    """Store the rows of G for the matrix 1 + a K a between blocks in `rows`, and G a in `weights`.
+    """Store the rows of G for the matrix 1 + a K a between blocks in `rows`, zero on entry, and G a in `weights`.
 
     amplitude : a, flat field; places : of the blocks in it
     before, slots : places of the neighbours relative to the block, and their indices in a row of G
     kernel : K between the neighbours and the block, which comes last
     """
-    count = before.size + 1
-    matrix, near = np.empty((count, count)), np.empty(count, np.int64)
+    own = before.size
+    matrix, present, near = np.empty((own + 1, own + 1)), np.empty(own + 1, np.int64), np.empty(own + 1)
     for t in range(places.size):
-        near[:-1], near[-1] = places[t] + before, places[t]
+        count = 0  # of the neighbours with elements in contact, and the block itself
+        for s in range(own + 1):
+            value = amplitude[places[t] + before[s]] if s < own else amplitude[places[t]]
+            if value > 0:
+                present[count], near[count] = s, value
+                count += 1
         for i in range(count):  # Cholesky factor L of the matrix of block and neighbours
             for j in range(i + 1):
-                value = kernel[i, j] * amplitude[near[i]] * amplitude[near[j]] + (i == j)
+                value = kernel[present[i], present[j]] * near[i] * near[j] + (i == j)
                 for k in range(j):
                     value -= matrix[i, k] * matrix[j, k]
                 matrix[i, j] = np.sqrt(value) if i == j else value / matrix[j, j]
@@ -125,9 +130,9 @@ def _factorise(amplitude, places, before, slots, kernel, rows, weights):
         for i in range(count - 1, -1, -1):  # the last row of L⁻¹ is A⁻¹ b / (bᵀ A⁻¹ b)^½
             value = 1.0 * (i == count - 1)
             for k in range(i + 1, count):
-                value -= matrix[k, i] * row[slots[k]]
-            row[slots[i]] = value / matrix[i, i]
-            weights[t] += row[slots[i]] * amplitude[near[i]]
+                value -= matrix[k, i] * row[slots[present[k]]]
+            row[slots[present[i]]] = value / matrix[i, i]
+            weights[t] += row[slots[present[i]]] * near[i]
 
 
 @njit
@@ -270,13 +275,13 @@ class _NoCorrection:
 
 
 def _coarse_level(side, height, width):
-    """The grid level of blocks with `side` elements across, on a flat grid of this height and width, with its border."""
+    """The grid level of blocks with `side` elements across, on a flat grid of given height and width."""
     few = max(height, width) - 2 * REACH <= _DENSE
     return _FewBlocks(side, height, width) if few else _ManyBlocks(side, height, width)
 
 
 def _block_of_places(height, width, side):
-    """Place of the block of every place of a flat grid, and height and width of the grid of blocks, all with borders."""
+    """Place of the block of every place of a flat grid, and height and width of the grid of blocks; with borders."""
     row, column = ((np.arange(n) - REACH) // side + REACH for n in (height, width))
     blocks = [-(-(n - 2 * REACH) // side) + 2 * REACH for n in (height, width)]
     return (row[:, None] * blocks[1] + column).ravel().astype(np.int32), blocks

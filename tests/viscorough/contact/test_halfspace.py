@@ -30,7 +30,11 @@ def test_coefficients_are_even_and_the_two_formulas_agree_where_they_meet():
     assert np.all(np.abs(np.diff(beyond, 2)) < 2e-7)
 
 
-@pytest.mark.parametrize("shape", [(1, 1), (1, 7), (2, 2), (9, 9), (12, 31)])
+# One row and few rows, of lengths that can be folded and that cannot, and many rows.
+SHAPES = [(1, 1), (1, 2), (1, 7), (1, 150), (2, 1), (2, 2), (2, 40), (3, 31), (4, 9), (5, 1), (9, 9), (12, 31)]
+
+
+@pytest.mark.parametrize("shape", SHAPES)
 def test_operator_is_the_dense_matrix(shape):
     rows, columns = (i.ravel().astype(float) for i in np.indices(shape))
     matrix = influence_coefficient(rows[:, None] - rows, columns[:, None] - columns)
@@ -44,7 +48,7 @@ def test_operator_is_the_dense_matrix(shape):
     assert halfspace.count == 2
 
 
-@pytest.mark.parametrize("shape", [(257, 257), (200, 77)])
+@pytest.mark.parametrize("shape", [(257, 257), (200, 77), (1, 50_000), (3, 5000), (5, 2000)])
 def test_rounding_stays_within_the_bound_that_the_solver_assumes(shape):
     """For loads of both signs, whose deflections cancel, as those of search directions do."""
     load = np.random.default_rng(3).standard_normal(shape).astype(np.float32)

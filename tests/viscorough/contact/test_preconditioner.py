@@ -37,7 +37,7 @@ def test_sparse_part_is_exact_for_sets_within_reach(present):
 
 
 def sets():
-    """Contact sets on 96 × 96 elements, enough for blocks of blocks, few enough to compute eigenvalues."""
+    """Contact sets on 96 × 96 elements and strips, enough for blocks of blocks, few enough for eigenvalues."""
     row, column = np.mgrid[:96, :96]
     random = np.random.default_rng(1).random(row.shape)
     hills = sum(np.hypot(row - a, column - b) < 6 for a, b in np.random.default_rng(2).integers(8, 88, (14, 2))) > 0
@@ -51,6 +51,9 @@ def sets():
     yield "lattice", (row % 4 == 1) & (column % 4 == 1)
     yield "corner and corner", (row + column < 20) | (row + column > 170)
     yield "one", (row == 50) & (column == 7)
+    yield "strip", random.reshape(1, -1)[:, :900] < 0.7
+    yield "strip of two rows", random.reshape(2, -1)[:, :450] < 0.7
+    yield "full strip", np.ones((400, 1), bool)
 
 
 @pytest.mark.parametrize(("name", "present"), list(sets()), ids=[name for name, _ in sets()])

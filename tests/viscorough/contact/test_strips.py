@@ -1,0 +1,82 @@
+"""Elongated maps: a few rows or columns of many elements, which the grid solver treats differently from squares."""
+
+import numpy as np
+import pytest
+
+from support.dense_contact import pressure_at_depth
+from viscorough.contact.loading_path import indent
+from viscorough.contact.options import SolverOptions
+from viscorough.contact.solver import ContactSolver
+from viscorough.indenter import Indenter
+
+ON_THE_GRID = SolverOptions(dense_contacts=0, dense_interactions=0)
+DENSE = SolverOptions(dense_contacts=1000)
+SHAPES = [(1, 170), (2, 85), (3, 57), (4, 43), (9, 38)]
+
+
+def strip(shape):
+    return np.random.default_rng(1).random(shape)
+
+
+def contact_of(heights, depth, options=ON_THE_GRID):
+    solver = ContactSolver(Indenter(heights, 1.0), 1e-6, options)
+    return solver.elements, solver.advance(solver.unloaded_state(), depth)
+
+
+@pytest.mark.parametrize("shape", [*SHAPES, *[shape[::-1] for shape in SHAPES]])
+def test_pressure_is_that_of_a_dense_solver(shape):
+    heights, depth = strip(shape), 1.2
+    elements, contact = contact_of(heights, depth)
+    pressure = np.zeros(shape)
+    pressure[tuple(place[contact.members] for place in elements.map_place)] = contact.pressure
+    expected = pressure_at_depth(heights.max() - heights, depth, contact_modulus=4.0)  # E* = 4G: pressures over G
+    assert 0.3 < np.mean(expected > 0) < 1
+    np.testing.assert_allclose(pressure, expected, atol=1e-5 * expected.max())
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_neither_orientation_nor_place_on_the_map_matters(shape):
+    heights, depth = strip(shape), 0.8
+    _, contact = contact_of(heights, depth)
+    wide = np.full((shape[0] + 7, shape[1] + 5), np.nan)
+    wide[3 : 3 + shape[0], 4 : 4 + shape[1]] = heights
+    for other in (heights.T, wide, wide.T):
+        _, same = contact_of(other, depth)
+        np.testing.assert_array_equal(same.members, contact.members)
+        np.testing.assert_allclose(same.reduced_pressure, contact.reduced_pressure, atol=1e-6)
+        assert same.fields.pressure.size == contact.fields.pressure.size
+        assert same.stiffness == pytest.approx(contact.stiffness, rel=1e-6)
+
+
+def test_a_long_strip_meets_complementarity():
+    """Its curve starts with contact events and goes on where blocks of blocks of the preconditioner are needed."""
+    heights = strip((1, 6000))
+    curve = indent(Indenter(heights, 1.0), until_fraction=0.5)
+    assert curve.contact_fraction[-1] >= 0.5
+    elements, contact = contact_of(heights, curve.depth[-1])
+    pressure = np.zeros(6000)
+    pressure[elements.map_place[1][contact.members]] = contact.reduced_pressure
+    deflection = np.convolve(pressure, elements.influence[0, abs(np.arange(-5999, 6000))])[5999:11999]
+    gap = deflection - contact.reduced_depth + (heights.max() - heights[0]) / contact.units.length
+    residual = max(abs(gap[pressure > 0]).max(), -gap.min()) / contact.reduced_depth
+    assert residual <= contact.residual <= 1e-6
+    assert curve.force[-1] == pytest.approx(contact.force, rel=1e-5)
+    assert curve.stiffness[-1] == pytest.approx(contact.stiffness, rel=1e-3)
+
+
+def domains():
+    row, column = np.mgrid[:90, :90]
+    yield "diagonal", abs(row - column) < 2
+    yield "L", (row < 2) | (column < 3)
+    yield "two corners", np.maximum(row, column) < 5
+    yield "frame", (np.minimum(row, column) < 1) | (np.maximum(row, column) > 88)
+
+
+@pytest.mark.parametrize(("name", "present"), list(domains()), ids=[name for name, _ in domains()])
+def test_domains_that_leave_most_of_their_box_empty(name, present):
+    heights = np.where(present, strip(present.shape), np.nan)
+    on_grid, dense = (contact_of(heights, 0.9, options)[1] for options in (ON_THE_GRID, DENSE))
+    assert on_grid.fields is not None
+    assert dense.fields is None
+    np.testing.assert_array_equal(on_grid.members, dense.members)
+    np.testing.assert_allclose(on_grid.reduced_pressure, dense.reduced_pressure, atol=1e-5)

@@ -11,9 +11,8 @@ author = "the authors of viscorough"
 release = importlib.metadata.version("viscorough")
 
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx_viscorough"]
-myst_enable_extensions = ["dollarmath", "attrs_block"]
+myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4
-suppress_warnings = ["toc.empty_glob"]  # of results/, which is filled by `make publish`
 nitpicky = True  # a reference that leads nowhere is a warning, and warnings are errors
 html_math_renderer = "mathml"
 

@@ -1,5 +1,6 @@
 """What this documentation needs beyond Sphinx: our docstrings as reStructuredText, MathML, and the texts of --help."""
 
+import importlib
 import re
 
 import click
@@ -10,6 +11,8 @@ from docutils.utils.math import latex2mathml
 from viscorough.cli import cli
 
 _ENTRY = re.compile(r"(\w+(?:, \w+)*) : (.*)")  # of a list of parameters or attributes: names, and what they are
+# Texts beside the docs that pages here include: pages link to the files, so that they can also be read unbuilt.
+_PAGE_OF = {"../config/README.md": "settings.md", "../results/README.md": "output.md", "../README.md": "index.md"}
 
 
 def to_rst(lines):
@@ -65,6 +68,19 @@ class CommandHelp(Directive):
         return [nodes.literal_block(text, text, language="none")]
 
 
+class TableColumns(Directive):
+    """The columns of a table: meaning and unit, from `COLUMNS` of the module that is the argument."""
+
+    required_arguments = 1
+
+    def run(self):
+        columns = importlib.import_module(self.arguments[0]).COLUMNS
+        rows = [("column", "unit", "meaning"), *((name, unit or "", text) for name, (text, unit) in columns.items())]
+        head, *body = [nodes.row("", *(nodes.entry("", nodes.paragraph("", cell)) for cell in row)) for row in rows]
+        widths = [nodes.colspec(colwidth=width) for width in (20, 10, 70)]
+        return [nodes.table("", nodes.tgroup("", *widths, nodes.thead("", head), nodes.tbody("", *body), cols=3))]
+
+
 def _visit_inline_math(writer, node):
     writer.body.append(latex2mathml.tex2mathml(node.astext(), as_block=False))
     raise nodes.SkipNode
@@ -73,6 +89,11 @@ def _visit_inline_math(writer, node):
 def _visit_math_block(writer, node):
     writer.body.append(f'<div class="math">{latex2mathml.tex2mathml(node.astext(), as_block=True)}</div>')
     raise nodes.SkipNode
+
+
+def _link_to_pages(_app, _page, source):
+    for path, page in _PAGE_OF.items():
+        source[0] = source[0].replace(f"]({path}", f"]({page}")
 
 
 def _convert_docstring(_app, _what, _name, _object, _options, lines):
@@ -87,6 +108,8 @@ def _skip_tuple_fields(_app, _what, _name, member, _skip, _options):
 def setup(app):
     app.add_html_math_renderer("mathml", (_visit_inline_math, None), (_visit_math_block, None))
     app.add_directive("command-help", CommandHelp)
+    app.add_directive("table-columns", TableColumns)
+    app.connect("source-read", _link_to_pages)
     app.connect("autodoc-process-docstring", _convert_docstring)
     app.connect("autodoc-skip-member", _skip_tuple_fields)
     return {"parallel_read_safe": True}

@@ -1,7 +1,6 @@
 """Verdicts: on ensembles that obey a law exactly, that miss it, and that obey it under one convention only."""
 
 import dataclasses
-import re
 
 import numpy as np
 import pandas as pd
@@ -9,7 +8,6 @@ import pytest
 import xarray as xr
 from scipy.special import gamma as gamma_function
 
-from support.benchmarks import load_benchmark
 from support.study import CLAIMS, LIMITS, ROOT, evidence
 from viscorough import reference
 from viscorough_study.criteria import JUDGES
@@ -123,14 +121,3 @@ def test_many_cases_are_summed_up(table):
 def test_unknown_claim_is_named():
     with pytest.raises(ValueError, match="claim beauty: no criterion computes it"):
         judge({"beauty": CLAIMS["beta"]}, evidence())
-
-
-def test_readme_has_the_published_verdicts():
-    """benchmarks/publish.py writes both."""
-    published = pd.read_csv(ROOT / "docs/claims.csv")
-    assert list(dict.fromkeys(published["claim"])) == list(CLAIMS)
-    readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    shown = re.search(r"<!-- verdicts: .*? -->\n\n(.*?)\n<!-- end of verdicts -->", readme, re.DOTALL)[1]
-    publish = load_benchmark("publish")
-    assert shown == publish.verdicts()
-    assert shown.startswith(markdown(published, CLAIMS))

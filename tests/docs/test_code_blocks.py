@@ -1,0 +1,87 @@
+"""The blocks of code in README and docs/ run, in the order in which they stand on a page."""
+
+import os
+import re
+import runpy
+import subprocess
+
+import matplotlib as mpl
+import pytest
+import yaml
+from matplotlib.testing.compare import compare_images
+
+from support.command_line import VISCOROUGH
+from support.documentation import PAGES, README, ROOT, blocks, named_files
+from viscorough_study.settings import check_settings
+
+EXAMPLE = ROOT / "examples/own_surface.py"
+RUN = {page: [block for block in blocks(page) if block.language in ("python", "console")] for page in PAGES}
+LANGUAGES = {"python", "console", "shell", "text", "yaml", "", "{eval-rst}", "{toctree}", "{include}"}
+
+
+@pytest.fixture(autouse=True)
+def in_a_new_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    mpl.use("agg")
+
+
+def run_page(page):
+    names = {}
+    for block in RUN[page]:
+        if block.language == "python":
+            exec(compile("\n" * block.line + block.text, page, "exec"), names)
+        else:
+            run_console(block.text)
+
+
+def run_console(text):
+    """Run the lines that start with "$"; what they print must match the lines below, where ... stands for any text."""
+    path = f"{VISCOROUGH.parent}{os.pathsep}{os.environ['PATH']}"
+    for command, shown in re.findall(r"^\$ (.*)\n((?:(?!\$ ).*\n)*)", text, re.MULTILINE):
+        done = subprocess.run(
+            command, shell=True, capture_output=True, text=True, check=False, env=os.environ | {"PATH": path}
+        )
+        assert done.returncode == 0, done.stderr
+        pattern = ".*".join(re.escape(piece) for piece in shown.split("..."))
+        assert re.fullmatch(pattern, done.stdout), done.stdout
+
+
+@pytest.mark.parametrize("page", [page for page in PAGES if RUN[page] and page != README], ids=lambda page: page.stem)
+def test_blocks_run(page):
+    run_page(page)
+
+
+def test_every_block_says_what_it_is():
+    for page in PAGES:
+        assert {block.language for block in blocks(page)} <= LANGUAGES, page
+    assert sum(map(len, RUN.values())) >= 9
+
+
+def test_readme_makes_the_picture_that_it_shows(tmp_path):
+    """The example makes heights.npy, which the lines in README.md read; both draw docs/own_surface.png."""
+    runpy.run_path(str(EXAMPLE))
+    picture = tmp_path / "own_surface.png"
+    assert compare_images(ROOT / "docs/own_surface.png", picture, tol=1) is None
+    picture.unlink()
+    run_page(README)
+    assert compare_images(ROOT / "docs/own_surface.png", picture, tol=1) is None
+    (block,) = RUN[README]
+    assert block.text.split("\n\n")[1] in EXAMPLE.read_text(encoding="utf-8")
+    assert len(block.text.split("\n\n")[1].splitlines()) + 2 <= 10
+
+
+def test_settings_shown_are_valid():
+    default = (ROOT / "config/config.yaml").read_text(encoding="utf-8")
+    schema = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text(encoding="utf-8"))
+    shown = [yaml.safe_load(block.text) for page in PAGES for block in blocks(page) if block.language == "yaml"]
+    assert len(shown) >= 2
+    for settings in shown:
+        merged = yaml.safe_load(default)
+        for section, keys in settings.items():
+            merged[section] |= keys
+        check_settings(merged, schema)
+
+
+def test_files_shown_are_tested():
+    """Those of docs/extending.md are, in tests/workflow."""
+    assert [page.name for page in PAGES if named_files(page)] == ["extending.md"]

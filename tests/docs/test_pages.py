@@ -1,0 +1,76 @@
+"""README and docs/: links lead somewhere, what is named exists, and the questions of users are answered."""
+
+import re
+
+import pytest
+
+from support.documentation import PAGES, README, ROOT, anchors, links, prose, read, sections
+from support.workflow import TARGETS
+
+QUESTIONS = ROOT / "docs/questions.md"
+WORKFLOW = "\n".join(read(path) for path in [ROOT / "Snakefile", *(ROOT / "workflow/rules").glob("*.smk")])
+NAMES = [str(page.relative_to(ROOT)) for page in PAGES]
+
+
+def test_readme_is_short():
+    assert len(read(README).split()) <= 1000
+
+
+@pytest.mark.parametrize("page", PAGES, ids=NAMES)
+def test_links_lead_to_files_and_headings(page):
+    for link in links(prose(page)):
+        path, _, anchor = link.partition("#")
+        target = (page.parent / path).resolve() if path else page
+        assert target.exists(), link
+        assert ROOT in target.parents, link
+        assert not anchor or anchor in anchors(target), link
+
+
+@pytest.mark.parametrize("page", PAGES, ids=NAMES)
+def test_what_is_named_exists(page):
+    """Targets of make and of the workflow, figures and tables that rules make, and files of the project."""
+    text = read(page)
+    if page.name == "CHANGELOG.md":
+        return  # it also tells what was renamed
+    makefiles = read(ROOT / "Makefile") + read(ROOT / "peers/targets.mk")
+    for targets in re.findall(r"(?:^|`|=\S* |; )make ([a-z][a-z -]*)", text, re.MULTILINE):
+        for target in targets.split():
+            assert re.search(rf"^{target}:", makefiles, re.MULTILINE), target
+    for folder, name in re.findall(r"`results/(figures|tables)/(\w+)", text):
+        assert f"results/{folder}/{name}." in WORKFLOW, name
+    for path in re.findall(r"`((?:src|workflow|config|resources|benchmarks|profiles|examples|peers)/[\w./]+)`", text):
+        assert (ROOT / path).exists() or f"\n`{path}`:\n" in text, path
+    for command in re.findall(r"`snakemake ([^`]*)`", text):
+        _check_snakemake(command.split())
+
+
+def _check_snakemake(words):
+    takes_value = {"--cores", "--configfile", "--directory", "--profile", "--forcerun", "--config"}
+    rules = set(re.findall(r"^rule (\w+):", WORKFLOW, re.MULTILINE)) | TARGETS
+    previous = ""
+    for word in words:
+        if previous in ("--configfile", "--profile") and word != "mine.yaml":
+            assert (ROOT / word).exists(), word
+        elif previous == "--forcerun":
+            assert word in rules, word
+        elif not word.startswith("-") and previous not in takes_value:
+            assert word in rules | {"plot_departures"}, word
+        previous = word
+
+
+def test_questions_are_answered_within_two_clicks():
+    """From README.md to the list, where each has a short answer, and from there to the long one."""
+    assert "docs/questions.md" in links(read(README))
+    questions = sections(QUESTIONS)
+    assert len(questions) == 12
+    for number, (question, answer) in enumerate(questions.items(), start=1):
+        assert re.fullmatch(rf"{number}\. .*\?", question)
+        assert any("#" in link for link in links(answer)), question
+        assert len(answer.split()) > 15
+
+
+def test_every_page_is_listed_on_the_first():
+    index = read(ROOT / "docs/index.md")
+    for page in (ROOT / "docs").rglob("*.md"):
+        name = str(page.relative_to(ROOT / "docs").with_suffix(""))
+        assert name == "index" or re.search(rf"^{name}$", index, re.MULTILINE), name

@@ -1,0 +1,65 @@
+"""The documentation as text: pages, their links, headings and blocks of code."""
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+README = ROOT / "README.md"
+PAGES = [
+    *(README, ROOT / "CHANGELOG.md", ROOT / "config/README.md", ROOT / "results/README.md"),
+    *sorted((ROOT / "docs").rglob("*.md")),
+]
+_FENCE = re.compile(r"^```(\S*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+_NAMED = re.compile(r"^`([\w./]+)`:\n\n```\S*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+
+
+@dataclass(frozen=True)
+class Block:
+    """A block of code on a page. language : as it says; text : its lines; line : its number on the page"""
+
+    language: str
+    text: str
+    line: int
+
+
+def read(page):
+    return page.read_text(encoding="utf-8")
+
+
+def named_files(page):
+    """{path: text} of the blocks that are files of the project: a line with only the path stands before them."""
+    return dict(_NAMED.findall(read(page)))
+
+
+def blocks(page):
+    """The blocks of a page in order, without those that are files."""
+    files = set(named_files(page).values())
+    return [
+        Block(match[1], match[2], read(page)[: match.start()].count("\n") + 1)
+        for match in _FENCE.finditer(read(page))
+        if match[2] not in files
+    ]
+
+
+def prose(page):
+    """A page without its blocks of code."""
+    return _FENCE.sub("", read(page))
+
+
+def links(text):
+    """Targets of the links and pictures in a text that lead to files."""
+    targets = re.findall(r"\]\(([^)\s]+)\)", text)
+    return [target for target in targets if not re.match(r"\w+:", target)]
+
+
+def anchors(page):
+    """The anchors of a page's headings, as GitHub and the site make them."""
+    headings = re.findall(r"^#+ (.*)$", prose(page), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+def sections(page):
+    """{heading: text} of the second level of a page."""
+    _, *parts = re.split(r"^## (.*)$", read(page), flags=re.MULTILINE)
+    return dict(zip(parts[::2], parts[1::2], strict=True))

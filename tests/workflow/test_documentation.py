@@ -1,0 +1,50 @@
+"""What docs/ says about the files of a run, and how to extend the workflow."""
+
+import fnmatch
+
+import netCDF4
+import pandas as pd
+
+from support.documentation import ROOT, named_files, read
+from support.output_files import documented
+from support.workflow import TEST, copy_sources, snakemake
+
+
+def test_every_netcdf_file_is_described(finished):
+    """Its dimensions and variables, by the row of docs/output.md whose pattern it matches; tables by their columns."""
+    text = read(ROOT / "docs/output.md")
+    rows, results = documented(text), finished / "results"
+    lines, discs = rows["curves/lines/*/*.nc"], rows["curves/discs/*/*.nc"]
+    same = [name for name in discs.variables if name not in ("rms_disc", "rms_square", "rms_peak")]
+    rows["curves/lines/*/*.nc"] = lines._replace(variables=[*same, *lines.variables])
+    described = set()
+    for path in sorted(results.rglob("*.nc")):
+        name = str(path.relative_to(results))
+        if name.startswith("tables/"):
+            assert f"### {path.stem}\n" in text, name
+            continue
+        (pattern,) = (pattern for pattern in rows if fnmatch.fnmatch(name, pattern))
+        described.add(pattern)
+        with netCDF4.Dataset(path) as made:
+            assert set(made.dimensions) == set(rows[pattern].dimensions), name
+            assert set(made.variables) - set(made.dimensions) == set(rows[pattern].variables) - set(made.dimensions), (
+                name
+            )
+    assert described == {pattern for pattern in rows if "viscorough" not in pattern}
+
+
+def test_extension_works_as_described(finished):
+    """A rule, its script, and a figure of one's own, as the files in docs/extending.md."""
+    copy_sources(finished)
+    files = named_files(ROOT / "docs/extending.md")
+    for path, text in files.items():
+        (finished / path).write_text(text, encoding="utf-8")
+    with open(finished / "Snakefile", "a", encoding="utf-8") as snakefile:
+        snakefile.write('\n\ninclude: "workflow/rules/departures.smk"\n')
+    snakemake(finished, *TEST, "--", "plot_departures")
+    table = pd.read_csv(finished / "results/tables/departures.csv")
+    assert set(table["hurst"]) <= {0.4, 0.9}
+    assert len(table) > 0
+    assert (finished / "results/figures/departures.png").stat().st_size > 1e4
+    for name, text in files.items():
+        assert not name.startswith("workflow/scripts/") or text.count("\n") <= 40

@@ -5,8 +5,8 @@
 A run of the small settings, which starts without results, is disturbed after a random time: half of the times all of it
 is killed (SIGKILL), a quarter of the times one of its jobs is, and a quarter of the times it is interrupted (SIGINT to
 its group, as by Ctrl-C). The same command is then given again, and nothing else (config/README.md, Interrupted runs),
-until it finishes. Its files must then be those of an undisturbed run, equal to the last byte: figures, tables, ensembles
-and curves. Of logs and benchmarks, which contain times, only names must agree.
+until it finishes. Its figures, tables, ensembles and curves must then equal those of an undisturbed run to the last
+byte. Of logs and benchmarks, which contain times, only names must agree.
 """
 
 import contextlib

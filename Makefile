@@ -1,17 +1,19 @@
-# Needs Python >= 3.11 and make. The environment in .venv is built from requirements.lock, and again when that changes.
+# Needs make, and Python >= 3.11 with venv (Debian and Ubuntu: python3-venv). The environment in .venv is built from
+# requirements.lock, and again when that changes.
 PYTHON ?= python3
 CORES ?= 2
 UV ?= uv
 BIN := .venv/bin
-SNAKEMAKE := $(BIN)/snakemake --cores $(CORES)
+SETTINGS ?=
+SNAKEMAKE = $(BIN)/snakemake --cores $(CORES) $(if $(SETTINGS),--configfile $(SETTINGS))
 
-.PHONY: help environment environment-slurm reproduce paper report test docs test-slurm bench speed stability sizes \
-	large faults seeds publish chaos peers lock lock-peers lock-slurm clean
+.PHONY: help environment environment-slurm settings reproduce paper report test docs test-slurm bench speed stability \
+	sizes large faults seeds publish chaos peers lock lock-peers lock-slurm clean
 
 help:
 	@echo "make reproduce   the default reproduction: figures, tables and validation in results/"
 	@echo "make paper       the same at the paper's full scale, and its cost in results/costs.json"
-	@echo "make report      results/report.html of the existing results; SETTINGS=config/paper.yaml after make paper"
+	@echo "make report      results/report.html of the existing results, with the SETTINGS that they were made with"
 	@echo "make test        format, lint, documentation and every test"
 	@echo "make docs        the documentation as a site, in build/docs/index.html"
 	@echo "make bench       cost and errors of curves and lines, and cost of the reproduction, in results/benchmarks.json"
@@ -27,12 +29,14 @@ help:
 	@echo "make peers       install the other solvers that make speed compares with, in separate environments"
 	@echo "make lock        renew requirements.lock from pyproject.toml; needs uv, as do lock-peers and lock-slurm"
 	@echo "make clean       remove results and caches, keep the environment"
-	@echo "CORES=$(CORES) and PYTHON=$(PYTHON) may be set."
+	@echo "CORES=$(CORES) and PYTHON=$(PYTHON) may be set, and SETTINGS=mine.yaml for reproduce, report, speed to large."
 
 environment: .venv/package-installed
 
 .venv/lock-installed: requirements.lock
 	@$(PYTHON) -c 'import sys; sys.exit("Python >= 3.11 is needed; set PYTHON" if sys.version_info < (3, 11) else 0)'
+	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || \
+		{ echo "The Python modules venv and ensurepip are needed; Debian and Ubuntu: apt install python3-venv" >&2; exit 1; }
 	$(PYTHON) -m venv .venv
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
 	@touch $@
@@ -48,15 +52,20 @@ environment-slurm: .venv/slurm-installed
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes --no-deps -r requirements-slurm.lock
 	@touch $@
 
-reproduce: environment
-	$(SNAKEMAKE) all costs
+# Snakemake does not name file and line of what it cannot read.
+settings: environment
+	@$(if $(SETTINGS),$(BIN)/python -m viscorough_study.settings_files $(SETTINGS))
 
-paper: environment
-	$(BIN)/python benchmarks/costs.py --output results/costs.json -- $(SNAKEMAKE) --configfile config/paper.yaml -- all costs
+reproduce: settings
+	$(SNAKEMAKE) -- all costs
+
+paper: override SETTINGS := config/paper.yaml
+paper: settings
+	$(BIN)/python benchmarks/costs.py --output results/costs.json -- $(SNAKEMAKE) -- all costs
 
 # Includes the targets beside `all` that were made.
-report: environment
-	$(SNAKEMAKE) --report results/report.html $(if $(SETTINGS),--configfile $(SETTINGS)) -- all \
+report: settings
+	$(SNAKEMAKE) --report results/report.html -- all \
 		$(if $(wildcard results/tables/rule_costs.csv),costs) $(if $(wildcard results/figures/failure_map.png),stability) \
 		$(patsubst results/figures/%.png,%,$(wildcard $(patsubst %,results/figures/%.png,speed sizes large)))
 
@@ -76,18 +85,18 @@ test: environment docs
 bench: environment
 	$(BIN)/python benchmarks/curves.py --reproduction --cores $(CORES) --output results/benchmarks.json
 
-speed: environment
-	$(SNAKEMAKE) speed
+speed: settings
+	$(SNAKEMAKE) -- speed
 
-stability: environment
-	$(SNAKEMAKE) stability
+stability: settings
+	$(SNAKEMAKE) -- stability
 	$(BIN)/python benchmarks/campaign.py --output results/campaign.json
 
-sizes: environment
-	$(SNAKEMAKE) sizes
+sizes: settings
+	$(SNAKEMAKE) -- sizes
 
-large: environment
-	$(SNAKEMAKE) large
+large: settings
+	$(SNAKEMAKE) -- large
 
 faults: environment
 	$(BIN)/python benchmarks/planted_faults.py --output results/planted_faults.json

@@ -6,13 +6,16 @@ from snakemake.utils import min_version
 min_version("9.0")
 
 
+include: "workflow/rules/common.smk"
+
+
+require_readable([f"{workflow.basedir}/config/config.yaml", *workflow.overwrite_configfiles])
+
+
 configfile: f"{workflow.basedir}/config/config.yaml"
 
 
 report: "workflow/report/workflow.rst"
-
-
-include: "workflow/rules/common.smk"
 
 
 require_valid(config)

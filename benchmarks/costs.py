@@ -48,6 +48,10 @@ def run_to_its_end(command):
 @click.option("--results", type=click.Path(path_type=Path), default=Path("results"), show_default=True)
 @click.argument("command", nargs=-1, required=True)
 def main(output, results, command):
+    try:
+        rule_costs(results / "benchmarks")  # of earlier runs: a damaged file is better found now than afterwards
+    except ValueError as error:
+        raise click.ClickException(str(error)) from None
     start = time.perf_counter()
     code = run_to_its_end(command)
     seconds = time.perf_counter() - start

@@ -1,5 +1,6 @@
 """Cost of the rules of the workflow, from the benchmark files that Snakemake writes for every job."""
 
+import math
 from pathlib import Path
 
 import pandas as pd
@@ -17,13 +18,12 @@ def rule_costs(folder):
     """Time and memory of every rule, most expensive first; a pandas.DataFrame with the columns of `COLUMNS`.
 
     folder : of benchmark files, <rule>.tsv or <rule>/<job>.tsv; without any, the table has no rows
+    Raises ValueError for a file that is damaged.
     """
-    rows = []
-    for path in sorted(Path(folder).rglob("*.tsv")):
-        job = pd.read_csv(path, sep="\t").iloc[-1]
-        # Snakemake measures no memory of the shortest jobs.
-        seconds, memory = pd.to_numeric(job[["s", "max_rss"]], errors="coerce").fillna(0)
-        rows.append((Path(path.relative_to(folder).parts[0]).stem, seconds, memory))
+    rows = [
+        (Path(path.relative_to(folder).parts[0]).stem, *_time_and_memory(path))
+        for path in sorted(Path(folder).rglob("*.tsv"))
+    ]
     by_rule = pd.DataFrame(rows, columns=["rule", "s", "memory"]).groupby("rule")
     table = pd.DataFrame(
         {
@@ -34,3 +34,16 @@ def rule_costs(folder):
         }
     )
     return table.sort_values("seconds", ascending=False).reset_index()[list(COLUMNS)]
+
+
+def _time_and_memory(path):
+    """Seconds and megabytes of a job."""
+    try:
+        job = pd.read_csv(path, sep="\t").iloc[-1]
+        seconds, memory = float(job["s"]), job["max_rss"]
+        memory = 0.0 if memory == "-" or pd.isna(memory) else float(memory)  # not measured for the shortest jobs
+    except (ValueError, LookupError):
+        seconds = memory = math.nan
+    if not (0 <= seconds < math.inf and 0 <= memory < math.inf):
+        raise ValueError(f"{path}: not a benchmark of a job; delete the file, and the costs will lack this job")
+    return seconds, memory

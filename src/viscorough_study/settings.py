@@ -5,6 +5,9 @@ import math
 
 import jsonschema
 
+# Groups of cases that every run has, and which variants can therefore not be called (viscorough_study.cases).
+GROUPS = ("base", "controls", "lines", "sizes")
+
 
 class SettingsError(ValueError):
     """A setting that is not allowed; the message is one line that names key, value and what is allowed."""
@@ -40,13 +43,17 @@ def _dotted(path):
     return "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path).lstrip(".") or "settings"
 
 
+def _in_one_line(text):
+    return text[:60] if text.isprintable() else repr(text)[:60]
+
+
 def _schema_complaint(error):
     """One line on an error of jsonschema."""
     key = _dotted(error.absolute_path)
     within = f" in {key}" if error.absolute_path else ""
     if error.validator == "additionalProperties":
         known = sorted(error.schema["properties"])
-        unknown = sorted(map(str, set(error.instance) - set(known)))[0]
+        unknown = _in_one_line(sorted(map(str, set(error.instance) - set(known)))[0])
         close = difflib.get_close_matches(unknown, known, 1)
         hint = f"did you mean {close[0]}?" if close else f"allowed: {', '.join(known)}"
         return f"unknown key {unknown}{within}; {hint}"
@@ -79,8 +86,16 @@ def _allowed(rule):
 
 def _contradiction(settings):
     """One line on settings that are allowed one by one but not together, or None."""
-    checks = (_repeated, _too_precise, _disc_without_line, _too_rough, _decreasing_task, _too_short_wave, _empty_range)
+    checks = (_reserved, _repeated, _too_precise, _disc_without_line, _too_rough, _too_smooth)
+    checks += (_decreasing_task, _too_short_wave, _empty_range)
     return next(filter(None, (check(settings) for check in checks)), None)
+
+
+def _reserved(settings):
+    for variant in settings["variants"]["cases"]:
+        if variant["name"] in GROUPS:
+            return f"name {variant['name']} in variants.cases is taken; allowed: any but {', '.join(GROUPS)}"
+    return None
 
 
 def _repeated(settings):
@@ -111,7 +126,7 @@ def _too_precise(settings):
     exponents["sizes.control.hurst"] = [settings["sizes"]["control"]["hurst"]]
     for key, values in exponents.items():
         for hurst in values:
-            if abs(hurst * 1e4 - round(hurst * 1e4)) > 1e-6:
+            if hurst != round(hurst, 4):  # so that different exponents have different file names
                 return f"{key} has {hurst}; allowed: at most four decimals"
     return None
 
@@ -133,10 +148,23 @@ def _too_rough(settings):
     return None
 
 
+def _too_smooth(settings):
+    for combination in settings["discs"]["combinations"]:
+        if combination["rms"] < combination["diameter"] * 1e-12:
+            where = f"combination {combination['number']} of discs.combinations"
+            return f"rms {combination['rms']} in {where} is too small; allowed: from 1e-12 of the diameter"
+    return None
+
+
 def _decreasing_task(settings):
     for task in settings["methods"]["tasks"]:
-        if task["fractions"][0] > task["fractions"][1]:
+        first, last = task["fractions"]
+        if first > last:
             return f"fractions of {task['name']} in methods.tasks decrease; allowed: the first not above the second"
+        if task["levels"] > 1 and last < 1.1 * first:
+            return (
+                f"fractions of {task['name']} in methods.tasks are too close; allowed: the second from 1.1 of the first"
+            )
     return None
 
 
@@ -152,13 +180,11 @@ def _too_short_wave(settings):
 
 
 def _empty_range(settings):
-    ranges = {
-        f"{part}.x_low and x_high": (settings[part]["x_low"], settings[part]["x_high"])
-        for part in ("ensemble", "reduction")
-    } | {
-        "scaling.stiffness_range": settings["scaling"]["stiffness_range"],
-    }
-    for key, (low, high) in ranges.items():
-        if not low < high:
-            return f"{key}: {low} and {high} are no range; allowed: the first below the second"
+    for part in ("ensemble", "reduction"):
+        low, high = settings[part]["x_low"], settings[part]["x_high"]
+        if high < 9.99 * low:  # rounded
+            return f"{part}.x_low and x_high: {low} and {high} are less than a decade; allowed: from one decade"
+    low, high = settings["scaling"]["stiffness_range"]
+    if not low < high:
+        return f"scaling.stiffness_range: {low} and {high} are no range; allowed: the first below the second"
     return None

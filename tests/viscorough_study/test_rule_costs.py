@@ -1,5 +1,9 @@
 """Costs of rules from benchmark files."""
 
+import re
+
+import pytest
+
 from viscorough_study.rule_costs import COLUMNS, rule_costs
 
 HEADER = "s\th:m:s\tmax_rss\tmax_vms\n"
@@ -19,3 +23,15 @@ def test_without_benchmarks_there_are_no_rows(tmp_path):
     table = rule_costs(tmp_path)
     assert table.empty
     assert list(table) == list(COLUMNS)
+
+
+@pytest.mark.parametrize(
+    "content",
+    [b"", HEADER.encode(), HEADER.replace("max_rss", "rss").encode() + b"1\t0\t2\t3\n", b"\xff\xfe" + bytes(40)]
+    + [HEADER.encode() + line for line in (b"-\t0\t2.0\t3\n", b"1.0\t0\tmany\t3\n", b"-1.0\t0\t2.0\t3\n")],
+    ids=["empty", "no job", "other columns", "bytes", "no time", "text", "negative time"],
+)
+def test_a_damaged_file_is_named(tmp_path, content):
+    (tmp_path / "plot.tsv").write_bytes(content)
+    with pytest.raises(ValueError, match=rf"^{re.escape(str(tmp_path))}/plot.tsv: not a benchmark of a job; delete"):
+        rule_costs(tmp_path)

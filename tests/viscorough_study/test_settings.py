@@ -18,6 +18,8 @@ def settings():
     return read_settings("config")
 
 
+TASK = {"name": "few", "elements": 33, "levels": 8, "fractions": [0.01, 0.5], "residual": 1e-6, "threads": [1]}
+COMBINATION = {"number": 1, "force": 1.0, "viscosity": 1.0, "diameter": 1.0, "rms": 1e-3}
 WRONG = [
     ({"discs": {"elemnts": 33}}, "unknown key elemnts in discs; did you mean elements?"),
     ({"colour": "blue"}, "unknown key colour; allowed: direct, discs, ensemble"),
@@ -39,12 +41,27 @@ WRONG = [
         "variants.cases[0] is {'name': 'nothing'}; allowed: keys with values",
     ),
     ({"variants": {"cases": [{"name": "Bad 1", "period": 2.0}]}}, "variants.cases[0].name is 'Bad 1'; allowed: text"),
+    (
+        {"variants": {"cases": [{"name": "sizes", "period": 2.0}]}},
+        "name sizes in variants.cases is taken; allowed",
+    ),
+    (
+        {"variants": {"cases": [{"name": "wider\n", "period": 2.0}]}},
+        r"variants.cases[0].name is 'wider\n'; allowed",
+    ),
+    ({"methods": {"tasks": [TASK | {"name": "few\n"}]}}, r"methods.tasks[0].name is 'few\n'; allowed: text"),
+    ({"methods": {"tasks": [TASK | {"fractions": [0.5, 0.5]}]}}, "fractions of few in methods.tasks are too close"),
+    ({"dis\ncs": 1}, r"unknown key 'dis\ncs'; did you mean discs?"),
+    ({"discs": {"combinations": [COMBINATION | {"rms": 1e-200}]}}, "rms is 1e-200; allowed: a number from 1e-12"),
+    ({"discs": {"combinations": [COMBINATION | {"diameter": 10.0, "rms": 1e-12}]}}, "rms 1e-12 in combination 1"),
+    ({"lines": {"hurst": [0.4, 0.40000000001]}}, "lines.hurst has 0.40000000001; allowed: at most four decimals"),
     ({"discs": {"hurst": [0.4, 0.4]}}, "discs.hurst: 0.4 occurs twice; allowed: once"),
     ({"sizes": {"elements": [17, 257]}}, "roll_off_wavelength 0.0625 of sizes.control is too short"),
     ({"discs": {"hurst": [0.4, 0.33]}}, "discs.hurst has 0.33, lines.hurst has not"),
     ({"lines": {"hurst": [0.12345]}}, "lines.hurst has 0.12345; allowed: at most four decimals"),
-    ({"ensemble": {"x_low": 40.0}}, "ensemble.x_low and x_high: 40.0 and 30.0 are no range"),
-    ({"reduction": {"x_low": 3.0}}, "reduction.x_low and x_high: 3.0 and 3.0 are no range"),
+    ({"ensemble": {"x_low": 40.0}}, "ensemble.x_low and x_high: 40.0 and 30.0 are less than a decade"),
+    ({"reduction": {"x_low": 3.0}}, "reduction.x_low and x_high: 3.0 and 3.0 are less than a decade"),
+    ({"reduction": {"x_low": 1.0, "x_high": 1.0000001}}, "1.0 and 1.0000001 are less than a decade"),
     ({"scaling": {"stiffness_range": [0.3, 0.03]}}, "scaling.stiffness_range: 0.3 and 0.03 are no range"),
     ({"surface": {"roll_off_wavelength": 0.001}}, "roll_off_wavelength 0.001 of surface is too short"),
 ]

@@ -1,6 +1,8 @@
 """The form of the workflow: rules, scripts, profiles and lock files that go together."""
 
 import re
+import shutil
+import subprocess
 
 import yaml
 
@@ -76,3 +78,19 @@ def test_slurm_lock_goes_with_the_other_lock():
         assert "://" not in text
     assert "snakemake-executor-plugin-slurm" in names["requirements-slurm.lock"]
     assert not set.intersection(*names.values())
+
+
+def test_missing_venv_is_one_line_and_leaves_nothing(tmp_path):
+    """As on Debian without python3-venv."""
+    shutil.copy(ROOT / "Makefile", tmp_path)
+    shutil.copytree(ROOT / "peers", tmp_path / "peers")
+    (tmp_path / "requirements.lock").touch()
+    python = tmp_path / "python"
+    python.write_text('#!/bin/sh\ncase "$2" in *ensurepip*) echo Traceback >&2; exit 1;; esac\n')
+    python.chmod(0o755)
+    command = ["make", "environment", f"PYTHON={python}"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert done.stderr.splitlines()[0].endswith("are needed; Debian and Ubuntu: apt install python3-venv")
+    assert "Traceback" not in done.stderr
+    assert not (tmp_path / ".venv").exists()

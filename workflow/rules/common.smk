@@ -11,6 +11,7 @@ import yaml
 from viscorough_study import cases
 from viscorough_study.paper_data import number, read_paper
 from viscorough_study.settings import SettingsError, check_settings
+from viscorough_study.settings_files import read_settings_file
 from viscorough_study.source_digest import SourceDigests
 from viscorough_study.stale_locks import remove_stale_locks
 
@@ -36,12 +37,21 @@ def read_yaml(path):
     return yaml.safe_load((Path(workflow.basedir) / path).read_text(encoding="utf-8"))
 
 
+def require_readable(paths):
+    """End with one line about the first file of settings that cannot be read."""
+    try:
+        for path in paths:
+            read_settings_file(path)
+    except SettingsError as error:
+        # A WorkflowError would show three more lines, about this file.
+        raise SystemExit(f"Error in the settings: {error}")
+
+
 def require_valid(settings):
     """End with one line about the first wrong setting."""
     try:
         check_settings(settings, read_yaml("workflow/schemas/config.schema.yaml"))
     except SettingsError as error:
-        # A WorkflowError would show three more lines, about this file.
         raise SystemExit(f"Error in the settings: {error}")
 
 

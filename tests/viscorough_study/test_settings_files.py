@@ -1,0 +1,44 @@
+"""Files of settings that cannot be read: one line with file and line."""
+
+import pytest
+
+from viscorough_study.settings import SettingsError
+from viscorough_study.settings_files import main, read_settings_file
+
+BROKEN = {
+    "unclosed": (b"discs:\n  hurst: [0.4\n", "mine.yaml, line 3, column 1: expected ',' or ']'"),
+    "tab": (b"discs:\n\thurst: [0.4]\n", "mine.yaml, line 2, column 1: found character '\\t'"),
+    "not closed text": (b"seed: 'one\n", "mine.yaml, line 2, column 1: found unexpected end of stream"),
+    "key twice": (b"discs: {batch: 2}\nseed: 1\ndiscs: {elements: 9}\n", "mine.yaml, line 3, column 1: key discs for"),
+    "inner key twice": (b"discs:\n  batch: 2\n  batch: 3\n", "mine.yaml, line 3, column 3: key batch for the second"),
+    "UTF-16": ("seed: 1\n".encode("utf-16"), "mine.yaml: byte 1 is not UTF-8 text; allowed: YAML in UTF-8"),
+    "control character": (b"seed: \x07\n", "mine.yaml: special characters are not allowed: not valid YAML"),
+    "list": (b"- discs\n", "mine.yaml: holds no settings; allowed: keys with values"),
+    "empty": (b"", "mine.yaml: holds no settings"),
+    "tag": (b"seed: !!python/object:os.system 1\n", "mine.yaml, line 1, column 7: could not determine a constructor"),
+    "unhashable key": (b"? [discs]\n: 1\n", "mine.yaml, line 1, column 3: found unhashable key"),
+}
+
+
+@pytest.mark.parametrize(("content", "message"), BROKEN.values(), ids=BROKEN)
+def test_broken_file_is_one_line(tmp_path, monkeypatch, capsys, content, message):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine.yaml").write_bytes(content)
+    with pytest.raises(SettingsError) as error:
+        read_settings_file("mine.yaml")
+    assert str(error.value).startswith(message)
+    assert main(["mine.yaml"]) == 2
+    assert capsys.readouterr() == ("", f"Error in the settings: {error.value}\n")
+
+
+def test_missing_file():
+    with pytest.raises(SettingsError, match=r"^nowhere.yaml: not readable \(No such file or directory\)$"):
+        read_settings_file("nowhere.yaml")
+
+
+def test_readable_file(tmp_path, capsys):
+    path = tmp_path / "mine.yaml"
+    path.write_bytes(b"\xef\xbb\xbfdiscs: {elements: 9}\nlines: {<<: {batch: 2}, batch: 3}\n")
+    assert read_settings_file(path) == {"discs": {"elements": 9}, "lines": {"batch": 3}}
+    assert main([path]) == 0
+    assert capsys.readouterr() == ("", "")

@@ -107,6 +107,7 @@ rule speed:
     input:
         rules.tabulate_methods.output,
         rules.plot_speed.output,
+        rules.plot_all_methods.output,
         rules.plot_growth.output,
         rules.plot_other_solvers.output,
         rules.plot_level_placement.output,

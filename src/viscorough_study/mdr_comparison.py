@@ -22,11 +22,14 @@ COLUMNS = {
     "stiffness_ratio_high": ("upper end of its 95 % interval", "1"),
     "stiffness_scatter": ("standard deviation of ln κ of a line over its disc", "1"),
     "area_ratio": ("geometric mean of the contact fraction of the lines over that of the discs", "1"),
+    "area_ratio_low": ("lower end of its 95 % interval", "1"),
+    "area_ratio_high": ("upper end of its 95 % interval", "1"),
     "force_ratio": (
         "geometric mean of X of a line over that of its disc, at equal u/h, where the disc has this X",
         "1",
     ),
     "correlation": ("correlation of ln κ of discs and their lines over the realizations", "1"),
+    "chance": ("correlations of as many unrelated pairs are within ± this in 95 % of all cases", "1"),
     "realizations": ("realizations", "1"),
 }
 FORCE_MARGIN = 1.01  # by which the curve of a disc reaches beyond the last force compared, so that it is defined there
@@ -76,18 +79,24 @@ def _rows(hurst, x, compared):
     stiffness, fraction, force = np.moveaxis(compared, 1, 0)
     number = len(compared)
     ratio = stiffness[:, 1] - stiffness[:, 0]
-    error = 1.96 * ratio.std(axis=0, ddof=1) / np.sqrt(number)
     with np.errstate(invalid="ignore", divide="ignore"):  # nan where all realizations have the same κ
         correlation = [np.corrcoef(stiffness[:, 0, i], stiffness[:, 1, i])[0, 1] for i in range(x.size)]
+    chance = np.tanh(1.96 / np.sqrt(number - 3)) if number > 3 else 1.0  # by Fisher's transform
     columns = [
         np.exp(stiffness[:, 0].mean(axis=0)),
-        np.exp(ratio.mean(axis=0)),
-        np.exp(ratio.mean(axis=0) - error),
-        np.exp(ratio.mean(axis=0) + error),
+        *_mean_with_interval(ratio),
         ratio.std(axis=0, ddof=1),
-        np.exp((fraction[:, 1] - fraction[:, 0]).mean(axis=0)),
+        *_mean_with_interval(fraction[:, 1] - fraction[:, 0]),
         np.exp((force[:, 1] - force[:, 0]).mean(axis=0)),
         correlation,
+        np.full(x.size, chance),
     ]
     rows = zip(x, np.transpose(columns), strict=True)
-    return [(hurst, at, *values, number) for at, values in rows if np.isfinite(values[:-1]).all()]
+    return [(hurst, at, *values, number) for at, values in rows if np.isfinite(values[:-2]).all()]
+
+
+def _mean_with_interval(logarithms):
+    """Geometric mean over the realizations, and the ends of its 95 % interval."""
+    mean, spread = logarithms.mean(axis=0), logarithms.std(axis=0, ddof=1)
+    error = 1.96 * spread / np.sqrt(len(logarithms))
+    return np.exp(mean), np.exp(mean - error), np.exp(mean + error)

@@ -51,12 +51,13 @@ def _with_factor(fits, factor):
     return fits.assign(factor=factor, **scaled)
 
 
-def nearest(table, law):
-    """The combination of conventions, as a dict, that is nearest to a law ("eq4" or "eq11"); None if there is none."""
-    if table[f"worst_{law}"].isna().all():
-        return None
-    best = table.loc[table[f"worst_{law}"].idxmin()]
-    return {name: best[name] for name in COMBINED}
+def ranked(table, law):
+    """Combinations of conventions, as dicts, from the nearest to a law ("eq4" or "eq11") to the farthest.
+
+    Those in which not every Hurst exponent has a window are left out.
+    """
+    complete = table[table[f"worst_{law}"].notna()].sort_values(f"worst_{law}", kind="stable")
+    return complete[COMBINED].drop_duplicates().to_dict("records")
 
 
 def rows_of(table, combination):

@@ -2,7 +2,7 @@
 
 The bodies have exact solutions (viscorough.reference) and stand on grids of n elements across L = 1. Errors are root
 mean squares, over a range of contact radii, of the relative deviation from the exact value: at a single radius they
-oscillate with how the circle of contact happens to cut the grid. For the same reason flat ellipses are of several sizes.
+oscillate with how the circle of contact happens to cut the grid. For that reason flat ellipses are of several sizes.
 The observed order is the slope of ln(error) over ln(1/n). Boundary elements are solved to a tolerance so small that the
 error of the grid dominates.
 """

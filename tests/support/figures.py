@@ -77,7 +77,9 @@ def validation_table(grids=(33, 65, 129), quantities=("force", "depth")):
 def mdr_table():
     """Lines as stiff as their discs, ten times larger in contact, and without correlation."""
     x = np.geomspace(1e-4, 1, 5)
-    columns = {"x": x, "stiffness_ratio": 1.0, "stiffness_scatter": 0.3, "area_ratio": 10.0, "correlation": 0.0}
+    columns = {"x": x, "stiffness_scatter": 0.3, "correlation": 0.0, "chance": 0.5, "realizations": 6}
+    for name, value in (("stiffness_ratio", 1.0), ("area_ratio", 10.0)):
+        columns |= {name: value, f"{name}_low": value / 2, f"{name}_high": value * 2}
     return pd.concat([pd.DataFrame({"hurst": hurst, **columns}) for hurst in (0.4, 0.9)], ignore_index=True)
 
 
@@ -120,9 +122,10 @@ def other_solvers_table():
 
 def level_placement_table():
     """Three choices for a scene, of which the naive one does not reach the accuracy."""
-    rows = [("full curve", "automatic", 1e-3, 1e-4, 1, 1.0), ("full curve", "best by hand", 1e-3, 9e-4, 1, 0.8)]
-    rows += [("full curve", "naive", 1e-3, 2e-3, 0, 20.0)]
-    return pd.DataFrame(rows, columns=["scene", "choice", "accuracy", "error", "reached", "ratio"])
+    rows = [("full curve", "automatic", 1e-3, 1e-4, 1, 40, 1.0), ("full curve", "best by hand", 1e-3, 9e-4, 1, 16, 0.8)]
+    rows += [("full curve", "naive", 1e-3, 2e-3, 0, 512, 20.0)]
+    table = pd.DataFrame(rows, columns=["scene", "choice", "accuracy", "error", "reached", "levels", "ratio"])
+    return table.assign(wall_s=0.05 * table["ratio"])
 
 
 def sizes_table():
@@ -146,7 +149,7 @@ def large_table():
 
 
 def failure_table(verdicts):
-    """One case for each verdict in two groups, two methods."""
+    """One case for each verdict in two groups, which concern both of the two methods."""
     rows = [
         ("shape" if rank % 2 else "grid", f"case {rank}", method, error, verdict)
         for rank, verdict in enumerate(verdicts)

@@ -5,7 +5,7 @@ import pytest
 
 from support.study import SHOWN, evidence
 from viscorough.reference import zeta_elastic
-from viscorough_study.prefactors import COLUMNS, combinations, nearest, prefactors, rows_of
+from viscorough_study.prefactors import COLUMNS, combinations, prefactors, ranked, rows_of
 
 
 @pytest.fixture(scope="module")
@@ -25,16 +25,19 @@ def test_factor_is_a_larger_force(table):
     np.testing.assert_allclose(once["worst_eq4"], np.log(2), atol=0.05)
 
 
-def test_nearest_combination_is_found(table):
-    best = nearest(table, "eq4")
-    assert (best["rms_convention"], best["gamma"], best["diameter_convention"], best["factor"]) == (
+def test_combinations_are_ranked_by_their_largest_deviation(table):
+    ranking = ranked(table, "eq4")
+    assert (ranking[0]["rms_convention"], ranking[0]["gamma"], ranking[0]["diameter_convention"]) == (
         "square",
         "without",
         "diameter",
-        1,
     )
-    assert rows_of(table, best)["worst_eq4"].max() < 0.05
-    assert nearest(table.assign(worst_eq4=np.nan), "eq4") is None
+    assert ranking[0]["factor"] == 1
+    deviations = [rows_of(table, combination)["worst_eq4"].iloc[0] for combination in ranking]
+    assert deviations == sorted(deviations)
+    assert deviations[0] < 0.05
+    assert len(ranking) == len({tuple(combination.values()) for combination in ranking}) == len(combinations(table))
+    assert ranked(table.assign(worst_eq4=np.nan), "eq4") == []
 
 
 def test_combination_without_all_exponents_is_not_compared(table):

@@ -106,9 +106,9 @@ def test_speed_without_other_solvers(fresh, default_plan):
     assert not set(planned) & set(default_plan)
     assert planned.pop("measure_methods") == 3  # sphere, cone, one rough disc
     tables = {"tabulate_methods", "time_other_solvers", "compare_level_placement"}
-    plots = {"plot_speed", "plot_growth", "plot_other_solvers", "plot_level_placement"}
+    plots = {"plot_speed", "plot_all_methods", "plot_growth", "plot_other_solvers", "plot_level_placement"}
     assert planned == dict.fromkeys(tables | plots, 1)
-    assert drawn(fresh, "speed", "growth", "other_solvers", "level_placement")
+    assert drawn(fresh, "speed", "all_methods", "growth", "other_solvers", "level_placement")
     methods = pd.read_csv(fresh / "results/tables/methods.csv")
     assert set(methods["problem"]) == {"sphere", "cone", "rough disc, H = 0.4"}
     assert not set(methods["group"]) & {"peer", "other solver"}

@@ -1,4 +1,4 @@
-"""Figure of cost against error of every method."""
+"""Figure of cost against error of the main methods."""
 
 import pandas as pd
 

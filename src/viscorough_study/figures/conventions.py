@@ -9,7 +9,7 @@ from matplotlib.ticker import FixedLocator, LogLocator, MaxNLocator, NullFormatt
 from viscorough import reference
 from viscorough_study.conventions import fits
 from viscorough_study.figures.labels import CONVENTION_LABELS
-from viscorough_study.figures.style import GREY, MM, STYLE, WIDE, hurst_looks, mark_with_interval
+from viscorough_study.figures.style import GREY, MM, STYLE, WIDE, count_text, hurst_looks, mark_with_interval
 
 VARIANTS = {
     "longer_period": "longer period",
@@ -49,7 +49,11 @@ def plot_conventions(scaling, conventions):
         Line2D([], [], color=GREY, linestyle="--", label="$H/(1+H)$, Eq. 10; $2-H$, Eq. 11 (with Γ)"),
         Line2D([], [], color=GREY, linestyle=":", label=r"$\pi(3-H)/10$, Eq. 4"),
     ]
-    figure.legend(handles=handles, loc="outside lower center", ncols=2)
+    changed = discs["case_group"] != "base"
+    numbers = [f"{count_text(discs.loc[~changed, 'realizations'])} discs for each $H$"]
+    numbers += [f"{count_text(discs.loc[changed, 'realizations'])} of changed surfaces"] if changed.any() else []
+    handles.append(Line2D([], [], linestyle="", label=", ".join(numbers)))
+    figure.legend(handles=handles, loc="outside lower center", ncols=3)
     return figure
 
 
@@ -57,7 +61,7 @@ def _panels(exponents, changes):
     """Panels of β and of ζ, one for each Hurst exponent, four in a row, and the figure."""
     columns = min(4, exponents)
     blocks = -(-exponents // columns)
-    figure = Figure(figsize=(WIDE, (2 * blocks * (13 + 4.2 * changes) + 8) * MM))
+    figure = Figure(figsize=(WIDE, (2 * blocks * (13 + 4.2 * changes) + 10) * MM))
     grid = figure.subplots(2 * blocks, columns, squeeze=False, sharey=True)
     for axes in grid[-2:, exponents - columns * (blocks - 1) :].flat:
         axes.remove()

@@ -1,11 +1,13 @@
-"""Failure map: error and verdict of every method in every stress-test case."""
+"""Failure map: error and verdict of every method in every stress-test case that concerns it."""
 
 import numpy as np
 from matplotlib import colormaps, rc_context
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Rectangle
 
-from viscorough_study.figures.style import GREY, MM, PALE, STYLE, WIDE, require_rows
+from viscorough_study.figures.style import BLACK, MM, PALE, SMALL, STYLE, WIDE, require_rows
 
 LETTERS = {
     "holds": "H",
@@ -16,50 +18,109 @@ LETTERS = {
     "not offered": "N",
     "unnoticed": "U",
 }
+MEANINGS = {
+    "holds": "within the limit of the method",
+    "model": "model, within a factor of two",
+    "stated": "model outside its stated range",
+    "warned": "wrong, with a warning",
+    "refused": "refused, with a reason",
+    "not offered": "not offered to users",
+    "unnoticed": "wrong without notice",
+}
+KINDS = {  # of methods, by the beginnings of their names
+    "elastic path": ("path",),
+    "direct integration": ("events", "explicit", "heun", "implicit"),
+    "models": ("MDR", "power law"),
+}
+OTHER_KIND = "other methods"
+# Difficulties that cannot matter to all methods: beginnings of the names of those to which they can.
+CONCERNED = {
+    "step size": ("explicit steps",),
+    "force in time": ("explicit steps",),
+    "no padding": ("path, grid",),
+    "tolerance": ("path",),
+}
+GROUP_NAMES = {"ties": "equal\nheights", "Hurst exponent": "Hurst\nexponent", "force in time": "force\nin time"}
 FLOOR = 1e-16  # smaller errors are drawn here
 NORM = LogNorm(FLOOR, 10)
+TEXT = {"fontsize": SMALL, "va": "center"}
 
 
 @rc_context(STYLE)
 def plot_failure_map(table):
     """Error, as colour and number, and verdict, as letter, of every method (columns) in every case (rows).
 
-    table : of viscorough_study.robustness.failure_map. Raises ValueError for a table without rows.
+    table : of viscorough_study.robustness.failure_map
+    Methods stand side by side by their kind. A cell is blank where the difficulty cannot matter to the method, unless
+    the method refuses the case or fails unnoticed. Raises ValueError for a table without rows.
     """
     require_rows("plot_failure_map", table)
-    methods = list(dict.fromkeys(table["method"]))
+    methods = sorted(dict.fromkeys(table["method"]), key=lambda name: [*KINDS, OTHER_KIND].index(_kind(name)))
     rows = list(dict.fromkeys(zip(table["group"], table["case"], strict=True)))
-    figure = Figure(figsize=(WIDE, (4.1 * len(rows) + 32) * MM))
+    figure = Figure(figsize=(WIDE, (3.7 * len(rows) + 42) * MM))
     axes = figure.subplots()
     errors = np.full((len(rows), len(methods)), np.nan)
     for cell in table.itertuples():
         i, j = rows.index((cell.group, cell.case)), methods.index(cell.method)
-        if cell.verdict != "refused":
+        if not _concerns(cell):
+            continue
+        color = "black"
+        if cell.verdict == "refused":
+            axes.add_patch(Rectangle((j - 0.5, i - 0.5), 1, 1, color=PALE, linewidth=0))
+        else:
             errors[i, j] = max(cell.error, FLOOR)
-        color = "white" if NORM(errors[i, j]) < 0.55 else "black"
-        axes.text(j, i, _cell_text(cell), ha="center", va="center", fontsize=7, color=color)
-    axes.set_facecolor(PALE)  # where there is no answer
+            color = "white" if NORM(errors[i, j]) < 0.55 else "black"
+        axes.text(j, i, _cell_text(cell), ha="center", color=color, **TEXT)
     image = axes.imshow(errors, cmap=colormaps["cividis"], norm=NORM, aspect="auto")
-    axes.set_xticks(
-        range(len(methods)),
-        [name.replace(", ", ",\n").replace("w with", "w\nwith").replace("t s", "t\ns") for name in methods],
-    )
+    axes.set_xticks(range(len(methods)), [_header(name) for name in methods])
     axes.set_yticks(range(len(rows)), [name for _, name in rows])
-    axes.tick_params(which="both", length=0, top=False, labeltop=True, labelbottom=False, right=False, labelsize=7)
+    axes.tick_params(which="both", length=0, top=False, labeltop=True, labelbottom=False, right=False)
     axes.minorticks_off()
+    _name_kinds(axes, [_kind(name) for name in methods])
     _name_groups(axes, [group for group, _ in rows], len(methods) - 0.4)
-    bar = figure.colorbar(image, ax=axes, location="bottom", aspect=50, pad=0.01, fraction=0.02)
-    bar.set_label("largest relative error [1]")
-    figure.supxlabel(", ".join(f"{letter}: {verdict}" for verdict, letter in LETTERS.items()), fontsize=8)
+    bar = figure.colorbar(image, ax=axes, location="bottom", aspect=60, shrink=0.8, pad=0.01, fraction=0.02)
+    bar.set_label("largest relative error")
+    meanings = [f"{letter}: {MEANINGS[verdict]}" for verdict, letter in LETTERS.items()]
+    handles = [Line2D([], [], linestyle="", label=text) for text in (*meanings, "blank: cannot matter")]
+    figure.legend(handles=handles, loc="outside lower center", ncols=3, handlelength=0, handletextpad=0)
     return figure
+
+
+def _kind(method):
+    """Kind of a method, from its name."""
+    return next((kind for kind, names in KINDS.items() if method.startswith(names)), OTHER_KIND)
+
+
+def _concerns(cell):
+    """Whether the difficulty of a case can matter to a method, or the method fails all the same."""
+    names = CONCERNED.get(cell.group)
+    return names is None or cell.method.startswith(names) or cell.verdict in ("refused", "unnoticed")
+
+
+def _header(method):
+    """Name of a method above its column: without its kind, a word or two in a line."""
+    name = method.removeprefix("path, ")
+    return name.replace(", ", ",\n").replace(" with ", "\nwith ").replace(" steps", "\nsteps")
 
 
 def _cell_text(cell):
     """Error in one digit and letter of the verdict; of a refusal just the letter."""
     if cell.verdict == "refused":
         return LETTERS["refused"]
-    number = f"{cell.error:.0e}".replace("e-0", "e-").replace("e+0", "e") if cell.error else "0"
-    return f"{number} {LETTERS[cell.verdict]}"
+    number = f"{cell.error:.0e}".replace("e-0", "e-").replace("e+00", "").replace("e+0", "e")
+    return f"{number if cell.error else 0} {LETTERS[cell.verdict]}"
+
+
+def _name_kinds(axes, kinds):
+    """Names of the kinds of methods above their columns, over a line, and white lines between the kinds."""
+    above = {"transform": axes.get_xaxis_transform(), "clip_on": False}
+    top = 1 + 30 / 72 / (axes.get_figure().get_figheight() * 0.85)  # above two lines of headers
+    for kind in dict.fromkeys(kinds):
+        first, last = kinds.index(kind), kinds.index(kind) + kinds.count(kind) - 1
+        if first:
+            axes.axvline(first - 0.5, color="white", linewidth=1.5)
+        axes.plot([first - 0.4, last + 0.4], [top, top], color=BLACK, linewidth=0.6, **above)
+        axes.text((first + last) / 2, top, kind, ha="center", va="bottom", fontsize=SMALL, **above)
 
 
 def _name_groups(axes, groups, x):
@@ -67,7 +128,6 @@ def _name_groups(axes, groups, x):
     for group in dict.fromkeys(groups):
         first = groups.index(group)
         if first:
-            axes.axhline(first - 0.5, color="white", linewidth=2)
+            axes.axhline(first - 0.5, color="white", linewidth=1.5)
         middle = first + (groups.count(group) - 1) / 2
-        rotation = -90 if groups.count(group) > 1 else 0
-        axes.text(x, middle, group, rotation=rotation, va="center", fontsize=7, color=GREY)
+        axes.text(x, middle, GROUP_NAMES.get(group, group), **TEXT)

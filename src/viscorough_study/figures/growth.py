@@ -5,17 +5,13 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 
 from viscorough_study.figures.style import (
-    BLUE,
-    GREEN,
     MM,
-    PURPLE,
-    SKY_BLUE,
     STYLE,
-    VERMILION,
     WIDE,
     logarithmic_ticks,
     plain_ticks,
     require_rows,
+    series_looks,
 )
 from viscorough_study.performance.cost_growth import fit_cost, median_costs
 
@@ -29,8 +25,6 @@ METHODS = {
     ("SlipPY", 1e-6): "SlipPY, 1e-6",
     ("ASPHER", 1e-6): "ASPHER, 1e-6",
 }
-COLORS = (BLUE, SKY_BLUE, VERMILION, GREEN, PURPLE)
-MARKERS = "osD^v<>"
 
 
 @rc_context(STYLE)
@@ -43,22 +37,21 @@ def plot_growth(table):
     require_rows("plot_growth", table[table["hurst"].notna()])
     figure = Figure(figsize=(WIDE, 85 * MM))
     time, operators = figure.subplots(1, 2)
-    for rank, ((method, value), label) in enumerate(METHODS.items()):
+    looks = series_looks(METHODS.values())
+    for (method, value), label in METHODS.items():
         costs = median_costs(table, method, value)
         if costs.empty:
             continue
-        color = COLORS[rank % len(COLORS)]
-        face = "none" if rank >= len(COLORS) else color
-        look = {"color": color, "marker": MARKERS[rank], "markerfacecolor": face}
+        look = looks[label]
         exponent, _ = fit_cost(costs["number"], costs["wall_s"])
         note = "" if np.isnan(exponent) else f": $N^{{{exponent:.2f}}}$"
         time.plot(costs["number"], costs["wall_s"], **look, label=label + note)
         if costs["operator_applications"].any():
             operators.plot(costs["number"], costs["operator_applications"], **look)
-    time.set(ylabel="wall time [s]")
-    operators.set(ylabel="operator applications on the grid [1]")
+    time.set(ylabel="wall time (s)")
+    operators.set(ylabel="operator applications on the grid")
     for axes in (time, operators):
-        axes.set(xscale="log", yscale="log", xlabel="elements of the disc $N$ [1]")
+        axes.set(xscale="log", yscale="log", xlabel="elements of the disc $N$")
         logarithmic_ticks(axes)
     plain_ticks(operators.yaxis, [10, 20, 50, 100, 200, 500, 1000, 2000])
     figure.legend(loc="outside lower center", ncols=3)

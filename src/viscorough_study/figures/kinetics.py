@@ -3,17 +3,38 @@
 import numpy as np
 from matplotlib import rc_context
 from matplotlib.figure import Figure
-from matplotlib.patheffects import withStroke
 
 from viscorough import reference
 from viscorough_study.conventions import LENGTH, fits
 from viscorough_study.figures.mean_curve import mean_curve
-from viscorough_study.figures.style import GREY, MM, PALE, STYLE, WIDE, hurst_handles, hurst_looks, logarithmic_ticks
+from viscorough_study.figures.placement import place_labels
+from viscorough_study.figures.style import (
+    BLACK,
+    GREY,
+    MM,
+    PALE,
+    SMALL,
+    STYLE,
+    WIDE,
+    count_text,
+    hurst_handles,
+    hurst_looks,
+    logarithmic_ticks,
+    number_text,
+)
+
+# Rows of the table of combinations: quantity, symbol, unit, size of the unit.
+QUANTITIES = (
+    ("force", "$F$", "N", 1.0),
+    ("viscosity", r"$\eta$", "Pa s", 1.0),
+    ("diameter", "$L$", "mm", 1e-3),
+    ("rms", "$h$", "µm", 1e-6),
+)
 
 
 @rc_context(STYLE)
 def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min):
-    """Velocity over time in SI units, and vt/h over Ft/(hηL) computed from them (Eq. 2).
+    """Velocity over time in SI units, vt/h over Ft/(hηL) computed from them (Eq. 2), and a table of the combinations.
 
     ensembles : ensemble datasets, one for each case
     combinations : {case: force [N], viscosity [Pa s], diameter [m], rms [m]}
@@ -24,8 +45,9 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
     of region (b). The rms height is that of the combination, which is exact if h is measured where it was prescribed.
     """
     looks = hurst_looks(ds["hurst"].item() for ds in ensembles)
-    figure = Figure(figsize=(WIDE, 95 * MM))
-    raw, collapsed = figure.subplots(1, 2, width_ratios=(1, 1.3))
+    figure = Figure(figsize=(WIDE, 112 * MM))
+    above, below = figure.subfigures(2, 1, height_ratios=(4.6, 1))
+    raw, collapsed = above.subplots(1, 2, width_ratios=(1, 1.2))
     curves = [mean_curve(ds, conventions, fraction_min) for ds in ensembles]
     length_over_diameter = LENGTH[conventions["diameter_convention"]]
     start = min((curve.x[curve.several][0] for curve in curves if curve.several.any()), default=0) / 10
@@ -38,18 +60,41 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
             axes.plot(x[single], y[single], color=PALE, zorder=1)
             axes.plot(x[curve.several], y[curve.several], label=case, **look)
         for last in np.flatnonzero(np.isfinite(velocity))[-1:]:
-            ends[case.partition("_")[2]] = time[last], velocity[last]
+            end, name = (time[last], velocity[last]), _combination(case)
+            ends[name] = max(end, ends.get(name, end))  # of the curve that ends last
     raw.set(xscale="log", yscale="log", xlabel="time $t$ (s)", ylabel="velocity $v$ (m/s)")
-    raw.margins(0.08)
-    for name, end in ends.items():
-        halo = [withStroke(linewidth=2, foreground="white")]
-        raw.annotate(name, end, (0, -3), textcoords="offset points", ha="center", va="top", path_effects=halo)
+    raw.margins(x=0.12, y=0.05)
     collapsed.set(xscale="log", yscale="log", xlabel=r"$Ft/(h\eta L)$", ylabel="$vt/h$")
     _mark_limits(collapsed, _elements_across(ensembles[0]["elements"].item()), length_over_diameter)
     _mark_windows(collapsed, looks, scaling, conventions)
-    collapsed.legend(handles=hurst_handles(looks, marker=""), loc="upper left")
+    realizations = f"each a mean over {count_text([ds.sizes['realization'] for ds in ensembles])} discs"
+    legend = {"loc": "upper left", "title": realizations, "title_fontsize": SMALL, "alignment": "left"}
+    collapsed.legend(handles=hurst_handles(looks, marker=""), **legend)
     logarithmic_ticks(raw, collapsed)
+    _tabulate(below.subplots(), {_combination(case): at for case, at in combinations.items() if _combination(case)})
+    place_labels(raw, [(name, *end, BLACK) for name, end in ends.items() if name], fontsize=SMALL)
     return figure
+
+
+def _combination(case):
+    """Name of the combination, of a case that is named by Hurst exponent and combination."""
+    return case.partition("_")[2]
+
+
+def _tabulate(axes, combinations):
+    """Table of the combinations: a column for each, a row for each quantity."""
+    axes.set(xlim=(0, len(combinations) + 2), ylim=(len(QUANTITIES) + 0.5, -0.5))
+    axes.set_label("<table>")
+    axes.axis("off")
+    axes.text(0, 0, "combination", va="center", fontsize=SMALL)
+    axes.axhline(0.5, color=GREY, linewidth=0.6)
+    for row, (_, symbol, unit, _) in enumerate(QUANTITIES, 1):
+        axes.text(0, row, f"{symbol} ({unit})", va="center", fontsize=SMALL)
+    for column, (name, values) in enumerate(combinations.items()):
+        place = {"x": column + 2, "ha": "center", "va": "center", "fontsize": SMALL}
+        axes.text(y=0, s=name, **place)
+        for row, (quantity, _, _, size) in enumerate(QUANTITIES, 1):
+            axes.text(y=row, s=number_text(values[quantity] / size), **place)
 
 
 def _in_units(curve, combination, length_over_diameter):
@@ -71,7 +116,7 @@ def _mark_limits(axes, elements_across, length_over_diameter):
         x_of_y = 4 * stiffness / length_over_diameter
         axes.plot([x_of_y * low, x_of_y * top], [low, top], color=GREY, linestyle=":", linewidth=0.8)
         y = low * (top / low) ** start
-        _text_along(axes, x_of_y * y, y, text, color=GREY, va=side)
+        _text_along(axes, x_of_y * y, y, text, color=GREY, fontsize=SMALL, va=side)
     axes.set(xlim=(left, right), ylim=(bottom, top))
 
 
@@ -82,7 +127,7 @@ def _mark_windows(axes, looks, scaling, conventions):
     for rank, (hurst, look) in enumerate(reversed(looks.items())):
         for row in fits(scaling, conventions, source="discs", case_group="base", hurst=hurst).itertuples():
             axes.plot([4 * row.x_low, 4 * row.x_high], [0.03 + 0.025 * rank] * 2, color=look["color"], **bar)
-    axes.text(0.97, 0.025, "bars: region (b)", color=GREY, transform=axes.transAxes, ha="right")
+    axes.text(0.97, 0.025, "bars: region (b)", color=GREY, fontsize=SMALL, transform=axes.transAxes, ha="right")
     axes.set(xlim=(left, right), ylim=(bottom, top))
 
 

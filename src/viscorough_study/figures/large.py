@@ -3,7 +3,7 @@
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
-from viscorough_study.figures.style import BLUE, GREY, MM, STYLE, WIDE, logarithmic_ticks
+from viscorough_study.figures.style import BLUE, GREY, MM, SMALL, STYLE, WIDE, logarithmic_ticks
 from viscorough_study.performance.cost_growth import fit_cost
 
 
@@ -19,15 +19,15 @@ def plot_large(table):
     panels = zip(figure.subplots(1, 2), ("processor", "memory"), ("(a) time", "(b) memory"), strict=True)
     for axes, name, title in panels:
         values = table[name] / (1e9 if name == "memory" else 1)
-        axes.loglog(table["elements"], values, "o", color=BLUE, label="measured")
+        axes.loglog(table["elements"], values, "o", color=BLUE, label="measured (elements across)")
         fitted = table["elements"] >= table["elements"].iloc[min(len(table) // 2, len(table) - 2)]
         exponent, factor = fit_cost(table.loc[fitted, "elements"], values[fitted])
         line = factor * table.loc[fitted, "elements"] ** exponent
         axes.loglog(table.loc[fitted, "elements"], line, color=GREY, label=f"exponent {exponent:.2f}")
-        label = "memory of the process [GB]" if name == "memory" else "processor time [s]"
-        axes.set(title=title, xlabel="elements of the disc [1]", ylabel=label)
+        label = "memory of the process (GB)" if name == "memory" else "processor time (s)"
+        axes.set(title=title, xlabel="elements of the disc", ylabel=label)
         for across, *at in zip(table["across"], table["elements"], values, strict=True):
-            axes.annotate(f"{across}", at, (-5, 3), textcoords="offset points", fontsize=6, ha="right")
+            axes.annotate(f"{across}", at, (-5, 3), textcoords="offset points", fontsize=SMALL, ha="right")
         axes.margins(0.12)
         logarithmic_ticks(axes)
         axes.legend(loc="upper left", bbox_to_anchor=(0, 0.95))

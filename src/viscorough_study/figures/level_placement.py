@@ -2,43 +2,62 @@
 
 from matplotlib import rc_context
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from matplotlib.ticker import NullFormatter
+from matplotlib.patches import Patch
+from matplotlib.ticker import MaxNLocator
 
-from viscorough_study.figures.style import BLUE, GREEN, GREY, MM, STYLE, VERMILION, WIDE, require_rows
+from viscorough_study.figures.style import (
+    BLUE,
+    GREEN,
+    GREY,
+    MM,
+    PALE,
+    SMALL,
+    STYLE,
+    VERMILION,
+    WIDE,
+    number_text,
+    require_rows,
+)
 
-CHOICES = {"automatic": (BLUE, "o"), "best by hand": (GREEN, "s"), "naive": (VERMILION, "D")}
+CHOICES = {"automatic": BLUE, "best by hand": GREEN, "naive": VERMILION}
+HEIGHT = 0.8 / len(CHOICES)  # of a bar
+MISSED = "////"  # hatching of a choice that does not reach the accuracy
 
 
 @rc_context(STYLE)
 def plot_level_placement(table):
-    """Time of each choice of levels over that of the automatic choice, with the errors reached.
+    """Time of each choice of levels over that of the automatic choice, as bars with number of levels and error.
 
-    table : of viscorough_study.performance.level_placement. Raises ValueError for a table without rows.
+    table : of viscorough_study.performance.level_placement
+    A choice that does not reach the accuracy is hatched. Raises ValueError for a table without rows.
     """
     require_rows("plot_level_placement", table)
     scenes = list(table["scene"].unique())
-    figure = Figure(figsize=(WIDE, (13 * len(scenes) + 30) * MM))
+    figure = Figure(figsize=(WIDE, (17 * len(scenes) + 24) * MM))
     axes = figure.subplots()
     for row in table.itertuples():
-        color, marker = CHOICES[row.choice]
-        y = -scenes.index(row.scene)
-        hollow = {} if row.reached else {"markerfacecolor": "none"}
-        axes.plot(row.ratio, y, color=color, marker=marker, markersize=6, linestyle="", **hollow)
-        above = {"xytext": (0, 6), "textcoords": "offset points", "ha": "center", "fontsize": 6}
-        axes.annotate(f"{row.error / row.accuracy:.2g}", (row.ratio, y), color=color, **above)
-    for ratio in (1 / 1.3, 3.0):
-        axes.axvline(ratio, color=GREY, linestyle="--", zorder=1)
+        rank = list(CHOICES).index(row.choice)
+        y = scenes.index(row.scene) + HEIGHT * (rank - (len(CHOICES) - 1) / 2)
+        look = {"color": CHOICES[row.choice]} if row.reached else {"facecolor": "white", "hatch": MISSED}
+        axes.barh(y, row.ratio, 0.9 * HEIGHT, edgecolor=CHOICES[row.choice], linewidth=0.6, **look)
+        note = f"{number_text(1e3 * row.wall_s, 2)} ms, {row.levels} levels, error {number_text(row.error, 2)}"
+        axes.annotate(note, (max(row.ratio, 1), y), (3, 0), textcoords="offset points", va="center", fontsize=SMALL)
+    axes.axvline(1, color=GREY, linewidth=0.8)
     accuracy = table.groupby("scene")["accuracy"].first()
-    labels = [f"{scene}\n(to {accuracy[scene]:g})" for scene in scenes]
-    axes.set_yticks([-place for place in range(len(scenes))], labels)
-    axes.set(xscale="log", xlabel="wall time over that of the automatic choice [1]", ylim=(0.6 - len(scenes), 0.6))
-    axes.xaxis.set_minor_formatter(NullFormatter())
+    labels = [f"{scene}\nerror up to {number_text(accuracy[scene])}" for scene in scenes]
+    axes.set_yticks(range(len(scenes)), labels)
+    longest = table["ratio"].max()
+    ticks = MaxNLocator(6, steps=[1, 2, 5, 10]).tick_values(0, longest)
+    axes.set_xticks(ticks[ticks <= longest])
+    # Room on the right for what is written beside the longest bar.
+    axes.set(xlabel="wall time over that of the automatic choice", xlim=(0, 1.75 * longest))
+    axes.set_ylim(len(scenes) - 0.45, -0.55)
     axes.tick_params(axis="y", which="both", length=0)
-    handles = [
-        Line2D([], [], color=color, marker=marker, linestyle="", label=choice)
-        for choice, (color, marker) in CHOICES.items()
-    ]
-    handles.append(Line2D([], [], color=GREY, linestyle="--", label="1/1.3 and 3"))
+    axes.tick_params(axis="x", top=False)
+    axes.minorticks_off()
+    for place in range(1, len(scenes)):
+        axes.axhline(place - 0.5, color=PALE, linewidth=0.6)
+    handles = [Patch(color=color, label=choice) for choice, color in CHOICES.items()]
+    handles.append(Patch(facecolor="white", edgecolor=GREY, hatch=MISSED, label="accuracy not reached"))
     figure.legend(handles=handles, loc="outside lower center", ncols=4)
     return figure

@@ -9,7 +9,16 @@ from matplotlib.ticker import FixedLocator
 from viscorough import reference
 from viscorough_study.conventions import fits
 from viscorough_study.figures.mean_curve import mean_curve
-from viscorough_study.figures.style import GREY, MM, NARROW, STYLE, hurst_handles, hurst_looks, logarithmic_ticks
+from viscorough_study.figures.style import (
+    GREY,
+    MM,
+    NARROW,
+    STYLE,
+    count_text,
+    hurst_handles,
+    hurst_looks,
+    logarithmic_ticks,
+)
 
 
 @rc_context(STYLE)
@@ -24,8 +33,8 @@ def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
     Region (a) is left out. The lower panel is cut to the range of region (b).
     """
     looks = hurst_looks(ds["hurst"].item() for ds in discs)
-    figure = Figure(figsize=(NARROW, 150 * MM))
-    panels = law, ratio = figure.subplots(2, 1, sharex=True, height_ratios=(1.6, 1))
+    figure = Figure(figsize=(NARROW, 135 * MM))
+    panels = law, ratio = figure.subplots(2, 1, sharex=True, height_ratios=(1.7, 1))
     for axes in panels:
         axes.set(xscale="log", yscale="log")
     ratios = [0.5, 2]
@@ -46,13 +55,14 @@ def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
     ratio.set(xlabel=xlabel, ylabel="$vt/h$ over Eq. 12", ylim=(min(ratios) / 1.3, max(ratios) * 1.3))
     logarithmic_ticks(*panels)
     ratio.yaxis.set(major_locator=FixedLocator([0.1, 0.2, 0.5, 1, 2, 5, 10]), major_formatter="{x:g}")
-    law.legend(handles=_handles(looks), loc="upper left")
+    numbers = [count_text([ds.sizes["realization"] for ds in ensembles]) for ensembles in (discs, lines)]
+    figure.legend(handles=_handles(looks, *numbers), loc="outside upper center", ncols=2, columnspacing=1)
     return figure
 
 
 def _draw_discs(panels, curve, hurst, windows, look):
     """Symbols of the discs of one Hurst exponent, filled in the windows; returns the ratios drawn there."""
-    look = look | {"linestyle": "", "markersize": 3.5, "capsize": 0, "elinewidth": 0.8}
+    look = look | {"linestyle": "", "markersize": 3, "capsize": 0, "elinewidth": 0.8}
     right_side = reference.rate_law(curve.x, hurst, gamma=True)
     step = max(1, np.searchsorted(curve.x, 10 * curve.x[0]) // 8)
     thinned = curve.several & (np.arange(curve.x.size) % step == 0)
@@ -67,12 +77,13 @@ def _draw_discs(panels, curve, hurst, windows, look):
     return (curve.velocity / right_side)[thinned & inside].tolist()
 
 
-def _handles(looks):
+def _handles(looks, discs, lines):
+    """Legend entries; discs, lines : realizations for each Hurst exponent, as text."""
     symbol = {"color": GREY, "linestyle": "", "marker": "o"}
     return [
         *hurst_handles(looks, linestyle="-"),
-        Line2D([], [], **symbol, label="discs, in region (b)"),
-        Line2D([], [], **symbol, label="discs, elsewhere", markerfacecolor="white"),
-        Line2D([], [], color=GREY, label=r"lines, $C_{1D}=\pi q C_{2D}$"),
+        Line2D([], [], **symbol, label=f"{discs} discs, region (b)"),
+        Line2D([], [], **symbol, label=f"{discs} discs, elsewhere", markerfacecolor="white"),
+        Line2D([], [], color=GREY, label=f"{lines} lines (MDR)"),
         Line2D([], [], color="black", linestyle="--", label="Eq. 12"),
     ]

@@ -4,37 +4,59 @@ import numpy as np
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
-from viscorough_study.figures.style import GREY, MM, STYLE, WIDE, hurst_looks, plain_ticks, require_rows
+from viscorough_study.figures.style import (
+    GREY,
+    MM,
+    SMALL,
+    STYLE,
+    WIDE,
+    count_text,
+    hurst_handles,
+    hurst_looks,
+    plain_ticks,
+    require_rows,
+)
+
+TICKS = [0.1, 0.2, 0.5, 1, 1.5, 2, 3, 5, 10, 20, 50, 100, 200, 500, 1000]
 
 
 @rc_context(STYLE)
 def plot_mdr_comparison(table):
-    """Lines compared with the discs whose spectra they have, over X: κ (a), contact fraction (b), correlation (c).
+    """Lines over the discs with their spectra, over X: κ (a), its scatter (b), contact fraction (c), correlation (d).
 
-    table : of viscorough_study.mdr_comparison. Raises ValueError for a table without rows.
+    table : of viscorough_study.mdr_comparison
+    Bands are 95 % intervals of the means; in (d), 95 % of the correlations of unrelated pairs.
+    Raises ValueError for a table without rows.
     """
     require_rows("plot_mdr_comparison", table)
-    figure = Figure(figsize=(WIDE, 75 * MM))
-    stiffness, area, correlation = figure.subplots(1, 3, sharex=True)
+    figure = Figure(figsize=(WIDE, 125 * MM))
+    stiffness, scatter, area, correlation = figure.subplots(2, 2, sharex=True).flat
     looks = hurst_looks(table["hurst"])
     for hurst, rows in table.groupby("hurst"):
         look = {"color": looks[hurst]["color"], "linestyle": looks[hurst]["linestyle"]}
-        scatter = np.exp(rows["stiffness_scatter"])
-        band = rows["stiffness_ratio"] / scatter, rows["stiffness_ratio"] * scatter
-        stiffness.fill_between(rows["x"], *band, color=look["color"], alpha=0.12, linewidth=0)
-        stiffness.plot(rows["x"], rows["stiffness_ratio"], **look, label=f"$H={hurst:g}$")
-        area.plot(rows["x"], rows["area_ratio"], **look)
+        for axes, name in ((stiffness, "stiffness_ratio"), (area, "area_ratio")):
+            interval = rows[f"{name}_low"], rows[f"{name}_high"]
+            axes.fill_between(rows["x"], *interval, color=look["color"], alpha=0.15, linewidth=0)
+            axes.plot(rows["x"], rows[name], **look)
+        scatter.plot(rows["x"], np.exp(rows["stiffness_scatter"]), **look)
         correlation.plot(rows["x"], rows["correlation"], **look)
+    chance = table.groupby("x")["chance"].max()
+    correlation.fill_between(chance.index, -chance, chance, color="0.9", linewidth=0, zorder=0)
     for axes, title, label in (
-        (stiffness, "(a) stiffness", r"$\kappa$ of line over disc [1]"),
-        (area, "(b) contact fraction", "contact fraction of line over disc [1]"),
-        (correlation, "(c) realization by realization", r"correlation of $\ln\kappa$ [1]"),
+        (stiffness, "(a) mean stiffness", r"$\kappa$ of line over disc"),
+        (scatter, "(b) a single surface", r"factor between $\kappa$ of line and disc"),
+        (area, "(c) mean contact fraction", "contact fraction of line over disc"),
+        (correlation, "(d) realization by realization", r"correlation of $\ln\kappa$"),
     ):
-        axes.set(title=title, xlabel="$X=F/(4GhL)$ [1]", ylabel=label, xscale="log")
+        axes.set(title=title, ylabel=label, xscale="log")
         axes.axhline(0 if axes is correlation else 1, color=GREY, linewidth=0.6)
-    for axes in (stiffness, area):
+    for axes in (stiffness, scatter, area):
         axes.set_yscale("log")
-        plain_ticks(axes.yaxis, [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500])
+        plain_ticks(axes.yaxis, TICKS if axes is not area else [tick for tick in TICKS if tick not in (1.5, 3)])
+    for axes in (area, correlation):
+        axes.set_xlabel("$X=F/(4GhL)$")
     correlation.set_ylim(-1, 1)
-    figure.legend(loc="outside lower center", ncols=len(looks))
+    title = f"{count_text(table['realizations'])} discs and lines for each $H$"
+    look = {"title": title, "title_fontsize": SMALL, "ncols": len(looks)}
+    figure.legend(handles=hurst_handles(looks, marker=""), loc="outside lower center", **look)
     return figure

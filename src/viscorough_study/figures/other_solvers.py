@@ -4,22 +4,8 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from viscorough_study.figures.style import (
-    BLUE,
-    GREEN,
-    GREY,
-    MM,
-    PALE,
-    PURPLE,
-    SKY_BLUE,
-    STYLE,
-    VERMILION,
-    WIDE,
-    require_rows,
-)
+from viscorough_study.figures.style import GREY, MM, PALE, SMALL, STYLE, WIDE, require_rows, series_looks
 
-COLORS = (BLUE, SKY_BLUE, VERMILION, GREEN, PURPLE)
-MARKERS = "osD^v<>ph*X"
 TICKS = (1, 2, 4, 8, 16, 32, 64, 128)
 
 
@@ -32,26 +18,24 @@ def plot_other_solvers(table):
     require_rows("plot_other_solvers", table)
     tasks, solvers = list(table["task"].unique()), list(table["solver"].unique())
     exponents = sorted(table["hurst"].unique())
-    looks = {
-        name: {"color": COLORS[(rank - 1) % len(COLORS)] if rank else "black", "marker": MARKERS[rank], "linestyle": ""}
-        for rank, name in enumerate(solvers)
-    }
+    looks = {name: {"linestyle": "", **look} for name, look in series_looks(solvers).items()}
     step = 0.8 / len(exponents)
     heights = {
         (task, hurst): -place + step * (0.5 * (len(exponents) - 1) - rank)
         for place, task in enumerate(tasks)
         for rank, hurst in enumerate(exponents)
     }
-    figure = Figure(figsize=(WIDE, (20 * len(tasks) + 42) * MM))
+    figure = Figure(figsize=(WIDE, (18 * len(tasks) + 32) * MM))
     axes = figure.subplots()
     for row in table.itertuples():
         hollow = {"markerfacecolor": "none"} if row.threads > 1 else {}
-        axes.plot(row.ratio, heights[row.task, row.hurst], markersize=6, **looks[row.solver], **hollow)
+        axes.plot(row.ratio, heights[row.task, row.hurst], markersize=6, **looks[row.solver] | hollow)
     for place in range(len(tasks)):
         axes.axhspan(-place - 0.48, -place + 0.48, color=PALE, alpha=0.35, zorder=0)
+    right = {"transform": axes.get_yaxis_transform(), "ha": "right", "va": "center"}
     for (_, hurst), y in heights.items():
-        axes.text(0.995, y, f"$H={hurst:g}$", transform=axes.get_yaxis_transform(), ha="right", va="center")
-    axes.set(xscale="log", xlabel="wall time over that of the elastic path [1]")
+        axes.text(0.995, y, f"$H={hurst:g}$", fontsize=SMALL, **right)
+    axes.set(xscale="log", xlabel="wall time over that of the elastic path")
     axes.set_yticks([-place for place in range(len(tasks))], tasks)
     axes.tick_params(axis="y", which="both", length=0)
     axes.minorticks_off()

@@ -1,49 +1,104 @@
-"""The prefactor ζ over the paper's two laws for it, under every combination of conventions."""
+"""The prefactor ζ over the paper's two laws for it: combinations of conventions, from the nearest to the law on."""
 
-import numpy as np
 from matplotlib import rc_context
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
 from viscorough_study import prefactors
-from viscorough_study.figures.labels import CONVENTION_LABELS
-from viscorough_study.figures.style import BLUE, MM, PALE, STYLE, VERMILION, WIDE, plain_ticks, require_rows
+from viscorough_study.figures.style import (
+    BLACK,
+    GREY,
+    MM,
+    SMALL,
+    STYLE,
+    WIDE,
+    hurst_handles,
+    hurst_looks,
+    mark_with_interval,
+    plain_ticks,
+    require_rows,
+)
+
+LAWS = {"eq4": r"(a) $\zeta$ over $\pi(3-H)/10$, Eq. 4", "eq11": r"(b) $\zeta$ over $2-H$, Eq. 11"}
+NEAREST = 6  # combinations drawn one by one
+AGREEMENT = 1.1  # factor within which ζ agrees with a law, the grey band
+SHORT = {
+    "rms_convention": {"disc": "$h$ disc", "square": "$h$ square", "peak": "$h$ peak"},
+    "average": {"arithmetic": "arithmetic", "geometric": "geometric"},
+    "window_rule": {
+        "default": "whole window",
+        "lower_half": "lower half",
+        "upper_half": "upper half",
+        "kappa": "window of κ",
+    },
+    "gamma": {"without": "no Γ", "with": "Γ"},
+    "diameter_convention": {"diameter": "diameter", "radius": "radius"},
+    "factor": {1: "×1", 2: "×2"},
+}
 
 
 @rc_context(STYLE)
 def plot_prefactors(table, conventions):
-    """ζ over each of the paper's two laws for it, over H, under every combination of conventions.
+    """ζ over each of the paper's two laws: the nearest combinations of conventions, that of the figures, and all.
 
     table : of viscorough_study.prefactors; conventions : those of the other figures, {column: value}
-    Raises ValueError for a table without rows.
+    Rows are ranked by the largest deviation over all Hurst exponents. Raises ValueError for a table without rows.
     """
     require_rows("plot_prefactors", table)
-    figure = Figure(figsize=(WIDE, 115 * MM))
-    panels = figure.subplots(1, 2, sharey=True)
-    laws = {"eq4": r"$\zeta\;/\;[\pi(3-H)/10]$, Eq. 4", "eq11": r"$\zeta\;/\;(2-H)$, Eq. 11"}
-    for axes, (law, label) in zip(panels, laws.items(), strict=True):
-        for combination in prefactors.combinations(table):
-            rows = prefactors.rows_of(table, combination)
-            axes.plot(rows["hurst"], rows[law], color=PALE, linewidth=0.5, zorder=1)
-        axes.axhline(1, color="black", linewidth=0.8, linestyle="--", zorder=2)
-        marked = {"as in other figures": (conventions | {"factor": 1}, BLUE, "o")}
-        if (nearest := prefactors.nearest(table, law)) is not None:
-            marked[_in_words(nearest)] = (nearest, VERMILION, "s")
-        for name, (combination, color, marker) in marked.items():
-            rows = prefactors.rows_of(table, combination)
-            scale = rows[law] / rows["zeta"]
-            ends = np.abs([rows["zeta_low"] * scale - rows[law], rows["zeta_high"] * scale - rows[law]])
-            axes.errorbar(rows["hurst"], rows[law], ends, color=color, marker=marker, label=name, zorder=3)
-        axes.plot([], [], color=PALE, label="every other combination")
-        axes.set(title=label, xlabel="Hurst exponent $H$ [1]", yscale="log", xlim=(0, 1))
-        plain_ticks(axes.yaxis, [0.2, 0.5, 1, 2, 5])
-        axes.legend(loc="upper left", bbox_to_anchor=(-0.05, -0.14), fontsize=7)
-    panels[0].set_ylabel(r"$\zeta$ over the law [1]")
+    looks = hurst_looks(table["hurst"])
+    figure = Figure(figsize=(WIDE, 150 * MM))
+    panels = figure.subplots(2, 1, sharex=True)
+    for axes, (law, title) in zip(panels, LAWS.items(), strict=True):
+        _draw_law(axes, table, law, conventions | {"factor": 1}, looks)
+        axes.set(title=title, xscale="log")
+        plain_ticks(axes.xaxis, [0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3, 5])
+    panels[1].set_xlabel(r"$\zeta$ over the law")
+    handles = [
+        *hurst_handles(looks, linestyle=""),
+        Line2D([], [], color=BLACK, linestyle="--", label="agreement with the law"),
+        Patch(color="0.92", label="to within a factor of 1.1"),
+    ]
+    figure.legend(handles=handles, loc="outside lower center", ncols=6, columnspacing=1)
     return figure
 
 
-def _in_words(combination):
-    """Legend entry of the nearest combination of conventions, two of them in a line."""
-    words = [CONVENTION_LABELS[name][value] for name, value in combination.items() if name != "factor"]
-    words += [] if combination["factor"] == 1 else [f"factor {combination['factor']:g} in $F$ or $1/G$"]
-    lines = [", ".join(words[start : start + 2]) for start in range(0, len(words), 2)]
-    return "nearest: " + ",\n".join(lines)
+def _draw_law(axes, table, law, shown, looks):
+    """One law: a row for each of the nearest combinations, for that of the figures, and one for all of them."""
+    ranking = prefactors.ranked(table, law)
+    rows = [(f"{_words(combination)}   {rank}", combination) for rank, combination in enumerate(ranking[:NEAREST], 1)]
+    own = f", rank {ranking.index(shown) + 1}" if shown in ranking else ""
+    rows.append((f"as in the other figures{own}:\n{_words(shown)}", shown))
+    axes.axvspan(1 / AGREEMENT, AGREEMENT, color="0.92", linewidth=0, zorder=0)
+    axes.axvline(1, color=BLACK, linestyle="--", linewidth=0.8, zorder=1)
+    for y, (_, combination) in enumerate(rows):
+        _draw_combination(axes, y, prefactors.rows_of(table, combination), law, looks)
+    for rank, (hurst, look) in enumerate(looks.items()):
+        every = table.loc[table["hurst"] == hurst, law]
+        height = [len(rows) + _shift(rank, looks)] * len(every)
+        axes.plot(every, height, **look | {"linestyle": "", "marker": "|", "markersize": 4.5, "alpha": 0.6})
+    axes.axhline(len(rows) - 1.5, color=GREY, linewidth=0.5)
+    axes.axhline(len(rows) - 0.5, color=GREY, linewidth=0.5)
+    labels = [label for label, _ in rows] + [f"all {len(prefactors.combinations(table))} combinations"]
+    axes.set_yticks(range(len(labels)), labels, fontsize=SMALL)
+    axes.set_ylim(len(labels) - 0.5, -0.6)
+    axes.tick_params(axis="y", which="both", length=0)
+
+
+def _draw_combination(axes, y, rows, law, looks):
+    """ζ over the law under one combination, with its interval, for each Hurst exponent."""
+    for row in rows.dropna(subset="zeta").itertuples():
+        scale = getattr(row, law) / row.zeta
+        interval = row.zeta_low * scale, row.zeta_high * scale
+        place = y + _shift(list(looks).index(row.hurst), looks)
+        look = looks[row.hurst] | {"markersize": 3.5}
+        mark_with_interval(axes, row.zeta * scale, place, interval, look, along="x")
+
+
+def _shift(rank, looks):
+    """Height of a Hurst exponent within a row, so that intervals do not hide each other."""
+    return 0.8 * ((rank + 0.5) / len(looks) - 0.5)
+
+
+def _words(combination):
+    return ", ".join(labels[combination[name]] for name, labels in SHORT.items())

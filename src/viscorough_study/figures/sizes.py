@@ -11,6 +11,7 @@ from viscorough_study.figures.style import (
     MM,
     STYLE,
     WIDE,
+    count_text,
     hurst_handles,
     hurst_looks,
     logarithmic_ticks,
@@ -43,10 +44,13 @@ def plot_sizes(table, conventions):
     for row in fits(table, conventions, source="discs", case_group="controls").itertuples():
         mark_with_interval(panels["discs"], row.elements, row.beta, (row.beta_low, row.beta_high), control)
     for (source, axes), title in zip(panels.items(), ("(a) boundary elements", "(b) MDR"), strict=True):
-        label = "elements of a disc [1]" if source == "discs" else "points of a line [1]"
+        numbers = table.loc[(table["source"] == source) & (table["case_group"] == "sizes"), "realizations"]
+        title += f", {count_text(numbers)} {source} each" if len(numbers) else ""
+        label = "elements of a disc" if source == "discs" else "points of a line"
         axes.set(xscale="log", title=title, xlabel=label, ylim=(-0.05, 0.7))
-    panels["discs"].set_ylabel(r"exponent $\beta$ of region (b) [1]")
+    panels["discs"].set_ylabel(r"exponent $\beta$ of region (b)")
     logarithmic_ticks(*panels.values())
-    handles = [*hurst_handles(looks, linestyle=":"), Line2D([], [], label="control, roll-off", **control)]
+    handles = [*hurst_handles(looks, linestyle=""), Line2D([], [], label="control, roll-off", **control)]
+    handles.append(Line2D([], [], color=GREY, linestyle=":", linewidth=0.8, label="$H/(1+H)$, Eq. 10"))
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
     return figure

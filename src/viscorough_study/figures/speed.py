@@ -1,115 +1,139 @@
-"""Speed against accuracy of every method."""
+"""Speed against accuracy of a few methods, each named at its line; `all_methods` draws every one."""
+
+import re
 
 import numpy as np
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from viscorough_study.figures.placement import place_labels
 from viscorough_study.figures.style import (
-    BLUE,
-    GREEN,
+    BLACK,
     GREY,
     MM,
-    PURPLE,
-    SKY_BLUE,
+    PALE,
+    SMALL,
     STYLE,
-    VERMILION,
     WIDE,
     logarithmic_ticks,
+    number_text,
     require_rows,
+    series_looks,
 )
-from viscorough_study.performance.pareto import pareto_front
+from viscorough_study.performance.pareto import fastest, pareto_front
 
-GROUPS = {
-    "path": (BLUE, "elastic path"),
-    "path without a part": (SKY_BLUE, "elastic path without a part"),
-    "marching": (VERMILION, "direct integration in time"),
-    "model": (GREEN, "model (error of the model)"),
-    "other solver": (PURPLE, "other solver"),
+METHODS = {
+    "path, automatic levels": "elastic path,\nautomatic levels",
+    "path, at the depths": "elastic path,\ngiven levels",
+    "implicit": "implicit\ntime steps",
+    "explicit, logarithmic steps": "explicit\ntime steps",
+    "MDR": "MDR (model)",
 }
-MARKERS = "osD^v<>ph*X"
+ELEMENTS_ACROSS = 257  # of the indenters drawn, or the most below that
 FLOOR = 1e-13  # smaller errors are drawn here
-ELEMENTS_ACROSS = 257  # of the rough discs drawn, or the most below that
+HEADLINE = 0.01  # error at which the fastest methods are compared
+COMPARED = {"marching": "time steps", "other solver": "other solvers"}  # with the path
+RING = {"color": BLACK, "marker": "o", "markersize": 9, "markerfacecolor": "none", "linestyle": ""}
+RING |= {"label": "fastest of its kind to an error of 1 %"}
+PARETO = {
+    "color": GREY,
+    "linewidth": 3,
+    "alpha": 0.35,
+    "drawstyle": "steps-post",
+    "label": "Pareto front of all methods",
+}
 
 
 @rc_context(STYLE)
 def plot_speed(table):
-    """Wall time against the error of v for every method: a panel for each indenter, and for rough discs of region (b).
+    """Wall time against the error of v: the elastic path, time steps, a model and the fastest of other solvers.
 
-    table : of viscorough_study.performance.measurement
-    The values of a method's parameter are joined, the first and the last annotated; the staircase is the Pareto front.
+    table : of viscorough_study.performance.measurement; its first rough disc (a) and the sphere (b) are drawn
+    The staircase is the Pareto front of all methods of the table. Rings mark the fastest solutions with an error of at
+    most 1 %, of the path, of time steps and of other solvers, whose times are compared.
     Raises ValueError for a table without rows.
     """
     require_rows("plot_speed", table)
-    panels = _panels(table)
-    rows = -(-len(panels) // 2)
-    figure = Figure(figsize=(WIDE, (78 * rows + 62) * MM))
-    grid = figure.subplots(rows, 2, squeeze=False)
-    looks = _looks(table)
-    for axes in grid.flat[len(panels) :]:
-        axes.remove()
-    for axes, (title, costs, error) in zip(grid.flat, panels, strict=False):
-        _draw_methods(axes, costs.assign(error=np.maximum(costs[error], FLOOR)), looks)
-        axes.set(title=title, xlabel="wall time [s]", ylabel=r"error of $v$, root mean square [1]")
-    handles = [Line2D([], [], color=GREY, drawstyle="steps-post", label="Pareto front")]
-    for group, (color, label) in GROUPS.items():
-        members = [name for name, look in looks.items() if look["group"] == group]
-        if members:
-            handles.append(Line2D([], [], color=color, linewidth=3, label=f"{label}:"))
-            handles += [Line2D([], [], **_line(looks[name]), label=f"   {name}") for name in members]
-    if not (table["group"] == "other solver").any():
-        handles.append(Line2D([], [], linestyle="", label="other solvers are not installed"))
-    figure.legend(handles=handles, loc="outside lower center", ncols=3, fontsize=7)
+    problems = sorted(
+        table["problem"].unique(), key=lambda name: (not name.startswith("rough"), name != "sphere", name)
+    )
+    problems = [problem for problem in problems if problem.startswith("rough")][:1] + [
+        problem for problem in problems if problem == "sphere"
+    ]
+    looks = series_looks([*METHODS, "other"])
+    figure = Figure(figsize=(WIDE, 95 * MM))
+    panels = figure.subplots(1, len(problems), squeeze=False)[0]
+    labels = []
+    for axes, problem, letter in zip(panels, problems, "ab", strict=False):
+        title, rows = finest_grid(table, problem)
+        costs = on_floor(rows, "error")
+        draw_front(axes, costs)
+        labels.append(_draw_methods(axes, costs, looks))
+        _draw_headline(axes, costs)
+        set_axes(axes, f"({letter}) {title}")
+        axes.margins(x=0.08, y=0.1)
+    figure.legend(handles=[Line2D([], [], **PARETO), Line2D([], [], **RING)], loc="outside lower center", ncols=2)
+    for axes, texts in zip(panels, labels, strict=True):
+        place_labels(axes, texts, fontsize=SMALL)
     return figure
 
 
-def _panels(table):
-    """(title, rows, column of the errors) of every panel."""
-    panels = []
-    bodies_first = sorted(
-        table["problem"].unique(), key=lambda name: (name.startswith("rough"), name != "sphere", name)
-    )
-    for problem in bodies_first:
-        rows = table[table["problem"] == problem]
-        sizes = rows["elements"].unique()
-        size = max(sizes[sizes <= ELEMENTS_ACROSS], default=sizes.min())
-        rows = rows[rows["elements"] == size]
-        panels.append((f"{problem}, {size} elements across", rows, "error"))
-        if problem.startswith("rough") and rows["error_b"].notna().any():
-            panels.append((f"{problem}, region (b) alone", rows.dropna(subset="error_b"), "error_b"))
-    return panels
+def finest_grid(table, problem):
+    """Title and rows of a problem on its finest grid of at most `ELEMENTS_ACROSS`, otherwise on its coarsest."""
+    rows = table[table["problem"] == problem]
+    sizes = rows["elements"].unique()
+    size = max(sizes[sizes <= ELEMENTS_ACROSS], default=sizes.min())
+    name = re.sub(r"H = ([\d.]+)", r"$H=\1$", problem)
+    return f"{name}, {size} elements across", rows[rows["elements"] == size]
 
 
-def _looks(table):
-    """{method: group, color, marker}, group by group."""
-    looks = {}
-    for group, (color, _) in GROUPS.items():
-        names = table[table["group"] == group]["method"].unique()
-        looks |= {
-            name: {"group": group, "color": color, "marker": MARKERS[i % len(MARKERS)]} for i, name in enumerate(names)
-        }
-    return looks
+def on_floor(rows, column):
+    """Rows whose error is that of a column, at least `FLOOR`."""
+    return rows.assign(error=np.maximum(rows[column], FLOOR))
 
 
-def _line(look):
-    """Line properties of a method; other solvers and models are hollow."""
-    hollow = {"markerfacecolor": "none"} if look["group"] in ("other solver", "model") else {}
-    dashed = {"linestyle": "--"} if look["group"] == "other solver" else {"linewidth": 0.7}
-    return {"color": look["color"], "marker": look["marker"], **hollow, **dashed}
+def draw_front(axes, costs):
+    """Pareto front of all rows, as a staircase."""
+    front = pareto_front(costs)
+    axes.plot(front["wall_s"], front["error"], **PARETO, zorder=1)
+
+
+def set_axes(axes, title):
+    """Title, labels and scales of a panel of time and error."""
+    axes.set(title=title, xlabel="wall time (s)", ylabel="relative error of $v$, root mean square")
+    axes.set(xscale="log", yscale="log")
+    logarithmic_ticks(axes)
 
 
 def _draw_methods(axes, costs, looks):
-    for name, look in looks.items():
-        rows = costs[costs["method"] == name]
-        if rows.empty:
-            continue
-        axes.plot(rows["wall_s"], rows["error"], **_line(look))
-        if look["group"] in ("path", "marching", "other solver") and len(rows) > 1:
-            for end in (rows.iloc[0], rows.iloc[-1]):
-                text = f"{end['value']:g}".replace("e-0", "e-")
-                at = (end["wall_s"], end["error"])
-                axes.annotate(text, at, xytext=(3, 3), textcoords="offset points", fontsize=5, color=look["color"])
-    front = pareto_front(costs)
-    axes.step(front["wall_s"], front["error"], where="post", color=GREY, linewidth=3, alpha=0.35, zorder=1)
-    axes.set(xscale="log", yscale="log")
-    logarithmic_ticks(axes)
+    """Lines of the methods; returns their labels, at the most accurate point of each."""
+    others = costs[costs["group"] == "other solver"]
+    drawn = [(looks[name], label, costs[costs["method"] == name]) for name, label in METHODS.items()]
+    if len(others):
+        name = fastest(others, max(HEADLINE, others["error"].min()))["other solver"]["method"]
+        drawn.append((looks["other"], f"{name}\n(other solver)", others[others["method"] == name]))
+    labels = []
+    for look, label, rows in drawn:
+        if len(rows):
+            axes.plot(rows["wall_s"], rows["error"], **look, markersize=3.5)
+            end = rows.loc[rows["error"].idxmin()]
+            labels.append((label, end["wall_s"], end["error"], look["color"]))
+    return labels
+
+
+def _draw_headline(axes, costs):
+    """Rings around the fastest of each kind to reach the error of the headline, and a box with their times."""
+    best = fastest(costs, HEADLINE)
+    if "path" not in best:
+        return
+    compared = {group: name for group, name in COMPARED.items() if group in best}
+    axes.axhline(HEADLINE, color=PALE, linewidth=0.6, zorder=0)
+    for group in ("path", *compared):
+        axes.plot(best[group]["wall_s"], best[group]["error"], **RING)
+    wall = best["path"]["wall_s"]
+    lines = [f"elastic path {number_text(1e3 * wall, 2)} ms"]
+    lines += [f"{name} ×{number_text(best[group]['wall_s'] / wall, 2)}" for group, name in compared.items()]
+    handles = [Line2D([], [], linestyle="", label=line) for line in lines]
+    look = {"handlelength": 0, "handletextpad": 0, "alignment": "left", "title_fontsize": SMALL, "frameon": True}
+    axes.legend(handles=handles, title=f"to an error of {100 * HEADLINE:g} %:", loc="best", **look)

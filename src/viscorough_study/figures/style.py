@@ -1,7 +1,7 @@
-"""What the figures share: style and sizes of the printed page, colours, looks of Hurst exponents, ticks, saving.
+"""What the figures share: style and sizes of the printed page, colours, looks of series, ticks, saving.
 
-The colour of a Hurst exponent depends on its value, its marker and line style on its rank among the exponents drawn:
-figures of the same exponents agree, and exponents close to each other can still be told apart.
+The colour, marker and line style of a Hurst exponent depend on its value alone, so that all figures agree on them.
+Units stand in parentheses behind the symbol; dimensionless quantities have none. No text is smaller than `SMALL`.
 """
 
 from pathlib import Path
@@ -9,16 +9,36 @@ from pathlib import Path
 import numpy as np
 from matplotlib import colormaps, rc_context
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FixedLocator, LogLocator, NullFormatter
+from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
 from viscorough.io.atomic import atomic_write
 
 MM = 1 / 25.4
-WIDE, NARROW = 180 * MM, 120 * MM  # across two columns of a page, and a little more than one
+WIDE, NARROW = 170 * MM, 85 * MM  # across two columns of a page, and one
+SMALL = 7  # points
+FEW_DECADES = 1.8  # on a logarithmic axis, over which ticks at decades alone would be too few
 GREY, PALE = "0.4", "0.8"
 # The colours of Okabe and Ito, which can be told apart with any colour vision.
 BLACK, BLUE, SKY_BLUE, GREEN = "#000000", "#0072b2", "#56b4e9", "#009e73"
-ORANGE, VERMILION, PURPLE, YELLOW = "#e69f00", "#d55e00", "#cc79a7", "#f0e442"
+ORANGE, VERMILION, PURPLE = "#e69f00", "#d55e00", "#cc79a7"
+
+SERIES_COLORS = (BLUE, VERMILION, GREEN, PURPLE, BLACK, SKY_BLUE, ORANGE)
+SERIES_MARKERS = "osD^v<>ph*X"
+DASHED, DASH_DOTTED, DOTTED = (0, (6, 1.5)), (0, (6, 1, 1, 1)), (0, (1.5, 1))
+# Marker and line style of the Hurst exponents 0, 0.6, 0.1, 0.7, ..., 0.5, as `_hurst_rank` orders them.
+HURST_LOOKS = (
+    ("X", DOTTED),
+    ("^", DASH_DOTTED),
+    ("o", "-"),
+    (">", DASHED),
+    ("P", DASHED),
+    ("*", DOTTED),
+    ("v", DASH_DOTTED),
+    ("D", DOTTED),
+    ("s", DASHED),
+    ("<", "-"),
+    ("p", "-"),
+)
 
 STYLE = {
     "font.family": "DejaVu Sans",
@@ -27,8 +47,8 @@ STYLE = {
     "axes.titlesize": 8,
     "axes.labelsize": 8,
     "axes.linewidth": 0.6,
-    "xtick.labelsize": 8,
-    "ytick.labelsize": 8,
+    "xtick.labelsize": SMALL,
+    "ytick.labelsize": SMALL,
     "xtick.direction": "in",
     "ytick.direction": "in",
     "xtick.top": True,
@@ -38,7 +58,7 @@ STYLE = {
     "lines.linewidth": 1.0,
     "lines.markersize": 4,
     "errorbar.capsize": 2,
-    "legend.fontsize": 8,
+    "legend.fontsize": SMALL,
     "legend.frameon": False,
     "legend.handlelength": 2.2,
     "legend.labelspacing": 0.3,
@@ -68,20 +88,47 @@ def require_rows(function, table):
 
 def hurst_looks(exponents):
     """{Hurst exponent: color, marker, linestyle}, by ascending exponent."""
-    markers, lines = "os^Dv<>p", ("-", (0, (6, 1.5)), (0, (6, 1, 1, 1)), (0, (1.5, 1)))
-    return {
-        hurst: {
-            "color": colormaps["plasma"](0.8 * hurst),
-            "marker": markers[rank % len(markers)],
-            "linestyle": lines[rank % len(lines)],
-        }
-        for rank, hurst in enumerate(sorted(set(exponents)))
-    }
+    looks = {}
+    for hurst in sorted(set(exponents)):
+        marker, line = HURST_LOOKS[_hurst_rank(hurst)]
+        looks[hurst] = {"color": colormaps["plasma"](0.8 * hurst), "marker": marker, "linestyle": line}
+    return looks
+
+
+def _hurst_rank(hurst):
+    """Place among the looks: other than those of all other multiples of 0.1, and than those of exponents close by."""
+    return round(20 * hurst) % len(HURST_LOOKS)
+
+
+def series_looks(names):
+    """{name: color, marker}, by the order of the names; the first markers of a colour are filled, the next hollow."""
+    looks = {}
+    for rank, name in enumerate(dict.fromkeys(names)):
+        turn, place = divmod(rank, len(SERIES_COLORS))
+        color = SERIES_COLORS[place]
+        marker = SERIES_MARKERS[rank % len(SERIES_MARKERS)]
+        looks[name] = {"color": color, "marker": marker, "markerfacecolor": "none" if turn else color}
+    return looks
+
+
+def count_text(counts):
+    """Number, or smallest and largest number, as text: "6", "6 to 54"."""
+    low, high = min(counts), max(counts)
+    return f"{low:g}" if low == high else f"{low:g} to {high:g}"
 
 
 def hurst_handles(looks, **changes):
     """Legend handles of the Hurst exponents; changes : line properties that replace those of their looks."""
     return [Line2D([], [], **(look | changes), label=f"$H={hurst:g}$") for hurst, look in looks.items()]
+
+
+def number_text(value, digits=3):
+    """Number of so many digits, with a power of ten where it is very small or large; 0 for 0."""
+    mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
+    if value == 0 or -3 <= int(exponent) < 4:
+        return f"{float(f'{mantissa}e{exponent}'):g}"
+    factor = "" if float(mantissa) == 1 else rf"{float(mantissa):g}\times "
+    return rf"${factor}10^{{{int(exponent)}}}$"
 
 
 def mark_with_interval(axes, x, y, interval, look, along="y"):
@@ -93,11 +140,19 @@ def mark_with_interval(axes, x, y, interval, look, along="y"):
 
 
 def logarithmic_ticks(*panels):
-    """Minor ticks on logarithmic axes: at the decades where not every decade has a major tick, else between them."""
+    """Ticks of logarithmic axes: at decades, over few decades also at their 2 and 5, over a part of one evenly.
+
+    Minor ticks stand at the decades where not every decade has a major tick, else between them.
+    """
     for axis in (axis for axes in panels for axis in (axes.xaxis, axes.yaxis) if axis.get_scale() == "log"):
-        decades = np.ptp(np.log10(axis.get_view_interval()))
+        low, high = np.log10(axis.get_view_interval())
         axis.set_major_locator(LogLocator(numticks=9))
-        axis.set_minor_locator(LogLocator(subs=(1.0,) if decades > 8 else np.arange(2, 10), numticks=200))
+        axis.set_minor_locator(LogLocator(subs=(1.0,) if high - low > 8 else np.arange(2, 10), numticks=200))
+        if high - low < FEW_DECADES:
+            subs = (1.0, 2.0, 5.0)
+            few = sum(low <= exponent + np.log10(sub) <= high for exponent in range(-20, 20) for sub in subs) < 3
+            axis.set_major_locator(MaxNLocator(5) if few else LogLocator(subs=subs, numticks=20))
+            axis.set_major_formatter(FuncFormatter(lambda value, _: number_text(value)))
         axis.set_minor_formatter(NullFormatter())
 
 

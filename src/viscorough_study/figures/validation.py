@@ -6,11 +6,12 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, NullFormatter, NullLocator
 
-from viscorough_study.figures.style import BLUE, GREEN, MM, ORANGE, PURPLE, STYLE, VERMILION, WIDE
+from viscorough_study.figures.style import BLUE, GREEN, MM, ORANGE, PURPLE, SMALL, STYLE, VERMILION, WIDE
 
 COLORS = (BLUE, VERMILION, GREEN, PURPLE, ORANGE)
 MARKERS = "osxD+"
 LIMIT = {"color": "black", "linewidth": 2, "label": "_limit"}
+LABEL_HEIGHT = 0.085  # of an order, as a share of the height of its panel
 
 
 @rc_context(STYLE)
@@ -18,22 +19,22 @@ def plot_validation(table):
     """Relative errors against exact solutions over the elements across the body, one panel for each quantity.
 
     table : of viscorough_study.validate_solvers
-    The legend of a panel gives the observed orders; the black bar is the limit on the finest grid.
+    The observed orders stand at the ends of the lines; the black bar is the limit on the finest grid.
     """
     quantities, cases = table["quantity"].unique(), table["case"].unique()
     looks, grids = _case_looks(cases), sorted(table["elements"].unique())
     columns = min(4, len(quantities))
     rows = -(-len(quantities) // columns)
-    figure = Figure(figsize=(WIDE, (52 * rows + 22) * MM))
+    figure = Figure(figsize=(WIDE, (54 * rows + 22) * MM))
     grid = figure.subplots(rows, columns, squeeze=False)
-    for axes in grid.flat[len(quantities) :]:
-        axes.remove()
     for axes, quantity in zip(grid.flat, quantities, strict=False):
         _draw_errors(axes, quantity, table[table["quantity"] == quantity], looks, grids)
     for axes in grid[:, 0]:
         axes.set_ylabel("relative error")
-    for axes in grid[-1]:
+    for axes in grid.flat[len(quantities) - columns : len(quantities)]:  # the lowest of each column
         axes.set_xlabel("elements across, $n$")
+    for axes in grid.flat[len(quantities) :]:
+        axes.remove()
     handles = [Line2D([], [], **looks[case], label=case.replace("_", " ")) for case in cases]
     handles.append(Line2D([], [], **LIMIT | {"label": "limit on the finest grid"}))
     figure.legend(handles=handles, loc="outside lower center", ncols=4)
@@ -41,24 +42,47 @@ def plot_validation(table):
 
 
 def _draw_errors(axes, quantity, errors, looks, grids):
-    """One quantity: errors of all cases, and their observed orders as a legend."""
+    """One quantity: errors of all cases, with their observed orders."""
     for case, rows in errors.groupby("case", sort=False):
-        order, passed = rows[["order", "passed"]].iloc[-1]
-        notes = ([] if np.isnan(order) else [f"{order:.1f}"]) + ([] if passed else ["failed"])
-        axes.plot(rows["elements"], rows["error"], **looks[case], label=", ".join(notes) or f"_{case}")
+        axes.plot(rows["elements"], rows["error"], **looks[case])
     limit = errors["limit"].iloc[0]
     axes.plot([grids[-1] / 1.2, grids[-1] * 1.2], [limit, limit], **LIMIT)
     drawn = np.log10([*errors["error"], limit])
-    ends = 10.0 ** np.array([np.floor(drawn.min() - 0.1), np.ceil(drawn.max() + 0.1)])
+    ends = np.floor(drawn.min() - 0.1), np.ceil(drawn.max() + 0.1)
     order = errors["expected_order"].iloc[0]
     expected = rf"expected $\propto n^{{-{order:g}}}$" if order else "exact"
-    axes.set(xscale="log", yscale="log", ylim=ends, title=f"{quantity.replace('_', ' ')}\n{expected}")
+    axes.set(xscale="log", yscale="log", title=f"{quantity.replace('_', ' ')}\n{expected}")
+    axes.set(xlim=(grids[0] / 1.25, grids[-1] * 2.1), ylim=10.0 ** np.array(ends))
     axes.xaxis.set(major_locator=FixedLocator(grids), minor_locator=NullLocator(), major_formatter="{x:g}")
     axes.yaxis.set_minor_formatter(NullFormatter())
-    if noted := axes.get_legend_handles_labels()[0]:
-        if len(noted) > 2:  # room above the curves, so that the legend does not hide them
-            axes.set_ylim(top=ends[1] * (10 if len(noted) < 5 else 30))
-        axes.legend(title="order", ncols=1 + (len(noted) > 2), columnspacing=1)
+    heights, texts = _order_labels(errors[errors["elements"] == grids[-1]])
+    for height, text in zip(_spread(heights, LABEL_HEIGHT * np.ptp(ends)), texts, strict=True):
+        axes.text(grids[-1] * 1.25, 10**height, text, fontsize=SMALL, va="center")
+
+
+def _order_labels(finest):
+    """Decimal logarithms of the errors on the finest grid, ascending, and what is written there.
+
+    Equal labels of errors that differ by less than a tenth are written once.
+    """
+    heights, texts = [], []
+    for row in finest.sort_values("error").itertuples():
+        notes = ([] if np.isnan(row.order) else [f"{row.order:.1f}"]) + ([] if row.passed else ["failed"])
+        text, height = " ".join(notes), np.log10(row.error)
+        if text and not (text in texts and height - heights[texts.index(text)] < np.log10(1.1)):
+            heights.append(height)
+            texts.append(text)
+    return heights, texts
+
+
+def _spread(heights, least):
+    """Heights in ascending order that are at least so far apart, close to those given, which are ascending."""
+    heights = np.array(heights)
+    for _ in range(20 * len(heights)):
+        overlap = np.maximum(least - np.diff(heights), 0)
+        heights[:-1] -= overlap / 2
+        heights[1:] += overlap / 2
+    return heights
 
 
 def _case_looks(cases):

@@ -1,4 +1,4 @@
-"""Methods that no other one beats in both time and error."""
+"""Methods that no other one beats in both time and error, and the fastest that reach a given error."""
 
 import numpy as np
 
@@ -7,3 +7,9 @@ def pareto_front(table):
     """Rows of a table that no other row beats in both wall time and error, from fast to accurate."""
     ordered = table.sort_values(["wall_s", "error"])
     return ordered[ordered["error"] < ordered["error"].cummin().shift(fill_value=np.inf)]
+
+
+def fastest(table, error):
+    """{group of methods: its fastest row with an error up to the given one}, without groups that do not reach it."""
+    reached = table[table["error"] <= error]
+    return {group: rows.loc[rows["wall_s"].idxmin()] for group, rows in reached.groupby("group", sort=False)}

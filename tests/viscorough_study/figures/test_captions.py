@@ -9,12 +9,15 @@ from dataclasses import dataclass
 
 import jinja2
 import pytest
+from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 
 from support import figures as tables
 from support.study import ROOT, SHOWN
 from support.workflow import read_settings
 from viscorough.surfaces import self_affine_disc
+from viscorough_study.figures.all_methods import plot_all_methods
 from viscorough_study.figures.conventions import plot_conventions
 from viscorough_study.figures.direct_integration import plot_direct_integration
 from viscorough_study.figures.exponent import plot_exponent
@@ -30,6 +33,7 @@ from viscorough_study.figures.other_solvers import plot_other_solvers
 from viscorough_study.figures.prefactors import plot_prefactors
 from viscorough_study.figures.sizes import plot_sizes
 from viscorough_study.figures.speed import plot_speed
+from viscorough_study.figures.style import SMALL
 from viscorough_study.figures.surfaces import plot_surfaces
 from viscorough_study.figures.validation import plot_validation
 from viscorough_study.prefactors import prefactors
@@ -59,11 +63,12 @@ def drawn(discs, pooled, lines, scaling, combinations):
         "conventions": Drawn(plot_conventions(scaling, SHOWN), {"Hurst exponent": 2}),
         "prefactors": Drawn(plot_prefactors(prefactors(scaling), SHOWN)),
         "validation": Drawn(plot_validation(tables.validation_table()), {"quantity": 2}),
-        "direct": Drawn(plot_direct_integration(tables.direct_table())),
+        "direct": Drawn(plot_direct_integration(tables.direct_table()), {"indenter": 2}),
         "reduction": Drawn(plot_mdr_comparison(tables.mdr_table())),
         "sizes": Drawn(plot_sizes(tables.sizes_table(), SHOWN)),
         "large": Drawn(plot_large(tables.large_table())),
-        "speed": Drawn(plot_speed(tables.methods_table()), {"indenter": 2}),
+        "speed": Drawn(plot_speed(tables.methods_table())),
+        "all_methods": Drawn(plot_all_methods(tables.methods_table()), {"indenter": 2}),
         "growth": Drawn(plot_growth(tables.methods_table())),
         "other_solvers": Drawn(plot_other_solvers(tables.other_solvers_table())),
         "level_placement": Drawn(plot_level_placement(tables.level_placement_table())),
@@ -76,7 +81,7 @@ def drawn(discs, pooled, lines, scaling, combinations):
 
 
 def panels(figure):
-    return [axes for axes in figure.axes if axes.get_label() != "<colorbar>"]
+    return [axes for axes in figure.axes if axes.get_label() not in ("<colorbar>", "<table>")]
 
 
 def names_of_panels(figure):
@@ -104,7 +109,7 @@ def repeated_in_caption(caption):
 def quantities(figure):
     """What the axes are labelled with, without units and formatting."""
     labels = {text for axes in figure.axes for text in (axes.get_xlabel(), axes.get_ylabel()) if text}
-    labels = {re.sub(r" \[\w+\]$| \((s|m/s)\)$", "", label) for label in labels}
+    labels = {re.sub(r" \([^()]*\)$", "", label) for label in labels}
     return {plain(quantity) for label in labels for quantity in label.split(", or ")}
 
 
@@ -134,6 +139,8 @@ def faults(caption, drawn):
         "dashed": any(line.get_linestyle() == "--" for line in artists),
         "crosses": any(line.get_marker() == "x" for line in artists),
         "hollow": any(line.get_markerfacecolor() in ("none", "white") for line in artists),
+        "hatched": any(patch.get_hatch() for axes in figure.axes for patch in axes.patches),
+        "rings": any(line.get_markersize() > 8 and line.get_markerfacecolor() == "none" for line in artists),
     }.items():
         wrong += [f"nothing is {word}"] if word in said and not is_drawn else []
     return wrong
@@ -171,7 +178,8 @@ def test_panels_are_as_many_as_what_they_are_for(drawn):
         (number,) = drawn[name].repeated.values()
         assert len(panels(drawn[name].figure)) == rows * number
     rough = 1  # of the two indenters, which has another panel for region (b)
-    assert len(panels(drawn["speed"].figure)) == drawn["speed"].repeated["indenter"] + rough
+    assert len(panels(drawn["all_methods"].figure)) == drawn["all_methods"].repeated["indenter"] + rough
+    assert len(panels(drawn["direct"].figure)) == drawn["direct"].repeated["indenter"]
 
 
 @pytest.mark.parametrize(
@@ -184,12 +192,42 @@ def test_panels_are_as_many_as_what_they_are_for(drawn):
         ("fig3_master_curve", ("right side", "left side"), "axis (Ft"),
         ("validation", ("one panel for each quantity", ""), "panels are for each"),
         ("growth", ("wall time", "dashed: time"), "nothing is dashed"),
+        ("growth", ("wall time", "hatched: time"), "nothing is hatched"),
         ("sizes", ("(a)", "(a) region (b)"), None),
     ],
 )
 def test_faults_of_captions_are_seen(drawn, name, change, fault):
     seen = faults(plain(read(name)).replace(*change), drawn[name])
     assert any(each.startswith(fault) for each in seen) if fault else seen == []
+
+
+def test_units_stand_in_parentheses_and_dimensionless_quantities_have_none(drawn):
+    units = set()
+    for each in drawn.values():
+        labels = [text for axes in each.figure.axes for text in (axes.get_xlabel(), axes.get_ylabel())]
+        assert not [label for label in labels if re.search(r" \[\w*\]$", label)]
+        units |= {match.group(1) for label in labels if (match := re.search(r" \(([^()]*)\)$", label))}
+    assert units - {"b"} == {"s", "m/s", "GB", "darker is higher"}  # region (b)
+
+
+def test_no_text_is_smaller_than_the_smallest_size(drawn):
+    for name, each in drawn.items():
+        texts = [text for text in each.figure.findobj(Text) if text.get_text()]
+        assert min(text.get_fontsize() for text in texts) >= SMALL, name
+
+
+def test_a_hurst_exponent_looks_the_same_in_all_figures(drawn):
+    """Colour and, where there are markers, marker in every figure that has the exponent in its legend or a title."""
+    looks = []
+    for figure in (each.figure for each in drawn.values()):
+        legends = [*figure.legends, *(axes.get_legend() for axes in figure.axes if axes.get_legend())]
+        pairs = [pair for one in legends for pair in zip(one.legend_handles, one.get_texts(), strict=True)]
+        looks += [handle for handle, text in pairs if text.get_text() == "$H=0.4$"]
+        titled = [axes for axes in figure.axes if axes.get_title().endswith("$H=0.4$")]
+        looks += [line for axes in titled for line in axes.lines if line.get_marker() not in ("None", "", "|")]
+    assert len(looks) > 8
+    assert len({to_hex(look.get_color()) for look in looks}) == 1
+    assert {look.get_marker() for look in looks} <= {"s", "", "None"}
 
 
 def test_letters_of_verdicts_are_explained():

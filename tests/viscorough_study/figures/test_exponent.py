@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from support.figures import dashed, markers, whole_on_page, without_region
+from support.figures import dashed, legend_texts, markers, whole_on_page, without_region
 from support.study import SHOWN
 from viscorough_study.conventions import fits
 from viscorough_study.figures.conventions import plot_conventions
@@ -27,6 +27,10 @@ def test_exponent_draws_lines_discs_and_law(scaling):
     np.testing.assert_allclose(ends, discs[["beta_low", "beta_high"]], rtol=1e-12)
     (law,) = dashed(axes)
     np.testing.assert_allclose(law.get_ydata(), law.get_xdata() / (1 + law.get_xdata()))
+    assert legend_texts(figure.legends[0])[1:] == [
+        "MDR, 2 lines for each $H$",
+        "boundary elements, 4 discs for each $H$",
+    ]
     assert whole_on_page(figure)
 
 

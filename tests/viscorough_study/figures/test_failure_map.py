@@ -2,6 +2,7 @@
 
 import warnings
 
+import pandas as pd
 import pytest
 
 from support.figures import coordinates, failure_curves_table, failure_table
@@ -10,7 +11,7 @@ from viscorough.errors import AccuracyWarning
 from viscorough.surfaces import self_affine_disc
 from viscorough.viscous.stepping import march_steps
 from viscorough_study.figures.failure_curves import FLOOR, WARNED, plot_failure_curves
-from viscorough_study.figures.failure_map import LETTERS, plot_failure_map
+from viscorough_study.figures.failure_map import KINDS, LETTERS, MEANINGS, plot_failure_map
 from viscorough_study.robustness.failure_map import VERDICTS
 
 pytestmark = pytest.mark.filterwarnings("error")
@@ -28,8 +29,32 @@ def test_map_shows_every_cell_by_number_and_letter():
         plot_failure_map(table[:0])
 
 
-def test_every_verdict_has_a_letter():
-    assert set(LETTERS) == set(VERDICTS)
+def test_methods_stand_side_by_side_by_their_kind():
+    table = failure_table(VERDICTS)
+    names = ["MDR", "explicit steps", "path, dense", "path, interpolated"]
+    axes = plot_failure_map(pd.concat([table.assign(method=name) for name in names])).axes[0]
+    assert [text.get_text() for text in axes.get_xticklabels()] == ["dense", "interpolated", "explicit\nsteps", "MDR"]
+    kinds = [text.get_text() for text in axes.texts if text.get_text() in KINDS]
+    assert kinds == ["elastic path", "direct integration", "models"]
+
+
+def test_cells_are_blank_where_a_difficulty_cannot_matter():
+    rows = [
+        ("step size", "16 steps", "path, dense", 1e-9, "holds"),
+        ("step size", "16 steps", "events", 1.0, "unnoticed"),
+    ]
+    rows += [
+        ("step size", "16 steps", "explicit steps", 0.05, "warned"),
+        ("shape", "cone", "path, dense", 2e-9, "holds"),
+    ]
+    rows += [("force in time", "negative", "path, dense", 1.0, "refused")]
+    table = pd.DataFrame(rows, columns=["group", "case", "method", "error", "verdict"])
+    texts = [text.get_text() for text in plot_failure_map(table).axes[0].texts]
+    assert [text for text in texts if text[-1:] in LETTERS.values()] == ["1 U", "5e-2 W", "2e-9 H", "R"]
+
+
+def test_every_verdict_has_a_letter_and_a_meaning():
+    assert set(LETTERS) == set(MEANINGS) == set(VERDICTS)
     assert len(set(LETTERS.values())) == len(LETTERS)
 
 

@@ -15,7 +15,7 @@ pytestmark = pytest.mark.filterwarnings("error")
 
 def test_kinetics_are_those_of_the_curves_in_real_units(curves, discs, combinations, scaling):
     """Against viscorough.viscous.correspondence, which does not know of X: geometric mean of v at the times drawn."""
-    raw, collapsed = plot_kinetics(discs, combinations, scaling, SHOWN, fraction_min=0.95).axes
+    raw, collapsed, _ = plot_kinetics(discs, combinations, scaling, SHOWN, fraction_min=0.95).axes
     for axes in (raw, collapsed):
         drawn = {line.get_label() for line in axes.lines} & set(combinations)
         assert drawn == set(combinations)
@@ -35,7 +35,7 @@ def test_kinetics_are_those_of_the_curves_in_real_units(curves, discs, combinati
 
 
 def test_kinetics_collapse_from_decades_apart(discs, combinations, scaling):
-    raw, collapsed = plot_kinetics(discs, combinations, scaling, SHOWN, fraction_min=0.95).axes
+    raw, collapsed, _ = plot_kinetics(discs, combinations, scaling, SHOWN, fraction_min=0.95).axes
     for hurst in HURST:
         pairs = []
         for axes in (raw, collapsed):
@@ -46,6 +46,19 @@ def test_kinetics_collapse_from_decades_apart(discs, combinations, scaling):
         both = min(len(one), len(other))  # rounding may take the last abscissa off one of them
         assert both > 50
         np.testing.assert_allclose(one[:both], other[:both], rtol=0.02)  # rounding can move levels of a curve
+
+
+def test_combinations_are_named_at_their_lines_and_listed_below(discs, combinations, scaling):
+    figure = plot_kinetics(discs, combinations, scaling, SHOWN, fraction_min=0.95)
+    raw, collapsed, table = figure.axes
+    assert sorted(text.get_text() for text in raw.texts) == sorted(COMBINATIONS)
+    for name, label in ((text.get_text(), text) for text in raw.texts):
+        ends = [line.get_xydata()[-1] for line in raw.lines if line.get_label().endswith(f"_{name}")]
+        assert any(np.allclose(label.xy, end) for end in ends)
+    cells = [text.get_text() for text in table.texts]
+    assert cells[:5] == ["combination", "$F$ (N)", r"$\eta$ (Pa s)", "$L$ (mm)", "$h$ (µm)"]
+    assert cells[5:] == ["c1", "1", "$10^{6}$", "10", "1", "c9", "300", r"$3\times 10^{7}$", "30", "0.3"]
+    assert collapsed.get_legend().get_title().get_text() == "each a mean over 2 discs"
 
 
 @pytest.mark.parametrize(("convention", "length"), [("diameter", 1.0), ("radius", 0.5)])

@@ -1,22 +1,51 @@
-"""Figure of speed against accuracy."""
+"""Figures of speed against accuracy: the main methods, and all of them."""
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from support.figures import coordinates, legend_texts, methods_table
-from viscorough_study.figures.speed import FLOOR, plot_speed
+from support.figures import coordinates, legend_texts, methods_table, whole_on_page
+from viscorough_study.figures.all_methods import plot_all_methods
+from viscorough_study.figures.speed import FLOOR, RING, plot_speed
 from viscorough_study.performance.pareto import pareto_front
 
 
-def test_speed_shows_every_method_and_the_front_on_one_grid_of_each_indenter():
+def with_peer(data, factor):
+    """The table with another solver, which takes `factor` times as long as the path at the depths on rough discs."""
+    peer = data[(data["method"] == "path, at the depths") & data["hurst"].notna()]
+    return pd.concat([data, peer.assign(method="ASPHER", group="other solver", wall_s=factor * peer["wall_s"])])
+
+
+def test_methods_are_named_at_their_lines_on_a_rough_disc_and_the_sphere():
+    figure = plot_speed(with_peer(methods_table(), 7))
+    rough, sphere = figure.axes
+    assert rough.get_title() == "(a) rough disc, $H=0.4$, 257 elements across"
+    assert sphere.get_title() == "(b) sphere, 257 elements across"
+    names = {"elastic path,\nautomatic levels", "elastic path,\ngiven levels", "MDR (model)"}
+    assert {text.get_text() for text in sphere.texts} == names
+    assert {text.get_text() for text in rough.texts} == names | {"ASPHER\n(other solver)"}
+    assert whole_on_page(figure)
+
+
+def test_headline_compares_the_fastest_of_each_kind_that_reach_an_error_of_one_percent():
+    data = with_peer(methods_table(), 7)
+    slow = data["method"] == "explicit, uniform steps"
+    figure = plot_speed(pd.concat([data, data[slow].assign(value=1024, wall_s=0.4, error=5e-3)]))
+    for axes, others in zip(figure.axes, (["other solvers ×7"], []), strict=True):
+        assert axes.get_legend().get_title().get_text() == "to an error of 1 %:"
+        assert legend_texts(axes.get_legend()) == ["elastic path 10 ms", "time steps ×40", *others]
+    rings = [line.get_xydata()[0].tolist() for line in figure.axes[1].lines if line.get_label() == RING["label"]]
+    np.testing.assert_allclose(rings, [[0.01, 1e-2], [0.4, 5e-3]])
+
+
+def test_all_methods_and_the_front_are_shown_on_one_grid_of_each_indenter():
     data = methods_table()
-    figure = plot_speed(data)
+    figure = plot_all_methods(data)
     titles = [axes.get_title() for axes in figure.axes]
     assert titles == [
         "sphere, 257 elements across",
-        "rough disc, H = 0.4, 257 elements across",
-        "rough disc, H = 0.4, region (b) alone",
+        "rough disc, $H=0.4$, 257 elements across",
+        "rough disc, $H=0.4$, region (b) alone",
     ]
     rough = data[(data["elements"] == 257) & (data["problem"] != "sphere")]
     lines = coordinates(figure.axes[1])
@@ -27,18 +56,18 @@ def test_speed_shows_every_method_and_the_front_on_one_grid_of_each_indenter():
     texts = legend_texts(figure.legends[0])
     assert "other solvers are not installed" in texts
     assert "   MDR" in texts
+    assert whole_on_page(figure)
 
 
-def test_speed_shows_other_solvers_hollow():
-    data = methods_table()
-    peer = data[data["method"] == "MDR"].assign(method="ASPHER", group="other solver")
-    figure = plot_speed(pd.concat([data, peer]))
+def test_other_solvers_are_hollow_among_all_methods():
+    figure = plot_all_methods(with_peer(methods_table(), 7))
     texts = legend_texts(figure.legends[0])
     assert "   ASPHER" in texts
     assert "other solvers are not installed" not in texts
     assert any(line.get_markerfacecolor() == "none" and line.get_linestyle() == "--" for line in figure.axes[1].lines)
 
 
-def test_empty_table_is_refused():
-    with pytest.raises(ValueError, match="plot_speed: the table has no rows"):
-        plot_speed(methods_table().iloc[:0])
+@pytest.mark.parametrize("plot", [plot_speed, plot_all_methods])
+def test_empty_table_is_refused(plot):
+    with pytest.raises(ValueError, match=f"{plot.__name__}: the table has no rows"):
+        plot(methods_table().iloc[:0])

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from support.study import SHOWN
 from viscorough_study.figures.exponent import plot_exponent
-from viscorough_study.figures.style import hurst_looks, save_figure
+from viscorough_study.figures.style import hurst_looks, logarithmic_ticks, number_text, save_figure, series_looks
 
 pytestmark = pytest.mark.filterwarnings("error")
 
@@ -16,12 +16,58 @@ def test_looks_of_a_hurst_exponent_do_not_depend_on_how_exponents_are_listed():
     looks = hurst_looks([0.9, 0.1, 0.6, 0.4, 0.9])
     assert list(looks) == [0.1, 0.4, 0.6, 0.9]
     assert looks == hurst_looks([0.1, 0.4, 0.6, 0.9])
-    assert hurst_looks([0.6])[0.6]["color"] == looks[0.6]["color"]
+    for alone in looks:
+        assert hurst_looks([alone])[alone] == looks[alone]
     for name in ("color", "marker", "linestyle"):
         assert len({str(look[name]) for look in looks.values()}) == 4
     grey = [np.dot(to_rgb(look["color"]), (0.3, 0.6, 0.1)) for look in looks.values()]
     assert (np.diff(grey) > 0.07).all()  # told apart when printed in grey
     assert grey[-1] < 0.7  # and from the paper
+
+
+def test_markers_of_all_tenths_and_of_exponents_close_to_each_other_differ():
+    for exponents in (np.arange(11) / 10, 0.3 + np.arange(5) / 20):
+        looks = hurst_looks(exponents.round(2))
+        assert len({look["marker"] for look in looks.values()}) == len(exponents)
+
+
+def test_series_of_the_same_colour_have_other_markers():
+    looks = series_looks([f"method {rank}" for rank in range(11)])
+    assert len({(look["color"], look["marker"], look["markerfacecolor"]) for look in looks.values()}) == 11
+    assert len({look["marker"] for look in looks.values()}) == 11
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (0, "0"),
+        (1, "1"),
+        (0.001, "0.001"),
+        (2500, "2500"),
+        (1e6, "$10^{6}$"),
+        (3e7, r"$3\times 10^{7}$"),
+        (4.56e-9, r"$4.56\times 10^{-9}$"),
+        (99999, "$10^{5}$"),
+    ],
+)
+def test_numbers_are_plain_or_with_a_power_of_ten(value, text):
+    assert number_text(value) == text
+
+
+@pytest.mark.parametrize(
+    ("ends", "labels"),
+    [
+        ((1e-3, 1e3), {"$\\mathdefault{10^{-2}}$", "$\\mathdefault{10^{2}}$"}),
+        ((3e3, 6e4), {"5000", "$10^{4}$", "$2\\times 10^{4}$"}),
+        ((0.24, 0.27), {"0.248", "0.264"}),
+    ],
+)
+def test_logarithmic_axes_of_any_range_have_labels(ends, labels):
+    axes = Figure().subplots()
+    axes.set(xscale="log", xlim=ends)
+    logarithmic_ticks(axes)
+    axes.figure.draw_without_rendering()
+    assert labels <= {text.get_text() for text in axes.get_xticklabels()}
 
 
 @pytest.mark.parametrize("suffix", ["png", "pdf"])
@@ -38,7 +84,7 @@ def test_saved_files_are_reproducible(scaling, tmp_path, suffix):
         assert b"/FontFile2" in first  # TrueType fonts are in the file
     else:
         width = int.from_bytes(first[16:20], "big")
-        assert width == pytest.approx(120 / 25.4 * 200, abs=1)
+        assert width == pytest.approx(85 / 25.4 * 200, abs=1)
 
 
 def test_one_figure_goes_to_all_paths(tmp_path):

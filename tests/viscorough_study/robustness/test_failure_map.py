@@ -8,6 +8,7 @@ import pytest
 from viscorough.contact.loading_path import indent
 from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
+from viscorough_study.figures.failure_map import CONCERNED
 from viscorough_study.performance import ablations
 from viscorough_study.robustness.failure_map import COLUMNS, VERDICTS, failure_map, unnoticed
 from viscorough_study.robustness.stress_cases import StressCase, stress_cases
@@ -47,6 +48,17 @@ def test_numerical_methods_hold_or_refuse(table, method):
     others = of_method[of_method["verdict"] != "holds"]
     assert set(others["case"]) <= REFUSED | {"2 to 20 elements", "up to half of all"}
     assert set(others.loc[others["case"].isin(REFUSED), "verdict"]) == {"refused"}
+
+
+@pytest.mark.parametrize("group", CONCERNED)
+def test_what_the_figure_leaves_blank_cannot_matter(table, group):
+    """Methods that a difficulty does not concern have the error of the same indenter without it."""
+    usual = cells(table, case="256 steps").set_index("method")["error"]
+    of_group = cells(table, group=group)
+    of_group = of_group[(of_group["verdict"] != "refused") & (of_group["case"] != "2 to 20 elements")]
+    blank = of_group[~of_group["method"].str.startswith(CONCERNED[group])]
+    assert len(blank) > 5
+    assert (np.abs(blank["error"] - blank["method"].map(usual)) < 1e-12).all()
 
 
 def test_results_are_invariant_under_rescaling(table):

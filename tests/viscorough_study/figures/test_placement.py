@@ -1,0 +1,48 @@
+"""Labels beside what they name."""
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.transforms import Bbox
+
+from viscorough_study.figures.placement import place_labels
+
+
+def placed(labels, curve):
+    """Axes with a curve, and the boxes of the labels in pixels."""
+    figure = Figure(layout="constrained")
+    axes = figure.subplots()
+    axes.plot(*curve)
+    axes.set(xlim=(0, 10), ylim=(0, 10))
+    place_labels(axes, [(text, x, y, "red") for text, x, y in labels])
+    renderer = FigureCanvasAgg(figure).get_renderer()
+    return axes, [text.get_window_extent(renderer) for text in axes.texts]
+
+
+def test_labels_hide_neither_each_other_nor_the_curve():
+    x = np.linspace(0, 10, 500)
+    axes, boxes = placed([(f"label {rank}", 5 + 0.3 * rank, 5 + 0.3 * rank) for rank in range(4)], (x, x))
+    for rank, box in enumerate(boxes):
+        assert not any(Bbox.intersection(box, other) for other in boxes[rank + 1 :])
+        assert not box.count_contains(axes.transData.transform(np.column_stack([x, x])))
+
+
+def test_labels_stay_inside():
+    axes, boxes = placed([(f"label {rank}", 9.8, 9.9 - 9.8 * rank) for rank in range(2)], ([0, 1], [5, 5]))
+    for box in boxes:
+        assert axes.bbox.x0 < box.x0 < box.x1 < axes.bbox.x1
+        assert axes.bbox.y0 < box.y0 < box.y1 < axes.bbox.y1
+
+
+def test_a_label_is_next_to_its_point_where_there_is_room():
+    axes, boxes = placed([("here", 5, 5)], ([0, 1], [0, 0]))
+    point, (box,) = axes.transData.transform((5, 5)), boxes
+    assert 0 < box.x0 - point[0] < 10
+    assert box.y0 < point[1] < box.y1
+    assert len(axes.lines) == 1  # no line leads to it
+
+
+def test_a_label_is_not_next_to_what_another_one_names():
+    axes, boxes = placed([("first", 5, 5), ("second", 5.3, 5)], ([0, 1], [0, 0]))
+    second = axes.transData.transform((5.3, 5))
+    assert not boxes[0].padded(3).contains(*second)

@@ -128,4 +128,4 @@ lock-slurm:
 clean:
 	find results -mindepth 1 ! -path results/README.md -delete
 	rm -rf .snakemake .pytest_cache .ruff_cache .hypothesis build
-	find src tests workflow benchmarks -name __pycache__ -prune -exec rm -rf {} + 2>/dev/null || true
+	find src tests workflow benchmarks docs -name __pycache__ -prune -exec rm -rf {} + 2>/dev/null || true

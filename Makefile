@@ -105,7 +105,7 @@ seeds: environment
 	$(BIN)/python benchmarks/seeds.py --cores $(CORES) --output results/seeds.json
 
 publish: environment
-	$(BIN)/python benchmarks/publish.py
+	$(BIN)/python benchmarks/publish.py --command paper
 
 chaos: environment
 	$(BIN)/python benchmarks/chaos.py --output results/chaos.json

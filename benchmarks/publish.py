@@ -1,10 +1,11 @@
 """Take verdicts, numbers, figures and tables from results into the project: README.md, docs/, the data of the package.
 
-    python benchmarks/publish.py --results results
+    python benchmarks/publish.py --results results --command paper
 
-The results should be those of `make paper`, so that all published verdicts come from one run; those of `make seeds`,
-`make speed`, `make stability`, `make sizes` and `make large` are taken as well where there are any. Without results
-(`--pages-only`) only the tables in README.md and docs/verdicts.md are written, from docs/ and from the statements in
+Every command (`make paper`, `make speed`, ...) has its own figures and tables, which are copied into docs/results/ with
+their origin. Name the commands whose results are in the folder: some of the files also exist at a smaller scale. Those of
+paper include the verdicts and the calibrated law, those of seeds the dependence of the verdicts on the seed. Without
+results (`--pages-only`) only README.md and docs/verdicts.md are written, from docs/ and from the statements in
 resources/paper/claims.yaml. The workflow writes only into results/.
 """
 
@@ -17,6 +18,7 @@ from pathlib import Path
 
 import click
 import pandas as pd
+from PIL import Image  # which matplotlib needs
 
 from viscorough_study.paper_data import read_paper
 from viscorough_study.performance import timing
@@ -24,22 +26,32 @@ from viscorough_study.verdicts import markdown, overall
 
 ROOT = Path(__file__).resolve().parents[1]
 BEGIN, END = "<!-- verdicts: by benchmarks/publish.py -->\n", "<!-- end of verdicts -->\n"
-# {command: figures and tables in results/ that it makes and that are published in docs/results/}
+# {command of make: files in results/ that it makes and that are published in docs/results/}
 PUBLISHED = {
-    "make paper": (
+    "paper": (
         *("figures/fig1_surfaces.png", "figures/fig2_kinetics.png", "figures/fig3_master_curve.png"),
         *("figures/fig4_exponent.png", "figures/conventions.png", "figures/validation.png", "tables/scaling.csv"),
         *("tables/validation.csv", "tables/direct.csv", "tables/reduction.csv", "tables/rule_costs.csv", "costs.json"),
     ),
-    "make speed": (
-        *("figures/speed.png", "figures/growth.png", "figures/other_solvers.png", "figures/level_placement.png"),
-        *("tables/methods.csv", "tables/other_solvers.csv", "tables/level_placement.csv"),
+    "speed": (
+        *("figures/speed.png", "figures/all_methods.png", "figures/growth.png", "figures/other_solvers.png"),
+        *("figures/level_placement.png", "tables/methods.csv", "tables/other_solvers.csv"),
+        "tables/level_placement.csv",
     ),
-    "make stability": (
+    "stability": (
         *("figures/failure_map.png", "figures/failure_curves.png", "tables/failure_map.csv", "campaign.json"),
     ),
-    "make sizes": ("figures/sizes.png", "tables/sizes.csv", "tables/sizes_trends.csv"),
-    "make large": ("figures/large.png", "tables/large.csv"),
+    "sizes": ("figures/sizes.png", "tables/sizes.csv", "tables/sizes_trends.csv"),
+    "large": ("figures/large.png", "tables/large.csv"),
+    "seeds": (),
+}
+# {command: {file in results/ that other parts of the project read: where they find it}}
+KEPT = {
+    "paper": {
+        "tables/claims.csv": "docs/claims.csv",
+        "tables/calibration.csv": "src/viscorough/data/calibration.csv",
+    },
+    "seeds": {"seeds.json": "docs/seeds.json", "seeds.csv": "docs/seeds.csv"},
 }
 PICTURES = ("fig2_kinetics.png", "speed.png")  # which README.md shows: also in docs/
 
@@ -88,46 +100,49 @@ def write_tables():
         (ROOT / page).write_text(before + BEGIN + "\n" + table + "\n" + END + rest.split(END)[1], encoding="utf-8")
 
 
-def copy_verdicts(results, project):
-    """Copy claims, seeds and calibration from a folder of results to where the project keeps them."""
-    shutil.copyfile(results / "tables/claims.csv", project / "docs/claims.csv")
-    for seeds in results.glob("seeds.*"):
-        shutil.copyfile(seeds, project / "docs" / seeds.name)
-    shutil.copyfile(results / "tables/calibration.csv", project / "src/viscorough/data/calibration.csv")
+def copy_picture(file, target):
+    """Copy a PNG file with at most 128 colours, in a third of the bytes: git keeps every version."""
+    with Image.open(file) as picture:
+        picture.convert("RGB").quantize(128, dither=Image.Dither.NONE).save(target, optimize=True)
 
 
-def copy_files(results, project, commit):
-    """Copy the published figures and tables that there are, and record where each comes from in published.json."""
-    folder = project / "docs/results"
+def copy_results(results, project, commands, commit):
+    """Copy what the commands made, and record in docs/results/published.json where each figure and table comes from.
+
+    Raises ClickException, before anything is copied, if a file is missing.
+    """
+    for command in commands:
+        for name in (*PUBLISHED[command], *KEPT.get(command, {})):
+            if not (results / name).is_file():
+                raise click.ClickException(f"{results}: no {name} there; `make {command}` makes it")
+    folder, machine = project / "docs/results", timing.machine()
     folder.mkdir(exist_ok=True)
     record_file = folder / "published.json"
     records = json.loads(record_file.read_text(encoding="utf-8")) if record_file.is_file() else {}
-    for command, names in PUBLISHED.items():
-        for file in (results / name for name in names if (results / name).is_file()):
-            shutil.copyfile(file, folder / file.name)
+    about = {"processor": machine["processor"], "cores": machine["cores"], "commit": commit}
+    for command in commands:
+        for name, target in KEPT.get(command, {}).items():
+            shutil.copyfile(results / name, project / target)
+        for file in (results / name for name in PUBLISHED[command]):
+            (copy_picture if file.suffix == ".png" else shutil.copyfile)(file, folder / file.name)
             if file.name in PICTURES:
-                shutil.copyfile(file, project / "docs" / file.name)
+                shutil.copyfile(folder / file.name, project / "docs" / file.name)
             date = datetime.fromtimestamp(file.stat().st_mtime, UTC).date().isoformat()
-            machine = timing.machine()
-            about = {"processor": machine["processor"], "cores": machine["cores"], "commit": commit}
-            records[file.name] = {"command": command, "date": date} | about
+            records[file.name] = {"command": f"make {command}", "date": date} | about
     record_file.write_text(json.dumps(records, indent=1, sort_keys=True) + "\n", encoding="utf-8")
 
 
 @click.command(help=__doc__.splitlines()[0])
 @click.option("--results", type=click.Path(path_type=Path), default=ROOT / "results", show_default=True)
+@click.option("--command", "commands", type=click.Choice(list(PUBLISHED)), multiple=True, default=["paper"])
 @click.option("--pages-only", is_flag=True, help="Write README.md and docs/verdicts.md; take nothing from results.")
-def main(results, pages_only):
+def main(results, commands, pages_only):
     if not pages_only:
-        if not (results / "tables/claims.csv").is_file():
-            raise click.UsageError(f"{results}: no tables/claims.csv there; `make paper` makes it")
-        copy_verdicts(results, ROOT)
         describe = ["git", "describe", "--always", "--dirty", "--exclude=*"]
         commit = subprocess.run(describe, cwd=ROOT, capture_output=True, text=True, check=True).stdout.strip()
-        copy_files(results, ROOT, commit)
+        copy_results(results, ROOT, commands, commit)
     write_tables()
-    updated = "README.md and docs/verdicts.md" + ("" if pages_only else ", docs/, src/viscorough/data/calibration.csv")
-    click.echo(f"written: {updated}")
+    click.echo("written: README.md and docs/verdicts.md" + ("" if pages_only else f", what {', '.join(commands)} made"))
 
 
 if __name__ == "__main__":

@@ -4,8 +4,11 @@ import json
 import os
 import re
 
+import click
+import numpy as np
 import pandas as pd
 import pytest
+from PIL import Image
 
 from support.benchmarks import load_benchmark
 from support.documentation import README, ROOT, read, sections
@@ -94,38 +97,45 @@ def test_published_files_say_where_they_come_from():
 def test_publishing(tmp_path):
     publish = load_benchmark("publish")
     results, project = tmp_path / "results", tmp_path / "project"
-    for folder in ("tables", "figures"):
-        (results / folder).mkdir(parents=True)
-    for folder in ("docs", "src/viscorough/data"):
-        (project / folder).mkdir(parents=True)
-    for name in ("tables/claims.csv", "tables/calibration.csv", "tables/large.csv", "figures/speed.png", "seeds.csv"):
-        (results / name).write_text(name)
-    os.utime(results / "figures/speed.png", (86400 * 365.25 * 30,) * 2)
-    publish.copy_verdicts(results, project)
-    publish.copy_files(results, project, "abc")
-    (results / "figures/speed.png").unlink()
-    publish.copy_files(results, project, "def")
-    kept = {str(path.relative_to(project)): path.read_text() for path in project.rglob("*.*")}
-    records = json.loads(kept.pop("docs/results/published.json"))
-    assert kept == {
-        "docs/claims.csv": "tables/claims.csv",
-        "docs/seeds.csv": "seeds.csv",
-        "src/viscorough/data/calibration.csv": "tables/calibration.csv",
-        "docs/results/large.csv": "tables/large.csv",
-        "docs/results/speed.png": "figures/speed.png",
-        "docs/speed.png": "figures/speed.png",
-    }
-    assert set(records) == {"large.csv", "speed.png"}
-    assert records["large.csv"]["command"] == "make large"
-    assert records["large.csv"]["commit"] == "def"
-    assert records["speed.png"]["command"] == "make speed"
-    assert records["speed.png"]["commit"] == "abc"
-    assert records["speed.png"]["date"] == "2000-01-01"
+    for folder in (results / "tables", results / "figures", project / "docs", project / "src/viscorough/data"):
+        folder.mkdir(parents=True)
+    gradient = np.arange(2 * 3 * 3).reshape(2, 3, 3).astype(np.uint8)
+    for name in (*publish.PUBLISHED["paper"], *publish.PUBLISHED["large"], *publish.KEPT["paper"]):
+        if name.endswith(".png"):
+            Image.fromarray(gradient).save(results / name)
+        else:
+            (results / name).write_text(name)
+    os.utime(results / "costs.json", (86400 * 365.25 * 30,) * 2)
+    publish.copy_results(results, project, ["paper"], "abc")
+    publish.copy_results(results, project, ["large"], "def")
+    records = json.loads((project / "docs/results/published.json").read_text())
+    assert {path.name for path in (project / "docs/results").iterdir()} == {*records, "published.json"}
+    assert set(records) == {name.split("/")[-1] for name in publish.PUBLISHED["paper"] + publish.PUBLISHED["large"]}
+    assert records["costs.json"]["date"] == "2000-01-01"
+    for name, command, commit in (("large.csv", "make large", "def"), ("costs.json", "make paper", "abc")):
+        assert records[name]["command"] == command
+        assert records[name]["commit"] == commit
+    assert (project / "docs/claims.csv").read_text() == "tables/claims.csv"
+    assert (project / "src/viscorough/data/calibration.csv").read_text() == "tables/calibration.csv"
+    with Image.open(project / "docs/fig2_kinetics.png") as picture:
+        np.testing.assert_array_equal(picture.convert("RGB"), gradient)
+
+
+def test_nothing_is_published_of_an_incomplete_run(tmp_path):
+    """As the charts of a small scale would be, of a folder in which `make speed` was not run."""
+    publish = load_benchmark("publish")
+    (tmp_path / "figures").mkdir()
+    (tmp_path / "docs").mkdir()
+    (tmp_path / "figures/speed.png").touch()
+    with pytest.raises(click.ClickException, match="make speed"):
+        publish.copy_results(tmp_path, tmp_path, ["speed"], "abc")
+    assert not list((tmp_path / "docs").iterdir())
 
 
 def test_every_published_file_is_made_by_a_rule_or_a_benchmark():
+    publish = load_benchmark("publish")
     made = "\n".join(read(path) for path in [*(ROOT / "workflow/rules").glob("*.smk"), ROOT / "Makefile"])
-    for command, names in load_benchmark("publish").PUBLISHED.items():
-        assert re.search(rf"^{command.split()[1]}:", read(ROOT / "Makefile"), re.MULTILINE)
+    for command, names in publish.PUBLISHED.items():
+        assert re.search(rf"^{command}:", read(ROOT / "Makefile"), re.MULTILINE)
         for name in names:
             assert f"results/{name}" in made, name

@@ -3,8 +3,8 @@
     python benchmarks/publish.py --results results --command paper
 
 Every command (`make paper`, `make speed`, ...) has its own figures and tables, which are copied into docs/results/ with
-their origin. Name the commands whose results are in the folder: some of the files also exist at a smaller scale. Those of
-paper include the verdicts and the calibrated law, those of seeds the dependence of the verdicts on the seed. Without
+their origin. Name the commands whose results are in the folder: some of the files also exist at a smaller scale. Those
+of paper include the verdicts and the calibrated law, those of seeds the dependence of the verdicts on the seed. Without
 results (`--pages-only`) only README.md and docs/verdicts.md are written, from docs/ and from the statements in
 resources/paper/claims.yaml. The workflow writes only into results/.
 """

@@ -28,7 +28,7 @@ surface = viscorough.read_heights("heights.npy", spacing=1e-6)  # in metres; lar
 curve = viscorough.indent(surface, tolerance=1e-3, until_fraction=0.5)
 motion = viscorough.kinetics(curve, force=0.5, viscosity=1e9)  # 0.5 N on a medium of 1e9 Pa s
 figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.6), layout="constrained")
-figure.colorbar(left.imshow(surface.heights * 1e6), label="height [µm]")
+figure.colorbar(left.imshow(surface.heights * 1e6), label="height (µm)")
 right.loglog(motion.time, motion.depth * 1e6)
-right.set(xlabel="time [s]", ylabel="depth [µm]", xlim=(1e-6, 10), ylim=(1e-4, 10))
+right.set(xlabel="time (s)", ylabel="depth (µm)", xlim=(1e-6, 10), ylim=(1e-4, 10))
 figure.savefig("own_surface.png")

@@ -56,7 +56,7 @@ def plot_all_methods(table):
             handles.append(Line2D([], [], color=color, linewidth=3, label=f"{label}:"))
             handles += [Line2D([], [], **_line(looks[name]), label=f"   {name}") for name in members]
     if not (table["group"] == "other solver").any():
-        handles.append(Line2D([], [], linestyle="", label="other solvers are not installed"))
+        handles.append(Line2D([], [], linestyle="", label="other solvers: not measured"))
     figure.legend(handles=[*handles, Line2D([], [], **PARETO)], loc="outside lower center", ncols=3)
     return figure
 

@@ -49,18 +49,15 @@ PARETO = {
 def plot_speed(table):
     """Wall time against the error of v: the elastic path, time steps, a model and the fastest of other solvers.
 
-    table : of viscorough_study.performance.measurement; its first rough disc (a) and the sphere (b) are drawn
+    table : of viscorough_study.performance.measurement; its first rough disc (a) and the sphere (b) are drawn,
+        or what there is of them, or else its first problem
     The staircase is the Pareto front of all methods of the table. Rings mark the fastest solutions with an error of at
     most 1 %, of the path, of time steps and of other solvers, whose times are compared.
     Raises ValueError for a table without rows.
     """
     require_rows("plot_speed", table)
-    problems = sorted(
-        table["problem"].unique(), key=lambda name: (not name.startswith("rough"), name != "sphere", name)
-    )
-    problems = [problem for problem in problems if problem.startswith("rough")][:1] + [
-        problem for problem in problems if problem == "sphere"
-    ]
+    rough = sorted(name for name in table["problem"].unique() if name.startswith("rough"))
+    problems = [*rough[:1], *({"sphere"} & set(table["problem"]))] or [table["problem"].iloc[0]]
     looks = series_looks([*METHODS, "other"])
     figure = Figure(figsize=(WIDE, 95 * MM))
     panels = figure.subplots(1, len(problems), squeeze=False)[0]

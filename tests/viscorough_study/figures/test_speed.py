@@ -54,7 +54,7 @@ def test_all_methods_and_the_front_are_shown_on_one_grid_of_each_indenter():
     np.testing.assert_allclose(lines[-1], front[["wall_s", "error"]])
     np.testing.assert_allclose(coordinates(figure.axes[2])[1][0], [0.01, 5e-3])
     texts = legend_texts(figure.legends[0])
-    assert "other solvers are not installed" in texts
+    assert "other solvers: not measured" in texts
     assert "   MDR" in texts
     assert whole_on_page(figure)
 
@@ -63,8 +63,16 @@ def test_other_solvers_are_hollow_among_all_methods():
     figure = plot_all_methods(with_peer(methods_table(), 7))
     texts = legend_texts(figure.legends[0])
     assert "   ASPHER" in texts
-    assert "other solvers are not installed" not in texts
+    assert "other solvers: not measured" not in texts
     assert any(line.get_markerfacecolor() == "none" and line.get_linestyle() == "--" for line in figure.axes[1].lines)
+
+
+@pytest.mark.parametrize("problem", ["sphere", "cone"])
+def test_one_problem_is_enough(problem):
+    data = methods_table()
+    data = data[data["problem"] == "sphere"].assign(problem=problem)
+    (axes,) = plot_speed(data).axes
+    assert axes.get_title() == f"(a) {problem}, 257 elements across"
 
 
 @pytest.mark.parametrize("plot", [plot_speed, plot_all_methods])

@@ -40,7 +40,7 @@ COLUMNS = {
     "case": ("body and method", ""),
     "quantity": ("quantity compared with the exact solution", ""),
     "elements": ("elements across the body", "1"),
-    "error": ("relative error, root mean square over contact radii", "1"),
+    "error": ("relative error, root mean square over contact radii, of ellipses over sizes", "1"),
     "order": ("observed order of convergence over all grids", "1"),
     "expected_order": ("expected order of convergence; 0: exact on any grid", "1"),
     "limit": ("largest error allowed on the finest grid", "1"),

@@ -18,8 +18,10 @@ from viscorough.indenter import Indenter, positive
 
 _BLOCK = 16384  # waves of a line computed at a time: arrays of this length stay in the processor's cache
 # Memory that must be available: for a square, bytes per point, three times what its arrays take; for a line, multiples
-# of its heights, since the Fourier transform copies them (more if the number of points has a large prime factor).
-_BYTES_PER_POINT, _COPIES_OF_LINE = 100, 2.1
+# of its heights, since the Fourier transform copies them. If the number n of points has prime factors above 11, more is
+# needed, and still more in proportion to p/n for the largest factor p (tests/viscorough/test_memory.py).
+_BYTES_PER_POINT, _COPIES_OF_LINE = 100, 2.6
+_COPIES_OF_OTHER_LINE, _MORE_PER_SHARE, _MOST_COPIES = 3.3, 28, 17
 
 
 def self_affine_disc(
@@ -157,7 +159,7 @@ def self_affine_line(
     fixed = _fixed(amplitudes)
     if (real := np.dtype(dtype)) not in (np.float32, np.float64):
         raise ValueError(f"dtype: must be float32 or float64, not {real}")
-    memory.require(_COPIES_OF_LINE * real.itemsize * points, f"a line of {points} points")
+    memory.require(_copies_of_line(points) * real.itemsize * points, f"a line of {points} points")
 
     # The heights overwrite their spectrum: the mean, then cosine and sine coefficients of wave after wave.
     packed = np.empty(1 + 2 * (points // 2), real)
@@ -273,6 +275,19 @@ def _fixed(amplitudes):
     if amplitudes not in ("random", "fixed"):
         raise ValueError(f"amplitudes: must be 'random' or 'fixed', not {amplitudes!r}")
     return amplitudes == "fixed"
+
+
+def _copies_of_line(points):
+    """Memory for the generation of a line of that many points, over that of its heights."""
+    if fft.good_size(points, True) == points:
+        return _COPIES_OF_LINE
+    left, factor = points, 2
+    while factor * factor <= left:
+        if left % factor:
+            factor += 1
+        else:
+            left //= factor
+    return min(_COPIES_OF_OTHER_LINE + _MORE_PER_SHARE * left / points, _MOST_COPIES)
 
 
 def _whole(name, value, at_least):

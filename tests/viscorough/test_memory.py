@@ -1,5 +1,9 @@
 """Problems too large for the available memory are refused before anything is allocated."""
 
+import re
+import tracemalloc
+from functools import partial
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -9,6 +13,9 @@ import pytest
 from viscorough.contact.loading_path import indent
 from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc, self_affine_line
+
+# What any contact requires, however small.
+CONSTANT = 6e6
 
 
 @pytest.mark.parametrize(
@@ -25,7 +32,63 @@ def test_surfaces_too_large_for_any_memory_are_refused(make, what):
 
 
 def test_a_map_too_large_to_press_is_refused(monkeypatch):
-    monkeypatch.setattr(psutil, "virtual_memory", lambda: SimpleNamespace(available=1_000_000))
+    monkeypatch.setattr(psutil, "virtual_memory", lambda: SimpleNamespace(available=10_000_000))
     indent(Indenter(np.zeros((20, 20)), 1.0))
-    with pytest.raises(MemoryError, match=r"contact of a map of \(60, 60\) heights takes 1\.44e\+06 bytes of memory"):
-        indent(Indenter(np.zeros((60, 60)), 1.0))
+    with pytest.raises(
+        MemoryError, match=r"contact of a map of \(200, 200\) heights takes 2\.\d\de\+07 bytes of memory"
+    ):
+        indent(Indenter(np.zeros((200, 200)), 1.0))
+
+
+def demand(compute, monkeypatch):
+    """Bytes that a computation requires."""
+    with monkeypatch.context() as patch:
+        patch.setattr(psutil, "virtual_memory", lambda: SimpleNamespace(available=0))
+        with pytest.raises(MemoryError) as error:
+            compute()
+    return float(re.search(r"takes (\S+) bytes", str(error.value))[1])
+
+
+ROW, COLUMN = np.mgrid[:300, :300]
+DISC, STRIP = np.hypot(ROW - 60, COLUMN - 60) < 60, np.ones((1, 10_000), bool)
+
+
+@pytest.mark.parametrize(
+    ("present", "tolerance"),
+    [
+        pytest.param(np.ones((150, 150), bool), 1e-3, id="square"),
+        pytest.param(DISC, 1e-3, id="disc on a large map"),
+        pytest.param(DISC[:121, :121], 1e-5, id="disc, computed in double precision too"),
+        pytest.param(STRIP, 1e-3, id="strip"),
+        pytest.param(STRIP.T, 1e-5, id="tall strip, computed in double precision too"),
+        pytest.param(np.ones((6, 5_000), bool), 1e-3, id="strip of a few rows"),
+        pytest.param(abs(ROW - COLUMN) < 2, 1e-3, id="diagonal"),
+    ],
+)
+def test_memory_required_for_a_contact_follows_what_its_arrays_take(present, tolerance, monkeypatch):
+    indenter = Indenter(np.where(present, np.random.default_rng(1).random(present.shape), np.nan), 1.0)
+    press = partial(indent, indenter, tolerance=tolerance, until_fraction=0.6)
+    tracemalloc.start()
+    press()
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < demand(press, monkeypatch) < 2.2 * peak + CONSTANT
+
+
+@pytest.mark.skipif(not Path("/proc/self/clear_refs").exists(), reason="the peak of a process is read from /proc")
+@pytest.mark.parametrize("points", [2**20, 1_000_003, 2 * 500_009, 3 * 333_337, 11 * 90_911, 101 * 9901])
+def test_memory_required_for_a_line_follows_what_its_transform_takes(points, monkeypatch):
+    """The transform of a length with a large prime factor takes up to eight times the memory of others."""
+    generate = partial(self_affine_line, 0.5, points, seed=1, dtype=float)
+    Path("/proc/self/clear_refs").write_text("5")  # the peak starts from the present memory
+    before = resident("VmRSS")
+    generate()
+    peak = resident("VmHWM") - before
+    assert peak < demand(generate, monkeypatch)
+    if points == 1_000_003:
+        assert demand(generate, monkeypatch) < 1.5 * peak
+
+
+def resident(what):
+    """Resident memory of this process from /proc, in bytes: VmRSS now, VmHWM at the peak."""
+    return 1024 * int(re.search(what + r":\s+(\d+)", Path("/proc/self/status").read_text())[1])

@@ -49,21 +49,29 @@ def influence_coefficient(x, y):
     return total
 
 
+def convolution_lengths(rows, columns):
+    """Lengths of the periodic convolution along the columns and along the rows of a grid.
+
+    A single row has no distances along the columns: its length there is 1.
+    """
+    return good_length(2 * (rows - 1)) if rows > 1 else 1, 2 * ducc0.fft.good_size(max(columns - 1, 1), True)
+
+
 @lru_cache(maxsize=2)
 def _spectrum(rows, columns, padding):
     """Lengths of the periodic convolution along both axes, and the real spectrum of K, divided by their product.
 
     K and its spectrum are even, so that a cosine transform over distances up to half the lengths gives the spectrum at
-    all frequencies. Without padding, the distance is that to the nearest periodic image. A single row has no distances
-    along the columns: its length there is 1.
+    all frequencies. Without padding, the distance is that to the nearest periodic image.
     """
-    along_columns = good_length(2 * (rows - 1)) if rows > 1 else 1
-    lengths = along_columns, 2 * ducc0.fft.good_size(max(columns - 1, 1), True)
+    lengths = convolution_lengths(rows, columns)
     row, column = (np.arange(m // 2 + 1.0) for m in lengths)
     if not padding:
         row, column = (np.minimum(d, abs(n - d)) for d, n in ((row, rows), (column, columns)))
-    axes = [0, 1] if rows > 1 else [1]
-    return lengths, ducc0.fft.dct(influence_coefficient(row[:, None], column), axes=axes, type=1) / np.prod(lengths)
+    spectrum = influence_coefficient(row[:, None], column)
+    ducc0.fft.dct(spectrum, axes=[0, 1] if rows > 1 else [1], type=1, out=spectrum)
+    spectrum /= np.prod(lengths)
+    return lengths, spectrum
 
 
 class _RowTransforms:

@@ -10,15 +10,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from viscorough import memory
 from viscorough.contact import dense
 from viscorough.contact.grid_solver import GridSolver
+from viscorough.contact.memory_demand import require_for_contact
 from viscorough.contact.options import DEFAULT
 from viscorough.contact.state import Contact, elements_of
 from viscorough.errors import ConvergenceError
 
-# Memory that a contact takes at most per point of the map (measured: `make large`, column memory of large.csv).
-_BYTES = 400
 # Depth that the box of a grid allows for, over the requested depth; a box that would cover more than this share of the
 # whole grid is replaced by the whole grid.
 _BOX_DEPTH_MARGIN, _LARGEST_BOX = 1.3, 0.8
@@ -40,7 +38,7 @@ class ContactSolver:
     """
 
     def __init__(self, indenter, tolerance, options=DEFAULT):
-        memory.require(_BYTES * indenter.heights.size, f"contact of a map of {indenter.heights.shape} heights")
+        require_for_contact(indenter.heights, exact=tolerance < options.exact_gap_below)
         self.elements, self.units = elements_of(indenter)
         self.tolerance, self.options = tolerance, options
         self._grid, self._reach, self._former_applications = None, 0, 0
@@ -109,6 +107,7 @@ class ContactSolver:
             if box[2] * box[3] > _LARGEST_BOX * rows * columns:
                 reach, box = self.elements.count, (0, 0, rows, columns)
             self._former_applications, self._reach = self.operator_applications, reach
+            self._grid = None  # its memory is free for the larger one
             self._grid = GridSolver(box, row, column, gap, self.tolerance, self.options)
         return self._grid
 

@@ -1,0 +1,48 @@
+"""Memory that the contact of an indenter takes, before any of it is allocated."""
+
+import numpy as np
+
+from viscorough import memory
+from viscorough.contact.halfspace import convolution_lengths
+from viscorough.contact.preconditioner import REACH
+
+# Bytes of the rank, place, gap, pressure, tangent and temporary arrays of an element; of a map's entry, while its
+# elements are found.
+_PER_ELEMENT, _PER_HEIGHT = 170, 10
+# Flat fields of double precision: those of the contacts that a loading path holds (four each; at small tolerances, of
+# more contacts, which are solved ahead), and others, of the grid solver and temporary ones.
+_FIELDS_OF_CONTACTS, _FIELDS_OF_CONTACTS_IF_EXACT, _OTHER_FIELDS = 16, 24, 6
+# Arrays of the size of the spectrum of the half-space: in a cache and while the operator is prepared.
+_SPECTRA = 4
+# Whatever the size: tables, and dense solutions of hundreds of elements.
+_CONSTANT = 6e6
+
+
+def require_for_contact(heights, *, exact):
+    """Raise MemoryError, which names the bytes needed and available, unless the contact of a map fits into memory.
+
+    heights : a map, nan outside the indenter
+    exact : whether gaps are also computed in double precision
+
+    The need follows the allocation: it is proportional to the number of points of the padded grid around all elements,
+    of its border included, which for narrow strips are several times as many as the elements. It lies above what is
+    taken, by up to a factor of two (tests/viscorough/test_memory.py).
+    """
+    inside = np.isfinite(heights)
+    rows, columns = (np.ptp(np.flatnonzero(inside.any(axis=axis))) + 1 for axis in (1, 0))
+    needed = _PER_HEIGHT * heights.size + _PER_ELEMENT * np.count_nonzero(inside) + _of_grid(rows, columns, exact=exact)
+    memory.require(needed, f"contact of a map of {heights.shape} heights")
+
+
+def _of_grid(rows, columns, *, exact):
+    """Bytes of a grid solver, its operators, and the contacts on its grid."""
+    rows, columns = sorted((int(rows), int(columns)))
+    along_columns, along_rows = convolution_lengths(rows, columns)
+    spectrum = (along_columns // 2 + 1) * (along_rows // 2 + 1)
+    flat = (rows + 2 * REACH) * (columns + 2 * REACH)
+    operators = 8 * _SPECTRA * spectrum
+    for bytes_of_number in (4, 8) if exact else (4,):
+        # Load, deflection and transformed rows; the spectrum at all frequencies along the columns.
+        operators += bytes_of_number * (4 * rows * along_rows + 2.3 * spectrum)
+    fields = 8 * (_OTHER_FIELDS + (_FIELDS_OF_CONTACTS_IF_EXACT if exact else _FIELDS_OF_CONTACTS)) * flat
+    return 8 * rows * columns + operators + fields + _CONSTANT

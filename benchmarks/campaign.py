@@ -2,13 +2,16 @@
 
     python benchmarks/campaign.py --output results/campaign.json
 
-Solutions are compared with dense ones and with the direct integration in time. `make stability` runs it. A case is
-reproduced from its number by random_case(case_generator(seed, case)).
+Three families of cases are checked against the direct integration in time: levels at given depths, also against the
+dense influence matrix; whole loading curves, at their levels and between them; and curves with a start fraction.
+`make stability` runs it. A failure is printed with the command that repeats it.
 """
 
 import json
 import time
+from functools import partial
 from importlib.metadata import version
+from multiprocessing import Pool
 
 import click
 import numpy as np
@@ -16,35 +19,54 @@ from tqdm import tqdm
 
 from viscorough.io.atomic import atomic_write
 from viscorough_study.performance import timing
+from viscorough_study.robustness.random_curves import curve_failure, random_curve
 from viscorough_study.robustness.random_indenters import random_case, silent_failure
 from viscorough_study.seeds import random_indenter_key, realization_seed
 
+# What draws a case, what checks it, and the share of the number of cases that is run.
+FAMILIES = {
+    "levels": (random_case, silent_failure, 1.0),
+    "curves": (random_curve, curve_failure, 1.0),
+    "starts": (partial(random_curve, with_start=True), curve_failure, 0.1),
+}
 
-def case_generator(seed, case):
-    """The random generator of one case, which does not depend on the other cases."""
-    return np.random.default_rng(realization_seed(seed, *random_indenter_key(case)))
+
+def failure(family, seed, case):
+    """What is wrong, in words, with one case of a family; "" if nothing is. Any exception counts as a failure."""
+    draw, check, _ = FAMILIES[family]
+    generator = np.random.default_rng(realization_seed(seed, *random_indenter_key(case)))
+    try:
+        return check(draw(generator))
+    except Exception as error:
+        return f"{type(error).__name__}: {error}"
 
 
 @click.command()
-@click.option("--cases", type=click.IntRange(1), default=12_000, show_default=True, help="Number of indenters.")
+@click.option("--cases", type=click.IntRange(1), default=12_000, show_default=True, help="Cases of levels and curves.")
 @click.option("--seed", type=click.IntRange(0), default=2013, show_default=True, help="Root seed.")
-@click.option("--output", required=True, help="File to write, JSON.")
-def main(cases, seed, output):
+@click.option("--family", type=click.Choice(list(FAMILIES)), help="Only this family.")
+@click.option("--case", type=click.IntRange(0), help="Only the case of this number.")
+@click.option("--cores", type=click.IntRange(1), default=1, show_default=True, help="Processes.")
+@click.option("--output", help="File to write, JSON.")
+def main(cases, seed, family, case, cores, output):
     """Count silent failures; exit code 1 if there is any."""
-    began, failures = time.perf_counter(), []
-    for case in tqdm(range(cases), unit="indenter", mininterval=2):
-        try:
-            wrong = silent_failure(random_case(case_generator(seed, case)))
-        except Exception as error:  # any exception counts as a failure of its case, and the campaign continues
-            wrong = f"{type(error).__name__}: {error}"
-        if wrong:
-            failures.append({"case": case, "wrong": wrong})
-            tqdm.write(f"case {case}: {wrong}")
-    about = {"machine": timing.machine(), "version": version("viscorough"), "seed": seed, "cases": cases}
+    began, counts, failures = time.perf_counter(), {}, []
+    for name in [family] if family else FAMILIES:
+        numbers = [case] if case is not None else range(max(1, round(FAMILIES[name][2] * cases)))
+        counts[name] = len(numbers)
+        with Pool(cores) as pool:
+            wrongs = pool.imap(partial(failure, name, seed), numbers, chunksize=20)
+            for number, wrong in tqdm(zip(numbers, wrongs, strict=True), name, len(numbers), mininterval=2):
+                if wrong:
+                    failures.append({"family": name, "case": number, "wrong": wrong})
+                    repeat = f"python benchmarks/campaign.py --family {name} --case {number} --seed {seed}"
+                    tqdm.write(f"{wrong}\n    {repeat}")
+    about = {"machine": timing.machine(), "version": version("viscorough"), "seed": seed, "cases": counts}
     result = about | {"seconds": round(time.perf_counter() - began, 1), "silent_failures": failures}
-    with atomic_write(output) as temporary:
-        temporary.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
-    click.echo(f"{output}: {len(failures)} silent failures among {cases} indenters in {result['seconds']} s")
+    if output:
+        with atomic_write(output) as temporary:
+            temporary.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+    click.echo(f"{len(failures)} silent failures among {sum(counts.values())} cases in {result['seconds']} s")
     raise SystemExit(bool(failures))
 
 

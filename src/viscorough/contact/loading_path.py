@@ -101,7 +101,8 @@ class _LoadingPath:
     def __init__(self, solver, spacing, until_fraction, until_force):
         self._solver, self._control = solver, StepControl(solver.tolerance)
         self._until_count = until_fraction * solver.elements.count
-        self._until_pressure_sum = until_force / solver.units.force
+        # A little more, so that rounding does not leave the last level below the force.
+        self._until_pressure_sum = (1 + ROUNDING) * until_force / solver.units.force
         # Up to the smallest positive initial gap, only the highest elements are in contact and the curve is straight.
         gap = solver.elements.initial_gap
         open_gap = gap[gap > 0]

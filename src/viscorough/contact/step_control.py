@@ -26,10 +26,10 @@ _AIM, _ORDER, _LEAST_CHANGE, _LARGEST_CHANGE = 0.75, 2, 0.3, 2.0
 _DIVISION = 0.15, 0.85
 # Points of an interval at which the bound is evaluated, as shares of its force.
 _POINTS = np.linspace(0, 1, 18)[1:-1]
-# Bound over the accuracy up to which an interval is accepted if the elements that join touch evenly: at least so many
-# elements, of which the predicted depths of touch have a mean and a standard deviation (over the interval) near those
-# of an even distribution (0.29).
-_EVEN_BOUND, _EVEN_COUNT, _EVEN_MEAN_DEVIATION, _EVEN_SPREAD = 2.0, 10, 0.12, (0.21, 0.38)
+# An interval is accepted up to this multiple of the bound if the error predicted from the depths at which elements
+# touch is below this share of the accuracy. The prediction needs so many elements, and must agree with the force to
+# within these factors.
+_RELAXED_BOUND, _PREDICTED_ERROR, _PREDICTED_COUNT, _AGREEMENT = 2.0, 0.3, 10, (0.8, 1.25)
 _TINY = 1e-30
 
 
@@ -77,7 +77,8 @@ class StepControl:
         before, after : Contacts
         """
         bound = interpolation_bound(Level.of(before), Level.of(after)) / self._accuracy
-        return bound / _EVEN_BOUND if _touch_evenly(before, after) else bound
+        is_smooth = _predicted_error(before, after) <= _PREDICTED_ERROR * self._accuracy
+        return bound / _RELAXED_BOUND if is_smooth else bound
 
     def is_too_long(self, ratio, excess):
         """Whether a step with this ratio of depths is to be divided."""
@@ -99,8 +100,7 @@ def interpolation_bound(before, after):
     if after.count - before.count in (0, 1):
         return 0.0  # the two tangents are the curve
     force = before.pressure_sum + _POINTS * (after.pressure_sum - before.pressure_sum)
-    ends = np.array([[level.depth, level.pressure_sum, level.tangent_sum, level.count] for level in (before, after)]).T
-    depth, _ = interpolate_levels(*ends, force)
+    depth = _interpolate(before, after, force)
     chord = before.depth + _POINTS * (after.depth - before.depth)
     tangents = np.minimum(
         before.depth + (force - before.pressure_sum) / before.tangent_sum,
@@ -121,29 +121,53 @@ def division(before, after):
     return before.depth + width * np.clip(share, *_DIVISION)
 
 
-def _touch_evenly(before, after):
-    """Whether the elements that join the contact between two contacts touch evenly over the interval.
+def _interpolate(before, after, force):
+    """Depths interpolated between two levels at reduced forces ΣP."""
+    ends = np.array([[level.depth, level.pressure_sum, level.tangent_sum, level.count] for level in (before, after)]).T
+    return interpolate_levels(*ends, force)[0]
 
-    The gap e of an element outside the contact is convex in the depth, so that it touches no earlier than at u₀ − e/e_q,
-    with the gap and the tangent gap before. Its pressure is concave, so that it touches no earlier than at u₁ − P/q,
-    with those after. The later of the two predicts its touch closely. The stiffness that it adds is taken as
-    proportional to e_q², as for the first element to join.
+
+def _predicted_error(before, after):
+    """Relative error of interpolation between two contacts, predicted from the depths at which elements touch.
+
+    Returns infinity where it cannot be predicted. The stiffness that an element adds is taken as proportional to e_q²,
+    as for the first element to join, and their sum as the difference of the two tangent sums.
     """
+    touch, weight = _predicted_touches(before, after)
+    if touch.size < _PREDICTED_COUNT:
+        return np.inf
+    width = after.reduced_depth - before.reduced_depth
+    added = after.tangent_sum - before.tangent_sum
+    rise = (after.pressure_sum - before.pressure_sum) / width - before.tangent_sum
+    predicted_rise = added * (weight @ (1 - touch))
+    if not 0 < _AGREEMENT[0] * predicted_rise <= rise <= _AGREEMENT[1] * predicted_rise:
+        return np.inf
+    share = _POINTS[1::2]
+    above_tangent = added * (np.maximum(share[:, None] - touch, 0) @ weight) * rise / predicted_rise
+    force = before.pressure_sum + width * (share * before.tangent_sum + above_tangent)
+    depth = before.reduced_depth + width * share
+    interpolated = _interpolate(Level.of(before), Level.of(after), np.minimum(force, after.pressure_sum))
+    return np.abs(interpolated / depth - 1).max()
+
+
+def _predicted_touches(before, after):
+    """Where in the interval between two contacts the elements that join touch, from 0 to 1, and weights of sum 1.
+
+    The gap e of an element outside the contact is convex in the depth: it touches no earlier than at u₀ − e/e_q, with
+    the gap and the tangent gap before. Its pressure is concave: it touches no earlier than at u₁ − P/q, with those
+    after. The later of the two predicts its touch closely. The weights are proportional to e_q².
+    """
+    nothing = np.empty(0), np.empty(0)
     if before.fields is None:
-        return False
+        return nothing
     is_new = ~np.isin(after.members, before.members, assume_unique=True, kind="table")
     place = before.fields.place[after.members[is_new]]
-    if place.size < _EVEN_COUNT or not place.all():  # place 0 is outside the grid of the contact before
-        return False
+    if not place.all():  # place 0 is outside the grid of the contact before
+        return nothing
     tangent_gap = np.minimum(before.fields.tangent_gap.values[place], -_TINY)
     gap = np.maximum(before.fields.gap.values[place], 0)
     width = after.reduced_depth - before.reduced_depth
     from_before = -gap / tangent_gap / width
     from_after = 1 - after.reduced_pressure[is_new] / np.maximum(after.tangent[is_new], _TINY) / width
-    touch = np.clip(np.maximum(from_before, from_after), 0, 1)
-    weight = tangent_gap**2 / (tangent_gap @ tangent_gap)
-    mean = weight @ touch
-    spread = np.sqrt(weight @ (touch - mean) ** 2)
-    rise = (after.pressure_sum - before.pressure_sum) / width - before.tangent_sum
-    true_mean = 1 - rise / (after.tangent_sum - before.tangent_sum)
-    return abs(mean - true_mean) <= _EVEN_MEAN_DEVIATION and _EVEN_SPREAD[0] <= spread <= _EVEN_SPREAD[1]
+    weight = tangent_gap**2
+    return np.clip(np.maximum(from_before, from_after), 0, 1), weight / weight.sum()

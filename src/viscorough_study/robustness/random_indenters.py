@@ -8,11 +8,9 @@ from viscorough.contact.options import DEFAULT
 from viscorough.contact.solver import ContactSolver
 from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
-from viscorough.surfaces import self_affine_disc
 from viscorough.viscous.events import march_events
 from viscorough_study.performance.ablations import GRID_ONLY
-
-KINDS = ("uniform", "normal", "whole numbers", "hill", "rough disc", "steps", "strip", "ridge", "one spike", "flat")
+from viscorough_study.robustness.random_heights import random_heights
 
 
 @dataclass(frozen=True)
@@ -27,41 +25,12 @@ class RandomCase:
 
 def random_case(generator):
     """A RandomCase: a small indenter of a random kind and scale, and random questions; from a numpy Generator."""
-    heights = _random_heights(generator)
-    if generator.random() < 0.3 and heights.size > 3:
-        heights = np.where(generator.random(heights.shape) < generator.random() * 0.8, np.nan, heights)
-        heights.flat[generator.integers(heights.size)] = 0.5
+    heights = random_heights(generator)
     height, length = 10.0 ** generator.uniform(-12, 12, 2) if generator.random() < 0.3 else (1.0, 1.0)
     indenter = Indenter(height * heights, length)
     span = np.nanmax(indenter.initial_gap) or length
     depths = np.sort(span * 10.0 ** generator.uniform(-3, 1.5, 3))
     return RandomCase(indenter, depths, 10.0 ** -generator.uniform(1, 11), bool(generator.random() < 0.6))
-
-
-def _random_heights(generator):
-    """Heights of one of the KINDS, up to 12 elements across; a strip of up to 99."""
-    kind, rows, columns = generator.choice(KINDS), *generator.integers(1, 13, 2)
-    row, column = np.mgrid[:rows, :columns] - np.array([rows, columns])[:, None, None] * generator.random((2, 1, 1))
-    if kind == "normal":
-        return generator.standard_normal((rows, columns))
-    if kind == "whole numbers":
-        return generator.integers(0, generator.integers(2, 6), (rows, columns)).astype(float)
-    if kind == "hill":
-        return -(np.hypot(row, column) ** generator.uniform(0.5, 4))
-    if kind == "rough disc":
-        hurst, across, seed = generator.random(), generator.integers(3, 13), generator.integers(2**32)
-        return self_affine_disc(hurst, int(across), seed=int(seed)).heights
-    if kind == "steps":
-        return np.floor(generator.uniform(0.1, 2) * row + generator.uniform(0.1, 2) * column)
-    if kind == "strip":
-        return generator.random((1, int(generator.integers(1, 100))))
-    if kind == "ridge":
-        return -abs(row + generator.normal() * column) + 1e-3 * generator.random((rows, columns))
-    if kind == "one spike":
-        heights = 1e-6 * generator.random((rows, columns))
-        heights[rows // 2, columns // 2] = 1.0
-        return heights
-    return np.zeros((rows, columns)) if kind == "flat" else generator.random((rows, columns))
 
 
 def silent_failure(case, solver_type=ContactSolver):

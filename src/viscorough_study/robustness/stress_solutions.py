@@ -15,15 +15,17 @@ import numpy as np
 from viscorough import reference
 from viscorough.contact.loading_path import indent
 from viscorough.contact.solver import ContactSolver
+from viscorough.contact.step_control import FINEST_ACCURACY
 from viscorough.errors import AccuracyWarning
 from viscorough.mdr import reduce
 from viscorough.surfaces import self_affine_line
-from viscorough.viscous.correspondence import impulses
+from viscorough.viscous.correspondence import impulses, kinetics
 from viscorough.viscous.events import march_events
 from viscorough.viscous.stepping import march_steps
 from viscorough_study.performance.ablations import DENSE_ONLY, GRID_ONLY, NO_PADDING
 
 DEPTHS = 6  # at which solutions are compared
+INTERPOLATED_FORCES = 20  # between two of them, at which interpolation between levels is compared
 REFERENCE_TOLERANCE = 1e-11
 BISECTIONS = 12  # in the search for the depth of a contact fraction
 BEYOND_FULL_CONTACT = 3.0  # times the depth of full contact
@@ -102,10 +104,26 @@ def _path_on_grid(precision, case, solution):
     return _path(options[precision], case, solution)
 
 
+def _interpolated(case, solution):
+    """Depths interpolated between levels that the path places itself: for every depth, the worst up to there."""
+    curve = indent(case.indenter, tolerance=case.tolerance, until_fraction=1.0, until_force=solution.force[-1])
+    kinetics(curve, 1.0, 1.0, solution.force[:1])  # refuses what lies beyond the last level
+    ends = np.minimum(solution.force, curve.force[-1])
+    starts = np.append(ends[0], ends[:-1])
+    force = starts[:, None] * (ends / starts)[:, None] ** np.linspace(0, 1, INTERPOLATED_FORCES)
+    ratios = curve.at_force(force)[0] / _exact_events(case, solution).depth_at(force)
+    worst = np.abs(ratios - 1).argmax(axis=1)
+    return ratios[np.arange(worst.size), worst]
+
+
+def _exact_events(case, solution):
+    until = min(1.0, (1.1 * solution.count[-1] + 2) / case.indenter.elements)
+    return march_events(case.indenter, until_fraction=until)
+
+
 def _events(case, solution):
     """Depths of the direct integration from contact event to contact event."""
-    until = min(1.0, (1.1 * solution.count[-1] + 2) / case.indenter.elements)
-    return march_events(case.indenter, until_fraction=until).depth_at(solution.force) / solution.depth
+    return _exact_events(case, solution).depth_at(solution.force) / solution.depth
 
 
 def explicit_steps(case, solution):
@@ -167,6 +185,7 @@ METHODS = (
     StressedMethod("path, dense", partial(_path, DENSE_ONLY), _limit_of_path),
     StressedMethod("path, grid, double", partial(_path_on_grid, "double"), _limit_of_path),
     StressedMethod("path, grid, single", partial(_path_on_grid, "single"), _limit_of_path),
+    StressedMethod("path, interpolated", _interpolated, lambda case: max(case.tolerance, FINEST_ACCURACY)),
     StressedMethod("events", _events, lambda case: LIMIT_EVENTS),
     StressedMethod("explicit steps", _steps, lambda case: LIMIT_STEPS),
     StressedMethod("MDR", _reduction, lambda case: LIMIT_MODEL, model=True),

@@ -1,0 +1,110 @@
+"""Random loading curves for detecting silent failures: at their levels, between them, and in what is made of them."""
+
+import warnings
+from dataclasses import dataclass
+
+import numpy as np
+
+from viscorough.contact.loading_path import indent
+from viscorough.contact.options import DEFAULT, SolverOptions
+from viscorough.contact.step_control import FINEST_ACCURACY
+from viscorough.errors import AccuracyWarning
+from viscorough.indenter import Indenter
+from viscorough.viscous.correspondence import kinetics
+from viscorough.viscous.events import march_events
+from viscorough_study.robustness.random_heights import random_heights
+
+_LARGEST = 32  # elements across
+# Depths smaller than this share of the height differences have lost their digits to the rounding of the heights.
+_HEIGHT_ROUNDING = 1e-13
+# Solver options from which a case draws: the dense solver up to different sizes, the grid from the first level on.
+_OPTIONS = (DEFAULT, SolverOptions(dense_contacts=30, dense_interactions=300), SolverOptions(dense_interactions=0))
+
+
+@dataclass(frozen=True)
+class RandomCurve:
+    """An indenter and the arguments of `indent` for it."""
+
+    indenter: Indenter
+    arguments: dict
+
+
+def random_curve(generator, with_start=None):
+    """A RandomCurve from a numpy Generator.
+
+    with_start : whether `start_fraction` is given; by chance by default
+    """
+    heights = random_heights(generator, int(generator.integers(2, _LARGEST + 1)))
+    height, length = 10.0 ** generator.uniform(-9, 9, 2) if generator.random() < 0.2 else (1.0, 1.0)
+    indenter = Indenter(height * heights, length)
+    arguments = {"tolerance": 10.0 ** -generator.uniform(1, 6), "options": _OPTIONS[generator.integers(len(_OPTIONS))]}
+    arguments["until_fraction"] = generator.uniform(0.01, 1.0) if generator.random() < 0.7 else 1.0
+    if generator.random() < 0.3 if with_start is None else with_start:
+        arguments["start_fraction"] = arguments["until_fraction"] * generator.uniform(0.01, 0.99)
+    if generator.random() < 0.2:
+        span = np.nanmax(indenter.initial_gap) or length
+        arguments["until_force"] = span * length * indenter.elements**0.5 * 10.0 ** generator.uniform(-3, 1)
+    if generator.random() < 0.2:
+        span = np.nanmax(indenter.initial_gap) or length
+        arguments["depths"] = np.sort(span * 10.0 ** generator.uniform(-3, 1, generator.integers(1, 5)))
+    return RandomCurve(indenter, arguments)
+
+
+def curve_failure(case, compute=indent):
+    """What is wrong, in words, with the loading curve of a RandomCurve; "" if nothing is.
+
+    The reference is the direct integration in time, exact from event to event, which shares nothing with the loading
+    path but the influence coefficients. The depth at the force of every level must have an error below the tolerance.
+    So must the depth interpolated between levels, down to FINEST_ACCURACY, from the start fraction on, unless a warning
+    says otherwise. The kinetics under a force history must have the depths of the reference.
+    """
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", AccuracyWarning)
+        curve = compute(case.indenter, **case.arguments)
+    for name in ("depth", "force", "stiffness"):
+        values = getattr(curve, name)
+        increases = np.diff(values, prepend=0) > 0 if name != "stiffness" else values > 0
+        if not (np.isfinite(values).all() and increases.all()):
+            return f"{name} {values} is not finite or does not increase"
+    events = march_events(case.indenter)
+    tolerance, rounding = case.arguments["tolerance"], _HEIGHT_ROUNDING * max(np.nanmax(case.indenter.initial_gap), 0)
+    error = np.abs(events.depth_at(curve.force) / curve.depth - 1) - rounding / curve.depth
+    if error.max() > tolerance:
+        return f"depth {curve.depth[error.argmax()]:.3g} of a level off by {error.max():.2g}, tolerance {tolerance:.2g}"
+    if "depths" not in case.arguments:
+        if caught:
+            return ""
+        return _error_between(curve, events, case, max(tolerance, FINEST_ACCURACY), rounding)
+    return _error_before(curve, events, tolerance, rounding)
+
+
+def _error_between(curve, events, case, tolerance, rounding):
+    """What is wrong between the levels."""
+    arguments, last = case.arguments, curve.force[-1]
+    if curve.contact_fraction[-1] < arguments["until_fraction"] and last < arguments.get("until_force", np.inf):
+        return f"stops at a contact fraction of {curve.contact_fraction[-1]:.3g}"
+    before_start = curve.contact_fraction <= arguments.get("start_fraction", 0.0)
+    first = max(curve.force[before_start], default=0.0)
+    force = events.impulse[(events.impulse > first) & (events.impulse < last)]
+    force = np.unique(np.concatenate([force, (force[1:] + force[:-1]) / 2, [first + 0.5 * (last - first), last]]))
+    depth = curve.at_force(force)[0]
+    error = np.abs(depth / events.depth_at(force) - 1) - rounding / depth
+    if not error.max() <= tolerance:  # also where it is nan
+        worst = np.argmax(np.nan_to_num(error, nan=np.inf))
+        return f"depth at force {force[worst]:.3g} off by {error[worst]:.2g}, tolerance {tolerance:.2g}"
+    times = np.unique(np.append(0.0, force) / last)
+    moved, exact = kinetics(curve, np.full(times.shape, last), 1.0, times).depth[1:], events.depth_at(last * times[1:])
+    error = np.abs(moved / exact - 1) - rounding / exact
+    if not error.max() <= tolerance:
+        return f"depth at time {times[1 + error.argmax()]:.3g} off by {error.max():.2g}, tolerance {tolerance:.2g}"
+    return ""
+
+
+def _error_before(curve, events, tolerance, rounding):
+    """What is wrong before the first given depth, where a depth is offered only if it is exact."""
+    force = curve.force[0] * np.array([1e-3, 0.3, 0.9])
+    depth = curve.at_force(force)[0]
+    error = np.abs(depth / events.depth_at(force) - 1) - rounding / events.depth_at(force)
+    if np.nanmax(error, initial=0.0) > max(tolerance, FINEST_ACCURACY):
+        return f"depth before the first level off by {np.nanmax(error):.2g}, tolerance {tolerance:.2g}"
+    return ""

@@ -1,0 +1,90 @@
+"""Random loading curves: none is wrong in silence, at its levels or between them, and a wrong one is found."""
+
+import warnings
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from viscorough.contact.loading_path import indent
+from viscorough.errors import AccuracyWarning
+from viscorough.surfaces import self_affine_disc
+from viscorough_study.robustness.random_curves import RandomCurve, curve_failure, random_curve
+from viscorough_study.robustness.random_heights import KINDS, random_heights
+from viscorough_study.seeds import random_indenter_key, realization_seed
+
+
+def generator(number, seed=12):
+    return np.random.default_rng(realization_seed(seed, *random_indenter_key(number)))
+
+
+@pytest.mark.parametrize("block", range(8))
+def test_random_curves_do_not_fail_silently(block):
+    for number in range(200 * block, 200 * (block + 1)):
+        assert curve_failure(random_curve(generator(number))) == "", f"case {number}"
+
+
+@pytest.mark.parametrize("block", range(2))
+def test_curves_with_a_start_fraction_do_not_fail_silently(block):
+    for number in range(100 * block, 100 * (block + 1)):
+        case = random_curve(generator(number, seed=13), with_start=True)
+        assert "start_fraction" in case.arguments
+        assert curve_failure(case) == "", f"case {number}"
+
+
+@pytest.mark.parametrize("kind", list(KINDS))
+def test_every_kind_has_elements_of_finite_height(kind):
+    for number in range(20):
+        heights = KINDS[kind](generator(number), 7, 9)
+        assert np.isfinite(heights).any()
+        assert not np.isinf(heights).any()
+    assert np.isfinite(random_heights(generator(1))).any()
+
+
+DISC = self_affine_disc(0.7, 17, seed=1)
+CASE = RandomCurve(DISC, {"tolerance": 1e-4, "until_fraction": 0.8})
+
+
+def altered(**changes):
+    """Computes a loading curve of which fields are changed by functions."""
+
+    def compute(indenter, **arguments):
+        curve = indent(indenter, **arguments)
+        return replace(curve, **{name: change(getattr(curve, name)) for name, change in changes.items()})
+
+    return compute
+
+
+def thinned(indenter, **arguments):
+    """A curve of which only every thirtieth level is left: exact levels, with too much between them."""
+    curve = indent(indenter, **arguments)
+    kept = np.append(np.arange(0, curve.depth.size - 1, 30), curve.depth.size - 1)
+    names = ("depth", "force", "stiffness", "contact_count", "residual")
+    return replace(curve, **{name: getattr(curve, name)[kept] for name in names})
+
+
+def test_a_wrong_curve_is_found():
+    assert curve_failure(CASE) == ""
+    assert curve_failure(CASE, altered(depth=lambda depth: 1.001 * depth)).startswith("depth")
+    assert "of a level off by 0.001" in curve_failure(CASE, altered(depth=lambda depth: 1.001 * depth))
+    assert "not finite or does not increase" in curve_failure(CASE, altered(force=lambda force: force[::-1]))
+    assert "not finite" in curve_failure(CASE, altered(stiffness=lambda stiffness: np.nan * stiffness))
+    assert curve_failure(CASE, thinned).startswith("depth at force")
+    short = replace(CASE, arguments=CASE.arguments | {"until_fraction": 1.0})
+    assert "stops at" in curve_failure(short, lambda indenter, **_: indent(indenter, until_fraction=0.5))
+
+
+def test_a_depth_before_the_first_given_one_is_checked():
+    case = RandomCurve(DISC, {"tolerance": 1e-4, "depths": [2.0, 3.0]})
+    assert curve_failure(case) == ""
+    # Of a stiffness that makes the first tangent pass through the origin.
+    straight = altered(stiffness=lambda stiffness: stiffness * 0 + indent(DISC, depths=[2.0]).force[0] / 2.0)
+    assert curve_failure(case, straight).startswith("depth before the first level off by")
+
+
+def test_a_warning_is_no_silent_failure():
+    def warning(indenter, **arguments):
+        warnings.warn("not as accurate", AccuracyWarning, stacklevel=1)
+        return thinned(indenter, **arguments)
+
+    assert curve_failure(CASE, warning) == ""

@@ -64,12 +64,12 @@ def test_a_kink_is_resolved(tolerance, start_fraction):
     assert np.abs(depth / events.depth_at(impulse) - 1).max() <= tolerance
 
 
-def test_the_bound_is_relaxed_only_where_elements_touch_evenly():
-    """On a rough surface twice the bound is accepted; where a plate touches at one depth it is not."""
+def test_the_bound_is_relaxed_only_where_a_small_error_is_predicted():
+    """On a rough surface twice the bound is accepted; where a plate begins to touch it is not."""
     excess = {}
     for name, indenter, depths in (
         ("rough", self_affine_disc(0.5, 129, seed=1), (0.6, 0.65)),
-        ("boss", boss_on_a_plate(56, 16), (1.3, 1.4)),
+        ("boss", boss_on_a_plate(56, 16), (1.3, 1.5)),
     ):
         solver, control = ContactSolver(indenter, 1e-6), StepControl(1e-3)
         contact = solver.advance(solver.unloaded_state(), depths[0] / 2 * solver.units.length)

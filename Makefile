@@ -84,6 +84,7 @@ test: environment docs
 
 bench: environment
 	$(BIN)/python benchmarks/curves.py --reproduction --cores $(CORES) --output results/benchmarks.json
+	$(BIN)/python benchmarks/strips.py --output results/strips.json
 
 speed: settings
 	$(SNAKEMAKE) -- speed

@@ -28,7 +28,8 @@ class LoadingCurve:
     operator_applications : number of applications of the half-space operator on the grid
     residual : largest remaining |gap| in contact or overlap outside it, over the depth, shape (levels,) [1]
 
-    Arrays are copied and read-only.
+    Arrays are copied and read-only. Raises ValueError without levels, for depths or forces that do not increase or are
+    not finite, and for stiffnesses that are not finite and positive, as overflow or a damaged file can produce.
     Read with G → η and F → ∫F dt it is the solution of the linearly viscous problem (Radok; paper, Sec. III).
     """
 
@@ -44,6 +45,14 @@ class LoadingCurve:
 
     def __post_init__(self):
         keep_read_only(self)
+        if self.depth.size == 0:
+            raise ValueError("loading curve: there is no level; at least one is needed")
+        for name in ("depth", "force"):
+            values = getattr(self, name)
+            if not (np.isfinite(values).all() and (np.diff(values, prepend=0) > 0).all()):
+                raise ValueError(f"loading curve: {name} must be finite, positive and increase from level to level")
+        if not (np.isfinite(self.stiffness).all() and (self.stiffness > 0).all()):
+            raise ValueError("loading curve: stiffness must be finite and positive")
 
     @property
     def contact_fraction(self):

@@ -2,7 +2,7 @@
 
 The curve is convex, so that between two levels it lies in the triangle of their tangents and their chord. This bounds
 the error of the interpolated depth in every interval, whatever the surface. On rough surfaces the error is far below
-the bound; twice the bound is accepted where the elements that join are predicted to touch evenly over the interval.
+the bound; three times the bound is accepted where the depths at which elements are predicted to touch make it so.
 """
 
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ _MAX_DEPTH_RATIO, _INITIAL_DEPTH_RATIO = 2.0, 1.15
 _EVENTS_PER_ACCURACY, _MAX_EVENTS = 0.4, 400
 # The next step aims at this share of the admissible bound, which is of second order in the logarithm of the depth
 # ratio; this logarithm changes by a factor between the last two numbers.
-_AIM, _ORDER, _LEAST_CHANGE, _LARGEST_CHANGE = 0.75, 2, 0.3, 2.0
+_AIM, _ORDER, _LEAST_CHANGE, _LARGEST_CHANGE = 0.7, 2, 0.3, 2.0
 # A step is divided within these shares of it.
 _DIVISION = 0.15, 0.85
 # Points of an interval at which the bound is evaluated, as shares of its force.
@@ -29,7 +29,8 @@ _POINTS = np.linspace(0, 1, 18)[1:-1]
 # An interval is accepted up to this multiple of the bound if the error predicted from the depths at which elements
 # touch is below this share of the accuracy. The prediction needs so many elements, and must agree with the force to
 # within these factors.
-_RELAXED_BOUND, _PREDICTED_ERROR, _PREDICTED_COUNT, _AGREEMENT = 2.0, 0.3, 10, (0.8, 1.25)
+_RELAXED_BOUND, _PREDICTED_ERROR, _PREDICTED_COUNT, _AGREEMENT = 3.0, 0.5, 10, (0.8, 1.25)
+_NEGLIGIBLE_BOUND = 0.15
 _TINY = 1e-30
 
 
@@ -77,6 +78,8 @@ class StepControl:
         before, after : Contacts
         """
         bound = interpolation_bound(Level.of(before), Level.of(after)) / self._accuracy
+        if not _NEGLIGIBLE_BOUND < bound < _RELAXED_BOUND:
+            return bound  # the step is to be divided, or the next one much longer, in any case
         is_smooth = _predicted_error(before, after) <= _PREDICTED_ERROR * self._accuracy
         return bound / _RELAXED_BOUND if is_smooth else bound
 

@@ -29,21 +29,6 @@ PER_CURVE = {
 }
 
 
-def check_curve(curve):
-    """Raise ValueError for an invalid LoadingCurve, as overflow or a damaged file can produce.
-
-    It needs at least one level, finite positive values, and depth and force that increase.
-    """
-    if curve.depth.size == 0:
-        raise ValueError("loading curve: there is no level; at least one is needed")
-    for name in ("depth", "force"):
-        values = getattr(curve, name)
-        if not (np.isfinite(values).all() and (np.diff(values, prepend=0) > 0).all()):
-            raise ValueError(f"loading curve: {name} must be finite, positive and increase from level to level")
-    if not (np.isfinite(curve.stiffness).all() and (curve.stiffness > 0).all()):
-        raise ValueError("loading curve: stiffness must be finite and positive")
-
-
 def level_attributes(name, length_unit):
     """Attributes of a variable of OVER_LEVELS: long_name and units, a power of the length unit."""
     long_name, power = OVER_LEVELS[name]
@@ -60,10 +45,7 @@ def curve_to_content(curve, length_unit="m"):
     """A LoadingCurve as the Content of a file: variables OVER_LEVELS on the dimension `level`, attributes PER_CURVE.
 
     length_unit : of the curve, as UDUNITS spells it; "1" if it is not known
-
-    Raises ValueError for an invalid curve (check_curve).
     """
-    check_curve(curve)
     variables = {
         name: Variable(("level",), getattr(curve, name), level_attributes(name, length_unit)) for name in OVER_LEVELS
     }
@@ -83,9 +65,7 @@ def curve_from_content(content):
         if name not in content.attributes:
             raise ValueError(f"no attribute {name}; a loading curve of viscorough indent is needed")
         curve_fields[name] = _converted(name, content.attributes[name], convert)
-    curve = LoadingCurve(**level_fields, **curve_fields)
-    check_curve(curve)
-    return curve
+    return LoadingCurve(**level_fields, **curve_fields)
 
 
 def _converted(name, value, kind):
@@ -103,13 +83,10 @@ def _converted(name, value, kind):
 def stack_curves(curves, length_unit="m"):
     """LoadingCurves as one Content over (realization, level), nan beyond each curve's last level.
 
-    Per realization: `levels`, the number of levels, and PER_CURVE. Raises ValueError for an empty list and
-    for an invalid curve (check_curve).
+    Per realization: `levels`, the number of levels, and PER_CURVE. Raises ValueError for an empty list.
     """
     if not curves:
         raise ValueError("stack_curves: there is no curve; at least one is needed")
-    for curve in curves:
-        check_curve(curve)
     levels = np.array([curve.depth.size for curve in curves])
     variables = {}
     for name in OVER_LEVELS:

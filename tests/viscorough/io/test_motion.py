@@ -22,7 +22,7 @@ def test_a_header_is_a_row_without_numbers(tmp_path, header):
 def test_a_first_row_with_a_number_is_no_header(tmp_path, first):
     """It would vanish, and with it the beginning of the history."""
     (tmp_path / "force.csv").write_text(f"{first}\n1,2\n2,3\n")
-    with pytest.raises(ValueError, match="not readable|each larger than|finite") as error:
+    with pytest.raises(ValueError, match=r"not readable|each larger than|finite") as error:
         impulses(*read_force_history(tmp_path / "force.csv")[::-1])
     one_line(error)
 

@@ -5,8 +5,8 @@
 Every command (`make paper`, `make speed`, ...) has its own figures and tables, which are copied into docs/results/ with
 their origin. Name the commands whose results are in the folder: some of the files also exist at a smaller scale. Those
 of paper include the verdicts and the calibrated law, those of seeds the dependence of the verdicts on the seed. Without
-results (`--pages-only`) only README.md and docs/verdicts.md are written, from docs/ and from the statements in
-resources/paper/claims.yaml. The workflow writes only into results/.
+results (`--pages-only`) only the tables in README.md and docs/ are written, from what was published before and from the
+statements in resources/paper/claims.yaml. The workflow writes only into results/.
 """
 
 import json
@@ -25,7 +25,8 @@ from viscorough_study.performance import timing
 from viscorough_study.verdicts import markdown, overall
 
 ROOT = Path(__file__).resolve().parents[1]
-BEGIN, END = "<!-- verdicts: by benchmarks/publish.py -->\n", "<!-- end of verdicts -->\n"
+BEGIN, END = "<!-- {}: by benchmarks/publish.py -->\n", "<!-- end of {} -->\n"
+OTHER_SOLVERS = "resources/published/other_solvers.csv"  # with which runs are compared that do not measure them
 # {command of make: files in results/ that it makes and that are published in docs/results/}
 PUBLISHED = {
     "paper": (
@@ -93,11 +94,34 @@ def other_seeds(published, seeds):
     return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False) + "\n"
 
 
+def other_solver_times():
+    """Times of other solvers over that of the loading path, as a table in Markdown, by task and Hurst exponent."""
+    table = pd.read_csv(ROOT / OTHER_SOLVERS)
+    solvers = list(dict.fromkeys(table["solver"]))
+    lines = [f"| | across | H | {' | '.join(solvers)} |", "|---|---|---" + len(solvers) * "|---" + "|"]
+    for (task, across, hurst), rows in table.groupby(["task", "elements", "hurst"], sort=False):
+        ratios = rows.set_index("solver")["ratio"]
+        cells = [f"{ratios[name]:.3g}" if name in ratios else "–" for name in solvers]
+        lines.append(f"| {task} | {across} | {hurst:g} | {' | '.join(cells)} |")
+    return "\n".join(lines) + "\n"
+
+
 def write_tables():
-    """Write the verdicts into README.md, a line each, and with all numbers into docs/verdicts.md."""
-    for page, table in (("README.md", verdict_lines()), ("docs/verdicts.md", verdicts())):
-        before, rest = (ROOT / page).read_text(encoding="utf-8").split(BEGIN)
-        (ROOT / page).write_text(before + BEGIN + "\n" + table + "\n" + END + rest.split(END)[1], encoding="utf-8")
+    """Write what is between the marks of a table: in README.md, docs/verdicts.md and docs/performance.md."""
+    tables = {("README.md", "verdicts"): verdict_lines(), ("docs/verdicts.md", "verdicts"): verdicts()}
+    tables["docs/performance.md", "other solvers"] = other_solver_times()
+    for (page, name), table in tables.items():
+        begin, end = BEGIN.format(name), END.format(name)
+        before, rest = (ROOT / page).read_text(encoding="utf-8").split(begin)
+        (ROOT / page).write_text(before + begin + "\n" + table + "\n" + end + rest.split(end)[1], encoding="utf-8")
+
+
+def copy_other_solvers(table, target, machine, date):
+    """Write the times of other solvers on one thread over that of the path, with date and machine."""
+    times = pd.read_csv(table).query("solver != 'viscorough' and threads == 1")
+    times = times[["task", "hurst", "elements", "levels", "solver", "version", "threads", "ratio"]]
+    times = times.assign(ratio=times["ratio"].map("{:.3g}".format), measured=date, machine=machine)
+    times.to_csv(target, index=False, lineterminator="\n")
 
 
 def copy_picture(file, target):
@@ -129,20 +153,25 @@ def copy_results(results, project, commands, commit):
                 shutil.copyfile(folder / file.name, project / "docs" / file.name)
             date = datetime.fromtimestamp(file.stat().st_mtime, UTC).date().isoformat()
             records[file.name] = {"command": f"make {command}", "date": date} | about
+            if file.name == "other_solvers.csv":
+                where = f"{machine['processor']}, {machine['cores']} cores"
+                copy_other_solvers(file, project / OTHER_SOLVERS, where, date)
     record_file.write_text(json.dumps(records, indent=1, sort_keys=True) + "\n", encoding="utf-8")
 
 
 @click.command(help=__doc__.splitlines()[0])
 @click.option("--results", type=click.Path(path_type=Path), default=ROOT / "results", show_default=True)
 @click.option("--command", "commands", type=click.Choice(list(PUBLISHED)), multiple=True, default=["paper"])
-@click.option("--pages-only", is_flag=True, help="Write README.md and docs/verdicts.md; take nothing from results.")
+@click.option(
+    "--pages-only", is_flag=True, help="Write only the tables in README.md and docs/; take nothing from results."
+)
 def main(results, commands, pages_only):
     if not pages_only:
         describe = ["git", "describe", "--always", "--dirty", "--exclude=*"]
         commit = subprocess.run(describe, cwd=ROOT, capture_output=True, text=True, check=True).stdout.strip()
         copy_results(results, ROOT, commands, commit)
     write_tables()
-    click.echo("written: README.md and docs/verdicts.md" + ("" if pages_only else f", what {', '.join(commands)} made"))
+    click.echo("written: tables in README.md and docs/" + ("" if pages_only else f", what {', '.join(commands)} made"))
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ SETTINGS ?=
 SNAKEMAKE = $(BIN)/snakemake --cores $(CORES) $(if $(SETTINGS),--configfile $(SETTINGS))
 
 .PHONY: help environment environment-slurm settings reproduce paper report test docs test-slurm bench speed stability \
-	sizes large faults seeds publish chaos peers lock lock-peers lock-slurm clean
+	sizes large fuzz faults seeds publish chaos peers lock lock-peers lock-slurm clean
 
 help:
 	@echo "make reproduce   the default reproduction: figures, tables and validation in results/"
@@ -21,6 +21,7 @@ help:
 	@echo "make stability   where each method fails, and 12000 small indenters against dense solutions; two minutes"
 	@echo "make sizes       exponents on grids from 65 to 1025 elements across, and on lines"
 	@echo "make large       time and memory of a disc of up to 4097 elements across, 13 million in all"
+	@echo "make fuzz        10000 random files and options, most of them bad, through the command line; six minutes"
 	@echo "make faults      faults planted in copies of the project, one at a time: how many do the tests catch?"
 	@echo "make seeds       the reproduction with three root seeds: does any verdict change?"
 	@echo "make publish     verdicts and numbers from results/ into README.md, docs/ and the package, after make paper"
@@ -98,6 +99,9 @@ sizes: settings
 
 large: settings
 	$(SNAKEMAKE) -- large
+
+fuzz: environment
+	$(BIN)/python benchmarks/fuzz.py --runs 10000 --output results/fuzz.json
 
 faults: environment
 	$(BIN)/python benchmarks/planted_faults.py --output results/planted_faults.json

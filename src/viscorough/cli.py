@@ -7,9 +7,9 @@ answered like a mistake. Modules that take long to import are imported by
 the commands that need them, so that help and messages come quickly.
 """
 
-import os
 import sys
 import warnings
+from signal import SIG_DFL
 
 import click
 
@@ -25,6 +25,7 @@ from viscorough.cli_options import (
     Increasing,
     PositiveNumber,
     check_not_an_input,
+    check_opens,
     output_option,
     printable_name,
     read_indenter,
@@ -114,6 +115,7 @@ def kinetics(curve, force, viscosity, output):
     from viscorough.viscous import correspondence
 
     check_output(output)
+    check_opens(curve)
     content = netcdf.read(curve)
     try:
         loading = curve_from_content(content)
@@ -250,11 +252,6 @@ def _integrate(indenter, method, steps, *, overlap, until_fraction):
     return march_steps(indenter, steps, scheme=method, **options)
 
 
-def _exit_at_once(*_):
-    """End the process on an interrupt: an exception raised in a callback of the compiler would be lost."""
-    os._exit(130)
-
-
 def main(arguments=None, commands=cli):
     """Run the command line and return its exit code.
 
@@ -266,7 +263,7 @@ def main(arguments=None, commands=cli):
     escape_letters_without_code()
     try:
         with (
-            on_interrupt(_exit_at_once),
+            on_interrupt(SIG_DFL),  # ends the process at once, also where libraries do not return to Python
             warnings.catch_warnings(record=True) as caught,
             commands.make_context("viscorough", arguments, obj=caught) as context,
         ):

@@ -1,5 +1,8 @@
 """What the commands of the command line share: types of options, and reading and writing of files."""
 
+import contextlib
+import os
+import threading
 import warnings
 from itertools import pairwise
 from pathlib import Path
@@ -7,6 +10,7 @@ from signal import default_int_handler
 
 import click
 
+from viscorough.cli_messages import complain
 from viscorough.errors import AccuracyWarning
 from viscorough.interrupts import on_interrupt
 
@@ -70,6 +74,36 @@ def printable_name(file):
     return file.name.encode(errors="backslashreplace").decode()
 
 
+@contextlib.contextmanager
+def time_limit(path, seconds=60):
+    """Context in which a NetCDF file is opened; if that takes too long, the process ends with one line and exit code 2.
+
+    Damage can make the HDF5 library run without end, where Python cannot interrupt it. Opening takes milliseconds.
+    """
+
+    def end():
+        text = f"{path}: not opened within {seconds:g} s, as can happen if it is damaged; a whole NetCDF file is needed"
+        complain(command, text)
+        os._exit(2)
+
+    command = click.get_current_context().command_path
+    timer = threading.Timer(seconds, end)
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
+
+
+def check_opens(path):
+    """Raise a one-line ValueError unless the NetCDF file can be opened, within a time limit."""
+    from viscorough.io import netcdf
+
+    with time_limit(path), netcdf.opened(path):
+        pass
+
+
 def read_indenter(heights, spacing, output):
     """The indenter in a file and its unit of length, read after a check that the output can be written.
 
@@ -80,6 +114,8 @@ def read_indenter(heights, spacing, output):
 
     check_output(output)
     check_not_an_input(output, heights, "heights")
+    if heights.suffix == ".nc":
+        check_opens(heights)
     indenter = read_heights(heights, spacing)
     if (slope := indenter.rms_slope) > _STEEP_SLOPE:
         text = f"{heights}: the rms slope is {slope:.2g}; the theory holds for small slopes, below about {_STEEP_SLOPE}"

@@ -65,6 +65,10 @@ def curve_from_content(content):
         if name not in content.attributes:
             raise ValueError(f"no attribute {name}; a loading curve of viscorough indent is needed")
         curve_fields[name] = _converted(name, content.attributes[name], convert)
+    for name in OVER_LEVELS:
+        values = content.variables[name].values if name in content.variables else np.zeros(0)
+        if values.dtype.kind not in "iuf" or not np.isfinite(values).all():
+            raise ValueError(f"{name} must be finite at every level; a loading curve of viscorough indent is needed")
     return LoadingCurve(**level_fields, **curve_fields)
 
 

@@ -2,6 +2,7 @@
 
 from contextlib import contextmanager
 from dataclasses import dataclass
+from pathlib import Path
 from typing import NamedTuple
 
 import netCDF4
@@ -82,6 +83,8 @@ def _write_variable(file, name, dimensions, values, attributes):
 def faults_named(path):
     """Context in which a file is read: any fault of it becomes a one-line ValueError that names it."""
     try:
+        if Path(path).is_fifo():  # opening it would wait for a writer
+            raise ValueError("it is a pipe")
         open(path, "rb").close()  # its message is clearer than that of the NetCDF library
         yield
     except (OSError, RuntimeError, ValueError, LookupError, TypeError, AttributeError) as error:

@@ -136,3 +136,12 @@ def test_stacked_curves_survive_files_exactly(tmp_path):
     np.testing.assert_array_equal(content.variables["elements"].values, [1009, 1009, 2])
     with pytest.raises(ValueError, match="at least one"):
         stack_curves([])
+
+
+@pytest.mark.parametrize("name", ["contact_count", "contact_fraction", "residual"])
+def test_every_variable_of_a_curve_is_finite(name):
+    good = curve_to_content(random_curve())
+    for values in (np.full(7, np.nan), np.full(7, "a")):
+        with pytest.raises(ValueError, match=name) as error:
+            curve_from_content(changed(good, name, lambda _, values=values: values))
+        one_line(error)

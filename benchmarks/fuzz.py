@@ -1,0 +1,199 @@
+"""Run the command line on random files and options, most of them bad: does it keep its contract?
+
+    python benchmarks/fuzz.py --runs 10000 --output results/fuzz.json
+
+Every run ends in one of two ways. Either the exit code is 0, the output file can be read and holds finite
+numbers, and standard error holds nothing but warnings of one line; or the exit code is 1 or 2, standard error holds one
+line, standard output nothing, and no file was made or changed, so that no code in a file was run either. `make fuzz`
+runs it. Runs come in blocks with a seed each; a failure is printed with the command that repeats its block.
+"""
+
+import contextlib
+import io
+import json
+import os
+import shutil
+import signal
+import sys
+import tempfile
+import threading
+import time
+import traceback
+from collections import Counter
+from importlib.metadata import version
+from pathlib import Path
+
+import click
+import hypothesis
+import numpy as np
+from fuzz_cases import STARTED, cases
+from tqdm import tqdm
+
+from viscorough import cli
+from viscorough.io import netcdf
+from viscorough.io.atomic import atomic_write
+from viscorough.io.curves import OVER_LEVELS
+from viscorough_study.performance import timing
+
+BLOCK = 100  # runs with one seed
+LONGEST = 120  # seconds that a run may take
+
+# ---- the contract
+
+
+def contents(folder):
+    return {path: path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
+
+
+def run(arguments):
+    """Exit code, stdout and stderr of the command line in a child process, which starts as a copy of this one."""
+    with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
+        child = os.fork()
+        if child == 0:
+            _run_in_child(arguments, out, err)
+        watch = threading.Timer(LONGEST, os.kill, (child, signal.SIGKILL))
+        watch.start()
+        _, status = os.waitpid(child, 0)
+        watch.cancel()
+        out.seek(0), err.seek(0)
+        return os.waitstatus_to_exitcode(status), out.read().decode(), err.read().decode()
+
+
+def _run_in_child(arguments, out, err):
+    code = 1
+    try:
+        os.dup2(out.fileno(), 1)
+        os.dup2(err.fileno(), 2)
+        sys.stdout, sys.stderr = (
+            io.TextIOWrapper(io.FileIO(number, "w"), "utf-8", "backslashreplace") for number in (1, 2)
+        )
+        code = cli.main(arguments)
+    except BaseException:
+        traceback.print_exc()
+    finally:
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(code)
+
+
+def result_of(folder, arguments, files):
+    """Exit code of a run, and how it breaks the contract, in words; empty if it keeps it. `folder` is emptied first."""
+    for path in folder.iterdir():
+        shutil.rmtree(path) if path.is_dir() and not path.is_symlink() else path.unlink()
+    for name, content in ({"older.nc": b"older"} | files).items():
+        (folder / name).write_bytes(content)
+    (folder / "folder").mkdir()
+    os.mkfifo(folder / "pipe")
+    (folder / "link.nc").symlink_to("older.nc")
+    (folder / "dangling.nc").symlink_to("out.nc")
+    before = contents(folder)
+    code, out, err = run(arguments)
+    return code, breach(arguments, (code, out, err), before, contents(folder))
+
+
+def breach(arguments, result, before, after):
+    """How the result of a run and the files before and after it break the contract, in words; empty if they keep it."""
+    code, out, err = result
+    changed = [path for path in sorted({*before, *after}) if before.get(path) != after.get(path)]
+    if any(path.name == STARTED for path in after):
+        return "code in a file was run"
+    if code not in (0, 1, 2):
+        return f"exit code {code}"
+    lines = err.splitlines()
+    if code:
+        if changed:
+            return f"exit code {code}, but {', '.join(path.name for path in changed)} changed"
+        if len(lines) != 1 or not err.endswith("\n") or not lines[0].startswith("viscorough") or out:
+            return f"exit code {code} with {len(lines)} lines on stderr: {err[:300]!r}, stdout {out[:100]!r}"
+        return ""
+    if not all(line.startswith(f"viscorough {arguments[0]}: warning: ") for line in lines):
+        return f"success with other than warnings on stderr: {err[:300]!r}"
+    if not changed and out.startswith(("Usage: viscorough", f"viscorough {version('viscorough')}")):
+        return ""
+    paths = {os.path.realpath(path) for path in changed}
+    return fault_of_output(changed[0]) if len(paths) == 1 else f"success, and {len(paths)} files changed"
+
+
+def fault_of_output(path):
+    """What is wrong with an output file, in words; empty if nothing is."""
+    try:
+        variables = netcdf.read(path).variables
+    except ValueError as error:
+        return f"the output cannot be read: {error}"
+    for name in {*OVER_LEVELS, "time", "velocity", "overlap"} & set(variables):
+        values = variables[name].values
+        if not values.size or not np.isfinite(values).all():
+            return f"the output has {name} = {values.tolist()}"
+        if name in ("depth", "time") and not (np.diff(values) >= 0).all():
+            return f"{name} does not increase in the output: {values.tolist()}"
+    return ""
+
+
+def breaches(seed, runs, folder):
+    """Breaches of the contract in a block of runs: a list of (arguments, words), and the number of each exit code."""
+    found, codes = [], Counter()
+
+    @hypothesis.seed(seed)
+    @hypothesis.settings(
+        max_examples=runs,
+        database=None,
+        deadline=None,
+        phases=[hypothesis.Phase.generate],
+        suppress_health_check=list(hypothesis.HealthCheck),
+    )
+    @hypothesis.given(cases())
+    def check(case):
+        arguments, files = case
+        code, words = result_of(folder, arguments, files)
+        codes[str(code)] += 1
+        if words:
+            found.append((arguments, words))
+
+    check()
+    return found, codes
+
+
+@contextlib.contextmanager
+def workplace():
+    """An empty folder, the working folder meanwhile; modules and compiled code are loaded once for all runs."""
+    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+        np.save("heights.npy", np.random.default_rng(0).random((7, 7)))
+        heights = ["heights.npy", "--spacing", "100", "-o", "curve.nc"]
+        commands = [
+            ["march", *heights, "--method", name, "--times", "1,9"] for name in ("explicit", "heun", "implicit")
+        ]
+        commands += [["march", *heights, "--method", "events"], ["indent", *heights]]
+        commands += [["kinetics", "curve.nc", "--force", "1", "--viscosity", "1", "-o", "curve.nc"]]
+        for arguments in commands:
+            with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+                assert cli.main(arguments) == 0, arguments
+        yield Path(folder)
+
+
+@click.command()
+@click.option("--runs", type=click.IntRange(1), default=10_000, show_default=True, help="Number of runs.")
+@click.option("--seed", type=click.IntRange(0), default=2013, show_default=True, help="Seed of the first block.")
+@click.option("--output", help="File to write, JSON.")
+def main(runs, seed, output):
+    """Count runs that break the contract; exit code 1 if there is any."""
+    began, failures, codes = time.perf_counter(), [], Counter()
+    with workplace() as folder:
+        for first in tqdm(range(0, runs, BLOCK), unit="block", mininterval=2):
+            block = seed + first // BLOCK
+            found, codes_of_block = breaches(block, min(BLOCK, runs - first), folder)
+            codes += codes_of_block
+            for arguments, words in found:
+                failures.append({"seed": block, "arguments": arguments, "breach": words})
+                repeat = f"python benchmarks/fuzz.py --seed {block} --runs {min(BLOCK, runs - first)}"
+                tqdm.write(f"{repeat}: viscorough {' '.join(map(repr, arguments))}: {words}")
+    about = {"machine": timing.machine(), "version": version("viscorough"), "seed": seed, "runs": runs}
+    result = about | {"seconds": round(time.perf_counter() - began, 1), "exit_codes": codes, "off_contract": failures}
+    if output:
+        with atomic_write(output) as temporary:
+            temporary.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+    click.echo(f"{len(failures)} of {runs} runs off the contract, exit codes {dict(codes)}, {result['seconds']} s")
+    raise SystemExit(bool(failures))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,306 @@
+"""Random command lines and the files that they name, most of them bad; strategies of hypothesis for fuzz.py."""
+
+import contextlib
+import io
+
+import netCDF4
+import numpy as np
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as array_strategies
+
+from viscorough.io.curves import curve_to_content
+from viscorough.io.motion import with_motion
+from viscorough.io.unpacking import STORAGE
+from viscorough.loading_curve import LoadingCurve
+
+STARTED = "code-was-run"  # the file that code in a file would make
+
+# ---- values
+
+
+class Payload:
+    """Makes a file when it is unpickled."""
+
+    def __reduce__(self):
+        return open, (STARTED, "w")
+
+
+EXTREME = [0.0, -0.0, -1.0, np.nan, np.inf, -np.inf, 5e-324, 1e-300, 1e300, 1.7e308, -1.7e308, 2.0**53 + 2]
+NUMBER_TYPES = ["f8", "f4", "f2", ">f8", ">f4", "g", "i1", "u1", "i2", ">i4", "i8", "u8"]
+OTHER_TYPES = ["?", "c16", "U3", "S2", "M8[s]", "m8[s]", "V4", "f8,i4"]
+SHAPES = array_strategies.array_shapes(min_dims=2, max_dims=2, max_side=7)
+ANY_SHAPE = array_strategies.array_shapes(min_dims=0, max_dims=3, min_side=0, max_side=4)
+TEXTS = st.text(max_size=8) | st.sampled_from(["m", "um", "1", "1e-6 m", "heights", "true", "9", "nan", "é"])
+PLAIN = st.floats(-100, 100) | st.integers(-9, 9).map(float)
+
+
+@st.composite
+def arrays(draw, shapes=SHAPES):
+    """Arrays of heights: rough, terraced, constant; with extreme entries; of any type."""
+    kind = np.dtype(draw(st.sampled_from([*["f8"] * 20, *NUMBER_TYPES, *OTHER_TYPES])))
+    shape = draw(shapes)
+    random = np.random.default_rng(draw(st.integers(0, 2**32)))
+    values = random.choice([random.standard_normal(shape), random.integers(0, 4, shape), np.zeros(shape)])
+    values = np.array(values * draw(st.sampled_from([1.0, 1.0, 1.0, 1e-2, 1e-9, 1e100, 1e307, 1e-300])))
+    for _ in range(draw(st.sampled_from([0, 0, 0, 1, 2])) if values.size else 0):
+        values.flat[draw(st.integers(0, values.size - 1))] = draw(st.sampled_from(EXTREME))
+    if draw(st.integers(0, 3)) == 0 and values.size:
+        values[random.random(shape) < 0.3] = np.nan
+    with np.errstate(all="ignore"):
+        try:
+            return values.astype(kind)
+        except (TypeError, ValueError):
+            return np.zeros(shape, kind)
+
+
+@st.composite
+def damaged(draw, content):
+    """Bytes with a fault: cut, changed, repeated, replaced; most of them without."""
+    whole = bytearray(draw(content))
+    fault = draw(st.sampled_from([*[None] * 12, "cut", "bits", "zeros", "tail", "none", "random", "double"]))
+    place = draw(st.integers(0, max(len(whole) - 1, 0)))
+    if fault == "cut":
+        return bytes(whole[:place])
+    if fault == "bits" and whole:
+        for _ in range(draw(st.integers(1, 4))):
+            whole[draw(st.integers(0, len(whole) - 1))] ^= 1 << draw(st.integers(0, 7))
+    if fault == "zeros":
+        whole[place : place + 64] = bytes(len(whole[place : place + 64]))
+    made = {
+        "none": b"",
+        "random": draw(st.binary(max_size=200)),
+        "double": bytes(whole) * 2,
+        "tail": bytes(whole) + b"x",
+    }
+    return made.get(fault, bytes(whole))
+
+
+# ---- files
+
+
+def npy_bytes(array, **options):
+    file = io.BytesIO()
+    np.lib.format.write_array(file, np.asarray(array), **options)
+    return file.getvalue()
+
+
+PICKLED = npy_bytes(np.array([[Payload(), 1.0]], dtype=object), allow_pickle=True)
+CALL = f"open('{STARTED}', 'w')"
+CODE = [
+    b"\x93NUMPY\x01\x00" + len(text).to_bytes(2, "little") + text
+    for text in (
+        CALL.encode(),
+        f"{{'descr': {CALL}, 'fortran_order': False, 'shape': (2, 2), }}".encode(),
+        b"{'descr': '<f8', 'fortran_order': False, 'shape': (10000000000, 10000000), }",
+        b"{'descr': '<f8', 'fortran_order': False, 'shape': (-1, 2), }",
+        b"(" * 4000,
+    )
+]
+
+
+def npy_files(shapes=SHAPES):
+    return st.one_of(*[damaged(arrays(shapes).map(npy_bytes))] * 6, st.sampled_from([PICKLED, *CODE]))
+
+
+@contextlib.contextmanager
+def in_memory(form="NETCDF4"):
+    """Context of a netCDF4.Dataset in memory and a bytearray that gets its bytes."""
+    content = bytearray()
+    file = netCDF4.Dataset("new.nc", "w", format=form, memory=4096)
+    yield file, content
+    content += file.close()
+
+
+ATTRIBUTES = st.one_of(
+    TEXTS,
+    st.sampled_from([*EXTREME, "", "nan", b"\xff", ["a", "b"], 3, np.int8(-1), np.float32(1e20), np.uint64(2**63)]),
+    st.lists(PLAIN, max_size=3).map(np.array),
+)
+ATTRIBUTE_NAMES = [*STORAGE, "units", "units", "long_name", "Conventions", "elements", "method", "title", "é"]
+
+
+def some_attributes(draw, most=3):
+    names = draw(st.lists(st.sampled_from(ATTRIBUTE_NAMES), max_size=most, unique=True))
+    return {name: draw(ATTRIBUTES) for name in names}
+
+
+def add_attributes(place, attributes):
+    """Add those attributes that the NetCDF library accepts."""
+    for name, value in attributes.items():
+        with contextlib.suppress(Exception):
+            place.setncattr(name, value)
+
+
+@st.composite
+def netcdf_heights(draw):
+    """NetCDF files with zero to two maps, packed or not, in any of the formats."""
+    form = draw(st.sampled_from(["NETCDF4", "NETCDF4", "NETCDF4_CLASSIC", "NETCDF3_CLASSIC", "NETCDF3_64BIT_DATA"]))
+    with in_memory(form) as (file, content):
+        for name in draw(st.lists(st.sampled_from(["heights", "z", "λ"]), min_size=1, max_size=2, unique=True)):
+            values = draw(arrays(SHAPES if draw(st.integers(0, 5)) else ANY_SHAPE))
+            with contextlib.suppress(Exception):  # types, fill values and names that the format lacks
+                add_variable(draw, file, name, values)
+        add_attributes(file, some_attributes(draw))
+    return bytes(content)
+
+
+def add_variable(draw, file, name, values):
+    dimensions = [f"{name}{axis}" for axis in range(values.ndim)]
+    for dimension, size in zip(dimensions, values.shape, strict=True):
+        file.createDimension(dimension, size if draw(st.integers(0, 9)) else None)
+    fill = draw(st.sampled_from([None, None, None, values.dtype.type(1)]))
+    kind, endian = (
+        str if values.dtype.kind == "U" else values.dtype,
+        "big" if values.dtype.byteorder == ">" else "native",
+    )
+    variable = file.createVariable(name, kind, dimensions, fill_value=fill, endian=endian)
+    variable.set_auto_maskandscale(False)
+    add_attributes(variable, some_attributes(draw, most=draw(st.sampled_from([0, 0, 3]))))
+    if draw(st.integers(0, 9)):
+        variable[...] = values.astype(object) if values.dtype.kind == "U" else values
+
+
+@st.composite
+def curve_files(draw):
+    """Files of loading curves, some with motion; with variables and attributes changed, added or removed."""
+    levels = draw(st.integers(1, 6))
+    random = np.random.default_rng(draw(st.integers(0, 2**32)))
+    steps = random.random((4, levels)) + 0.1
+    depth, force, stiffness, residual = np.cumsum(steps, axis=1) * draw(st.sampled_from([1.0, 1e-6, 1e150, 1e-160]))
+    count = np.arange(1, levels + 1)
+    curve = LoadingCurve(depth, force, stiffness, count, levels + 9, "boundary elements", 1e-3, 5, residual)
+    content = curve_to_content(curve, draw(st.sampled_from(["1", "m", "um"])))
+    if draw(st.booleans()):
+        content = with_motion(content, depth, force)
+    variables = {
+        name: [dims, values.copy(), dict(attributes)] for name, (dims, values, attributes) in content.variables.items()
+    }
+    for _ in range(draw(st.sampled_from([0, 0, 1, 1, 2]))):
+        name = draw(st.sampled_from(sorted(variables)))
+        change = draw(st.sampled_from(["entry", "type", "attributes", "missing", "added", "units"]))
+        if change == "entry":
+            with contextlib.suppress(IndexError, OverflowError, ValueError):
+                variables[name][1][draw(st.integers(0, levels - 1))] = draw(st.sampled_from(EXTREME))
+        elif change == "type":
+            with np.errstate(all="ignore"):
+                kind = draw(st.sampled_from(["S3", "i4", "f4", "u1"]))
+                variables[name][1] = np.nan_to_num(variables[name][1]).astype(kind)
+        elif change == "attributes":
+            variables[name][2].update(some_attributes(draw))
+        elif change == "units":
+            variables[name][2].pop("units", None)
+        elif change == "added":
+            values = draw(arrays(ANY_SHAPE))
+            variables["added"] = [tuple(f"d{axis}" for axis in range(values.ndim)), values, some_attributes(draw)]
+        elif len(variables) > 1:
+            del variables[name]
+    attributes = dict(content.attributes) | (some_attributes(draw) if draw(st.integers(0, 2)) == 0 else {})
+    return curve_bytes(variables, attributes)
+
+
+def curve_bytes(variables, attributes):
+    with in_memory() as (file, content):
+        for name, (dimensions, values, own) in variables.items():
+            with contextlib.suppress(Exception), np.errstate(all="ignore"):
+                for dimension, size in zip(dimensions, values.shape, strict=True):
+                    if dimension not in file.dimensions:
+                        file.createDimension(dimension, size)
+                fill = own.pop("_FillValue", None)
+                values = values.astype(values.dtype.newbyteorder("="))
+                variable = file.createVariable(name, values.dtype, dimensions, fill_value=fill)
+                variable.set_auto_maskandscale(False)
+                add_attributes(variable, own)
+                variable[...] = values
+        add_attributes(file, attributes)
+    return bytes(content)
+
+
+FIELDS = st.one_of(
+    st.integers(0, 9).map(str),
+    st.floats(0, 1e3).map(repr),
+    st.sampled_from(["nan", "inf", "-1", "1e400", "", "time", "1N", "0x1", "1_0", "٣", "#", '"1"', "\ufeff", "\x00"]),
+)
+ROWS = st.lists(st.lists(FIELDS, min_size=1, max_size=3).map(",".join), max_size=5)
+RISING = st.lists(st.integers(0, 5), min_size=2, max_size=5).map(
+    lambda forces: [f"{i},{f}" for i, f in enumerate(forces)]
+)
+HISTORIES = damaged(
+    st.one_of(RISING, RISING.map(lambda rows: ["t,F", *rows]), ROWS).map(lambda rows: "\n".join(rows).encode())
+)
+
+# ---- options
+
+NUMBERS = st.one_of(
+    st.floats(1e-3, 10).map(repr),
+    st.floats(1e-3, 10).map(repr),
+    st.floats().map(repr),
+    st.sampled_from([*map(repr, EXTREME), "", "a", "1e400", "1e-400", "1_0", "0x1", "１", " 1 ", "1,5", "--help", "-"]),
+)
+SERIES = st.one_of(
+    st.lists(st.floats(1e-3, 5), min_size=1, max_size=4, unique=True).map(sorted).map(lambda x: ",".join(map(repr, x))),
+    st.lists(NUMBERS, max_size=3).map(",".join),
+)
+SHARES = st.sampled_from(["0.5", "0.9", "1", "0.01"]) | NUMBERS
+OUTPUTS = ["out.nc"] * 12 + [
+    *["", ".", "/", "none/out.nc", "folder", "folder/out.nc", "out", "-", "a\nb.nc", "é.nc", "x" * 300, "pipe"],
+    *["heights.npy", "heights.nc", "force.csv", "curve.nc", "link.nc", "dangling.nc", "older.nc", "\udcff.nc"],
+]
+METHODS = [*["events", "explicit", "heun", "implicit"] * 4, "magic", ""]
+OPTIONS = {
+    "indent": {"--tolerance": SHARES, "--until-fraction": SHARES, "--depths": SERIES},
+    "kinetics": {"--force": NUMBERS, "--viscosity": NUMBERS},
+    "march": {
+        "--force": NUMBERS,
+        "--viscosity": NUMBERS,
+        "--times": SERIES,
+        "--overlap": SHARES,
+        "--until-fraction": SHARES,
+        "--force-history": st.sampled_from(["force.csv", "force.npy", "older.nc", "none.csv", "folder"]),
+    },
+}
+READ = {"indent": ["heights.npy", "heights.nc"], "kinetics": ["curve.nc"], "march": ["heights.npy", "heights.nc"]}
+ODD = ["--help", "--version", "--colour", "more.npy", "--", "-o", "\x00", "--tolerance=1e-2", "--force"]
+
+
+@st.composite
+def commands(draw):
+    """Command lines: mostly complete, some with missing, repeated or unknown arguments."""
+    command = draw(st.sampled_from(sorted(OPTIONS)))
+    rarely = st.integers(0, 19).map(lambda n: n == 0)
+    file = draw(
+        st.sampled_from(["none.npy", "folder", "older.nc", "pipe", ""])
+        if draw(rarely)
+        else st.sampled_from(READ[command])
+    )
+    given = [["-o", draw(st.sampled_from(OUTPUTS))]]
+    if command != "kinetics":
+        given.append(["--spacing", draw(NUMBERS if draw(st.integers(0, 3)) == 0 else st.sampled_from(["1", "0.5"]))])
+    if command == "march":
+        method = draw(st.sampled_from(METHODS))
+        given.append(["--method", method])
+        given += [["--times", draw(SERIES)]] if method not in ("events", "") and draw(st.integers(0, 4)) else []
+    if command == "kinetics":
+        given += [["--force", draw(NUMBERS)], ["--viscosity", draw(NUMBERS)]]
+    for name in draw(st.lists(st.sampled_from(sorted(OPTIONS[command])), max_size=2)):
+        given.append([name, draw(OPTIONS[command][name])])
+    given = [option for option in given if not draw(rarely)]
+    arguments = [command, file, *[text for option in given for text in option]]
+    if draw(rarely):
+        arguments.insert(draw(st.integers(0, len(arguments))), draw(st.sampled_from(ODD)))
+    return arguments
+
+
+FILES = {
+    "heights.npy": npy_files(),
+    "heights.nc": damaged(netcdf_heights()),
+    "curve.nc": damaged(curve_files()),
+    "force.csv": HISTORIES,
+    "force.npy": npy_files(array_strategies.array_shapes(min_dims=2, max_dims=2, min_side=2, max_side=2)),
+}
+
+
+@st.composite
+def cases(draw):
+    """A command line, and those files that it names."""
+    arguments = draw(commands())
+    return arguments, {name: draw(content) for name, content in FILES.items() if name in arguments}

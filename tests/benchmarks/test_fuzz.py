@@ -1,0 +1,147 @@
+"""Random files and options keep the contract of the command line; and the judge of it notices what breaks it."""
+
+import os
+import signal
+import time
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+
+from viscorough.io import netcdf
+
+
+@pytest.fixture(scope="module")
+def fuzz_cases(script):
+    return script("fuzz_cases")
+
+
+@pytest.fixture(scope="module")
+def fuzz(script, fuzz_cases):
+    """Imports fuzz_cases, which the fixture of that name has loaded."""
+    return script("fuzz")
+
+
+@pytest.fixture(scope="module")
+def folder(fuzz):
+    with fuzz.workplace() as folder:
+        yield folder
+
+
+def test_random_files_and_options_keep_the_contract(fuzz, folder):
+    found, codes = fuzz.breaches(2013, 200, folder)
+    assert found == []
+    assert codes["0"] > 20
+    assert codes["2"] > 100
+
+
+def test_every_kind_of_file_can_be_right(fuzz, folder, fuzz_cases):
+    """Otherwise the readers would only be tried with what they refuse."""
+    commands = {
+        "heights.npy": ["indent", "heights.npy", "--spacing", "1"],
+        "heights.nc": ["indent", "heights.nc", "--spacing", "1"],
+        "curve.nc": ["kinetics", "curve.nc", "--force", "1", "--viscosity", "1"],
+        "force.csv": ["march", "one.npy", "--spacing", "1", "--method", "events", "--force-history", "force.csv"],
+        "force.npy": ["march", "one.npy", "--spacing", "1", "--method", "events", "--force-history", "force.npy"],
+    }
+    assert set(commands) == set(fuzz_cases.FILES)
+    one = fuzz_cases.npy_bytes(np.zeros((1, 1)))
+
+    def codes_of(name):
+        codes = set()
+
+        @settings(max_examples=40, database=None, deadline=None, derandomize=True)
+        @given(fuzz_cases.FILES[name])
+        def run(content):
+            arguments = [*commands[name], "-o", "out.nc"]
+            code, words = fuzz.result_of(folder, arguments, {name: content, "one.npy": one})
+            assert not words
+            codes.add(code)
+
+        run()
+        return codes
+
+    for name in commands:
+        assert {0, 2} <= codes_of(name), name
+
+
+@pytest.mark.parametrize(
+    ("result", "changed", "what"),
+    [
+        ((2, "", "viscorough indent: wrong\n"), [], ""),
+        ((1, "", "viscorough indent: not converged\n"), [], ""),
+        ((2, "", "viscorough indent: wrong\n"), ["out.nc"], "exit code 2, but out.nc changed"),
+        ((2, "", "two\nlines\n"), [], "2 lines on stderr"),
+        ((2, "", ""), [], "0 lines on stderr"),
+        ((2, "out", "viscorough indent: wrong\n"), [], "stdout 'out'"),
+        ((-11, "", ""), [], "exit code -11"),
+        ((0, "", ""), [], "0 files changed"),
+        ((0, "", ""), ["a.nc", "b.nc"], "2 files changed"),
+        ((0, "", "Traceback\n"), ["out.nc"], "other than warnings"),
+        ((0, "", ""), ["code-was-run"], "code in a file was run"),
+        ((2, "", "viscorough indent: wrong\n"), ["code-was-run"], "code in a file was run"),
+    ],
+)
+def test_breaches_of_the_contract_are_noticed(fuzz, tmp_path, result, changed, what):
+    words = fuzz.breach(["indent"], result, {}, {tmp_path / name: b"" for name in changed})
+    assert what in words
+    assert bool(words) == bool(what)
+
+
+@pytest.mark.parametrize(
+    ("name", "values", "what"),
+    [
+        ("depth", [1.0, 2.0], ""),
+        ("depth", [1.0, np.nan], "the output has depth"),
+        ("force", [1.0, np.inf], "the output has force"),
+        ("time", [2.0, 1.0], "time does not increase"),
+        ("depth", [], "the output has depth"),
+    ],
+)
+def test_faults_of_outputs_are_noticed(fuzz, tmp_path, name, values, what):
+    variable = netcdf.Variable(("level",), np.array(values), {"long_name": name, "units": "m"})
+    netcdf.write(netcdf.Content({name: variable}, {}), tmp_path / "out.nc")
+    assert fuzz.fault_of_output(tmp_path / "out.nc").startswith(what)
+    assert bool(fuzz.fault_of_output(tmp_path / "out.nc")) == bool(what)
+    (tmp_path / "half.nc").write_bytes((tmp_path / "out.nc").read_bytes()[:100])
+    assert "cannot be read" in fuzz.fault_of_output(tmp_path / "half.nc")
+
+
+def test_code_in_a_file_would_be_run_by_a_careless_reader(fuzz_cases, folder):
+    (folder / "heights.npy").write_bytes(fuzz_cases.PICKLED)
+    np.load(folder / "heights.npy", allow_pickle=True)
+    assert (folder / fuzz_cases.STARTED).exists()
+
+
+@pytest.mark.parametrize("how", ["killed", "exception", "endless"])
+def test_ended_processes_exceptions_and_runs_without_end_are_noticed(fuzz, folder, monkeypatch, how):
+    def main(_):
+        if how == "killed":
+            os.kill(os.getpid(), signal.SIGTERM)
+        if how == "endless":
+            time.sleep(60)
+        raise ZeroDivisionError
+
+    monkeypatch.setattr(fuzz.cli, "main", main)
+    monkeypatch.setattr(fuzz, "LONGEST", 0.2 if how == "endless" else 60)
+    code, words = fuzz.result_of(folder, ["indent"], {})
+    assert code == {"killed": -signal.SIGTERM, "exception": 1, "endless": -signal.SIGKILL}[how]
+    assert ("lines on stderr: 'Traceback" if how == "exception" else f"exit code {code}") in words
+
+
+def test_run_is_that_of_the_command(fuzz, folder):
+    assert fuzz.run([]) == (2, "", "viscorough: Missing command; see viscorough --help\n")
+
+
+def test_a_block_of_runs_is_repeated_by_its_seed(fuzz, folder, monkeypatch):
+    """Commands and kinds of files; the HDF5 library writes the time into its files."""
+
+    def commands_of(seed):
+        seen = []
+        monkeypatch.setattr(
+            fuzz, "result_of", lambda _, arguments, files: (seen.append((arguments, {**files}.keys())), "")[::-1]
+        )
+        fuzz.breaches(seed, 20, folder)
+        return seen
+
+    assert commands_of(1) == commands_of(1) != commands_of(2)

@@ -21,7 +21,7 @@ help:
 	@echo "make stability   where each method fails, and 12000 small indenters against dense solutions; two minutes"
 	@echo "make sizes       exponents on grids from 65 to 1025 elements across, and on lines"
 	@echo "make large       time and memory of a disc of up to 4097 elements across, 13 million in all"
-	@echo "make fuzz        10000 random files and options, most of them bad, through the command line; six minutes"
+	@echo "make fuzz        10000 random files and options, most of them bad, through the command line; ten minutes"
 	@echo "make faults      faults planted in copies of the project, one at a time: how many do the tests catch?"
 	@echo "make seeds       the reproduction with three root seeds: does any verdict change?"
 	@echo "make publish     verdicts and numbers from results/ into README.md, docs/ and the package, after make paper"

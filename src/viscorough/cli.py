@@ -122,7 +122,7 @@ def kinetics(curve, force, viscosity, output):
     except ValueError as error:
         raise ValueError(f"{curve}: {error}") from error
     motion = correspondence.kinetics(loading, force, viscosity)
-    if not np.isfinite([motion.time, motion.velocity]).all():
+    if not (np.diff(motion.time, prepend=0) > 0).all() or not (motion.velocity > 0).all():
         raise ValueError(f"--force {force:g}, --viscosity {viscosity:g}: times overflow; closer values are allowed")
     write_output(
         with_motion(content, motion.time, motion.velocity),

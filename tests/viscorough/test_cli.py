@@ -195,7 +195,18 @@ MISTAKES = [
         for option in ("--force", "--viscosity")
         for value in ("0", "-1", "nan", "inf", "five")
     ],
-    ([*KINETICS, "--force", "1e-300", "--viscosity", "1e300"], "viscorough kinetics: ", "overflow"),
+    *[
+        ([*KINETICS, "--force", force, "--viscosity", viscosity], "viscorough kinetics: ", "overflow")
+        for force, viscosity in (("1e-300", "1e300"), ("1e300", "1e-300"))
+    ],
+    *[
+        (
+            ["march", *INDENT[1:], "--method", "events", "--force", force, "--viscosity", viscosity],
+            "viscorough march: ",
+            "times or velocities overflow",
+        )
+        for force, viscosity in (("1e-300", "1e300"), ("1e-10", "1.7e308"), ("1e300", "1e-300"))
+    ],
 ]
 
 

@@ -13,7 +13,12 @@ from viscorough.io.netcdf import Content, Variable
 
 
 def with_motion(content, time, velocity):
-    """The Content with time [s] and velocity [length unit of its depth per s] over levels added."""
+    """The Content with time [s] and velocity [length unit of its depth per s] over levels added.
+
+    Raises ValueError unless they are finite, which they are not where force and viscosity are too far apart.
+    """
+    if not np.isfinite([time, velocity]).all():
+        raise ValueError("times or velocities overflow; a force and a viscosity closer to each other are needed")
     unit = content.variables["depth"].attributes.get("units", "1")
     unit = "s-1" if unit == "1" else f"{unit} s-1"
     added = {

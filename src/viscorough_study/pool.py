@@ -54,7 +54,7 @@ def pool_batches(batches, conventions, x):
         pool = pool.assign_coords({name: ("realization", about[name], attributes)})
     pool["x"].attrs = {"long_name": "dimensionless force F/(4GhL) or time Ft/(4ηhL)", "units": "1"}
     pool["rms_convention"].attrs = {"long_name": "where the rms height h is measured"}
-    return pool.assign_attrs(settings=json.dumps(settings))
+    return pool.assign_attrs(title="Loading curves on common abscissae", settings=json.dumps(settings))
 
 
 def select(pool, **wanted):

@@ -10,7 +10,7 @@ COLUMNS = {
     "jobs": ("jobs of the rule", "1"),
     "seconds": ("wall time of all jobs", "s"),
     "longest_s": ("longest wall time of one job", "s"),
-    "memory_mb": ("largest resident memory of one job", "MB"),
+    "memory_mb": ("largest resident memory of one job", "Mbyte"),
 }
 
 

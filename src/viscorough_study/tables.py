@@ -1,23 +1,26 @@
-"""Tidy tables, written as CSV and NetCDF."""
+"""Tidy tables, written as CSV, NetCDF and HTML."""
+
+from pathlib import Path
 
 import xarray as xr
 
 from viscorough.io.atomic import atomic_write
 from viscorough.io.datasets import write_dataset
+from viscorough_study.html_table import html_table
 
 
-def write_table(table, csv_path, nc_path, *, columns, dimension, title):
-    """Write a tidy table (pandas.DataFrame, one case per row) as CSV and as NetCDF, each atomically.
+def write_table(table, csv_path, nc_path, html_path=None, *, columns, dimension, title, attributes=None):
+    """Write a tidy table (pandas.DataFrame, one case per row) as CSV, NetCDF and, if wanted, HTML, each atomically.
 
     columns : {column: (long_name, units)} for exactly the columns of the table; text has no units
-    dimension : name of the rows in the NetCDF file
+    dimension : name of the rows in the NetCDF file; attributes : its further global attributes
 
     Floats in the CSV have as many digits as reading them back exactly takes; missing values are empty there.
     Raises ValueError if columns and table differ.
     """
     if differing := sorted(set(columns) ^ set(table.columns)):
         raise ValueError(f"{nc_path}: table and descriptions differ in {', '.join(differing)}; both are needed")
-    ds = xr.Dataset(attrs={"title": title})
+    ds = xr.Dataset(attrs={"title": title} | (attributes or {}))
     for name, (long_name, units) in columns.items():
         values, attributes = table[name].to_numpy(), {"long_name": long_name, "units": units}
         if values.dtype.kind not in "biuf":
@@ -26,3 +29,6 @@ def write_table(table, csv_path, nc_path, *, columns, dimension, title):
     write_dataset(ds, nc_path)
     with atomic_write(csv_path) as temporary:
         table.to_csv(temporary, index=False, lineterminator="\n")
+    if html_path is not None:
+        with atomic_write(html_path) as temporary:
+            temporary.write_text(html_table(table, columns, title, Path(csv_path).name), encoding="utf-8")

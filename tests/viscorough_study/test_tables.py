@@ -25,15 +25,15 @@ def test_table_survives_both_files_exactly(tmp_path):
         "realizations": ("number of realizations", "1"),
         "passed": ("whether it agrees", "1"),
     }
-    files = tmp_path / "fits.csv", tmp_path / "fits.nc"
-    write_table(table, *files, columns=columns, dimension="fit", title="Fits")
+    files = [tmp_path / f"fits.{kind}" for kind in ("csv", "nc", "html")]
+    write_table(table, *files, columns=columns, dimension="fit", title="Fits", attributes={"decisive": 0})
     pd.testing.assert_frame_equal(pd.read_csv(files[0]), table, check_exact=True)
     ds = read_dataset(files[1])
     assert dict(ds.sizes) == {"fit": 3}
-    assert ds.title == "Fits"
+    assert (ds.title, ds.decisive) == ("Fits", 0)
     assert ds["beta"].attrs == {"long_name": "exponent of the power law", "units": "1"}
     pd.testing.assert_frame_equal(ds.to_dataframe(), table, check_exact=True, check_names=False, check_index_type=False)
     del columns["beta"]
     with pytest.raises(ValueError, match="beta"):
         write_table(table, tmp_path / "b.csv", tmp_path / "b.nc", columns=columns, dimension="fit", title="")
-    assert sorted(os.listdir(tmp_path)) == ["fits.csv", "fits.nc"]
+    assert sorted(os.listdir(tmp_path)) == ["fits.csv", "fits.html", "fits.nc"]

@@ -33,6 +33,19 @@ def test_rules_that_draw_only_draw():
         assert not (draws and "results/tables/" in text), name
 
 
+def test_report_is_in_chapters_with_the_same_labels():
+    """Else, columns of the report are half empty; tables are pages that open, not files to download."""
+    for name, text in rules().items():
+        reported = re.findall(r"report\(\n(.*?)\n        \)", text, re.DOTALL)
+        assert text.count("report(") == len(reported)
+        for result in reported:
+            assert re.search(r'^ +"results/[\w/]+\.(png|html)",$', result, re.MULTILINE), name
+            assert re.search(r'^ +category=chapter\("\w+"\),$', result, re.MULTILINE), name
+            assert re.search(
+                r'^ +labels=\{"result": "[^"]+", "kind": "(figure|table|page)"\},$', result, re.MULTILINE
+            ), name
+
+
 def test_functions_stand_apart_from_rules():
     for path in [ROOT / "Snakefile", *(ROOT / "workflow/rules").glob("*.smk")]:
         assert ("def " in path.read_text()) == (path.name == "common.smk")

@@ -7,6 +7,7 @@ import pandas as pd
 import pytest
 import xarray as xr
 
+from support.cf import violations
 from support.workflow import ROOT, TEST, load_script, plan, snakemake
 
 FIGURES = ("fig1_surfaces", "fig2_kinetics", "fig3_master_curve", "fig4_exponent", "conventions", "validation")
@@ -23,7 +24,25 @@ def test_every_figure_and_table_is_made(finished):
         csv = pd.read_csv(results / f"tables/{table}.csv")
         with xr.open_dataset(results / f"tables/{table}.nc") as nc:
             assert set(nc.variables) == set(csv.columns)
+        html = (results / f"tables/{table}.html").read_text()
+        assert html.count("<tr>") == len(csv) + 1
     assert (results / "tables/validation_passed.txt").read_text().startswith("sphere force\n")
+
+
+def test_files_follow_the_cf_conventions(finished):
+    """One of every kind: curves of discs and lines, pools, examples, tables."""
+    files = [path for path in (finished / "results").rglob("*.nc") if "curves" not in path.parts]
+    files += [finished / f"results/curves/{case}/0000-0001.nc" for case in ("discs/h04000_c1", "lines/h04000")]
+    assert len(files) == 2 + 1 + len(TABLES) + 2
+    for path in files:
+        assert violations(path) == [], path
+
+
+def test_small_scale_says_that_its_verdicts_mean_nothing(finished):
+    with xr.open_dataset(finished / "results/tables/claims.nc") as claims:
+        assert (claims.decisive, claims.elements_across, claims.realizations) == (0, 33, 4)
+        assert "the verdicts mean nothing" in claims.scale
+    assert "the verdicts mean nothing" in (finished / "results/tables/claims.html").read_text()
 
 
 def test_surfaces_of_ensembles_are_not_stored(finished):
@@ -42,9 +61,9 @@ def test_every_job_has_a_log_and_a_benchmark(finished, tmp_path):
     logs = stems("results/logs", ".log")
     assert logs == stems("results/benchmarks", ".tsv")
     assert len(logs) == 30
-    files = tmp_path / "costs.csv", tmp_path / "costs.nc"
-    load_script("tabulate_rule_costs").main(*files, benchmarks=finished / "results/benchmarks")
-    table = pd.read_csv(files[0]).set_index("rule")
+    files = {kind: tmp_path / f"costs.{kind}" for kind in ("csv", "html", "nc")}
+    load_script("tabulate_rule_costs").main(**files, benchmarks=finished / "results/benchmarks")
+    table = pd.read_csv(files["csv"]).set_index("rule")
     assert table["jobs"].sum() == 30
     assert table.loc["indent_discs", "jobs"] == 6
     assert (table["longest_s"] <= table["seconds"]).all()
@@ -93,10 +112,17 @@ def test_deleted_curves_are_made_again_by_a_target(finished):
 
 
 def test_report(finished):
-    snakemake(finished, *TEST, "--report", "report.html")
+    snakemake(finished, *TEST, "--report", "report.html", cores=None)
     page = (finished / "report.html").read_text()
-    for text in ("fig4_exponent.png", "scaling.csv", "Beyond the paper", "collapse"):
+    for text in ("fig4_exponent.png", "scaling.html", "4 Conventions and validation", "collapse"):
         assert text in page
+
+
+def test_report_with_other_settings_is_refused_in_one_line(finished):
+    output = snakemake(finished, "--report", "report.html", cores=None, fails=True)
+    assert output.splitlines()[-1].startswith("Error: results were not made with these settings and sources; run the")
+    assert "Traceback" not in output
+    assert not (finished / "report.html").exists()
 
 
 def test_a_figure_by_its_name_leaves_the_others(finished):

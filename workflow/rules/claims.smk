@@ -3,11 +3,12 @@
 
 rule compare_direct:
     output:
-        csv=report(
-            "results/tables/direct.csv",
+        csv="results/tables/direct.csv",
+        html=report(
+            "results/tables/direct.html",
             caption="../report/direct_table.rst",
-            category="Verdicts",
-            labels={"table": "direct integration and both readings of the law"},
+            category=chapter("verdicts"),
+            labels={"result": "direct integration and both readings of the law", "kind": "table"},
         ),
         nc="results/tables/direct.nc",
     log:
@@ -37,8 +38,8 @@ rule plot_direct:
         png=report(
             "results/figures/direct.png",
             caption="../report/direct.rst",
-            category="Verdicts",
-            labels={"figure": "direct integration and both readings of the law"},
+            category=chapter("verdicts"),
+            labels={"result": "direct integration and both readings of the law", "kind": "figure"},
         ),
         pdf="results/figures/direct.pdf",
     log:
@@ -64,11 +65,12 @@ rule judge_claims:
         validation=rules.validate.output.csv,
         direct=rules.compare_direct.output.csv,
     output:
-        csv=report(
-            "results/tables/claims.csv",
+        csv="results/tables/claims.csv",
+        html=report(
+            "results/tables/claims.html",
             caption="../report/claims.rst",
-            category="Verdicts",
-            labels={"table": "verdicts on the paper's claims"},
+            category=chapter("verdicts"),
+            labels={"result": "verdicts on the paper's claims", "kind": "table"},
         ),
         nc="results/tables/claims.nc",
         verdicts="results/tables/claims.md",
@@ -101,11 +103,12 @@ rule compare_prefactors:
     input:
         scaling=rules.fit_scaling.output.csv,
     output:
-        csv=report(
-            "results/tables/prefactors.csv",
+        csv="results/tables/prefactors.csv",
+        html=report(
+            "results/tables/prefactors.html",
             caption="../report/prefactors_table.rst",
-            category="Verdicts",
-            labels={"table": "zeta under every convention"},
+            category=chapter("verdicts"),
+            labels={"result": "zeta under every convention", "kind": "table"},
         ),
         nc="results/tables/prefactors.nc",
     log:
@@ -131,8 +134,8 @@ rule plot_prefactors:
         png=report(
             "results/figures/prefactors.png",
             caption="../report/prefactors.rst",
-            category="Verdicts",
-            labels={"figure": "zeta under every convention"},
+            category=chapter("verdicts"),
+            labels={"result": "zeta under every convention", "kind": "figure"},
         ),
         pdf="results/figures/prefactors.pdf",
     log:
@@ -155,11 +158,12 @@ rule plot_prefactors:
 
 rule compare_reduction:
     output:
-        csv=report(
-            "results/tables/reduction.csv",
+        csv="results/tables/reduction.csv",
+        html=report(
+            "results/tables/reduction.html",
             caption="../report/reduction_table.rst",
-            category="Verdicts",
-            labels={"table": "MDR, surface by surface"},
+            category=chapter("verdicts"),
+            labels={"result": "MDR, surface by surface", "kind": "table"},
         ),
         nc="results/tables/reduction.nc",
     log:
@@ -191,8 +195,8 @@ rule plot_reduction:
         png=report(
             "results/figures/reduction.png",
             caption="../report/reduction.rst",
-            category="Verdicts",
-            labels={"figure": "MDR, surface by surface"},
+            category=chapter("verdicts"),
+            labels={"result": "MDR, surface by surface", "kind": "figure"},
         ),
         pdf="results/figures/reduction.pdf",
     log:

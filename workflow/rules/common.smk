@@ -125,6 +125,41 @@ def adapter_digests():
     return [SOURCES.digest(path) for path in sorted((WORKFLOW / "peers").glob("*.py"))]
 
 
+# ---- report
+
+# Categories of the report, which sorts them by name.
+CHAPTERS = (
+    ("summary", "1 Summary"),
+    ("figures", "2 Figures of the paper"),
+    ("verdicts", "3 Verdicts"),
+    ("choices", "4 Conventions and validation"),
+    ("fits", "5 Fits"),
+    ("speed", "6 Speed and accuracy"),
+    ("failures", "7 Where methods fail"),
+    ("sizes", "8 Grids from coarse to fine"),
+    ("costs", "9 Costs"),
+)
+
+
+def chapter(name):
+    """Category of a result; a function, because Snakemake calls those of categories only when it makes a report."""
+
+    def category(wildcards):
+        require_current()
+        return dict(CHAPTERS)[name]
+
+    return category
+
+
+def require_current():
+    """End with one line if jobs would have to run for the report: its captions would not describe the results."""
+    if outdated := sorted({job.rule.name for job in workflow.dag.needrun_jobs() if job.output}):
+        raise SystemExit(
+            "Error: results were not made with these settings and sources; run the workflow first, or give the settings "
+            f"that they were made with. Outdated or missing: {', '.join(outdated[:5])}{', ...' * (len(outdated) > 5)}"
+        )
+
+
 # ---- memory of a job [MB]
 
 

@@ -31,8 +31,8 @@ rule plot_surfaces:
         png=report(
             "results/figures/fig1_surfaces.png",
             caption="../report/fig1_surfaces.rst",
-            category="Paper",
-            labels={"figure": "1, surfaces"},
+            category=chapter("figures"),
+            labels={"result": "1, surfaces", "kind": "figure"},
         ),
         pdf="results/figures/fig1_surfaces.pdf",
     log:
@@ -59,8 +59,8 @@ rule plot_kinetics:
         png=report(
             "results/figures/fig2_kinetics.png",
             caption="../report/fig2_kinetics.rst",
-            category="Paper",
-            labels={"figure": "2, kinetics"},
+            category=chapter("figures"),
+            labels={"result": "2, kinetics", "kind": "figure"},
         ),
         pdf="results/figures/fig2_kinetics.pdf",
     log:
@@ -92,8 +92,8 @@ rule plot_master_curve:
         png=report(
             "results/figures/fig3_master_curve.png",
             caption="../report/fig3_master_curve.rst",
-            category="Paper",
-            labels={"figure": "3, master curve"},
+            category=chapter("figures"),
+            labels={"result": "3, master curve", "kind": "figure"},
         ),
         pdf="results/figures/fig3_master_curve.pdf",
     log:
@@ -122,8 +122,8 @@ rule plot_exponent:
         png=report(
             "results/figures/fig4_exponent.png",
             caption="../report/fig4_exponent.rst",
-            category="Paper",
-            labels={"figure": "4, exponent"},
+            category=chapter("figures"),
+            labels={"result": "4, exponent", "kind": "figure"},
         ),
         pdf="results/figures/fig4_exponent.pdf",
     log:
@@ -152,8 +152,8 @@ rule plot_conventions:
         png=report(
             "results/figures/conventions.png",
             caption="../report/conventions.rst",
-            category="Beyond the paper",
-            labels={"figure": "what the conventions do"},
+            category=chapter("choices"),
+            labels={"result": "what the conventions do", "kind": "figure"},
         ),
         pdf="results/figures/conventions.pdf",
     log:

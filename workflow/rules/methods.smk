@@ -33,11 +33,12 @@ rule tabulate_methods:
     input:
         tables=expand("results/methods/{problem}.csv", problem=PROBLEMS),
     output:
-        csv=report(
-            "results/tables/methods.csv",
+        csv="results/tables/methods.csv",
+        html=report(
+            "results/tables/methods.html",
             caption="../report/methods_table.rst",
-            category="Methods",
-            labels={"table": "speed and accuracy"},
+            category=chapter("speed"),
+            labels={"result": "speed and accuracy", "kind": "table"},
         ),
         nc="results/tables/methods.nc",
     log:
@@ -58,11 +59,12 @@ rule tabulate_methods:
 
 rule time_other_solvers:
     output:
-        csv=report(
-            "results/tables/other_solvers.csv",
+        csv="results/tables/other_solvers.csv",
+        html=report(
+            "results/tables/other_solvers.html",
             caption="../report/other_solvers_table.rst",
-            category="Methods",
-            labels={"table": "comparison with other solvers"},
+            category=chapter("speed"),
+            labels={"result": "comparison with other solvers", "kind": "table"},
         ),
         nc="results/tables/other_solvers.nc",
     log:
@@ -90,11 +92,12 @@ rule time_other_solvers:
 
 rule compare_level_placement:
     output:
-        csv=report(
-            "results/tables/level_placement.csv",
+        csv="results/tables/level_placement.csv",
+        html=report(
+            "results/tables/level_placement.html",
             caption="../report/level_placement_table.rst",
-            category="Methods",
-            labels={"table": "placement of levels"},
+            category=chapter("speed"),
+            labels={"result": "placement of levels", "kind": "table"},
         ),
         nc="results/tables/level_placement.nc",
     log:
@@ -123,8 +126,8 @@ rule plot_speed:
         png=report(
             "results/figures/speed.png",
             caption="../report/speed.rst",
-            category="Methods",
-            labels={"figure": "speed against accuracy"},
+            category=chapter("speed"),
+            labels={"result": "speed against accuracy", "kind": "figure"},
         ),
         pdf="results/figures/speed.pdf",
     log:
@@ -150,8 +153,8 @@ rule plot_all_methods:
         png=report(
             "results/figures/all_methods.png",
             caption="../report/all_methods.rst",
-            category="Methods",
-            labels={"figure": "speed against accuracy, all methods"},
+            category=chapter("speed"),
+            labels={"result": "speed against accuracy, all methods", "kind": "figure"},
         ),
         pdf="results/figures/all_methods.pdf",
     log:
@@ -177,8 +180,8 @@ rule plot_growth:
         png=report(
             "results/figures/growth.png",
             caption="../report/growth.rst",
-            category="Methods",
-            labels={"figure": "cost against number of elements"},
+            category=chapter("speed"),
+            labels={"result": "cost against number of elements", "kind": "figure"},
         ),
         pdf="results/figures/growth.pdf",
     log:
@@ -204,8 +207,8 @@ rule plot_other_solvers:
         png=report(
             "results/figures/other_solvers.png",
             caption="../report/other_solvers.rst",
-            category="Methods",
-            labels={"figure": "other solvers"},
+            category=chapter("speed"),
+            labels={"result": "other solvers", "kind": "figure"},
         ),
         pdf="results/figures/other_solvers.pdf",
     log:
@@ -231,8 +234,8 @@ rule plot_level_placement:
         png=report(
             "results/figures/level_placement.png",
             caption="../report/level_placement.rst",
-            category="Methods",
-            labels={"figure": "placement of levels"},
+            category=chapter("speed"),
+            labels={"result": "placement of levels", "kind": "figure"},
         ),
         pdf="results/figures/level_placement.pdf",
     log:

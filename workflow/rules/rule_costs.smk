@@ -5,11 +5,12 @@ rule tabulate_rule_costs:
     input:
         rules.all.input,
     output:
-        csv=report(
-            "results/tables/rule_costs.csv",
+        csv="results/tables/rule_costs.csv",
+        html=report(
+            "results/tables/rule_costs.html",
             caption="../report/rule_costs.rst",
-            category="Costs",
-            labels={"table": "time and memory of every rule"},
+            category=chapter("costs"),
+            labels={"result": "time and memory of every rule", "kind": "table"},
         ),
         nc="results/tables/rule_costs.nc",
     log:

@@ -6,11 +6,12 @@ rule fit_scaling:
         discs="results/ensembles/discs.nc",
         lines="results/ensembles/lines.nc",
     output:
-        csv=report(
-            "results/tables/scaling.csv",
+        csv="results/tables/scaling.csv",
+        html=report(
+            "results/tables/scaling.html",
             caption="../report/scaling.rst",
-            category="Tables",
-            labels={"table": "power laws in region (b)"},
+            category=chapter("fits"),
+            labels={"result": "power laws in region (b)", "kind": "table"},
         ),
         nc="results/tables/scaling.nc",
     log:
@@ -36,11 +37,12 @@ rule tabulate_calibration:
     input:
         scaling=rules.fit_scaling.output.csv,
     output:
-        csv=report(
-            "results/tables/calibration.csv",
+        csv="results/tables/calibration.csv",
+        html=report(
+            "results/tables/calibration.html",
             caption="../report/calibration.rst",
-            category="Tables",
-            labels={"table": "calibrated exponents and prefactors"},
+            category=chapter("fits"),
+            labels={"result": "calibrated exponents and prefactors", "kind": "table"},
         ),
         nc="results/tables/calibration.nc",
     log:

@@ -6,18 +6,20 @@ rule fit_sizes:
         discs="results/ensembles/size_discs.nc",
         lines="results/ensembles/size_lines.nc",
     output:
-        csv=report(
-            "results/tables/sizes.csv",
+        csv="results/tables/sizes.csv",
+        html=report(
+            "results/tables/sizes.html",
             caption="../report/sizes_table.rst",
-            category="Sizes",
-            labels={"table": "exponents on grids from coarse to fine"},
+            category=chapter("sizes"),
+            labels={"result": "exponents on grids from coarse to fine", "kind": "table"},
         ),
         nc="results/tables/sizes.nc",
-        trends_csv=report(
-            "results/tables/sizes_trends.csv",
+        trends_csv="results/tables/sizes_trends.csv",
+        trends_html=report(
+            "results/tables/sizes_trends.html",
             caption="../report/sizes_trends.rst",
-            category="Sizes",
-            labels={"table": "trends of exponents over the grid"},
+            category=chapter("sizes"),
+            labels={"result": "trends of exponents over the grid", "kind": "table"},
         ),
         trends_nc="results/tables/sizes_trends.nc",
     log:
@@ -48,8 +50,8 @@ rule plot_sizes:
         png=report(
             "results/figures/sizes.png",
             caption="../report/sizes.rst",
-            category="Sizes",
-            labels={"figure": "exponents on grids from coarse to fine"},
+            category=chapter("sizes"),
+            labels={"result": "exponents on grids from coarse to fine", "kind": "figure"},
         ),
         pdf="results/figures/sizes.pdf",
     log:
@@ -99,11 +101,12 @@ rule tabulate_large:
     input:
         costs=expand(rules.measure_large.output.csv, elements=config["large"]["elements"]),
     output:
-        csv=report(
-            "results/tables/large.csv",
+        csv="results/tables/large.csv",
+        html=report(
+            "results/tables/large.html",
             caption="../report/large_table.rst",
-            category="Sizes",
-            labels={"table": "cost of one disc"},
+            category=chapter("sizes"),
+            labels={"result": "cost of one disc", "kind": "table"},
         ),
         nc="results/tables/large.nc",
     log:
@@ -129,8 +132,8 @@ rule plot_large:
         png=report(
             "results/figures/large.png",
             caption="../report/large.rst",
-            category="Sizes",
-            labels={"figure": "cost of one disc"},
+            category=chapter("sizes"),
+            labels={"result": "cost of one disc", "kind": "figure"},
         ),
         pdf="results/figures/large.pdf",
     log:

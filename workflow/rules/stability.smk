@@ -3,11 +3,12 @@
 
 rule map_failures:
     output:
-        csv=report(
-            "results/tables/failure_map.csv",
+        csv="results/tables/failure_map.csv",
+        html=report(
+            "results/tables/failure_map.html",
             caption="../report/failure_map_table.rst",
-            category="Stability",
-            labels={"table": "every method in every stress-test case"},
+            category=chapter("failures"),
+            labels={"result": "every method in every stress-test case", "kind": "table"},
         ),
         nc="results/tables/failure_map.nc",
     log:
@@ -58,8 +59,8 @@ rule plot_failure_map:
         png=report(
             "results/figures/failure_map.png",
             caption="../report/failure_map.rst",
-            category="Stability",
-            labels={"figure": "every method in every stress-test case"},
+            category=chapter("failures"),
+            labels={"result": "every method in every stress-test case", "kind": "figure"},
         ),
         pdf="results/figures/failure_map.pdf",
     log:
@@ -85,8 +86,8 @@ rule plot_failure_curves:
         png=report(
             "results/figures/failure_curves.png",
             caption="../report/failure_curves.rst",
-            category="Stability",
-            labels={"figure": "errors against steps and contact"},
+            category=chapter("failures"),
+            labels={"result": "errors against steps and contact", "kind": "figure"},
         ),
         pdf="results/figures/failure_curves.pdf",
     log:

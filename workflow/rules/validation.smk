@@ -3,11 +3,12 @@
 
 rule validate:
     output:
-        csv=report(
-            "results/tables/validation.csv",
+        csv="results/tables/validation.csv",
+        html=report(
+            "results/tables/validation.html",
             caption="../report/validation_table.rst",
-            category="Tables",
-            labels={"table": "comparison with exact solutions"},
+            category=chapter("fits"),
+            labels={"result": "comparison with exact solutions", "kind": "table"},
         ),
         nc="results/tables/validation.nc",
     log:
@@ -57,8 +58,8 @@ rule plot_validation:
         png=report(
             "results/figures/validation.png",
             caption="../report/validation.rst",
-            category="Beyond the paper",
-            labels={"figure": "comparison with exact solutions"},
+            category=chapter("choices"),
+            labels={"result": "comparison with exact solutions", "kind": "figure"},
         ),
         pdf="results/figures/validation.pdf",
     log:

@@ -11,12 +11,12 @@ from viscorough_study.performance.level_placement import COLUMNS, compare, scene
 from viscorough_study.tables import write_table
 
 
-def main(csv, nc, *, seed, repeats, elements, hurst):
+def main(csv, html, nc, *, seed, repeats, elements, hurst):
     """Compare the choices for every scene."""
     with threadpool_limits(1):  # Snakemake gives the job all cores, so that nothing runs beside it
         table = pd.concat([compare(scene, repeats, logging.info) for scene in scenes(elements, hurst, seed)])
     title = f"Levels chosen for a scene, on {timing.machine()}"
-    write_table(table, csv, nc, columns=COLUMNS, dimension="choice", title=title)
+    write_table(table, csv, nc, html, columns=COLUMNS, dimension="choice", title=title)
 
 
 if job := globals().get("snakemake"):

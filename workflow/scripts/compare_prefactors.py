@@ -7,10 +7,10 @@ from viscorough_study.prefactors import COLUMNS, prefactors
 from viscorough_study.tables import write_table
 
 
-def main(scaling, csv, nc):
+def main(scaling, csv, html, nc):
     """Tabulate the prefactors of the scaling table."""
     table = prefactors(pd.read_csv(scaling))
-    write_table(table, csv, nc, columns=COLUMNS, dimension="fit", title="Prefactor under every convention")
+    write_table(table, csv, nc, html, columns=COLUMNS, dimension="fit", title="Prefactor under every convention")
 
 
 if job := globals().get("snakemake"):

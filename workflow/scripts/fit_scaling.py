@@ -11,7 +11,7 @@ from viscorough_study.pool import ensembles, select
 from viscorough_study.tables import write_table
 
 
-def main(discs, lines, csv, nc, *, seed, fit):
+def main(discs, lines, csv, html, nc, *, seed, fit):
     """Fit discs, one ensemble for each group and Hurst exponent, and lines; lines of the same exponent give lambda.
 
     discs, lines : pools; fit : further arguments of fit_rows
@@ -27,7 +27,7 @@ def main(discs, lines, csv, nc, *, seed, fit):
         logging.info("lines, H = %g", hurst)
         rows += fit_rows(ensemble, source="lines", case_group="base", seed=seed, **fit)
     table = pd.DataFrame(rows, columns=list(COLUMNS))
-    write_table(table, csv, nc, columns=COLUMNS, dimension="fit", title="Power laws in region (b)")
+    write_table(table, csv, nc, html, columns=COLUMNS, dimension="fit", title="Power laws in region (b)")
 
 
 if job := globals().get("snakemake"):

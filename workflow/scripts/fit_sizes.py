@@ -11,7 +11,7 @@ from viscorough_study.pool import ensembles, select
 from viscorough_study.tables import write_table
 
 
-def main(discs, lines, csv, nc, trends_csv, trends_nc, *, seed, fit, conventions, tolerance):
+def main(discs, lines, csv, html, nc, trends_csv, trends_html, trends_nc, *, seed, fit, conventions, tolerance):
     """Fit every ensemble by itself.
 
     discs, lines : pools; fit : further arguments of fit_rows; conventions : those of the figures
@@ -26,9 +26,9 @@ def main(discs, lines, csv, nc, trends_csv, trends_nc, *, seed, fit, conventions
             rows += [row | {"elements": ensemble["elements"].item()} for row in fits]
     columns = COLUMNS | {"elements": ("elements of an indenter: of a disc, points of a line", "1")}
     table = pd.DataFrame(rows, columns=list(columns))
-    write_table(table, csv, nc, columns=columns, dimension="fit", title="Power laws on grids from coarse to fine")
+    write_table(table, csv, nc, html, columns=columns, dimension="fit", title="Power laws on grids from coarse to fine")
     about = {"columns": TRENDS, "dimension": "trend", "title": "Trends of exponents over the number of elements"}
-    write_table(trends(table, conventions, tolerance), trends_csv, trends_nc, **about)
+    write_table(trends(table, conventions, tolerance), trends_csv, trends_nc, trends_html, **about)
 
 
 if job := globals().get("snakemake"):

@@ -22,7 +22,7 @@ def main(surfaces, *, seed, spawn_keys, elements, discs):
         "heights": (("hurst", "y", "x"), np.array(heights), {"long_name": "height over rms height", "units": "1"}),
         "spacing": ((), 1 / elements, {"long_name": "spacing of the grid over diameter", "units": "1"}),
     }
-    coords = {"hurst": [disc["hurst"] for disc in discs]}
+    coords = {"hurst": ("hurst", [disc["hurst"] for disc in discs], {"long_name": "Hurst exponent", "units": "1"})}
     write_dataset(xr.Dataset(variables, coords, {"title": "Examples of self-affine discs"}), surfaces)
 
 

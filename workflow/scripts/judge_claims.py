@@ -7,11 +7,12 @@ from viscorough.io.datasets import read_dataset
 from viscorough_study.evidence import Evidence
 from viscorough_study.job_log import log_to
 from viscorough_study.pool import select
+from viscorough_study.scale import scale
 from viscorough_study.tables import write_table
 from viscorough_study.verdicts import COLUMNS, judge, markdown
 
 
-def main(discs, scaling, validation, direct, csv, nc, verdicts, *, claims, **settings):
+def main(discs, scaling, validation, direct, csv, html, nc, verdicts, *, claims, **settings):
     """Judge the claims by the pool of discs and by the tables; settings : further fields of Evidence."""
     evidence = Evidence(
         discs=select(read_dataset(discs), group="base"),
@@ -21,7 +22,9 @@ def main(discs, scaling, validation, direct, csv, nc, verdicts, *, claims, **set
         **settings,
     )
     table = judge(claims, evidence)
-    write_table(table, csv, nc, columns=COLUMNS, dimension="verdict", title="Verdicts on the paper's claims")
+    about = scale(evidence)
+    title = "Verdicts on the paper's claims" + ("" if about["decisive"] else f" ({about['scale']})")
+    write_table(table, csv, nc, html, columns=COLUMNS, dimension="case_of_claim", title=title, attributes=about)
     with atomic_write(verdicts) as temporary:
         temporary.write_text(markdown(table, claims), encoding="utf-8")
 

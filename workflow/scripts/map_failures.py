@@ -9,13 +9,13 @@ from viscorough_study.seeds import failure_map_key, realization_seed
 from viscorough_study.tables import write_table
 
 
-def main(csv, nc, *, seed, across, grids, hurst_min):
+def main(csv, html, nc, *, seed, across, grids, hurst_min):
     """Write the table, and a warning to the log for every failure that is unnoticed."""
     cases = stress_cases(realization_seed(seed, *failure_map_key()), across, grids, hurst_min)
     table = failure_map(cases, report=logging.info)
     for row in unnoticed(table).itertuples():
         logging.warning("%s: %s fails unnoticed, error %.2g", row.case, row.method, row.error)
-    write_table(table, csv, nc, columns=COLUMNS, dimension="cell", title="Every method on every stress-test case")
+    write_table(table, csv, nc, html, columns=COLUMNS, dimension="cell", title="Every method on every stress-test case")
 
 
 if job := globals().get("snakemake"):

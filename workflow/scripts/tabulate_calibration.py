@@ -8,10 +8,10 @@ from viscorough_study.job_log import log_to
 from viscorough_study.tables import write_table
 
 
-def main(scaling, csv, nc, *, conventions):
+def main(scaling, csv, html, nc, *, conventions):
     """Take the rows in these conventions, {convention: value}, from the scaling table."""
     table = calibrated(pd.read_csv(scaling), conventions)
-    write_table(table, csv, nc, columns=COLUMNS, dimension="fit", title="Calibrated exponents and prefactors")
+    write_table(table, csv, nc, html, columns=COLUMNS, dimension="fit", title="Calibrated exponents and prefactors")
 
 
 if job := globals().get("snakemake"):

@@ -8,11 +8,11 @@ from viscorough_study.performance.measurement import COLUMNS
 from viscorough_study.tables import write_table
 
 
-def main(tables, csv, nc):
+def main(tables, csv, html, nc):
     """Join the tables; the machine is in the title."""
     table = pd.concat(map(pd.read_csv, tables), ignore_index=True)
     title = f"Speed and accuracy of every method, on {timing.machine()}"
-    write_table(table, csv, nc, columns=COLUMNS, dimension="measurement", title=title)
+    write_table(table, csv, nc, html, columns=COLUMNS, dimension="measurement", title=title)
 
 
 if job := globals().get("snakemake"):

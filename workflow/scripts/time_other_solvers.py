@@ -15,7 +15,7 @@ from viscorough_study.seeds import realization_seed, solver_race_key
 from viscorough_study.tables import write_table
 
 
-def main(csv, nc, *, seed, hurst, repeats, longest, tasks, peers):
+def main(csv, html, nc, *, seed, hurst, repeats, longest, tasks, peers):
     """Compare on every task for every Hurst exponent; other solvers that are not installed are left out."""
     solvers = [OtherSolver(name, *map(Path, paths)) for name, paths in peers.items()]
     for solver in solvers:
@@ -32,7 +32,7 @@ def main(csv, nc, *, seed, hurst, repeats, longest, tasks, peers):
             common = {"repeats": repeats, "time_limit": longest, "report": logging.info}
             tables.append(compare_solvers(levels, installed, **common))
     title = f"The same levels by other solvers, on {timing.machine()}"
-    write_table(pd.concat(tables), csv, nc, columns=COLUMNS, dimension="measurement", title=title)
+    write_table(pd.concat(tables), csv, nc, html, columns=COLUMNS, dimension="measurement", title=title)
 
 
 if job := globals().get("snakemake"):

@@ -12,12 +12,15 @@ from viscorough.io.atomic import atomic_write
 def write_dataset(ds, path):
     """Write a dataset as CF-1.11 NetCDF, atomically.
 
-    Every data variable needs `long_name`, and `units` unless it holds text. Adds the attributes Conventions and source
-    ("viscorough <version>"), and compresses large numeric arrays; nothing depends on when or where the file is written.
+    Every data variable needs `long_name`, and `units` unless it holds text. Adds the attributes Conventions, source
+    ("viscorough <version>") and history, and compresses large numeric arrays; nothing depends on when or where the file
+    is written. CF has no coordinate variables of text: labels x of a dimension x stand along a dimension x_index.
     Raises ValueError for missing attributes and for a path that cannot be written, OSError if writing fails.
     """
     for name, variable in ds.data_vars.items():
         netcdf.check_attributes(path, name, variable.dtype, variable.attrs)
+    labels = {name: f"{name}_index" for name in ds.indexes if ds[name].dtype.kind not in "biuf"}
+    ds = ds.reset_index(list(labels)).rename_dims(labels)
     encoding = {}
     for name, variable in ds.variables.items():
         if variable.dtype.kind in "fi":
@@ -30,7 +33,11 @@ def write_dataset(ds, path):
 
 
 def read_dataset(path):
-    """Read a NetCDF file into memory and close it. Raises a one-line ValueError if it is missing or damaged."""
+    """Read a NetCDF file into memory, with labels as write_dataset got them, and close it.
+
+    Raises a one-line ValueError if it is missing or damaged.
+    """
     as_stored = {"decode_times": False, "decode_timedelta": False}
     with netcdf.faults_named(path), xr.open_dataset(path, engine="netcdf4", **as_stored) as ds:
-        return ds.load().drop_encoding()
+        labels = {dim: dim.removesuffix("_index") for dim in ds.dims if dim.endswith("_index")}
+        return ds.load().drop_encoding().swap_dims(labels)

@@ -38,7 +38,8 @@ class Content:
 
 def global_attributes():
     """The attributes that every file gets; nothing in them depends on when or where it is written."""
-    return {"Conventions": "CF-1.11", "source": f"viscorough {__version__}"}
+    program = f"viscorough {__version__}"
+    return {"Conventions": "CF-1.11", "source": program, "history": f"written by {program}"}
 
 
 def compression(size):

@@ -13,7 +13,7 @@ COLUMNS = {
     "operator_applications": ("applications of the half-space operator", "1"),
     "wall": ("wall time", "s"),
     "processor": ("processor time", "s"),
-    "memory": ("largest memory of the process", "B"),
+    "memory": ("largest memory of the process", "byte"),
     "machine": ("machine on which times and memory were measured", None),
 }
 

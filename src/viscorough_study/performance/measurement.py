@@ -30,7 +30,7 @@ COLUMNS = {
     "largest_error": ("largest relative error of the velocity", "1"),
     "operator_applications": ("applications of the half-space operator on the grid", "1"),
     "steps": ("levels, events, time steps, points of a line, or iterations of another solver", "1"),
-    "memory": ("peak memory of its arrays", "bytes"),
+    "memory": ("peak memory of its arrays", "byte"),
 }
 
 

@@ -38,7 +38,7 @@ COLUMNS = {
     "processor_s": ("processor time, median of interleaved repeats", "s"),
     "ratio": ("wall time over that of the path on one thread", "1"),
     "iterations": ("iterations of another solver (-1 if not reported), operator applications of the path", "1"),
-    "memory": ("peak memory of another solver's process; of the path, of its arrays", "bytes"),
+    "memory": ("peak memory of another solver's process; of the path, of its arrays", "byte"),
 }
 
 

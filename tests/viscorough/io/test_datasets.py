@@ -6,10 +6,13 @@ import netCDF4
 import pytest
 import xarray as xr
 
+from support.cf import violations
 from support.curves import random_curve
 from viscorough.io.curves import stack_curves
 from viscorough.io.datasets import read_dataset, write_dataset
 from viscorough.io.netcdf import COMPRESSED_FROM
+
+GLOBAL = {"title", "comment", "Conventions", "source", "history"}
 
 
 def stacked(curves, length_unit="m"):
@@ -23,7 +26,7 @@ def test_bytes_are_reproducible_and_no_time_is_written(tmp_path):
     for name in ("one.nc", "two.nc"):
         write_dataset(ds, tmp_path / name)
     assert (tmp_path / "one.nc").read_bytes() == (tmp_path / "two.nc").read_bytes()
-    assert set(read_dataset(tmp_path / "one.nc").attrs) == {"title", "comment", "Conventions", "source"}
+    assert set(read_dataset(tmp_path / "one.nc").attrs) == GLOBAL
 
 
 @pytest.mark.parametrize("attribute", ["units", "long_name"])
@@ -49,3 +52,14 @@ def test_files_carry_cf_attributes_and_compress_large_floats(tmp_path):
         assert not file["tolerance"].filters()["zlib"]
         assert "_FillValue" in file["depth"].ncattrs()
         assert "_FillValue" not in file["realization"].ncattrs()
+
+
+def test_labels_of_a_dimension_survive_and_are_no_coordinate_variable(tmp_path):
+    about = {"long_name": "convention"}
+    ds = xr.Dataset({"beta": ("convention", [0.1, 0.2], about | {"units": "1"})}, {"convention": ["disc", "square"]})
+    ds["convention"].attrs = about
+    write_dataset(ds.assign_attrs(title="Fits"), tmp_path / "labels.nc")
+    assert violations(tmp_path / "labels.nc") == []
+    read = read_dataset(tmp_path / "labels.nc")
+    assert read.sel(convention="square").beta == 0.2
+    xr.testing.assert_equal(read, ds)

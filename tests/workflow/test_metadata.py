@@ -1,0 +1,40 @@
+"""Files for archives and catalogs say the same as CITATION.cff and pyproject.toml."""
+
+import json
+import tomllib
+
+import yaml
+
+from support.workflow import ROOT
+
+
+def test_codemeta_agrees_with_citation_and_package():
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text())
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    codemeta = json.loads((ROOT / "codemeta.json").read_text())
+    assert codemeta["name"] == citation["title"]
+    assert codemeta["version"] == citation["version"] == project["version"]
+    assert codemeta["license"] == f"https://spdx.org/licenses/{citation['license']}"
+    assert citation["license"] == project["license"]
+    assert codemeta["keywords"] == citation["keywords"]
+    assert codemeta["description"] == project["description"]
+    assert codemeta["runtimePlatform"] == f"Python {project['requires-python']}"
+    assert [author["name"] for author in codemeta["author"]] == [author["name"] for author in citation["authors"]]
+    assert len(codemeta["referencePublication"]) == len(citation["references"])
+    for article, cited in zip(codemeta["referencePublication"], citation["references"], strict=True):
+        assert article["name"] == cited["title"]
+        names = [(author["familyName"], author["givenName"]) for author in article["author"]]
+        assert names == [(author["family-names"], author["given-names"]) for author in cited["authors"]]
+        volume = article["isPartOf"]
+        where = volume["isPartOf"]["name"], volume["volumeNumber"], article["pageStart"], article["datePublished"]
+        assert where == (cited["journal"], str(cited["volume"]), cited["start"], str(cited["year"]))
+
+
+def test_workflow_catalog():
+    """The catalog asks for config/README.md, and shows what the workflow supports."""
+    usage = yaml.safe_load((ROOT / ".snakemake-workflow-catalog.yml").read_text())["usage"]
+    assert (ROOT / "config/README.md").exists()
+    rules = "".join(path.read_text() for path in (ROOT / "workflow/rules").glob("*.smk"))
+    assert usage["software-stack-deployment"] == {"conda": True}
+    assert rules.count("    conda:\n") == rules.count("    script:\n")
+    assert usage["report"] == ("report(" in rules)

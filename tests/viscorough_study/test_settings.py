@@ -60,8 +60,8 @@ WRONG = [
     ({"discs": {"hurst": [0.4, 0.33]}}, "discs.hurst has 0.33, lines.hurst has not"),
     ({"lines": {"hurst": [0.12345]}}, "lines.hurst has 0.12345; allowed: at most four decimals"),
     ({"ensemble": {"x_low": 40.0}}, "ensemble.x_low and x_high: 40.0 and 30.0 are less than a decade"),
-    ({"reduction": {"x_low": 3.0}}, "reduction.x_low and x_high: 3.0 and 3.0 are less than a decade"),
-    ({"reduction": {"x_low": 1.0, "x_high": 1.0000001}}, "1.0 and 1.0000001 are less than a decade"),
+    ({"reduction": {"x_low": 3.0}}, "reduction.x_low is 3.0; allowed: a number from 1e-15 up to 0.1"),
+    ({"reduction": {"x_low": 0.1, "x_high": 0.1000001}}, "0.1 and 0.1000001 are less than a decade"),
     ({"scaling": {"stiffness_range": [0.3, 0.03]}}, "scaling.stiffness_range: 0.3 and 0.03 are no range"),
     ({"surface": {"roll_off_wavelength": 0.001}}, "roll_off_wavelength 0.001 of surface is too short"),
 ]

@@ -17,6 +17,8 @@ from viscorough.loading_curve import LoadingCurve
 # The approach to the start fraction takes steps of this ratio of depths up to this share of it; they become shorter
 # until their ratio is the last number.
 _APPROACH_DEPTH_RATIO, _APPROACH_SHARE, _APPROACH_MIN_RATIO = 4.0, 0.7, 1.02
+# Contacts that are kept at larger depths than the last level, the nearest ones; each takes the memory of its fields.
+_MOST_AHEAD = 2
 
 
 def indent(
@@ -132,6 +134,7 @@ class _LoadingPath:
             # A contact beyond the start is kept for later: the interval that contains the start must be a short one.
             if contact.count > start_count or contact.pressure_sum > self._until_pressure_sum:
                 self._ahead.append(contact)
+                del self._ahead[:-_MOST_AHEAD]
             else:
                 self._add(contact)
             if self._ahead:  # then levels approach the nearest of these contacts
@@ -161,6 +164,7 @@ class _LoadingPath:
             if self._control.is_too_long(step, excess):
                 divided = division(Level.of(self._contact), Level.of(self._ahead[-1]))
                 self._ahead.append(self._solver.advance_reduced(self._contact, divided))
+                del self._ahead[:-_MOST_AHEAD]
                 continue
             self._add(self._ahead.pop())
             ratio = self._control.next_ratio(step, excess)

@@ -11,7 +11,7 @@ SNAKEMAKE = $(BIN)/snakemake --cores $(CORES) $(if $(SETTINGS),--configfile $(SE
 	sizes large fuzz faults seeds publish chaos peers lock lock-peers lock-slurm clean
 
 help:
-	@echo "make reproduce   the default reproduction: figures, tables and validation in results/"
+	@echo "make reproduce   the default reproduction: figures, tables, and the page results/index.html, which shows them"
 	@echo "make paper       the same at the paper's full scale, and its cost in results/costs.json"
 	@echo "make report      results/report.html of the existing results, with the SETTINGS that they were made with"
 	@echo "make test        format, lint, documentation and every test"
@@ -58,17 +58,19 @@ settings: environment
 	@$(if $(SETTINGS),$(BIN)/python -m viscorough_study.settings_files $(SETTINGS))
 
 reproduce: settings
-	$(SNAKEMAKE) -- all costs
+	$(SNAKEMAKE) -- all
+	@echo "What was found: open results/index.html in a browser"
 
 paper: override SETTINGS := config/paper.yaml
 paper: settings
-	$(BIN)/python benchmarks/costs.py --output results/costs.json -- $(SNAKEMAKE) -- all costs
+	$(BIN)/python benchmarks/costs.py --output results/costs.json -- $(SNAKEMAKE) -- all
+	@echo "What was found: open results/index.html in a browser"
 
 # Includes the targets beside `all` that were made.
 report: settings
 	$(SNAKEMAKE) --report results/report.html -- all \
-		$(if $(wildcard results/tables/rule_costs.csv),costs) $(if $(wildcard results/figures/failure_map.png),stability) \
-		$(patsubst results/figures/%.png,%,$(wildcard $(patsubst %,results/figures/%.png,speed sizes large)))
+		$(if $(wildcard results/figures/growth.png),speed) $(if $(wildcard results/figures/failure_curves.png),stability) \
+		$(patsubst results/figures/%.png,%,$(wildcard $(patsubst %,results/figures/%.png,sizes large)))
 
 # Written anew each time (-E): pages that are kept would hide the warnings of an earlier run.
 docs: environment
@@ -86,6 +88,8 @@ test: environment docs
 bench: environment
 	$(BIN)/python benchmarks/curves.py --reproduction --cores $(CORES) --output results/benchmarks.json
 	$(BIN)/python benchmarks/strips.py --output results/strips.json
+
+speed stability: SETTINGS = config/methods.yaml
 
 speed: settings
 	$(SNAKEMAKE) -- speed

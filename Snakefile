@@ -85,6 +85,9 @@ rule figures:
         rules.plot_reduction.output,
         rules.plot_direct.output,
         rules.plot_validation.output,
+        rules.plot_speed.output,
+        rules.plot_failure_map.output,
+        rules.plot_level_placement.output,
 
 
 rule tables:
@@ -96,6 +99,9 @@ rule tables:
         rules.compare_prefactors.output,
         rules.compare_reduction.output,
         rules.compare_direct.output,
+        rules.tabulate_methods.output,
+        rules.map_failures.output,
+        rules.compare_level_placement.output,
 
 
 rule validation:
@@ -129,20 +135,23 @@ rule large:
         rules.plot_large.output,
 
 
+include: "workflow/rules/rule_costs.smk"
+include: "workflow/rules/page.smk"
+
+
+rule costs:
+    input:
+        rules.tabulate_rule_costs.output,
+
+
 rule all:
     default_target: True
     input:
         rules.figures.input,
         rules.tables.input,
         rules.validation.input,
-
-
-include: "workflow/rules/rule_costs.smk"
-
-
-rule costs:
-    input:
-        rules.tabulate_rule_costs.output,
+        rules.costs.input,
+        rules.make_page.output,
 
 
 add_source_digests(workflow.rules)

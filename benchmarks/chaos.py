@@ -6,7 +6,7 @@ A run of the small settings, which starts without results, is disturbed after a 
 is killed (SIGKILL), a quarter of the times one of its jobs is, and a quarter of the times it is interrupted (SIGINT to
 its group, as by Ctrl-C). The same command is then given again, and nothing else (config/README.md, Interrupted runs),
 until it finishes. Its figures, tables, ensembles and curves must then equal those of an undisturbed run to the last
-byte. Of logs and benchmarks, which contain times, only names must agree.
+byte. Of what contains measured times, such as logs and the page, only names must agree.
 """
 
 import contextlib
@@ -34,6 +34,8 @@ SNAKEMAKE = [sys.executable, "-m", "snakemake", "--cores", "2", "--nocolor", "--
 # The longest wait for a kill, as a share of the time of an undisturbed run: most runs are killed several times, and
 # their ends as often as their beginnings.
 LONGEST_WAIT = 1 / 3
+# Beside logs and benchmarks: files that hold measured times, under these names with any suffix.
+TIMED = {"methods", "level_placement", "rule_costs", "speed", "all_methods", "index"}
 HANGS = 600  # seconds after which a run is taken to hang
 
 
@@ -147,11 +149,13 @@ def killed_run(folder, random, longest_wait, kills, report):
 
 
 def contents(folder):
-    """{name: bytes} of everything in results/, without the bytes of logs and benchmarks."""
+    """{name: bytes} of everything in results/, without the bytes of what contains times."""
     names = sorted(path.relative_to(folder) for path in (folder / "results").rglob("*") if path.is_file())
-    return {
-        str(name): b"" if name.parts[1] in ("logs", "benchmarks") else (folder / name).read_bytes() for name in names
-    }
+
+    def timed(name):
+        return name.parts[1] in ("logs", "benchmarks", "methods") or name.stem in TIMED
+
+    return {str(name): b"" if timed(name) else (folder / name).read_bytes() for name in names}
 
 
 def compare(actual, expected):

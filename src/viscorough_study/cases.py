@@ -123,7 +123,7 @@ def method_problems(settings):
     """{problem: arguments of performance.methods.named_problem} of every indenter on which methods are compared."""
     methods = settings["methods"]
     bodies = {
-        f"{body}_{n}": {"name": body, "elements": n} for body in ("sphere", "cone") for n in methods["bodies_elements"]
+        f"{body}_{n}": {"name": body, "elements": n} for body in methods["bodies"] for n in methods["bodies_elements"]
     }
     return bodies | {
         f"rough_{hurst_id(hurst)}_{n}": {"name": "rough disc", "hurst": hurst, "elements": n}

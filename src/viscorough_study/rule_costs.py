@@ -1,6 +1,8 @@
 """Cost of the rules of the workflow, from the benchmark files that Snakemake writes for every job."""
 
 import math
+import platform
+from importlib.metadata import version
 from pathlib import Path
 
 import pandas as pd
@@ -12,6 +14,7 @@ COLUMNS = {
     "longest_s": ("longest wall time of one job", "s"),
     "memory_mb": ("largest resident memory of one job", "Mbyte"),
 }
+PACKAGES = ("viscorough", "numpy", "scipy", "numba", "ducc0", "xarray", "netCDF4", "pandas", "matplotlib", "snakemake")
 
 
 def rule_costs(folder):
@@ -34,6 +37,11 @@ def rule_costs(folder):
         }
     )
     return table.sort_values("seconds", ascending=False).reset_index()[list(COLUMNS)]
+
+
+def versions():
+    """{package: version} of Python and of what computes, stores and draws."""
+    return {"Python": platform.python_version()} | {name: version(name) for name in PACKAGES}
 
 
 def _time_and_memory(path):

@@ -106,7 +106,7 @@ def _repeated(settings):
         "number in discs.combinations": [combination["number"] for combination in discs["combinations"]],
         "name in variants.cases": [variant["name"] for variant in settings["variants"]["cases"]],
         "validation.elements": settings["validation"]["elements"],
-        "methods.hurst": methods["hurst"],
+        **{f"methods.{key}": methods[key] for key in ("groups", "hurst", "bodies")},
         "methods.elements": methods["elements"],
         "methods.bodies_elements": methods["bodies_elements"],
         "name in methods.tasks": [task["name"] for task in methods["tasks"]],

@@ -1,11 +1,13 @@
 """Tidy tables, written as CSV, NetCDF and HTML."""
 
+import json
 from pathlib import Path
 
 import xarray as xr
 
 from viscorough.io.atomic import atomic_write
 from viscorough.io.datasets import write_dataset
+from viscorough.io.netcdf import opened
 from viscorough_study.html_table import html_table
 
 
@@ -32,3 +34,21 @@ def write_table(table, csv_path, nc_path, html_path=None, *, columns, dimension,
     if html_path is not None:
         with atomic_write(html_path) as temporary:
             temporary.write_text(html_table(table, columns, title, Path(csv_path).name), encoding="utf-8")
+
+
+def recorded(**mappings):
+    """Attributes for write_table that record mappings as JSON, such as settings, machine; see `read_recorded`."""
+    return {name: json.dumps(mapping) for name, mapping in mappings.items()}
+
+
+def read_recorded(nc_path, name, missing=None):
+    """A mapping that is recorded as an attribute of a NetCDF file, of a table or of an ensemble.
+
+    missing : returned if the file has no such attribute; without it, that raises a ValueError
+    """
+    with opened(nc_path) as file:
+        if name in file.ncattrs():
+            return json.loads(file.getncattr(name))
+    if missing is None:
+        raise ValueError(f"{nc_path}: has no attribute {name}; it must be made by this version of the workflow")
+    return missing

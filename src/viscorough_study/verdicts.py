@@ -71,12 +71,18 @@ def markdown(table, claims):
     return "\n".join(lines) + "\n"
 
 
-def _cases_in_words(rows):
+def cases_shown(rows):
+    """The cases of a claim that a summary shows: all, or of more than `CASES_SHOWN_MAX` three."""
     if len(rows) <= CASES_SHOWN_MAX:
-        return "; ".join(_case_in_words(row) for _, row in rows.iterrows())
+        return rows
     farthest = np.abs(rows["value"] - rows["expected"]).idxmax()
-    selected = rows.loc[sorted({rows.index[0], farthest, rows.index[-1]})]
-    return f"{len(rows)} cases, of which " + "; ".join(_case_in_words(row) for _, row in selected.iterrows())
+    return rows.loc[sorted({rows.index[0], farthest, rows.index[-1]})]
+
+
+def _cases_in_words(rows):
+    shown = cases_shown(rows)
+    number = f"{len(rows)} cases, of which " if len(shown) < len(rows) else ""
+    return number + "; ".join(_case_in_words(row) for _, row in shown.iterrows())
 
 
 def _case_in_words(row):

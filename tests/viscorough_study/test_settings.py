@@ -62,6 +62,8 @@ WRONG = [
     ({"ensemble": {"x_low": 40.0}}, "ensemble.x_low and x_high: 40.0 and 30.0 are less than a decade"),
     ({"reduction": {"x_low": 3.0}}, "reduction.x_low is 3.0; allowed: a number from 1e-15 up to 0.1"),
     ({"reduction": {"x_low": 0.1, "x_high": 0.1000001}}, "0.1 and 0.1000001 are less than a decade"),
+    ({"methods": {"groups": ["path", "paths"]}}, "methods.groups[1] is 'paths'; allowed: one of path, path without"),
+    ({"methods": {"groups": ["path", "path"]}}, "methods.groups: path occurs twice; allowed: once"),
     ({"scaling": {"stiffness_range": [0.3, 0.03]}}, "scaling.stiffness_range: 0.3 and 0.03 are no range"),
     ({"surface": {"roll_off_wavelength": 0.001}}, "roll_off_wavelength 0.001 of surface is too short"),
 ]
@@ -89,12 +91,12 @@ def test_too_rough_a_combination(settings):
         check_settings(settings, SCHEMA)
 
 
-@pytest.mark.parametrize("name", ["config", "paper", "large", "test"])
+@pytest.mark.parametrize("name", ["config", "paper", "large", "methods", "test"])
 def test_settings_of_every_scale_are_right(name):
     check_settings(merged(read_settings("config"), read_settings(name)), SCHEMA)
 
 
-@pytest.mark.parametrize("name", ["paper", "large", "test"])
+@pytest.mark.parametrize("name", ["paper", "large", "methods", "test"])
 def test_other_scales_hold_only_what_differs(settings, name):
     def same(base, extra, path=""):
         for key, value in extra.items():

@@ -7,15 +7,21 @@ import pytest
 from support.workflow import TEST, copy_project, made_once, snakemake
 
 
-@pytest.fixture
-def finished(tmp_path_factory, tmp_path):
-    """A project after one full run of the small settings."""
+@pytest.fixture(scope="session")
+def finished_once(tmp_path_factory):
+    """A project after one full run of the small settings. Tests must not change it."""
 
     def make(folder):
         copy_project(folder)
         snakemake(folder, *TEST)
 
-    return shutil.copytree(made_once(tmp_path_factory, "finished", make), tmp_path / "finished")
+    return made_once(tmp_path_factory, "finished", make)
+
+
+@pytest.fixture
+def finished(finished_once, tmp_path):
+    """A copy of that project, which the test may change."""
+    return shutil.copytree(finished_once, tmp_path / "finished")
 
 
 @pytest.fixture(scope="session")

@@ -13,6 +13,9 @@ FITS = {"fit_scaling", "judge_claims", "compare_prefactors", "tabulate_calibrati
 AFTER_FITS = {"plot_kinetics", "plot_master_curve", "plot_exponent", "plot_conventions", "plot_prefactors"}
 FITS_AND_FIGURES = FITS | AFTER_FITS
 BOUNDARY_ELEMENTS = {"indent_discs", "compare_direct", "compare_reduction", "validate"}
+BOUNDARY_ELEMENTS |= {"measure_methods", "map_failures", "compare_level_placement"}
+SPEED = {"measure_methods", "tabulate_methods", "plot_speed"}
+LAST = {"tabulate_rule_costs", "make_page"}  # made again with whatever is
 
 
 def edit(path, change):
@@ -54,7 +57,12 @@ def with_another_statement(text):
 @pytest.mark.parametrize(
     ("changed", "rerun"),
     [
-        ({"scaling": {"stiffness_max": 0.25}}, FITS_AND_FIGURES),
+        ({"scaling": {"stiffness_max": 0.25}}, FITS_AND_FIGURES | SPEED),  # errors in region (b) are tabulated, too
+        ({"methods": {"levels": 3}}, SPEED),
+        (
+            {"stability": {"across": 11}, "methods": {"scenes": {"elements": 31}}},
+            {"map_failures", "plot_failure_map", "compare_level_placement", "plot_level_placement"},
+        ),
         ({"figures": {"average": "arithmetic"}}, FITS_AND_FIGURES - {"fit_scaling", "compare_prefactors"}),
         ({"ensemble": {"per_decade": 25}}, FITS_AND_FIGURES | {"pool_curves"}),
         ({"validation": {"elements": [17, 31]}}, {"validate", "check_validation", "plot_validation", "judge_claims"}),
@@ -76,7 +84,7 @@ def with_another_statement(text):
 )
 def test_a_changed_setting_reruns_what_uses_it(finished, changed, rerun):
     planned = plan(finished, *TEST, settings_file(finished, "changed", **changed))
-    assert set(planned) == rerun
+    assert set(planned) == rerun | LAST
     if "surface" in changed:
         assert planned["indent_discs"] == 4
 
@@ -113,13 +121,14 @@ def test_a_changed_line_of_the_column_convolution_reruns_what_uses_boundary_elem
     """And what depends on it, but neither lines nor example discs."""
     edit(editable / "src/viscorough/contact/column_fft.py", with_another_statement)
     after = {"pool_curves", "plot_direct", "plot_reduction", "check_validation", "plot_validation"}
+    after |= {"plot_failure_map", "plot_level_placement", *SPEED, *LAST}
     assert set(plan(editable, *TEST)) == BOUNDARY_ELEMENTS | FITS_AND_FIGURES | after
 
 
 @pytest.mark.parametrize(
     ("module", "scripts"),
     [
-        ("viscorough_study/power_law.py", {"fit_scaling", "fit_sizes", "judge_claims"}),
+        ("viscorough_study/power_law.py", {"fit_scaling", "fit_sizes", "judge_claims", "make_page"}),
         ("viscorough_study/validate_solvers.py", {"validate", "check_validation"}),
         (
             "viscorough/mdr.py",
@@ -157,11 +166,11 @@ def test_a_changed_module_concerns_exactly_the_scripts_that_use_it(tmp_path, mod
 def test_a_changed_script_reruns_its_rule_and_what_depends_on_it(editable):
     script = editable / "workflow/scripts/compare_direct.py"
     edit(script, lambda text: text.replace("Direct integration and", "Integration and"))
-    assert set(plan(editable, *TEST)) == {"compare_direct", "plot_direct", "judge_claims"}
+    assert set(plan(editable, *TEST)) == {"compare_direct", "plot_direct", "judge_claims", *LAST}
 
 
 def test_forcing_one_rule(finished):
-    assert plan(finished, *TEST, "--forcerun", "plot_exponent") == {"plot_exponent": 1}
+    assert plan(finished, *TEST, "--forcerun", "plot_exponent") == dict.fromkeys(("plot_exponent", *LAST), 1)
 
 
 def test_an_older_checkout_of_the_same_sources_reruns_nothing(finished):

@@ -1,5 +1,6 @@
 """What rules are made from; everything that does not need Snakemake is in viscorough_study."""
 
+import hashlib
 import importlib.util
 import os
 import subprocess
@@ -118,6 +119,18 @@ def other_solvers():
     modern, slippy = (str(root / name / "bin" / "python") for name in (".venv-peers", ".venv-slippy"))
     pythons = {"ASPHER": modern, "ContactMechanics": modern, "SlipPY": slippy, "Tamaas": modern}
     return {name: [python, str(adapters / f"{name.lower()}_adapter.py")] for name, python in pythons.items()}
+
+
+def other_solvers_wanted():
+    """Whether the methods that are measured include other solvers; otherwise the page quotes published times."""
+    return "other solver" in config["methods"]["groups"]
+
+
+def page_digests():
+    """Digests of the texts of the page that are no results, whose paths depend on where the project lies."""
+    texts = sorted([*(WORKFLOW / "page").iterdir(), *(WORKFLOW / "report").glob("*.rst")])
+    texts.append(Path(workflow.basedir) / "resources/published/other_solvers.csv")
+    return [hashlib.sha256(path.read_bytes()).hexdigest()[:16] for path in texts]
 
 
 def adapter_digests():

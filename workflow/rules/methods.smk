@@ -1,5 +1,5 @@
-# Speed against accuracy of every method, ours and others': the target `speed` makes it, `all` does not, because it takes
-# over an hour.
+# Speed against accuracy of every method, and levels for a scene. `make speed` measures more methods on more indenters,
+# and other solvers, which takes over an hour.
 
 
 rule measure_methods:
@@ -17,12 +17,13 @@ rule measure_methods:
     params:
         adapter_digests(),
         problem=lambda wildcards: PROBLEMS[wildcards.problem],
+        groups=config["methods"]["groups"],
         seed=config["seed"],
         levels=config["methods"]["levels"],
         region={name: config["scaling"][name] for name in ("elements_min", "stiffness_max")},
         repeats=config["methods"]["repeats"],
         longest=config["methods"]["longest"],
-        peers=other_solvers(),
+        peers=other_solvers() if other_solvers_wanted() else {},
     message:
         "Cost and error of every method: {wildcards.problem}"
     script:
@@ -51,6 +52,9 @@ rule tabulate_methods:
     threads: 1
     resources:
         mem_mb=500,
+    params:
+        settings={name: value for name, value in config["methods"].items() if name not in ("tasks", "scenes")}
+        | {"seed": config["seed"]},
     message:
         "Table of all methods"
     script:

@@ -1,4 +1,4 @@
-# Where each method fails: the target `stability` makes it, `all` does not, because it takes minutes.
+# Where each method fails: `all` makes the map on small indenters, `make stability` on larger ones, and the curves.
 
 
 rule map_failures:

@@ -8,7 +8,7 @@ from viscorough.io.datasets import read_dataset
 from viscorough_study.fit_table import COLUMNS, fit_rows
 from viscorough_study.job_log import log_to
 from viscorough_study.pool import ensembles, select
-from viscorough_study.tables import write_table
+from viscorough_study.tables import recorded, write_table
 
 
 def main(discs, lines, csv, html, nc, *, seed, fit):
@@ -27,7 +27,8 @@ def main(discs, lines, csv, html, nc, *, seed, fit):
         logging.info("lines, H = %g", hurst)
         rows += fit_rows(ensemble, source="lines", case_group="base", seed=seed, **fit)
     table = pd.DataFrame(rows, columns=list(COLUMNS))
-    write_table(table, csv, nc, html, columns=COLUMNS, dimension="fit", title="Power laws in region (b)")
+    about = {"title": "Power laws in region (b)", "attributes": recorded(settings={"seed": seed, **fit})}
+    write_table(table, csv, nc, html, columns=COLUMNS, dimension="fit", **about)
 
 
 if job := globals().get("snakemake"):

@@ -8,7 +8,7 @@ from viscorough_study.evidence import Evidence
 from viscorough_study.job_log import log_to
 from viscorough_study.pool import select
 from viscorough_study.scale import scale
-from viscorough_study.tables import write_table
+from viscorough_study.tables import recorded, write_table
 from viscorough_study.verdicts import COLUMNS, judge, markdown
 
 
@@ -22,9 +22,19 @@ def main(discs, scaling, validation, direct, csv, html, nc, verdicts, *, claims,
         **settings,
     )
     table = judge(claims, evidence)
+    of_run = {name: settings[name] for name in ("seed", "resamples", "conventions", "limits", "rules")}
     about = scale(evidence)
     title = "Verdicts on the paper's claims" + ("" if about["decisive"] else f" ({about['scale']})")
-    write_table(table, csv, nc, html, columns=COLUMNS, dimension="case_of_claim", title=title, attributes=about)
+    write_table(
+        table,
+        csv,
+        nc,
+        html,
+        columns=COLUMNS,
+        dimension="case_of_claim",
+        title=title,
+        attributes=about | recorded(settings=of_run),
+    )
     with atomic_write(verdicts) as temporary:
         temporary.write_text(markdown(table, claims), encoding="utf-8")
 

@@ -6,7 +6,7 @@ from viscorough_study.job_log import log_to
 from viscorough_study.robustness.failure_map import COLUMNS, failure_map, unnoticed
 from viscorough_study.robustness.stress_cases import stress_cases
 from viscorough_study.seeds import failure_map_key, realization_seed
-from viscorough_study.tables import write_table
+from viscorough_study.tables import recorded, write_table
 
 
 def main(csv, html, nc, *, seed, across, grids, hurst_min):
@@ -15,7 +15,9 @@ def main(csv, html, nc, *, seed, across, grids, hurst_min):
     table = failure_map(cases, report=logging.info)
     for row in unnoticed(table).itertuples():
         logging.warning("%s: %s fails unnoticed, error %.2g", row.case, row.method, row.error)
-    write_table(table, csv, nc, html, columns=COLUMNS, dimension="cell", title="Every method on every stress-test case")
+    about = recorded(settings={"seed": seed, "across": across, "grids": grids})
+    title = "Every method on every stress-test case"
+    write_table(table, csv, nc, html, columns=COLUMNS, dimension="cell", title=title, attributes=about)
 
 
 if job := globals().get("snakemake"):

@@ -7,19 +7,22 @@ from threadpoolctl import threadpool_limits
 
 from viscorough.io.atomic import atomic_write
 from viscorough_study.job_log import log_to
+from viscorough_study.kernels import compile_kernels
 from viscorough_study.performance.measurement import measure
 from viscorough_study.performance.methods import METHODS, other_solver_method
 from viscorough_study.performance.other_solvers import OtherSolver
 from viscorough_study.performance.problems import named_problem
 
 
-def main(csv, *, problem, seed, levels, region, repeats, longest, peers):
-    """Measure the methods of the package and the installed other solvers on a problem, given by its settings."""
+def main(csv, *, problem, groups, seed, levels, region, repeats, longest, peers):
+    """Measure methods of the package, and the installed other solvers, on a problem given by its settings."""
     solvers = [OtherSolver(name, *map(Path, paths)) for name, paths in peers.items()]
     methods = (*METHODS, *(other_solver_method(solver, longest) for solver in solvers if solver.installed))
+    methods = [method for method in methods if method.group in groups]
+    compile_kernels()  # loading compiled code is no part of what is timed
     with threadpool_limits(1):  # Snakemake gives the job all cores, so that nothing runs beside it
         indenter = named_problem(**problem, levels=levels, root=seed, region=region)
-        table = measure(indenter, repeats, methods, report=logging.info)
+        table = measure(indenter, repeats, methods, report=logging.info, longest=longest)
     with atomic_write(csv) as temporary:
         table.to_csv(temporary, index=False)
 

@@ -5,16 +5,17 @@ import pandas as pd
 from viscorough_study.job_log import log_to
 from viscorough_study.performance import timing
 from viscorough_study.performance.measurement import COLUMNS
-from viscorough_study.tables import write_table
+from viscorough_study.tables import recorded, write_table
 
 
-def main(tables, csv, html, nc):
-    """Join the tables; the machine is in the title."""
+def main(tables, csv, html, nc, *, settings):
+    """Join the tables; settings : with which the methods were measured, to be recorded."""
     table = pd.concat(map(pd.read_csv, tables), ignore_index=True)
-    title = f"Speed and accuracy of every method, on {timing.machine()}"
-    write_table(table, csv, nc, html, columns=COLUMNS, dimension="measurement", title=title)
+    about = recorded(settings=settings, machine=timing.machine())
+    title = "Speed and accuracy of every method"
+    write_table(table, csv, nc, html, columns=COLUMNS, dimension="measurement", title=title, attributes=about)
 
 
 if job := globals().get("snakemake"):
     log_to(job.log[0])
-    main(**job.input, **job.output)
+    main(**job.input, **job.output, **job.params)

@@ -12,7 +12,7 @@ from viscorough_study.performance import timing
 from viscorough_study.performance.other_solvers import OtherSolver
 from viscorough_study.performance.solver_comparison import COLUMNS, compare_solvers, disc_task
 from viscorough_study.seeds import realization_seed, solver_race_key
-from viscorough_study.tables import write_table
+from viscorough_study.tables import recorded, write_table
 
 
 def main(csv, html, nc, *, seed, hurst, repeats, longest, tasks, peers):
@@ -31,8 +31,9 @@ def main(csv, html, nc, *, seed, hurst, repeats, longest, tasks, peers):
             levels = disc_task(task["name"], each, task["elements"], fractions, task["residual"], **of_disc)
             common = {"repeats": repeats, "time_limit": longest, "report": logging.info}
             tables.append(compare_solvers(levels, installed, **common))
-    title = f"The same levels by other solvers, on {timing.machine()}"
-    write_table(pd.concat(tables), csv, nc, html, columns=COLUMNS, dimension="measurement", title=title)
+    table, about = pd.concat(tables), recorded(machine=timing.machine())
+    title = "The same levels by other solvers"
+    write_table(table, csv, nc, html, columns=COLUMNS, dimension="measurement", title=title, attributes=about)
 
 
 if job := globals().get("snakemake"):

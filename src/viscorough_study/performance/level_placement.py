@@ -78,7 +78,8 @@ def compare(scene, repeats, report=lambda text: None, *, hand_picked=HAND_PICKED
     ends = np.interp([scene.first, scene.last], coarse.contact_fraction, coarse.depth)
     exact = indent(scene.indenter, tolerance=REFERENCE_TOLERANCE, depths=np.geomspace(*ends, PROBES))
     path = partial(indent, scene.indenter, tolerance=scene.accuracy)
-    range_of_force = {"start_fraction": scene.first, "until_fraction": 1, "until_force": exact.force[-1]}
+    # As levels by hand: a contact fraction that is just reached at the first force may have its level beyond it.
+    range_of_force = {"start_fraction": scene.first * (1 - MARGIN), "until_fraction": 1, "until_force": exact.force[-1]}
     automatic = _row(scene, "automatic", partial(path, **range_of_force), exact)
     first, last = ends * [1 - MARGIN, 1 + MARGIN]
 

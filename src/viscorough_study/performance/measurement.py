@@ -4,6 +4,7 @@ The error of a method is the root mean square of the relative deviation of its v
 where a method gives no velocity, the deviation counts as 1.
 """
 
+import math
 from functools import partial
 
 import numpy as np
@@ -34,11 +35,12 @@ COLUMNS = {
 }
 
 
-def measure(problem, repeats, methods=METHODS, report=lambda text: None):
+def measure(problem, repeats, methods=METHODS, report=lambda text: None, *, longest=math.inf):
     """Cost and error of every method that can solve a problem, at every value of its parameter.
 
     repeats : number of interleaved repeats after the first run, which gives errors and memory, and the time of whatever
         takes longer than MAX_REPEATED
+    longest : seconds; a method that has taken longer is not repeated either, and not tried at finer values
     report : called with a line of text before each first run
 
     Returns a pandas.DataFrame with the columns of `COLUMNS`, a row per method and value.
@@ -55,8 +57,10 @@ def measure(problem, repeats, methods=METHODS, report=lambda text: None):
             key = method.name, value
             rows[key] = errors_and_costs(problem, method, value, answer, memory)
             rows[key] |= dict(zip(TIMES, seconds, strict=True))
-            if seconds[0] < MAX_REPEATED:
+            if seconds[0] < min(longest, MAX_REPEATED):
                 functions[key] = function
+            if seconds[0] > longest:
+                break
     report(f"{problem.name}: {repeats} repeats")
     for key, seconds in timing.interleaved(functions, repeats).items():
         rows[key] |= dict(zip(TIMES, seconds, strict=True))

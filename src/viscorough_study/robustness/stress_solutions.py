@@ -76,17 +76,17 @@ def reference_solution(case, number=DEPTHS):
 
 def _depth_of_fraction(solver, fraction, low):
     """Reduced depth above `low` at which a contact fraction is reached: doubled until it is, then by bisection."""
-    start, gap = solver.unloaded_state(), solver.elements.initial_gap
-
-    def reached(depth):
-        return solver.advance_reduced(start, depth).count >= fraction * solver.elements.count
-
+    contact, gap = solver.unloaded_state(), solver.elements.initial_gap
     high = max(2 * low, gap[gap > 0][0] if gap[-1] > 0 else 1.0)
-    while not reached(high):
-        low, high = high, 2 * high
+    while (deeper := solver.advance_reduced(contact, high)).count < fraction * solver.elements.count:
+        contact, low, high = deeper, high, 2 * high
     for _ in range(BISECTIONS):
         middle = 0.5 * (low + high)
-        low, high = (low, middle) if reached(middle) else (middle, high)
+        deeper = solver.advance_reduced(contact, middle)
+        if deeper.count < fraction * solver.elements.count:
+            contact, low = deeper, middle
+        else:
+            high = middle
     return high
 
 

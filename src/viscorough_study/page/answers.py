@@ -1,0 +1,117 @@
+"""What was found: the numbers behind the answers at the top of the page, and behind the advice on methods."""
+
+import numpy as np
+
+from viscorough_study.page.results import Count
+from viscorough_study.verdicts import overall
+
+GROUPS = {"path": "elastic path", "marching": "direct integration in time", "model": "model"}
+ERRORS = (0.1, 1e-2, 1e-3, 1e-6)  # of the velocity, for which the fastest method is named
+ADVISED = 1e-2  # the one in the answers
+MODELS = ("MDR", "power law", "power law with Γ")
+CASE = ("value", "low", "high", "expected")
+
+
+def verdict_counts(results):
+    """[Count] of claims by verdict, most frequent first; a claim has the verdict over all its cases."""
+    verdicts = list(overall(results.tables["claims"]).values())
+    numbers = {verdict: verdicts.count(verdict) for verdict in dict.fromkeys(verdicts)}
+    ordered = sorted(numbers.items(), key=lambda item: -item[1])
+    return [Count(number, "claims", "verdict over all cases of a claim", verdict) for verdict, number in ordered]
+
+
+def answers(results):
+    """{name: numbers} of the sentences in the section "What was found"."""
+    claims = results.tables["claims"]
+
+    def cases(claim, contains=""):
+        rows = claims[(claims["claim"] == claim) & claims["case"].str.contains(contains, regex=False)]
+        return [{"case": row["case"]} | results.numbers("claims", i, *CASE) for i, row in rows.iterrows()]
+
+    def extremes(claim, column, contains=""):
+        rows = claims[(claims["claim"] == claim) & claims["case"].str.contains(contains, regex=False)]
+        return [find(rows, "claims", column) for find in (results.least, results.largest)]
+
+    differences = claims[claims["claim"] == "coincide"]["value"].abs().dropna()
+    return {
+        "collapse": extremes("collapse", "value"),
+        "decades": extremes("power_law", "value", "decades"),
+        "beta": cases("beta"),
+        "coincide": _case(results, differences.idxmax() if len(differences) else None),
+        "elastic": _ends(cases("zeta_elastic")),
+        "viscous": _ends(cases("zeta_viscous")),
+        "gamma": [extremes("gamma", "low")[0], extremes("gamma", "high")[1], *extremes("gamma", "expected")],
+    }
+
+
+def _case(results, row):
+    if row is None:
+        return None
+    return {"case": results.tables["claims"].at[row, "case"]} | results.numbers("claims", row, *CASE)
+
+
+def _ends(cases):
+    """First and last case."""
+    return [cases[0], cases[-1]]
+
+
+# ---- methods
+
+
+def rough_disc(results):
+    """Rows of the table of methods for the largest rough disc on which errors are compared."""
+    methods = results.tables["methods"]
+    rough = methods[methods["hurst"].notna() & methods["group"].isin(GROUPS)]
+    rough = rough[rough["elements"] == rough["elements"].max()]
+    return rough[rough["hurst"] == rough["hurst"].max()]
+
+
+def fastest_methods(results):
+    """For every error allowed, {group: the fastest method of the group that reaches it, None if no method does}."""
+    rough, advice = rough_disc(results), []
+    for error in ERRORS:
+        fastest = {}
+        for group in GROUPS:
+            good = rough[(rough["group"] == group) & (rough["error"] <= error)]
+            fastest[group] = method_row(results, good["wall_s"].idxmin()) if len(good) else None
+        advice.append({"error": error, "fastest": fastest})
+    return advice
+
+
+def method_row(results, row):
+    """Name, parameter and numbers of one row of the table of methods."""
+    values = results.tables["methods"].loc[row]
+    numbers = results.numbers("methods", row, "value", "wall_s", "error")
+    return {"method": values["method"].removeprefix("path, "), "parameter": values["parameter"]} | numbers
+
+
+def best_model(results):
+    """The most accurate model on the rough disc; None if none was measured."""
+    models = rough_disc(results).query("group == 'model'")
+    return method_row(results, models["error"].idxmin()) if len(models) else None
+
+
+# ---- failures
+
+
+def failures(results):
+    """Counts of the failure map, and for every method how often it ends in which way and what users are told."""
+    table = results.tables["failure_map"]
+    methods = []
+    for name in dict.fromkeys(table["method"]):
+        rows = table[table["method"] == name]
+        told = rows[rows["verdict"].isin(["warned", "refused", "unnoticed"])] if name not in MODELS else rows.iloc[:0]
+        messages = {}
+        for row in told.itertuples():
+            case = f"{row.group}: {row.case}"
+            messages.setdefault((row.verdict, row.reason.split("; ")[0]), []).append(case)
+        methods.append({"method": name, "verdicts": rows["verdict"].value_counts().to_dict(), "messages": messages})
+    outside = table[table["method"].isin(MODELS) & table["verdict"].isin(["stated", "warned"])]
+    return {
+        "cases": results.count("failure_map", "method", table["method"].iloc[0]),  # a row of each case
+        "unnoticed": results.count("failure_map", "verdict", "unnoticed"),
+        "refused": results.count("failure_map", "verdict", "refused"),
+        "warned": results.count("failure_map", "verdict", "warned"),
+        "worst_model": results.largest(outside[np.isfinite(outside["error"])], "failure_map", "error"),
+        "methods": methods,
+    }

@@ -1,0 +1,62 @@
+"""The page put together: what its template shows, from tables, ensembles and figures."""
+
+from viscorough_study.page import answers, content
+from viscorough_study.page.render import render
+from viscorough_study.page.results import read_results, readable
+from viscorough_study.robustness.failure_map import VERDICTS as OUTCOMES
+from viscorough_study.tables import read_recorded
+
+FURTHER = {
+    "validation": "Every method against exact solutions",
+    "conventions": "What the conventions change that the paper leaves open",
+    "prefactors": "The prefactor under every combination of conventions",
+    "direct": "Direct integration in time against both readings of the law",
+    "reduction": "The reduction of dimensionality, surface by surface",
+}
+
+
+def page(template, style, discs, lines, other_solvers, tables, figures, captions, *, claims, numbers):
+    """HTML of the page.
+
+    template, style : text of the template and of the style sheet
+    discs, lines : paths of the pools; other_solvers : path of a table of the workflow or of published numbers
+    tables, figures, captions : {name: path}, of CSV, PNG and reStructuredText
+    claims, numbers : what the paper says, the contents of resources/paper/claims.yaml and numbers.yaml
+    """
+    results = read_results(tables)
+    scale, verdicts = content.scale(discs, lines, numbers), content.verdicts(results, claims)
+    fastest = answers.fastest_methods(results)
+    costs_nc = str(tables["rule_costs"]).removesuffix(".csv") + ".nc"
+    return render(
+        template,
+        style,
+        figures,
+        captions,
+        results.settings["claims"]["conventions"],
+        alternative=content.ALTERNATIVE_TEXTS,
+        readable=readable,
+        scale=scale,
+        answers=answers.answers(results),
+        verdict_counts=answers.verdict_counts(results),
+        verdict_short=content.VERDICT_SHORT,
+        overall={claim["name"]: claim["verdict"] for claim in verdicts},
+        short={claim["name"]: claim["short"] for claim in verdicts},
+        verdicts=verdicts,
+        groups=answers.GROUPS,
+        fastest_methods=fastest,
+        percents={error: f"{100 * error:g} %" for error in answers.ERRORS},
+        advised=next(row["fastest"] for row in fastest if row["error"] == answers.ADVISED),
+        advised_elements=results.number("methods", answers.rough_disc(results).index[0], "elements"),
+        best_model=answers.best_model(results),
+        failures=answers.failures(results),
+        outcomes=OUTCOMES,
+        other=content.other_solvers(other_solvers),
+        scenes=content.scenes(results),
+        choices=("automatic", "best by hand", "naive"),
+        further=FURTHER,
+        settings=content.settings_in_words(results, scale),
+        costs=content.costs(results),
+        machine=results.machine["rule_costs"],
+        versions=read_recorded(costs_nc, "versions"),
+        made=read_recorded(costs_nc, "made"),
+    )

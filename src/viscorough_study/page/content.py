@@ -1,0 +1,189 @@
+"""What stands on the page below the answers: verdicts, tables, scale and settings of the run."""
+
+import json
+
+import numpy as np
+import pandas as pd
+
+from viscorough.io.netcdf import opened
+from viscorough_study.verdicts import cases_shown, overall
+
+# {name of the figure: what it shows, for those who cannot see it}
+ALTERNATIVE_TEXTS = {
+    "fig1_surfaces": "Grey-scale height maps of one disc for each Hurst exponent: rugged at small H, smooth at large.",
+    "fig2_kinetics": "Two double-logarithmic charts of penetration velocity over time: in SI units the curves of all "
+    "combinations lie apart; in dimensionless variables those of one Hurst exponent fall on one curve.",
+    "fig3_master_curve": "Double-logarithmic chart of the velocity of discs and lines against Equation 12, "
+    "and below it their ratio, which is not 1 for every Hurst exponent.",
+    "fig4_exponent": "Exponent beta over Hurst exponent H: a line of the reduction of dimensionality and symbols of "
+    "boundary elements follow H/(1 + H) at large H; the symbols lie above it at small H.",
+    "speed": "Double-logarithmic charts of the error of the velocity over wall time for every method, with the Pareto "
+    "front of the best ones.",
+    "failure_map": "Matrix of stress-test cases and methods: colour and number give the largest error, a letter "
+    "whether the user is told.",
+    "level_placement": "Wall time of levels placed automatically, by hand and naively, for five scenes.",
+    "conventions": "Exponent and prefactor under every convention that the paper leaves open.",
+    "prefactors": "Prefactor zeta over the laws of the paper, under every combination of conventions.",
+    "direct": "Depth by direct integration in time over the elastic depth: 1, not the factor that Equation 8 predicts.",
+    "reduction": "Stiffness and contact of lines over those of discs with the same spectrum, surface by surface.",
+    "validation": "Errors against exact solutions over the number of elements across, falling as expected.",
+}
+VERDICT_SHORT = {
+    "reproduced": "yes",
+    "reproduced under a stated convention": "partly",
+    "not reproduced": "no",
+    "not testable": "open",
+}
+
+
+def verdicts(results, statements):
+    """Every claim with its statement, its verdict and the cases that are shown, with their numbers."""
+    table, claims = results.tables["claims"], []
+    for name, verdict in overall(table).items():
+        rows = table[table["claim"] == name]
+        first, shown = rows.iloc[0], cases_shown(rows)
+        cases = [
+            {"case": row["case"], "verdict": row["verdict"], "convention": row["convention"]}
+            | results.numbers("claims", i, "value", "low", "high", "expected")
+            for i, row in shown.iterrows()
+        ]
+        claims.append(
+            {
+                "name": name,
+                "statement": statements[name]["statement"],
+                "where": first["where"],
+                "criterion": first["criterion"],
+                "tolerance": results.number("claims", rows.index[0], "tolerance"),
+                "verdict": verdict,
+                "short": VERDICT_SHORT[verdict],
+                "cases": cases,
+                "left_out": len(rows) - len(shown),
+            }
+        )
+    return claims
+
+
+def other_solvers(path):
+    """Time of other solvers over that of the elastic path: solvers, rows and where the ratios come from.
+
+    path : table of the workflow, or of published numbers, which says when and on which machine they were measured
+    """
+    table = pd.read_csv(path)
+    table = table[(table["solver"] != "viscorough") & (table["threads"] == 1)]
+    solvers = list(dict.fromkeys(table["solver"]))
+    rows = []
+    for (task, hurst, elements, levels), group in table.groupby(
+        ["task", "hurst", "elements", "levels"], sort=False, dropna=False
+    ):
+        ratios = dict(zip(group["solver"], group["ratio"], strict=True))
+        rows.append({"task": task, "hurst": hurst, "elements": elements, "levels": levels, "ratios": ratios})
+    published = "measured" in table
+    versions = dict(zip(table["solver"], table["version"], strict=True))
+    origin = {"measured": table["measured"].iloc[0], "machine": table["machine"].iloc[0]} if published else None
+    return {"solvers": solvers, "versions": versions, "rows": rows, "published": origin}
+
+
+def scenes(results):
+    """For every scene the accuracy asked for, and levels, time and error of every choice of levels."""
+    table, scenes = results.tables["level_placement"], []
+    for name in dict.fromkeys(table["scene"]):
+        rows = table[table["scene"] == name]
+        choices = {
+            row["choice"]: {"reached": bool(row["reached"])}
+            | results.numbers("level_placement", i, "levels", "wall_s", "ratio", "error")
+            for i, row in rows.iterrows()
+        }
+        accuracy = results.number("level_placement", rows.index[0], "accuracy")
+        scenes.append({"scene": name, "accuracy": accuracy, "choices": choices})
+    return scenes
+
+
+def costs(results):
+    """Cost of every rule, most expensive first, and the sum of the wall times [s]."""
+    table = results.tables["rule_costs"]
+    columns = ("jobs", "seconds", "longest_s", "memory_mb")
+    rows = [{"rule": row["rule"]} | results.numbers("rule_costs", i, *columns) for i, row in table.iterrows()]
+    return {"rules": rows, "sum": float(table["seconds"].sum())}
+
+
+# ---- scale
+
+
+def scale(discs, lines, numbers):
+    """The scale at which a run was made, from its ensembles, beside that of the paper.
+
+    discs, lines : paths of the pools; numbers : content of resources/paper/numbers.yaml
+    """
+    pools = {"discs": _pool(discs), "lines": _pool(lines)}
+    elements, reduction = numbers["boundary_elements"], numbers["reduction"]
+    paper = {
+        "elements": elements["elements_across"]["value"],
+        "realizations": elements["realizations_min"]["value"],
+        "points": reduction["points"]["value"],
+        "lines": reduction["realizations"]["value"],
+    }
+    run = {
+        "elements": pools["discs"]["description"]["elements"],
+        "realizations": pools["discs"]["realizations"],
+        "points": pools["lines"]["description"]["points"],
+        "lines": pools["lines"]["realizations"],
+    }
+    if all(run[name] >= paper[name] for name in paper):
+        name = "paper"
+    else:
+        # On coarser grids region (b), in which the power law is looked for, is shorter than the half decade that a fit
+        # needs, or nearly so.
+        name = "trial" if run["elements"] < paper["elements"] / 2 else "reduced"
+    return {"name": name, "run": run, "paper": paper, **pools}
+
+
+def _pool(path):
+    """Number of realizations of the first case of a pool, Hurst exponents, groups and the first case's settings."""
+    with opened(path) as file:
+        settings = json.loads(file.getncattr("settings"))
+        case, hurst, group = (np.ma.getdata(file[name][...]) for name in ("case", "hurst", "group"))
+    base = group == group[0]
+    first = case[0]
+    return {
+        "realizations": int((case == first).sum()),
+        "hurst": sorted({float(value) for value in hurst[base]}),
+        "cases_per_hurst": len(set(case[base & (hurst == hurst[0])])),
+        "groups": list(dict.fromkeys(group.tolist())),
+        "description": settings[str(first)],
+    }
+
+
+def settings_in_words(results, scale):
+    """[(what, its value)] of the settings that a reader needs to judge the results."""
+    discs, lines = scale["discs"], scale["lines"]
+    surface, indentation = discs["description"]["surface"], discs["description"]["indentation"]
+    conventions, fit = results.settings["claims"]["conventions"], results.settings["scaling"]
+    listed = ", ".join
+    hursts = {name: [f"{value:g}" for value in scale[name]["hurst"]] for name in ("discs", "lines")}
+    of_lines = f"{len(hursts['lines'])} from {hursts['lines'][0]} to {hursts['lines'][-1]}"
+    methods, failure, scenes = (results.settings[name] for name in ("methods", "failure_map", "level_placement"))
+    return [
+        ("root seed of every random surface", discs["description"]["seed"]),
+        ("discs, elements across", discs["description"]["elements"]),
+        ("discs, Hurst exponents", listed(hursts["discs"])),
+        ("discs, combinations of force, viscosity, diameter and rms height", discs["cases_per_hurst"]),
+        ("discs, realizations of each combination", discs["realizations"]),
+        ("discs, further ensembles", listed(discs["groups"][1:]) or "none"),
+        ("discs, tolerance of depth and stiffness", indentation["tolerance"]),
+        ("surfaces, period over diameter", surface["period"]),
+        ("surfaces, amplitudes of the waves", surface["amplitudes"]),
+        ("surfaces, rms height over", surface["rms_over"]),
+        ("lines, points", lines["description"]["points"]),
+        ("lines, Hurst exponents", of_lines if len(hursts["lines"]) > 1 else hursts["lines"][0]),
+        ("lines, realizations of each", lines["realizations"]),
+        ("fits, bootstrap samples", fit["resamples"]),
+        ("fits, fewest elements in contact", fit["elements_min"]),
+        ("fits, largest stiffness κ", fit["stiffness_max"]),
+        ("figures, mean over realizations", conventions["average"]),
+        ("figures, rms height h of the", conventions["rms_convention"]),
+        ("figures, window of the fit", conventions["window_rule"]),
+        ("speed, groups of methods", listed(methods["groups"])),
+        ("speed, repeats of every time", methods["repeats"]),
+        ("failure map, elements across", failure["across"]),
+        ("scenes, elements across", scenes["elements"]),
+    ]

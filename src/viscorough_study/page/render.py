@@ -1,0 +1,64 @@
+"""The page as one HTML file: figures embedded, captions of the report, numbers with their place in a table."""
+
+import base64
+import re
+import struct
+from pathlib import Path
+
+import jinja2
+from docutils.core import publish_parts
+from markupsafe import Markup
+
+from viscorough_study.page.results import readable
+
+
+def render(template, style, figures, captions, conventions, **content):
+    """HTML of the page.
+
+    template, style : text of the template and of the style sheet
+    figures : {name: path of its PNG}; captions : {name: path of its caption for Snakemake's report}
+    conventions : of the figures, which captions name
+    content : what the template shows
+    """
+    environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, lstrip_blocks=True)
+    environment.filters |= {"number": number, "percent": percent, "readable": readable}
+    environment.globals |= {
+        "image": {name: embedded_png(Path(path).read_bytes()) for name, path in figures.items()},
+        "caption": {name: caption(Path(path).read_text("utf-8"), conventions) for name, path in captions.items()},
+        "style": Markup(style),
+    }
+    return environment.from_string(template).render(content)
+
+
+def number(value):
+    """A Number or Count as an element that names its place in a table; a dash for None."""
+    return _element(value, None if value is None else readable(value.value))
+
+
+def percent(value):
+    """A Number in percent."""
+    return _element(value, None if value is None else readable(100 * value.value) + " %")
+
+
+def _element(value, text):
+    if value is None or text == "–":
+        return "–"
+    places = {f"data-{name}": place for name, place in value.place.items()}
+    named = {"value": repr(value.value), "title": value.title} | places
+    attributes = Markup(" ").join(Markup('{}="{}"').format(*attribute) for attribute in named.items())
+    return Markup("<data {}>{}</data>").format(attributes, text)
+
+
+def embedded_png(content):
+    """src, width and height of an image of the page; the figures have 200 dots to the inch, screens about 100."""
+    width, height = struct.unpack(">II", content[16:24])
+    source = "data:image/png;base64," + base64.b64encode(content).decode("ascii")
+    return {"src": Markup(source), "width": width // 2, "height": height // 2}
+
+
+def caption(text, conventions):
+    """A caption of the report, reStructuredText with placeholders of Snakemake, as HTML."""
+    snakemake = {"params": {"conventions": conventions}}
+    text = jinja2.Template(text, undefined=jinja2.StrictUndefined).render(snakemake=snakemake)
+    parts = publish_parts(text, writer="html5", settings_overrides={"report_level": 2, "halt_level": 2})
+    return Markup(re.sub(r'<(tt|span) class="docutils literal">(.*?)</\1>', r"<code>\2</code>", parts["body"]))

@@ -1,0 +1,133 @@
+"""Tables of results as the page reads them, and numbers that know where they stand in a table.
+
+Every number that the page states in a sentence is a `Number` or a `Count`: its place in a table becomes part of the
+page, so that a reader, or a test, can look it up.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+
+from viscorough_study.tables import read_recorded
+
+MAY_BE_EMPTY = ("convention", "reason")  # columns of texts
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number in a table of results/tables: name of the table, row of its CSV counted from 0, and column."""
+
+    value: float
+    table: str
+    row: int
+    column: str
+
+    @property
+    def place(self):
+        """Attributes of the HTML element that holds the number."""
+        return {"table": self.table, "row": self.row, "column": self.column}
+
+    @property
+    def title(self):
+        """What a reader who points at the number sees."""
+        return f"results/tables/{self.table}.csv, row {self.row}, {self.column}"
+
+
+@dataclass(frozen=True)
+class Count:
+    """How many rows of a table have a value in a column, or how many different values the column has (value None)."""
+
+    value: int
+    table: str
+    column: str
+    counted: str | None
+
+    @property
+    def place(self):
+        """Attributes of the HTML element that holds the number."""
+        return {"table": self.table, "column": self.column, "counted": self.counted or "different values"}
+
+    @property
+    def title(self):
+        """What a reader who points at the number sees."""
+        return f"results/tables/{self.table}.csv, {self.column}: number of {self.place['counted']}"
+
+
+@dataclass(frozen=True)
+class Results:
+    """Tables by name, as pandas.DataFrames whose index is the row of the CSV, and what they were made with.
+
+    settings, machine : {table: mapping}, of the tables that have recorded it
+    """
+
+    tables: dict
+    settings: dict
+    machine: dict
+
+    def rows(self, table, **wanted):
+        """Rows of a table with these values, {column: value}."""
+        rows = self.tables[table]
+        for column, value in wanted.items():
+            rows = rows[rows[column] == value]
+        return rows
+
+    def number(self, table, row, column):
+        """The number at a place of a table."""
+        return Number(float(self.tables[table].at[row, column]), table, int(row), column)
+
+    def numbers(self, table, row, *columns):
+        """{column: Number} of one row."""
+        return {column: self.number(table, row, column) for column in columns}
+
+    def least(self, rows, table, column):
+        """The smallest number in a column of some rows of a table; None if there is none."""
+        return self._extreme(rows, table, column, "idxmin")
+
+    def largest(self, rows, table, column):
+        """The largest number in a column of some rows of a table; None if there is none."""
+        return self._extreme(rows, table, column, "idxmax")
+
+    def _extreme(self, rows, table, column, function):
+        values = rows[column].dropna()
+        return None if values.empty else self.number(table, getattr(values, function)(), column)
+
+    def count(self, table, column, counted=None):
+        """How many rows have the value `counted` in a column, or without it how many different values there are."""
+        values = self.tables[table][column]
+        return Count(int((values == counted).sum() if counted else values.nunique()), table, column, counted)
+
+
+def read_results(tables):
+    """Results of the tables at {name: path of the CSV}, beside which stand the NetCDF files of the same names."""
+    texts = {"keep_default_na": False, "na_values": [""]}
+    frames = {name: _without_missing_texts(pd.read_csv(path, **texts)) for name, path in tables.items()}
+    settings, machine = {}, {}
+    for name, path in tables.items():
+        for attribute, place in (("settings", settings), ("machine", machine)):
+            place[name] = read_recorded(_netcdf_of(path), attribute, missing={})
+    return Results(frames, settings, machine)
+
+
+def _without_missing_texts(table):
+    """The table with empty texts where pandas, which cannot know that a column holds texts, reads nan."""
+    return table.assign(**{name: table[name].astype(object).fillna("") for name in MAY_BE_EMPTY if name in table})
+
+
+def _netcdf_of(csv_path):
+    return str(csv_path).removesuffix(".csv") + ".nc"
+
+
+def readable(value):
+    """A number as text of three digits, such as 0.397, 51433, 1.2×10⁻⁵; a dash where there is none."""
+    if value is None or np.isnan(value):
+        return "–"
+    if np.isinf(value):
+        return "∞"
+    if value == round(value) and abs(value) < 1e6:
+        return f"{value:.0f}".replace("-", "−")
+    if 1e-3 <= abs(value) < 1e4:
+        return (f"{value:.0f}" if abs(value) >= 1e3 else f"{value:.3g}").replace("-", "−")
+    mantissa, exponent = f"{value:.1e}".split("e")
+    superscript = str(int(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return f"{mantissa.removesuffix('.0')}×10{superscript}".replace("-", "−")

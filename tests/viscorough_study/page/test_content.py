@@ -1,0 +1,103 @@
+"""What the page says of the scale, the methods and other solvers."""
+
+import json
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+
+from support.study import NUMBERS, ROOT
+from viscorough_study.page.answers import fastest_methods, method_row, verdict_counts
+from viscorough_study.page.content import other_solvers, scale
+from viscorough_study.page.results import Results
+
+
+def pool(path, description, realizations):
+    """A pool of two cases for each of two Hurst exponents."""
+    cases = np.repeat(["h04_c1", "h04_c2", "h09_c1", "h09_c2"], realizations)
+    variables = {
+        "case": ("realization", cases.astype(object)),
+        "hurst": ("realization", np.repeat([0.4, 0.4, 0.9, 0.9], realizations)),
+        "group": ("realization", np.full(cases.size, "base", dtype=object)),
+    }
+    settings = json.dumps({"h04_c1": description})
+    xr.Dataset(variables, attrs={"settings": settings}).to_netcdf(path)
+    return path
+
+
+@pytest.mark.parametrize(
+    ("elements", "realizations", "lines", "points", "name"),
+    [
+        (257, 80, 500, 4_000_000, "paper"),
+        (257, 80, 500, 262_144, "reduced"),
+        (257, 6, 500, 4_000_000, "reduced"),
+        (33, 80, 500, 4_000_000, "trial"),
+    ],
+)
+def test_scale_is_told_from_the_ensembles(tmp_path, elements, realizations, lines, points, name):
+    discs = pool(tmp_path / "discs.nc", {"elements": elements}, realizations)
+    of_lines = pool(tmp_path / "lines.nc", {"points": points}, lines)
+    found = scale(discs, of_lines, NUMBERS)
+    assert found["name"] == name
+    assert found["run"] == {"elements": elements, "realizations": realizations, "points": points, "lines": lines}
+    assert found["discs"]["hurst"] == [0.4, 0.9]
+    assert found["discs"]["cases_per_hurst"] == 2
+
+
+@pytest.fixture
+def methods():
+    rows = [
+        ("path", "path, at the depths", "tolerance", 1e-1, 0.1, 3e-2),
+        ("path", "path, at the depths", "tolerance", 1e-3, 0.2, 5e-4),
+        ("path", "path, automatic levels", "tolerance", 1e-3, 0.3, 4e-4),
+        ("marching", "explicit, logarithmic steps", "steps", 64, 5.0, 8e-3),
+        ("model", "MDR", "points", 64, 1e-3, 0.2),
+        ("other solver", "ASPHER", "tolerance", 1e-3, 0.01, 1e-4),
+    ]
+    table = pd.DataFrame(rows, columns=["group", "method", "parameter", "value", "wall_s", "error"])
+    table = table.assign(problem="rough disc, H = 0.8", hurst=0.8, elements=257)
+    coarse = table.assign(elements=65, wall_s=1e-6, error=0.0)
+    return Results({"methods": pd.concat([coarse, table], ignore_index=True)}, {}, {})
+
+
+def test_the_fastest_method_that_reaches_an_error_is_named(methods):
+    fastest = {row["error"]: row["fastest"] for row in fastest_methods(methods)}
+    assert fastest[0.1]["path"] == method_row(methods, 6)
+    assert fastest[1e-2]["path"]["value"].value == 1e-3
+    assert fastest[1e-2]["path"]["wall_s"].value == 0.2
+    assert fastest[1e-2]["marching"]["wall_s"].value == 5.0
+    assert fastest[1e-2]["model"] is None
+    assert set(fastest[1e-6].values()) == {None}
+
+
+def test_a_claim_counts_once_with_the_worst_of_its_verdicts():
+    rows = [("a", "reproduced"), ("a", "not reproduced"), ("b", "reproduced"), ("c", "reproduced")]
+    counts = verdict_counts(Results({"claims": pd.DataFrame(rows, columns=["claim", "verdict"])}, {}, {}))
+    assert [(count.counted, count.value) for count in counts] == [("reproduced", 2), ("not reproduced", 1)]
+
+
+def test_published_ratios_of_other_solvers_are_those_of_the_documentation():
+    """Row by row of the table in docs/performance.md."""
+    published = other_solvers(ROOT / "resources/published/other_solvers.csv")
+    assert published["published"]["measured"] == "2026-11-21"
+    lines = (ROOT / "docs/performance.md").read_text(encoding="utf-8").splitlines()
+    first = next(i for i, line in enumerate(lines) if line.startswith("| | H | ASPHER"))
+    solvers = [cell.strip() for cell in lines[first].strip("|").split("|")][2:]
+    documented = [line.strip("|").split("|")[1:] for line in lines[first + 2 : first + 8]]
+    assert published["solvers"] == solvers
+    stated = [[row["hurst"], *(row["ratios"][solver] for solver in solvers)] for row in published["rows"]]
+    assert stated == [[float(cell) for cell in cells] for cells in documented]
+
+
+def test_measured_ratios_of_other_solvers_are_not_called_published(tmp_path):
+    columns = ["task", "hurst", "elements", "levels", "solver", "version", "threads", "ratio"]
+    rows = [
+        ("few", 0.4, 33, 8, "viscorough", "1", 1, 1.0),
+        ("few", 0.4, 33, 8, "Tamaas", "2", 1, 140.0),
+        ("few", 0.4, 33, 8, "Tamaas", "2", 2, 90.0),
+    ]
+    pd.DataFrame(rows, columns=columns).to_csv(tmp_path / "other_solvers.csv", index=False)
+    found = other_solvers(tmp_path / "other_solvers.csv")
+    assert found["published"] is None
+    assert found["rows"] == [{"task": "few", "hurst": 0.4, "elements": 33, "levels": 8, "ratios": {"Tamaas": 140.0}}]

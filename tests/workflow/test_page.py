@@ -1,0 +1,127 @@
+"""The page of the results: complete in itself, and every number on it stands in a table."""
+
+import base64
+import re
+import subprocess
+from itertools import pairwise
+
+import pandas as pd
+import pytest
+
+from support.page import BROWSER, Page, number_in
+from support.workflow import ROOT
+from viscorough_study.verdicts import overall
+
+IMAGES = 12
+LARGEST = 6e6  # bytes
+
+
+@pytest.fixture(scope="module")
+def folder(finished_once):
+    return finished_once
+
+
+@pytest.fixture(scope="module")
+def html(folder):
+    return (folder / "results/index.html").read_text(encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def page(html):
+    return Page(html)
+
+
+@pytest.fixture(scope="module")
+def tables(folder):
+    texts = {"keep_default_na": False, "na_values": [""]}
+    return {path.stem: pd.read_csv(path, **texts) for path in (folder / "results/tables").glob("*.csv")}
+
+
+def test_every_image_is_embedded_and_described(page):
+    images = page.attributes("img")
+    assert len(images) == IMAGES
+    for image in images:
+        kind, content = image["src"].split(",", 1)
+        assert kind == "data:image/png;base64"
+        assert base64.b64decode(content, validate=True).startswith(b"\x89PNG")
+        assert len(image["alt"]) > 40
+        assert int(image["width"]) > 100
+
+
+def test_nothing_comes_from_elsewhere(html, page):
+    assert len(html.encode()) < LARGEST
+    assert not {"script", "link", "iframe", "base"} & {tag for tag, _ in page.elements}
+    assert "url(" not in html
+    assert "@import" not in html
+    links = [attributes["href"] for _, attributes in page.elements if "href" in attributes]
+    assert len(links) > 8
+    assert set(links) <= {f"#{name}" for name in page.ids}
+    assert len(page.ids) == len(set(page.ids))
+    sources = [attributes["src"] for _, attributes in page.elements if "src" in attributes]
+    assert all(source.startswith("data:") for source in sources)
+
+
+def test_every_number_stands_in_a_table(page, tables):
+    assert len(page.numbers) > 100
+    for _, place, text in page.numbers:
+        shown, half_a_digit = number_in(text)
+        table = tables[place["data-table"]]
+        if "data-row" in place:
+            value = float(table.at[int(place["data-row"]), place["data-column"]])
+        elif place["data-counted"] == "different values":
+            value = table[place["data-column"]].nunique()
+        elif place["data-column"] in table:
+            value = (table[place["data-column"]] == place["data-counted"]).sum()
+        else:
+            value = list(overall(table).values()).count(place["data-counted"])
+        assert value == float(place["value"]), place
+        assert abs(shown - value) <= 1.001 * half_a_digit, (place, text)
+
+
+def test_the_answer_states_no_other_numbers(page):
+    """But those of equations, and the error that is asked about."""
+    assert sum(section == "answer" for section, *_ in page.numbers) > 20
+    text = re.sub(r"Eqs?\. \d+(, \d+)*( and \d+)?", "", page.texts["answer"])
+    assert re.findall(r"\d[^ ]*( %)?", text.replace("for 1 % error", "")) == []
+
+
+def test_settings_are_no_dumps(page):
+    assert not re.search(r"\{['\"]|spawn_key|None|nan\b|dtype|<[a-z]", page.text.replace("nan is outside", ""))
+
+
+def test_a_trial_run_says_that_its_verdicts_mean_nothing(page):
+    """config/test.yaml is one."""
+    assert "A trial run: its verdicts mean nothing." in page.text
+
+
+def test_it_says_how_to_go_on(page):
+    for text in ("make reproduce", "make paper", "make stability", "--forcerun fit_scaling", "viscorough indent"):
+        assert text in page.text
+    assert "not measured in this run" in page.text, "other solvers are quoted"
+
+
+def test_it_can_be_used_with_the_keyboard(page):
+    tags = [tag for tag, _ in page.elements]
+    assert tags.index("a") < tags.index("nav")  # the link that skips the contents
+    scrolled = [attributes for _, attributes in page.elements if attributes.get("class") == "scroll"]
+    assert len(scrolled) == tags.count("table") > 5
+    assert all(attributes["tabindex"] == "0" and attributes["aria-label"] for attributes in scrolled)
+    headings = [int(tag[1]) for tag in tags if re.fullmatch("h[1-6]", tag)]
+    assert headings[0] == 1
+    assert all(later <= earlier + 1 for earlier, later in pairwise(headings))
+
+
+def test_captions_are_those_of_the_report(page):
+    caption = (ROOT / "workflow/report/fig1_surfaces.rst").read_text(encoding="utf-8")
+    assert " ".join(caption.split(".")[0].split()) in " ".join(page.text.split())
+
+
+@pytest.mark.skipif(BROWSER is None, reason="no Chromium is installed")
+def test_a_browser_opens_it_without_complaints(folder, tmp_path):
+    path = folder / "results/index.html"
+    options = ("--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tmp_path}", "--enable-logging=stderr")
+    opened = subprocess.run(
+        [BROWSER, *options, "--dump-dom", path.as_uri()], capture_output=True, text=True, timeout=60, check=True
+    )
+    assert "What was found" in opened.stdout
+    assert "CONSOLE" not in opened.stderr

@@ -1,0 +1,27 @@
+"""The page of the results, results/index.html."""
+
+from pathlib import Path
+
+from viscorough.io.atomic import atomic_write
+from viscorough_study.job_log import log_to
+from viscorough_study.page.assembly import page
+
+
+def main(project, discs, lines, other_solvers, tables, figures, page_file, *, claims, numbers):
+    """Write the page.
+
+    project : folder of the project, which has template, style, captions and published numbers
+    other_solvers : [] or [path of their table]; tables, figures : paths, whose stems name them
+    """
+    tables, figures = ({Path(path).stem: path for path in paths} for paths in (tables, figures))
+    captions = {name: project / f"workflow/report/{name}.rst" for name in figures}
+    texts = [(project / "workflow/page" / name).read_text("utf-8") for name in ("page.html.jinja", "style.css")]
+    (others,) = other_solvers or [project / "resources/published/other_solvers.csv"]
+    html = page(*texts, discs, lines, others, tables, figures, captions, claims=claims, numbers=numbers)
+    with atomic_write(page_file) as temporary:
+        temporary.write_text(html, encoding="utf-8")
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(Path(job.scriptdir).resolve().parents[1], **job.input, page_file=job.output.page, **job.params)

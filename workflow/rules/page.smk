@@ -32,7 +32,12 @@ rule make_page:
         ],
         figures=[rule.output.png for rule in PAGE_FIGURES.values()],
     output:
-        page="results/index.html",
+        page=report(
+            "results/index.html",
+            caption="../report/page.rst",
+            category=chapter("summary"),
+            labels={"result": "what was found", "kind": "page"},
+        ),
     log:
         "results/logs/make_page.log",
     benchmark:

@@ -31,9 +31,8 @@ def main(csv, html, nc, *, seed, hurst, repeats, longest, tasks, peers):
             levels = disc_task(task["name"], each, task["elements"], fractions, task["residual"], **of_disc)
             common = {"repeats": repeats, "time_limit": longest, "report": logging.info}
             tables.append(compare_solvers(levels, installed, **common))
-    table, about = pd.concat(tables), recorded(machine=timing.machine())
-    title = "The same levels by other solvers"
-    write_table(table, csv, nc, html, columns=COLUMNS, dimension="measurement", title=title, attributes=about)
+    about = {"title": "The same levels by other solvers", "attributes": recorded(machine=timing.machine())}
+    write_table(pd.concat(tables), csv, nc, html, columns=COLUMNS, dimension="measurement", **about)
 
 
 if job := globals().get("snakemake"):

@@ -22,19 +22,10 @@ def main(discs, scaling, validation, direct, csv, html, nc, verdicts, *, claims,
         **settings,
     )
     table = judge(claims, evidence)
-    of_run = {name: settings[name] for name in ("seed", "resamples", "conventions", "limits", "rules")}
     about = scale(evidence)
     title = "Verdicts on the paper's claims" + ("" if about["decisive"] else f" ({about['scale']})")
-    write_table(
-        table,
-        csv,
-        nc,
-        html,
-        columns=COLUMNS,
-        dimension="case_of_claim",
-        title=title,
-        attributes=about | recorded(settings=of_run),
-    )
+    about |= recorded(settings={name: settings[name] for name in ("seed", "resamples", "conventions", "rules")})
+    write_table(table, csv, nc, html, columns=COLUMNS, dimension="case_of_claim", title=title, attributes=about)
     with atomic_write(verdicts) as temporary:
         temporary.write_text(markdown(table, claims), encoding="utf-8")
 

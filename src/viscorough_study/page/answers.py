@@ -82,7 +82,8 @@ def method_row(results, row):
     """Name, parameter and numbers of one row of the table of methods."""
     values = results.tables["methods"].loc[row]
     numbers = results.numbers("methods", row, "value", "wall_s", "error")
-    return {"method": values["method"].removeprefix("path, "), "parameter": values["parameter"]} | numbers
+    name = values["method"].removeprefix("path, ").replace("at the depths", "given levels")  # as in the figure
+    return {"method": name, "parameter": values["parameter"]} | numbers
 
 
 def best_model(results):

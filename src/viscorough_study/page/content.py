@@ -10,7 +10,7 @@ from viscorough_study.verdicts import cases_shown, overall
 
 # {name of the figure: what it shows, for those who cannot see it}
 ALTERNATIVE_TEXTS = {
-    "fig1_surfaces": "Grey-scale height maps of one disc for each Hurst exponent: rugged at small H, smooth at large.",
+    "fig1_surfaces": "Height maps of one disc for each Hurst exponent: rugged at small H, smooth at large.",
     "fig2_kinetics": "Two double-logarithmic charts of penetration velocity over time: in SI units the curves of all "
     "combinations lie apart; in dimensionless variables those of one Hurst exponent fall on one curve.",
     "fig3_master_curve": "Double-logarithmic chart of the velocity of discs and lines against Equation 12, "

@@ -221,12 +221,9 @@ FIELDS = st.one_of(
     st.sampled_from(["nan", "inf", "-1", "1e400", "", "time", "1N", "0x1", "1_0", "٣", "#", '"1"', "\ufeff", "\x00"]),
 )
 ROWS = st.lists(st.lists(FIELDS, min_size=1, max_size=3).map(",".join), max_size=5)
-RISING = st.lists(st.integers(0, 5), min_size=2, max_size=5).map(
-    lambda forces: [f"{i},{f}" for i, f in enumerate(forces)]
-)
-HISTORIES = damaged(
-    st.one_of(RISING, RISING.map(lambda rows: ["t,F", *rows]), ROWS).map(lambda rows: "\n".join(rows).encode())
-)
+FORCES = st.lists(st.integers(0, 5), min_size=2, max_size=5)
+GOOD = FORCES.map(lambda forces: [f"{time},{force}" for time, force in enumerate(forces)])
+HISTORIES = damaged(st.one_of(GOOD, GOOD.map(lambda rows: ["t,F", *rows]), ROWS).map("\n".join).map(str.encode))
 
 # ---- options
 
@@ -267,11 +264,8 @@ def commands(draw):
     """Command lines: mostly complete, some with missing, repeated or unknown arguments."""
     command = draw(st.sampled_from(sorted(OPTIONS)))
     rarely = st.integers(0, 19).map(lambda n: n == 0)
-    file = draw(
-        st.sampled_from(["none.npy", "folder", "older.nc", "pipe", ""])
-        if draw(rarely)
-        else st.sampled_from(READ[command])
-    )
+    odd_files = ["none.npy", "folder", "older.nc", "pipe", ""]
+    file = draw(st.sampled_from(odd_files if draw(rarely) else READ[command]))
     given = [["-o", draw(st.sampled_from(OUTPUTS))]]
     if command != "kinetics":
         given.append(["--spacing", draw(NUMBERS if draw(st.integers(0, 3)) == 0 else st.sampled_from(["1", "0.5"]))])

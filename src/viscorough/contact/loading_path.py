@@ -132,7 +132,7 @@ class _LoadingPath:
         while self._is_unfinished() and self._contact.count < most and ratio > _APPROACH_MIN_RATIO:
             contact = self._solver.advance_reduced(self._contact, self._contact.reduced_depth * ratio)
             # A contact beyond the start is kept for later: the interval that contains the start must be a short one.
-            if contact.count > start_count or contact.pressure_sum > self._until_pressure_sum:
+            if contact.count >= start_count or contact.pressure_sum > self._until_pressure_sum:
                 self._ahead.append(contact)
                 del self._ahead[:-_MOST_AHEAD]
             else:

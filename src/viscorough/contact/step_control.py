@@ -21,15 +21,15 @@ _MAX_DEPTH_RATIO, _INITIAL_DEPTH_RATIO = 2.0, 1.15
 _EVENTS_PER_ACCURACY, _MAX_EVENTS = 0.4, 400
 # The next step aims at this share of the admissible bound, which is of second order in the logarithm of the depth
 # ratio; this logarithm changes by a factor between the last two numbers.
-_AIM, _ORDER, _LEAST_CHANGE, _LARGEST_CHANGE = 0.7, 2, 0.3, 2.0
+_AIM, _ORDER, _LEAST_CHANGE, _LARGEST_CHANGE = 0.8, 2, 0.3, 2.0
 # A step is divided within these shares of it.
 _DIVISION = 0.15, 0.85
-# Points of an interval at which the bound is evaluated, as shares of its force.
-_POINTS = np.linspace(0, 1, 18)[1:-1]
+# Points of an interval at which the bound is evaluated, as shares of its force, and what it may be larger in between.
+_POINTS, _BETWEEN_POINTS = np.linspace(0, 1, 18)[1:-1], 1.15
 # An interval is accepted up to this multiple of the bound if the error predicted from the depths at which elements
 # touch is below this share of the accuracy. The prediction needs so many elements, and must agree with the force to
 # within these factors.
-_RELAXED_BOUND, _PREDICTED_ERROR, _PREDICTED_COUNT, _AGREEMENT = 3.0, 0.5, 10, (0.8, 1.25)
+_RELAXED_BOUND, _PREDICTED_ERROR, _PREDICTED_COUNT, _AGREEMENT = 3.3, 0.5, 10, (0.8, 1.25)
 _NEGLIGIBLE_BOUND = 0.15
 _TINY = 1e-30
 
@@ -109,7 +109,7 @@ def interpolation_bound(before, after):
         before.depth + (force - before.pressure_sum) / before.tangent_sum,
         after.depth - (after.pressure_sum - force) / after.tangent_sum,
     )
-    return (np.maximum(tangents - depth, depth - chord) / depth).max()
+    return _BETWEEN_POINTS * (np.maximum(tangents - depth, depth - chord) / depth).max()
 
 
 def division(before, after):

@@ -78,7 +78,7 @@ def _error_between(curve, events, case, tolerance, rounding):
     arguments, last = case.arguments, curve.force[-1]
     if curve.contact_fraction[-1] < arguments["until_fraction"] and last < arguments.get("until_force", np.inf):
         return f"stops at a contact fraction of {curve.contact_fraction[-1]:.3g}"
-    before_start = curve.contact_fraction <= arguments.get("start_fraction", 0.0)
+    before_start = curve.contact_fraction < arguments.get("start_fraction", 0.0)
     first = max(curve.force[before_start], default=0.0)
     force = events.impulse[(events.impulse > first) & (events.impulse < last)]
     force = np.unique(np.concatenate([force, (force[1:] + force[:-1]) / 2, [first + 0.5 * (last - first), last]]))

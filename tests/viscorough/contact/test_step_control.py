@@ -27,8 +27,7 @@ def test_the_bound_holds_for_any_convex_curve(seed):
     force = np.maximum(depth[:, None] - gaps, 0).sum(axis=1)
     ends = np.array([[level.depth, level.pressure_sum, level.tangent_sum, level.count] for level in (before, after)]).T
     error = np.abs(interpolate_levels(*ends, force)[0] / depth - 1).max()
-    # The bound is evaluated at a number of points of the interval, not at all of them.
-    assert error <= 1.02 * interpolation_bound(before, after)
+    assert error <= interpolation_bound(before, after)
 
 
 def test_one_element_that_joins_leaves_no_error():
@@ -56,7 +55,7 @@ def boss_on_a_plate(across=24, radius=7):
 def test_a_kink_is_resolved(tolerance, start_fraction):
     boss = boss_on_a_plate()
     events, curve = march_events(boss), indent(boss, tolerance=tolerance, start_fraction=start_fraction)
-    first = max(curve.force[curve.contact_fraction <= start_fraction], default=0.0)
+    first = max(curve.force[curve.contact_fraction < start_fraction], default=0.0)
     impulse = events.impulse[(events.impulse > first) & (events.impulse <= curve.force[-1])]
     impulse = np.union1d(impulse, (impulse[1:] + impulse[:-1]) / 2)
     assert impulse.size > 500
@@ -79,4 +78,4 @@ def test_the_bound_is_relaxed_only_where_a_small_error_is_predicted(indenter, de
     after = solver.advance_reduced(before, depths[1])
     bound = interpolation_bound(Level.of(before), Level.of(after)) / tolerance
     assert 0.5 < bound < 3
-    assert control.excess(before, after) == pytest.approx(bound / 3 if relaxed else bound)
+    assert control.excess(before, after) == pytest.approx(bound / 3.3 if relaxed else bound)

@@ -163,8 +163,9 @@ def _predicted_touches(before, after):
     nothing = np.empty(0), np.empty(0)
     if before.fields is None:
         return nothing
-    is_new = ~np.isin(after.members, before.members, assume_unique=True, kind="table")
-    place = before.fields.place[after.members[is_new]]
+    place = before.fields.place[after.members]
+    is_new = before.fields.tangent[place] == 0
+    place = place[is_new]
     if not place.all():  # place 0 is outside the grid of the contact before
         return nothing
     tangent_gap = np.minimum(before.fields.tangent_gap.values[place], -_TINY)

@@ -24,7 +24,7 @@ _EVENTS_PER_ACCURACY, _MAX_EVENTS = 0.4, 400
 _AIM, _ORDER, _LEAST_CHANGE, _LARGEST_CHANGE = 0.8, 2, 0.3, 2.0
 # A step is divided within these shares of it.
 _DIVISION = 0.15, 0.85
-# Points of an interval at which the bound is evaluated, as shares of its force, and what it may be larger in between.
+# Shares of an interval's force at which the bound is evaluated, and the factor by which it may be larger in between.
 _POINTS, _BETWEEN_POINTS = np.linspace(0, 1, 18)[1:-1], 1.15
 # An interval is accepted up to this multiple of the bound if the error predicted from the depths at which elements
 # touch is below this share of the accuracy. The prediction needs so many elements, and must agree with the force to
@@ -96,15 +96,19 @@ class StepControl:
 def interpolation_bound(before, after):
     """Bound on the relative error of the depth interpolated between two levels, from the convexity of the curve.
 
-    It is the largest distance of the interpolated depth from the sides of the triangle of chord and tangents.
+    It is the largest distance of the interpolated depth from the sides of the triangle of chord and tangents, which is
+    evaluated where the tangents meet and at equal intervals of the force.
 
     before, after : Levels
     """
     if after.count - before.count in (0, 1):
         return 0.0  # the two tangents are the curve
-    force = before.pressure_sum + _POINTS * (after.pressure_sum - before.pressure_sum)
+    rise = after.pressure_sum - before.pressure_sum
+    at_meeting = before.tangent_sum * _meeting(before, after) * (after.depth - before.depth) / rise
+    share = np.append(_POINTS, np.clip(at_meeting, 1e-3, 1))
+    force = np.minimum(before.pressure_sum + share * rise, after.pressure_sum)
     depth = _interpolate(before, after, force)
-    chord = before.depth + _POINTS * (after.depth - before.depth)
+    chord = before.depth + share * (after.depth - before.depth)
     tangents = np.minimum(
         before.depth + (force - before.pressure_sum) / before.tangent_sum,
         after.depth - (after.pressure_sum - force) / after.tangent_sum,
@@ -117,11 +121,15 @@ def division(before, after):
 
     If the stiffness jumps at one depth, it is this one. Otherwise it is near the middle of the interval.
     """
+    return before.depth + (after.depth - before.depth) * np.clip(_meeting(before, after), *_DIVISION)
+
+
+def _meeting(before, after):
+    """Depth at which the tangents of two levels meet, as a share of the interval between them."""
     width = after.depth - before.depth
     rise = after.tangent_sum - before.tangent_sum
     missing = after.tangent_sum * width - (after.pressure_sum - before.pressure_sum)
-    share = missing / (rise * width) if rise > 0 else 0.5
-    return before.depth + width * np.clip(share, *_DIVISION)
+    return missing / (rise * width) if rise > 0 else 0.5
 
 
 def _interpolate(before, after, force):

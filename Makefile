@@ -72,7 +72,7 @@ report: settings
 		$(if $(wildcard results/figures/growth.png),speed) $(if $(wildcard results/figures/failure_curves.png),stability) \
 		$(patsubst results/figures/%.png,%,$(wildcard $(patsubst %,results/figures/%.png,sizes large)))
 
-# Written anew each time (-E): pages that are kept would hide the warnings of an earlier run.
+# Written in full each time (-E): pages that are kept would hide the warnings of an earlier run.
 docs: environment
 	$(BIN)/sphinx-build -q -W -E -b html docs build/docs
 

@@ -3,7 +3,7 @@
     python benchmarks/strips.py --output results/strips.json
 
 Levels of both are at the same contact fractions, up to one half: where a curve needs its levels is a property of the
-heights, not of the solver. Each shape is computed in a process of its own, on one thread and after a first small one;
+heights, not of the solver. Each shape is computed in a separate process, on one thread and after a first small one;
 repeats alternate. The file has medians of wall and processor seconds, and of the peak resident memory of the process
 [MB], of which the interpreter and compiled code take the part named `before`. `make bench` runs it.
 """
@@ -73,7 +73,7 @@ def measure(kind, shape):
 
 
 def in_a_process(kind, shape):
-    """The same, in a process of its own."""
+    """The same, in a separate process."""
     command = [sys.executable, __file__, "--one", kind, *map(str, shape)]
     result = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, env=os.environ | ENVIRONMENT)
     return json.loads(result.stdout)

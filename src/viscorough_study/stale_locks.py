@@ -1,8 +1,8 @@
 """Locks of Snakemake that killed runs left behind, which would stop the next run.
 
 Snakemake writes no process number into its locks. So every Snakemake in a folder also holds a shared lock of the
-operating system, which ends with its process however that ends. Whoever gets that lock exclusively is alone, and all
-locks of Snakemake that it finds belong to runs that were killed.
+operating system, which ends with its process however that ends. A process that gets that lock exclusively is
+alone, and all locks of Snakemake that it finds belong to runs that were killed.
 """
 
 import fcntl

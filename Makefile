@@ -18,7 +18,7 @@ help:
 	@echo "make docs        the documentation as a site, in build/docs/index.html"
 	@echo "make bench       cost and errors of curves and lines, and cost of the reproduction, in results/benchmarks.json"
 	@echo "make speed       speed against accuracy of every method, in results/figures/speed.png; 80 minutes"
-	@echo "make stability   where each method fails, and 12000 small indenters against dense solutions; two minutes"
+	@echo "make stability   where each method fails, and random small indenters against dense solutions"
 	@echo "make sizes       exponents on grids from 65 to 1025 elements across, and on lines"
 	@echo "make large       time and memory of a disc of up to 4097 elements across, 13 million in all"
 	@echo "make fuzz        10000 random files and options, most of them bad, through the command line; ten minutes"

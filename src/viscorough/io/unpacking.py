@@ -22,7 +22,7 @@ _DEFAULT_FILL = {kind: fill for kind, fill in netCDF4.default_fillvals.items() i
 
 
 def unpacked(variable):
-    """The values of a netCDF4.Variable: unpacked, as a masked array if any are missing; text as it is.
+    """The values of a netCDF4.Variable: unpacked, as a masked array if any are missing; text is returned unchanged.
 
     Missing are those that equal _FillValue (without it, what the format writes where nothing was written, except for
     single bytes, of which every value is valid) or missing_value, and those outside valid_range or valid_min and

@@ -52,7 +52,7 @@ def escape_letters_without_code():
 
 
 def discard_what_cannot_be_written():
-    """Else the interpreter would fail to write it once more at its end, with a message and an exit code of its own."""
+    """Else the interpreter would fail to write it once more at its end, with a message and another exit code."""
     for stream in (sys.stdout, sys.stderr):
         try:
             if stream:

@@ -10,7 +10,7 @@ from signal import default_int_handler
 
 import click
 
-from viscorough.cli_messages import complain
+from viscorough.cli.messages import complain
 from viscorough.errors import AccuracyWarning
 from viscorough.interrupts import on_interrupt
 

@@ -1,0 +1,76 @@
+"""The command line: the command `viscorough`, with a module for each of its subcommands.
+
+A user's mistake is answered with one line on stderr, "viscorough COMMAND: what, where, what is allowed", exit code 2
+and no output file; exit code 1 means that a solver did not converge, exit code 0 that the output file is complete, also
+if the closing line could not be written to stdout. Where warnings are errors (PYTHONWARNINGS=error), a warning is
+answered like a mistake. Modules that take long to import are imported by the commands that need them, so that help and
+messages come quickly.
+"""
+
+import sys
+import warnings
+from signal import SIG_DFL
+
+import click
+
+from viscorough.cli.indent import indent
+from viscorough.cli.kinetics import kinetics
+from viscorough.cli.march import march
+from viscorough.cli.messages import complain, discard_what_cannot_be_written, escape_letters_without_code, report
+from viscorough.cli.options import warning_texts
+from viscorough.errors import ConvergenceError
+from viscorough.interrupts import on_interrupt
+
+
+@click.group(no_args_is_help=False)
+@click.version_option(package_name="viscorough", message="%(prog)s %(version)s")
+def cli():
+    """Penetration of rough rigid indenters into a linearly viscous half-space.
+
+    \b
+    Example: a map of heights in metres, points 2 micrometres apart, pressed by 5 N into 1e6 Pa s:
+        viscorough indent heights.npy --spacing 2e-6 -o curve.nc
+        viscorough kinetics curve.nc --force 5 --viscosity 1e6 -o kinetics.nc
+    """
+
+
+for _command in (indent, kinetics, march):
+    cli.add_command(_command)
+
+
+def main(arguments=None, commands=cli):
+    """Run the command line and return its exit code.
+
+    arguments : list of texts; default: those of the process
+    commands : the click.Group to run
+    """
+    arguments = list(sys.argv[1:] if arguments is None else arguments)
+    command = "viscorough"
+    escape_letters_without_code()
+    try:
+        with (
+            on_interrupt(SIG_DFL),  # ends the process at once, also where libraries do not return to Python
+            warnings.catch_warnings(record=True) as caught,
+            commands.make_context("viscorough", arguments, obj=caught) as context,
+        ):
+            try:
+                commands.invoke(context)
+            finally:
+                command = f"{command} {context.invoked_subcommand or ''}".rstrip()
+        for text in warning_texts(caught):
+            complain(command, f"warning: {text}")
+    except click.exceptions.Exit as done:
+        return done.exit_code
+    except BrokenPipeError:  # what reads standard output has read enough, as in viscorough --help | head
+        return 0
+    except KeyboardInterrupt:
+        return 130
+    except ConvergenceError as error:
+        report(command, error)
+        return 1
+    except (click.ClickException, ValueError, OSError, MemoryError, Warning) as error:
+        report(command, error)
+        return 2
+    finally:
+        discard_what_cannot_be_written()
+    return 0

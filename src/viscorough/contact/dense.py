@@ -11,7 +11,7 @@ import scipy.linalg
 
 from viscorough.compilation import njit
 from viscorough.contact.growing_cholesky import append_element, solve_flat_punch
-from viscorough.contact.state import Contact
+from viscorough.contact.state import ContactState
 from viscorough.errors import ConvergenceError
 from viscorough.interrupts import uninterrupted
 
@@ -108,8 +108,8 @@ def follow_events(elements, contact, most, pressure_sum):
     most : number of elements in contact at which to stop
     pressure_sum : reduced ΣP at which to stop
 
-    Returns ContactEvents after the given contact, and the Contact at the last event. Elements that touch at the same
-    depth, to rounding, are one event.
+    Returns ContactEvents after the given contact, and the ContactState at the last event. Elements that touch at the
+    same depth, to rounding, are one event.
     """
     with uninterrupted():
         depth, total, stiffness, members = _follow(
@@ -139,9 +139,9 @@ def _pressure_and_tangent(elements, members, depth):
 
 
 def _exact_contact(units, depth, members, pressure, tangent):
-    """The Contact of a dense solution."""
+    """The ContactState of a dense solution."""
     pressure = np.maximum(pressure, 0.0)  # of elements that just touch, rounding can make it negative
-    return Contact(units, depth, members, pressure, tangent, pressure.sum(), tangent.sum())
+    return ContactState(units, depth, members, pressure, tangent, pressure.sum(), tangent.sum())
 
 
 @njit(fastmath=True)

@@ -24,7 +24,7 @@ from viscorough.contact import grid_kernels as kernels
 from viscorough.contact.conjugate_gradients import ConjugateGradients
 from viscorough.contact.halfspace import Halfspace
 from viscorough.contact.preconditioner import LEAST_EIGENVALUE, REACH, Preconditioner
-from viscorough.contact.state import BoundedField, Contact, ContactSet, GridFields
+from viscorough.contact.state import BoundedField, ContactSet, ContactState, GridFields
 from viscorough.errors import ConvergenceError
 
 # The release step is halved after every so many of them: a safeguard against cycles where the preconditioner is poor.
@@ -104,7 +104,7 @@ class GridSolver:
         )
 
     def solve(self, contact, depth):
-        """The Contact at a larger reduced depth, from a contact with GridFields on this grid.
+        """The ContactState at a larger reduced depth, from a contact with GridFields on this grid.
 
         Raises ConvergenceError if the tolerance is not reached in max_iterations.
         """
@@ -123,7 +123,7 @@ class GridSolver:
         places = contact_set.places
         gap_left = gap.values[places]
         ranks = self._ranks[contact_set.inside[self.place[self._ranks]]]
-        return Contact(
+        return ContactState(
             units=contact.units,
             reduced_depth=depth,
             members=ranks,

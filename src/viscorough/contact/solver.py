@@ -14,7 +14,7 @@ from viscorough.contact import dense
 from viscorough.contact.grid_solver import GridSolver
 from viscorough.contact.memory_demand import require_for_contact
 from viscorough.contact.options import DEFAULT
-from viscorough.contact.state import Contact, elements_of
+from viscorough.contact.state import ContactState, elements_of
 from viscorough.errors import ConvergenceError
 
 # Depth that the box of a grid allows for, over the requested depth; a box that would cover more than this share of the
@@ -49,19 +49,19 @@ class ContactSolver:
         return self._former_applications + (self._grid.operator_applications if self._grid else 0)
 
     def unloaded_state(self):
-        """The Contact at depth zero: no pressure, and no element in contact yet."""
+        """The ContactState at depth zero: no pressure, and no element in contact yet."""
         nothing = np.empty(0)
-        return Contact(self.units, 0.0, nothing.astype(int), nothing, nothing, 0.0, 0.0)
+        return ContactState(self.units, 0.0, nothing.astype(int), nothing, nothing, 0.0, 0.0)
 
     def advance(self, contact, depth):
-        """The Contact at a depth [length] larger than that of `contact`.
+        """The ContactState at a depth [length] larger than that of `contact`.
 
         Raises ConvergenceError if it is not solved to the tolerance.
         """
         return self.advance_reduced(contact, depth / self.units.length)
 
     def advance_reduced(self, contact, depth):
-        """The Contact at a larger depth, given in units of the largest initial gap. Raises what `advance` raises."""
+        """The ContactState at a larger depth in units of the largest initial gap. Raises what `advance` raises."""
         candidates = int(np.searchsorted(self.elements.initial_gap, depth))
         if contact.fields is None and self._is_small(candidates, contact):
             solution = dense.solve(self.elements, contact, depth, candidates, self.options.dense_contacts)

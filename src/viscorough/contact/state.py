@@ -131,7 +131,7 @@ class GridFields:
 
 
 @dataclass(frozen=True)
-class Contact:
+class ContactState:
     """The contact at one depth.
 
     units : Units of the reduced quantities

@@ -36,7 +36,7 @@ _TINY = 1e-30
 
 @dataclass(frozen=True)
 class Level:
-    """The quantities of a contact that a loading curve stores; reduced as in state.Contact."""
+    """The quantities of a contact that a loading curve stores; reduced as in state.ContactState."""
 
     depth: float
     pressure_sum: float
@@ -75,7 +75,7 @@ class StepControl:
     def excess(self, before, after):
         """Bound on the error of interpolation between two contacts, over the bound that is allowed there.
 
-        before, after : Contacts
+        before, after : ContactStates
         """
         bound = interpolation_bound(Level.of(before), Level.of(after)) / self._accuracy
         if not _NEGLIGIBLE_BOUND < bound < _RELAXED_BOUND:

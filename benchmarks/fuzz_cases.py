@@ -168,8 +168,8 @@ def curve_files(draw):
     steps = random.random((4, levels)) + 0.1
     depth, force, stiffness, residual = np.cumsum(steps, axis=1) * draw(st.sampled_from([1.0, 1e-6, 1e150, 1e-160]))
     count = np.arange(1, levels + 1)
-    curve = LoadingCurve(depth, force, stiffness, count, levels + 9, "boundary elements", 1e-3, 5, residual)
-    content = curve_to_content(curve, draw(st.sampled_from(["1", "m", "um"])))
+    about = levels + 9, "boundary elements", 1e-3, 5, residual, draw(st.sampled_from(["1", "m", "um"]))
+    content = curve_to_content(LoadingCurve(depth, force, stiffness, count, *about))
     if draw(st.booleans()):
         content = with_motion(content, depth, force)
     variables = {

@@ -1,30 +1,39 @@
 """Rigid indenters: height maps and lines, with the spacing of their points."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from viscorough.arrays import read_only
 
+LARGEST_ASPECT = 5  # of the sides of an element, either way
 _LARGEST_WHOLE = 2**53  # larger whole numbers are not all numbers of double precision
 
 
 @dataclass(frozen=True)
 class Indenter:
-    """A rigid indenter: heights on a square grid, or along a line, of equal spacing.
+    """A rigid indenter: heights on a rectangular grid, or along a line, of equal spacing.
 
     heights : a map of shape (rows, columns), nan outside the indenter, or a line of shape (points,); larger is higher,
         and the highest point touches first [length]. They are copied and read-only; masked entries become nan, and
         numbers other than those of single precision are kept in double precision
-    spacing : distance between neighbouring points [length]
+    spacing : distance between neighbouring columns of a map, or points of a line, dx [length]; a pair (dx, dy) stands
+        for both spacings of a map
+    row_spacing : distance between neighbouring rows of a map, dy, at most five times dx or dx five times it; by default
+        equal to `spacing` [length]
+    length_unit : unit of heights and spacings, as UDUNITS spells it ("um"); "1" if it is not known
 
     Raises ValueError if the heights are not real numbers in one or two dimensions, are whole numbers beyond 2**53,
-    are infinite, differ by more than double precision holds, have no element or, on a line, have a nan; or if the
-    spacing is not a positive number.
+    are infinite, differ by more than double precision holds, have no element or, on a line, have a nan; if a
+    spacing is not a positive number, or the two differ by more than a factor of five, or on a line at all; or if the
+    unit is no text.
     """
 
     heights: np.ndarray
     spacing: float
+    row_spacing: float | None = None
+    length_unit: str = "1"
 
     def __post_init__(self):
         heights = read_only(self.heights)
@@ -45,7 +54,23 @@ class Indenter:
         if heights.ndim == 1 and np.isnan(heights.min()):
             raise ValueError("indenter heights: must not be nan on a line")
         object.__setattr__(self, "heights", heights)
-        object.__setattr__(self, "spacing", positive("indenter spacing", self.spacing))
+        spacing, row_spacing = _spacings(self.spacing, self.row_spacing)
+        if heights.ndim == 1 and row_spacing != spacing:
+            raise ValueError("indenter row_spacing: a line has no rows, only one spacing is allowed")
+        object.__setattr__(self, "spacing", spacing)
+        object.__setattr__(self, "row_spacing", row_spacing)
+        if not isinstance(self.length_unit, str) or not self.length_unit.strip():
+            raise ValueError(f"indenter length_unit: must be a text such as 'um' or '1', not {self.length_unit!r}")
+
+    @property
+    def aspect(self):
+        """Aspect dy/dx of an element: its side along the columns over that along the rows; 1 for squares."""
+        return self.row_spacing / self.spacing
+
+    @property
+    def element_side(self):
+        """Side d = √(dx dy) of the square with the area of an element [length]."""
+        return self.spacing * math.sqrt(self.aspect)
 
     @property
     def elements(self):
@@ -57,8 +82,8 @@ class Indenter:
         """Root mean square of the slope |∇h| [1], from differences between neighbours; 0 for a single element."""
         squares = 0.0
         with np.errstate(over="ignore"):  # a slope that overflows is infinite
-            for axis in range(self.heights.ndim):
-                difference = np.diff(self.heights.astype(float), axis=axis) / self.spacing
+            for axis, spacing in enumerate((self.row_spacing, self.spacing)[-self.heights.ndim :]):
+                difference = np.diff(self.heights.astype(float), axis=axis) / spacing
                 if not np.isnan(difference).all():
                     squares += np.nanmean(difference**2)
         return float(np.sqrt(squares))
@@ -67,6 +92,23 @@ class Indenter:
     def initial_gap(self):
         """Initial gap [length]: depth below the highest element, in double precision; shape (rows, columns)."""
         return np.subtract(np.fmax.reduce(self.heights, axis=None), self.heights, dtype=float)
+
+
+def _spacings(spacing, row_spacing):
+    """Both spacings (dx, dy) as floats."""
+    if isinstance(spacing, str) or np.ndim(spacing) == 0:
+        spacing = positive("indenter spacing", spacing)
+        row_spacing = spacing if row_spacing is None else positive("indenter row_spacing", row_spacing)
+    elif np.shape(spacing) != (2,) or row_spacing is not None:
+        raise ValueError(f"indenter spacing: must be one number or a pair, without row_spacing, not {spacing!r}")
+    else:
+        spacing, row_spacing = (positive("indenter spacing", entry) for entry in spacing)
+    if not 1 / LARGEST_ASPECT <= row_spacing / spacing <= LARGEST_ASPECT:
+        raise ValueError(
+            f"indenter spacing: {spacing:g} between columns and {row_spacing:g} between rows differ by more than "
+            f"a factor of {LARGEST_ASPECT}, which is the largest allowed; resample the map"
+        )
+    return spacing, row_spacing
 
 
 def _exact(values):

@@ -27,6 +27,7 @@ class LoadingCurve:
     tolerance : requested relative accuracy
     operator_applications : number of applications of the half-space operator on the grid
     residual : largest remaining |gap| in contact or overlap outside it, over the depth, shape (levels,) [1]
+    length_unit : unit of the lengths, as UDUNITS spells it; "1" if it is not known
 
     Arrays are copied and read-only. Raises ValueError without levels, for depths or forces that do not increase or are
     not finite, and for stiffnesses that are not finite and positive, as overflow or a damaged file can produce.
@@ -42,6 +43,7 @@ class LoadingCurve:
     tolerance: float
     operator_applications: int
     residual: np.ndarray
+    length_unit: str = "1"
 
     def __post_init__(self):
         keep_read_only(self)

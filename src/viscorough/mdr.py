@@ -67,6 +67,7 @@ def reduce(line, *, until_fraction=1.0, until_force=None, bins_per_octave=64):
         tolerance=0.0,
         operator_applications=0,
         residual=np.zeros_like(depth[levels]),
+        length_unit=line.length_unit,
     )
 
 

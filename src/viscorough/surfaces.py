@@ -36,6 +36,7 @@ def self_affine_disc(
     roll_off_level=0.0,
     amplitudes="random",
     rms_over="disc",
+    length_unit="1",
     seed,
 ):
     """Disc with n = `elements_across` elements across its diameter, cut from a periodic self-affine square.
@@ -52,6 +53,7 @@ def self_affine_disc(
     amplitudes : "random": complex Gaussian, so that the heights are a Gaussian process; "fixed": exactly the
         square root of the spectrum, so that only the phases are random
     rms_over : "disc" or "square": the points over which h is taken
+    length_unit : of rms and diameter, as in Indenter
     seed : int or numpy SeedSequence; the same seed gives the same realization
 
     Returns an Indenter with heights of shape (n, n), nan outside the disc (see `cut_disc`).
@@ -80,7 +82,7 @@ def self_affine_disc(
     )
     heights = cut_disc(square, n)
     heights *= rms / np.nanstd(heights) if rms_over == "disc" else rms
-    return Indenter(heights, diameter / n)
+    return Indenter(heights, diameter / n, length_unit=length_unit)
 
 
 def self_affine_square(
@@ -137,6 +139,7 @@ def self_affine_line(
     roll_off_wavelength=None,
     roll_off_level=0.0,
     amplitudes="random",
+    length_unit="1",
     seed,
     dtype=np.float32,
 ):
@@ -146,6 +149,7 @@ def self_affine_line(
     points : number of points per period, at least 2
     length : L, which is also the period; the spacing is L/points [length]
     roll_off_wavelength, roll_off_level : as in `self_affine_disc`, but the wavelength in units of the length
+    length_unit : of rms and length, as in Indenter
     dtype : float32 or float64; the realization is the same up to rounding
 
     Returns an Indenter with heights of shape (points,) and mean 0. Raises ValueError for values outside these ranges.
@@ -170,7 +174,7 @@ def self_affine_line(
     heights = packed[:points]
     fft.r2r_fftpack(heights, axes=[0], real2hermitian=False, forward=False, out=heights)
     packed.flags.writeable = heights.flags.writeable = False  # so that the indenter need not copy them
-    return Indenter(heights, length / points)
+    return Indenter(heights, length / points, length_unit=length_unit)
 
 
 def _draw_waves(waves, points, amplitude, generator, *, fixed, block=_BLOCK):

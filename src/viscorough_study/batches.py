@@ -22,7 +22,7 @@ def batch_of_curves(curves, *, realizations, hurst, rms, spacing, diameter, sett
     rms : {convention: rms heights, shape (realizations,)}, conventions of `RMS`
     spacing : of the grid; diameter : L; settings : what the curves were made from, for the attribute settings
     """
-    content = stack_curves(curves, "m")
+    content = stack_curves(curves)
     heights = {f"rms_{name}": (values, RMS[name]) for name, values in rms.items()}
     lengths = heights | {
         "spacing": (spacing, "spacing of the grid"),

@@ -7,7 +7,7 @@ from viscorough.surfaces import self_affine_disc
 
 
 def ensemble_disc(elements, surface, seed):
-    """The Indenter of one realization, and {convention: its rms height} [unit of rms and diameter].
+    """The Indenter of one realization, and {convention: its rms height} [m].
 
     elements : across the disc; surface : arguments of self_affine_disc with rms, diameter and rms_over
 
@@ -22,4 +22,4 @@ def ensemble_disc(elements, surface, seed):
     factor = surface["rms"] / (over_disc if surface["rms_over"] == "disc" else surface["rms"])
     peak = np.nanmax(heights).item() - mean
     rms = {"disc": over_disc * factor, "peak": peak * factor, "square": surface["rms"] * factor}
-    return Indenter(heights[0] * factor, surface["diameter"] / elements), rms
+    return Indenter(heights[0] * factor, surface["diameter"] / elements, length_unit="m"), rms

@@ -20,6 +20,7 @@ def random_curve(levels=7, seed=0, **changes):
         "tolerance": 1e-3 / 3,
         "operator_applications": 41,
         "residual": random.random(levels) * 1e-4,
+        "length_unit": "m",
     }
     return LoadingCurve(**(values | changes))
 

@@ -16,6 +16,51 @@ def test_rms_slope_of_a_plane():
     assert Indenter(np.array([[1.0]]), 1.0).rms_slope == 0
 
 
+def test_rms_slope_and_element_of_a_map_with_two_spacings():
+    y, x = np.mgrid[:5, :7]
+    heights = 0.6 * x + 1.6 * y
+    for indenter in (Indenter(heights, (2.0, 4.0)), Indenter(heights, 2.0, 4.0), Indenter(heights.T, (4.0, 2.0))):
+        assert indenter.rms_slope == pytest.approx(np.hypot(0.3, 0.4))
+        assert indenter.element_side == pytest.approx(np.sqrt(8))
+    assert (indenter.spacing, indenter.row_spacing, indenter.aspect) == (4.0, 2.0, 0.5)
+    assert Indenter(heights, 0.3).row_spacing == Indenter(heights, 0.3).element_side == 0.3
+
+
+@pytest.mark.parametrize(
+    ("arguments", "what"),
+    [
+        (((1.0, 2.0), 2.0), "must be one number or a pair"),
+        (((1.0, 2.0, 3.0),), "must be one number or a pair"),
+        (("1,2",), "must be a positive number"),
+        (((1.0, -2.0),), "must be positive and finite, not -2"),
+        ((1.0, 0), "row_spacing: must be positive and finite, not 0"),
+        ((1.0, "two"), "row_spacing: must be a positive number, not 'two'"),
+        ((1.0, 5.1), "differ by more than a factor of 5"),
+        (((5.1, 1.0),), "differ by more than a factor of 5"),
+        ((1e-300, 1e300), "differ by more than a factor of 5"),
+        ((1.0, None, ""), "length_unit: must be a text"),
+        ((1.0, None, 3), "length_unit: must be a text"),
+    ],
+)
+def test_spacings_and_units_out_of_range_are_refused(arguments, what):
+    with pytest.raises(ValueError, match=what) as error:
+        Indenter(np.zeros((2, 2)), *arguments)
+    assert "\n" not in str(error.value)
+
+
+def test_a_line_has_one_spacing():
+    assert Indenter(np.zeros(3), 2.0).row_spacing == 2.0
+    with pytest.raises(ValueError, match="a line has no rows"):
+        Indenter(np.zeros(3), (2.0, 3.0))
+
+
+def test_curves_are_in_the_unit_of_the_indenter():
+    heights = np.arange(4.0).reshape(2, 2)
+    assert indent(Indenter(heights, 1.0, length_unit="um")).length_unit == "um"
+    assert reduce(Indenter(heights.ravel(), 1.0, length_unit="nm")).length_unit == "nm"
+    assert indent(Indenter(heights, 1.0)).length_unit == "1"
+
+
 def test_rms_slope_that_overflows_is_infinite():
     with warnings.catch_warnings():
         warnings.simplefilter("error")

@@ -16,7 +16,8 @@ def main(curves, *, realizations, seed, spawn_key, points, surface, until_x):
     numbers, reduced = range(*realizations), []
     until_force = 4 * surface["rms"] * surface["length"] * until_x
     for number in progress(numbers, len(numbers), "lines"):
-        line = self_affine_line(points=points, **surface, seed=realization_seed(seed, *spawn_key, number))
+        line_seed = realization_seed(seed, *spawn_key, number)
+        line = self_affine_line(points=points, **surface, length_unit="m", seed=line_seed)
         reduced.append(reduce(line, until_force=until_force))
     rms = [surface["rms"]] * len(numbers)  # every line has the nominal rms height
     lengths = {"rms": {"line": rms}, "spacing": line.spacing, "diameter": surface["length"]}

@@ -19,7 +19,7 @@ def main(csv, curve, *, elements, seed, hurst, tolerance, until_fraction, warm_u
     loading_curve, cost = measure_disc(hurst, elements, realization_seed(seed, *key), **how)
     settings = {"seed": seed, "spawn_key": key, "hurst": hurst, "until_fraction": until_fraction}
     about = {"title": "A disc on a fine grid", "settings": json.dumps(settings)}
-    netcdf.write(stack_curves([loading_curve], "1").with_attributes(**about), curve)
+    netcdf.write(stack_curves([loading_curve]).with_attributes(**about), curve)
     with atomic_write(csv) as temporary:
         pd.DataFrame([cost]).to_csv(temporary, index=False)
 

@@ -40,13 +40,13 @@ def indent(heights, spacing, output, *, depths, tolerance, until_fraction):
     """
     if depths is not None and until_fraction is not None:
         raise click.UsageError("--depths and --until-fraction exclude each other; one of them is allowed")
-    indenter, length_unit = read_indenter(heights, spacing, output)
+    indenter = read_indenter(heights, spacing, output)
 
     from viscorough.contact.loading_path import indent
     from viscorough.io.curves import curve_to_content
 
     stop = {"until_fraction": until_fraction} if until_fraction else {}
     curve = indent(indenter, tolerance=tolerance, depths=depths, **stop)
-    write_output(curve_to_content(curve, length_unit), output, heights=printable_name(heights), spacing=spacing)
+    write_output(curve_to_content(curve), output, heights=printable_name(heights), spacing=spacing)
     count = f"{curve.contact_count[-1]} of {curve.elements} elements in contact"
     announce(output, f"{curve.depth.size} levels, the last at depth {curve.depth[-1]:.6g} with {count}")

@@ -62,7 +62,7 @@ def march(heights, spacing, output, *, method, force, viscosity, times, force_hi
     _check_options_of_method(method, bool(force_history), times, overlap, until_fraction)
     if force_history:
         check_not_an_input(output, force_history, "force history")
-    indenter, length_unit = read_indenter(heights, spacing, output)
+    indenter = read_indenter(heights, spacing, output)
 
     import numpy as np
 
@@ -73,13 +73,13 @@ def march(heights, spacing, output, *, method, force, viscosity, times, force_hi
         history = _read_history(force_history)
         steps = np.unique(history.impulse[history.impulse > 0]) / viscosity
         integrated = _integrate(indenter, method, steps, **options)
-        content = motion.integration_under_history(integrated, history, viscosity, length_unit)
+        content = motion.integration_under_history(integrated, history, viscosity)
         force = printable_name(force_history)
     else:
         force = force or 1.0
         per_time = force / viscosity
         integrated = _integrate(indenter, method, None if times is None else per_time * np.array(times), **options)
-        content = motion.integration_to_content(integrated, per_time, length_unit)
+        content = motion.integration_to_content(integrated, per_time)
     attributes = {
         "method": method,
         "force": force,

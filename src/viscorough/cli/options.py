@@ -105,12 +105,12 @@ def check_opens(path):
 
 
 def read_indenter(heights, spacing, output):
-    """The indenter in a file and its unit of length, read after a check that the output can be written.
+    """The indenter in a file, read after a check that the output can be written.
 
     Raises ValueError for an output that cannot be written and for invalid heights; steep ones give an AccuracyWarning.
     """
     from viscorough.io.atomic import check_output
-    from viscorough.io.heights import length_unit_of, read_heights
+    from viscorough.io.heights import read_heights
 
     check_output(output)
     check_not_an_input(output, heights, "heights")
@@ -120,7 +120,7 @@ def read_indenter(heights, spacing, output):
     if (slope := indenter.rms_slope) > _STEEP_SLOPE:
         text = f"{heights}: the rms slope is {slope:.2g}; the theory holds for small slopes, below about {_STEEP_SLOPE}"
         warnings.warn(text, AccuracyWarning, stacklevel=2)
-    return indenter, length_unit_of(heights)
+    return indenter
 
 
 def write_output(content, output, **attributes):

@@ -50,8 +50,8 @@ def indent(
     options : SolverOptions
 
     Returns a LoadingCurve. The last level is the first one at or beyond `until_fraction` or `until_force`.
-    An indenter of one height has a single level, at a depth of one spacing: its curve is the straight line from the
-    origin through it.
+    An indenter of one height has a single level, at a depth of one spacing (√(dx dy) for two): its curve is the
+    straight line from the origin through it.
     Raises ValueError for arguments out of range, ConvergenceError if a level cannot be solved to the tolerance.
     """
     if indenter.heights.ndim != 2:
@@ -66,7 +66,7 @@ def indent(
         raise ValueError(f"indent: until_force must be positive, not {until_force!r}")
     solver = ContactSolver(indenter, tolerance, options)
     if depths is None:
-        path = _LoadingPath(solver, indenter.spacing, until_fraction, until_force)
+        path = _LoadingPath(solver, indenter.element_side, until_fraction, until_force)
         levels = path.levels_from(start_fraction)
         depths = solver.units.length * np.array([level.depth for level in levels])
     else:
@@ -85,6 +85,7 @@ def indent(
         tolerance=tolerance,
         operator_applications=solver.operator_applications,
         residual=np.array([level.residual for level in levels]),
+        length_unit=indenter.length_unit,
     )
 
 

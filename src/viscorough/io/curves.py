@@ -41,13 +41,11 @@ def level_attributes(name, length_unit):
     return {"long_name": long_name, "units": units}
 
 
-def curve_to_content(curve, length_unit="m"):
-    """A LoadingCurve as the Content of a file: variables OVER_LEVELS on the dimension `level`, attributes PER_CURVE.
-
-    length_unit : of the curve, as UDUNITS spells it; "1" if it is not known
-    """
+def curve_to_content(curve):
+    """A LoadingCurve as the Content of a file: variables OVER_LEVELS on the dimension `level`, attributes PER_CURVE."""
     variables = {
-        name: Variable(("level",), getattr(curve, name), level_attributes(name, length_unit)) for name in OVER_LEVELS
+        name: Variable(("level",), getattr(curve, name), level_attributes(name, curve.length_unit))
+        for name in OVER_LEVELS
     }
     attributes = {"title": "Loading curve of a rigid indenter", "comment": COMMENT}
     return Content(variables, attributes | {name: getattr(curve, name) for name in PER_CURVE})
@@ -69,7 +67,13 @@ def curve_from_content(content):
         values = content.variables[name].values if name in content.variables else np.zeros(0)
         if values.dtype.kind not in "iuf" or not np.isfinite(values).all():
             raise ValueError(f"{name} must be finite at every level; a loading curve of viscorough indent is needed")
-    return LoadingCurve(**level_fields, **curve_fields)
+    return LoadingCurve(**level_fields, **curve_fields, length_unit=_length_unit(content))
+
+
+def _length_unit(content):
+    """Unit of the depth in a Content; "1" if it states none."""
+    unit = content.variables["depth"].attributes.get("units")
+    return unit if isinstance(unit, str) and unit.strip() else "1"
 
 
 def _converted(name, value, kind):
@@ -84,13 +88,17 @@ def _converted(name, value, kind):
     raise ValueError(f"attribute {name} is {value!r}; {needed} is needed")
 
 
-def stack_curves(curves, length_unit="m"):
+def stack_curves(curves):
     """LoadingCurves as one Content over (realization, level), nan beyond each curve's last level.
 
-    Per realization: `levels`, the number of levels, and PER_CURVE. Raises ValueError for an empty list.
+    Per realization: `levels`, the number of levels, and PER_CURVE. Raises ValueError for an empty list, and for curves
+    in different units of length.
     """
     if not curves:
         raise ValueError("stack_curves: there is no curve; at least one is needed")
+    length_unit, *others = dict.fromkeys(curve.length_unit for curve in curves)
+    if others:
+        raise ValueError(f"stack_curves: lengths are in {length_unit} and {others[0]}; one unit is allowed")
     levels = np.array([curve.depth.size for curve in curves])
     variables = {}
     for name in OVER_LEVELS:
@@ -110,10 +118,10 @@ def stack_curves(curves, length_unit="m"):
 def unstack_curves(content):
     """The LoadingCurves in a Content made by stack_curves, in order. Raises KeyError if a variable is missing."""
     values = {name: content.variables[name].values for name in (*STORED, *PER_CURVE, "levels")}
-    curves = []
+    length_unit, curves = _length_unit(content), []
     for index, levels in enumerate(values["levels"].tolist()):
         level_fields = {name: values[name][index, :levels] for name in STORED}
         level_fields["contact_count"] = level_fields["contact_count"].astype(int)  # stored as floats because of nan
         curve_fields = {name: convert(values[name][index]) for name, (convert, _) in PER_CURVE.items()}
-        curves.append(LoadingCurve(**level_fields, **curve_fields))
+        curves.append(LoadingCurve(**level_fields, **curve_fields, length_unit=length_unit))
     return curves

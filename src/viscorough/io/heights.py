@@ -31,7 +31,7 @@ def read_heights(path, spacing):
     if heights.ndim != 2:
         raise ValueError(f"{path}: heights have the shape {heights.shape}; a two-dimensional map is needed")
     try:
-        return Indenter(heights, spacing)
+        return Indenter(heights, spacing, length_unit=length_unit_of(path))
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from error
 

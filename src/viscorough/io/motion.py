@@ -28,13 +28,13 @@ def with_motion(content, time, velocity):
     return Content(content.variables | added, content.attributes)
 
 
-def integration_to_content(integration, force_per_viscosity, length_unit="m"):
+def integration_to_content(integration, force_per_viscosity):
     """A direct integration (viscous.events.Events or viscous.stepping.Steps) under constant force as a Content.
 
     force_per_viscosity : F/η; the time is the impulse over the viscosity, divided by it
     """
     variables = {
-        name: Variable(("level",), getattr(integration, name), level_attributes(name, length_unit))
+        name: Variable(("level",), getattr(integration, name), level_attributes(name, integration.length_unit))
         for name in ("depth", "contact_count")
     }
     overlap = {"long_name": "largest overlap of indenter and surface, over depth", "units": "1"}
@@ -45,7 +45,7 @@ def integration_to_content(integration, force_per_viscosity, length_unit="m"):
     return with_motion(content, integration.impulse / force_per_viscosity, force_per_viscosity / integration.resistance)
 
 
-def integration_under_history(integration, history, viscosity, length_unit="m"):
+def integration_under_history(integration, history, viscosity):
     """A direct integration under a force history as a Content; its levels are the times of the history.
 
     integration : viscous.events.Events, or viscous.stepping.Steps that end at every impulse of the history above zero,
@@ -54,7 +54,7 @@ def integration_under_history(integration, history, viscosity, length_unit="m"):
 
     Raises ValueError for an impulse beyond the last event.
     """
-    reached = history.impulse / viscosity
+    reached, length_unit = history.impulse / viscosity, integration.length_unit
     if hasattr(integration, "event_at"):
         if reached[-1] > integration.impulse[-1] * (1 + 1e-10) and integration.contact_count[-1] < integration.elements:
             raise ValueError(

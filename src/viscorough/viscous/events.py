@@ -28,6 +28,7 @@ class Events:
     resistance : F/(ηv) from there to the next event [length]
     contact_count : elements in contact from there on
     elements : number of elements of the indenter
+    length_unit : unit of the lengths, as UDUNITS spells it; "1" if it is not known
     """
 
     impulse: np.ndarray
@@ -35,6 +36,7 @@ class Events:
     resistance: np.ndarray
     contact_count: np.ndarray
     elements: int
+    length_unit: str = "1"
 
     def __post_init__(self):
         keep_read_only(self)
@@ -80,8 +82,8 @@ def march_events(indenter, *, until_fraction=1.0):
         raise ConvergenceError(
             f"march_events: tension on element {tension_index} of the contact set; contact would open"
         )
-    scale = 4 * np.pi * indenter.spacing
-    return Events(scale * impulse, depth, scale * resistance, np.arange(1, most + 1), gap.size)
+    scale = 4 * np.pi * indenter.element_side
+    return Events(scale * impulse, depth, scale * resistance, np.arange(1, most + 1), gap.size, indenter.length_unit)
 
 
 @njit(fastmath=True)

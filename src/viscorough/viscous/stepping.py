@@ -37,6 +37,7 @@ class Steps:
     contact_count : elements in contact
     overlap : largest overlap of indenter and surface, over the depth [1]
     steps : number of steps taken, those into which steps were divided included
+    length_unit : unit of the lengths, as UDUNITS spells it; "1" if it is not known
     """
 
     impulse: np.ndarray
@@ -45,6 +46,7 @@ class Steps:
     contact_count: np.ndarray
     overlap: np.ndarray
     steps: int
+    length_unit: str = "1"
 
     def __post_init__(self):
         keep_read_only(self)
@@ -83,7 +85,7 @@ def march_steps(indenter, impulses, *, scheme="explicit", overlap=np.inf, tolera
     if not overlap > 0:
         raise ValueError(f"march_steps: overlap must be positive, not {overlap!r}")
     integrator = {"explicit": _Explicit, "heun": _Heun, "implicit": _Implicit}[scheme](indenter, tolerance)
-    scale, rows = 4 * np.pi * indenter.spacing, []
+    scale, rows = 4 * np.pi * indenter.element_side, []
     for remaining in np.diff(impulses / scale, prepend=0.0):
         while remaining > 0:
             step = min(remaining, integrator.longest_step(overlap))
@@ -99,7 +101,9 @@ def march_steps(indenter, impulses, *, scheme="explicit", overlap=np.inf, tolera
             AccuracyWarning,
             stacklevel=2,
         )
-    return Steps(impulses, depth, scale * resistance, count.astype(int), overlaps, integrator.steps)
+    return Steps(
+        impulses, depth, scale * resistance, count.astype(int), overlaps, integrator.steps, indenter.length_unit
+    )
 
 
 class _Explicit:

@@ -20,7 +20,7 @@ from viscorough.loading_curve import LoadingCurve
 
 
 def test_every_field_of_a_curve_is_stored():
-    assert {field.name for field in dataclasses.fields(LoadingCurve)} == {*STORED, *PER_CURVE}
+    assert {field.name for field in dataclasses.fields(LoadingCurve)} == {*STORED, *PER_CURVE, "length_unit"}
 
 
 @pytest.mark.parametrize("levels", [1, 7, netcdf.COMPRESSED_FROM])
@@ -42,7 +42,9 @@ def test_curve_survives_a_file_exactly(tmp_path, levels):
     ],
 )
 def test_units_are_powers_of_the_length_unit(length_unit, depth, force):
-    variables = curve_to_content(random_curve(), length_unit).variables
+    content = curve_to_content(random_curve(length_unit=length_unit))
+    assert curve_from_content(content).length_unit == length_unit
+    variables = content.variables
     units = {name: variable.attributes["units"] for name, variable in variables.items()}
     assert (units["depth"], units["stiffness"], units["force"]) == (depth, depth, force)
     assert {units[name] for name in ("contact_count", "contact_fraction", "residual")} == {"1"}
@@ -136,6 +138,14 @@ def test_stacked_curves_survive_files_exactly(tmp_path):
     np.testing.assert_array_equal(content.variables["elements"].values, [1009, 1009, 2])
     with pytest.raises(ValueError, match="at least one"):
         stack_curves([])
+    with pytest.raises(ValueError, match="lengths are in m and um; one unit is allowed"):
+        stack_curves([*curves, random_curve(length_unit="um")])
+
+
+def test_unit_of_a_file_that_states_none_is_not_known():
+    content = curve_to_content(random_curve())
+    del content.variables["depth"].attributes["units"]
+    assert curve_from_content(content).length_unit == "1"
 
 
 @pytest.mark.parametrize("name", ["contact_count", "contact_fraction", "residual"])

@@ -15,9 +15,9 @@ from viscorough.io.netcdf import COMPRESSED_FROM
 GLOBAL = {"title", "comment", "Conventions", "source", "history"}
 
 
-def stacked(curves, length_unit="m"):
+def stacked(curves):
     """Loading curves as a dataset of xarray."""
-    content = stack_curves(curves, length_unit)
+    content = stack_curves(curves)
     return xr.Dataset({name: tuple(variable) for name, variable in content.variables.items()}, attrs=content.attributes)
 
 
@@ -39,7 +39,7 @@ def test_every_variable_needs_units_and_long_name(tmp_path, attribute):
 
 
 def test_files_carry_cf_attributes_and_compress_large_floats(tmp_path):
-    large = stacked([random_curve(COMPRESSED_FROM)], length_unit="um")
+    large = stacked([random_curve(COMPRESSED_FROM, length_unit="um")])
     large = large.assign_coords(realization=("realization", [0.5], {"long_name": "coordinate", "units": "1"}))
     write_dataset(large, tmp_path / "a.nc")
     with netCDF4.Dataset(tmp_path / "a.nc") as file:

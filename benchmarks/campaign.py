@@ -7,7 +7,6 @@ dense influence matrix; whole loading curves, at their levels and between them; 
 `make stability` runs it. A failure is printed with the command that repeats it.
 """
 
-import json
 import time
 from functools import partial
 from importlib.metadata import version
@@ -17,11 +16,11 @@ import click
 import numpy as np
 from tqdm import tqdm
 
-from viscorough.io.atomic import atomic_write
 from viscorough_study.performance import timing
 from viscorough_study.robustness.random_curves import curve_failure, random_curve
 from viscorough_study.robustness.random_indenters import random_case, silent_failure
 from viscorough_study.seeds import random_indenter_key, realization_seed
+from viscorough_study.tables import write_json
 
 # What draws a case, what checks it, and the share of the number of cases that is run.
 FAMILIES = {
@@ -64,8 +63,7 @@ def main(cases, seed, family, case, cores, output):
     about = {"machine": timing.machine(), "version": version("viscorough"), "seed": seed, "cases": counts}
     result = about | {"seconds": round(time.perf_counter() - began, 1), "silent_failures": failures}
     if output:
-        with atomic_write(output) as temporary:
-            temporary.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+        write_json(result, output)
     click.echo(f"{len(failures)} silent failures among {sum(counts.values())} cases in {result['seconds']} s")
     raise SystemExit(bool(failures))
 

@@ -10,7 +10,6 @@ byte. Of what contains measured times, such as logs and the page, only names mus
 """
 
 import contextlib
-import json
 import os
 import shutil
 import signal
@@ -28,6 +27,7 @@ import psutil
 import viscorough
 from viscorough.io import netcdf
 from viscorough_study.performance import timing
+from viscorough_study.tables import write_json
 
 ROOT = Path(__file__).resolve().parents[1]
 SNAKEMAKE = [sys.executable, "-m", "snakemake", "--cores", "2", "--nocolor", "--configfile", "config/test.yaml"]
@@ -233,8 +233,7 @@ def main(kills, seed, output, folder):
     with place as working:
         about = {"machine": timing.machine(), "viscorough": viscorough.__version__, "seed": seed}
         result = about | chaos(Path(working).resolve(), kills, seed)
-    output.parent.mkdir(parents=True, exist_ok=True)
-    output.write_text(json.dumps(result, indent=1) + "\n")
+    write_json(result, output)
     click.echo("{recovered} of {runs} runs recovered from {kills} kills in {seconds:.0f} s".format(**result))
     click.echo(f"written to {output}")
     sys.exit(1 if result["differences"] else 0)

@@ -7,7 +7,6 @@ process each that has compiled everything before, in alternating order; the rati
 median over the repeats.
 """
 
-import json
 import os
 import subprocess
 from pathlib import Path
@@ -15,8 +14,8 @@ from pathlib import Path
 import click
 import numpy as np
 
-from viscorough.io.atomic import atomic_write
 from viscorough_study.performance import timing
+from viscorough_study.tables import write_json
 
 CASES = ((0.1, 257, 1e-3), (0.5, 257, 1e-3), (0.9, 257, 1e-3), (0.5, 257, 1e-4), (0.5, 129, 1e-5))
 # Runs in either tree, with names that both have: a line from standard input starts a round, whose times are printed.
@@ -81,9 +80,7 @@ def main(old, new, repeats, output):
         }
         for case, (hurst, elements, tolerance) in enumerate(CASES)
     ]
-    with atomic_write(output) as temporary:
-        result = {"machine": timing.machine(), "repeats": repeats, "curves": rows}
-        temporary.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+    write_json({"machine": timing.machine(), "repeats": repeats, "curves": rows}, output)
     for row in rows:
         click.echo("H = {hurst}, {elements_across} across, {tolerance:g}: new/old {ratio:.3f}".format(**row))
 

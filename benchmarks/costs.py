@@ -6,7 +6,6 @@ Time and memory of jobs are those of Snakemake's benchmark files, which include 
 the wall time is that of this run.
 """
 
-import json
 import signal
 import subprocess
 import sys
@@ -18,6 +17,7 @@ import click
 import viscorough
 from viscorough_study.performance import timing
 from viscorough_study.rule_costs import rule_costs
+from viscorough_study.tables import write_json
 
 
 def sizes(folder):
@@ -66,7 +66,7 @@ def main(output, results, command):
         "results_mb": round(sum(of_folders.values()), 1),
     }
     about = {"machine": timing.machine(), "viscorough": viscorough.__version__, "command": " ".join(command)}
-    output.write_text(json.dumps(about | total | {"rules": of_rules, "results": of_folders}, indent=1) + "\n")
+    write_json(about | total | {"rules": of_rules, "results": of_folders}, output)
     click.echo("{wall_s:.0f} s; jobs at most {memory_mb:.0f} MB; results {results_mb:.0f} MB".format(**total))
     click.echo(f"written to {output}")
 

@@ -10,7 +10,6 @@ interleaved. `--reproduction` also times the default workflow from nothing, in a
 import argparse
 import contextlib
 import csv
-import json
 import os
 import pkgutil
 import resource
@@ -30,8 +29,8 @@ import viscorough
 from viscorough import indent, reduce, self_affine_disc, self_affine_line
 from viscorough.contact.column_fft import ColumnConvolution, good_length
 from viscorough.contact.halfspace import Halfspace
-from viscorough.io.atomic import atomic_write
 from viscorough_study.performance import timing
+from viscorough_study.tables import write_json
 
 ROOT = Path(__file__).resolve().parents[1]
 ELEMENTS, UNTIL, UNTIL_X = 257, 0.9, 30.0
@@ -290,9 +289,7 @@ def main():
     result["memory_mb"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     if arguments.reproduction:
         result["reproduction"] = reproduction(arguments.cores)
-    arguments.output.parent.mkdir(parents=True, exist_ok=True)
-    with atomic_write(arguments.output) as temporary:
-        temporary.write_text(json.dumps(result, indent=1) + "\n")
+    write_json(result, arguments.output)
     print(f"written to {arguments.output}")
 
 

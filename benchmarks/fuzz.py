@@ -10,7 +10,6 @@ runs it. Runs come in blocks with a seed each; a failure is printed with the com
 
 import contextlib
 import io
-import json
 import os
 import shutil
 import signal
@@ -31,9 +30,9 @@ from tqdm import tqdm
 
 from viscorough import cli
 from viscorough.io import netcdf
-from viscorough.io.atomic import atomic_write
 from viscorough.io.curves import OVER_LEVELS
 from viscorough_study.performance import timing
+from viscorough_study.tables import write_json
 
 BLOCK = 100  # runs with one seed
 LONGEST = 120  # seconds that a run may take
@@ -189,8 +188,7 @@ def main(runs, seed, output):
     about = {"machine": timing.machine(), "version": version("viscorough"), "seed": seed, "runs": runs}
     result = about | {"seconds": round(time.perf_counter() - began, 1), "exit_codes": codes, "off_contract": failures}
     if output:
-        with atomic_write(output) as temporary:
-            temporary.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+        write_json(result, output)
     click.echo(f"{len(failures)} of {runs} runs off the contract, exit codes {dict(codes)}, {result['seconds']} s")
     raise SystemExit(bool(failures))
 

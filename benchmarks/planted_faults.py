@@ -7,7 +7,6 @@ replaced with, the tests to run, and why it matters. A fault is caught if one of
 test must pass without any fault. The working tree is never changed.
 """
 
-import json
 import os
 import re
 import shutil
@@ -23,6 +22,7 @@ import yaml
 
 import viscorough
 from viscorough_study.performance import timing
+from viscorough_study.tables import write_json
 
 ROOT = Path(__file__).resolve().parents[1]
 FAULTS = Path(__file__).with_suffix(".yaml")
@@ -154,8 +154,7 @@ def main(output, only, time_limit):
             click.echo("{name}: {verdict} ({seconds:.0f} s)".format(**results[-1]))
     caught = sum(result["verdict"] == "caught" for result in results)
     about = {"machine": timing.machine(), "viscorough": viscorough.__version__, "faults": len(faults), "caught": caught}
-    output.parent.mkdir(parents=True, exist_ok=True)
-    output.write_text(json.dumps(about | {"results": results}, indent=1) + "\n", encoding="utf-8")
+    write_json(about | {"results": results}, output)
     click.echo(f"{caught} of {len(faults)} faults caught; written to {output}")
     sys.exit(caught < len(faults))
 

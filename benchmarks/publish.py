@@ -22,6 +22,7 @@ from PIL import Image  # which matplotlib needs
 
 from viscorough_study.paper_data import read_paper
 from viscorough_study.performance import timing
+from viscorough_study.tables import write_json
 from viscorough_study.verdicts import markdown, overall
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -156,7 +157,7 @@ def copy_results(results, project, commands, commit):
             if file.name == "other_solvers.csv":
                 where = f"{machine['processor']}, {machine['cores']} cores"
                 copy_other_solvers(file, project / OTHER_SOLVERS, where, date)
-    record_file.write_text(json.dumps(records, indent=1, sort_keys=True) + "\n", encoding="utf-8")
+    write_json(dict(sorted(records.items())), record_file)
 
 
 @click.command(help=__doc__.splitlines()[0])

@@ -6,7 +6,6 @@ Every run starts from nothing in a temporary folder; the verdicts on the paper's
 claims of all seeds are written beside the output, as CSV.
 """
 
-import json
 import subprocess
 import sys
 import tempfile
@@ -17,6 +16,7 @@ import click
 import pandas as pd
 
 from viscorough_study.performance import timing
+from viscorough_study.tables import write_json
 from viscorough_study.verdicts import overall
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -54,7 +54,7 @@ def main(seeds, cores, settings, output):
     cost = {"machine": timing.machine(), "seconds": round(time.perf_counter() - start, 1)}
     output.parent.mkdir(parents=True, exist_ok=True)
     pd.concat(tables, names=["seed"]).droplevel(1).to_csv(output.with_suffix(".csv"))
-    output.write_text(json.dumps(cost | {"moved": moved, "verdicts": verdicts}, indent=1) + "\n", encoding="utf-8")
+    write_json(cost | {"moved": moved, "verdicts": verdicts}, output)
     for claim, outcomes in moved.items():
         click.echo(f"{claim}: {', '.join(outcomes)}")
     click.echo(f"{len(moved)} of {len(verdicts[1])} verdicts change with the seed; written to {output}")

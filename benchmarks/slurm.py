@@ -10,7 +10,6 @@ equal to the last byte; of logs and benchmarks, which contain times, only names 
 """
 
 import contextlib
-import json
 import os
 import re
 import shutil
@@ -30,6 +29,7 @@ from chaos import HANGS, compare, contents, copy_project, jobs_done, remove_resu
 
 import viscorough
 from viscorough_study.performance import timing
+from viscorough_study.tables import write_json
 
 NODE = socket.gethostname().split(".")[0]
 # There is no accounting, jobs take seconds, and no other user queries their states.
@@ -285,8 +285,7 @@ def main(target, folder):
         working = Path(working).resolve()
         working.chmod(0o755)  # munged requires that all users can reach its socket
         result = {"machine": timing.machine(), "viscorough": viscorough.__version__, **compare_runs(working)}
-    target.parent.mkdir(parents=True, exist_ok=True)
-    target.write_text(json.dumps(result, indent=1) + "\n")
+    write_json(result, target)
     click.echo(f"written to {target}")
     sys.exit(1 if any(result[name]["differences"] for name in ("undisturbed", "disturbed")) else 0)
 

@@ -20,9 +20,9 @@ import pandas as pd
 
 import viscorough
 from viscorough import Indenter, indent, self_affine_line
-from viscorough.io.atomic import atomic_write
 from viscorough.surfaces import self_affine_square
 from viscorough_study.performance import timing
+from viscorough_study.tables import write_json
 
 ENVIRONMENT = {"OMP_NUM_THREADS": "1", "NUMBA_NUM_THREADS": "1"}
 FRACTIONS = np.geomspace(0.01, 0.5, 15)
@@ -103,8 +103,7 @@ def main(repeats, output, one):
                 f"{kind}, {rows} x {columns}: {ratio.processor_s:.2f} of the time, {ratio.peak_mb:.2f} of the memory"
             )
     if output:
-        with atomic_write(output) as temporary:
-            temporary.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+        write_json(result, output)
 
 
 if __name__ == "__main__":

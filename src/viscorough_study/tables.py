@@ -1,4 +1,4 @@
-"""Tidy tables, written as CSV, NetCDF and HTML."""
+"""Tidy tables, written as CSV, NetCDF and HTML, and results as JSON."""
 
 import json
 from pathlib import Path
@@ -34,6 +34,14 @@ def write_table(table, csv_path, nc_path, html_path=None, *, columns, dimension,
     if html_path is not None:
         with atomic_write(html_path) as temporary:
             temporary.write_text(html_table(table, columns, title, Path(csv_path).name), encoding="utf-8")
+
+
+def write_json(content, path):
+    """Write a mapping as a JSON file, atomically; its folder is made if needed."""
+    path = Path(path)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with atomic_write(path) as temporary:
+        temporary.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
 
 
 def recorded(**mappings):

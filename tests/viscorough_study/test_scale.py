@@ -1,4 +1,4 @@
-"""Whether a run is large enough to decide anything about the paper's claims."""
+"""What a table of verdicts says of the scale at which they were found."""
 
 from types import SimpleNamespace
 
@@ -7,24 +7,19 @@ import xarray as xr
 
 from support.workflow import ROOT
 from viscorough_study.paper_data import number, read_paper
-from viscorough_study.scale import scale
+from viscorough_study.scale import attributes_of_scale
 
 NUMBERS = read_paper(ROOT / "resources/paper", "numbers")
 
 
-@pytest.mark.parametrize(
-    ("across", "realizations", "decisive"),
-    [(257, {0.1: 54, 0.9: 60}, 1), (129, {0.1: 40}, 1), (33, {0.1: 720}, 0), (257, {0.1: 720, 0.9: 39}, 0)],
-    ids=["default run", "half of the paper's", "coarse grid", "few discs of one exponent"],
-)
-def test_scale(across, realizations, decisive):
+@pytest.mark.parametrize(("across", "trial"), [(257, 0), (129, 0), (127, 1), (33, 1)])
+def test_attributes_of_scale(across, trial):
     evidence = SimpleNamespace(
         across=across,
-        pooled={hurst: xr.Dataset(coords={"realization": range(count)}) for hurst, count in realizations.items()},
+        pooled={hurst: xr.Dataset(coords={"realization": range(count)}) for hurst, count in {0.1: 60, 0.9: 54}.items()},
         said=lambda section, name: number(NUMBERS, section, name),
     )
-    about = scale(evidence)
-    assert (about["decisive"], about["elements_across"]) == (decisive, across)
-    assert about["realizations"] == min(realizations.values())
-    assert (about["paper_elements_across"], about["paper_realizations"]) == (257, 80)
-    assert ("mean nothing" in about["scale"]) != decisive
+    about = attributes_of_scale(evidence)
+    assert (about["elements_across"], about["paper_elements_across"], about["realizations"]) == (across, 257, 54)
+    assert about["trial"] == trial
+    assert ("mean nothing" in about["scale"]) == trial

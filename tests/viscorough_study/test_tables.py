@@ -26,11 +26,11 @@ def test_table_survives_both_files_exactly(tmp_path):
         "passed": ("whether it agrees", "1"),
     }
     files = [tmp_path / f"fits.{kind}" for kind in ("csv", "nc", "html")]
-    write_table(table, *files, columns=columns, dimension="fit", title="Fits", attributes={"decisive": 0})
+    write_table(table, *files, columns=columns, dimension="fit", title="Fits", attributes={"trial": 1})
     pd.testing.assert_frame_equal(pd.read_csv(files[0]), table, check_exact=True)
     ds = read_dataset(files[1])
     assert dict(ds.sizes) == {"fit": 3}
-    assert (ds.title, ds.decisive) == ("Fits", 0)
+    assert (ds.title, ds.trial) == ("Fits", 1)
     assert ds["beta"].attrs == {"long_name": "exponent of the power law", "units": "1"}
     pd.testing.assert_frame_equal(ds.to_dataframe(), table, check_exact=True, check_names=False, check_index_type=False)
     del columns["beta"]

@@ -41,7 +41,7 @@ def test_files_follow_the_cf_conventions(finished):
 
 def test_small_scale_says_that_its_verdicts_mean_nothing(finished):
     with xr.open_dataset(finished / "results/tables/claims.nc") as claims:
-        assert (claims.decisive, claims.elements_across, claims.realizations) == (0, 33, 4)
+        assert (claims.trial, claims.elements_across, claims.realizations) == (1, 33, 4)
         assert "the verdicts mean nothing" in claims.scale
     assert "the verdicts mean nothing" in (finished / "results/tables/claims.html").read_text()
 

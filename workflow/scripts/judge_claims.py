@@ -7,7 +7,7 @@ from viscorough.io.datasets import read_dataset
 from viscorough_study.evidence import Evidence
 from viscorough_study.job_log import log_to
 from viscorough_study.pool import select
-from viscorough_study.scale import scale
+from viscorough_study.scale import attributes_of_scale
 from viscorough_study.tables import recorded, write_table
 from viscorough_study.verdicts import COLUMNS, judge, markdown
 
@@ -22,8 +22,8 @@ def main(discs, scaling, validation, direct, csv, html, nc, verdicts, *, claims,
         **settings,
     )
     table = judge(claims, evidence)
-    about = scale(evidence)
-    title = "Verdicts on the paper's claims" + ("" if about["decisive"] else f" ({about['scale']})")
+    about = attributes_of_scale(evidence)
+    title = "Verdicts on the paper's claims" + f" ({about['scale']})" * about["trial"]
     about |= recorded(settings={name: settings[name] for name in ("seed", "resamples", "conventions", "rules")})
     write_table(table, csv, nc, html, columns=COLUMNS, dimension="case_of_claim", title=title, attributes=about)
     with atomic_write(verdicts) as temporary:

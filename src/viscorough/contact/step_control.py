@@ -30,7 +30,10 @@ _POINTS, _BETWEEN_POINTS = np.linspace(0, 1, 18)[1:-1], 1.15
 # touch is below this share of the accuracy. The prediction needs so many elements, and must agree with the force to
 # within these factors.
 _RELAXED_BOUND, _PREDICTED_ERROR, _PREDICTED_COUNT, _AGREEMENT = 3.3, 0.5, 10, (0.8, 1.25)
+# Below this share of the accuracy the next step becomes as much longer as allowed, and no prediction is needed.
 _NEGLIGIBLE_BOUND = 0.15
+# Smallest share of an interval's force at which the bound is evaluated: the logarithm of the force must not overflow.
+_SMALLEST_SHARE = 1e-3
 _TINY = 1e-30
 
 
@@ -89,7 +92,7 @@ class StepControl:
 
     def next_ratio(self, ratio, excess):
         """Ratio of the step after one with this ratio."""
-        change = (_AIM / max(excess, 1e-30)) ** (1 / _ORDER)
+        change = (_AIM / max(excess, _TINY)) ** (1 / _ORDER)
         return np.clip(ratio ** np.clip(change, _LEAST_CHANGE, _LARGEST_CHANGE), self.min_ratio, _MAX_DEPTH_RATIO)
 
 
@@ -105,7 +108,7 @@ def interpolation_bound(before, after):
         return 0.0  # the two tangents are the curve
     rise = after.pressure_sum - before.pressure_sum
     at_meeting = before.tangent_sum * _meeting(before, after) * (after.depth - before.depth) / rise
-    share = np.append(_POINTS, np.clip(at_meeting, 1e-3, 1))
+    share = np.append(_POINTS, np.clip(at_meeting, _SMALLEST_SHARE, 1))
     force = np.minimum(before.pressure_sum + share * rise, after.pressure_sum)
     depth = _interpolate(before, after, force)
     chord = before.depth + share * (after.depth - before.depth)

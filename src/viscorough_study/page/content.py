@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 
 from viscorough.io.netcdf import opened
+from viscorough_study.scale import is_trial
 from viscorough_study.verdicts import cases_shown, overall
 
 # {name of the figure: what it shows, for those who cannot see it}
@@ -131,9 +132,7 @@ def scale(discs, lines, numbers):
     if all(run[name] >= paper[name] for name in paper):
         name = "paper"
     else:
-        # On coarser grids region (b), in which the power law is looked for, is shorter than the half decade that a fit
-        # needs, or nearly so.
-        name = "trial" if run["elements"] < paper["elements"] / 2 else "reduced"
+        name = "trial" if is_trial(run["elements"], paper["elements"]) else "reduced"
     return {"name": name, "run": run, "paper": paper, **pools}
 
 

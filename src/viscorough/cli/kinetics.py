@@ -6,8 +6,8 @@ from viscorough.cli.messages import announce
 from viscorough.cli.options import (
     FILE,
     PositiveNumber,
-    check_opens,
     output_option,
+    read_content,
     write_output,
 )
 
@@ -34,15 +34,13 @@ def kinetics(curve, force, viscosity, output):
     """
     import numpy as np
 
-    from viscorough.io import netcdf
     from viscorough.io.atomic import check_output
     from viscorough.io.curves import curve_from_content
     from viscorough.io.motion import with_motion
     from viscorough.viscous import correspondence
 
     check_output(output)
-    check_opens(curve)
-    content = netcdf.read(curve)
+    content = read_content(curve)
     try:
         loading = curve_from_content(content)
     except ValueError as error:

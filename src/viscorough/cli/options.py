@@ -58,9 +58,16 @@ def spacing_option(command):
     return click.option("--spacing", type=PositiveNumber(), required=True, help=text)(command)
 
 
-def output_option(metavar):
-    """Decorator that adds -o/--output to a command."""
-    return click.option("-o", "--output", type=FILE, required=True, metavar=metavar, help="File to write or replace.")
+def output_option(metavar, table=True):
+    """Decorator that adds -o/--output to a command; `table` says whether the results can also be written as CSV."""
+    text = "File to write or replace" + ("; as a table if it ends in .csv." if table else ".")
+
+    def check(context, parameter, path):
+        if path.suffix.lower() == ".csv" and not table:
+            raise click.BadParameter(f"{path}: maps are no table; a NetCDF file (.nc) is needed", context, parameter)
+        return path
+
+    return click.option("-o", "--output", type=FILE, required=True, metavar=metavar, help=text, callback=check)
 
 
 def check_not_an_input(output, file, kind):
@@ -123,14 +130,28 @@ def read_indenter(heights, spacing, output):
     return indenter
 
 
+def read_content(path):
+    """The io.netcdf.Content of a NetCDF file, or of a table (.csv) that a command wrote."""
+    from viscorough.io import netcdf, tables
+
+    if tables.is_table(path):
+        return tables.read(path)
+    check_opens(path)
+    return netcdf.read(path)
+
+
 def write_output(content, output, **attributes):
-    """Write an io.netcdf.Content with attributes added; the attribute `warnings` holds the warnings given so far."""
-    from viscorough.io import netcdf
+    """Write an io.netcdf.Content with attributes added, as NetCDF, or as a table if the name ends in .csv.
+
+    The attribute `warnings` holds the warnings given so far.
+    """
+    from viscorough.io import netcdf, tables
 
     if texts := warning_texts(click.get_current_context().obj):
         attributes["warnings"] = "; ".join(texts)
     with on_interrupt(default_int_handler):  # raises KeyboardInterrupt, so that no temporary file is left
-        netcdf.write(content.with_attributes(**attributes), output)
+        write = tables.write if tables.is_table(output) else netcdf.write
+        write(content.with_attributes(**attributes), output)
 
 
 def warning_texts(caught):

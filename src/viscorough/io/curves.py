@@ -1,11 +1,10 @@
 """Loading curves in NetCDF files, one or a stack of them: variables over levels, and how the curve was obtained."""
 
-import re
-
 import numpy as np
 
 from viscorough.io.netcdf import Content, Variable
 from viscorough.loading_curve import LoadingCurve
+from viscorough.summaries import unit_power
 
 COMMENT = (
     "Rigid indenter on an incompressible half-space, no friction, no adhesion. Depth is from first contact, "
@@ -32,13 +31,7 @@ PER_CURVE = {
 def level_attributes(name, length_unit):
     """Attributes of a variable of OVER_LEVELS: long_name and units, a power of the length unit."""
     long_name, power = OVER_LEVELS[name]
-    if power == 0 or length_unit == "1":
-        units = "1"
-    elif power == 1:
-        units = length_unit
-    else:  # UDUNITS: m2, but (1e-6 m)2
-        units = f"{length_unit if re.fullmatch('[A-Za-z]+', length_unit) else f'({length_unit})'}{power}"
-    return {"long_name": long_name, "units": units}
+    return {"long_name": long_name, "units": unit_power(length_unit, power)}
 
 
 def curve_to_content(curve):

@@ -1,0 +1,109 @@
+"""Tables as CSV: what a NetCDF file with one dimension holds, for spreadsheets and other programs.
+
+The first lines start with "#": a line "# name: value" for each global attribute, with texts in quotation marks, and a
+line "# column name: meaning" for each column. Then come a header with the names of the columns, each with its unit in
+parentheses, and a row for each level, in full precision. Where a value is missing, the field is empty.
+"""
+
+import contextlib
+import csv
+import io
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+
+from viscorough.arrays import read_only
+from viscorough.io import netcdf
+from viscorough.io.atomic import atomic_write, reason
+from viscorough.io.netcdf import Content, Variable
+
+_ATTRIBUTE = re.compile(r"# ?((?:column )?[A-Za-z]\w*): (.*)", re.ASCII)
+_COLUMN = re.compile(r"(\w+)(?: \((.*)\))?")
+
+
+def is_table(path):
+    """Whether a file name asks for a table: it ends in .csv."""
+    return Path(path).suffix.lower() == ".csv"
+
+
+def check_columns(content, path):
+    """Raise ValueError unless all variables with dimensions stand along the same one."""
+    dimensions = {variable.dimensions for variable in content.variables.values() if variable.dimensions}
+    if len(dimensions) != 1 or len(*dimensions) != 1:
+        raise ValueError(f"{path}: what was computed is no table of one dimension; a NetCDF file (.nc) is needed")
+
+
+def write(content, path):
+    """Write a Content, whose variables share one dimension, as CSV, atomically; numbers without one are attributes.
+
+    Raises ValueError for other contents, missing attributes and a path that cannot be written, OSError if writing
+    fails.
+    """
+    check_columns(content, path)
+    for name, variable in content.variables.items():
+        netcdf.check_attributes(path, name, np.asarray(variable.values).dtype, variable.attributes)
+    columns = {name: variable for name, variable in content.variables.items() if variable.dimensions}
+    scalars = {name: v.values[()] for name, v in content.variables.items() if not v.dimensions}
+    lines = [f"# {name}: {_as_text(value)}" for name, value in (content.attributes | scalars).items()]
+    lines += [f"# {name}: {_as_text(value)}" for name, value in netcdf.global_attributes().items()]
+    lines += [f"# column {name}: {_as_text(variable.attributes['long_name'])}" for name, variable in columns.items()]
+    text = io.StringIO()
+    table = csv.writer(text, lineterminator="\n")
+    table.writerow(_title(name, variable.attributes.get("units", "1")) for name, variable in columns.items())
+    cells = [["" if value != value else repr(value) for value in v.values.tolist()] for v in columns.values()]
+    table.writerows(zip(*cells, strict=True))
+    with atomic_write(path) as temporary:
+        temporary.write_text("\n".join(lines) + "\n" + text.getvalue(), encoding="utf-8")
+
+
+def read(path):
+    """Read a table that `write` made into memory as a Content on the dimension `level`; empty fields are nan.
+
+    Raises a one-line ValueError if the file is missing or is no such table.
+    """
+    try:
+        if Path(path).is_fifo():  # opening it would wait for a writer
+            raise ValueError("it is a pipe")
+        lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
+        about = dict(filter(None, (_attribute(line) for line in lines if line.startswith("#"))))
+        titles, *rows = csv.reader((line for line in lines if line.strip() and not line.startswith("#")), strict=True)
+        if not rows or any(len(row) != len(titles) for row in rows):
+            raise ValueError(f"not every row has {len(titles)} fields, or there is none")
+        variables = {}
+        for title, cells in zip(titles, zip(*rows, strict=True), strict=True):
+            name, unit = _COLUMN.fullmatch(title.strip()).groups()
+            attributes = {"long_name": about.pop(f"column {name}", name), "units": unit or "1"}
+            variables[name] = Variable(("level",), _numbers(cells), attributes)
+        return Content(variables, about)
+    except (OSError, ValueError, AttributeError, csv.Error) as error:
+        raise ValueError(f"{path}: not readable ({reason(error)}); a whole table of viscorough is needed") from error
+
+
+def _title(name, unit):
+    return name if unit == "1" else f"{name} ({unit})"
+
+
+def _as_text(value):
+    """A value of an attribute as JSON."""
+    return json.dumps(np.asarray(value).tolist(), ensure_ascii=False)
+
+
+def _attribute(line):
+    """Name and value in a line "# name: value"; None for other lines. A value that is no JSON is a text."""
+    match = _ATTRIBUTE.fullmatch(line.strip())
+    if match is None:
+        return None
+    name, text = match.groups()
+    with contextlib.suppress(ValueError):
+        value = json.loads(text)
+        if type(value) in (str, float) or (type(value) is int and abs(value) < 2**53):
+            return name, value
+    return name, text
+
+
+def _numbers(cells):
+    """The numbers in a column; whole ones, such as counts, if all are written without point and exponent."""
+    whole = all(cell.isdecimal() and len(cell) < 16 for cell in cells)
+    return read_only(np.array([(int if whole else float)(cell or "nan") for cell in cells]))

@@ -1,0 +1,47 @@
+"""Results in a few lines of text, and as tables of HTML."""
+
+import pytest
+
+from support.curves import random_curve
+from support.page import Page
+from viscorough.summaries import html_table, span, unit_power, with_unit
+
+
+def test_curve_in_three_lines():
+    curve = random_curve(
+        length_unit="um",
+        depth=[0.5, 2],
+        force=[1, 3],
+        stiffness=[1, 2],
+        contact_count=[1, 504],
+        residual=[0, 0],
+        elements=1008,
+    )
+    assert str(curve).splitlines() == [
+        "Loading curve by boundary elements: 2 levels, 1008 elements",
+        "depth u 0.5 to 2 um, force F/G 1 to 3 um2, stiffness k/G 1 to 2 um",
+        "contact fraction 0.0009921 to 0.5",
+    ]
+    page = Page(curve._repr_html_())
+    assert [tag for tag, _ in page.elements].count("tr") == 4
+    assert "0.5 to 2 um" in page.text
+
+
+def test_single_level_without_a_unit():
+    curve = random_curve(1, depth=[0.5], length_unit="1")
+    assert "\ndepth u 0.5, force F/G " in str(curve)
+    assert "1 level, " in str(curve)
+
+
+def test_signs_of_html_are_escaped():
+    assert "<b>" not in html_table("a <b>", [("<b>", "<b>")])
+
+
+@pytest.mark.parametrize(("unit", "squared"), [("m", "m2"), ("1", "1"), ("1e-6 m", "(1e-6 m)2"), ("µm", "(µm)2")])
+def test_powers_of_units(unit, squared):
+    assert unit_power(unit, 2) == squared
+    assert (unit_power(unit, 1), unit_power(unit, 0)) == (unit, "1")
+
+
+def test_numbers_with_units():
+    assert (span([1.0, 20000.0], "m"), span([3.0]), with_unit(1e-7 / 3, "s")) == ("1 to 2e+04 m", "3", "3.333e-08 s")

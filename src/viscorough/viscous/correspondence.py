@@ -1,4 +1,4 @@
-"""Kinetics of penetration: the loading curve read as the solution of the viscous problem.
+"""Kinetics of penetration: the loading curve read as the solution for any linear viscoelastic half-space.
 
 The surface of a linearly viscous half-space moves at ẇ = (1/4πη)∫p/r dA. Integrated over time, with the pressure
 impulse J = ∫p dt, this is the elastic relation w = (1/4πη)∫J/r dA, and ∫J dA = I = ∫F dt, the impulse. The elastic
@@ -10,15 +10,27 @@ negative, so the contact only grows and no pressure becomes tensile. Hence, for 
 
 exactly. For a constant force I = Ft, so X = Ft/(4ηhL) and vt/h = X/κ(X) (Eqs. 2 and 3). Eqs. 7-9 of the paper
 instead Laplace-transform the relation u(F/G), which is not linear, and so carry an extra factor 1/Γ(2−α).
+
+Likewise for a medium of creep compliance J(t): where the creep Φ(t) = ∫J(t − s) dF(s) does not decrease,
+
+    u(t) = u_el(F/G = Φ(t)),    v(t) = Φ'(t)/(k/G),
+
+since the pressure ∫ψ(t − s) dp_el(s), with the relaxation modulus ψ ≥ 0, is nowhere tensile (Lee and Radok 1960 for
+the sphere). Where Φ decreases the contact recedes, and the correspondence ends.
 """
 
 from dataclasses import dataclass
+from numbers import Real
 from typing import NamedTuple
 
 import numpy as np
 
 from viscorough.arrays import keep_read_only, read_only
+from viscorough.viscous.creep_response import creep_response
+from viscorough.viscous.media import Newtonian, medium_of
+from viscorough.viscous.spectra import zero_of_increasing
 
+_LATEST = 1e300  # at which creep that stops has stopped
 _ROUNDING = 1e-10  # relative; the rounding error of an impulse summed over a million force samples
 
 
@@ -40,9 +52,9 @@ class Kinetics:
 
 
 class ForceHistory(NamedTuple):
-    """A force over time and its integral; read-only arrays of shape (times,).
+    """A force over time, linear between samples, and its integral; read-only arrays of shape (samples,).
 
-    times : t
+    times : t, increasing, or the same in two samples: a step from one force to the other
     force : F(t) ≥ 0
     impulse : ∫F dt up to t
     """
@@ -52,50 +64,135 @@ class ForceHistory(NamedTuple):
     impulse: np.ndarray
 
 
-def kinetics(curve, force, viscosity, times=None):
-    """Depth and velocity of an indenter with the given loading curve in a linearly viscous half-space.
+def kinetics(curve, force, medium=None, times=None, *, viscosity=None):
+    """Depth and velocity of an indenter with the given loading curve in a linear viscoelastic half-space.
 
     curve : LoadingCurve of the indenter
-    force : a number, the constant force F > 0 applied at t = 0; or samples F ≥ 0 of shape (times,), linear in
-        between, applied from times[0] on (a jump is two samples close together)
-    viscosity : η > 0, in a unit such that F·t/η is a length² in the curve's unit of length
-    times : strictly increasing, and not negative if the force is constant; the default, for a constant force only, is
-        the times at which the curve's levels are reached, t = (F/G)·η/F
+    force : a number, the constant force F > 0 applied at t = 0; or samples F ≥ 0 of shape (times,), linear in between,
+        applied from times[0] on, with a time given twice where the force steps; or a ForceHistory (`impulses`), whose
+        samples need not be those of `times`
+    medium : one of viscorough.viscous.media, or a number, the viscosity η > 0 of a Newtonian medium; in units such that
+        F·t/η, or F over a modulus, is a length² in the curve's unit of length
+    times : increasing, and not negative if the force is constant; the default, for a constant force only, is the times
+        at which the curve's levels are reached, in a Newtonian medium t = (F/G)·η/F. In a medium that springs at once
+        time 0 stands before them, and levels that are never reached are left out
+    viscosity : another name of the medium, if it is a number
 
-    Returns Kinetics at `times`. The velocity is 0 where the force is 0. Between its levels the curve is interpolated
-    (LoadingCurve.at_force); before its first level, where that is not possible, the result is nan.
-    Raises ValueError for values outside these ranges and for an impulse beyond the curve's last level.
+    Returns Kinetics at `times`. The velocity is that just after each time; at the last time of a history and before a
+    step, that before it. Where an elastic medium steps, the velocity is that of the creep alone; it is infinite in a
+    Springpot. Between its levels the curve is interpolated (LoadingCurve.at_force); before its first level, where that
+    is not possible, the result is nan.
+    Raises ValueError for values outside these ranges, for a force beyond the curve's last level, and, with the time,
+    where the creep decreases and the contact would recede.
     """
-    if not (np.ndim(viscosity) == 0 and np.isfinite(viscosity) and viscosity > 0):
-        raise ValueError(f"viscosity: {viscosity}; allowed: a finite number above 0")
+    if (medium is None) == (viscosity is None):
+        raise ValueError("kinetics: one of medium and viscosity is needed")
+    medium = _newtonian(viscosity if medium is None else medium)
+    if times is None and isinstance(force, ForceHistory):
+        times = force.times
     constant = np.ndim(force) == 0
     if constant and not (np.isfinite(force) and force > 0):
         raise ValueError(f"constant force: {force}; allowed: a finite number above 0")
     if times is None:
         if not constant:
             raise ValueError("times: missing; a force given as samples needs the time of each sample")
-        return Kinetics(curve.force * viscosity / force, curve.depth, force / (viscosity * curve.stiffness))
+        return _at_levels(curve, force, medium)
+    if isinstance(medium, Newtonian):
+        return _newtonian_kinetics(curve, force, medium.viscosity, times)
+    times, creep, rate = _creep(force, medium, times)
+    depth, stiffness = _at_elastic_force(curve, creep, times)
+    with np.errstate(invalid="ignore"):
+        return Kinetics(times, depth, np.where(creep == 0, 0.0, np.maximum(rate, 0) / stiffness))
 
-    times, force, impulse = impulses(force, times)
+
+def _newtonian(medium):
+    """The medium; a bare number that is no viscosity is refused as such."""
+    if not hasattr(medium, "creep_compliance") and not (
+        np.ndim(medium) == 0 and isinstance(medium, Real) and np.isfinite(medium) and medium > 0
+    ):
+        raise ValueError(f"viscosity: {medium}; allowed: a finite number above 0")
+    return medium_of(medium)
+
+
+def _newtonian_kinetics(curve, force, viscosity, times):
+    """Kinetics in a Newtonian medium, of which the impulse is the state."""
+    history, place = _sampled(force, times)
+    times, force, impulse = (values[place] for values in history)
     depth, stiffness = _at_impulse(curve, impulse / viscosity, viscosity)
     # Without a force the velocity is 0 even before the first level, where the stiffness is nan.
     velocity = np.where(force == 0, 0.0, force / (viscosity * stiffness))
     return Kinetics(times, depth, velocity)
 
 
+def _at_levels(curve, force, medium):
+    """Kinetics under a constant force at the times at which the levels of the curve are reached."""
+    if isinstance(medium, Newtonian):
+        viscosity = medium.viscosity
+        return Kinetics(curve.force * viscosity / force, curve.depth, force / (viscosity * curve.stiffness))
+    limit = medium.times[-1] if hasattr(medium, "times") else _LATEST
+    at_once, at_last = force * medium.creep_compliance(np.array([0.0, limit]))
+    reached = (curve.force > at_once) & (curve.force < at_last)
+    if not reached.any():
+        raise ValueError(
+            f"times: missing, and the curve has no level between F/G {at_once:.6g}, at once, and {at_last:.6g}, in the "
+            "end; times or another force are needed"
+        )
+    wanted = curve.force[reached] / force
+    with np.errstate(all="ignore"):
+        earliest = np.full(wanted.shape, np.finfo(float).tiny)
+        time = zero_of_increasing(lambda time: medium.creep_compliance(time) - wanted, earliest, 0 * wanted + limit)
+    depth, velocity = curve.depth[reached], force * medium.creep_rate(time) / curve.stiffness[reached]
+    if at_once > 0 and at_once <= curve.force[-1] and np.isfinite(start := curve.at_force(at_once)).all():
+        rate = force * medium.creep_rate(0.0)
+        time, depth = np.append(0.0, time), np.append(start[0], depth)
+        velocity = np.append(rate / start[1], velocity)
+    return Kinetics(time, depth, velocity)
+
+
+def _creep(force, medium, times):
+    """Times, Φ and dΦ/dt there."""
+    if np.ndim(force) > 0:
+        history, place = _sampled(force, times)
+        return history.times[place], *(values[place] for values in creep_response(medium, history))
+    times = impulses(force, times).times
+    if hasattr(medium, "times") and times[-1] > medium.times[-1]:
+        raise ValueError(f"times: up to {times[-1]:g}; allowed: up to the last time of the table, {medium.times[-1]:g}")
+    with np.errstate(over="ignore"):
+        return times, force * medium.creep_compliance(times), force * medium.creep_rate(times)
+
+
+def _sampled(force, times):
+    """The ForceHistory with samples at `times`, and the indices of those."""
+    if not isinstance(force, ForceHistory):
+        history = impulses(force, times)
+        return history, np.arange(history.times.size)
+    if times is force.times:
+        return force, np.arange(force.times.size)
+    times = _increasing(times)
+    if times[0] < force.times[0] or times[-1] > force.times[-1]:
+        raise ValueError(
+            f"times: from {times[0]:g} to {times[-1]:g}; allowed: within those of the force history, "
+            f"{force.times[0]:g} to {force.times[-1]:g}"
+        )
+    new = np.setdiff1d(times, force.times)
+    place = np.searchsorted(force.times, new)
+    samples = np.insert(force.times, place, new), np.insert(force.force, place, np.interp(new, *force[:2]))
+    history = impulses(samples[1], samples[0])
+    return history, np.searchsorted(history.times, times, side="right") - 1
+
+
 def impulses(force, times):
     """The ForceHistory of a force F(t) ≥ 0 at the given times.
 
     force : a constant F > 0 from t = 0 on, or samples of shape (times,), linear in between, from times[0] on
-    times : strictly increasing
+    times : strictly increasing; those of samples may be given twice, where the force steps
 
     Raises ValueError for values outside these ranges: under a negative force the contact would open, which the
     correspondence excludes.
     """
-    times = read_only(times).astype(float)
-    if times.ndim != 1 or times.size == 0 or not np.isfinite(times).all() or not (np.diff(times) > 0).all():
-        raise ValueError("times: allowed is one row of finite numbers, each larger than the one before")
-    if np.ndim(force) == 0:
+    constant = np.ndim(force) == 0
+    times = _increasing(times, twice=not constant)
+    if constant:
         if times[0] < 0:
             raise ValueError(f"times: start at {times[0]:g}; allowed: from 0 on, where a constant force begins")
         force, impulse = np.full(times.shape, float(force)), force * times
@@ -103,6 +200,20 @@ def impulses(force, times):
         force = _samples(force, times)
         impulse = np.append(0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(times)))
     return ForceHistory(*map(read_only, (times, force, impulse)))
+
+
+def _increasing(times, *, twice=False):
+    """The times as an array. Raises ValueError unless they increase; with `twice`, two at a time may be equal."""
+    times = read_only(times)
+    allowed = "one row of finite numbers, each larger than the one before"
+    if times.dtype.kind not in "iuf":
+        raise ValueError(f"times: allowed is {allowed}")
+    times = times.astype(float)
+    if times.ndim == 1 and times.size > 0 and np.isfinite(times).all():
+        steps = np.diff(times)
+        if (steps > 0).all() or (twice and (steps >= 0).all() and (steps[1:] + steps[:-1] > 0).all()):
+            return times
+    raise ValueError(f"times: allowed is {allowed}{', or given twice where the force steps' if twice else ''}")
 
 
 def _samples(force, times):
@@ -120,14 +231,31 @@ def _samples(force, times):
 
 def _at_impulse(curve, elastic_force, viscosity):
     """Depth and k/G at the impulse over viscosity I/η: those of the loading curve at F/G = `elastic_force` = I/η."""
-    first, last = curve.force[0], curve.force[-1]
-    largest = elastic_force.max()
+    last, largest = curve.force[-1], elastic_force.max()
     if largest > last * (1 + _ROUNDING):
         raise ValueError(
             f"impulse: {largest * viscosity:.6g} is beyond the curve's last level; "
             f"allowed: up to {last * viscosity:.6g}"
         )
-    # An impulse that equals that of the first or last level up to rounding must not fall outside the curve.
+    return _on_curve(curve, elastic_force)
+
+
+def _at_elastic_force(curve, creep, times):
+    """Depth and k/G at F/G = Φ = `creep`, at the given times."""
+    beyond = creep > curve.force[-1] * (1 + _ROUNDING)
+    if beyond.any() or not np.isfinite(creep).all():
+        where = int(np.argmax(beyond | ~np.isfinite(creep)))
+        raise ValueError(
+            f"force: at time {times[where]:g} the creep ∫J dF is {creep[where]:.6g}, beyond the curve's last level; "
+            f"allowed: up to {curve.force[-1]:.6g}"
+        )
+    return _on_curve(curve, creep)
+
+
+def _on_curve(curve, elastic_force):
+    """Depth and k/G of the loading curve at F/G not beyond its last level."""
+    first, last = curve.force[0], curve.force[-1]
+    # A force that equals that of the first or last level up to rounding must not fall outside the curve.
     elastic_force = np.minimum(elastic_force, last)
     elastic_force = np.where(np.abs(elastic_force - first) <= _ROUNDING * first, first, elastic_force)
     depth, stiffness = curve.at_force(elastic_force)

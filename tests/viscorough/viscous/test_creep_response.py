@@ -1,0 +1,211 @@
+"""The creep under force histories against quadrature and closed forms, and where it is refused."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from viscorough.viscous.correspondence import impulses
+from viscorough.viscous.creep_response import _ByStates, creep_response
+from viscorough.viscous.media import (
+    CreepTable,
+    KelvinVoigt,
+    Maxwell,
+    Newtonian,
+    Prony,
+    Springpot,
+    StandardLinearSolid,
+)
+
+TABLE_TIMES = np.append(0, np.geomspace(0.01, 100, 40))
+MEDIA = {
+    "newtonian": Newtonian(3.0),
+    "maxwell": Maxwell(2.0, 5.0),
+    "kelvin-voigt": KelvinVoigt(2.0, 5.0),
+    "solid": StandardLinearSolid(4.0, 1.5, 0.3),
+    "prony": Prony(0.5, [10.0, 1.0, 3.0], [0.01, 1.0, 50.0]),
+    "prony liquid": Prony(0.0, [1e6, 1.0], [1e-5, 4.0]),
+    "springpot": Springpot(2.0, 0.4),
+    "table": CreepTable(TABLE_TIMES, 0.2 + TABLE_TIMES**0.3),
+}
+# A ramp, a step up, a hold and a slower ramp.
+TIMES = np.array([0.5, 1.0, 2.5, 2.5, 4.0, 9.0])
+FORCE = np.array([0.2, 1.0, 1.0, 1.8, 1.8, 2.5])
+
+
+def creep_by_quadrature(medium, time):
+    """∫ J(time − s) dF(s) from the definition."""
+    total = FORCE[0] * medium.creep_compliance(time - TIMES[0])
+    for k in range(TIMES.size - 1):
+        start, end = TIMES[k], min(TIMES[k + 1], time)
+        if TIMES[k] == TIMES[k + 1] <= time:
+            total += (FORCE[k + 1] - FORCE[k]) * medium.creep_compliance(time - start)
+        elif start < end:
+            slope = (FORCE[k + 1] - FORCE[k]) / (TIMES[k + 1] - TIMES[k])
+            kinks = time - TABLE_TIMES if isinstance(medium, CreepTable) else np.array([])
+            kinks = kinks[(kinks > start) & (kinks < end)]
+            ends = np.concatenate([[start], np.sort(kinks), [end]])
+            total += slope * sum(
+                quad(lambda s: medium.creep_compliance(time - s), a, b, epsrel=1e-13, epsabs=0)[0]
+                for a, b in pairwise(ends)
+            )
+    return total
+
+
+@pytest.mark.parametrize("name", MEDIA)
+def test_creep_is_the_convolution(name):
+    creep, _ = creep_response(MEDIA[name], impulses(FORCE, TIMES))
+    expected = [creep_by_quadrature(MEDIA[name], time) for time in TIMES]
+    expected[2] -= 0.8 * MEDIA[name].creep_compliance(0.0)  # of the sample before the step
+    np.testing.assert_allclose(creep, expected, rtol=1e-8 if name == "springpot" else 1e-12)
+
+
+@pytest.mark.parametrize("name", MEDIA)
+def test_rate_is_the_derivative(name):
+    """dΦ/dt of a dense history against Φ itself; right of every sample, left of the last and of a step."""
+    medium, width = MEDIA[name], 1e-7
+    after = [0.5, 1.0, 2.5, 4.0]
+    before = [2.5, 9.0]
+    times = np.unique(np.concatenate([TIMES, np.add(after, width), np.subtract(before, width)]))
+    times = np.insert(times, np.searchsorted(times, 2.5), 2.5)
+    single = ~(np.diff(TIMES, prepend=-1) == 0)
+    force = np.interp(times, TIMES[single], FORCE[single])
+    force[times < 2.5] = np.interp(times[times < 2.5], TIMES[:3], FORCE[:3])
+    force[times >= 2.5] = np.interp(times[times >= 2.5], TIMES[3:], FORCE[3:])
+    force[np.searchsorted(times, 2.5)] = 1.0
+    creep, rate = creep_response(medium, impulses(force, times))
+    differences = np.diff(creep) / np.where(np.diff(times) > 0, np.diff(times), 1)
+    for time in after[1:2]:  # without a step, at which a springpot moves without bound
+        at = np.searchsorted(times, time, side="right") - 1
+        assert rate[at] == pytest.approx(differences[at], rel=2e-6 if name != "springpot" else 1e-2)
+    for time in before:
+        at = np.searchsorted(times, time)
+        at = at if time < 9 else times.size - 1
+        assert rate[at] == pytest.approx(differences[at - 1], rel=2e-6)
+
+
+@pytest.mark.parametrize("name", MEDIA)
+def test_a_ramp_creeps_at_the_compliance(name):
+    """F = c t: dΦ/dt = c J(t), exactly."""
+    times = np.linspace(0, 20, 31)
+    creep, rate = creep_response(MEDIA[name], impulses(0.7 * times, times))
+    np.testing.assert_allclose(rate, 0.7 * MEDIA[name].creep_compliance(times), rtol=1e-12, atol=1e-15)
+    assert creep[0] == 0
+
+
+@pytest.mark.parametrize("name", MEDIA)
+def test_more_samples_change_nothing(name):
+    """Samples on the line between others: the recursion and the sums are exact, not of an order."""
+    coarse, _ = creep_response(MEDIA[name], impulses([1.0, 3.0], [0.0, 7.0]))
+    times = np.linspace(0, 7, 2001)
+    fine, _ = creep_response(MEDIA[name], impulses(1 + 2 * times / 7, times))
+    assert fine[-1] == pytest.approx(coarse[-1], rel=1e-12)
+
+
+def test_short_and_long_times_lose_no_digits():
+    """Steps of 1e-12 and 1e12 retardation times: Φ of a step is J(t), and its rate J'(t)."""
+    for medium in (KelvinVoigt(2.0, 5.0), Prony(1.0, [1e10, 1.0], [1e-8, 1e8])):
+        for times in (np.linspace(0, 1e-12, 5), np.linspace(0, 50, 5), np.linspace(0, 1e12, 5)):
+            creep, rate = creep_response(medium, impulses(np.ones(5), times))
+            np.testing.assert_allclose(creep, medium.creep_compliance(times), rtol=1e-12, atol=0)
+            np.testing.assert_allclose(rate, medium.creep_rate(times), rtol=1e-11, atol=1e-300)
+
+
+# ---- where the creep decreases
+
+
+def refused_from(medium, force, times):
+    with pytest.raises(
+        ValueError, match=r"^force: from time [^\n]* on the contact would recede[^\n]*march_medium[^\n]*$"
+    ) as refusal:
+        creep_response(medium, impulses(force, times))
+    return float(str(refusal.value).split()[3])
+
+
+def test_maxwell_may_unload_slowly():
+    """Φ' = F'/G + F/η: unloading is allowed until F = η |F'|/G, here at F = 2.5·0.2 = 0.5."""
+    medium, times = Maxwell(2.0, 5.0), [0.0, 4.0, 5.0]
+    creep_response(medium, impulses([1.3, 0.5, 0.5], times))
+    assert refused_from(medium, [1.3, 0.5 - 1e-6, 0.5], times) == pytest.approx(4.0, abs=1e-4)
+    assert refused_from(medium, [1.0, 0.2, 0.2], times) == pytest.approx(2.5, rel=1e-5)
+
+
+def test_decrease_between_samples_is_found():
+    """Loaded, then unloaded within one long interval: the solid still creeps at first, and recedes later."""
+    medium = StandardLinearSolid(4.0, 1.5, 0.3)
+    time = refused_from(medium, [1.0, 1.0, 0.9], [0.0, 0.3, 100.0])
+    slope, theta, delayed = -0.1 / 99.7, 0.8, 1 / 1.5 - 0.25
+    s = time - 0.3
+    rate = 0.25 * slope + delayed * (np.exp(-time / theta) / theta + slope * (1 - np.exp(-s / theta)))
+    assert abs(rate) < 1e-5 * abs(slope)
+
+
+def test_first_decrease_against_dense_sampling():
+    """Random histories in random media, those that recede within an interval and move on before its end included."""
+    random, within = np.random.default_rng(4), 0
+    for _ in range(300):
+        medium = Prony(random.choice([0.0, 1.0]), 10 ** random.uniform(-1, 1, 3), 10 ** random.uniform(-2, 2, 3))
+        times = np.append(0, np.cumsum(10 ** random.uniform(-1, 1, 4)))
+        force = 1 + 0.05 * random.standard_normal(5) + np.array([0, 0.1, 0, 0, 0.1])
+        dense = np.unique(np.concatenate([times, np.linspace(0, times[-1], 8001)]))
+        response = _ByStates(medium, impulses(np.interp(dense, times, force), dense))
+        coarse = _ByStates(medium, impulses(force, times))
+        found = coarse.first_decrease()
+        down = np.flatnonzero(response.rate < -1e-9)
+        expected = dense[down[0]] if down.size else np.inf
+        assert found <= expected
+        assert found == expected or found > dense[max(down[0] - 1, 0)] - 1e-9
+        before, after = coarse.rate[:-1], coarse.rate[1:]
+        within += np.isfinite(found) and (min(before.min(), after.min()) > 0)
+    assert within > 0
+
+
+@pytest.mark.parametrize("name", ["maxwell", "solid", "prony", "prony liquid", "springpot", "table"])
+def test_a_step_down_is_refused_where_the_medium_springs_at_once(name):
+    assert refused_from(MEDIA[name], [1.0, 1.0, 0.9, 0.9], [0.0, 1.0, 1.0, 2.0]) == 1.0
+
+
+def test_steps_down_that_viscous_media_carry():
+    """Newtonian: any. Kelvin-Voigt: down to the force of the spring, G y; below it the contact recedes."""
+    times = [0.0, 1.0, 1.0, 2.0]
+    creep_response(Newtonian(3.0), impulses([1.0, 1.0, 0.0, 0.0], times))
+    held = -np.expm1(-1 / 2.5)
+    creep_response(KelvinVoigt(2.0, 5.0), impulses([1.0, 1.0, held + 1e-9, held + 1e-9], times))
+    assert refused_from(KelvinVoigt(2.0, 5.0), [1.0, 1.0, held - 1e-3, held - 1e-3], times) == 1.0
+
+
+@pytest.mark.parametrize("name", ["springpot", "table", "kelvin-voigt"])
+def test_decrease_is_where_dense_sampling_finds_it(name):
+    """Loaded at once, held and unloaded slowly: the first time at which a dense sampling of Φ decreases."""
+    medium = MEDIA[name]
+    time = refused_from(medium, [1.0, 1.0, 0.0], [0.0, 1.0, 21.0])
+    dense = np.linspace(1, 21, 4001)
+
+    def creep(t):
+        return medium.creep_compliance(t) - 0.05 * np.array([quad(medium.creep_compliance, 0, s - 1)[0] for s in t])
+
+    if name == "table":  # its quadrature is slow; the closed form is tested above
+
+        def creep(t):
+            return medium.creep_compliance(t) - 0.05 * medium.creep_integral(0 * t, t - 1)
+
+    values = creep(dense)
+    first = dense[np.flatnonzero(np.diff(values) < 0)[0]]
+    assert time == pytest.approx(first, abs=0.02)
+
+
+def test_noise_of_rounding_is_no_decrease():
+    """A long hold after loading: nothing moves any more."""
+    times = np.linspace(0, 1e4, 20_001)
+    force = np.minimum(times, 1.0) * 0.3
+    for medium in (StandardLinearSolid(4.0, 1.5, 0.3), KelvinVoigt(2.0, 5.0), Newtonian(1.0)):
+        _, rate = creep_response(medium, impulses(force, times))
+        assert (rate >= 0).all()
+
+
+def test_a_table_ends():
+    with pytest.raises(
+        ValueError, match=r"^times: 101 after the first; allowed: up to the last time of the table, 100$"
+    ):
+        creep_response(MEDIA["table"], impulses([1.0, 1.0], [0.0, 101.0]))

@@ -1,0 +1,170 @@
+"""Media: compliance and modulus against closed forms and against each other, and values that are refused."""
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+from scipy.special import beta
+
+from viscorough.viscous.media import (
+    CreepTable,
+    KelvinVoigt,
+    Maxwell,
+    Newtonian,
+    Prony,
+    Springpot,
+    StandardLinearSolid,
+    medium_of,
+)
+
+TIMES = np.append(0, np.geomspace(1e-9, 1e6, 60))
+
+
+def relaxance_times_compliance(medium, rates):
+    """Q(s) · s Ĵ(s), which is 1 for every s: J and ψ are inverse under convolution. All terms are positive."""
+    viscosity, relaxed, moduli, times = medium.relaxation
+    x = rates[:, None] * times
+    relaxance = relaxed + viscosity * rates + (moduli * x / (1 + x)).sum(axis=1)
+    instantaneous, fluidity, compliances, times = medium.retardation
+    return relaxance * (instantaneous + fluidity / rates + (compliances / (1 + rates[:, None] * times)).sum(axis=1))
+
+
+def random_prony(seed):
+    """Up to twelve branches; moduli and times over many decades, or times that hardly differ."""
+    random = np.random.default_rng(seed)
+    branches = random.integers(1, 13)
+    times = 10 ** random.uniform(*((-8, 8) if seed % 3 else (0, 1e-6)), branches)
+    return Prony(random.choice([0, 10 ** random.uniform(-5, 5)]), 10 ** random.uniform(-5, 5, branches), times)
+
+
+SPECTRA = {
+    "newtonian": Newtonian(3.0),
+    "maxwell": Maxwell(2.0, 5.0),
+    "kelvin-voigt": KelvinVoigt(2.0, 5.0),
+    "standard linear solid": StandardLinearSolid(4.0, 1.5, 0.3),
+    "moduli ten decades apart": Prony(0.0, [1e10, 1.0], [1e-6, 1e6]),
+    "a weak branch in the middle": Prony(1e5, [1e5, 1e-5, 1e5], [1e-3, 1.0, 1e3]),
+    "equal times": Prony(1.0, [2.0, 3.0, 4.0], [0.5, 0.5, 2.0]),
+    **{f"random {seed}": random_prony(seed) for seed in range(40)},
+}
+
+
+@pytest.mark.parametrize("name", SPECTRA)
+def test_creep_is_the_inverse_of_relaxation(name):
+    rates = np.geomspace(1e-12, 1e12, 200)
+    np.testing.assert_allclose(relaxance_times_compliance(SPECTRA[name], rates), 1, rtol=1e-12)
+    assert (SPECTRA[name].retardation.compliances > 0).all()
+
+
+def test_closed_forms():
+    t = TIMES
+    np.testing.assert_allclose(Newtonian(3.0).creep_compliance(t), t / 3, rtol=1e-15)
+    np.testing.assert_allclose(Maxwell(2.0, 5.0).creep_compliance(t), 0.5 + t / 5, rtol=1e-15)
+    np.testing.assert_allclose(Maxwell(2.0, 5.0).relaxation_modulus(t), 2 * np.exp(-t / 2.5), rtol=1e-15)
+    np.testing.assert_allclose(KelvinVoigt(2.0, 5.0).creep_compliance(t), -np.expm1(-t / 2.5) / 2, rtol=1e-15)
+    solid = StandardLinearSolid(4.0, 1.5, 0.3)
+    expected = 1 / 1.5 - (1 / 1.5 - 1 / 4) * np.exp(-t / (0.3 * 4 / 1.5))
+    np.testing.assert_allclose(solid.creep_compliance(t), expected, rtol=1e-14)
+    np.testing.assert_allclose(solid.relaxation_modulus(t), 1.5 + 2.5 * np.exp(-t / 0.3), rtol=1e-15)
+
+
+def test_prony_of_one_branch_is_the_solid_and_without_a_spring_the_maxwell_medium():
+    solid, series = StandardLinearSolid(4.0, 1.5, 0.3), Prony(1.5, [2.5], [0.3])
+    np.testing.assert_allclose(series.creep_compliance(TIMES), solid.creep_compliance(TIMES), rtol=1e-14)
+    np.testing.assert_allclose(series.creep_rate(TIMES), solid.creep_rate(TIMES), rtol=1e-13, atol=1e-100)
+    np.testing.assert_allclose(
+        Prony(0, [2.0], [2.5]).creep_compliance(TIMES), Maxwell(2.0, 5.0).creep_compliance(TIMES), rtol=1e-14
+    )
+
+
+def test_prony_against_a_known_pair():
+    """1 + s/(1 + s) + 2s/(1 + 2s) = 0 at s = (−3 ± √3)/6, the zeros of 1 + 6s + 6s²."""
+    retardation = Prony(1.0, [1.0, 1.0], [1.0, 2.0]).retardation
+    rates = (3 + np.array([-1, 1]) * np.sqrt(3)) / 6
+    np.testing.assert_allclose(np.sort(1 / retardation.times), rates, rtol=1e-15)
+    assert 1 / 3 + retardation.compliances.sum() == pytest.approx(1, rel=1e-15)  # J goes from 1/G₀ to 1/G∞
+
+
+@pytest.mark.parametrize("a", [0.05, 0.5, 0.95])
+def test_springpot(a):
+    """ψ and J are inverse, ∫ψ(t − s) J(s) ds = t, and ∫(t − s)^(−a) s^a ds = t B(1 − a, 1 + a)."""
+    medium = Springpot(2.5, a)
+    for t in (0.1, 3.0):
+        product = medium.relaxation_modulus(t) * medium.creep_compliance(t)
+        assert product * beta(1 - a, 1 + a) == pytest.approx(1, rel=1e-14)
+    start, end = np.array([0.0, 1.0, 1e8]), np.array([2.0, 1.5, 1e8 + 1])
+    increment = medium.creep_increment(start, end)
+    np.testing.assert_allclose(
+        increment[:2], np.diff(medium.creep_compliance([[0, 2], [1, 1.5]]), axis=1)[:, 0], rtol=1e-13
+    )
+    assert increment[2] == pytest.approx(medium.creep_rate(1e8 + 0.5), rel=1e-14)
+    assert medium.creep_integral(0, 2) == pytest.approx(quad(medium.creep_compliance, 0, 2)[0], rel=1e-8)
+    assert medium.relaxation_integral(1, 2) == pytest.approx(quad(medium.relaxation_modulus, 1, 2)[0], rel=1e-10)
+
+
+def test_table():
+    table = CreepTable([0, 1, 3, 4], [1, 2, 3, 3.2])
+    np.testing.assert_allclose(table.creep_compliance([0, 0.5, 2, 4]), [1, 1.5, 2.5, 3.2])
+    np.testing.assert_allclose(table.creep_rate([0, 1, 3, 4]), [1, 0.5, 0.2, 0.2])
+    np.testing.assert_allclose(table.creep_rate([1, 3], left=True), [1, 0.5])
+    for start, end in [(0, 0.3), (0.2, 0.9), (0, 1), (1, 3), (0.5, 3.7), (1, 1), (0, 4), (2, 2.5)]:
+        integral = quad(table.creep_compliance, start, end, points=[1, 3])[0]
+        assert table.creep_integral(start, end) == pytest.approx(integral, rel=1e-12, abs=1e-15)
+    assert np.isnan(table.creep_compliance(4.1))
+
+
+@pytest.mark.parametrize("bad", [0, -1.0, np.nan, np.inf, True, "1", None, [1.0], 1 + 2j])
+@pytest.mark.parametrize(
+    ("kind", "good"),
+    [
+        (Newtonian, {"viscosity": 1.0}),
+        (Maxwell, {"shear_modulus": 1.0, "viscosity": 1.0}),
+        (KelvinVoigt, {"shear_modulus": 1.0, "viscosity": 1.0}),
+        (StandardLinearSolid, {"instantaneous_modulus": 2.0, "relaxed_modulus": 1.0, "relaxation_time": 1.0}),
+        (Springpot, {"modulus": 1.0, "exponent": 0.5}),
+    ],
+)
+def test_values_that_are_refused(kind, good, bad):
+    for name in good:
+        with pytest.raises(ValueError, match=rf"^{kind.__name__}: {name}: [^\n]*; allowed: a finite number above 0$"):
+            kind(**(good | {name: bad}))
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: StandardLinearSolid(1.0, 1.0, 1.0), "below instantaneous_modulus, 1"),
+        (lambda: StandardLinearSolid(1.0, 2.0, 1.0), "below instantaneous_modulus"),
+        (lambda: Springpot(1.0, 1.0), "below 1"),
+        (lambda: Springpot(1e-310, 0.5), "inverse is finite"),
+        (lambda: Prony(-1.0, [1.0], [1.0]), "0 or a finite number above 0"),
+        (lambda: Prony(1.0, [], []), "a list of one or more numbers"),
+        (lambda: Prony(1.0, 1.0, 1.0), "a list of one or more numbers"),
+        (lambda: Prony(1.0, "12", "12"), "a list of one or more numbers"),
+        (lambda: Prony(1.0, [1.0, 0.0], [1.0, 2.0]), r"moduli\[1\]: 0.0"),
+        (lambda: Prony(1.0, [1.0, 1.0], [1.0, -2.0]), r"relaxation_times\[1\]: -2.0"),
+        (lambda: Prony(1.0, [1.0, 1.0], [1.0]), "one time for every modulus"),
+        (lambda: Maxwell(1e-300, 1e300), "too far apart"),
+        (lambda: Maxwell(1e-310, 1.0), "too far apart"),
+        (lambda: Newtonian(1e-310), "too far apart"),
+        (lambda: Prony(1.0, [1e308, 1e308], [1.0, 2.0]), "too far apart"),
+        (lambda: CreepTable([0.0], [1.0]), "two rows of equal length"),
+        (lambda: CreepTable([0, 1], [1, 2, 3]), "two rows of equal length"),
+        (lambda: CreepTable([0.5, 1], [1, 2]), "start with 0 and increase"),
+        (lambda: CreepTable([0, 1, 1], [1, 2, 3]), "start with 0 and increase"),
+        (lambda: CreepTable([0, 1], [1, np.nan]), "finite"),
+        (lambda: CreepTable(["0", "1"], ["1", "2"]), "real numbers"),
+        (lambda: CreepTable([0, 1], [2, 1]), "never decreases"),
+        (lambda: CreepTable([0, 1], [-1, 1]), "starts at 0 or more"),
+        (lambda: CreepTable([0, 1], [0, 0]), "grows"),
+        (lambda: CreepTable([0, 1, 2], [0, 1, 3]), "after time 1 than before; allowed: a concave J"),
+        (lambda: medium_of("rubber"), "Newtonian: viscosity: 'rubber'"),
+    ],
+)
+def test_refusals(make, message):
+    with pytest.raises(ValueError, match=rf"^[^\n]*{message}[^\n]*$"):
+        make()
+
+
+def test_a_number_is_a_newtonian_medium():
+    assert medium_of(3) == Newtonian(3.0)
+    assert medium_of(Maxwell(1.0, 2.0)) == Maxwell(1.0, 2.0)

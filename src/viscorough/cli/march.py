@@ -112,7 +112,7 @@ def _read_history(path):
     try:
         history = impulses(force, times)
         if not history.impulse[-1] > 0:
-            raise ValueError("the force is zero at all times; allowed: above zero at some time")
+            raise ValueError("no time passes while there is a force; allowed: a force above zero for some time")
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from error
     return history

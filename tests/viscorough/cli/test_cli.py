@@ -450,8 +450,9 @@ def test_march_under_a_force_history(tmp_path, pulses, method, tolerance):
     ("history", "message"),
     [
         ("0,1\n1,-1\n", "sample 1 is -1.0; allowed: finite, 0 or more (without adhesion a pull opens the contact)"),
-        ("0,1\n0,1\n", "each larger than the one before"),
-        ("0,0\n1,0\n", "the force is zero at all times"),
+        ("1,1\n0,1\n", "each larger than the one before"),
+        ("0,1\n0,1\n", "no time passes while there is a force"),
+        ("0,0\n1,0\n", "no time passes while there is a force"),
         ("0\n1\n", "two columns, time and force"),
         ("0,1\n1,one\n", "not readable"),
     ],

@@ -26,7 +26,8 @@ class ConjugateGradients:
     def precondition(self, gap):
         """Compute the preconditioned gap z = M e on the set; returns zᵀe."""
         self._preconditioned = self._preconditioner.apply(gap)
-        self._norm = self._preconditioned @ gap[self._set.places]  # both with the opposite sign: the residual is −e
+        # Both factors have the opposite sign: the residual is −e.
+        self._norm = kernels.product_on_set(self._preconditioned, gap, self._set.places)
         return self._norm
 
     def update_direction(self):
@@ -42,6 +43,7 @@ class ConjugateGradients:
         """
         deflection, (_, columns) = self._halfspace.apply(), self._halfspace.shape
         length = self._norm / kernels.inner_product(self._direction, deflection.ravel(), self._set.slots)
+        length = gap.dtype.type(length)  # in the precision of the fields, which the compiled loops then keep to
         kernels.update_gap(length, deflection[:, :columns], gap)
         return kernels.update_pressure(length, self._direction, pressure, gap, self._set.places, self._set.slots)
 
@@ -59,4 +61,4 @@ class ConjugateGradients:
             length, self._direction, pressure, contact_set.inside, contact_set.places, contact_set.slots,
             stencil, width, self._halfspace.load.shape[1],
         )  # fmt: skip
-        kernels.update_gap(1.0, self._halfspace.apply()[:, : self._halfspace.shape[1]], gap)
+        kernels.update_gap(gap.dtype.type(1), self._halfspace.apply()[:, : self._halfspace.shape[1]], gap)

@@ -11,7 +11,7 @@ import scipy.linalg
 
 from viscorough.compilation import njit
 from viscorough.contact.growing_cholesky import append_element, solve_flat_punch
-from viscorough.contact.state import ContactState
+from viscorough.contact.state import ContactState, MemberLoads
 from viscorough.errors import ConvergenceError
 from viscorough.interrupts import uninterrupted
 
@@ -141,7 +141,8 @@ def _pressure_and_tangent(elements, members, depth):
 def _exact_contact(units, depth, members, pressure, tangent):
     """The ContactState of a dense solution."""
     pressure = np.maximum(pressure, 0.0)  # of elements that just touch, rounding can make it negative
-    return ContactState(units, depth, members, pressure, tangent, pressure.sum(), tangent.sum())
+    loads = MemberLoads(members, pressure, tangent)
+    return ContactState(units, depth, members.size, pressure.sum(), tangent.sum(), loads=loads)
 
 
 @njit(fastmath=True)

@@ -20,6 +20,62 @@ def inner_product(left, right, slots):
 
 
 @njit
+def contact_places(inside, width, stride, places, slots):
+    """Store the places in contact in `places`, and their indices in the load array, which has no border, in `slots`.
+
+    width : length of a row of flat fields
+    stride : length of a row of the load array
+    """
+    t = 0
+    for i in range(REACH * width, inside.size - REACH * width):
+        if inside[i]:
+            row, column = divmod(i, width)
+            places[t], slots[t] = i, (row - REACH) * stride + column - REACH
+            t += 1
+
+
+@njit
+def total(field, places):
+    """Sum of a field over places, in double precision."""
+    result = 0.0
+    for t in range(places.size):
+        result += np.float64(field[places[t]])
+    return result
+
+
+@njit(fastmath=True)
+def product_on_set(values, field, places):
+    """Σ values·field over the contact set in double precision, for values of the set alone, shape (count,)."""
+    result = 0.0
+    for t in range(places.size):
+        result += values[t] * np.float64(field[places[t]])
+    return result
+
+
+@njit(fastmath=True)
+def energies(depths, pressure, gap, last_pressure, last_gap, last_tangent, last_tangent_gap, initial_gap, places):
+    """Inner products over a contact set: of P, last P and last q with the deflections of each, and with 1.
+
+    depths : at which the two gaps are, the last one second
+
+    The deflections are K P = e − g + u and K q = e_q + 1. Returns arrays of shapes (3, 3) and (3,).
+    """
+    products, sums = np.zeros((3, 3)), np.zeros(3)
+    load, deflection = np.empty(3), np.empty(3)
+    for t in range(places.size):
+        i = places[t]
+        load[0], load[1], load[2] = pressure[i], last_pressure[i], last_tangent[i]
+        deflection[0] = np.float64(gap[i]) - initial_gap[i] + depths[0]
+        deflection[1] = np.float64(last_gap[i]) - initial_gap[i] + depths[1]
+        deflection[2] = np.float64(last_tangent_gap[i]) + 1.0
+        for a in range(3):
+            sums[a] += load[a]
+            for b in range(3):
+                products[a, b] += load[a] * deflection[b]
+    return products, sums
+
+
+@njit
 def predict(predicted, predicted_gap, depth_step, pressure, tangent, gap, tangent_gap):
     """Store P + Δu q in `predicted` and e + Δu e_q in `predicted_gap`."""
     for i in range(gap.size):

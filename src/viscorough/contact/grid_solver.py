@@ -11,9 +11,10 @@ the operator serves both the step and the removal of these elements; afterwards 
 Symbols and reduced units are those of contact.state. Fields are flat arrays with a border as wide as the preconditioner
 reaches, so that elements at the edge need no special treatment.
 
-The iterations run in single precision by default. They compute corrections that become ever smaller, so that the
-rounding error is small; a bound on it is tracked with every field, and the gap is recomputed in double precision from
-the pressure when the bound nears the tolerance.
+The iterations run in single precision by default, and fields are kept in it unless the tolerance is so small that the
+gap must be known in double precision. The iterations compute corrections that become ever smaller, so that the rounding
+error is small; a bound on it is tracked with every field, and the gap is recomputed from the pressure, in double
+precision where the tolerance needs it, when the bound nears the tolerance.
 """
 
 from dataclasses import replace
@@ -40,7 +41,7 @@ _SEARCH_SHARE = 0.999
 # which few columns do not fill.
 _TALL = 4
 # Gap where there is no element; finite, since differences of gaps are taken.
-_OUTSIDE = 1e300
+_OUTSIDE = 1e30
 _PRECISIONS = {"single": np.float32, "double": np.float64}
 
 
@@ -69,15 +70,17 @@ class GridSolver:
             options.operator_rounding * np.finfo(halfspace.load.dtype).eps
             for halfspace in (self._halfspace, self._exact)
         )
+        self._precision = self._exact.load.dtype.type
+        # A step rounds the gap, which does not exceed the depth where it matters, and the pressure, whose deflection
+        # does not either. Where rounding is to be ignored, this is ignored, too.
+        self._field_rounding = min(options.operator_rounding, 1.0) * np.finfo(self._precision).eps
         self._width = columns + 2 * REACH
         in_box = (row >= top) & (row < top + rows) & (column >= left) & (column < left + columns)
-        self._ranks = np.flatnonzero(in_box)
-        self.place = np.where(in_box, (row - top + REACH) * self._width + column - left + REACH, 0).astype(int)
-        self.initial_gap = np.full((rows + 2 * REACH) * self._width, _OUTSIDE)
-        self.initial_gap[self.place[self._ranks]] = initial_gap[self._ranks]
-        # Index of every place of the flat grid in the flattened load array of the operator.
-        starts = np.arange(-REACH, rows + REACH, dtype=np.int32) * self._halfspace.load.shape[1]
-        self._slot = np.add.outer(starts, np.arange(-REACH, columns + REACH, dtype=np.int32)).ravel()
+        whole_number = np.int32 if (rows + 2 * REACH) * self._width < 2**31 else np.int64
+        place = (row.astype(whole_number) - (top - REACH)) * self._width + (column - (left - REACH))
+        self.place = np.where(in_box, place, whole_number(0))
+        self.initial_gap = np.full((rows + 2 * REACH) * self._width, _OUTSIDE, dtype=self._precision)
+        self.initial_gap[self.place[in_box]] = initial_gap[in_box]
         self._preconditioner = Preconditioner(rows + 2 * REACH, self._width, options.preconditioner)
 
     @property
@@ -86,22 +89,14 @@ class GridSolver:
         return sum(halfspace.count for halfspace in {self._halfspace, self._exact})
 
     def fields(self, contact):
-        """GridFields of a dense solution on this grid; costs two applications of the operator."""
-        place = self.place[contact.members]
+        """GridFields of a contact from elsewhere on this grid; costs two applications of the operator."""
+        loads = contact.member_loads()
+        place = self.place[loads.members]
+        inside = np.zeros(self.initial_gap.size, dtype=bool)
         pressure, tangent = np.zeros_like(self.initial_gap), np.zeros_like(self.initial_gap)
-        pressure[place], tangent[place] = contact.reduced_pressure, contact.tangent
-        gap, tangent_gap = self.initial_gap - contact.reduced_depth, np.full_like(self.initial_gap, -1.0)
-        if contact.count:
-            gap += self._deflection(pressure)
-            tangent_gap += self._deflection(tangent)
-        rounding = self._exact_rounding
-        return GridFields(
-            pressure,
-            BoundedField(gap, rounding * contact.reduced_depth),
-            tangent,
-            BoundedField(tangent_gap, rounding),
-            self.place,
-        )
+        inside[place], pressure[place], tangent[place] = True, loads.pressure, loads.tangent
+        gap, tangent_gap = self._gap(pressure, contact.reduced_depth), self._tangent_gap(tangent)
+        return GridFields(inside, pressure, gap, tangent, tangent_gap, self.place)
 
     def solve(self, contact, depth):
         """The ContactState at a larger reduced depth, from a contact with GridFields on this grid.
@@ -112,27 +107,32 @@ class GridSolver:
         depth_step = depth - last_depth
         pressure, gap = np.zeros_like(self.initial_gap), np.zeros_like(self.initial_gap)
         fields = before.pressure, before.tangent, before.gap.values, before.tangent_gap.values
-        kernels.predict(self._inner_rows(pressure), self._inner_rows(gap), depth_step, *map(self._inner_rows, fields))
-        gap = BoundedField(gap, before.gap.rounding + depth_step * before.tangent_gap.rounding)
-        inside = pressure > 0
+        step = self._precision(depth_step)
+        kernels.predict(self._inner_rows(pressure), self._inner_rows(gap), step, *map(self._inner_rows, fields))
+        rounding = before.gap.rounding + depth_step * before.tangent_gap.rounding + self._field_rounding * depth
+        gap, inside = BoundedField(gap, rounding), pressure != 0  # elements under tension leave later
         self._add_penetrating_elements(gap.values, inside, 0.0)
         contact_set = self._solve_pressure(pressure, gap, inside, depth)
         weights = self._tangent_weights(before, last_depth, pressure, gap, contact_set, depth)
         tangent, tangent_gap = self._tangent_start(weights, before, last_depth, pressure, gap, depth)
         self._solve_tangent(contact_set, tangent, tangent_gap)
-        places = contact_set.places
-        gap_left = gap.values[places]
-        ranks = self._ranks[contact_set.inside[self.place[self._ranks]]]
+        fields = GridFields(contact_set.inside, pressure, gap, tangent, tangent_gap, self.place)
+        return self.state(contact.units, depth, fields, contact_set)
+
+    def state(self, units, depth, fields, contact_set):
+        """The ContactState of GridFields at a reduced depth."""
+        places, gap, tangent = contact_set.places, fields.gap, fields.tangent
+        largest, _ = kernels.gap_and_tension(fields.pressure, gap.values, places)
+        correction = kernels.inner_product(tangent, gap.values, places)
+        tangent_correction = kernels.inner_product(tangent, fields.tangent_gap.values, places)
         return ContactState(
-            units=contact.units,
+            units=units,
             reduced_depth=depth,
-            members=ranks,
-            reduced_pressure=pressure[self.place[ranks]],
-            tangent=tangent[self.place[ranks]],
-            pressure_sum=pressure[places].sum() - tangent[places] @ gap_left,
-            tangent_sum=tangent[places].sum() - tangent[places] @ tangent_gap.values[places],
-            residual=(max(np.abs(gap_left).max(), -gap.values.min()) + gap.rounding) / depth,
-            fields=GridFields(pressure, gap, tangent, tangent_gap, self.place),
+            count=places.size,
+            pressure_sum=kernels.total(fields.pressure, places) - correction,
+            tangent_sum=kernels.total(tangent, places) - tangent_correction,
+            residual=(max(largest, -float(gap.values.min())) + gap.rounding) / depth,
+            fields=fields,
         )
 
     def solve_flat_punch(self, inside, tangent, tangent_gap):
@@ -148,7 +148,7 @@ class GridSolver:
         # The caller passes the tangent gap on from set to set, so that no bound on its rounding error is known.
         self._solve_tangent(contact_set, tangent, BoundedField(tangent_gap, np.inf))
         places = contact_set.places
-        return tangent[places].sum() - tangent[places] @ tangent_gap[places]
+        return kernels.total(tangent, places) - kernels.inner_product(tangent, tangent_gap, places)
 
     def _start_fields(self, contact):
         """The fields of the last contact; if the warm start uses the pressure only, with a tangent of zero."""
@@ -175,8 +175,8 @@ class GridSolver:
             if largest <= close_enough and not tension:
                 if gap.rounding <= 0.5 * limit:
                     return contact_set
-                gap.values[:] = self._deflection(pressure) + self.initial_gap - depth
-                gap.rounding = self._exact_rounding * depth
+                exact = self._gap(pressure, depth)
+                gap.values, gap.rounding = exact.values, exact.rounding
                 self._add_penetrating_elements(gap.values, inside, limit)
                 changed = True
                 continue
@@ -184,7 +184,7 @@ class GridSolver:
                 search = ConjugateGradients(self._halfspace, self._preconditioner, contact_set)
             search.precondition(gap.values)
             search.update_direction()
-            gap.rounding += self._rounding * largest
+            gap.rounding += self._rounding * largest + self._field_rounding * depth
             release_step = self._options.release_step * 0.5 ** (releases // _HALVE_STEP_EVERY)
             changed = search.step_causes_tension(release_step, pressure)
             if changed:
@@ -197,22 +197,15 @@ class GridSolver:
 
     def _tangent_weights(self, before, last_depth, pressure, gap, contact_set, depth):
         """Weights of pressure, last pressure and last tangent in the combination of them closest to q in energy."""
-        places = contact_set.places
-        initial_gap = self.initial_gap[places]
-        loads = np.array([pressure[places], before.pressure[places], before.tangent[places]])
-        deflections = np.array(
-            [
-                gap.values[places] - initial_gap + depth,
-                before.gap.values[places] - initial_gap + last_depth,
-                before.tangent_gap.values[places] + 1,
-            ]
-        )
-        if np.count_nonzero(loads[2]) < np.count_nonzero(before.tangent):
+        energy, sums = kernels.energies(
+            (depth, last_depth), pressure, gap.values, before.pressure, before.gap.values,
+            before.tangent, before.tangent_gap.values, self.initial_gap, contact_set.places,
+        )  # fmt: skip
+        if np.any(before.inside & ~contact_set.inside):
             # An element left the contact, within the tolerance: fields that load it cannot be part of q.
-            loads, deflections = loads[:1], deflections[:1]
-        energy = loads @ deflections.T
+            energy, sums = energy[:1, :1], sums[:1]
         scale = 1 / np.sqrt(np.maximum(np.diag(energy), np.finfo(float).tiny))
-        weights = scale * np.linalg.lstsq(scale[:, None] * energy * scale, scale * loads.sum(axis=1), rcond=1e-10)[0]
+        weights = scale * np.linalg.lstsq(scale[:, None] * energy * scale, scale * sums, rcond=1e-10)[0]
         return *weights, *[0.0] * (3 - weights.size)
 
     def _tangent_start(self, weights, before, last_depth, pressure, gap, depth):
@@ -246,23 +239,23 @@ class GridSolver:
     def _solve_tangent(self, contact_set, tangent, tangent_gap):
         """Solve K q = 1 on a set by conjugate gradients; changes q and e_q, with its rounding bound, in place."""
         tolerance = min(_TANGENT_TOLERANCE, np.sqrt(self._tolerance))
-        accepted = max(_TANGENT_ROUNDING * self._tolerance, self._exact_rounding)
+        accepted = max(_TANGENT_ROUNDING * self._tolerance, self._exact_rounding + self._field_rounding)
         search = ConjugateGradients(self._halfspace, self._preconditioner, contact_set)
         largest, _ = kernels.gap_and_tension(tangent, tangent_gap.values, contact_set.places)
         for _ in range(self._options.max_iterations):
             norm = search.precondition(tangent_gap.values)
             # The error of Σq is e_qᵀ K⁻¹ e_q, which is at most e_qᵀ M e_q / LEAST_EIGENVALUE.
-            total = tangent[contact_set.places].sum()
+            total = kernels.total(tangent, contact_set.places)
             error = np.sqrt(norm / (LEAST_EIGENVALUE * total)) if total > 0 else np.inf
             if error <= tolerance:
                 if tangent_gap.rounding <= accepted:
                     return
-                tangent_gap.values[:] = self._deflection(tangent) - 1
-                tangent_gap.rounding = self._exact_rounding
+                exact = self._tangent_gap(tangent)
+                tangent_gap.values[:], tangent_gap.rounding = exact.values, exact.rounding
                 search = ConjugateGradients(self._halfspace, self._preconditioner, contact_set)
                 continue
             search.update_direction()
-            tangent_gap.rounding += self._rounding * largest
+            tangent_gap.rounding += self._rounding * largest + self._field_rounding
             largest, _ = search.step(tangent, tangent_gap.values)
         raise self._not_converged(contact_set, error, tolerance)
 
@@ -273,15 +266,31 @@ class GridSolver:
         )
 
     def _contact_set(self, inside):
-        places = np.flatnonzero(inside)
-        return ContactSet(inside, places, self._slot[places])
+        count = np.count_nonzero(inside)
+        places, slots = np.empty(count, self.place.dtype), np.empty(count, self.place.dtype)
+        kernels.contact_places(inside, self._width, self._halfspace.load.shape[1], places, slots)
+        return ContactSet(inside, places, slots)
+
+    def _gap(self, pressure, depth):
+        """e = K P + g − u of a pressure as a BoundedField."""
+        gap = self._deflection(pressure)
+        gap += self.initial_gap
+        gap -= self._precision(depth)
+        return BoundedField(gap, (self._exact_rounding + self._field_rounding) * depth)
+
+    def _tangent_gap(self, tangent):
+        """e_q = K q − 1 of a tangent as a BoundedField."""
+        tangent_gap = self._deflection(tangent)
+        tangent_gap -= self._precision(1)
+        return BoundedField(tangent_gap, self._exact_rounding + self._field_rounding)
 
     def _deflection(self, pressure):
         """K P on the flat grid, in double precision where the tolerance needs it; its border is zero."""
-        columns = self._width - 2 * REACH
+        deflection, columns = np.zeros_like(pressure), self._width - 2 * REACH
+        if not pressure.any():
+            return deflection
         self._exact.load[:] = 0
         self._exact.load[:, :columns] = self._interior(pressure)
-        deflection = np.zeros_like(pressure)
         self._interior(deflection)[:] = self._exact.apply()[:, :columns]
         return deflection
 

@@ -14,7 +14,7 @@ from viscorough.contact import dense
 from viscorough.contact.grid_solver import GridSolver
 from viscorough.contact.memory_demand import require_for_contact
 from viscorough.contact.options import DEFAULT
-from viscorough.contact.state import ContactState, elements_of
+from viscorough.contact.state import ContactState, MemberLoads, elements_of
 from viscorough.errors import ConvergenceError
 
 # Depth that the box of a grid allows for, over the requested depth; a box that would cover more than this share of the
@@ -51,7 +51,7 @@ class ContactSolver:
     def unloaded_state(self):
         """The ContactState at depth zero: no pressure, and no element in contact yet."""
         nothing = np.empty(0)
-        return ContactState(self.units, 0.0, nothing.astype(int), nothing, nothing, 0.0, 0.0)
+        return ContactState(self.units, 0.0, 0, 0.0, 0.0, loads=MemberLoads(nothing.astype(int), nothing, nothing))
 
     def advance(self, contact, depth):
         """The ContactState at a depth [length] larger than that of `contact`.
@@ -113,25 +113,35 @@ class ContactSolver:
 
     def _checked(self, before, after):
         """The contact after a step, if it has no tension, a residual within the tolerance, and has only grown."""
-        if after.residual > self.tolerance or after.reduced_pressure.min() < 0:
+        pressure = after.fields.pressure if after.fields else after.loads.pressure
+        if after.residual > self.tolerance or pressure.min() < 0:
             raise ConvergenceError(
                 f"contact at depth {after.depth:g}: residual {after.residual:.1e} of the depth is above "
                 f"the tolerance {self.tolerance:g}; choose a larger tolerance"
             )
-        kept = np.zeros(self.elements.count, dtype=bool)
-        kept[after.members] = True
-        lost = before.members[~kept[before.members]]
-        if lost.size:
-            opening = after.fields.gap_at(lost).max() if after.fields is not None else np.inf
-            if opening > _LOST_CONTACT * self.tolerance * after.reduced_depth:
-                raise ConvergenceError(
-                    f"contact at depth {after.depth:g}: {lost.size} elements lost contact by up to "
-                    f"{opening * self.units.length:g} although contact can only grow; choose a smaller tolerance"
-                )
-        if self.elements.initial_gap[after.members[-1]] == 0:
+        lost, opening = self._lost_contact(before, after)
+        if lost and opening > _LOST_CONTACT * self.tolerance * after.reduced_depth:
+            raise ConvergenceError(
+                f"contact at depth {after.depth:g}: {lost} elements lost contact by up to "
+                f"{opening * self.units.length:g} although contact can only grow; choose a smaller tolerance"
+            )
+        if self.elements.initial_gap[after.count - 1] == 0 and self.elements.initial_gap[after.members[-1]] == 0:
             # All touch from the outset: the curve is straight up to here, as LoadingCurve.at_force recognizes.
             return replace(after, pressure_sum=after.reduced_depth * after.tangent_sum)
         return after
+
+    def _lost_contact(self, before, after):
+        """Number of elements that left the contact in a step, and the largest gap there, reduced."""
+        if after.fields and before.fields and before.fields.place is after.fields.place:
+            lost = np.flatnonzero(before.fields.inside & ~after.fields.inside)
+            return lost.size, after.fields.gap.values[lost].max(initial=0)
+        kept = np.zeros(self.elements.count, dtype=bool)
+        kept[after.members] = True
+        members = before.members
+        lost = members[~kept[members]]
+        if lost.size == 0:
+            return 0, 0.0
+        return lost.size, after.fields.gap_at(lost).max() if after.fields else np.inf
 
 
 def _has_fields_on(grid, contact):

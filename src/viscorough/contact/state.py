@@ -54,7 +54,7 @@ class Elements:
 
     row, column : positions on the grid, counted from the first row and column that have an element
     initial_gap : g, reduced
-    map_place : (rows, columns) of the elements in the indenter's heights
+    origin : first row and column of the indenter's heights that have an element
     shape : rows and columns of the smallest grid with all elements
     influence : influence coefficients K by distance in rows and columns, of that shape
     """
@@ -62,7 +62,7 @@ class Elements:
     row: np.ndarray
     column: np.ndarray
     initial_gap: np.ndarray
-    map_place: tuple
+    origin: tuple
     shape: tuple
     influence: np.ndarray
 
@@ -71,6 +71,11 @@ class Elements:
         """Number of elements."""
         return self.initial_gap.size
 
+    @property
+    def map_place(self):
+        """Rows and columns of the elements in the indenter's heights."""
+        return self.row + self.origin[0], self.column + self.origin[1]
+
 
 def elements_of(indenter):
     """The Elements of an indenter, and the Units in which their initial gaps are expressed."""
@@ -78,17 +83,23 @@ def elements_of(indenter):
     gap = indenter.initial_gap[rows, columns].astype(float)
     order = np.argsort(gap, kind="stable")
     units = Units(gap.max() or 1.0, indenter.spacing)
-    row, column = ((position[order] - position.min()).astype(np.int32) for position in (rows, columns))
+    origin = int(rows.min()), int(columns.min())
+    row, column = (
+        (position[order] - first).astype(np.int32) for position, first in zip((rows, columns), origin, strict=True)
+    )
     shape = int(row.max()) + 1, int(column.max()) + 1
     distance = [np.arange(n, dtype=float) for n in shape]
     influence = influence_coefficient(distance[0][:, None], distance[1][None, :])
-    place = rows[order], columns[order]
-    return Elements(row, column, gap[order] / units.length, place, shape, influence), units
+    return Elements(row, column, gap[order] / units.length, origin, shape, influence), units
 
 
 @dataclass
 class BoundedField:
-    """A reduced field on the grid, as a flat array, and a bound on the rounding error accumulated in it."""
+    """A reduced field on the grid, as a flat array, and a bound on the rounding error accumulated in it.
+
+    The bound holds wherever the field matters to the solution: at elements that can come into contact so far, whose gap
+    does not exceed the depth.
+    """
 
     values: np.ndarray
     rounding: float
@@ -109,9 +120,23 @@ class ContactSet:
 
 
 @dataclass(frozen=True)
+class MemberLoads:
+    """A dense solution: loads of the elements in contact.
+
+    members : elements in contact, as ranks, increasing, shape (count,)
+    pressure, tangent : P and q = dP/du on the members, shape (count,)
+    """
+
+    members: np.ndarray
+    pressure: np.ndarray
+    tangent: np.ndarray
+
+
+@dataclass(frozen=True)
 class GridFields:
     """A contact on the grid: reduced fields as flat arrays with a border.
 
+    inside : whether a place is in contact
     pressure : P
     gap : e = w − u + g, zero in contact
     tangent : q = dP/du
@@ -119,6 +144,7 @@ class GridFields:
     place : indices of the elements in the flat arrays, by rank
     """
 
+    inside: np.ndarray
     pressure: np.ndarray
     gap: BoundedField
     tangent: np.ndarray
@@ -129,6 +155,12 @@ class GridFields:
         """Reduced gap e at the elements of given ranks."""
         return self.gap.values[self.place[ranks]]
 
+    def member_loads(self):
+        """The MemberLoads, in double precision."""
+        members = np.flatnonzero(self.inside[self.place])
+        place = self.place[members]
+        return MemberLoads(members, self.pressure[place].astype(float), self.tangent[place].astype(float))
+
 
 @dataclass(frozen=True)
 class ContactState:
@@ -136,28 +168,41 @@ class ContactState:
 
     units : Units of the reduced quantities
     reduced_depth : u
-    members : elements in contact, as ranks, shape (count,)
-    reduced_pressure, tangent : P and q = dP/du on the members, shape (count,)
+    count : number of elements in contact
     pressure_sum, tangent_sum : reduced ΣP, and Σq, corrected for the remaining residuals, so that the errors of both
         are of second order in these
     residual : largest |e| on the contact set or overlap outside it, rounding included, over the depth
+    loads : MemberLoads of a dense solution; None on the grid, where they would repeat the fields
     fields : GridFields of this contact; None for a dense solution, as long as no grid is needed
     """
 
     units: Units
     reduced_depth: float
-    members: np.ndarray
-    reduced_pressure: np.ndarray
-    tangent: np.ndarray
+    count: int
     pressure_sum: float
     tangent_sum: float
     residual: float = 0.0
+    loads: MemberLoads | None = None
     fields: GridFields | None = None
 
+    def member_loads(self):
+        """The MemberLoads; on the grid they are gathered at every call."""
+        return self.loads or self.fields.member_loads()
+
     @property
-    def count(self):
-        """Number of elements in contact."""
-        return self.members.size
+    def members(self):
+        """Elements in contact, as ranks, shape (count,)."""
+        return self.member_loads().members
+
+    @property
+    def reduced_pressure(self):
+        """P on the members, shape (count,)."""
+        return self.member_loads().pressure
+
+    @property
+    def tangent(self):
+        """q = dP/du on the members, shape (count,)."""
+        return self.member_loads().tangent
 
     @property
     def depth(self):

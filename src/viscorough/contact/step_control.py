@@ -174,15 +174,25 @@ def _predicted_touches(before, after):
     nothing = np.empty(0), np.empty(0)
     if before.fields is None:
         return nothing
-    place = before.fields.place[after.members]
-    is_new = before.fields.tangent[place] == 0
-    place = place[is_new]
+    place, pressure, tangent = _new_elements(before.fields, after)
     if not place.all():  # place 0 is outside the grid of the contact before
         return nothing
-    tangent_gap = np.minimum(before.fields.tangent_gap.values[place], -_TINY)
-    gap = np.maximum(before.fields.gap.values[place], 0)
+    tangent_gap = np.minimum(before.fields.tangent_gap.values[place].astype(float), -_TINY)
+    gap = np.maximum(before.fields.gap.values[place].astype(float), 0)
     width = after.reduced_depth - before.reduced_depth
     from_before = -gap / tangent_gap / width
-    from_after = 1 - after.reduced_pressure[is_new] / np.maximum(after.tangent[is_new], _TINY) / width
+    from_after = 1 - pressure / np.maximum(tangent, _TINY) / width
     weight = tangent_gap**2
     return np.clip(np.maximum(from_before, from_after), 0, 1), weight / weight.sum()
+
+
+def _new_elements(before, after):
+    """Elements that join a contact: their places on the grid of the GridFields before, and P and q after."""
+    fields = after.fields
+    if fields is not None and fields.place is before.place:
+        place = np.flatnonzero(fields.inside & ~before.inside)
+        return place, fields.pressure[place].astype(float), fields.tangent[place].astype(float)
+    loads = after.member_loads()
+    place = before.place[loads.members]
+    is_new = ~before.inside[place]
+    return place[is_new], loads.pressure[is_new], loads.tangent[is_new]

@@ -7,6 +7,7 @@ import pytest
 
 from viscorough.contact.options import SolverOptions
 from viscorough.contact.solver import ContactSolver
+from viscorough.contact.state import MemberLoads
 from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
@@ -34,9 +35,12 @@ def test_an_element_that_loses_contact_in_a_dense_solution_is_an_error():
     nothing = np.zeros(1)
     wrong = replace(
         contact,
-        members=np.append(contact.members, outside),
-        reduced_pressure=np.append(contact.reduced_pressure, nothing),
-        tangent=np.append(contact.tangent, nothing - 1.0),
+        count=contact.count + 1,
+        loads=MemberLoads(
+            np.append(contact.members, outside),
+            np.append(contact.reduced_pressure, nothing),
+            np.append(contact.tangent, nothing - 1.0),
+        ),
     )
     with pytest.raises(ConvergenceError, match="1 elements lost contact"):
         solver.advance_reduced(wrong, 0.51)

@@ -125,8 +125,8 @@ test-slurm: environment-slurm
 include peers/targets.mk
 
 lock:
-	$(UV) pip compile pyproject.toml --extra build --extra study --extra test --extra docs --universal \
-		--python-version 3.11 --generate-hashes --no-header --no-annotate --output-file requirements.lock
+	$(UV) pip compile pyproject.toml --extra build --extra formats --extra study --extra test --extra docs \
+		--universal --python-version 3.11 --generate-hashes --no-header --no-annotate --output-file requirements.lock
 
 # Only packages that are not in requirements.lock, in versions that are compatible with it.
 lock-slurm:

@@ -36,6 +36,49 @@ class PositiveNumber(click.ParamType):
         return number
 
 
+class Quantity(click.ParamType):
+    """A finite number above 0, plain or with a unit that measures the same as `unit`, such as "5 mN" for "N".
+
+    Converted to a viscorough.units.Quantity; number_in gives the number that the solvers need.
+    """
+
+    name = "quantity"
+
+    def __init__(self, unit):
+        self.unit = unit
+
+    def convert(self, value, param, ctx):
+        from viscorough import units
+
+        if isinstance(value, units.Quantity):
+            return value
+        try:
+            stated = units.quantity(value) if isinstance(value, str) else units.Quantity(float(value))
+            number = stated.to(self.unit)
+        except ValueError as error:
+            reason = str(error) if str(error).startswith("unit ") else ""
+            self.fail(self._needed(value, reason), param, ctx)
+        if not 0 < number < float("inf"):
+            self.fail(self._needed(value), param, ctx)
+        return stated
+
+    def _needed(self, value, reason=""):
+        text = f"{value!r} is not a number above 0 and finite, plain or with a unit such as {self.unit}"
+        return f"{text} ({reason})" if reason else text
+
+
+def number_in(unit, quantity, length_unit, option):
+    """The number of a Quantity in `unit`; a plain number is returned as it is.
+
+    Raises UsageError if the quantity has a unit although the unit of length is not known: numbers are then in
+    consistent units of the user's choice.
+    """
+    if quantity.unit and length_unit == "1":
+        text = f"{option} {quantity}: needs a plain number, since the unit of length is not known"
+        raise click.UsageError(f"{text}; state it with --unit where the heights are read")
+    return quantity.to(unit)
+
+
 class Increasing(click.ParamType):
     """Numbers separated by commas, each larger than the one before, the first above 0."""
 

@@ -1,0 +1,121 @@
+"""Units of measurement as users and files write them: "um", "1e-6 m", "µm", "micron", "Pa s", "N s m-2".
+
+They are spelled as UDUNITS does, the units library of the CF conventions, in which a number behind a unit is its power;
+pint knows them. It takes a second to import, and is imported when a unit is read that is not in a short table. The unit
+"1" stands for a unit of length that is not known.
+"""
+
+import contextlib
+import functools
+import math
+import re
+from dataclasses import dataclass
+
+UNKNOWN = "1"
+# Units of length that are read without pint: spelling, and how files and results spell it.
+_COMMON_LENGTHS = {"m": "m", "mm": "mm", "um": "um", "µm": "um", "μm": "um", "nm": "nm"}
+_METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
+_ALLOWED = re.compile(r"[\w.()+\-*/^ µμÅ°\"'%]{1,60}")
+_POWER = re.compile(r"(?<![\w.])([^\W\d_]+|(?<=[(*/ ])[^\W\d_]+)([+-]?\d)(?![\w.])|\)([+-]?\d)(?![\w.])")
+_LONG_POWER = re.compile(r"(\*\*|\^)\s*(?![+-]?\d(?![\d.eE]|\s*(\*\*|\^)))")
+_QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.+?)\s*")
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A number with a unit, or a plain number, whose unit is empty."""
+
+    number: float
+    unit: str = ""
+
+    def to(self, unit):
+        """The number in another unit; a plain number is returned as it is. Raises ValueError as `factor` does."""
+        return self.number * factor(self.unit, unit) if self.unit else self.number
+
+    def __str__(self):
+        return f"{self.number:g} {self.unit}".rstrip()
+
+
+def quantity(text):
+    """The Quantity that a text such as "5 mN", "1e6 Pa s" or "2" states. Raises ValueError if it states none."""
+    with contextlib.suppress(ValueError):
+        return Quantity(float(text))
+    match = _QUANTITY.fullmatch(text)
+    if match is None:
+        raise ValueError(f"{text!r} is not a number, with or without a unit")
+    _parsed(match[2])
+    return Quantity(float(match[1]), match[2])
+
+
+def factor(unit, to):
+    """What numbers in `unit` are multiplied with to be in the unit `to`.
+
+    Raises ValueError if one of them is not a unit, or if they measure different things.
+    """
+    if unit in _METRES and to in _METRES:
+        return _rounded(_METRES[unit] / _METRES[to])
+    one, other = _parsed(unit), _parsed(to)
+    if one.dimensionality != other.dimensionality:
+        raise ValueError(f"unit {unit!r}: cannot be converted to {to}")
+    return _rounded((one / other).to_base_units().magnitude)
+
+
+def metres(unit):
+    """A unit of length in metres. Raises ValueError if it is not a unit of length, as "1" is none."""
+    return factor(length_unit(unit), "m")
+
+
+def length_unit(text):
+    """A unit of length as results spell it: "um" for µm, micron and micrometer.
+
+    Raises ValueError unless the text is a unit of length.
+    """
+    text = text.strip()
+    if text in _COMMON_LENGTHS:
+        return _COMMON_LENGTHS[text]
+    unit = _parsed(text)
+    if not unit.check("[length]"):
+        raise ValueError(f"unit {text!r}: not a unit of length, such as um, nm or m")
+    metres = _rounded(unit.to_base_units().magnitude)
+    for spelling, length in _METRES.items():
+        if metres == length:
+            return spelling
+    return f"{metres!r} m"
+
+
+def _rounded(number):
+    """A factor without the rounding errors of its computation, so that a nanometre is exactly 1e-9 metres."""
+    return float(f"{number:.14g}")
+
+
+@functools.cache
+def _registry():
+    import pint
+
+    registry = pint.UnitRegistry()
+    registry.define("@alias angstrom = Angstrom")
+    return registry
+
+
+@functools.cache
+def _parsed(text):
+    """A unit as a pint quantity: number and unit. Raises ValueError if it is none.
+
+    Powers of more than one digit and powers of powers are refused: pint would compute them, however long that takes.
+    """
+    wanted = "a unit such as um, nm, N or Pa s is needed"
+    if not _ALLOWED.fullmatch(text):
+        raise ValueError(f"unit {text[:60]!r}: {wanted}")
+    spelled = _POWER.sub(lambda match: f"{match[1] or ')'}**{match[2] or match[3]}", text)
+    if _LONG_POWER.search(spelled) or spelled.count("**") > 6:
+        raise ValueError(f"unit {text!r}: {wanted}")
+    try:
+        parsed = _registry().parse_expression(spelled)
+        if not hasattr(parsed, "dimensionality"):
+            parsed = _registry().Quantity(float(parsed))
+        size = float(parsed.to_base_units().magnitude)
+    except Exception as error:  # pint raises errors of many kinds for what it cannot parse
+        raise ValueError(f"unit {text!r}: {wanted}") from error
+    if not (math.isfinite(size) and size > 0):
+        raise ValueError(f"unit {text!r}: {wanted}")
+    return parsed

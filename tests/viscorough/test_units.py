@@ -1,0 +1,92 @@
+"""Units as users and files write them."""
+
+import subprocess
+import sys
+
+import click
+import pytest
+
+from support.curves import one_line
+from viscorough import units
+from viscorough.cli import options
+
+LENGTHS = {
+    **dict.fromkeys(["m", "meter", "metres"], ("m", 1.0)),
+    **dict.fromkeys(["um", "µm", "μm", "micron", "micrometer", "1e-6 m", "(1e-6 m)", " um\n"], ("um", 1e-6)),
+    **dict.fromkeys(["nm", "nanometre", "10 angstrom"], ("nm", 1e-9)),
+    **dict.fromkeys(["Å", "Angstrom"], ("1e-10 m", 1e-10)),
+    "mm": ("mm", 1e-3),
+    "inch": ("0.0254 m", 0.0254),
+}
+
+
+@pytest.mark.parametrize("text", LENGTHS)
+def test_units_of_length_have_one_spelling_and_a_size(text):
+    spelling, metres = LENGTHS[text]
+    assert units.length_unit(text) == spelling
+    assert units.length_unit(spelling) == spelling
+    assert units.metres(text) == metres
+
+
+NO_LENGTHS = ["", "1", "s", "m2", "V", "degrees_north", "pixel", "0 m", "-1 m", "1e400 m", "m\nm", "é", "\x00"]
+DANGEROUS = ["9**9**9**9", "m**99999999", "(9**9)**9**9", "__import__('os')", "a" * 10_000, "(" * 60, "2**99999999 m"]
+
+
+@pytest.mark.parametrize("text", NO_LENGTHS + DANGEROUS)
+def test_what_is_no_unit_of_length_is_refused_at_once(text):
+    with pytest.raises(ValueError, match="unit") as error:
+        units.length_unit(text)
+    assert len(one_line(error)) < 200
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "number"),
+    [
+        ("5 mN", "N", 5e-3),
+        ("5mN", "N", 5e-3),
+        ("1e6 Pa s", "Pa s", 1e6),
+        ("3 N s m-2", "Pa s", 3.0),
+        ("4 N s um-2", "Pa s", 4e12),
+        ("4 N s/(1e-6 m)2", "Pa s", 4e12),
+        ("2 GPa", "N um-2", 2e-3),
+        ("7", "N", 7.0),
+        ("2 um", "nm", 2e3),
+    ],
+)
+def test_quantities_are_converted(text, unit, number):
+    assert units.quantity(text).to(unit) == pytest.approx(number, rel=1e-14)
+
+
+@pytest.mark.parametrize("text", ["", "five", "mN", "5 5 x", "1,5", "5 m_m"])
+def test_what_is_no_quantity_is_refused(text):
+    with pytest.raises(ValueError, match=r"number|unit") as error:
+        units.quantity(text)
+    one_line(error)
+
+
+def test_different_dimensions_are_not_converted():
+    with pytest.raises(ValueError, match="cannot be converted to N"):
+        units.quantity("5 mm").to("N")
+
+
+def test_common_units_do_without_pint():
+    program = "import sys; from viscorough import units; units.metres('µm'); units.quantity('5'); print(sys.modules)"
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert "viscorough.units" in done.stdout
+    assert "pint" not in done.stdout
+
+
+def test_option_takes_plain_numbers_and_numbers_with_a_unit():
+    force = options.Quantity("N")
+    assert options.number_in("N", force.convert("5 mN", None, None), "um", "--force") == 5e-3
+    for length_unit in ("1", "um"):
+        assert options.number_in("N", force.convert("5", None, None), length_unit, "--force") == 5
+    with pytest.raises(click.UsageError, match="the unit of length is not known"):
+        options.number_in("N", force.convert("5 mN", None, None), "1", "--force")
+
+
+@pytest.mark.parametrize("text", ["0", "-1 N", "nan", "inf", "1e400 N", "5 m", "five", "", "5 Nm", "5 N N"])
+def test_option_refuses_what_is_no_quantity_above_zero(text):
+    with pytest.raises(click.BadParameter, match="is not a number above 0") as error:
+        options.Quantity("N").convert(text, None, None)
+    assert "\n" not in error.value.format_message()

@@ -18,6 +18,7 @@ _MODULE_OF = {
     "reduce": "mdr",
     "kinetics": "viscous.correspondence",
     "penetration_law": "calibrated_law",
+    "estimate": "estimates",
     "read_heights": "io.heights",
 }
 __all__ = sorted(_MODULE_OF)

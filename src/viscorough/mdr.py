@@ -14,6 +14,7 @@ from viscorough.indenter import Indenter
 from viscorough.loading_curve import LoadingCurve
 
 _OCTAVES = 128  # octaves below the largest gap that are divided into bins; smaller gaps share one bin
+_SPOILED = 3  # longest waves of a map that a window changes
 _LANES = 4  # neighbouring points often fall into one bin: separate counters avoid waiting for the last update
 
 
@@ -101,15 +102,67 @@ def line_of_surface(square, spacing, seed):
         raise ValueError(f"line_of_surface: the map must be square, its shape is {square.shape}")
     power = np.abs(np.fft.fft2(square)) ** 2 / n**4
     wavenumber = np.fft.fftfreq(n, 1 / n)
-    ring = np.rint(np.hypot(wavenumber[:, None], wavenumber)).astype(int)
-    rings = np.bincount(ring.ravel(), weights=power.ravel())[: n // 2 + 1]
-    amplitude = np.sqrt(rings / 2)
-    if n % 2 == 0:
+    rings = _ring_sums(power, np.hypot(wavenumber[:, None], wavenumber), n)
+    return Indenter(_random_line(rings, n, seed), spacing)
+
+
+def line_of_map(surface, seed):
+    """Line with the radially averaged power spectrum of a map that is not periodic, and with its rms height.
+
+    surface : Indenter with two-dimensional heights; elements that are nan count as of mean height
+    seed : int or SeedSequence
+
+    As `line_of_surface`, after the heights over their mean were multiplied with a Hann window, cos²(πr/2) at the
+    relative distance r from the centre to the edge of the inscribed ellipse: otherwise the edges of the map, which are
+    steps of a periodic map, would add to the short waves. The window spoils the three longest waves: they are those of
+    the heights without it, multiplied so that the mean square of the heights is that of the map. The line is as long as
+    the longer side of the map, at the larger of its two spacings. Returns an Indenter. Raises ValueError for a line or
+    a flat map.
+    """
+    if surface.heights.ndim != 2:
+        raise ValueError("line_of_map: the indenter's heights must be two-dimensional")
+    heights = surface.heights.astype(float)
+    (rows, columns), (dx, dy) = heights.shape, (surface.spacing, surface.row_spacing)
+    length, spacing = max(rows * dy, columns * dx), max(dx, dy)
+    points = round(length / spacing)
+    y, x = ((np.arange(n) - (n - 1) / 2) / (n / 2) for n in heights.shape)
+    window = np.cos(np.pi / 2 * np.minimum(np.hypot(y[:, None], x), 1)) ** 2
+    window[np.isnan(heights)] = 0
+    wavenumber = length * np.hypot(np.fft.fftfreq(rows, dy)[:, None], np.fft.fftfreq(columns, dx))
+    with np.errstate(all="ignore"):  # heights whose squares overflow have no finite power
+        long, rings = (
+            _ring_sums(_power_of_piece(heights, weights), wavenumber, points) for weights in (window > 0, window)
+        )
+        square, spoiled = np.nanvar(heights), slice(1, _SPOILED + 1)
+    if not (0 < square < np.inf and 0 < rings[1:].sum() < np.inf and 0 < long[spoiled].sum() < np.inf):
+        raise ValueError("line_of_map: the map is flat or its squares overflow; heights that vary, less, are needed")
+    rings[spoiled] = long[spoiled] * max(square - rings[_SPOILED + 1 :].sum(), 0) / long[spoiled].sum()
+    line = _random_line(rings * (square / rings[1:].sum()), points, seed)
+    return Indenter(line, spacing, length_unit=surface.length_unit)
+
+
+def _power_of_piece(heights, weights):
+    """Power of the waves of the heights over their mean, multiplied with weights; per mean square of the weights."""
+    over_mean = np.where(weights > 0, heights - np.sum(weights * np.nan_to_num(heights)) / weights.sum(), 0)
+    return np.abs(np.fft.fft2(weights * over_mean)) ** 2 / (weights.size * np.sum(weights**2, dtype=float))
+
+
+def _ring_sums(power, wavenumber, points):
+    """Sums of the power of the waves whose wavenumber per length rounds to 0, 1, ..., points // 2."""
+    ring = np.rint(wavenumber).astype(int)
+    most = points // 2 + 1
+    return np.bincount(ring.ravel(), weights=power.ravel(), minlength=most)[:most]
+
+
+def _random_line(power, points, seed):
+    """Heights, shape (points,), of waves of this power and of random phases; without the zero mode."""
+    amplitude = np.sqrt(power / 2)
+    if points % 2 == 0:
         amplitude[-1] *= np.sqrt(2)  # its own mirror image
     phase = np.random.default_rng(seed).uniform(0, 2 * np.pi, amplitude.size)
-    spectrum = amplitude * (np.exp(1j * phase) if n % 2 else np.append(np.exp(1j * phase[:-1]), 1.0))
+    spectrum = amplitude * (np.exp(1j * phase) if points % 2 else np.append(np.exp(1j * phase[:-1]), 1.0))
     spectrum[0] = 0
-    return Indenter(fft.c2r(spectrum, lastsize=n, forward=False), spacing)
+    return fft.c2r(spectrum, lastsize=points, forward=False)
 
 
 def _binned_gaps(heights, bins_per_octave):

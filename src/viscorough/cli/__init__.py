@@ -13,11 +13,15 @@ from signal import SIG_DFL
 
 import click
 
+from viscorough.cli.estimate import estimate
+from viscorough.cli.generate import generate
 from viscorough.cli.indent import indent
 from viscorough.cli.kinetics import kinetics
 from viscorough.cli.march import march
 from viscorough.cli.messages import complain, discard_what_cannot_be_written, escape_letters_without_code, report
 from viscorough.cli.options import warning_texts
+from viscorough.cli.plot import plot
+from viscorough.cli.reduce import reduce
 from viscorough.errors import ConvergenceError
 from viscorough.interrupts import on_interrupt
 
@@ -34,7 +38,7 @@ def cli():
     """
 
 
-for _command in (indent, kinetics, march):
+for _command in (indent, kinetics, march, reduce, generate, estimate, plot):
     cli.add_command(_command)
 
 

@@ -77,6 +77,28 @@ def integration_under_history(integration, history, viscosity):
     return with_motion(Content(variables, {"title": title}), history.times, velocity)
 
 
+def estimate_to_content(estimate, length_unit="1"):
+    """An estimates.Estimate as a Content; values are nan at times at which the law does not hold."""
+    velocity_unit = "s-1" if length_unit == "1" else f"{length_unit} s-1"
+    described = {
+        "time": ("time since the force was applied", "s"),
+        "x": ("dimensionless force X = F J(t)/(4 h L)", "1"),
+        **{
+            f"{name}{end}": (f"{text}{meaning}", unit)
+            for name, text, unit in (
+                ("depth", "depth of penetration u", length_unit),
+                ("velocity", "velocity of penetration du/dt", velocity_unit),
+            )
+            for end, meaning in {"": "", "_low": ", lower end of 95 %", "_high": ", upper end of 95 %"}.items()
+        },
+    }
+    variables = {
+        name: Variable(("level",), getattr(estimate, name), {"long_name": text, "units": unit})
+        for name, (text, unit) in described.items()
+    }
+    return Content(variables, {"title": "Penetration of a self-affine indenter by the calibrated law, no simulation"})
+
+
 def read_force_history(path):
     """Times and forces, both of shape (times,), in a file of two columns: .csv or .npy.
 

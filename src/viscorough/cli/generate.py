@@ -1,0 +1,59 @@
+"""`viscorough generate`: a random self-affine surface."""
+
+import click
+
+from viscorough.cli.messages import announce
+from viscorough.cli.options import PositiveNumber, output_option, write_output
+
+
+@click.command(short_help="A random self-affine disc or line.")
+@click.option("--hurst", type=click.FloatRange(0, 1), required=True, help="Hurst exponent H, from 0 to 1.")
+@click.option("--elements", type=click.IntRange(min=3), help="Disc of so many elements across its diameter.")
+@click.option("--points", type=click.IntRange(min=2), help="Line of so many points, instead of a disc.")
+@click.option("--rms", type=PositiveNumber(), required=True, help="Rms height, exact in every realization.")
+@click.option("--diameter", type=PositiveNumber(), required=True, help="Diameter of the disc, or length of the line.")
+@click.option("--unit", default="m", show_default=True, help="Unit of both, such as um; 1 if it does not matter.")
+@click.option("--seed", type=click.IntRange(min=0), required=True, help="The same seed gives the same surface.")
+@click.option(
+    "--roll-off", type=PositiveNumber(), help="Longest wavelength of the power law, in diameters; none is longer."
+)
+@click.option(
+    "--plateau", is_flag=True, help="With --roll-off: longer waves have the spectral density at that wavelength."
+)
+@output_option("SURFACE.nc", table=False)
+def generate(hurst, elements, points, rms, diameter, unit, seed, roll_off, plateau, output):
+    """Make a random self-affine disc, an indenter, or a line for viscorough reduce.
+
+    Its power spectral density falls as q^(-2(H+1)), that of a line as q^(-(2H+1)), down to waves of two spacings.
+    SURFACE.nc has the variable heights, nan outside the disc, with coordinates and units, so that the other commands
+    need nothing else to be said.
+
+    \b
+    Example:
+        viscorough generate --hurst 0.8 --elements 129 --rms 0.2 --diameter 129 --unit um --seed 1 -o disc.nc
+        viscorough indent disc.nc -o curve.nc
+    """
+    if (elements is None) == (points is None):
+        raise click.UsageError("one of --elements (a disc) and --points (a line) is needed")
+    if plateau and roll_off is None:
+        raise click.UsageError("--plateau is for use with --roll-off")
+
+    from dataclasses import replace
+
+    from viscorough import surfaces
+    from viscorough.io.atomic import check_output
+    from viscorough.io.surfaces import surface_to_content
+
+    check_output(output)
+    options = {"rms": rms, "roll_off_wavelength": roll_off, "roll_off_level": float(plateau), "seed": seed}
+    if elements:
+        made = surfaces.self_affine_disc(hurst, elements, diameter=diameter, **options)
+        what = f"disc of {elements} elements across, {made.elements} elements"
+    else:
+        made = surfaces.self_affine_line(hurst, points, length=diameter, **options)
+        what = f"line of {points} points"
+    content = surface_to_content(replace(made, length_unit=unit))
+    about = {"hurst": hurst, "rms": rms, "diameter": diameter, "seed": seed}
+    about |= {} if roll_off is None else {"roll_off_wavelength": roll_off, "roll_off_level": float(plateau)}
+    write_output(content, output, **about)
+    announce(output, f"{what}, rms height {rms:g} {unit}, rms slope {made.rms_slope:.3g}")

@@ -1,0 +1,103 @@
+"""Depth and velocity of a rough indenter without a simulation, from the calibrated penetration law alone.
+
+A constant force F on a medium of creep compliance J(t) acts as the elastic force F/G = F·J(t) (viscous.correspondence).
+With X = F·J(t)/(4hL) the law gives
+
+    u = h·(u/h)(X),    v = h·(J'(t)/J(t))·X^β/ζ,    for a Newtonian medium J = t/η: v = (h/t)·X^β/ζ.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from viscorough.arrays import keep_read_only
+from viscorough.calibrated_law import PenetrationLaw, penetration_law
+from viscorough.indenter import positive
+from viscorough.summaries import html_table, span
+from viscorough.viscous.media import medium_of
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """Depth and velocity over time by the penetration law; arrays of shape (times,), nan where the law does not hold.
+
+    time : t; x : X = F·J(t)/(4hL)
+    depth, velocity : u and v = du/dt, the mean of many surfaces; a single surface scatters more than the intervals tell
+    depth_low, depth_high, velocity_low, velocity_high : ends of the intervals that follow from those of the law
+    law : the PenetrationLaw, which holds from law.x_low to law.x_high
+    """
+
+    time: np.ndarray
+    x: np.ndarray
+    depth: np.ndarray
+    depth_low: np.ndarray
+    depth_high: np.ndarray
+    velocity: np.ndarray
+    velocity_low: np.ndarray
+    velocity_high: np.ndarray
+    law: PenetrationLaw
+
+    def __post_init__(self):
+        keep_read_only(self)
+
+    @property
+    def where(self):
+        """For every time: "" in the range of the law, else "below" or "above" it."""
+        return np.select([self.x < self.law.x_low, self.x > self.law.x_high], ["below", "above"], "")
+
+    def __str__(self):
+        """A table: time, X, depth and velocity with their intervals."""
+        head = f"{'time':>10} {'X':>10} {'depth':>10} {'from':>10} {'to':>10} {'velocity':>10} {'from':>10} {'to':>10}"
+        columns = (self.time, self.x, self.depth, self.depth_low, self.depth_high)
+        columns += (self.velocity, self.velocity_low, self.velocity_high)
+        rows = [
+            " ".join(f"{'-' if np.isnan(value) else f'{value:.4g}':>10}" for value in row)
+            + (f"  {where}" if where else "")
+            for *row, where in zip(*columns, self.where, strict=True)
+        ]
+        return "\n".join([head, *rows])
+
+    def _repr_html_(self):
+        law, rows = self.law, []
+        for time, depth, velocity, where in zip(self.time, self.depth, self.velocity, self.where, strict=True):
+            text = f"X is {where} the range of the law" if where else f"depth {depth:.4g}, velocity {velocity:.4g}"
+            rows.append((f"time {time:.4g}", text))
+        return html_table(f"Penetration law, H = {law.hurst:g}, X from {law.x_low:.3g} to {law.x_high:.3g}", rows)
+
+
+def estimate(hurst, rms, diameter, force, medium, times):
+    """Depth and velocity of a self-affine indenter under a constant force, by the calibrated law, without a simulation.
+
+    hurst : Hurst exponent H, 0.1 to 0.9
+    rms : rms height h; diameter : L, in the same unit [length]
+    force : F > 0, constant from time 0 on
+    medium : a viscosity, or one of viscorough.viscous.media; in units such that F·J is a length²
+    times : above 0, increasing
+
+    Returns an Estimate. Raises ValueError for values outside these ranges, and if the law holds at none of the times.
+    """
+    law, medium = penetration_law(hurst), medium_of(medium)
+    rms, diameter, force = positive("rms", rms), positive("diameter", diameter), positive("force", force)
+    times = np.atleast_1d(np.asarray(times, dtype=float))
+    if times.ndim != 1 or times.size == 0 or not (np.diff(times, prepend=0) > 0).all() or not np.isfinite(times).all():
+        raise ValueError("times: allowed is one row of finite numbers above 0, each larger than the one before")
+    compliance, rate = medium.creep_compliance(times), medium.creep_rate(times)
+    with np.errstate(over="ignore", under="ignore", invalid="ignore"):
+        x = force * compliance / (4 * rms * diameter)
+    inside = (x >= law.x_low) & (x <= law.x_high)
+    if not inside.any():
+        raise ValueError(
+            f"times: X = F·J(t)/(4hL) is {span(x)}; allowed: {law.x_low:.3g} to {law.x_high:.3g}, where the law holds; "
+            "elsewhere indent a surface made by viscorough generate"
+        )
+    values = {name: np.full(times.shape, np.nan) for name in ("depth", "velocity")}
+    values |= {
+        f"{name}_{end}": np.full(times.shape, np.nan) for name in ("depth", "velocity") for end in ("low", "high")
+    }
+    per_time = rms * rate[inside] / compliance[inside]
+    values["depth"][inside] = rms * law.depth(x[inside])
+    values["velocity"][inside] = per_time * law.velocity(x[inside])
+    for i, end in enumerate(("low", "high")):
+        values[f"depth_{end}"][inside] = rms * law.depth_interval(x[inside])[i]
+        values[f"velocity_{end}"][inside] = per_time * law.velocity_interval(x[inside])[i]
+    return Estimate(times, x, **values, law=law)

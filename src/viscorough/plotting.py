@@ -1,0 +1,225 @@
+"""Figures of what the command line writes: surfaces, fields of a contact, loading curves, motions, estimates.
+
+The only module of the library that imports matplotlib, which is not needed for anything else.
+"""
+
+import re
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.figure import Figure
+
+from viscorough.io.atomic import atomic_write
+
+FORMATS = (".png", ".pdf", ".svg")
+_BLUE, _VERMILION = "#0072b2", "#d55e00"  # of Okabe and Ito, which can be told apart with any colour vision
+_FEW = 40  # points below which a curve has markers
+_MOST_MAPS = 4  # contacts of one file that are drawn
+_STYLE = {
+    **{"font.size": 8, "axes.linewidth": 0.6, "lines.linewidth": 1.2, "lines.markersize": 3, "savefig.dpi": 200},
+    **{"xtick.direction": "in", "ytick.direction": "in", "pdf.fonttype": 42, "svg.hashsalt": "viscorough"},
+}
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+# Name of a variable: what stands on its axis.
+_LABELS = {
+    "depth": "depth $u$",
+    "force": "force $F/G$",
+    "stiffness": "stiffness $k/G$",
+    "contact_fraction": "contact fraction",
+    "time": "time $t$",
+    "velocity": "velocity $v$",
+    "x": "$x$",
+    "y": "$y$",
+    "heights": "height $z$",
+    "pressure": "pressure $p/G$",
+    "gap": "gap",
+}
+
+
+def plot(content, path):
+    """Draw what an io.netcdf.Content holds and write it, atomically, in the format of the suffix: .png, .pdf or .svg.
+
+    The same content gives the same bytes. Raises ValueError for another suffix, and for a content that is no surface,
+    no fields of a contact, no loading curve and no motion.
+    """
+    suffix = Path(path).suffix.lower()
+    if suffix not in FORMATS:
+        raise ValueError(f"{path}: unknown kind of figure; allowed: {', '.join(FORMATS)}")
+    with mpl.rc_context(_STYLE):
+        figure = _figure(content.variables)
+        dates = {".png": {}, ".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
+        with atomic_write(path) as temporary:
+            figure.savefig(temporary, format=suffix[1:], metadata=dates[suffix])
+
+
+def _figure(variables):
+    """The Figure of variables {name: Variable}; which kind it is follows from their names and dimensions."""
+    numbers = {name: v for name, v in variables.items() if v.values.dtype.kind in "iuf" and v.values.size}
+    for kind, names in _KINDS:
+        together = set(names) <= set(numbers) and len({numbers[name].dimensions for name in names}) == 1
+        drawn = kind(numbers, numbers[names[0]].values.ndim) if together else None
+        if drawn is not None:
+            return drawn
+    raise ValueError(
+        "no surface, fields of a contact, loading curve or motion in it; a file that viscorough wrote is needed"
+    )
+
+
+# ---- maps
+
+
+def _surface(variables, dimensions):
+    heights = variables["heights"]
+    if dimensions == 1:
+        figure, axes = _panels(1)
+        axes[0].plot(_positions(variables, heights.dimensions[0])[0], heights.values, color=_BLUE, linewidth=0.6)
+        _label(axes[0], _axis_label(variables, heights.dimensions[0]), _label_of(variables, "heights"))
+        return figure
+    if dimensions != 2:
+        return None
+    figure, axes = _panels(1, width=4.6, height=3.8)
+    _map(figure, axes[0], variables, "heights", heights.values, "cividis")
+    return figure
+
+
+def _fields(variables, dimensions):
+    if dimensions not in (2, 3):
+        return None
+    names = [name for name in ("pressure", "gap", "contact") if name in variables]
+    stacks = {name: variables[name].values.reshape(-1, *variables[name].values.shape[-2:]) for name in names}
+    contacts = min(len(stacks["pressure"]), _MOST_MAPS)
+    figure = Figure(figsize=(3.1 * len(names), 2.7 * contacts), layout="constrained")
+    panels = figure.subplots(contacts, len(names), squeeze=False)
+    for i, row in enumerate(panels):
+        for axes, name in zip(row, names, strict=True):
+            values = stacks[name][i].astype(float)
+            if name == "contact":
+                _contact(axes, variables, values)
+            else:
+                _map(figure, axes, variables, name, values, "inferno" if name == "pressure" else "cividis")
+        row[0].set_title(_state(variables, i), fontsize=8, loc="left")
+    return figure
+
+
+def _state(variables, index):
+    """Depth and force of one of the contacts in a file, as text."""
+    texts = []
+    for name, symbol in (("depth", "u"), ("force", "F/G")):
+        if name in variables and variables[name].values.size > index:
+            unit = _unit(variables[name])
+            texts.append(f"${symbol}$ = {variables[name].values.flat[index]:.4g}{f' {unit}' if unit else ''}")
+    return ", ".join(texts)
+
+
+def _map(figure, axes, variables, name, values, colours):
+    image = axes.imshow(values, origin="lower", extent=_extent(variables, name, values), cmap=colours)
+    axes.set_facecolor("0.85")  # outside the indenter
+    figure.colorbar(image, ax=axes, label=_label_of(variables, name), shrink=0.85)
+    _label_map(axes, variables, name)
+
+
+def _contact(axes, variables, values):
+    colours = mpl.colors.ListedColormap(["white", _VERMILION])
+    axes.imshow(values, origin="lower", extent=_extent(variables, "contact", values), cmap=colours, vmin=0, vmax=1)
+    share = np.nanmean(values) if np.isfinite(values).any() else 0
+    axes.set_title(f"in contact: {100 * share:.3g} % of the map", fontsize=8, loc="left")
+    _label_map(axes, variables, "contact")
+
+
+def _label_map(axes, variables, name):
+    y, x = variables[name].dimensions[-2:]
+    _label(axes, _axis_label(variables, x), _axis_label(variables, y))
+
+
+def _extent(variables, name, values):
+    ends = []
+    for dimension, points in zip(variables[name].dimensions[:-3:-1], values.shape[::-1], strict=True):
+        position, step = _positions(variables, dimension, points)
+        ends += [position[0] - step / 2, position[-1] + step / 2]
+    return ends
+
+
+def _positions(variables, dimension, points=None):
+    """Positions along a dimension and their distance: those of its coordinate, else the numbers of the points."""
+    if dimension in variables and variables[dimension].dimensions == (dimension,):
+        values = variables[dimension].values.astype(float)
+        if np.isfinite(values).all() and (np.diff(values) > 0).all():
+            return values, (values[-1] - values[0]) / max(len(values) - 1, 1) or 1.0
+    points = points or next(len(v.values) for v in variables.values() if v.dimensions == (dimension,))
+    return np.arange(points), 1.0
+
+
+def _axis_label(variables, dimension):
+    known = dimension in variables and variables[dimension].dimensions == (dimension,)
+    return _label_of(variables, dimension) if known else f"{dimension}, points"
+
+
+# ---- curves
+
+
+def _motion(variables, dimensions):
+    if dimensions != 1:
+        return None
+    figure, axes = _panels(2)
+    time = variables["time"].values
+    for panel, name in zip(axes, ("depth", "velocity"), strict=True):
+        ends = [variables.get(f"{name}_{end}") for end in ("low", "high")]
+        if None not in ends:  # an estimate
+            panel.fill_between(time, *(end.values for end in ends), color=_BLUE, alpha=0.25, linewidth=0)
+        _curve(panel, time, variables[name].values)
+        _label(panel, _label_of(variables, "time"), _label_of(variables, name))
+    return figure
+
+
+def _loading_curve(variables, dimensions):
+    if dimensions not in (1, 2):
+        return None
+    pairs = [("depth", "force"), ("force", "stiffness"), ("force", "contact_fraction")]
+    pairs = [pair for pair in pairs if pair[1] in variables and variables[pair[1]].values.ndim == dimensions]
+    figure, axes = _panels(len(pairs))
+    for panel, (x, y) in zip(axes, pairs, strict=True):
+        for row in zip(*(np.atleast_2d(variables[name].values) for name in (x, y)), strict=True):
+            _curve(panel, *row, thin=dimensions == 2)
+        _label(panel, _label_of(variables, x), _label_of(variables, y))
+    return figure
+
+
+def _panels(count, width=3.1, height=2.7):
+    figure = Figure(figsize=(width * count, height), layout="constrained")
+    return figure, figure.subplots(1, count, squeeze=False)[0]
+
+
+def _curve(axes, x, y, thin=False):
+    """A curve on logarithmic axes, where both values are positive."""
+    x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
+    shown = (x > 0) & (y > 0)
+    axes.set(xscale="log", yscale="log")
+    look = {"linewidth": 0.5, "alpha": 0.5} if thin else {"marker": "o" if shown.sum() < _FEW else ""}
+    axes.plot(x[shown], y[shown], color=_BLUE, **look)
+
+
+def _label(axes, x, y):
+    axes.set_xlabel(x)
+    axes.set_ylabel(y)
+
+
+def _label_of(variables, name):
+    unit = _unit(variables[name])
+    return f"{_LABELS.get(name, name)}{f' ({unit})' if unit else ''}"
+
+
+def _unit(variable):
+    """The unit of a variable as people write it: µm², µm/s; "" without one."""
+    unit = str(variable.attributes.get("units", "1")).replace("um", "µm")
+    if unit == "1":
+        return ""
+    return re.sub(r"(?<=[^\W\d])-?\d", lambda power: power[0].translate(_SUPERSCRIPTS), unit).replace(" s⁻¹", "/s")
+
+
+_KINDS = (
+    (_fields, ("pressure",)),
+    (_surface, ("heights",)),
+    (_motion, ("time", "depth", "velocity")),
+    (_loading_curve, ("depth", "force")),
+)

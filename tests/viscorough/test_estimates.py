@@ -1,0 +1,83 @@
+"""Estimates by the penetration law: against simulations, for any medium, and where the law does not hold."""
+
+import numpy as np
+import pytest
+
+import viscorough
+from viscorough.estimates import estimate
+from viscorough.viscous.media import Maxwell, Newtonian, StandardLinearSolid
+
+RMS, DIAMETER = 2e-7, 3e-4
+PER_X = 4 * RMS * DIAMETER  # F·J at X = 1
+
+
+@pytest.mark.parametrize("hurst", [0.7, 0.9])
+def test_estimate_is_the_mean_of_simulated_surfaces(hurst):
+    """Geometric mean over 24 discs of 129 elements across; single ones scatter by about 30 %."""
+    law = viscorough.penetration_law(hurst)
+    times = np.geomspace(3 * law.x_low, 0.9 * law.x_high, 5)  # force over viscosity is PER_X, so that X = t
+    found = estimate(hurst, RMS, DIAMETER, PER_X, 1.0, times)
+    motions = []
+    for seed in range(24):
+        disc = viscorough.self_affine_disc(hurst, 129, rms=RMS, diameter=DIAMETER, seed=seed)
+        curve = viscorough.indent(disc, until_force=1.1 * PER_X * law.x_high, tolerance=1e-2)
+        motion = viscorough.kinetics(curve, PER_X, 1.0, times)
+        motions.append([motion.velocity, motion.depth])
+    velocity, depth = np.exp(np.log(motions).mean(axis=0))
+    # Three standard errors of the mean.
+    np.testing.assert_allclose(found.velocity, velocity, rtol=0.2)
+    np.testing.assert_allclose(found.depth, depth, rtol=0.2)
+    scatter = np.log(motions).std(axis=0)
+    assert (scatter > 0.15).all()
+    assert (scatter < 0.45).all()
+
+
+def test_newtonian_media_follow_the_law():
+    law = viscorough.penetration_law(0.6)
+    times = np.array([0.005, 0.02])
+    found = viscorough.estimate(0.6, RMS, DIAMETER, 3 * PER_X, Newtonian(3.0), times)
+    np.testing.assert_allclose(found.x, times)
+    np.testing.assert_allclose(found.velocity, RMS / times * law.velocity(times), rtol=1e-14)
+    np.testing.assert_allclose(found.depth, RMS * law.depth(times), rtol=1e-14)
+    np.testing.assert_allclose(
+        [found.velocity_low, found.velocity_high], RMS / times * np.array(law.velocity_interval(times)), rtol=1e-14
+    )
+
+
+@pytest.mark.parametrize("medium", [Maxwell(100.0, 1.0), StandardLinearSolid(100.0, 20.0, 0.3)])
+def test_velocity_is_the_derivative_of_the_depth_in_any_medium(medium):
+    times = 0.3 + 1e-5 * np.array([-1.0, 0.0, 1.0])
+    found = estimate(0.6, RMS, DIAMETER, 0.2 * PER_X, medium, times)
+    assert found.velocity[1] == pytest.approx(np.gradient(found.depth, times)[1], rel=1e-6)
+
+
+def test_outside_of_its_range_the_law_gives_no_numbers():
+    found = estimate(0.6, RMS, DIAMETER, PER_X, 1.0, [1e-4, 0.02, 0.5])
+    assert found.where.tolist() == ["below", "", "above"]
+    for name in ("depth", "depth_low", "depth_high", "velocity", "velocity_low", "velocity_high"):
+        assert np.isfinite(getattr(found, name)).tolist() == [False, True, False]
+    lines = str(found).splitlines()
+    assert [line.split()[-1] for line in lines[1:]][::2] == ["below", "above"]
+    assert "X is above the range" in found._repr_html_()
+
+
+@pytest.mark.parametrize(
+    ("changes", "what"),
+    [
+        ({"hurst": 0.95}, "hurst of the penetration law: must be from 0.1 to 0.9"),
+        ({"rms": 0}, "rms: must be positive"),
+        ({"diameter": -1}, "diameter: must be positive"),
+        ({"force": np.inf}, "force: must be positive and finite"),
+        ({"medium": 0}, "viscosity: 0; allowed: a finite number above 0"),
+        ({"times": [2, 1]}, "times: allowed is one row"),
+        ({"times": []}, "times: allowed is one row"),
+        ({"times": [1.0]}, "X = F·J(t)/(4hL) is 1; allowed: 0.00178 to 0.0794"),
+        ({"force": 1e300, "rms": 1e-300}, "is inf; allowed"),
+    ],
+)
+def test_values_outside_their_ranges_are_refused(changes, what):
+    values = {"hurst": 0.6, "rms": RMS, "diameter": DIAMETER, "force": PER_X, "medium": 1.0, "times": [0.02]} | changes
+    with pytest.raises(ValueError) as error:  # noqa: PT011
+        estimate(**values)
+    assert what in str(error.value)
+    assert "\n" not in str(error.value)

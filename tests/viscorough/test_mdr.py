@@ -234,7 +234,7 @@ def octave_means(heights):
 @pytest.mark.parametrize("hurst", [0.2, 0.5, 0.9])
 @pytest.mark.parametrize("outline", ["square", "disc"])
 def test_line_of_a_map_has_its_spectrum_whatever_its_edges(hurst, outline):
-    """The line of the whole periodic square has it exactly; without the window short waves at H = 0.9 are 50 times off."""
+    """That of the whole periodic square has it exactly; without the window short waves at H = 0.9 are 50 times off."""
     n, lines, exact = 256, [], []
     for seed in range(12):
         square = self_affine_square(hurst, n, seed=seed)

@@ -5,16 +5,16 @@ import warnings
 import click
 
 from viscorough.cli.messages import announce
-from viscorough.cli.options import FILE, Increasing, PositiveNumber, write_output
+from viscorough.cli.options import FILE, Increasing, PositiveNumber, Quantity, number_in, write_output
 from viscorough.errors import AccuracyWarning
 
 
 @click.command(short_help="Depth and velocity of a self-affine surface by the calibrated law, without a simulation.")
 @click.option("--hurst", type=PositiveNumber(1), required=True, help="Hurst exponent H, from 0.1 to 0.9.")
-@click.option("--rms", type=PositiveNumber(), required=True, help="Rms height h of the surface.")
-@click.option("--diameter", type=PositiveNumber(), required=True, help="Diameter L of the indenter.")
-@click.option("--force", type=PositiveNumber(), required=True, help="Constant force F, applied at time 0.")
-@click.option("--viscosity", type=PositiveNumber(), help="Shear viscosity of a Newtonian half-space.")
+@click.option("--rms", type=Quantity("m"), required=True, help="Rms height h of the surface.")
+@click.option("--diameter", type=Quantity("m"), required=True, help="Diameter L of the indenter.")
+@click.option("--force", type=Quantity("N"), required=True, help="Constant force F, applied at time 0.")
+@click.option("--viscosity", type=Quantity("Pa s"), help="Shear viscosity of a Newtonian half-space.")
 @click.option("--times", type=Increasing(), required=True, help="Times at which depth and velocity are wanted.")
 @click.option("-o", "--output", type=FILE, metavar="FILE", help="NetCDF file or table (.csv) to write  [default: none]")
 def estimate(hurst, rms, diameter, force, viscosity, times, output):
@@ -25,7 +25,8 @@ def estimate(hurst, rms, diameter, force, viscosity, times, output):
     more. It holds from the first few contact spots until the contact is nearly complete; outside of that range no
     number is given, and the last column says on which side the time is.
 
-    Lengths, force and viscosity are in consistent units: m, N and Pa s, for example.
+    Plain numbers are in consistent units: m, N and Pa s, for example. If the lengths have units, as in --rms "2 um",
+    force and viscosity may have, too; then results are in m and s, and what has none is in m, N and Pa s.
 
     \b
     Example:
@@ -39,6 +40,16 @@ def estimate(hurst, rms, diameter, force, viscosity, times, output):
 
     if output:
         check_output(output)
+    unit = _length_unit(rms, diameter, {"--force": force, "--viscosity": viscosity})
+    rms, diameter, force, viscosity = (
+        number_in(to, number, unit, option)
+        for to, number, option in (
+            ("m", rms, "--rms"),
+            ("m", diameter, "--diameter"),
+            ("N", force, "--force"),
+            ("Pa s", viscosity, "--viscosity"),
+        )
+    )
     result = estimate(hurst, rms, diameter, force, viscosity, times)
     law, outside = result.law, np.count_nonzero(result.where != "")
     if outside:
@@ -50,8 +61,18 @@ def estimate(hurst, rms, diameter, force, viscosity, times, output):
         click.echo(str(result))
         return
     about = {"hurst": hurst, "rms": rms, "diameter": diameter, "force": force, "viscosity": viscosity}
-    write_output(estimate_to_content(result), output, **about)
+    write_output(estimate_to_content(result, unit), output, **about)
     announce(output, f"{len(times)} times, {len(times) - outside} in the range of the law")
+
+
+def _length_unit(rms, diameter, others):
+    """Unit of the results: "m" if both lengths have a unit, "1", which stands for that of the user, if none has one."""
+    if bool(rms.unit) != bool(diameter.unit):
+        raise click.UsageError(f"--rms {rms}, --diameter {diameter}: one has a unit; both or none is allowed")
+    for option, quantity in others.items():
+        if quantity.unit and not rms.unit:
+            raise click.UsageError(f'{option} {quantity}: has a unit, but the lengths have none, as in --rms "2 um"')
+    return "m" if rms.unit else "1"
 
 
 def _heading(law):

@@ -3,16 +3,16 @@
 import click
 
 from viscorough.cli.messages import announce
-from viscorough.cli.options import PositiveNumber, output_option, write_output
+from viscorough.cli.options import PositiveNumber, Quantity, number_in, output_option, write_output
 
 
 @click.command(short_help="A random self-affine disc or line.")
 @click.option("--hurst", type=click.FloatRange(0, 1), required=True, help="Hurst exponent H, from 0 to 1.")
 @click.option("--elements", type=click.IntRange(min=3), help="Disc of so many elements across its diameter.")
 @click.option("--points", type=click.IntRange(min=2), help="Line of so many points, instead of a disc.")
-@click.option("--rms", type=PositiveNumber(), required=True, help="Rms height, exact in every realization.")
-@click.option("--diameter", type=PositiveNumber(), required=True, help="Diameter of the disc, or length of the line.")
-@click.option("--unit", default="m", show_default=True, help="Unit of both, such as um; 1 if it does not matter.")
+@click.option("--rms", type=Quantity("m"), required=True, help="Rms height, exact in every realization.")
+@click.option("--diameter", type=Quantity("m"), required=True, help="Diameter of the disc, or length of the line.")
+@click.option("--unit", default="m", show_default=True, help="Unit of length, such as um; 1 if it does not matter.")
 @click.option("--seed", type=click.IntRange(min=0), required=True, help="The same seed gives the same surface.")
 @click.option(
     "--roll-off", type=PositiveNumber(), help="Longest wavelength of the power law, in diameters; none is longer."
@@ -31,6 +31,7 @@ def generate(hurst, elements, points, rms, diameter, unit, seed, roll_off, plate
     \b
     Example:
         viscorough generate --hurst 0.8 --elements 129 --rms 0.2 --diameter 129 --unit um --seed 1 -o disc.nc
+        viscorough generate --hurst 0.8 --points 100000 --rms "200 nm" --diameter "1 mm" --seed 1 -o line.nc
         viscorough indent disc.nc -o curve.nc
     """
     if (elements is None) == (points is None):
@@ -40,11 +41,13 @@ def generate(hurst, elements, points, rms, diameter, unit, seed, roll_off, plate
 
     from dataclasses import replace
 
-    from viscorough import surfaces
+    from viscorough import surfaces, units
     from viscorough.io.atomic import check_output
     from viscorough.io.surfaces import surface_to_content
 
     check_output(output)
+    unit = unit if unit == units.UNKNOWN else units.length_unit(unit)
+    rms, diameter = number_in(unit, rms, unit, "--rms"), number_in(unit, diameter, unit, "--diameter")
     options = {"rms": rms, "roll_off_wavelength": roll_off, "roll_off_level": float(plateau), "seed": seed}
     if elements:
         made = surfaces.self_affine_disc(hurst, elements, diameter=diameter, **options)

@@ -47,15 +47,15 @@ def plot(content, path):
     if suffix not in FORMATS:
         raise ValueError(f"{path}: unknown kind of figure; allowed: {', '.join(FORMATS)}")
     with mpl.rc_context(_STYLE):
-        figure = _figure(content.variables)
+        figure = figure_of(content)
         dates = {".png": {}, ".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
         with atomic_write(path) as temporary:
             figure.savefig(temporary, format=suffix[1:], metadata=dates[suffix])
 
 
-def _figure(variables):
-    """The Figure of variables {name: Variable}; which kind it is follows from their names and dimensions."""
-    numbers = {name: v for name, v in variables.items() if v.values.dtype.kind in "iuf" and v.values.size}
+def figure_of(content):
+    """The matplotlib Figure of a Content; its kind follows from names and dimensions. Raises ValueError as `plot`."""
+    numbers = {name: v for name, v in content.variables.items() if v.values.dtype.kind in "iuf" and v.values.size}
     for kind, names in _KINDS:
         together = set(names) <= set(numbers) and len({numbers[name].dimensions for name in names}) == 1
         drawn = kind(numbers, numbers[names[0]].values.ndim) if together else None

@@ -13,7 +13,7 @@ class Page(HTMLParser):
     """What a page contains: elements with their attributes, ids, numbers by section, and texts outside of numbers.
 
     elements : [(tag, attributes)]; numbers : [(section, attributes, text)]; texts : {section: text}, without what
-    stands in the elements `QUOTED`; text : all of it without styles
+    stands in the elements `QUOTED`; text : all of it without styles and scripts
     """
 
     def __init__(self, html):
@@ -41,7 +41,7 @@ class Page(HTMLParser):
 
     def handle_data(self, data):
         tags = [tag for tag, _ in self.open]
-        if "style" in tags:
+        if "style" in tags or "script" in tags:
             return
         self.text += data
         if "data" in tags:

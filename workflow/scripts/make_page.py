@@ -15,9 +15,11 @@ def main(project, discs, lines, other_solvers, tables, figures, page_file, *, cl
     """
     tables, figures = ({Path(path).stem: path for path in paths} for paths in (tables, figures))
     captions = {name: project / f"workflow/report/{name}.rst" for name in figures}
-    texts = [(project / "workflow/page" / name).read_text("utf-8") for name in ("page.html.jinja", "style.css")]
+    names = ("page.html.jinja", "style.css", "calculator.html", "calculator.js")
+    *texts, section, script = [(project / "workflow/page" / name).read_text("utf-8") for name in names]
     (others,) = other_solvers or [project / "resources/published/other_solvers.csv"]
-    html = page(*texts, discs, lines, others, tables, figures, captions, claims=claims, numbers=numbers)
+    more = {"calculator": (section, script), "claims": claims, "numbers": numbers}
+    html = page(*texts, discs, lines, others, tables, figures, captions, **more)
     with atomic_write(page_file) as temporary:
         temporary.write_text(html, encoding="utf-8")
 

@@ -14,7 +14,7 @@ from viscorough.errors import AccuracyWarning
 @click.option("--rms", type=Quantity("m"), required=True, help="Rms height h of the surface.")
 @click.option("--diameter", type=Quantity("m"), required=True, help="Diameter L of the indenter.")
 @click.option("--force", type=Quantity("N"), required=True, help="Constant force F, applied at time 0.")
-@click.option("--viscosity", type=Quantity("Pa s"), help="Shear viscosity of a Newtonian half-space.")
+@click.option("--viscosity", type=Quantity("Pa s"), required=True, help="Shear viscosity of a Newtonian half-space.")
 @click.option("--times", type=Increasing(), required=True, help="Times at which depth and velocity are wanted.")
 @click.option("-o", "--output", type=FILE, metavar="FILE", help="NetCDF file or table (.csv) to write  [default: none]")
 def estimate(hurst, rms, diameter, force, viscosity, times, output):

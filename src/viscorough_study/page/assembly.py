@@ -1,6 +1,7 @@
 """The page put together: what its template shows, from tables, ensembles and figures."""
 
 from viscorough_study.page import answers, content
+from viscorough_study.page.calculator import calculator as with_law
 from viscorough_study.page.render import render
 from viscorough_study.page.results import read_results, readable
 from viscorough_study.robustness.failure_map import VERDICTS as OUTCOMES
@@ -15,10 +16,11 @@ FURTHER = {
 }
 
 
-def page(template, style, discs, lines, other_solvers, tables, figures, captions, *, claims, numbers):
+def page(template, style, discs, lines, other_solvers, tables, figures, captions, *, calculator, claims, numbers):
     """HTML of the page.
 
     template, style : text of the template and of the style sheet
+    calculator : (section, script), its texts of HTML and JavaScript
     discs, lines : paths of the pools; other_solvers : path of a table of the workflow or of published numbers
     tables, figures, captions : {name: path}, of CSV, PNG and reStructuredText
     claims, numbers : what the paper says, the contents of resources/paper/claims.yaml and numbers.yaml
@@ -33,6 +35,7 @@ def page(template, style, discs, lines, other_solvers, tables, figures, captions
         figures,
         captions,
         results.settings["claims"]["conventions"],
+        calculator=with_law(*calculator),
         alternative=content.ALTERNATIVE_TEXTS,
         readable=readable,
         scale=scale,

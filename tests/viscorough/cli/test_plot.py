@@ -1,0 +1,133 @@
+"""`viscorough plot`: a figure of every kind of file, and what is refused."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from support.command_line import sphere_heights
+from support.contract import complaint
+from viscorough.cli import main
+from viscorough.io import netcdf
+
+POSITION = {"long_name": "position", "units": "um"}
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """Folder with a file of every kind that can be drawn."""
+    folder = tmp_path_factory.mktemp("made")
+    np.save(folder / "heights.npy", sphere_heights(9))
+    heights, curve = str(folder / "heights.npy"), str(folder / "curve.nc")
+    surface = ["generate", "--hurst", "0.7", "--rms", "1", "--diameter", "9", "--seed", "1"]
+    law = ["estimate", "--hurst", "0.8", "--rms", "1e-6", "--diameter", "0.01", "--force", "10", "--viscosity", "1e6"]
+    for name, arguments in {
+        "curve.nc": ["indent", heights, "--spacing", "1"],
+        "curve.csv": ["indent", heights, "--spacing", "1"],
+        "motion.nc": ["kinetics", curve, "--force", "1", "--viscosity", "1"],
+        "march.nc": ["march", heights, "--spacing", "1", "--method", "events"],
+        "disc.nc": [*surface, "--elements", "9"],
+        "line.nc": [*surface, "--points", "64"],
+        "lines.nc": ["reduce", heights, "--spacing", "1", "--realizations", "3"],
+        "estimate.nc": [*law, "--times", "1e-9,1e-5,1e-4"],
+    }.items():
+        assert main([*arguments, "-o", str(folder / name)]) == 0
+    netcdf.write(fields(), folder / "fields.nc")
+    return folder
+
+
+def fields():
+    """Fields of two contacts, as viscorough contact writes them."""
+    gap = np.clip(sphere_heights(9)[None] + 0.2, 0, None) + np.array([0.0, 0.01])[:, None, None]
+    axes = ("contact_index", "y", "x")
+    described = {"pressure": gap, "gap": gap, "contact": (gap > 0.2).astype("i1")}
+    variables = {name: netcdf.Variable(axes, v, {"long_name": name, "units": "1"}) for name, v in described.items()}
+    variables |= {axis: netcdf.Variable((axis,), np.arange(9.0), POSITION) for axis in "yx"}
+    for name in ("depth", "force"):
+        variables[name] = netcdf.Variable(axes[:1], np.array([1.0, 2.0]), {"long_name": name, "units": "um"})
+    return netcdf.Content(variables, {"title": "fields"})
+
+
+@pytest.fixture
+def here(made, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for file in made.iterdir():
+        (tmp_path / file.name).symlink_to(file)
+    return tmp_path
+
+
+FILES = ["curve.nc", "curve.csv", "motion.nc", "march.nc", "disc.nc", "line.nc", "lines.nc", "estimate.nc", "fields.nc"]
+
+
+@pytest.mark.parametrize("file", FILES)
+def test_every_kind_of_file_is_drawn(here, capsys, file):
+    assert main(["plot", file, "-o", "figure.png"]) == 0
+    captured = capsys.readouterr()
+    assert captured.out == f"figure.png: figure of {file}\n"
+    assert captured.err == ""
+    with Image.open("figure.png") as picture:
+        assert min(picture.size) > 400
+        assert len(picture.convert("L").getcolors()) > 20
+
+
+@pytest.mark.parametrize("suffix", ["png", "pdf", "svg"])
+def test_figures_are_reproducible_in_every_format(here, suffix):
+    for name in ("a", "b"):
+        assert main(["plot", "motion.nc", "-o", f"{name}.{suffix}"]) == 0
+    content = (here / f"a.{suffix}").read_bytes()
+    assert content == (here / f"b.{suffix}").read_bytes()
+    assert content.startswith({"png": b"\x89PNG", "pdf": b"%PDF", "svg": b"<?xml"}[suffix])
+
+
+def test_axes_have_symbols_and_units(here):
+    options = ["--hurst", "0.7", "--rms", "1", "--diameter", "9", "--unit", "um", "--seed", "1", "--elements", "9"]
+    assert main(["generate", *options, "-o", "um.nc"]) == 0
+    assert main(["indent", "um.nc", "--spacing", "1", "-o", "um_curve.nc"]) == 0
+    texts = axes_of("um_curve.nc")
+    assert texts[:2] == ["depth $u$ (µm)", "force $F/G$ (µm²)"]
+    assert texts[-1] == "contact fraction"
+    assert axes_of("motion.nc") == ["time $t$ (s)", "depth $u$", "time $t$ (s)", "velocity $v$ (s⁻¹)"]
+    assert axes_of("um.nc")[:2] == ["$x$ (µm)", "$y$ (µm)"]
+
+
+def axes_of(file):
+    from viscorough.plotting import figure_of
+
+    axes = figure_of(netcdf.read(file)).axes
+    return [text for panel in axes for text in (panel.get_xlabel(), panel.get_ylabel()) if text]
+
+
+def test_without_matplotlib_one_line_says_what_to_install(here):
+    script = (
+        "import sys; sys.modules['matplotlib'] = None; from viscorough.cli import main; sys.exit(main(sys.argv[1:]))"
+    )
+    command = [sys.executable, "-c", script, "plot", "curve.nc", "-o", "figure.png"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    message = 'viscorough plot: matplotlib is not installed; pip install "viscorough[plot]" installs it\n'
+    assert done.stderr == message
+    assert not (here / "figure.png").exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "what"),
+    [
+        (["curve.nc", "-o", "figure.jpg"], "unknown kind of figure; allowed: .png, .pdf, .svg"),
+        (["curve.nc", "-o", "figure"], "unknown kind of figure"),
+        (["curve.nc", "-o", "none/figure.png"], "there is no folder none"),
+        (["none.nc", "-o", "figure.png"], "none.nc: not readable (No such file"),
+        (["heights.npy", "-o", "figure.png"], "heights.npy: not readable"),
+        (["other.nc", "-o", "figure.png"], "other.nc: no surface, fields of a contact, loading curve or motion in it"),
+        (["other.csv", "-o", "figure.png"], "other.csv: no surface"),
+        (["curve.nc"], "--output"),
+        (["picture.png", "-o", "picture.png"], "would replace the results"),
+    ],
+)
+def test_mistakes_are_one_line(here, capsys, arguments, what):
+    other = {"a": netcdf.Variable(("b",), np.arange(3.0), {"long_name": "a", "units": "1"})}
+    netcdf.write(netcdf.Content(other, {}), here / "other.nc")
+    (here / "other.csv").write_text("a,b\n1,2\n")
+    (here / "picture.png").write_bytes(b"")
+    assert what in complaint(["plot", *arguments], capsys, here)

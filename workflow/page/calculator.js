@@ -1,0 +1,96 @@
+"use strict";
+/* The calculator of the page: the calibrated penetration law, as viscorough.estimates computes it for a Newtonian medium.
+   Its numbers are in the element #law. Without a page, as in tests, it only defines functions. */
+
+/** Every number of the law for a Hurst exponent: linear in it, the ends of the range of X in their logarithm. */
+function penetrationLaw(table, hurst) {
+  let place = 0;
+  while (place < table.hurst.length - 2 && hurst >= table.hurst[place + 1]) place += 1;
+  const share = (hurst - table.hurst[place]) / (table.hurst[place + 1] - table.hurst[place]);
+  const between = (values) => values[place] + share * (values[place + 1] - values[place]);
+  const law = {};
+  for (const [name, values] of Object.entries(table)) {
+    law[name] = name.startsWith("x_") ? Math.exp(between(values.map(Math.log))) : between(values);
+  }
+  return law;
+}
+
+/** Value and interval of a function of the law's constants: all combinations of the ends of their intervals. */
+function withInterval(law, names, value) {
+  let ends = [{}];
+  for (const name of names) {
+    ends = ends.flatMap((end) => ["_low", "_high"].map((side) => ({ ...end, [name]: law[name + side] })));
+  }
+  const values = ends.map(value);
+  return [value(law), Math.min(...values), Math.max(...values)];
+}
+
+/** Depth and velocity with their intervals, in the units of rms height and time; where: "", "below" or "above". */
+function estimate(law, { rms, diameter, force, viscosity, time }) {
+  const x = (force * time) / viscosity / (4 * rms * diameter);
+  const where = x < law.x_low ? "below" : x > law.x_high ? "above" : "";
+  const centre = Math.sqrt(law.x_low * law.x_high);
+  const depth = ({ beta, zeta, ratio }) =>
+    (rms * (x ** beta - (1 - ratio) * centre ** beta)) / (zeta * beta);
+  const velocity = ({ beta, zeta }) => ((rms / time) * x ** beta) / zeta;
+  return {
+    x,
+    where,
+    depth: withInterval(law, ["beta", "zeta", "ratio"], depth),
+    velocity: withInterval(law, ["beta", "zeta"], velocity),
+  };
+}
+
+/** A number of three digits, as text. */
+function readable(value) {
+  const size = Math.abs(value);
+  if (size >= 1e-3 && size < 1e5) return Number(value.toPrecision(3)).toString();
+  const [mantissa, exponent] = value.toExponential(2).split("e");
+  const raised = [...String(Number(exponent))].map((sign) => (sign === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[sign])).join("");
+  return `${Number(mantissa)}×10${raised}`;
+}
+
+const UNITS = { rms: 1e-6, diameter: 1e-3, force: 1, viscosity: 1, time: 1, hurst: 1 };
+
+/** What the form says, in SI units; a text that says what is wrong instead, if something is. */
+function entered(form, table) {
+  const values = {};
+  for (const [name, unit] of Object.entries(UNITS)) {
+    const field = form.elements[name];
+    const value = field.valueAsNumber;
+    if (!(value > 0)) return `${field.labels[0].textContent.trim()}: a number above 0 is needed.`;
+    values[name] = value * unit;
+  }
+  const [low, high] = [table.hurst[0], table.hurst[table.hurst.length - 1]];
+  if (values.hurst < low || values.hurst > high) return `The law was calibrated for H from ${low} to ${high}.`;
+  return values;
+}
+
+/** Write the estimate for what the form says into the page. */
+function update(form, table, output) {
+  const values = entered(form, table);
+  if (typeof values === "string") {
+    output.textContent = values;
+    return;
+  }
+  const law = penetrationLaw(table, values.hurst);
+  const found = estimate(law, values);
+  const per = (4 * values.rms * values.diameter * values.viscosity) / values.force;
+  const range = `The law holds from ${readable(law.x_low * per)} s to ${readable(law.x_high * per)} s`;
+  if (found.where) {
+    output.textContent = `X = ${readable(found.x)} is ${found.where} its range: no estimate. ${range}.`;
+    return;
+  }
+  const text = ([value, low, high]) => `${readable(1e6 * value)} [${readable(1e6 * low)}, ${readable(1e6 * high)}]`;
+  output.textContent =
+    `Depth ${text(found.depth)} µm, velocity ${text(found.velocity)} µm/s, at X = ${readable(found.x)}. ${range}.`;
+}
+
+if (typeof document !== "undefined") {
+  const form = document.getElementById("calculator");
+  const table = JSON.parse(document.getElementById("law").textContent);
+  const output = document.getElementById("estimate-output");
+  form.addEventListener("input", () => update(form, table, output));
+  form.addEventListener("submit", (event) => event.preventDefault());
+  update(form, table, output);
+}

@@ -9,14 +9,15 @@ result of integrating Eq. 1 with Eq. 3, with `gamma=True` the law as printed, wh
 of a relation that is nonlinear in F/G.
 
 Sources: Hertz 1882; Love 1929 and 1939 (square element, cone); Sneddon 1965 (bodies of revolution);
-Johnson 1985, Contact Mechanics (flat ellipse); Lee and Radok 1960 (viscous sphere); Popov and Heß 2015
-(method of reduction of dimensionality, MDR).
+Johnson 1985, Contact Mechanics (flat ellipse); Lee and Radok 1960 (viscous sphere); Ting 1966 (sphere on the way out);
+Popov and Heß 2015 (method of reduction of dimensionality, MDR).
 """
 
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.integrate import quad_vec
+from scipy.integrate import quad, quad_vec
+from scipy.optimize import brentq
 from scipy.special import ellipk
 from scipy.special import gamma as gamma_function
 
@@ -138,6 +139,33 @@ def cone_penetration(time, slope, force, viscosity):
     """
     depth = np.sqrt(np.pi * slope * force * time / (8 * viscosity))
     return depth, depth / (2 * time)
+
+
+# ---- a sphere in a viscoelastic half-space, whose contact grows and recedes
+
+
+def sphere_approach_and_retreat(time, radius, speed, turning_time, relaxation):
+    """Force and contact radius of a sphere moved into a viscoelastic half-space and out again at one speed (Ting 1966).
+
+    The depth is vt up to the turning time t_m and v(2t_m − t) after it. While the contact grows, a² = Ru and
+    F = (16/3)√R ∫₀ᵗ ψ(t − s) d(u^(3/2)) (Lee and Radok 1960). While it recedes, a is that of the earlier time t₁ with
+    ∫_{t₁}^t ψ(t − s) u′(s) ds = 0, and the integral of the force ends there; contact ends when t₁ is 0.
+
+    time : t > 0, a number; relaxation : ψ(t) of the medium, a function. Returns (F, a), both 0 once contact has ended.
+    """
+
+    def integral(duration):
+        return quad(relaxation, 0, duration, epsrel=1e-12, epsabs=0)[0]
+
+    end = time
+    if time > turning_time:
+        back = 2 * integral(time - turning_time)
+        if integral(time) <= back:
+            return 0.0, 0.0
+        end = brentq(lambda earlier: integral(time - earlier) - back, 0, turning_time, xtol=1e-14 * turning_time)
+    # With s = x² the integrand is smooth.
+    relaxed = quad(lambda x: 3 * x**2 * relaxation(time - x**2), 0, np.sqrt(end), epsrel=1e-12, epsabs=0)[0]
+    return 16 / 3 * np.sqrt(radius) * speed**1.5 * relaxed, np.sqrt(radius * speed * end)
 
 
 # ---- the paper's laws

@@ -106,7 +106,7 @@ class _ByStates(_Intervals):
         super().__init__(medium, history)
         instantaneous, fluidity, self.compliances, self.retardation_times = medium.retardation
         self.instantaneous, self.fluidity = instantaneous, fluidity
-        delayed, self.left = _delayed(self.lengths, self.force, self.jumps, self.retardation_times)
+        delayed, self.left = branch_states(self.lengths, self.force, self.jumps, self.retardation_times)
         self.creep = instantaneous * self.force + fluidity * history.impulse + delayed @ self.compliances
         self.rate = self.rate_at_samples()
 
@@ -193,8 +193,11 @@ def _parts(interval, offset, slopes, force, left, instantaneous, fluidity, compl
 
 
 @njit
-def _delayed(lengths, force, jumps, retardation_times):
-    """y and z = F − y at every sample for every retardation time, shape (samples, times)."""
+def branch_states(lengths, force, jumps, retardation_times):
+    """y and z = F − y at every sample, shape (samples, times), with θ y' + y = F and F = 0 before the first sample.
+
+    lengths : of the intervals between samples; jumps : of F at every sample after an interval of length 0
+    """
     samples, count = force.size, retardation_times.size
     delayed, left = np.zeros((samples, count)), np.zeros((samples, count))
     left[0] = force[0]

@@ -1,0 +1,276 @@
+"""Direct integration of growing viscoelastic contact, exact from contact event to contact event.
+
+While the contact set does not change, its elements move with the indenter: y' = q u' with K q = 1 on the set, and the
+internal variables of every element (viscous.internal_variables) follow from those of the sum over all elements,
+
+    ΣQ = F/(4πd),    (Σy)' = u' Σq,
+
+a linear differential equation with constant coefficients, whose solution is a matrix exponential. Nothing here uses the
+correspondence with the elastic problem, nor retardation times: this module checks both.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import expm
+
+from viscorough import memory
+from viscorough.arrays import keep_read_only
+from viscorough.contact.growing_cholesky import append_element, solve_flat_punch
+from viscorough.errors import ConvergenceError
+from viscorough.viscous.elements import Elements
+from viscorough.viscous.internal_variables import load_samples
+
+_TENSION = 1e-9  # relative to the largest pressure
+_ROUNDING = 1e-12  # of the motion in a step in which nothing moves
+_MAX_NEWTON_ITERATIONS = 60
+
+
+@dataclass(frozen=True)
+class MediumEvents:
+    """Motion of an indenter in a viscoelastic half-space, with all contact events; read-only arrays.
+
+    time, depth [length], force, contact_count : at the times given, shape (times,)
+    event_time, event_depth : at which the contact set grew, from the second element on, shape (events,)
+    elements : number of elements of the indenter
+    pressure : p at the last time, on the grid of the heights, nan outside the indenter
+    """
+
+    time: np.ndarray
+    depth: np.ndarray
+    force: np.ndarray
+    contact_count: np.ndarray
+    event_time: np.ndarray
+    event_depth: np.ndarray
+    elements: int
+    pressure: np.ndarray
+    length_unit: str = "1"
+
+    def __post_init__(self):
+        keep_read_only(self)
+
+
+def march_medium_events(indenter, medium, times, *, force=None, depth=None, until_fraction=1.0):
+    """Motion of a rigid indenter on a viscoelastic half-space while the contact grows, exact between contact events.
+
+    indenter, medium, times, force, depth : as of march_medium
+    until_fraction : contact fraction up to which there is room for elements, in (0, 1]
+
+    Returns MediumEvents. Raises ValueError for arguments out of range, and with the time from which on the contact
+    recedes (march_medium goes on there); ConvergenceError if more elements touch than until_fraction allows or one of
+    them comes under tension; MemoryError if 8 (until_fraction · elements)² bytes are not available.
+    """
+    if not hasattr(medium, "relaxation"):
+        raise ValueError(f"march_medium_events: {type(medium).__name__}; allowed: media of springs and dashpots")
+    if not 0 < until_fraction <= 1:
+        raise ValueError(f"march_medium_events: until_fraction must lie in (0, 1], not {until_fraction!r}")
+    times, load = load_samples("march_medium_events", times, force, depth)
+    elements = Elements(indenter, "march_medium_events")
+    contact = _GrowingContact(elements, medium.relaxation, int(np.ceil(until_fraction * elements.count)))
+    law = _ByForce(medium.relaxation, elements.scale) if depth is None else _ByDepth(medium.relaxation)
+    rows = []
+    for k in range(times.size):
+        if k == 0:
+            _advance(contact, law, times[0], 0.0, (0.0, load[0]))
+        else:
+            _advance(contact, law, times[k - 1], times[k] - times[k - 1], (load[k - 1], load[k]))
+        force_now = load[k] if depth is None else elements.scale * contact.pressure.sum()
+        rows.append((contact.depth, force_now, contact.count))
+    depths, forces, counts = np.array(rows).T
+    event_time, event_depth = np.array(contact.events).reshape(-1, 2).T
+    pressure = elements.pressure_map(contact.pressure)
+    moved = times, depths, forces, counts.astype(int), event_time, event_depth
+    return MediumEvents(*moved, elements.count, pressure, indenter.length_unit)
+
+
+def _advance(contact, law, start, length, loads):
+    """From one sample to the next, through the contact events in between; a step of the load if the length is 0."""
+    slope = (loads[1] - loads[0]) / length if length else 0.0
+    jump = loads[1] - loads[0] if length == 0 else 0.0
+    contact.end_depth = loads[1]
+    law.begin(contact, length, jump, slope)
+    if law.end_motion < law.motion(0.0) - _ROUNDING * abs(law.end_motion):
+        raise ValueError(
+            f"march_medium_events: from a time between {start:.6g} and {start + length:.6g} on the contact recedes; "
+            "allowed: contact that grows (march_medium goes on there)"
+        )
+    passed = 0.0
+    while (event := law.motion(passed) + contact.depth_to_next * law.motion_per_depth(contact)) < law.end_motion:
+        share = law.reach(event, passed)
+        contact.follow(law, passed, share)
+        contact.add_next(start + (share * length if length else 0.0))
+        passed = share
+    contact.follow(law, passed, 1.0)
+
+
+class _ByForce:
+    """The motion Y = Σy over all elements under a force that is linear in time, from 0 to 1 in a step."""
+
+    def __init__(self, relaxation, scale):
+        self._medium, self._scale = relaxation, scale
+        self._state = np.zeros(1 + relaxation.moduli.size)  # Y and the sums W_i of the internal variables
+
+    def begin(self, contact, length, jump, slope):
+        viscosity, relaxed, moduli, times = self._medium
+        self.length = length
+        if length == 0:  # everything springs at once, or, with a dashpot, nothing
+            spring = 0.0 if viscosity else jump / self._scale / self._medium.instantaneous_modulus
+            self._force_rate = 0.0
+            self._start, self._change = self._state, np.full(self._state.size, spring)
+            self._matrix = None
+            self._state = self._start + self._change
+        else:
+            size = self._state.size
+            self._matrix = np.zeros((size + 1, size + 1))
+            if viscosity:
+                # η Y' = F − G∞ Y; a second unknown would be F itself, which is linear: F₀ comes from the state.
+                self._matrix = np.zeros((3, 3))
+                self._matrix[0] = [-relaxed / viscosity, 1 / viscosity, 0]
+                self._matrix[1, 2] = slope / self._scale
+                begin = (contact.end_depth - slope * length) / self._scale
+                self._augmented = np.array([self._state[0], begin, 1.0])
+            else:
+                # From the derivative of ΣQ: G₀ Y' = F' + Σ G_i W_i/τ_i, and W_i' = Y' − W_i/τ_i.
+                rate = (
+                    np.concatenate([[0.0], moduli / times, [slope / self._scale]]) / self._medium.instantaneous_modulus
+                )
+                self._matrix[:size] = rate
+                self._matrix[1:size, 1:size] -= np.diag(1 / times)
+                self._augmented = np.append(self._state, 1.0)
+            self._state = self.state(1.0)
+        self.end_motion = self._state[0]
+
+    def state(self, share):
+        """Y and W_i after a share of the step."""
+        if self._matrix is None:
+            return self._start + share * self._change
+        return (expm(share * self.length * self._matrix) @ self._augmented)[: self._state.size]
+
+    def motion(self, share):
+        return self.state(share)[0]
+
+    def motion_per_depth(self, contact):
+        return contact.punch
+
+    def rate(self, share):
+        """Y' per share of the step."""
+        if self._matrix is None:
+            return self._change[0]
+        return self.length * (self._matrix @ expm(share * self.length * self._matrix) @ self._augmented)[0]
+
+    def reach(self, motion, passed):
+        """The share of the step at which Y has grown to `motion`: by Newton's method, kept inside a bracket."""
+        low, high, share = passed, 1.0, passed
+        for _ in range(_MAX_NEWTON_ITERATIONS):
+            missing = motion - self.motion(share)
+            low, high = (share, high) if missing > 0 else (low, share)
+            rate = self.rate(share)
+            proposed = share + missing / rate if rate > 0 else np.inf
+            following = proposed if low < proposed < high else 0.5 * (low + high)
+            if abs(following - share) <= 1e-15 * max(share, 1e-300):
+                return following
+            share = following
+        return share
+
+    def internal(self, before, punch_share, first, last):
+        """Internal variables of elements with a share q/Σq of the motion, from one share of the step to another."""
+        viscosity, _, _, times = self._medium
+        start, end = self.state(first), self.state(last)
+        decay = np.exp(-(last - first) * self.length / times)[:, None]
+        after = before * decay + punch_share * (end[1:, None] - decay * start[1:, None])
+        rate = self.rate(last) / self.length if viscosity and self.length else 0.0
+        return punch_share * (end[0] - start[0]), after, punch_share * rate
+
+
+class _ByDepth:
+    """The depth itself as the motion, linear in time, from 0 to 1 in a step."""
+
+    def __init__(self, relaxation):
+        self._medium, self._depth = relaxation, 0.0
+
+    def begin(self, contact, length, jump, slope):
+        self.length, self._begin = length, self._depth
+        self.end_motion = contact.end_depth
+        self._depth = contact.end_depth
+        if self._medium.viscosity and length == 0 and jump:
+            raise ValueError(
+                "march_medium_events: a step of depth takes an infinite force in this medium; allowed: ramps"
+            )
+
+    def motion(self, share):
+        return self._begin + share * (self.end_motion - self._begin)
+
+    def motion_per_depth(self, contact):
+        return 1.0
+
+    def reach(self, motion, passed):
+        return (motion - self._begin) / (self.end_motion - self._begin)
+
+    def internal(self, before, punch_share, first, last):
+        """As of _ByForce, with q in place of q/Σq."""
+        x = (last - first) * self.length / self._medium.times
+        mean = np.divide(-np.expm1(-x), x, out=np.ones_like(x), where=x > 0)
+        change = self.motion(last) - self.motion(first)
+        after = before * np.exp(-x)[:, None] + punch_share * (mean * change)[:, None]
+        rate = (self.end_motion - self._begin) / self.length if self.length else 0.0
+        return punch_share * change, after, punch_share * rate
+
+
+class _GrowingContact:
+    """The contact set, its flat-punch solution q, and the state of its elements."""
+
+    def __init__(self, elements, relaxation, most):
+        memory.require(8 * most**2, f"march_medium_events: the factor for {most} elements in contact")
+        self._elements, self._medium, self._most = elements, relaxation, most
+        self.gap, self._factor, self._members = elements.initial_gap.copy(), np.empty((most, most)), np.zeros(most, int)
+        self._forward, self._tangent = np.zeros(most), np.zeros(most)
+        self.motion, self.pressure = np.zeros(elements.count), np.zeros(elements.count)
+        self._branches = np.zeros((relaxation.moduli.size, elements.count))
+        self.depth, self.count, self.events, self.punch = 0.0, 0, [], 0.0
+        self._next = int(np.argmin(self.gap))
+        self.add_next(None)
+
+    def add_next(self, time):
+        """Add the element that touches now; `time` is that of the event, None for the first element."""
+        if self.count == self._most:
+            raise ConvergenceError(
+                f"march_medium_events: more than {self._most} elements touch at time {time:.6g}; "
+                "a larger until_fraction is needed"
+            )
+        elements, count = self._elements, self.count
+        places = elements.row, elements.column, self._members
+        append_element(self._factor, elements.influence, *places, count, self._next, self._forward)
+        self.punch = solve_flat_punch(self._factor, count + 1, self._forward, self._tangent)
+        self.count = count + 1
+        if time is not None:
+            self.events.append((time, self.depth))
+        self._inside = np.zeros(elements.count, bool)
+        self._inside[self._members[: self.count]] = True
+        self.gap[self._inside] = 0.0
+        load = np.zeros(elements.count)
+        load[self._members[: self.count]] = self._tangent[: self.count]
+        self._load = load
+        self._closing = 1 - elements.deflection(load)
+        self._find_next()
+
+    def _find_next(self):
+        with np.errstate(divide="ignore"):
+            depth_step = np.where(self._inside, np.inf, np.maximum(self.gap, 0) / np.maximum(self._closing, 1e-300))
+        self._next = int(np.argmin(depth_step))
+        self.depth_to_next = depth_step[self._next]
+
+    def follow(self, law, first, last):
+        """Move on with this contact set from one share of the step to another."""
+        punch = law.motion_per_depth(self)
+        share = self._load / punch
+        moved = (law.motion(last) - law.motion(first)) / punch
+        motion, self._branches, rate = law.internal(self._branches, share, first, last)
+        self.motion = self.motion + motion
+        self.depth += moved
+        self.gap -= moved * self._closing
+        self.gap[self._inside] = 0.0
+        viscosity, relaxed, moduli, _ = self._medium
+        self.pressure = relaxed * self.motion + (moduli[:, None] * self._branches).sum(axis=0) + viscosity * rate
+        self._find_next()
+        if self.pressure.min() < -_TENSION * self.pressure.max():
+            raise ConvergenceError("march_medium_events: an element comes under tension; the contact would recede")

@@ -1,0 +1,209 @@
+"""Direct integration of viscoelastic contact with internal variables, whether the contact grows or recedes.
+
+With Q = p d/(4π) the surface is at w = K y, where every element follows the law of the medium by itself,
+
+    Q = G∞ y + Σ G_i w_i + η y',    w_i' = y' − w_i/τ_i,
+
+with one internal variable w_i for each of its Maxwell branches. Every step in time solves a contact problem for the
+pressures at its end: Q ≥ 0, no overlap, and Q = 0 where there is a gap. Nothing here uses the correspondence with the
+elastic problem, which holds only while the contact grows: where the creep of the force would decrease, elements leave
+the contact, and the surface behind them recovers.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import cho_factor, cho_solve
+
+from viscorough.arrays import keep_read_only, read_only
+from viscorough.errors import ConvergenceError
+from viscorough.viscous.elements import Elements
+
+MEDIUM_SCHEMES = ("backward_euler", "second_order")
+_MAX_ITERATIONS, _ADDED_AT_ONCE = 300, 8
+_ROUNDING = 1e-12  # of gaps, relative to the depth
+
+
+@dataclass(frozen=True)
+class MediumMotion:
+    """Motion of an indenter in a viscoelastic half-space; read-only arrays of shape (times,).
+
+    time : t; depth : u [length]; force : F; contact_count : elements in contact
+    elements : number of elements of the indenter
+    pressure : p at the last time, on the grid of the heights, nan outside the indenter; in a medium with a dashpot of
+        its own (Newtonian, Kelvin-Voigt) and the second-order scheme, the mean over the last step
+    receding_from : the first time at which an element had left the contact, so that the correspondence with the elastic
+        problem holds no more; nan if none has
+    """
+
+    time: np.ndarray
+    depth: np.ndarray
+    force: np.ndarray
+    contact_count: np.ndarray
+    elements: int
+    pressure: np.ndarray
+    receding_from: float
+    length_unit: str = "1"
+
+    def __post_init__(self):
+        keep_read_only(self)
+
+
+def march_medium(indenter, medium, times, *, force=None, depth=None, scheme="second_order"):
+    """Motion of a rigid indenter on a viscoelastic half-space, one contact problem per step in time.
+
+    "backward_euler" is of first order in the steps. "second_order" integrates the branches exactly for surfaces that
+    move linearly within a step; a dashpot of its own (Newtonian, Kelvin-Voigt) exactly for pressures that are constant
+    within it. Both keep pressures positive where the exact ones are, and neither needs short steps to be stable.
+
+    indenter : Indenter with a small two-dimensional map: the cost is of third order in the elements in contact
+    medium : one of viscorough.viscous.media with springs and dashpots (no Springpot, no CreepTable)
+    times : ends of the steps, increasing; a time given twice is a step of the load
+    force, depth : one of them, a load at these times, of shape (times,), F ≥ 0 and linear in between; before times[0]
+        there is none, so that its first value is a step. A force may decrease, and so may a depth: the contact recedes
+
+    Returns MediumMotion. Raises ValueError for arguments out of range, ConvergenceError if a contact problem is not
+    solved, MemoryError if the elements in contact are too many for the memory.
+    """
+    if not hasattr(medium, "relaxation"):
+        raise ValueError(f"march_medium: {type(medium).__name__}; allowed: media of springs and dashpots")
+    if scheme not in MEDIUM_SCHEMES:
+        raise ValueError(f"march_medium: scheme must be one of {', '.join(MEDIUM_SCHEMES)}, not {scheme!r}")
+    times, load = load_samples("march_medium", times, force, depth)
+    elements = Elements(indenter, "march_medium")
+    state = _State(elements, medium.relaxation)
+    contact = _ContactProblem(elements)
+    by_depth, rows, receding = force is None, [], np.nan
+    for k in range(times.size):
+        length = times[k] - times[k - 1] if k else 0.0
+        before = contact.members
+        if length > 0 or medium.relaxation.viscosity == 0:
+            mean = by_depth or length == 0 or scheme == "backward_euler" or medium.relaxation.viscosity == 0
+            value = load[k] if mean else 0.5 * (load[k - 1] + load[k])
+            state.advance(contact, length, scheme, value, by_depth=by_depth)
+            if np.isnan(receding) and not np.isin(before, contact.members).all():
+                receding = times[k]
+        elif by_depth and load[k] != state.depth:
+            raise ValueError(
+                f"march_medium: depth steps at time {times[k]:g}, which takes an infinite force; allowed: ramps"
+            )
+        rows.append((state.depth, elements.scale * state.pressure.sum(), contact.members.size))
+    depths, forces, counts = np.array(rows).T
+    if not by_depth:
+        forces = load
+    pressure = elements.pressure_map(state.pressure)
+    return MediumMotion(
+        times, depths, forces, counts.astype(int), elements.count, pressure, float(receding), indenter.length_unit
+    )
+
+
+def load_samples(caller, times, force, depth):
+    """Times and load, arrays of shape (times,). Raises ValueError unless they are what march_medium allows."""
+    if (force is None) == (depth is None):
+        raise ValueError(f"{caller}: one of force and depth is needed")
+    name, load = ("force", force) if depth is None else ("depth", depth)
+    times, load = (read_only(values).astype(float) for values in (times, load))
+    steps = np.diff(times) if times.ndim == 1 else np.array([-1.0])
+    if times.size == 0 or not np.isfinite(times).all() or (steps < 0).any() or (steps[1:] + steps[:-1] <= 0).any():
+        raise ValueError(f"{caller}: times: allowed is one row of finite, increasing numbers, or twice where it steps")
+    if load.shape != times.shape:
+        raise ValueError(f"{caller}: {name} of shape {load.shape}; allowed: one per time, shape {times.shape}")
+    if not (np.isfinite(load) & (load >= 0)).all():
+        where = int(np.argmin(np.isfinite(load) & (load >= 0)))
+        raise ValueError(f"{caller}: {name} {where} is {load[where]}; allowed: finite, 0 or more")
+    return times, load
+
+
+class _State:
+    """Motion y, pressures Q and internal variables w of all elements."""
+
+    def __init__(self, elements, relaxation):
+        self._elements, self._relaxation = elements, relaxation
+        self.depth, self.motion, self.pressure = 0.0, np.zeros(elements.count), np.zeros(elements.count)
+        self._branches = np.zeros((relaxation.moduli.size, elements.count))
+
+    def advance(self, contact, length, scheme, load, *, by_depth):
+        """One step, at whose end Q = `kept` + c (y − y₀): a contact problem in Q alone."""
+        relaxed, moduli = self._relaxation.relaxed_modulus, self._relaxation.moduli[:, None]
+        decay, gain = _branch_factors(length / self._relaxation.times, scheme)
+        stiffness = (moduli[:, 0] * gain).sum() + _dashpot_stiffness(self._relaxation, length, scheme)
+        kept = relaxed * self.motion + (moduli * decay[:, None] * self._branches).sum(axis=0)
+        # c times the gap is e + K Q − c u, with e that of a surface which nothing presses from now on.
+        free = self._elements.deflection(stiffness * self.motion - kept)
+        free += stiffness * self._elements.initial_gap
+        wanted = stiffness * load if by_depth else load / self._elements.scale
+        self.pressure, depth = contact.solve(free, wanted, by_depth=by_depth)
+        self.depth = load if by_depth else depth / stiffness
+        change = (self.pressure - kept) / stiffness
+        self._branches = decay[:, None] * self._branches + gain[:, None] * change
+        self.motion = self.motion + change
+
+
+def _branch_factors(x, scheme):
+    """Factors of w₀ and of y − y₀ in the internal variables w at the end of a step of x = h/τ."""
+    if scheme == "backward_euler":
+        return 1 / (1 + x), 1 / (1 + x)
+    return np.exp(-x), np.divide(-np.expm1(-x), x, out=np.ones_like(x), where=x > 0)
+
+
+def _dashpot_stiffness(relaxation, length, scheme):
+    """The factor of y − y₀ in the pressure of spring and dashpot at the end of a step, or in its mean over the step.
+
+    Under a constant pressure y − y₀ = (Q/G∞ − y₀)(1 − exp(−h G∞/η)), exactly.
+    """
+    relaxed, viscosity = relaxation.relaxed_modulus, relaxation.viscosity
+    if viscosity == 0:
+        return relaxed
+    if scheme == "backward_euler":
+        return relaxed + viscosity / length
+    return viscosity / length if relaxed == 0 else relaxed / -np.expm1(-length * relaxed / viscosity)
+
+
+class _ContactProblem:
+    """Q ≥ 0 and e + K Q − c u ≥ 0, one of them zero, for a given force or c u; by an active-set method.
+
+    Elements under tension are released and elements that overlap are added until there are neither. `members` is the
+    contact set, the first guess of the next problem.
+    """
+
+    def __init__(self, elements):
+        self._elements, self.members, self._of_factor, self._factor = elements, np.array([], int), None, None
+
+    def solve(self, free, wanted, *, by_depth):
+        """Q of all elements, and c u.
+
+        free : e; wanted : c u if `by_depth`, else ΣQ. Without a force the indenter stands where it would touch.
+        """
+        pressure = np.zeros(free.size)
+        if not by_depth and wanted <= 0:
+            self.members = np.array([], int)
+            return pressure, free.min()
+        members = self.members if self.members.size else np.array([np.argmin(free)])
+        for _ in range(_MAX_ITERATIONS):
+            load, depth = self._solve_on(members, free, wanted, by_depth=by_depth)
+            if (load < 0).any():
+                members = members[load >= 0]
+                continue
+            pressure[:] = 0
+            pressure[members] = load
+            deflection = self._elements.deflection(pressure)
+            gap = free + deflection - depth
+            gap[members] = 0
+            overlaps = gap < -_ROUNDING * max(abs(depth), deflection.max(initial=0))
+            if not overlaps.any():
+                self.members = members
+                return pressure, depth
+            # The deepest first: under a force on too few elements, most others would overlap.
+            deepest = np.argsort(gap)[: min(np.count_nonzero(overlaps), members.size + _ADDED_AT_ONCE)]
+            members = np.union1d(members, deepest)
+        raise ConvergenceError(f"march_medium: no contact set found in {_MAX_ITERATIONS} iterations")
+
+    def _solve_on(self, members, free, wanted, *, by_depth):
+        if members.size == 0:
+            return np.zeros(0), wanted
+        if self._of_factor is None or not np.array_equal(members, self._of_factor):
+            self._factor, self._of_factor = cho_factor(self._elements.influence_among(members)), members
+        solved = cho_solve(self._factor, np.column_stack([np.ones(members.size), free[members]]))
+        punch, rest = solved.T
+        depth = wanted if by_depth else (wanted + rest.sum()) / punch.sum()
+        return depth * punch - rest, depth

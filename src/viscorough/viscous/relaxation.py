@@ -1,0 +1,137 @@
+"""The force that holds an indenter at a given depth in a viscoelastic half-space: ramps, holds and relaxation.
+
+While the depth does not decrease the contact does not recede, and the force is that of the elastic loading curve f(u) =
+F_el/G, relaxed with the modulus ψ of the medium: F(t) = ∫ ψ(t − s) df(u(s)).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from viscorough.arrays import read_only
+from viscorough.viscous.creep_response import branch_states
+from viscorough.viscous.media import CreepTable, medium_of
+from viscorough.viscous.spectra import zero_of_increasing
+
+_CHUNK = 2**20  # pairs of times at a time
+
+
+class DepthHistory(NamedTuple):
+    """A depth over time and the force that it takes; read-only arrays of shape (times,).
+
+    time : t; depth : u [length]; force : F
+    """
+
+    time: np.ndarray
+    depth: np.ndarray
+    force: np.ndarray
+
+
+def force_under_depth(curve, depth, medium, times):
+    """Force on an indenter that is moved to given depths in a viscoelastic half-space.
+
+    curve : LoadingCurve of the indenter; medium : as in kinetics, but no CreepTable, whose ψ is not known
+    times, depth : shape (times,), u ≥ 0 and not decreasing, linear in between, and u = 0 before times[0]; a time given
+        twice is a step, which a Newtonian or Kelvin-Voigt medium does not allow, as its force would be infinite
+
+    Returns DepthHistory. Exact for steps and holds, and where the curve is exact between its levels (it is linear there
+    as long as every level adds one element); elsewhere of second order in the distance between levels. At a step the
+    force is its limit from either side, in a Springpot infinite. In a dashpot the force is that just after each time,
+    and just before the last one.
+    Raises ValueError for arguments out of range and for depths beyond the curve's last level.
+    """
+    medium = medium_of(medium)
+    if isinstance(medium, CreepTable):
+        raise ValueError("force_under_depth: CreepTable; allowed: media whose relaxation is known, as a Prony series")
+    times, depth = _depth_samples(curve, depth, times)
+    node_times, node_depths, place = _with_levels(curve, times, depth)
+    elastic, stiffness = _elastic_force(curve, node_depths)
+    lengths = np.diff(node_times)
+    jumps = np.append(elastic[0], np.where(lengths == 0, np.diff(elastic), 0.0))
+    if not hasattr(medium, "relaxation"):
+        force = _by_sums(medium, node_times, elastic, jumps, place)
+        return DepthHistory(*map(read_only, (times, depth, force)))
+    viscosity, relaxed, moduli, relaxation_times = medium.relaxation
+    _, left = branch_states(lengths, elastic, jumps, relaxation_times)
+    force = relaxed * elastic + left @ moduli
+    if viscosity:
+        if jumps.any():
+            where = int(np.argmax(jumps > 0))
+            raise ValueError(
+                f"depth: steps at time {node_times[where]:g}, which takes an infinite force here; allowed: ramps"
+            )
+        speed = np.divide(np.diff(node_depths), lengths, out=np.zeros_like(lengths), where=lengths > 0)
+        force = force + viscosity * stiffness * np.append(speed, speed[-1:] if speed.size else 0.0)
+    return DepthHistory(*map(read_only, (times, depth, force[place])))
+
+
+def _depth_samples(curve, depth, times):
+    times, depth = (read_only(values).astype(float) for values in (times, depth))
+    steps = np.diff(times) if times.ndim == 1 else np.array([-1.0])
+    if times.size == 0 or not np.isfinite(times).all() or (steps < 0).any() or (steps[1:] + steps[:-1] <= 0).any():
+        raise ValueError("times: allowed is one row of finite, increasing numbers, or twice where the depth steps")
+    if depth.shape != times.shape:
+        raise ValueError(f"depth: samples of shape {depth.shape}; allowed: one per time, shape {times.shape}")
+    if not (np.isfinite(depth).all() and (np.diff(depth, prepend=0) >= 0).all()):
+        where = int(np.argmin(np.isfinite(depth) & (np.diff(depth, prepend=0) >= 0)))
+        raise ValueError(
+            f"depth: sample {where} is {depth[where]:g}; allowed: finite depths from 0 on that do not decrease, "
+            "under which the contact does not recede (march_medium goes on there)"
+        )
+    if depth[-1] > curve.depth[-1] * (1 + 1e-12):
+        raise ValueError(f"depth: {depth[-1]:g} is beyond the curve's last level; allowed: up to {curve.depth[-1]:g}")
+    return times, np.minimum(depth, curve.depth[-1])
+
+
+def _with_levels(curve, times, depth):
+    """Times and depths with the levels of the curve on every ramp added, and the indices of the times given."""
+    new_times, new_depths, before = [], [], []
+    for k in np.flatnonzero((np.diff(depth) > 0) & (np.diff(times) > 0)):
+        levels = curve.depth[(curve.depth > depth[k]) & (curve.depth < depth[k + 1])]
+        new_times.append(times[k] + (levels - depth[k]) / (depth[k + 1] - depth[k]) * (times[k + 1] - times[k]))
+        new_depths.append(levels)
+        before.append(np.full(levels.size, k + 1))
+    if not new_times:
+        return times, depth, np.arange(times.size)
+    before = np.concatenate(before)
+    place = np.arange(times.size) + np.searchsorted(before, np.arange(times.size), side="right")
+    nodes = (np.insert(of, before, np.concatenate(new)) for of, new in ((times, new_times), (depth, new_depths)))
+    # A level next to a sample may fall on its time by rounding, which would be a step.
+    node_times, node_depths = nodes
+    kept = np.ones(node_times.size, bool)
+    kept[1:] &= np.diff(node_times) > 0
+    kept[:-1] &= np.diff(node_times) > 0
+    kept[place] = True
+    return node_times[kept], node_depths[kept], (np.cumsum(kept) - 1)[place]
+
+
+def _elastic_force(curve, depth):
+    """F_el/G and k/G at depths up to the last level; before the first one the curve is taken for straight."""
+    stiffness = np.full(depth.shape, curve.force[0] / curve.depth[0])
+    force = depth * stiffness
+    inside = depth >= curve.depth[0]
+    level = np.clip(np.searchsorted(curve.depth, depth[inside]), 1, max(curve.depth.size - 1, 1))
+    if curve.depth.size > 1:
+        low, high = curve.force[level - 1], curve.force[level]
+        wanted = depth[inside]
+        found = zero_of_increasing(lambda force: curve.at_force(force)[0] - wanted, low, high)
+        at_level = np.searchsorted(curve.depth, wanted)
+        exact = curve.depth[at_level] == wanted
+        force[inside] = np.where(exact, curve.force[at_level], found)
+    stiffness[inside] = curve.at_force(force[inside])[1]
+    return force, stiffness
+
+
+def _by_sums(medium, node_times, elastic, jumps, place):
+    """∫ ψ(t − s) df(s) at the nodes `place`, summed over all nodes before each: the cost is times × nodes."""
+    lengths = np.diff(node_times)
+    slopes = np.divide(np.diff(elastic), lengths, out=np.zeros_like(lengths), where=lengths > 0)
+    force, rows, index = np.zeros(place.size), max(1, _CHUNK // node_times.size), np.arange(node_times.size)
+    for first in range(0, place.size, rows):
+        chunk = place[first : first + rows, None]
+        lag = np.maximum(node_times[chunk] - node_times, 0)
+        of_jumps = np.where((index <= chunk) & (jumps != 0), medium.relaxation_modulus(lag), 0.0)
+        of_ramps = np.where(index[1:] <= chunk, medium.relaxation_integral(lag[:, 1:], lag[:, :-1]), 0.0)
+        springs = np.where(jumps != 0, jumps, 1.0) * of_jumps  # infinite where a Springpot is hit
+        force[first : first + rows] = springs.sum(axis=1) + of_ramps @ slopes
+    return force

@@ -1,0 +1,210 @@
+"""Direct integration with internal variables, against the correspondence, which it never uses, and closed forms."""
+
+import numpy as np
+import pytest
+
+from viscorough import Indenter, indent, reference
+from viscorough.errors import ConvergenceError
+from viscorough.surfaces import self_affine_disc
+from viscorough.viscous.correspondence import impulses, kinetics
+from viscorough.viscous.internal_variable_events import march_medium_events
+from viscorough.viscous.internal_variables import MEDIUM_SCHEMES, march_medium
+from viscorough.viscous.media import KelvinVoigt, Maxwell, Newtonian, Prony, Springpot, StandardLinearSolid
+from viscorough.viscous.relaxation import force_under_depth
+
+MEDIA = {
+    "newtonian": Newtonian(3.0),
+    "maxwell": Maxwell(2.0, 5.0),
+    "kelvin-voigt": KelvinVoigt(2.0, 5.0),
+    "solid": StandardLinearSolid(4.0, 1.5, 0.3),
+    "prony": Prony(0.5, [10.0, 1.0, 3.0], [0.4, 1.0, 50.0]),
+}
+SPRINGY = ["maxwell", "solid", "prony"]
+END = 2.0
+
+
+@pytest.fixture(scope="module")
+def disc():
+    return self_affine_disc(0.7, 65, seed=3)
+
+
+@pytest.fixture(scope="module")
+def curve(disc):
+    """Every contact event is a level: exact in between."""
+    return indent(disc, until_fraction=0.05, tolerance=1e-10)
+
+
+def largest_force(curve, medium, share=0.8):
+    return share * curve.force[-1] / medium.creep_compliance(END)
+
+
+# ---- exact between events
+
+
+@pytest.mark.parametrize("name", MEDIA)
+def test_events_under_a_ramp_a_step_and_a_hold(disc, curve, name):
+    medium = MEDIA[name]
+    times, shape = np.array([0, 0.3, 0.3, 1.0, END]), np.array([0.3, 0.5, 0.6, 0.6, 0.9])
+    force = largest_force(curve, medium) * shape
+    result = march_medium_events(disc, medium, times, force=force, until_fraction=0.1)
+    expected = kinetics(curve, impulses(force, times), medium)
+    assert result.event_time.size > 80
+    np.testing.assert_allclose(result.depth, expected.depth, rtol=1e-10, atol=0)
+    between = ~np.isin(result.event_time, times)  # at a step, many elements touch at one time
+    at_events = kinetics(curve, impulses(force, times), medium, result.event_time[between])
+    assert between.sum() > 40
+    np.testing.assert_allclose(result.event_depth[between], at_events.depth, rtol=1e-10)
+    area = disc.spacing**2
+    assert np.nansum(result.pressure) * area == pytest.approx(force[-1], rel=1e-12)
+
+
+@pytest.mark.parametrize("name", MEDIA)
+def test_events_at_given_depth_and_hold(disc, curve, name):
+    """A ramp of depth and its hold, during which the force relaxes; a step first where the medium can follow it."""
+    medium = MEDIA[name]
+    times, depth = np.array([0, 1.0, 1.5, END]), curve.depth[-1] * np.array([0.4, 0.9, 0.9, 0.9])
+    if name not in SPRINGY:
+        depth[0] = 0
+    result = march_medium_events(disc, medium, times, depth=depth, until_fraction=0.1)
+    expected = force_under_depth(curve, depth, medium, times)
+    which = slice(0, None) if name in SPRINGY else slice(2, None)  # a dashpot's force jumps at the ends of the ramp
+    np.testing.assert_allclose(result.force[which], expected.force[which], rtol=1e-9)
+    assert np.nansum(result.pressure) * disc.spacing**2 == pytest.approx(result.force[-1], rel=1e-12)
+
+
+def test_events_end_where_contact_recedes(disc, curve):
+    medium = MEDIA["maxwell"]
+    force = largest_force(curve, medium) * np.array([0.5, 0.1])
+    with pytest.raises(ValueError, match="between 0 and 1 on the contact recedes"):
+        march_medium_events(disc, medium, [0.0, 1.0], force=force, until_fraction=0.1)
+    with pytest.raises(ConvergenceError, match="more than 4 elements touch"):
+        march_medium_events(disc, medium, [0.0, 1.0], force=force[[0, 0]], until_fraction=1e-3)
+
+
+# ---- steps
+
+
+def smooth_force(curve, medium, number):
+    times = np.linspace(0, END, number + 1)
+    return times, largest_force(curve, medium, 0.4) * (0.4 + 0.3 * times - 0.05 * times**2)
+
+
+@pytest.mark.parametrize(("scheme", "order"), [("backward_euler", 1), ("second_order", 2)])
+@pytest.mark.parametrize("name", MEDIA)
+def test_orders(disc, curve, name, scheme, order):
+    """The largest error of the depth at ten times."""
+    medium, errors = MEDIA[name], []
+    exact = kinetics(curve, smooth_force(curve, medium, 4000)[1], medium, smooth_force(curve, medium, 4000)[0])
+    for number in (10, 20, 40):
+        times, force = smooth_force(curve, medium, number)
+        result = march_medium(disc, medium, times, force=force, scheme=scheme)
+        assert np.isnan(result.receding_from)
+        every = number // 10
+        errors.append(abs(result.depth[every::every] / exact.depth[400::400] - 1).max())
+    np.testing.assert_allclose(np.log2(np.array(errors[:-1]) / errors[1:]), order, atol=0.25)
+    assert errors[-1] < (0.02 if order == 1 else 5e-4)
+
+
+@pytest.mark.parametrize("name", SPRINGY)
+def test_a_step_and_the_pressures_in_it_are_elastic(disc, curve, name):
+    """At once: the elastic problem with G₀; and dead load in one long step of any scheme stays compressive."""
+    medium = MEDIA[name]
+    force = largest_force(curve, medium)
+    for scheme in MEDIUM_SCHEMES:
+        result = march_medium(disc, medium, [0.0, 1.0], force=[force, force], scheme=scheme)
+        at_once = curve.at_force(force / medium.relaxation.instantaneous_modulus)[0]
+        assert result.depth[0] == pytest.approx(at_once, rel=1e-10)
+        assert np.nanmin(result.pressure) >= 0
+
+
+@pytest.mark.parametrize("name", SPRINGY)
+def test_relaxation_at_given_depth(disc, curve, name):
+    """A step of depth and its hold: F = f(u) ψ(t), exactly by either scheme where branches decay exactly."""
+    medium, depth = MEDIA[name], 0.7 * curve.depth[-1]
+    times = np.linspace(0, END, 5)
+    result = march_medium(disc, medium, times, depth=np.full(5, depth))
+    expected = force_under_depth(curve, np.full(5, depth), medium, times)
+    np.testing.assert_allclose(result.force, expected.force, rtol=1e-10)
+    relaxed = result.force[0] * medium.relaxation_modulus(times) / medium.relaxation_modulus(0)
+    np.testing.assert_allclose(result.force, relaxed, rtol=1e-10)
+
+
+def test_unloading_recedes_and_recovers():
+    """A solid that is unloaded: fewer elements in contact, none under tension, a surface that comes back in time."""
+    disc = self_affine_disc(0.7, 17, seed=1)
+    medium, curve = MEDIA["solid"], indent(disc, until_fraction=0.4)
+    force = 0.5 * curve.force[-1] * 1.5
+    times, load = np.array([0, 1.0, 1.05, 1.1, 5, 5, 6, 9]), force * np.array([1, 1, 0.5, 0.1, 0.1, 0, 0, 0])
+    result = march_medium(disc, medium, times, force=load)
+    with pytest.raises(ValueError, match="from time 1 on the contact would recede"):
+        kinetics(curve, load, medium, times)
+    assert result.receding_from == 1.05
+    assert result.contact_count[3] < result.contact_count[1]
+    assert (result.contact_count[-3:] == 0).all()
+    assert 0 < result.depth[-1] < 0.02 * result.depth[1]
+    times = np.append(0, np.linspace(1, 20, 30))
+    long_after = march_medium(disc, medium, times, force=force * np.where(times > 1, 0.1, 1))
+    assert long_after.depth[-1] == pytest.approx(curve.at_force(0.1 * force / 1.5)[0], rel=1e-3)
+    assert np.nanmin(long_after.pressure) >= 0
+
+
+# ---- the sphere
+
+
+@pytest.mark.parametrize("name", SPRINGY)
+def test_sphere_in_and_out_follows_lee_and_radok_and_ting(name):
+    medium, speed, turn = MEDIA[name], 0.1, 1.0
+    indenter = reference.sphere(1.0).indenter(25, 1.0)
+    times = np.linspace(0, 2, 81)
+    result = march_medium(indenter, medium, times, depth=speed * np.minimum(times, 2 * turn - times))
+    assert result.receding_from == pytest.approx(times[41])
+    for k in (20, 40, 44, 52):
+        force, radius = reference.sphere_approach_and_retreat(times[k], 1.0, speed, turn, medium.relaxation_modulus)
+        assert result.force[k] == pytest.approx(force, rel=0.01)
+        touching = np.pi * radius**2 / indenter.spacing**2
+        assert result.contact_count[k] == pytest.approx(touching, abs=4 * radius / indenter.spacing)
+    assert result.force[-1] == 0
+
+
+@pytest.mark.parametrize("name", MEDIA)
+def test_sphere_under_force_follows_lee_and_radok(name):
+    medium, sphere = MEDIA[name], reference.sphere(1.0)
+    times = np.linspace(0, 1, 21)
+    force = sphere.force(0.1) / medium.creep_compliance(1.0)
+    result = march_medium(sphere.indenter(25, 1.0), medium, times, force=np.full(21, force))
+    assert result.depth[-1] == pytest.approx(sphere.depth(force * medium.creep_compliance(1.0)), rel=0.005)
+
+
+# ---- what is refused
+
+
+@pytest.mark.parametrize("function", [march_medium, march_medium_events])
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"medium": Springpot(1.0, 0.5)}, "Springpot; allowed: media of springs and dashpots"),
+        ({"medium": 3.0}, "float; allowed: media of springs and dashpots"),
+        ({"times": [0.0, 0.0, 0.0]}, "finite, increasing numbers, or twice"),
+        ({"times": [0.0, 2.0, 1.0]}, "increasing"),
+        ({"times": [0.0, np.nan, 1.0]}, "finite"),
+        ({"times": []}, "one row"),
+        ({"force": [1.0, 1.0]}, r"force of shape \(2,\); allowed: one per time"),
+        ({"force": [1.0, -1.0, 1.0]}, "force 1 is -1.0; allowed: finite, 0 or more"),
+        ({"force": None}, "one of force and depth"),
+        ({"depth": [0.0, 0.1, 0.2]}, "one of force and depth"),
+        ({"indenter": Indenter(np.zeros(5), 1.0)}, "must be two-dimensional"),
+        ({"medium": Newtonian(1.0), "force": None, "depth": [0.1, 0.1, 0.1]}, "infinite force"),
+    ],
+)
+def test_refusals(function, arguments, message):
+    call = {"indenter": Indenter(np.eye(3), 1.0), "medium": Maxwell(1.0, 1.0), "times": [0.0, 1.0, 2.0]}
+    call |= {"force": [1.0, 1.0, 1.0]} | arguments
+    with pytest.raises(ValueError, match=rf"^[^\n]*{message}[^\n]*$"):
+        function(call.pop("indenter"), call.pop("medium"), call.pop("times"), **call)
+
+
+def test_unknown_schemes_and_fractions_are_refused():
+    with pytest.raises(ValueError, match="scheme must be one of backward_euler, second_order"):
+        march_medium(Indenter(np.eye(3), 1.0), Maxwell(1.0, 1.0), [0.0], force=[1.0], scheme="euler")
+    with pytest.raises(ValueError, match="until_fraction must lie in"):
+        march_medium_events(Indenter(np.eye(3), 1.0), Maxwell(1.0, 1.0), [0.0], force=[1.0], until_fraction=0)

@@ -291,6 +291,6 @@ def test_sphere_in_and_out_of_an_elastic_and_of_a_relaxing_half_space():
         earlier = time + tau * np.log(2 * np.exp(-(time - turn) / tau) - 1) if time > turn else time
         assert contact == pytest.approx(np.sqrt(radius * speed * earlier), rel=1e-9)
         rate = speed * sphere.stiffness(speed)  # of the elastic force at depth 1 · speed; it grows as √s
-        expected = quad(lambda s: relaxation(time - s) * rate * np.sqrt(s), 0, earlier)[0]
+        expected = rate * quad(lambda s, time=time: relaxation(time - s) * np.sqrt(s), 0, earlier)[0]
         assert force == pytest.approx(expected, rel=1e-7)
     assert reference.sphere_approach_and_retreat(1.9, radius, speed, turn, relaxation) == (0.0, 0.0)

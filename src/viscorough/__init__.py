@@ -15,6 +15,8 @@ _MODULE_OF = {
     "AccuracyWarning": "errors",
     "SolverOptions": "contact.options",
     "indent": "contact.loading_path",
+    "Contact": "contact_maps",
+    "contact_at": "contact.one_contact",
     "reduce": "mdr",
     "kinetics": "viscous.correspondence",
     "penetration_law": "calibrated_law",

@@ -117,23 +117,23 @@ class GridSolver:
         tangent, tangent_gap = self._tangent_start(weights, before, last_depth, pressure, gap, depth)
         self._solve_tangent(contact_set, tangent, tangent_gap)
         fields = GridFields(contact_set.inside, pressure, gap, tangent, tangent_gap, self.place)
-        return self.state(contact.units, depth, fields, contact_set)
+        return self._state(contact.units, depth, fields, contact_set)
 
-    def state(self, units, depth, fields, contact_set):
-        """The ContactState of GridFields at a reduced depth."""
-        places, gap, tangent = contact_set.places, fields.gap, fields.tangent
-        largest, _ = kernels.gap_and_tension(fields.pressure, gap.values, places)
-        correction = kernels.inner_product(tangent, gap.values, places)
-        tangent_correction = kernels.inner_product(tangent, fields.tangent_gap.values, places)
-        return ContactState(
-            units=units,
-            reduced_depth=depth,
-            count=places.size,
-            pressure_sum=kernels.total(fields.pressure, places) - correction,
-            tangent_sum=kernels.total(tangent, places) - tangent_correction,
-            residual=(max(largest, -float(gap.values.min())) + gap.rounding) / depth,
-            fields=fields,
-        )
+    def settled(self, contact, depth, pressure_sum):
+        """The contact at a depth so near that its tangent leads there, with pressures of exactly the given sum.
+
+        Changing the pressures by a multiple of q shifts the gap in contact by that multiple: the residual grows by no
+        more than the mean gap left in contact, weighted with q, and the distance of the depths. The gap is recomputed.
+        """
+        fields = contact.fields
+        places = np.flatnonzero(fields.inside)
+        share = (pressure_sum - kernels.total(fields.pressure, places)) / kernels.total(fields.tangent, places)
+        pressure = np.maximum(fields.pressure + self._precision(share) * fields.tangent, self._precision(0))
+        pressure *= self._precision(pressure_sum / kernels.total(pressure, places))
+        gap, inside = self._gap(pressure, depth), pressure > 0
+        fields = GridFields(inside, pressure, gap, fields.tangent, fields.tangent_gap, self.place)
+        settled = self._state(contact.units, depth, fields, self._contact_set(inside))
+        return replace(settled, pressure_sum=pressure_sum, tangent_sum=contact.tangent_sum)
 
     def solve_flat_punch(self, inside, tangent, tangent_gap):
         """Solve K q = 1 on a set by iteration from the given q, which must be zero outside the set; changes q in place.
@@ -149,6 +149,22 @@ class GridSolver:
         self._solve_tangent(contact_set, tangent, BoundedField(tangent_gap, np.inf))
         places = contact_set.places
         return kernels.total(tangent, places) - kernels.inner_product(tangent, tangent_gap, places)
+
+    def _state(self, units, depth, fields, contact_set):
+        """The ContactState of GridFields at a reduced depth."""
+        places, gap, tangent = contact_set.places, fields.gap, fields.tangent
+        largest, _ = kernels.gap_and_tension(fields.pressure, gap.values, places)
+        correction = kernels.inner_product(tangent, gap.values, places)
+        tangent_correction = kernels.inner_product(tangent, fields.tangent_gap.values, places)
+        return ContactState(
+            units=units,
+            reduced_depth=depth,
+            count=places.size,
+            pressure_sum=kernels.total(fields.pressure, places) - correction,
+            tangent_sum=kernels.total(tangent, places) - tangent_correction,
+            residual=(max(largest, -float(gap.values.min())) + gap.rounding) / depth,
+            fields=fields,
+        )
 
     def _start_fields(self, contact):
         """The fields of the last contact; if the warm start uses the pressure only, with a tangent of zero."""

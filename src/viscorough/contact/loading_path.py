@@ -10,7 +10,8 @@ import numpy as np
 
 from viscorough.contact.dense import ROUNDING
 from viscorough.contact.options import DEFAULT
-from viscorough.contact.solver import ContactSolver
+from viscorough.contact.prescribed_force import ForceSearch
+from viscorough.contact.solver import ContactSolver, check_solvable, increasing
 from viscorough.contact.step_control import Level, StepControl, division
 from viscorough.loading_curve import LoadingCurve
 
@@ -19,6 +20,8 @@ from viscorough.loading_curve import LoadingCurve
 _APPROACH_DEPTH_RATIO, _APPROACH_SHARE, _APPROACH_MIN_RATIO = 4.0, 0.7, 1.02
 # Contacts that are kept at larger depths than the last level, the nearest ones; each takes the memory of its fields.
 _MOST_AHEAD = 2
+# Exponent of the share of the contact, or of the force, in the estimated share of the computation.
+_PROGRESS_EXPONENT = 0.5
 
 
 def indent(
@@ -26,9 +29,11 @@ def indent(
     *,
     tolerance=1e-3,
     depths=None,
+    forces=None,
     start_fraction=0.0,
     until_fraction=0.9,
     until_force=np.inf,
+    progress=None,
     options=DEFAULT,
 ):
     """Loading curve of a rigid indenter pressed without friction into an incompressible elastic half-space.
@@ -40,13 +45,15 @@ def indent(
     tolerance : largest gap in contact, or overlap outside it, over the depth, at every level, rounding included; the
         relative error of the force there is of second order in it (measured: `make bench`, key curve, force_error).
         Also the largest relative error of the depth interpolated between levels by LoadingCurve.at_force, down to 1e-5,
-        where no depths are given. Between 1e-12 and 0.1
-    depths : exactly these depths, increasing [length]; default: levels are placed as the tolerance requires
+        where neither depths nor forces are given. Between 1e-12 and 0.1
+    depths : levels at exactly these depths, increasing [length]; default: levels are placed as the tolerance requires
+    forces : levels at exactly these F/G, increasing [length²]; not together with depths
     start_fraction : contact fraction from which on the curve is needed, below `until_fraction`; at smaller fractions it
-        has only a few levels, and interpolation between these is not held to the tolerance; ignored where depths are
-        given
-    until_fraction : contact fraction at which to stop, in (0, 1]; ignored where depths are given
-    until_force : F/G at which to stop [length²]; ignored where depths are given
+        has only a few levels, and interpolation between these is not held to the tolerance; ignored where depths or
+        forces are given
+    until_fraction : contact fraction at which to stop, in (0, 1]; ignored where depths or forces are given
+    until_force : F/G at which to stop [length²]; ignored where depths or forces are given
+    progress : function that is called after a level with the estimated share of the computation that is done, up to 1
     options : SolverOptions
 
     Returns a LoadingCurve. The last level is the first one at or beyond `until_fraction` or `until_force`.
@@ -54,30 +61,34 @@ def indent(
     straight line from the origin through it.
     Raises ValueError for arguments out of range, ConvergenceError if a level cannot be solved to the tolerance.
     """
-    if indenter.heights.ndim != 2:
-        raise ValueError("indent: the indenter's heights must be two-dimensional (lines are for reduce)")
-    if not 1e-12 <= tolerance <= 0.1:
-        raise ValueError(f"indent: tolerance must be between 1e-12 and 0.1, not {tolerance!r}")
+    check_solvable("indent", indenter, tolerance)
+    if depths is not None and forces is not None:
+        raise ValueError("indent: depths and forces exclude each other; one of them is allowed")
     if not 0 < until_fraction <= 1:
         raise ValueError(f"indent: until_fraction must lie in (0, 1], not {until_fraction!r}")
     if not 0 <= start_fraction < until_fraction:
         raise ValueError(f"indent: start_fraction must be from 0 to below until_fraction, not {start_fraction!r}")
     if not until_force > 0:
         raise ValueError(f"indent: until_force must be positive, not {until_force!r}")
-    solver = ContactSolver(indenter, tolerance, options)
-    if depths is None:
-        path = _LoadingPath(solver, indenter.element_side, until_fraction, until_force)
-        levels = path.levels_from(start_fraction)
-        depths = solver.units.length * np.array([level.depth for level in levels])
+    if depths is not None:
+        depths = increasing("indent: depths", depths)
+    if forces is not None:
+        forces = increasing("indent: forces", forces)
+    progress = progress or (lambda done: None)
+    if depths is not None:
+        solver = ContactSolver(indenter, tolerance, options)
+        levels = _levels_at_depths(solver, depths, progress)
+    elif forces is not None:
+        solver = ContactSolver(indenter, tolerance / 2, options)  # the correction to the force takes the other half
+        levels = _levels_at_forces(solver, forces, progress)
     else:
-        depths = _checked_depths(depths)
-        levels, contact = [], solver.unloaded_state()
-        for depth in depths:
-            contact = solver.advance(contact, depth)
-            levels.append(Level.of(contact))
+        solver = ContactSolver(indenter, tolerance, options)
+        levels = _LoadingPath(solver, until_fraction, until_force, progress).levels_from(start_fraction)
+    depth = solver.units.length * np.array([level.depth for level in levels])
+    force = solver.units.force * np.array([level.pressure_sum for level in levels])
     return LoadingCurve(
-        depth=depths,
-        force=solver.units.force * np.array([level.pressure_sum for level in levels]),
+        depth=depth if depths is None else depths,
+        force=force if forces is None else forces,
         stiffness=solver.units.stiffness * np.array([level.tangent_sum for level in levels]),
         contact_count=np.array([level.count for level in levels]),
         elements=solver.elements.count,
@@ -89,27 +100,32 @@ def indent(
     )
 
 
-def _checked_depths(depths):
-    depths = np.atleast_1d(np.asarray(depths, dtype=float))
-    if depths.ndim != 1 or depths.size == 0 or not np.all(np.isfinite(depths)):
-        raise ValueError("indent: depths must be a list of finite numbers")
-    if depths[0] <= 0 or np.any(np.diff(depths) <= 0):
-        raise ValueError("indent: depths must be positive and strictly increasing")
-    return depths
+def _levels_at_depths(solver, depths, progress):
+    levels, contact = [], solver.unloaded_state()
+    for depth in depths:
+        contact = solver.advance(contact, depth)
+        levels.append(Level.of(contact))
+        progress(len(levels) / len(depths))
+    return levels
+
+
+def _levels_at_forces(solver, forces, progress):
+    levels, search = [], ForceSearch(solver)
+    for force in forces:
+        levels.append(Level.of(search.contact_at(force)))
+        progress(len(levels) / len(forces))
+    return levels
 
 
 class _LoadingPath:
     """The path from first contact to the contact fraction or force at which to stop; works in reduced units."""
 
-    def __init__(self, solver, spacing, until_fraction, until_force):
-        self._solver, self._control = solver, StepControl(solver.tolerance)
+    def __init__(self, solver, until_fraction, until_force, progress):
+        self._solver, self._control, self._progress = solver, StepControl(solver.tolerance), progress
         self._until_count = until_fraction * solver.elements.count
         # A little more, so that rounding does not leave the last level below the force.
         self._until_pressure_sum = (1 + ROUNDING) * until_force / solver.units.force
-        # Up to the smallest positive initial gap, only the highest elements are in contact and the curve is straight.
-        gap = solver.elements.initial_gap
-        open_gap = gap[gap > 0]
-        self._contact = solver.advance_reduced(solver.unloaded_state(), open_gap[0] if open_gap.size else spacing)
+        self._contact = solver.first_contact()
         self._levels = [Level.of(self._contact)]
         self._ahead = []  # contacts already solved at larger depths, the nearest one last
 
@@ -126,6 +142,8 @@ class _LoadingPath:
     def _add(self, contact):
         self._contact = contact
         self._levels.append(Level.of(contact))
+        done = max(contact.count / self._until_count, contact.pressure_sum / self._until_pressure_sum)
+        self._progress(min(done, 1.0) ** _PROGRESS_EXPONENT)
 
     def _approach(self, start_count):
         """Take long steps towards the contact count from which on the curve is needed, shorter ones close to it."""

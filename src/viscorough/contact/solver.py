@@ -25,6 +25,24 @@ _BOX_DEPTH_MARGIN, _LARGEST_BOX = 1.3, 0.8
 _LOST_CONTACT = 3
 
 
+def check_solvable(name, indenter, tolerance):
+    """Raise ValueError, which starts with the name, unless an indenter is a map and the tolerance in its range."""
+    if indenter.heights.ndim != 2:
+        raise ValueError(f"{name}: the indenter's heights must be two-dimensional (lines are for reduce)")
+    if not 1e-12 <= tolerance <= 0.1:
+        raise ValueError(f"{name}: tolerance must be between 1e-12 and 0.1, not {tolerance!r}")
+
+
+def increasing(name, values):
+    """Depths or forces as an array. Raises ValueError, which starts with the name, unless positive and increasing."""
+    values = np.atleast_1d(np.asarray(values, dtype=float))
+    if values.ndim != 1 or values.size == 0 or not np.all(np.isfinite(values)):
+        raise ValueError(f"{name} must be a list of finite numbers")
+    if values[0] <= 0 or np.any(np.diff(values) <= 0):
+        raise ValueError(f"{name} must be positive and strictly increasing")
+    return values
+
+
 class ContactSolver:
     """Solves the contact of one indenter at increasing depths, to a residual of `tolerance` times the depth.
 
@@ -52,6 +70,32 @@ class ContactSolver:
         """The ContactState at depth zero: no pressure, and no element in contact yet."""
         nothing = np.empty(0)
         return ContactState(self.units, 0.0, 0, 0.0, 0.0, loads=MemberLoads(nothing.astype(int), nothing, nothing))
+
+    @property
+    def is_flat(self):
+        """Whether all elements are of one height, so that all touch at once."""
+        return self.elements.initial_gap[-1] == 0
+
+    def first_contact(self):
+        """The ContactState up to which the curve is straight, since only the highest elements are in contact.
+
+        Its depth is the smallest positive initial gap, or one spacing for an indenter of one height.
+        """
+        gap = self.elements.initial_gap
+        depth = self.units.spacing if self.is_flat else gap[np.searchsorted(gap, 0, side="right")]
+        return self.advance_reduced(self.unloaded_state(), depth)
+
+    def settled(self, contact, depth, pressure_sum):
+        """The contact at a depth so near that its tangent leads there, with pressures of exactly the given sum.
+
+        contact : the last one that was solved
+        depth, pressure_sum : u and ΣP, reduced; for a dense solution, those of the contact
+
+        Its residual may be up to twice the tolerance.
+        """
+        if contact.fields is None:
+            return replace(contact, reduced_depth=depth, pressure_sum=pressure_sum)
+        return self._grid.settled(contact, depth, pressure_sum)
 
     def advance(self, contact, depth):
         """The ContactState at a depth [length] larger than that of `contact`.

@@ -110,7 +110,7 @@ def interpolation_bound(before, after):
     at_meeting = before.tangent_sum * _meeting(before, after) * (after.depth - before.depth) / rise
     share = np.append(_POINTS, np.clip(at_meeting, _SMALLEST_SHARE, 1))
     force = np.minimum(before.pressure_sum + share * rise, after.pressure_sum)
-    depth = _interpolate(before, after, force)
+    depth = interpolate(before, after, force)
     chord = before.depth + share * (after.depth - before.depth)
     tangents = np.minimum(
         before.depth + (force - before.pressure_sum) / before.tangent_sum,
@@ -135,8 +135,8 @@ def _meeting(before, after):
     return missing / (rise * width) if rise > 0 else 0.5
 
 
-def _interpolate(before, after, force):
-    """Depths interpolated between two levels at reduced forces ΣP."""
+def interpolate(before, after, force):
+    """Depths interpolated between two Levels at reduced forces ΣP, as LoadingCurve.at_force does."""
     ends = np.array([[level.depth, level.pressure_sum, level.tangent_sum, level.count] for level in (before, after)]).T
     return interpolate_levels(*ends, force)[0]
 
@@ -160,7 +160,7 @@ def _predicted_error(before, after):
     above_tangent = added * (np.maximum(share[:, None] - touch, 0) @ weight) * rise / predicted_rise
     force = before.pressure_sum + width * (share * before.tangent_sum + above_tangent)
     depth = before.reduced_depth + width * share
-    interpolated = _interpolate(Level.of(before), Level.of(after), np.minimum(force, after.pressure_sum))
+    interpolated = interpolate(Level.of(before), Level.of(after), np.minimum(force, after.pressure_sum))
     return np.abs(interpolated / depth - 1).max()
 
 

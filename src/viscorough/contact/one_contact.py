@@ -1,0 +1,68 @@
+"""The contact at a given depth or force, with its maps, without a loading curve."""
+
+import numpy as np
+
+from viscorough.contact.options import DEFAULT
+from viscorough.contact.prescribed_force import ForceSearch
+from viscorough.contact.solver import ContactSolver, check_solvable, increasing
+from viscorough.contact_maps import Contact
+
+
+def contact_at(indenter, *, depth=None, force=None, tolerance=1e-3, options=DEFAULT):
+    """Contact of a rigid indenter with an incompressible elastic half-space at a given depth or force.
+
+    Solves the same problem as `indent`, at this depth only, or at the few depths that lead to the force.
+
+    indenter : Indenter with two-dimensional heights
+    depth : u, from first contact [length]; or several ones, increasing
+    force : F/G, G the shear modulus [length²]; or several ones, increasing. Either depth or force must be given
+    tolerance : largest gap in contact, or overlap outside it, over the depth, rounding included; the relative errors of
+        force at a given depth, and of depth at a given force, are of second order in it. Between 1e-12 and 0.1
+    options : SolverOptions
+
+    Returns a Contact; for several depths or forces a list of them, which are solved along one path. The pressures add
+    up to `force` to rounding.
+    Raises ValueError for arguments out of range, ConvergenceError if a contact cannot be solved to the tolerance.
+    """
+    check_solvable("contact_at", indenter, tolerance)
+    if (depth is None) == (force is None):
+        raise ValueError("contact_at: either depth or force must be given")
+    by_depth = force is None
+    values = increasing(f"contact_at: {'depth' if by_depth else 'force'}", depth if by_depth else force)
+    # Pressures that add up to the force exactly take the other half of the tolerance.
+    solver = ContactSolver(indenter, tolerance / 2, options)
+    states = _states_at_depths(solver, values) if by_depth else map(ForceSearch(solver).contact_at, values)
+    contacts = []
+    for state, value in zip(states, values, strict=True):
+        given = {"depth": float(value)} if by_depth else {"force": float(value)}
+        contacts.append(_contact(indenter, tolerance, solver, state, **given))
+    return contacts if np.ndim(force if depth is None else depth) else contacts[0]
+
+
+def _states_at_depths(solver, depths):
+    contact = solver.unloaded_state()
+    for depth in depths:
+        contact = solver.advance(contact, depth)
+        yield solver.settled(contact, contact.reduced_depth, contact.pressure_sum)
+
+
+def _contact(indenter, tolerance, solver, state, **given):
+    """The Contact of a ContactState, with the depth or force that was given instead of its rounded value."""
+    place = solver.elements.map_place
+    pressure, gap = np.full((2, *indenter.heights.shape), np.nan)
+    pressure[place], gap[place] = 0.0, solver.gap(state)
+    loads = state.member_loads()
+    rows, columns = (positions[loads.members] for positions in place)
+    pressure[rows, columns] = loads.pressure * solver.units.pressure
+    quantities = {"depth": state.depth, "force": state.force, "stiffness": state.stiffness} | given
+    return Contact(
+        pressure=pressure,
+        gap=gap,
+        contact=pressure > 0,
+        residual=state.residual,
+        tolerance=tolerance,
+        spacing=indenter.spacing,
+        row_spacing=indenter.row_spacing,
+        length_unit=indenter.length_unit,
+        **quantities,
+    )

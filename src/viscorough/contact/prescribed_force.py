@@ -1,0 +1,90 @@
+"""Contacts at prescribed forces, found by solving as few depths as possible.
+
+The force is a convex function F(u) of the depth, and the contact solver gives F and its exact tangent k at any depth.
+Depths grow by large ratios until the force is exceeded. Between a contact below and one above, the next depth is that
+of the interpolant of a loading curve, which lies in the triangle of chord and tangents, or where the tangents put it.
+The last, small correction follows the tangent.
+"""
+
+import numpy as np
+
+from viscorough.contact.dense import ROUNDING
+from viscorough.contact.step_control import Level, interpolate
+from viscorough.errors import ConvergenceError
+
+# Largest ratio of successive depths before the force is exceeded.
+_MAX_DEPTH_RATIO = 4.0
+_MAX_ATTEMPTS = 100
+# Contacts that are kept beyond the force, the nearest ones; each takes the memory of its fields.
+_MOST_ABOVE = 2
+_TINY = 1e-300
+
+
+class ForceSearch:
+    """Contacts of one ContactSolver at increasing forces; works in reduced units."""
+
+    def __init__(self, solver):
+        self._solver = solver
+        self._first = self._below = solver.first_contact()
+        self._above = []  # contacts at larger forces, the nearest one last
+
+    def contact_at(self, force):
+        """The ContactState at F/G [length²], a larger one than at the last call.
+
+        ΣP is that of the force, and the pressures sum to it. The depth is the one at which the tangent from the nearest
+        contact that was solved reaches the force; over this distance the stiffness changes by less than the tolerance.
+        Raises ConvergenceError if a contact cannot be solved to the tolerance.
+        """
+        target = force / self._solver.units.force
+        if target <= self._first.pressure_sum or self._solver.is_flat:
+            # Only the highest elements are in contact: the curve is straight.
+            depth = self._first.reduced_depth * (target / self._first.pressure_sum)
+            contact = self._solver.advance_reduced(self._solver.unloaded_state(), depth)
+            return self._solver.settled(contact, depth, target)
+        while self._above and self._above[-1].pressure_sum <= target:
+            self._below = self._above.pop()
+        for attempt in range(_MAX_ATTEMPTS):
+            contact = self._solver.advance_reduced(self._below, self._next_depth(target, attempt))
+            other = self._above[-1] if self._above else self._below
+            if contact.pressure_sum <= target:
+                self._below = contact
+            else:
+                self._above.append(contact)
+                del self._above[:-_MOST_ABOVE]
+            if self._is_near(contact, other, target):
+                depth = contact.reduced_depth + (target - contact.pressure_sum) / contact.tangent_sum
+                settled = self._solver.settled(contact, depth, target)
+                if settled.residual <= 2 * self._solver.tolerance:
+                    return settled
+        raise ConvergenceError(
+            f"contact at F/G = {force:g}: the force is not met within {_MAX_ATTEMPTS} depths; choose a larger tolerance"
+        )
+
+    def _next_depth(self, target, attempt):
+        """Depth to solve next, between the nearest contacts below and above the force."""
+        below = Level.of(self._below)
+        if not self._above:
+            # The power law through the last contact, whose exponent only grows where the contact does.
+            exponent = below.pressure_sum / (below.tangent_sum * below.depth)
+            return below.depth * min((target / below.pressure_sum) ** exponent, _MAX_DEPTH_RATIO)
+        above = Level.of(self._above[-1])
+        if attempt % 2:  # converges for any convex curve
+            depth = min(
+                below.depth + (target - below.pressure_sum) / below.tangent_sum,
+                above.depth - (above.pressure_sum - target) / above.tangent_sum,
+            )
+        else:
+            depth = interpolate(below, above, np.array([target]))[0]
+        return float(np.clip(depth, below.depth, above.depth))
+
+    def _is_near(self, contact, other, target):
+        """Whether the tangent of a contact leads to the force: the stiffness changes by less than the tolerance.
+
+        other : a contact from which the change of the stiffness with depth is known
+        """
+        distance = abs(target - contact.pressure_sum) / contact.tangent_sum
+        if contact.fields is None:  # a dense solution is exact only at its own depth
+            return distance <= ROUNDING * contact.reduced_depth
+        width = max(abs(contact.reduced_depth - other.reduced_depth), _TINY)
+        change = abs(contact.tangent_sum - other.tangent_sum) / width * distance
+        return change <= self._solver.tolerance * contact.tangent_sum

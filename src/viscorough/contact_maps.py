@@ -1,0 +1,106 @@
+"""One contact of an indenter: maps of pressure, gap and contact, and what follows from them."""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from viscorough.arrays import keep_read_only
+
+# Neighbours of an element that belong to its patch: those that share a side, or a corner too.
+_CONNECTIVITIES = (4, 8)
+
+
+class Patches(NamedTuple):
+    """The contact patches of a map: connected regions of elements in contact.
+
+    labels : map, 0 where there is no contact and 1 … n in the patches, the largest first
+    areas : of the patches in this order, shape (n,) [length²]
+    """
+
+    labels: np.ndarray
+    areas: np.ndarray
+
+
+@dataclass(frozen=True)
+class Contact:
+    """The contact of a rigid indenter with an elastic half-space at one depth, as `contact_at` returns it.
+
+    pressure : p/G, G the shear modulus of the incompressible half-space; zero outside the contact, nan outside the
+        indenter; shape (rows, columns) of the heights [1]
+    gap : between the deformed surface and the indenter; nan outside the indenter [length]. In contact it is zero within
+        `residual` times the depth, and nowhere is it below zero by more than that
+    contact : whether an element is in contact, which is where the pressure is above zero
+    depth : u, from first contact [length]
+    force : F/G, the sum of the pressures times the area of an element [length²]
+    stiffness : k/G = d(F/G)/du, of the elements in contact [length]
+    residual : largest gap in contact or overlap outside it, rounding included, over the depth [1]
+    tolerance : requested bound of the residual
+    spacing, row_spacing : distances between neighbouring columns and rows, dx and dy [length]
+    length_unit : unit of all lengths; "1" if it is not known
+
+    Arrays are copied and read-only.
+    """
+
+    pressure: np.ndarray
+    gap: np.ndarray
+    contact: np.ndarray
+    depth: float
+    force: float
+    stiffness: float
+    residual: float
+    tolerance: float
+    spacing: float
+    row_spacing: float
+    length_unit: str = "1"
+
+    def __post_init__(self):
+        keep_read_only(self)
+
+    @property
+    def elements(self):
+        """Number of elements of the indenter."""
+        return int(np.count_nonzero(~np.isnan(self.pressure)))
+
+    @property
+    def contact_count(self):
+        """Number of elements in contact."""
+        return int(np.count_nonzero(self.contact))
+
+    @property
+    def contact_fraction(self):
+        """Share of the indenter's elements that are in contact."""
+        return self.contact_count / self.elements
+
+    @property
+    def contact_area(self):
+        """Area of the elements in contact [length²]."""
+        return self.contact_count * self.spacing * self.row_spacing
+
+    @property
+    def mean_pressure(self):
+        """Mean of p/G over the contact [1]."""
+        return self.force / self.contact_area
+
+    @property
+    def largest_pressure(self):
+        """Largest p/G [1]."""
+        return float(np.nanmax(self.pressure))
+
+    def patches(self, connectivity=4):
+        """The Patches of the contact: regions of elements in contact that are neighbours.
+
+        connectivity : 4: elements that share a side are neighbours; 8: those that share a corner, too
+
+        Raises ValueError for another connectivity.
+        """
+        from scipy import ndimage  # takes long to import
+
+        if connectivity not in _CONNECTIVITIES:
+            raise ValueError(f"patches: connectivity must be 4 or 8, not {connectivity!r}")
+        labels, count = ndimage.label(self.contact, structure=ndimage.generate_binary_structure(2, connectivity // 4))
+        sizes = np.bincount(labels.ravel(), minlength=count + 1)[1:]
+        order = np.argsort(-sizes, kind="stable")
+        rank = np.zeros(count + 1, dtype=labels.dtype)
+        rank[1 + order] = np.arange(1, count + 1)
+        return Patches(rank[labels], sizes[order] * self.spacing * self.row_spacing)

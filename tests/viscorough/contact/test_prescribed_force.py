@@ -1,0 +1,98 @@
+"""Levels at given forces, against levels at the depths found, solved more accurately."""
+
+import numpy as np
+import pytest
+
+from viscorough import reference
+from viscorough.contact.loading_path import indent
+from viscorough.contact.options import SolverOptions
+from viscorough.contact.prescribed_force import ForceSearch
+from viscorough.contact.solver import ContactSolver
+from viscorough.indenter import Indenter
+from viscorough.surfaces import self_affine_disc
+
+# From one element in contact to nearly all.
+FORCES = np.array([1e-8, 1e-3, 0.1, 0.5, 2.0, 3.0, 10.0, 100.0])
+
+
+def terraces():
+    """Four heights: many elements touch at one depth, where the stiffness jumps."""
+    row, column = np.mgrid[:40, :40]
+    return Indenter(-0.1 * ((row // 7 + column // 5) % 4), 1.0)
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-6, 1e-10])
+@pytest.mark.parametrize("hurst", [0.2, 0.8])
+def test_levels_stand_at_the_forces(hurst, tolerance):
+    disc = self_affine_disc(hurst, 65, seed=2)
+    curve = indent(disc, forces=FORCES, tolerance=tolerance)
+    np.testing.assert_array_equal(curve.force, FORCES)
+    exact = indent(disc, depths=curve.depth, tolerance=max(1e-3 * tolerance, 1e-12))
+    assert np.abs(exact.force / FORCES - 1).max() < 0.01 * tolerance
+    assert np.abs(curve.stiffness / exact.stiffness - 1).max() < tolerance
+    assert np.abs(curve.contact_count / exact.contact_count - 1).max() < max(20 * tolerance, 0.01)
+    assert curve.residual.max() <= tolerance
+    assert curve.tolerance == tolerance
+
+
+@pytest.mark.parametrize("options", [SolverOptions(), SolverOptions(dense_contacts=0, dense_interactions=0)])
+def test_jumps_of_the_stiffness_are_met(options):
+    forces = np.geomspace(1e-3, 1e3, 25)
+    curve = indent(terraces(), forces=forces, tolerance=1e-6, options=options)
+    exact = indent(terraces(), depths=curve.depth, tolerance=1e-9)
+    assert np.abs(exact.force / forces - 1).max() < 1e-6
+
+
+def test_a_flat_indenter_is_a_straight_line():
+    disc = Indenter(np.where(np.isfinite(self_affine_disc(0.5, 33, seed=1).heights), 0.25, np.nan), 0.1)
+    curve = indent(disc, forces=[1e-6, 1.0, 1e6])
+    np.testing.assert_allclose(curve.force / curve.depth, curve.stiffness, rtol=1e-6)
+    np.testing.assert_array_equal(curve.contact_count, curve.elements)
+
+
+def test_a_sphere_has_the_depths_of_hertz():
+    sphere, forces = reference.sphere(2.0), np.array([0.1, 0.3])
+    curve = indent(sphere.indenter(129, width=2), forces=forces, tolerance=1e-5)
+    np.testing.assert_allclose(sphere.force(curve.depth), forces, rtol=2e-3)
+
+
+def test_few_depths_are_solved():
+    """A force costs about as many solutions as it takes to come near it, and a force close by one or two."""
+    disc, depths = self_affine_disc(0.8, 129, seed=3), []
+
+    class Counting(ContactSolver):
+        def advance_reduced(self, contact, depth):
+            depths.append(depth)
+            return super().advance_reduced(contact, depth)
+
+    search = ForceSearch(Counting(disc, 1e-3))
+    search.contact_at(5.0)
+    assert len(depths) <= 14
+    depths.clear()
+    search.contact_at(5.5)
+    assert len(depths) <= 3
+
+
+def test_progress_is_reported_up_to_the_end():
+    disc = self_affine_disc(0.8, 33, seed=3)
+    for arguments in ({"forces": [0.1, 1.0, 2.0]}, {"depths": [0.1, 1.0, 2.0]}, {"until_fraction": 0.5}):
+        shares = []
+        indent(disc, progress=shares.append, **arguments)
+        assert shares == sorted(shares)
+        assert shares[0] > 0
+        assert shares[-1] == 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"forces": []}, "forces must be a list of finite numbers"),
+        ({"forces": [1.0, 1.0]}, "forces must be positive and strictly increasing"),
+        ({"forces": [0.0, 1.0]}, "forces must be positive and strictly increasing"),
+        ({"forces": [1.0, np.inf]}, "forces must be a list of finite numbers"),
+        ({"forces": [1.0], "depths": [1.0]}, "depths and forces exclude each other"),
+    ],
+)
+def test_invalid_forces_are_refused(arguments, message):
+    with pytest.raises(ValueError, match=f"indent: {message}"):
+        indent(self_affine_disc(0.5, 9, seed=1), **arguments)

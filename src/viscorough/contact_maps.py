@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from viscorough.arrays import keep_read_only
+from viscorough.summaries import html_table, unit_power, with_unit
 
 # Neighbours of an element that belong to its patch: those that share a side, or a corner too.
 _CONNECTIVITIES = (4, 8)
@@ -56,6 +57,30 @@ class Contact:
 
     def __post_init__(self):
         keep_read_only(self)
+
+    def __str__(self):
+        """Three lines: what it is, depth, force and stiffness, and contact and pressure."""
+        title, *rows = self._summary()
+        lines = [", ".join(f"{name} {text}" for name, text in part) for part in (rows[:3], rows[3:])]
+        return "\n".join([title, *lines])
+
+    def _repr_html_(self):
+        """A table of the same, which notebooks show."""
+        title, *rows = self._summary()
+        return html_table(title, rows)
+
+    def _summary(self):
+        """A title, and (quantity, its value)."""
+        unit, area = self.length_unit, unit_power(self.length_unit, 2)
+        return (
+            f"Contact of {self.contact_count} of {self.elements} elements",
+            ("depth u", with_unit(self.depth, unit)),
+            ("force F/G", with_unit(self.force, area)),
+            ("stiffness k/G", with_unit(self.stiffness, unit)),
+            ("contact area", f"{with_unit(self.contact_area, area)} ({100 * self.contact_fraction:.3g} %)"),
+            ("mean p/G", with_unit(self.mean_pressure)),
+            ("largest p/G", with_unit(self.largest_pressure)),
+        )
 
     @property
     def elements(self):

@@ -1,10 +1,14 @@
 """Results in a few lines of text, and as tables of HTML."""
 
+import numpy as np
 import pytest
 
 from support.curves import random_curve
 from support.page import Page
+from viscorough.contact.one_contact import contact_at
+from viscorough.indenter import Indenter
 from viscorough.summaries import html_table, span, unit_power, with_unit
+from viscorough.viscous.correspondence import Kinetics
 
 
 def test_curve_in_three_lines():
@@ -25,6 +29,23 @@ def test_curve_in_three_lines():
     page = Page(curve._repr_html_())
     assert [tag for tag, _ in page.elements].count("tr") == 4
     assert "0.5 to 2 um" in page.text
+
+
+def test_contact_in_three_lines():
+    heights = np.array([[0.0, 0.0], [-1.0, np.nan]])
+    contact = contact_at(Indenter(heights, 2.0, length_unit="um"), depth=0.1)
+    first, second, third = str(contact).splitlines()
+    assert first == "Contact of 2 of 3 elements"
+    assert second.startswith("depth u 0.1 um, force F/G ")
+    assert third.startswith("contact area 8 um2 (66.7 %), mean p/G ")
+    assert Page(contact._repr_html_()).text.count("um2") == 2
+
+
+def test_motion_in_four_lines():
+    motion = Kinetics(np.array([0.0, 2.0]), np.array([0.0, 3.0]), np.array([1.0, 0.5]))
+    lines = ["Penetration at 2 times", "time t 0 to 2", "depth u 0 to 3", "velocity v 1 to 0.5"]
+    assert str(motion).splitlines() == lines
+    assert "1 to 0.5" in motion._repr_html_()
 
 
 def test_single_level_without_a_unit():

@@ -26,6 +26,7 @@ from typing import NamedTuple
 import numpy as np
 
 from viscorough.arrays import keep_read_only, read_only
+from viscorough.summaries import html_table, span
 from viscorough.viscous.creep_response import creep_response
 from viscorough.viscous.media import Newtonian, medium_of
 from viscorough.viscous.spectra import zero_of_increasing
@@ -49,6 +50,19 @@ class Kinetics:
 
     def __post_init__(self):
         keep_read_only(self)
+
+    def __str__(self):
+        title, *rows = self._summary()
+        return "\n".join([title, *(f"{name} {text}" for name, text in rows)])
+
+    def _repr_html_(self):
+        title, *rows = self._summary()
+        return html_table(title, rows)
+
+    def _summary(self):
+        """A title, and (quantity, its first and last value)."""
+        motion = ("depth u", span(self.depth)), ("velocity v", span(self.velocity))
+        return f"Penetration at {self.time.size} times", ("time t", span(self.time)), *motion
 
 
 class ForceHistory(NamedTuple):

@@ -13,6 +13,7 @@ from signal import SIG_DFL
 
 import click
 
+from viscorough.cli.contact import contact
 from viscorough.cli.estimate import estimate
 from viscorough.cli.generate import generate
 from viscorough.cli.indent import indent
@@ -38,7 +39,7 @@ def cli():
     """
 
 
-for _command in (indent, kinetics, march, reduce, generate, estimate, plot):
+for _command in (indent, contact, kinetics, march, reduce, generate, estimate, plot):
     cli.add_command(_command)
 
 

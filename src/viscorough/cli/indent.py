@@ -2,11 +2,12 @@
 
 import click
 
+from viscorough.cli.elasticity import IncreasingQuantities, elastic_constants_options, elasticity, lengths
 from viscorough.cli.messages import announce
 from viscorough.cli.options import (
     FILE,
-    Increasing,
     PositiveNumber,
+    Quantity,
     output_option,
     printable_name,
     read_indenter,
@@ -19,10 +20,28 @@ from viscorough.cli.options import (
 @click.argument("heights", type=FILE)
 @spacing_option
 @output_option("CURVE.nc")
-@click.option("--depths", type=Increasing(), help="Levels at exactly these depths  [default: as the tolerance needs]")
+@click.option(
+    "--depths", type=IncreasingQuantities("m"), help="Levels at exactly these depths  [default: as the tolerance needs]"
+)
+@click.option("--forces", type=IncreasingQuantities("N"), help="Levels at exactly these F/G, or F with a modulus.")
 @click.option("--tolerance", type=PositiveNumber(0.1), default=1e-3, show_default=True, help="Relative accuracy.")
 @click.option("--until-fraction", type=PositiveNumber(1), help="Contact fraction at which to stop  [default: 0.9]")
-def indent(heights, spacing, output, *, depths, tolerance, until_fraction):
+@click.option("--until-force", type=Quantity("N"), help="F/G, or F with a modulus, at which to stop.")
+@elastic_constants_options
+def indent(
+    heights,
+    spacing,
+    output,
+    *,
+    depths,
+    forces,
+    tolerance,
+    until_fraction,
+    until_force,
+    shear_modulus,
+    young,
+    poisson,
+):
     """Loading curve of an indenter pressed into an elastic half-space.
 
     HEIGHTS is a .npy or NetCDF (.nc) file with a two-dimensional map of heights; in a NetCDF file it is the variable
@@ -34,19 +53,38 @@ def indent(heights, spacing, output, *, depths, tolerance, until_fraction):
     contact_count, contact_fraction and residual. Their units are powers of the unit that a NetCDF file states
     for the heights; if none is stated, units are 1, which stands for the unit you chose.
 
+    Without a modulus, forces are F/G, in the unit of length squared. With --shear-modulus, or --young and --poisson,
+    forces are in N and moduli in Pa if the unit of length is known, else all are in consistent units of your choice; a
+    number may then have a unit, as "5 mN". Results are F/G and k/G in any case, G being the shear modulus of the
+    incompressible half-space with the same E/(1 - nu^2) = 4 G. The curve ends at the contact fraction or at the
+    force, whichever comes first, or where all elements are in contact.
+
     \b
     Example:
         viscorough indent heights.npy --spacing 2e-6 --depths 1e-6,2e-6,4e-6 -o curve.nc
     """
-    if depths is not None and until_fraction is not None:
-        raise click.UsageError("--depths and --until-fraction exclude each other; one of them is allowed")
+    levels = {"--depths": depths, "--forces": forces}
+    ends = {"--until-fraction": until_fraction, "--until-force": until_force}
+    stated = [name for name, value in (levels | ends).items() if value is not None]
+    if len(stated) > 1 and stated[0] in levels:
+        raise click.UsageError(f"{stated[0]} and {stated[1]} exclude each other; one of them is allowed")
     indenter = read_indenter(heights, spacing, output)
+    medium = elasticity(shear_modulus, young, poisson, indenter.length_unit)
+    given = {}
+    if depths is not None:
+        given["depths"] = lengths(depths, indenter.length_unit, "--depths")
+    if forces is not None:
+        given["forces"] = medium.forces_over_modulus(forces, "--forces")
+    if until_force is not None:
+        (given["until_force"],) = medium.forces_over_modulus([until_force], "--until-force")
+        given["until_fraction"] = 1.0  # unless stated
+    if until_fraction is not None:
+        given["until_fraction"] = until_fraction
 
     from viscorough.contact.loading_path import indent
     from viscorough.io.curves import curve_to_content
 
-    stop = {"until_fraction": until_fraction} if until_fraction else {}
-    curve = indent(indenter, tolerance=tolerance, depths=depths, **stop)
-    write_output(curve_to_content(curve), output, heights=printable_name(heights), spacing=spacing)
+    curve = indent(indenter, tolerance=tolerance, **given)
+    write_output(curve_to_content(curve), output, heights=printable_name(heights), spacing=spacing, **medium.attributes)
     count = f"{curve.contact_count[-1]} of {curve.elements} elements in contact"
     announce(output, f"{curve.depth.size} levels, the last at depth {curve.depth[-1]:.6g} with {count}")

@@ -2,6 +2,7 @@
 
 import click
 
+from viscorough.cli.elasticity import check_incompressible
 from viscorough.cli.messages import announce
 from viscorough.cli.options import (
     FILE,
@@ -41,6 +42,7 @@ def kinetics(curve, force, viscosity, output):
 
     check_output(output)
     content = read_content(curve)
+    check_incompressible(content, curve)
     try:
         loading = curve_from_content(content)
     except ValueError as error:

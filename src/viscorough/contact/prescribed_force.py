@@ -33,7 +33,8 @@ class ForceSearch:
 
         ΣP is that of the force, and the pressures sum to it. The depth is the one at which the tangent from the nearest
         contact that was solved reaches the force; over this distance the stiffness changes by less than the tolerance.
-        Raises ConvergenceError if a contact cannot be solved to the tolerance.
+        Raises ConvergenceError if a contact cannot be solved to the tolerance, ValueError for a force beyond all
+        measure.
         """
         target = force / self._solver.units.force
         if target <= self._first.pressure_sum or self._solver.is_flat:
@@ -63,6 +64,8 @@ class ForceSearch:
     def _next_depth(self, target, attempt):
         """Depth to solve next, between the nearest contacts below and above the force."""
         below = Level.of(self._below)
+        if below.count == self._solver.elements.count:
+            return below.depth + (target - below.pressure_sum) / below.tangent_sum
         if not self._above:
             # The power law through the last contact, whose exponent only grows where the contact does.
             exponent = below.pressure_sum / (below.tangent_sum * below.depth)

@@ -23,6 +23,8 @@ _BOX_DEPTH_MARGIN, _LARGEST_BOX = 1.3, 0.8
 # Contact only grows with depth. Within the accuracy of the solution an element may leave it, with a gap up to this
 # multiple of the tolerance times the depth; a larger gap is an error.
 _LOST_CONTACT = 3
+# Largest reduced depth: single precision holds numbers a thousand times as large and more.
+_LARGEST_DEPTH = 1e25
 
 
 def check_solvable(name, indenter, tolerance):
@@ -79,10 +81,10 @@ class ContactSolver:
     def first_contact(self):
         """The ContactState up to which the curve is straight, since only the highest elements are in contact.
 
-        Its depth is the smallest positive initial gap, or one spacing for an indenter of one height.
+        Its depth is the smallest positive initial gap, or the side of an element for an indenter of one height.
         """
         gap = self.elements.initial_gap
-        depth = self.units.spacing if self.is_flat else gap[np.searchsorted(gap, 0, side="right")]
+        depth = 1.0 if self.is_flat else gap[np.searchsorted(gap, 0, side="right")]
         return self.advance_reduced(self.unloaded_state(), depth)
 
     def settled(self, contact, depth, pressure_sum):
@@ -100,12 +102,15 @@ class ContactSolver:
     def advance(self, contact, depth):
         """The ContactState at a depth [length] larger than that of `contact`.
 
-        Raises ConvergenceError if it is not solved to the tolerance.
+        Raises ConvergenceError if it is not solved to the tolerance, ValueError for a depth beyond all measure.
         """
         return self.advance_reduced(contact, depth / self.units.length)
 
     def advance_reduced(self, contact, depth):
         """The ContactState at a larger depth in units of the largest initial gap. Raises what `advance` raises."""
+        if depth > _LARGEST_DEPTH:
+            text = f"contact at depth {depth * self.units.length:g}: larger than {_LARGEST_DEPTH:g} times the largest"
+            raise ValueError(f"{text} initial gap, up to which depths are allowed")
         candidates = int(np.searchsorted(self.elements.initial_gap, depth))
         if contact.fields is None and self._is_small(candidates, contact):
             solution = dense.solve(self.elements, contact, depth, candidates, self.options.dense_contacts)

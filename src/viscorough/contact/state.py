@@ -25,7 +25,7 @@ from viscorough.contact.halfspace import influence_coefficient
 class Units:
     """Factors that convert reduced quantities to the user's units.
 
-    length : the largest initial gap, or 1 for an indenter of one height [length]
+    length : the largest initial gap, or the side of an element for an indenter of one height [length]
     spacing : side d of an element [length]
     """
 
@@ -82,7 +82,7 @@ def elements_of(indenter):
     rows, columns = np.nonzero(np.isfinite(indenter.heights))
     gap = indenter.initial_gap[rows, columns].astype(float)
     order = np.argsort(gap, kind="stable")
-    units = Units(gap.max() or 1.0, indenter.spacing)
+    units = Units(gap.max() or indenter.element_side, indenter.spacing)
     origin = int(rows.min()), int(columns.min())
     row, column = (
         (position[order] - first).astype(np.int32) for position, first in zip((rows, columns), origin, strict=True)

@@ -12,6 +12,8 @@ CURVE = ("indent", "heights.npy", "--spacing", "1", "-o", "curve.nc")
 MARCH = ("march", "heights.npy", "--spacing", "1", "--viscosity", "3")
 COMMANDS = {
     "curve": CURVE,
+    "fields": ("contact", "heights.npy", "--spacing", "1", "--force", "2", "-o", "fields.nc"),
+    "several": ("contact", "heights.npy", "--spacing", "1", "--depth", "0.1,0.2", "--young", "2", "-o", "several.nc"),
     "kinetics": ("kinetics", "curve.nc", "--force", "2", "--viscosity", "3", "-o", "kinetics.nc"),
     "events": (*MARCH, "--force", "2", "--method", "events", "-o", "events.nc"),
     "steps": (*MARCH, "--force", "2", "--method", "implicit", "--times", "0.1,0.2", "-o", "steps.nc"),

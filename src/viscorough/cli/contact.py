@@ -1,0 +1,62 @@
+"""`viscorough contact`: a map of heights to the fields of contact at a given force or depth."""
+
+import click
+
+from viscorough.cli.elasticity import IncreasingQuantities, elastic_constants_options, elasticity, lengths
+from viscorough.cli.messages import announce
+from viscorough.cli.options import (
+    FILE,
+    PositiveNumber,
+    output_option,
+    printable_name,
+    read_indenter,
+    spacing_option,
+    write_output,
+)
+
+
+@click.command(short_help="Pressure, gap and contact at a given force or depth.")
+@click.argument("heights", type=FILE)
+@spacing_option
+@output_option("FIELDS.nc", table=False)
+@click.option("--force", type=IncreasingQuantities("N"), help="Force, or several: F/G, or F with a modulus.")
+@click.option("--depth", type=IncreasingQuantities("m"), help="Depth from first contact, or several.")
+@elastic_constants_options
+@click.option("--tolerance", type=PositiveNumber(0.1), default=1e-3, show_default=True, help="Relative accuracy.")
+def contact(heights, spacing, output, *, force, depth, shear_modulus, young, poisson, tolerance):
+    """Pressure, gap and contact of an indenter pressed into an elastic half-space, at a given force or depth.
+
+    HEIGHTS, spacing and units are as for viscorough indent; no loading curve is computed. Without a modulus,
+    forces are F/G, in the unit of length squared. With --shear-modulus, or --young and --poisson, forces are in N
+    and moduli in Pa if the unit of length is known, else all are in consistent units of your choice; a number may then
+    have a unit, as "5 mN".
+
+    FIELDS.nc has the dimensions y and x, and level if several forces or depths are given; the maps pressure = p/G
+    (nan outside the indenter), gap, contact (0 or 1) and heights; and the numbers depth, force = F/G,
+    stiffness = k/G, contact_fraction, contact_area, mean_pressure, largest_pressure, residual and patches, the
+    number of patches of contact, whose areas are in patch_area. G is the shear modulus of the incompressible half-space
+    with the same E/(1 - nu^2) = 4 G.
+
+    \b
+    Example, a map in micrometres under F/G = 2 and under 3 square micrometres:
+        viscorough contact heights.npy --spacing 0.5 --force 2,3 -o fields.nc
+    """
+    if (force is None) == (depth is None):
+        raise click.UsageError("one of --force and --depth is needed")
+    indenter = read_indenter(heights, spacing, output)
+    medium = elasticity(shear_modulus, young, poisson, indenter.length_unit)
+    if force is None:
+        given = {"depth": lengths(depth, indenter.length_unit, "--depth")}
+    else:
+        given = {"force": medium.forces_over_modulus(force, "--force")}
+
+    from viscorough.contact.one_contact import contact_at
+    from viscorough.io.contacts import contacts_to_content
+
+    contacts = contact_at(indenter, tolerance=tolerance, **given)
+    content = contacts_to_content(contacts, indenter.heights)
+    write_output(content, output, heights=printable_name(heights), **medium.attributes)
+    last, patches = contacts[-1], int(content.variables["patches"].values.flat[-1])
+    text = f"depth {last.depth:.6g}, F/G {last.force:.6g}, contact fraction {last.contact_fraction:.4g}, "
+    text += f"{patches} patch{'' if patches == 1 else 'es'}"
+    announce(output, text if len(contacts) == 1 else f"{len(contacts)} levels, the last at {text}")

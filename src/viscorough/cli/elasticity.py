@@ -1,0 +1,125 @@
+"""Options for the half-space's elastic constants, and what forces are in terms of the solver's F/G."""
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import click
+
+from viscorough.cli.options import Quantity, number_in
+
+
+class IncreasingQuantities(click.ParamType):
+    """Quantities separated by commas, all plain or all with units, each larger than the one before.
+
+    Converted to a list of viscorough.units.Quantity.
+    """
+
+    name = "a,b,c"
+
+    def __init__(self, unit):
+        self.unit = unit
+
+    def convert(self, value, param, ctx):
+        entries = [entry.strip() for entry in value.split(",")]
+        quantities = [Quantity(self.unit).convert(entry, param, ctx) for entry in entries]
+        if len({bool(quantity.unit) for quantity in quantities}) == 2:
+            self.fail(f"{value!r}: some numbers have a unit; all or none of them may have one", param, ctx)
+        for last, quantity in pairwise(quantities):
+            if quantity.to(self.unit) <= last.to(self.unit):
+                text = "each number must be larger than the one before"
+                self.fail(f"{quantity!s} follows {last!s}; {text}", param, ctx)
+        return quantities
+
+
+class PoissonRatio(click.ParamType):
+    """A number above -1 and not above 0.5."""
+
+    name = "number"
+
+    def convert(self, value, param, ctx):
+        try:
+            number = float(value)
+        except ValueError:
+            number = float("nan")
+        if not -1 < number <= 0.5:
+            self.fail(f"{value!r} is not a number above -1 and up to 0.5", param, ctx)
+        return number
+
+
+def elastic_constants_options(command):
+    """Add --shear-modulus, --young and --poisson to a command."""
+    for option in (
+        click.option("--poisson", type=PoissonRatio(), help="Poisson ratio, with --young  [default: 0.5]"),
+        click.option("--young", type=Quantity("Pa"), help="Young's modulus of the half-space, instead of G."),
+        click.option("--shear-modulus", type=Quantity("Pa"), help="Shear modulus G of the incompressible half-space."),
+    ):
+        command = option(command)
+    return command
+
+
+@dataclass(frozen=True)
+class Elasticity:
+    """The elastic half-space, as far as it was stated.
+
+    length_unit : unit of length of the indenter, "1" if it is not known
+    shear_modulus : G of the incompressible half-space with the same E* = E/(1 − ν²) = 4G [Pa, or consistent units];
+        None if no modulus was stated
+    attributes : what was stated, for files
+    """
+
+    length_unit: str
+    shear_modulus: float | None
+    attributes: dict
+
+    def forces_over_modulus(self, quantities, option):
+        """F/G [length²] of forces, Quantities given with an option.
+
+        With a modulus, forces are in N, or in consistent units if the unit of length is not known; without one, they
+        are F/G. Raises UsageError for a force with a unit where no modulus or no unit of length is known.
+        """
+        if self.shear_modulus is None:
+            if stated := next((quantity for quantity in quantities if quantity.unit), None):
+                text = f"{option} {stated}: a force needs --shear-modulus or --young; a plain number is F/G"
+                raise click.UsageError(text)
+            return [quantity.number for quantity in quantities]
+        forces = [number_in("N", quantity, self.length_unit, option) for quantity in quantities]
+        if self.length_unit == "1":
+            return [force / self.shear_modulus for force in forces]
+
+        from viscorough import units
+
+        area = units.metres(self.length_unit) ** 2
+        return [force / self.shear_modulus / area for force in forces]
+
+
+def elasticity(shear_modulus, young, poisson, length_unit):
+    """The Elasticity of the options. Raises UsageError if they contradict each other."""
+    if shear_modulus is not None and young is not None:
+        raise click.UsageError("--shear-modulus and --young exclude each other; one of them is allowed")
+    if poisson is not None and young is None:
+        raise click.UsageError("--poisson is for use with --young")
+    if young is not None:
+        poisson = 0.5 if poisson is None else poisson
+        modulus = number_in("Pa", young, length_unit, "--young")
+        stated = {"young_modulus": modulus, "poisson_ratio": poisson}
+        return Elasticity(length_unit, modulus / (1 - poisson**2) / 4, stated)
+    if shear_modulus is not None:
+        modulus = number_in("Pa", shear_modulus, length_unit, "--shear-modulus")
+        return Elasticity(length_unit, modulus, {"shear_modulus": modulus})
+    return Elasticity(length_unit, None, {})
+
+
+def lengths(quantities, length_unit, option):
+    """Numbers in the unit of length of the indenter, of Quantities given with an option."""
+    return [number_in(length_unit, quantity, length_unit, option) for quantity in quantities]
+
+
+def check_incompressible(content, path):
+    """Raise ValueError if a curve, the Content of a file, is that of a compressible half-space.
+
+    The kinetics of a viscous half-space follow from the elastic curve of an incompressible one only.
+    """
+    ratio = content.attributes.get("poisson_ratio", 0.5)
+    if ratio != 0.5:
+        text = f"{path}: the curve is that of a half-space with Poisson ratio {ratio}"
+        raise ValueError(f"{text}; kinetics need one of an incompressible half-space, 0.5")

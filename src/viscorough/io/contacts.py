@@ -1,0 +1,77 @@
+"""Contacts in NetCDF files: maps of pressure, gap and contact with the coordinates of their points, and numbers."""
+
+import numpy as np
+
+from viscorough.io.netcdf import Content, Variable
+from viscorough.summaries import unit_power
+
+COMMENT = (
+    "Rigid indenter on an incompressible half-space, no friction, no adhesion. Depth is from first contact, "
+    "force is F/G, the sum of pressure times the area of an element, pressure is p/G, stiffness is d(F/G)/du. Gap is "
+    "deflection - depth + initial gap, the initial gap being the depth of heights below their highest; the deflection "
+    "of an element is the sum of sqrt(dx dy)/(4 pi) K pressure, K Love's influence coefficients. In contact, the gap "
+    "is zero within residual times depth. Patches are regions in contact that are connected by sides of elements."
+)
+# Maps over (y, x): long_name, and the power of the length unit that is their unit.
+MAPS = {
+    "pressure": ("pressure over shear modulus p/G", 0),
+    "gap": ("gap between the deformed surface and the indenter", 1),
+    "contact": ("whether an element is in contact", 0),
+}
+NUMBERS = {
+    "depth": ("depth of indentation u", 1),
+    "force": ("normal force over shear modulus F/G", 2),
+    "stiffness": ("tangent stiffness over shear modulus k/G", 1),
+    "contact_fraction": ("share of the indenter's elements in contact", 0),
+    "contact_area": ("area of the elements in contact", 2),
+    "mean_pressure": ("mean pressure in contact over shear modulus", 0),
+    "largest_pressure": ("largest pressure over shear modulus", 0),
+    "residual": ("largest gap in contact or overlap outside it that remains, over depth", 0),
+}
+# Tolerance from which on maps are stored in single precision, as the solver has them.
+_SINGLE_FROM = 1e-4
+
+
+def contacts_to_content(contacts, heights):
+    """Contacts of one indenter, and its heights, as the Content of a file.
+
+    contacts : Contacts; if there are several, maps and numbers have the dimension `level` before their own
+
+    The variables are MAPS and `heights` over (y, x), NUMBERS, `patches`, the number of patches of contact, and
+    `patch_area` over `patch`, their areas in decreasing order, nan beyond the last one. Coordinates count from the
+    centre of the map.
+    """
+    first = contacts[0]
+    unit, several = first.length_unit, len(contacts) > 1
+    level = ("level",) if several else ()
+
+    def joined(arrays):
+        return np.stack(arrays) if several else np.asarray(arrays[0])
+
+    def attributes(long_name, power):
+        return {"long_name": long_name, "units": unit_power(unit, power)}
+
+    variables = {}
+    for name, spacing, points in zip("yx", (first.row_spacing, first.spacing), heights.shape, strict=True):
+        position = spacing * (np.arange(points) - (points - 1) / 2)
+        variables[name] = Variable((name,), position, attributes(f"position along {name}", 1))
+    variables["heights"] = Variable(("y", "x"), heights, attributes("height", 1))
+    stored = np.float32 if first.tolerance >= _SINGLE_FROM else np.float64
+    for name, about in MAPS.items():
+        kind = np.int8 if name == "contact" else stored
+        values = joined([getattr(contact, name).astype(kind) for contact in contacts])
+        variables[name] = Variable((*level, "y", "x"), values, attributes(*about))
+    flags = {"flag_values": np.array([0, 1], np.int8), "flag_meanings": "apart in_contact"}
+    variables["contact"].attributes.update(flags)
+    for name, about in NUMBERS.items():
+        values = joined([getattr(contact, name) for contact in contacts])
+        variables[name] = Variable(level, values, attributes(*about))
+    areas = [contact.patches().areas for contact in contacts]
+    padded = np.full((len(areas), max(map(len, areas))), np.nan)
+    for row, of_contact in zip(padded, areas, strict=True):
+        row[: len(of_contact)] = of_contact
+    counts = joined([len(of_contact) for of_contact in areas])
+    variables["patches"] = Variable(level, counts, attributes("number of patches of contact", 0))
+    variables["patch_area"] = Variable((*level, "patch"), joined(list(padded)), attributes("area of a patch", 2))
+    about = {"title": "Contact of a rigid indenter with an elastic half-space", "comment": COMMENT}
+    return Content(variables, about | {"tolerance": first.tolerance, "spacing": [first.spacing, first.row_spacing]})

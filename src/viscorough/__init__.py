@@ -22,6 +22,7 @@ _MODULE_OF = {
     "penetration_law": "calibrated_law",
     "estimate": "estimates",
     "read_heights": "io.heights",
+    "prepare": "preparation",
 }
 __all__ = sorted(_MODULE_OF)
 

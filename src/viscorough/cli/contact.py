@@ -5,25 +5,21 @@ import click
 from viscorough.cli.elasticity import IncreasingQuantities, elastic_constants_options, elasticity, lengths
 from viscorough.cli.messages import announce
 from viscorough.cli.options import (
-    FILE,
     PositiveNumber,
     output_option,
-    printable_name,
-    read_indenter,
-    spacing_option,
     write_output,
 )
+from viscorough.cli.surface_options import heights_input, read_indenter
 
 
 @click.command(short_help="Pressure, gap and contact at a given force or depth.")
-@click.argument("heights", type=FILE)
-@spacing_option
+@heights_input()
 @output_option("FIELDS.nc", table=False)
 @click.option("--force", type=IncreasingQuantities("N"), help="Force, or several: F/G, or F with a modulus.")
 @click.option("--depth", type=IncreasingQuantities("m"), help="Depth from first contact, or several.")
 @elastic_constants_options
 @click.option("--tolerance", type=PositiveNumber(0.1), default=1e-3, show_default=True, help="Relative accuracy.")
-def contact(heights, spacing, output, *, force, depth, shear_modulus, young, poisson, tolerance):
+def contact(surface, output, *, force, depth, shear_modulus, young, poisson, tolerance):
     """Pressure, gap and contact of an indenter pressed into an elastic half-space, at a given force or depth.
 
     HEIGHTS, spacing and units are as for viscorough indent; no loading curve is computed. Without a modulus,
@@ -43,7 +39,7 @@ def contact(heights, spacing, output, *, force, depth, shear_modulus, young, poi
     """
     if (force is None) == (depth is None):
         raise click.UsageError("one of --force and --depth is needed")
-    indenter = read_indenter(heights, spacing, output)
+    indenter = read_indenter(surface, output)
     medium = elasticity(shear_modulus, young, poisson, indenter.length_unit)
     if force is None:
         given = {"depth": lengths(depth, indenter.length_unit, "--depth")}
@@ -55,7 +51,7 @@ def contact(heights, spacing, output, *, force, depth, shear_modulus, young, poi
 
     contacts = contact_at(indenter, tolerance=tolerance, **given)
     content = contacts_to_content(contacts, indenter.heights)
-    write_output(content, output, heights=printable_name(heights), **medium.attributes)
+    write_output(content, output, **surface.attributes(indenter), **medium.attributes)
     last, patches = contacts[-1], int(content.variables["patches"].values.flat[-1])
     text = f"depth {last.depth:.6g}, F/G {last.force:.6g}, contact fraction {last.contact_fraction:.4g}, "
     text += f"{patches} patch{'' if patches == 1 else 'es'}"

@@ -5,20 +5,16 @@ import click
 from viscorough.cli.elasticity import IncreasingQuantities, elastic_constants_options, elasticity, lengths
 from viscorough.cli.messages import announce
 from viscorough.cli.options import (
-    FILE,
     PositiveNumber,
     Quantity,
     output_option,
-    printable_name,
-    read_indenter,
-    spacing_option,
     write_output,
 )
+from viscorough.cli.surface_options import heights_input, read_indenter
 
 
 @click.command(short_help="Loading curve of an indenter on an elastic half-space.")
-@click.argument("heights", type=FILE)
-@spacing_option
+@heights_input()
 @output_option("CURVE.nc")
 @click.option(
     "--depths", type=IncreasingQuantities("m"), help="Levels at exactly these depths  [default: as the tolerance needs]"
@@ -29,8 +25,7 @@ from viscorough.cli.options import (
 @click.option("--until-force", type=Quantity("N"), help="F/G, or F with a modulus, at which to stop.")
 @elastic_constants_options
 def indent(
-    heights,
-    spacing,
+    surface,
     output,
     *,
     depths,
@@ -44,14 +39,17 @@ def indent(
 ):
     """Loading curve of an indenter pressed into an elastic half-space.
 
-    HEIGHTS is a .npy or NetCDF (.nc) file with a two-dimensional map of heights; in a NetCDF file it is the variable
-    "heights" or the only two-dimensional one. Larger is higher: the highest point touches first. Points that are
-    nan lie outside the indenter. Heights, spacing and depths are in one unit of length of your choice.
+    HEIGHTS is a map of heights: .npy, NetCDF, text (a matrix, an ESRI grid, columns x, y, z), TIFF, or a format of an
+    instrument, for which pip install 'viscorough[formats]' is needed. Rows are along y, columns along x. Spacing and
+    unit are those that the file states; where it states no unit, heights, spacing and depths are in one unit of length
+    of your choice.
+
+    Larger is higher: the highest point touches first. Points that are nan lie outside the indenter.
 
     CURVE.nc has the dimension "level" and the variables depth, force = F/G and stiffness = k/G (F the force,
     k its derivative with respect to depth, G the shear modulus of the incompressible half-space),
-    contact_count, contact_fraction and residual. Their units are powers of the unit that a NetCDF file states
-    for the heights; if none is stated, units are 1, which stands for the unit you chose.
+    contact_count, contact_fraction and residual. Their units are powers of the unit of the heights; if that is not
+    stated, units are 1, which stands for the unit you chose.
 
     Without a modulus, forces are F/G, in the unit of length squared. With --shear-modulus, or --young and --poisson,
     forces are in N and moduli in Pa if the unit of length is known, else all are in consistent units of your choice; a
@@ -62,13 +60,14 @@ def indent(
     \b
     Example:
         viscorough indent heights.npy --spacing 2e-6 --depths 1e-6,2e-6,4e-6 -o curve.nc
+        viscorough indent scan.txt --spacing 0.37,0.5 --unit um --detrend plane -o curve.nc
     """
     levels = {"--depths": depths, "--forces": forces}
     ends = {"--until-fraction": until_fraction, "--until-force": until_force}
     stated = [name for name, value in (levels | ends).items() if value is not None]
     if len(stated) > 1 and stated[0] in levels:
         raise click.UsageError(f"{stated[0]} and {stated[1]} exclude each other; one of them is allowed")
-    indenter = read_indenter(heights, spacing, output)
+    indenter = read_indenter(surface, output)
     medium = elasticity(shear_modulus, young, poisson, indenter.length_unit)
     given = {}
     if depths is not None:
@@ -85,6 +84,6 @@ def indent(
     from viscorough.io.curves import curve_to_content
 
     curve = indent(indenter, tolerance=tolerance, **given)
-    write_output(curve_to_content(curve), output, heights=printable_name(heights), spacing=spacing, **medium.attributes)
+    write_output(curve_to_content(curve), output, **surface.attributes(indenter), **medium.attributes)
     count = f"{curve.contact_count[-1]} of {curve.elements} elements in contact"
     announce(output, f"{curve.depth.size} levels, the last at depth {curve.depth[-1]:.6g} with {count}")

@@ -10,15 +10,13 @@ from viscorough.cli.options import (
     check_not_an_input,
     output_option,
     printable_name,
-    read_indenter,
-    spacing_option,
     write_output,
 )
+from viscorough.cli.surface_options import heights_input, read_indenter
 
 
 @click.command(short_help="Penetration over time by direct integration.")
-@click.argument("heights", type=FILE)
-@spacing_option
+@heights_input()
 @output_option("KIN.nc")
 @click.option(
     "--method",
@@ -42,7 +40,7 @@ from viscorough.cli.options import (
     help="Largest overlap allowed, relative to the depth; explicit and heun divide their steps to keep to it.",
 )
 @click.option("--until-fraction", type=PositiveNumber(1), help="Contact fraction at which events stop  [default: 1]")
-def march(heights, spacing, output, *, method, force, viscosity, times, force_history, overlap, until_fraction):
+def march(surface, output, *, method, force, viscosity, times, force_history, overlap, until_fraction):
     """Integrate the viscous problem directly in time, without its correspondence with the elastic one.
 
     HEIGHTS and units are as for indent and kinetics. KIN.nc has the dimension "level" (contact events or ends of steps)
@@ -62,7 +60,7 @@ def march(heights, spacing, output, *, method, force, viscosity, times, force_hi
     _check_options_of_method(method, bool(force_history), times, overlap, until_fraction)
     if force_history:
         check_not_an_input(output, force_history, "force history")
-    indenter = read_indenter(heights, spacing, output)
+    indenter = read_indenter(surface, output)
 
     import numpy as np
 
@@ -80,13 +78,7 @@ def march(heights, spacing, output, *, method, force, viscosity, times, force_hi
         per_time = force / viscosity
         integrated = _integrate(indenter, method, None if times is None else per_time * np.array(times), **options)
         content = motion.integration_to_content(integrated, per_time)
-    attributes = {
-        "method": method,
-        "force": force,
-        "viscosity": viscosity,
-        "heights": printable_name(heights),
-        "spacing": spacing,
-    }
+    attributes = {"method": method, "force": force, "viscosity": viscosity, **surface.attributes(indenter)}
     write_output(content, output, **attributes)
     time, depth, count = (content.variables[name].values for name in ("time", "depth", "contact_count"))
     contact = f"{count[-1]} of {indenter.elements} elements in contact"

@@ -3,7 +3,6 @@
 import contextlib
 import os
 import threading
-import warnings
 from itertools import pairwise
 from pathlib import Path
 from signal import default_int_handler
@@ -11,10 +10,7 @@ from signal import default_int_handler
 import click
 
 from viscorough.cli.messages import complain
-from viscorough.errors import AccuracyWarning
 from viscorough.interrupts import on_interrupt
-
-_STEEP_SLOPE = 0.3  # rms slope above which the theory of small slopes is doubtful, so that users are warned
 
 
 class PositiveNumber(click.ParamType):
@@ -95,12 +91,6 @@ class Increasing(click.ParamType):
 FILE = click.Path(path_type=Path)
 
 
-def spacing_option(command):
-    """Add --spacing to a command."""
-    text = "Distance between neighbouring points."
-    return click.option("--spacing", type=PositiveNumber(), required=True, help=text)(command)
-
-
 def output_option(metavar, table=True):
     """Decorator that adds -o/--output to a command; `table` says whether the results can also be written as CSV."""
     text = "File to write or replace" + ("; as a table if it ends in .csv." if table else ".")
@@ -152,25 +142,6 @@ def check_opens(path):
 
     with time_limit(path), netcdf.opened(path):
         pass
-
-
-def read_indenter(heights, spacing, output):
-    """The indenter in a file, read after a check that the output can be written.
-
-    Raises ValueError for an output that cannot be written and for invalid heights; steep ones give an AccuracyWarning.
-    """
-    from viscorough.io.atomic import check_output
-    from viscorough.io.heights import read_heights
-
-    check_output(output)
-    check_not_an_input(output, heights, "heights")
-    if heights.suffix == ".nc":
-        check_opens(heights)
-    indenter = read_heights(heights, spacing)
-    if (slope := indenter.rms_slope) > _STEEP_SLOPE:
-        text = f"{heights}: the rms slope is {slope:.2g}; the theory holds for small slopes, below about {_STEEP_SLOPE}"
-        warnings.warn(text, AccuracyWarning, stacklevel=2)
-    return indenter
 
 
 def read_content(path):

@@ -6,14 +6,14 @@ import click
 
 from viscorough.cli.messages import announce
 from viscorough.cli.options import (
-    FILE,
     PositiveNumber,
     check_not_an_input,
+    number_in,
     output_option,
     printable_name,
-    read_indenter,
     write_output,
 )
+from viscorough.cli.surface_options import heights_input, read_indenter
 from viscorough.errors import AccuracyWarning
 
 _OF_A_MAP = (
@@ -23,13 +23,12 @@ _OF_A_MAP = (
 
 
 @click.command(short_help="Loading curve by the method of reduction of dimensionality (MDR).")
-@click.argument("line_or_map", type=FILE)
-@click.option("--spacing", type=PositiveNumber(), help="Distance between neighbouring points  [default: the file's]")
+@heights_input("line_or_map")
 @click.option("--until-fraction", type=PositiveNumber(1), help="Contact fraction at which to stop  [default: 1]")
 @click.option("--realizations", type=click.IntRange(1, 100_000), help="Lines to make of a map  [default: 1]")
 @click.option("--seed", type=click.IntRange(min=0), help="Of the lines that are made of a map  [default: 0]")
 @output_option("CURVE.nc")
-def reduce(line_or_map, spacing, until_fraction, realizations, seed, output):
+def reduce(surface, until_fraction, realizations, seed, output):
     """Loading curve of a line by the method of reduction of dimensionality (MDR), in a fraction of a second.
 
     LINE_OR_MAP is a .npy or NetCDF file with the heights of a line, as viscorough generate --points makes it: springs
@@ -53,6 +52,7 @@ def reduce(line_or_map, spacing, until_fraction, realizations, seed, output):
     from viscorough.io.curves import curve_to_content, stack_curves
     from viscorough.io.surfaces import dimensions_of_heights, read_line
 
+    line_or_map = surface.path
     check_output(output)
     check_not_an_input(output, line_or_map, "heights")
     options = {"until_fraction": until_fraction or 1.0}
@@ -60,14 +60,17 @@ def reduce(line_or_map, spacing, until_fraction, realizations, seed, output):
     if dimensions_of_heights(line_or_map) == 1:
         if realizations or seed is not None:
             raise click.UsageError("--realizations and --seed are for maps, of which lines are made; this is a line")
+        if surface.unit or surface.channel or surface.preparation:
+            raise click.UsageError("--unit, --channel and preparation are for maps; this is a line")
+        spacing = surface.spacing and number_in("m", surface.spacing[0], "1", "--spacing")
         lines = [read_line(line_or_map, spacing)]
     else:
         if (realizations or 1) > 1 and output.suffix.lower() == ".csv":
             raise click.UsageError("--realizations: several curves are no table; a NetCDF file (.nc) is needed")
-        surface = read_indenter(line_or_map, spacing, output)
-        about |= {"realizations": realizations or 1, "seed": seed or 0}
+        indenter = read_indenter(surface, output)
+        about = surface.attributes(indenter) | {"realizations": realizations or 1, "seed": seed or 0}
         seeds = [[seed or 0, index] for index in range(realizations or 1)]
-        lines = (mdr.line_of_map(surface, entropy) for entropy in seeds)
+        lines = (mdr.line_of_map(indenter, entropy) for entropy in seeds)
         warnings.warn(_OF_A_MAP, AccuracyWarning, stacklevel=2)
     curves = [mdr.reduce(line, **options) for line in lines]
     content = curve_to_content(curves[0]) if len(curves) == 1 else stack_curves(curves)

@@ -1,47 +1,80 @@
-"""Maps of heights read from files.
+"""Maps of heights read from files of many formats, prepared, and checked for what makes contact results wrong."""
 
-Lengths are in a unit of the user's choice, which a NetCDF file may state. CF files of results need a unit that can be
-parsed: where the unit is not known it is "1", and the numbers are multiples of the unit of the heights.
-"""
-
+import warnings
 from pathlib import Path
 
 import numpy as np
 
-from viscorough.indenter import Indenter
+from viscorough.errors import AccuracyWarning
 from viscorough.io import netcdf
 from viscorough.io.atomic import reason
+from viscorough.io.scan import Scan, to_indenter, uniform_spacing
+from viscorough.io.text import is_binary, read_text
 from viscorough.io.unpacking import unpacked
+from viscorough.preparation import doubts, prepare
+
+TEXT = (".txt", ".csv", ".asc", ".dat", ".xyz", ".tsv")
+TIFF = (".tif", ".tiff")
 
 
-def read_heights(path, spacing):
+def read_heights(path, spacing=None, *, unit=None, channel=None, **preparation):
     """Read a map of heights as an Indenter: the highest point touches first, points that are nan lie outside it.
 
-    path : .npy of shape (rows, columns), or .nc with one two-dimensional variable or one named `heights`
-    spacing : distance between neighbouring points, in the unit of the heights
+    path : .npy, NetCDF (.nc), text (.txt, .csv, .asc, .dat, .tsv, .xyz: a matrix, an ESRI grid, or columns x, y, z),
+        (Geo)TIFF, or a format of an instrument, for which SurfaceTopography must be installed
+        (pip install 'viscorough[formats]')
+    spacing : distance between neighbouring points, or (dx, dy): from column to column, from row to row; in the unit of
+        the heights. Needed where the file states none
+    unit : unit of length of the heights, where the file states none, such as "um"
+    channel : name or number (from 0) of the map to read, where a file holds several; by default the variable `heights`
+        of a NetCDF file, and the first channel of heights of an instrument's file
+    preparation : keyword arguments of viscorough.prepare
 
-    Missing values of a NetCDF file are nan. Raises a one-line ValueError that names the file and what is wrong.
+    Rows are along y and columns along x, in the order of the file; columns of x, y, z in increasing order. Values that
+    the file marks as missing are nan. Gives an AccuracyWarning for each of the doubts that viscorough.preparation has
+    about the prepared map. Raises a one-line ValueError that names the file, what is wrong and what is needed.
     """
-    suffix = Path(path).suffix
-    if suffix not in (".npy", ".nc"):
-        raise ValueError(f"{path}: unknown kind of file; heights are read from .npy and .nc")
-    heights = npy_array(path) if suffix == ".npy" else _with_height_variable(path, unpacked)
-    if heights.dtype.kind not in "iuf":
-        raise ValueError(f"{path}: heights are of type {heights.dtype}; real numbers are needed")
-    if heights.ndim != 2:
-        raise ValueError(f"{path}: heights have the shape {heights.shape}; a two-dimensional map is needed")
     try:
-        return Indenter(heights, spacing, length_unit=length_unit_of(path))
+        given = None if spacing is None else _pair(spacing)
+        indenter = to_indenter(_read_scan(path, channel), given, unit)
+        indenter = prepare(indenter, **preparation)
     except ValueError as error:
-        raise ValueError(f"{path}: {error}") from error
+        text = str(error)
+        raise ValueError(text if text.startswith(f"{path}: ") else f"{path}: {text}") from error
+    for text in doubts(indenter):
+        warnings.warn(f"{path}: {text}", AccuracyWarning, stacklevel=2)
+    return indenter
 
 
-def length_unit_of(path):
-    """Unit that a .nc file states for the heights; "1" if it states none, and for .npy files."""
-    if Path(path).suffix != ".nc":
-        return "1"
-    unit = _with_height_variable(path, netcdf.attributes_of).get("units")
-    return unit if isinstance(unit, str) and unit.strip() else "1"
+def _pair(spacing):
+    """A spacing as (dx, dy)."""
+    if not isinstance(spacing, tuple | list | np.ndarray):
+        return spacing, spacing
+    if len(spacing) != 2:
+        raise ValueError(f"spacing {spacing!r}: one distance, or the two of columns and rows, is needed")
+    return tuple(spacing)
+
+
+def _read_scan(path, channel):
+    """The Scan in a file, by the reader for its suffix."""
+    suffix = Path(path).suffix.lower()
+    if suffix == ".nc":
+        return _netcdf_scan(path, channel)
+    if suffix in TIFF:
+        from viscorough.io.tiff import read_tiff
+
+        return read_tiff(path, channel)
+    if suffix in TEXT and is_binary(path):  # some instruments use the same suffix
+        suffix = None
+    if suffix in TEXT or suffix == ".npy":
+        if channel is not None:
+            raise ValueError(f"--channel {channel}: a file of this kind holds one map; leave it out")
+        if suffix == ".npy":
+            return Scan(npy_array(path))
+        return read_text(path)
+    from viscorough.io.instruments import read_instrument
+
+    return read_instrument(path, channel)
 
 
 def npy_array(path):
@@ -55,12 +88,71 @@ def npy_array(path):
         raise ValueError(f"{path}: not readable ({reason(error)}); a .npy file of numbers is needed") from error
 
 
-def _with_height_variable(path, function):
-    """function(variable) of the NetCDF variable named `heights`, or else of the only two-dimensional one."""
+def _netcdf_scan(path, channel):
+    """The variable named `channel` of a NetCDF file, or `heights`, or else the only one with two dimensions."""
     with netcdf.opened(path) as file:
         maps = [name for name, variable in file.variables.items() if variable.ndim == 2]
-        names = ["heights"] if "heights" in file.variables else maps
-        if len(names) == 1:
-            return function(file.variables[names[0]])
-    kind = f"two-dimensional variables {', '.join(maps)}" if maps else "no two-dimensional variable"
-    raise ValueError(f"{path}: {kind}; exactly one, or one named heights, is needed")
+        names = [channel] if channel else ["heights"] if "heights" in file.variables else maps
+        if len(names) == 1 and names[0] in file.variables:
+            variable = file.variables[names[0]]
+            heights, unit = unpacked(variable), _unit(variable)
+            positions = [_positions(file, dimension) for dimension in variable.dimensions]
+            dimensions = variable.dimensions
+        else:
+            heights = None
+    if heights is None:
+        kind = f"two-dimensional variables {', '.join(maps)}" if maps else "no two-dimensional variable"
+        needed = f"none of them is the channel {channel}" if channel else "exactly one, or one named heights, is needed"
+        raise ValueError(f"{path}: {kind}; {needed}")
+    if heights.ndim != 2:
+        return Scan(heights, unit)
+    if [dimension.lower() for dimension in dimensions] == ["x", "y"]:
+        heights, positions = heights.T, positions[::-1]
+    spacing, spacing_unit = _spacing(*positions)
+    return Scan(heights, unit, spacing, spacing_unit)
+
+
+def _unit(variable):
+    """The attribute `units` of a NetCDF variable, or `unit`, as some programs spell it; "1" if it has none."""
+    attributes = netcdf.attributes_of(variable)
+    unit = attributes.get("units", attributes.get("unit"))
+    return unit if isinstance(unit, str) and unit.strip() else "1"
+
+
+def _positions(file, dimension):
+    """Name, positions and unit along a dimension: of the variable of that name, or of the only one that has only it."""
+    along = [
+        name
+        for name, variable in file.variables.items()
+        if variable.dimensions == (dimension,) and variable.dtype is not str and np.dtype(variable.dtype).kind in "iuf"
+    ]
+    name = dimension if dimension in along else along[0] if len(along) == 1 else None
+    return None if name is None else (name, unpacked(file.variables[name]), _unit(file.variables[name]))
+
+
+def _spacing(rows, columns):
+    """((dx, dy), unit) that the positions of rows and columns state; (None, "1") for none, or mere indices.
+
+    Raises ValueError if only one of them is there, or if their units differ in kind.
+    """
+    stated = [axis for axis in (columns, rows) if axis is not None and not _are_indices(*axis[1:])]
+    if not stated:
+        return None, "1"
+    if len(stated) == 1:
+        raise ValueError(f"only the coordinate {stated[0][0]} states a spacing; both directions, or none, are needed")
+    (_, _, unit), (_, _, other) = stated
+    distances = [uniform_spacing(name, positions) for name, positions, _ in stated]
+    if unit != other:
+        from viscorough import units
+
+        if "1" in (unit, other):
+            raise ValueError(f"coordinates are in {unit} and {other}; units of length are needed for both")
+        distances[1] *= units.metres(other) / units.metres(unit)
+    return tuple(distances), unit
+
+
+def _are_indices(positions, unit):
+    """Whether positions only count points, from 0 or 1 on, so that they state no distance."""
+    if unit != "1" or not positions.size or np.ma.is_masked(positions):
+        return False
+    return positions[0] in (0, 1) and np.array_equal(positions - positions[0], np.arange(positions.size))

@@ -165,7 +165,7 @@ MISTAKES = [
     ([*INDENT, "--until-fraction", "0.5", "--depths", "1"], "viscorough indent: ", "exclude"),
     *[
         ([*INDENT[:3], spacing, *INDENT[4:]], "viscorough indent: ", f"'{spacing}' is not a number above 0")
-        for spacing in ("0", "-1", "nan", "inf", "1e-400", "1,5", "")
+        for spacing in ("0", "-1", "nan", "inf", "1e-400", "")
     ],
     *[
         ([*INDENT, "--depths", depths], "viscorough indent: ", "--depths")
@@ -310,9 +310,9 @@ def test_interrupt_is_quiet_and_leaves_nothing(here):
         from viscorough import cli
         from viscorough.io import heights
         read = heights.read_heights
-        def announced(*arguments):
+        def announced(*arguments, **options):
             print("reading", flush=True)
-            return read(*arguments)
+            return read(*arguments, **options)
         heights.read_heights = announced
         sys.exit(cli.main(sys.argv[1:]))
     """)

@@ -6,7 +6,7 @@ import xarray as xr
 
 from support.curves import one_line
 from viscorough.io.datasets import write_dataset
-from viscorough.io.heights import length_unit_of, read_heights
+from viscorough.io.heights import read_heights
 
 
 def heights_file(folder, heights, name="heights.npy"):
@@ -32,13 +32,14 @@ def test_heights_of_netcdf(tmp_path):
     named = only.assign(heights=(("y", "x"), 2 * heights, attributes))
     for name, ds, factor in (("only.nc", only, 1), ("named.nc", named, 2)):
         write_dataset(ds, tmp_path / name)
-        np.testing.assert_array_equal(read_heights(tmp_path / name, 1.0).heights, factor * heights)
-        assert length_unit_of(tmp_path / name) == "um"
-    assert length_unit_of("heights.npy") == "1"
+        indenter = read_heights(tmp_path / name, 1.0)
+        np.testing.assert_array_equal(indenter.heights, factor * heights)
+        assert indenter.length_unit == "um"
     packed = {"z": {"dtype": "int16", "scale_factor": 0.5, "_FillValue": -1}}
     only.drop_attrs().to_netcdf(tmp_path / "packed.nc", encoding=packed)
-    np.testing.assert_array_equal(read_heights(tmp_path / "packed.nc", 1.0).heights, heights)
-    assert length_unit_of(tmp_path / "packed.nc") == "1"
+    indenter = read_heights(tmp_path / "packed.nc", 1.0)
+    np.testing.assert_array_equal(indenter.heights, heights)
+    assert indenter.length_unit == "1"
     for name, ds, what in (
         ("two.nc", named.rename(heights="y2"), "z, y2"),
         ("none.nc", only.drop_vars("z"), "no two-dimensional"),
@@ -82,7 +83,7 @@ def test_bad_files_of_heights_are_one_line(tmp_path):
     for name, content in cases.items():
         (tmp_path / name).write_bytes(content)
     (tmp_path / "folder.npy").mkdir()
-    (tmp_path / "heights.txt").write_text("0 1\n2 3\n")
+    (tmp_path / "heights.txt").write_text("0 1\n2 3 4\n")
     for name in (*cases, "missing.npy", "missing.nc", "folder.npy", "heights.txt", "heights"):
         with pytest.raises(ValueError, match=name) as error:
             read_heights(tmp_path / name, 1.0)

@@ -1,0 +1,62 @@
+"""Points x, y, z, in any order, as a map of heights where x and y form a grid."""
+
+import numpy as np
+
+_MERGED = 1e-6  # positions closer than this, relative to their range, are one
+_OFF_GRID = 0.1  # largest distance from the grid, relative to its spacing
+_LEAST_SHARE = 0.5  # of the grid that points of unknown meaning must cover to be taken for a map
+
+
+def gridded(points, required):
+    """(heights, (dx, dy)) of points on a grid of equal spacing; heights[row, column], both in increasing order.
+
+    points : x, y, z, shape (points, 3)
+    required : whether the points are known to be x, y, z; else None is returned for what is no grid
+
+    Where a point of the grid is missing, the height is nan. Raises ValueError for required points that form no grid.
+    """
+    fault, axes = None, []
+    if points.shape[1] != 3:
+        fault = f"{points.shape[1]} columns; three, x, y and z, are needed"
+    elif not np.isfinite(points[:, :2]).all():
+        fault = "x and y must be finite"
+    else:
+        axes = [_axis(points[:, column]) for column in (0, 1)]
+        fault = next((axis for axis in axes if isinstance(axis, str)), None)
+    if fault is None:
+        (column, columns, dx), (row, rows, dy) = axes
+        if columns * rows > max(4 * len(points), 100):
+            fault = f"{len(points)} points on a grid of {columns} by {rows}"
+        elif np.bincount(row * columns + column).max() > 1:
+            fault = "some points stand twice"
+        elif not required and len(points) < _LEAST_SHARE * columns * rows:
+            fault = "few of its points"
+    if fault is not None:
+        if required:
+            raise ValueError(f"points x, y, z form no grid of equal spacing ({fault}); a grid is needed")
+        return None
+    heights = np.full((rows, columns), np.nan)
+    heights[row, column] = points[:, 2]
+    return heights, (dx, dy)
+
+
+def _axis(positions):
+    """(index of each position, number of indices, spacing) along an axis of equal spacing; a text about what it lacks.
+
+    Positions may be rounded, and whole columns may be missing.
+    """
+    different = np.unique(positions)
+    with np.errstate(over="ignore"):
+        extent = different[-1] - different[0]
+    if not 0 < extent < np.inf:
+        return "at least two positions in each direction are needed"
+    different = different[np.diff(different, prepend=-np.inf) > _MERGED * extent]
+    steps = np.diff(different)
+    for step in (extent / steps.size, np.median(steps), steps.min()):
+        count = round(extent / step)
+        spacing = extent / count
+        places = (positions - different[0]) / spacing
+        index = np.rint(places).astype(int)
+        if np.abs(places - index).max() <= _OFF_GRID:
+            return index, count + 1, float(f"{spacing:.12g}")
+    return f"steps lie between {steps.min():g} and {steps.max():g}"

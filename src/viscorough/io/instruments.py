@@ -1,0 +1,93 @@
+"""Maps of heights in the file formats of instruments, read by SurfaceTopography if that is installed."""
+
+import warnings
+from pathlib import Path
+
+import numpy as np
+
+from viscorough import units
+from viscorough.errors import AccuracyWarning
+from viscorough.io.atomic import reason
+from viscorough.io.scan import Scan
+
+
+def read_instrument(path, channel=None):
+    """The Scan in a file of any format that SurfaceTopography knows; its formats are told apart by their contents.
+
+    channel : name or number of the channel, from 0. By default the first one of heights, with a warning that names the
+        others if there are any
+
+    Raises a one-line ValueError for files of no known format, line scans and channels that hold no heights.
+    """
+    if not Path(path).exists():
+        raise ValueError(f"{path}: not readable (No such file or directory); a file of heights is needed")
+    if not Path(path).is_file():
+        raise ValueError(f"{path}: is not a regular file; a file of heights is needed")
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # about optional packages
+            from SurfaceTopography.IO import open_topography
+    except ImportError as error:
+        text = "unknown kind of file; .npy, .nc, text and TIFF are read as they are, formats of instruments with"
+        raise ValueError(f"{path}: {text} pip install 'viscorough[formats]'") from error
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # about the layout of files, which no user can change
+        try:
+            with open_topography(str(path)) as file:
+                chosen, others = _choose(file, channel)
+                topography = chosen.topography(**_placeholders(chosen))
+                heights = np.ma.filled(np.ma.asarray(topography.heights()).astype(float), np.nan)
+        except MemoryError:
+            raise
+        except _NoHeightsError:
+            raise
+        except Exception as error:  # every format has errors of its own
+            kind = "no known format" if type(error).__name__ == "CannotDetectFileFormat" else reason(error)[:200]
+            raise ValueError(f"{path}: not readable ({kind}); a file of heights is needed") from error
+    if others:
+        text = f"the channel {chosen.channel_id!r} is read; --channel chooses another of {', '.join(map(repr, others))}"
+        warnings.warn(f"{path}: {text}", AccuracyWarning, stacklevel=2)
+    if chosen.is_periodic:
+        text = "states that it is one period of a periodic surface; it is treated as a body with edges"
+        warnings.warn(f"{path}: {text}", AccuracyWarning, stacklevel=2)
+    unit = chosen.unit or units.UNKNOWN
+    spacing = None if chosen.physical_sizes is None else tuple(map(float, chosen.pixel_size))
+    return Scan(heights.T, unit, spacing, unit)
+
+
+class _NoHeightsError(ValueError):
+    """A file without the channel that was asked for."""
+
+
+def _choose(file, wanted):
+    """The channel to read, and the names of the other channels of heights if none was asked for."""
+    maps = [channel for channel in file.channels if channel.dim == 2]
+    if not maps:
+        raise _NoHeightsError("it holds no map but line scans; a two-dimensional map is needed")
+    names = ", ".join(repr(channel.channel_id) for channel in maps)
+    if wanted is not None:
+        matches = [channel for channel in maps if wanted in (channel.channel_id, channel.name, str(channel.index))]
+        if not matches:
+            raise _NoHeightsError(f"no map is called {wanted!r}; its maps are {names}")
+        if not _holds_heights(matches[0]):
+            raise _NoHeightsError(f"the channel {matches[0].channel_id!r} holds no heights; its maps are {names}")
+        return matches[0], []
+    of_heights = [channel for channel in maps if _holds_heights(channel)]
+    if not of_heights:
+        raise _NoHeightsError(f"none of its maps {names} holds heights")
+    return of_heights[0], [channel.channel_id for channel in of_heights[1:]]
+
+
+def _holds_heights(channel):
+    """Whether a channel holds heights, in a unit of length or in none."""
+    if not channel.is_height_channel or not isinstance(channel.unit, str | None):
+        return False
+    try:
+        return channel.unit is None or bool(units.length_unit(channel.unit))
+    except ValueError:
+        return False
+
+
+def _placeholders(channel):
+    """What SurfaceTopography requires of files that state no size; the size of a pixel is not used then."""
+    return {"physical_sizes": channel.nb_grid_pts} if channel.physical_sizes is None else {}

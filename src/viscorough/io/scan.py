@@ -1,0 +1,117 @@
+"""What a file states about a measured surface, and how that becomes an indenter."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from viscorough import units
+from viscorough.indenter import Indenter, positive
+
+_AGREEMENT = 1e-3  # relative difference up to which a spacing that is given agrees with the file's
+_UNIFORMITY = 1e-2  # deviation from equal spacing that rounding of coordinates may cause, relative to the spacing
+
+
+class Scan(NamedTuple):
+    """A map of heights as its file states it; rows are along y, columns along x, larger is higher.
+
+    heights : shape (rows, columns), nan or masked where nothing was measured
+    unit : of the heights, as in the file; "1" if the file states none
+    spacing : (dx, dy), distances between neighbouring columns and rows; None if the file states none
+    spacing_unit : of the spacing, as in the file; "1" if the file states none
+    """
+
+    heights: np.ndarray
+    unit: str = units.UNKNOWN
+    spacing: tuple | None = None
+    spacing_unit: str = units.UNKNOWN
+
+
+def to_indenter(scan, spacing=None, unit=None):
+    """The Indenter of a Scan: heights in their unit, spacings converted to it.
+
+    spacing : (dx, dy), numbers in the unit of the heights, or a viscorough.units.Quantity each, needed where the file
+        states none; must agree with the file's
+    unit : of the heights, and of a spacing without one, needed where the file states none; must agree with the file's
+
+    Raises ValueError where file and arguments contradict each other, where something is missing, for a unit that is
+    not one of length, and for heights that Indenter refuses.
+    """
+    heights = scan.heights
+    if heights.dtype.kind not in "iuf":
+        raise ValueError(f"heights are of type {heights.dtype}; real numbers are needed")
+    if heights.ndim != 2:
+        raise ValueError(f"heights have the shape {heights.shape}; a two-dimensional map is needed")
+    length_unit = _length_unit(scan, unit)
+    stated = _stated_spacing(scan, length_unit, spacing is not None)
+    spacing = None if spacing is None else tuple(_number(distance, length_unit) for distance in spacing)
+    if spacing is None and stated is None:
+        raise ValueError("the distance between neighbouring points is not stated; --spacing is needed")
+    if spacing is not None and stated is not None:
+        for name, given, in_file in zip(("columns", "rows"), spacing, stated, strict=True):
+            if abs(given - in_file) > _AGREEMENT * in_file:
+                unit = "" if length_unit == units.UNKNOWN else f" {length_unit}"
+                text = f"--spacing {given:g}{unit} contradicts the file, in which {name} are {in_file:g}{unit} apart"
+                raise ValueError(f"{text}; leave it out")
+    dx, dy = spacing if stated is None else stated
+    return Indenter(heights, dx, dy, length_unit=length_unit)
+
+
+def _number(distance, length_unit):
+    """A given distance, in the unit of the heights."""
+    if not isinstance(distance, units.Quantity):
+        return positive("spacing", distance)
+    if distance.unit and length_unit == units.UNKNOWN:
+        raise ValueError(f"--spacing {distance}: the unit of the heights is not known; --unit is needed")
+    return distance.to(length_unit)
+
+
+def _length_unit(scan, given):
+    """The unit of the heights, stated by the file or given."""
+    stated = None if scan.unit.strip() in ("", units.UNKNOWN) else units.length_unit(scan.unit)
+    given = None if given is None or given == units.UNKNOWN else units.length_unit(given)
+    if stated and given and units.metres(stated) != units.metres(given):
+        raise ValueError(f"--unit {given} contradicts the file, in which heights are in {stated}; leave it out")
+    return stated or given or units.UNKNOWN
+
+
+def _stated_spacing(scan, length_unit, given):
+    """The spacing (dx, dy) that the file states, in the unit of the heights; None if it states none.
+
+    given : whether a spacing is given, which then stands for one without a unit
+    """
+    if scan.spacing is None:
+        return None
+    if scan.spacing_unit.strip() in ("", units.UNKNOWN):
+        if scan.unit.strip() in ("", units.UNKNOWN):
+            return scan.spacing
+        if given:
+            return None
+        raise ValueError(f"heights are in {length_unit}, coordinates in no stated unit; --spacing is needed")
+    unit = units.length_unit(scan.spacing_unit)
+    if length_unit == units.UNKNOWN:
+        raise ValueError(f"coordinates are in {unit}, heights in no stated unit; --unit is needed")
+    factor = units.factor(unit, length_unit)
+    return tuple(float(f"{factor * distance:.14g}") for distance in scan.spacing)
+
+
+def uniform_spacing(name, positions):
+    """The distance between equally spaced positions, in either direction.
+
+    Raises ValueError unless there are at least two, and their distances are equal, as far as their precision tells.
+    """
+    positions = np.ma.filled(np.ma.asarray(positions).astype(float), np.nan)
+    if positions.size < 2:
+        raise ValueError(f"coordinate {name} has {positions.size} position; at least two are needed to tell a spacing")
+    if not np.isfinite(positions).all():
+        raise ValueError(f"coordinate {name} is not finite everywhere; equally spaced numbers are needed")
+    with np.errstate(over="ignore"):
+        steps = np.diff(positions)
+        mean = (positions[-1] - positions[0]) / (positions.size - 1)
+    rounding = 4 * np.finfo(np.float32).eps * np.abs(positions).max()
+    if (
+        not (mean != 0 and np.isfinite(mean) and np.abs(steps - mean).max() <= _UNIFORMITY * abs(mean) + rounding)
+        or (np.sign(steps) != np.sign(mean)).any()
+    ):
+        text = f"coordinate {name} is not uniform: its steps lie between {steps.min():g} and {steps.max():g}"
+        raise ValueError(f"{text}; equal spacing is needed")
+    return abs(mean)

@@ -1,0 +1,94 @@
+"""Maps of heights in TIFF files: of one channel, with the spacing that GeoTIFF or ImageJ tags state."""
+
+import numpy as np
+
+from viscorough.io.atomic import reason
+from viscorough.io.scan import Scan
+
+_PARK_SYSTEMS = 50432  # tag of the atomic force microscopes whose heights are not in the picture
+_LINEAR_UNITS = {9001: "m", 9002: "foot", 9003: "US_survey_foot", 9036: "km"}
+_GEOGRAPHIC = 2
+
+
+def read_tiff(path, channel=None):
+    """The Scan in a TIFF file.
+
+    channel : number of the page, from 0; needed if the file has several of the same size
+
+    Raises a one-line ValueError for what is no map of one channel, and for geographic coordinates in degrees.
+    """
+    import tifffile
+
+    try:
+        with tifffile.TiffFile(path) as file:
+            page = _page(file, channel)
+            if _PARK_SYSTEMS in page.tags:
+                from viscorough.io.instruments import read_instrument
+
+                return read_instrument(path, channel)
+            if page.samplesperpixel != 1:
+                raise ValueError(f"a picture of {page.samplesperpixel} colours; a map of heights is needed")
+            heights = page.asarray()
+            spacing, spacing_unit, unit = _stated(file, page)
+            nodata = page.tags.get(42113)
+    except (MemoryError, ModuleNotFoundError):
+        raise
+    except Exception as error:  # damage raises errors of many kinds, and codecs that are not installed do, too
+        raise ValueError(f"{path}: not readable ({reason(error)}); a TIFF file of one channel is needed") from error
+    return Scan(_without(heights, nodata), unit, spacing, spacing_unit)
+
+
+def _page(file, channel):
+    """The page that holds the heights."""
+    pages = [page for page in file.pages if page.imagewidth and not page.is_reduced]
+    if channel is None and len(pages) > 1 and _PARK_SYSTEMS not in pages[0].tags:
+        raise ValueError(f"it has {len(pages)} pages; --channel 0 to {len(pages) - 1} chooses one")
+    if channel is None or _PARK_SYSTEMS in pages[0].tags:
+        return pages[0]
+    if not (channel.isascii() and channel.isdigit() and int(channel) < len(pages)):
+        raise ValueError(f"--channel {channel} is none of its pages; 0 to {len(pages) - 1} are allowed")
+    return pages[int(channel)]
+
+
+def _stated(file, page):
+    """((dx, dy) or None, unit of the spacing, unit of the heights) that tags state."""
+    if page.is_geotiff:
+        keys = page.geotiff_tags
+        unit = _unit_of_key(keys.get("ProjLinearUnitsGeoKey"))
+        height_unit = _unit_of_key(keys.get("VerticalUnitsGeoKey"))
+        if keys.get("GTModelTypeGeoKey") == _GEOGRAPHIC:
+            raise ValueError("its coordinates are in degrees; a map in projected coordinates is needed")
+        if "ModelPixelScale" in keys:
+            dx, dy = keys["ModelPixelScale"][:2]
+        elif "ModelTransformation" in keys:
+            matrix = np.reshape(keys["ModelTransformation"], (4, 4))
+            if matrix[0, 1] != 0 or matrix[1, 0] != 0:
+                raise ValueError("its rows are rotated against the coordinates; a map that is not is needed")
+            dx, dy = abs(matrix[0, 0]), abs(matrix[1, 1])
+        else:
+            return None, "1", height_unit
+        return (float(dx), float(dy)), unit, height_unit
+    unit = (file.imagej_metadata or {}).get("unit") if file.is_imagej else None
+    if unit and unit != "pixel" and {"XResolution", "YResolution"} <= {tag.name for tag in page.tags}:
+        per_unit = [page.tags[name].value for name in ("XResolution", "YResolution")]
+        if all(points > 0 and length > 0 for points, length in per_unit):
+            return tuple(length / points for points, length in per_unit), unit.replace("\\u00B5", "µ"), "1"
+    return None, "1", "1"
+
+
+def _unit_of_key(key):
+    return "1" if key is None else _LINEAR_UNITS.get(int(key), f"EPSG:{int(key)}")
+
+
+def _without(heights, nodata):
+    """The heights with those that equal the tag of missing values as nan."""
+    if nodata is None or heights.dtype.kind not in "iuf":
+        return heights
+    try:
+        mark = float(str(nodata.value).strip("\x00 "))
+    except ValueError:
+        return heights
+    kept = heights.dtype if heights.dtype.kind == "f" else np.float64
+    with np.errstate(over="ignore"):
+        missing = np.isnan(heights) if np.isnan(mark) else heights == np.asarray(mark).astype(kept)
+    return np.where(missing, np.nan, heights.astype(kept))

@@ -1,0 +1,262 @@
+"""Measured maps of heights made ready for contact: missing values, cropping, sign, tilt or form, holes.
+
+And doubts about maps that were not: what makes the results of a contact wrong without an error.
+"""
+
+import numpy as np
+
+from viscorough.indenter import Indenter
+
+DETREND = ("none", "mean", "plane", "sphere")
+FILL = ("none", "harmonic")
+_BLOCK = 64  # rows that are treated at a time, so that little memory is needed beside the map
+_NOTABLE_TILT = 6  # rise of the fitted plane over the rms height about it
+_FAR = 10  # distance of a suspicious value from all others, over the range of those
+_MARKS = (-9999.0, -99999.0, -32768.0, -32767.0, 32767.0, 65535.0, -1e38, 1e38)
+_SPIKE = 20  # height of a point above all its neighbours over the usual distance of neighbours
+_LARGEST_SLOPE = 0.99  # of a fitted sphere within the map
+
+
+def prepare(indenter, *, nodata=(), crop=None, flip=False, detrend="none", fill="none"):
+    """A map of heights made ready, as a new Indenter; each step is done only if asked for, in this order.
+
+    nodata : a value, or several, that mark points that were not measured; these become nan
+    crop : ((first column, end), (first row, end)), numbers of points from 0; ends are not included
+    flip : change the sign, for data in which larger is lower
+    detrend : "mean", "plane" or "sphere": subtract what fits best in least squares over all points that are not nan; a
+        sphere includes a plane
+    fill : "harmonic": heights for nan regions that are enclosed, from the Laplace equation with the heights around them
+
+    A sphere of curvature k is a + bx + cy + k r²/(1 + √(1 − k²r²)), with r the distance from the middle of the map.
+    Raises ValueError for a line, an unknown option, a crop beyond the map, and where no sphere fits.
+    """
+    if detrend not in DETREND or fill not in FILL:
+        raise ValueError(f"detrend {detrend!r}, fill {fill!r}; allowed: {', '.join(DETREND)}; {', '.join(FILL)}")
+    if not (np.size(nodata) or crop or flip) and (detrend, fill) == ("none", "none"):
+        return indenter
+    if indenter.heights.ndim != 2:
+        raise ValueError("prepare: a line of heights; a two-dimensional map is needed")
+    heights = indenter.heights.copy()
+    with np.errstate(over="ignore"):
+        for value in np.atleast_1d(nodata).astype(heights.dtype):
+            heights[heights == value] = np.nan
+    if crop is not None:
+        heights = _cropped(heights, crop)
+    if np.isnan(heights).all():
+        raise ValueError("no height is left after nodata and crop; at least one is needed")
+    if flip:
+        np.negative(heights, out=heights)
+    if detrend != "none":
+        heights = _detrended(heights, indenter.spacing, indenter.row_spacing, detrend)
+    if fill == "harmonic":
+        heights = _filled(heights, indenter.aspect)
+    return Indenter(heights, indenter.spacing, indenter.row_spacing, indenter.length_unit)
+
+
+def doubts(indenter):
+    """Texts, one line each, about tilt, enclosed nan regions, suspicious values and spikes of a map; empty for none."""
+    if indenter.heights.ndim != 2 or min(indenter.heights.shape) < 3:
+        return []
+    heights = indenter.heights
+    texts = [*_suspicious_values(heights)]
+    texts += [] if texts else [*_tilt(indenter), *_spikes(heights)]  # the former would explain the latter
+    return [*texts, *_holes(heights)]
+
+
+def _cropped(heights, crop):
+    for (first, end), size, name in zip(crop, heights.shape[::-1], ("columns", "rows"), strict=True):
+        if not 0 <= first < end <= size:
+            raise ValueError(f"crop to {name} {first}:{end}; within 0:{size} is allowed")
+    (left, right), (top, bottom) = crop
+    return heights[top:bottom, left:right].copy()
+
+
+# ---- mean, plane, sphere
+
+
+def _detrended(heights, dx, dy, form):
+    """The heights less a fitted form."""
+    values, curvature = _fit(heights, dx, dy, form)
+    heights = heights if heights.dtype == np.float64 else heights.astype(np.float64)
+    for rows, basis in _blocks(heights.shape, dx, dy, form):
+        heights[rows] -= np.tensordot(values, basis[: len(values)], 1).reshape(heights[rows].shape)
+        if form == "sphere":
+            heights[rows] -= _sag(curvature, _distance_squared(basis)).reshape(heights[rows].shape)
+    return heights
+
+
+def _blocks(shape, dx, dy, form):
+    """Pairs of rows (a slice) and the functions 1, x, y there, shape (functions, points), from the middle."""
+    x = dx * (np.arange(shape[1]) - (shape[1] - 1) / 2)
+    y = dy * (np.arange(shape[0]) - (shape[0] - 1) / 2)
+    for first in range(0, shape[0], _BLOCK):
+        rows = slice(first, first + _BLOCK)
+        grid = np.broadcast_arrays(1.0, x, y[rows, None])
+        yield rows, np.stack([part.ravel() for part in grid[: 1 if form == "mean" else 3]])
+
+
+def _distance_squared(basis):
+    return basis[1] ** 2 + basis[2] ** 2
+
+
+def _sag(curvature, squared):
+    """Height of a sphere above its lowest point (k > 0), k r²/(1 + √(1 − k²r²))."""
+    return curvature * squared / (1 + np.sqrt(1 - curvature**2 * squared))
+
+
+def _fit(heights, dx, dy, form):
+    """Least-squares values of the plane (1, x, y), or the mean, and the curvature of the sphere; by Gauss-Newton."""
+    rows, columns = heights.shape
+    reach = np.hypot(dx * columns, dy * rows) / 2
+    scales = np.array([1.0, reach, reach][: 1 if form == "mean" else 3] + ([reach**2] if form == "sphere" else []))
+    values, curvature = np.zeros(len(scales)), 0.0
+    for _ in range(20 if form == "sphere" else 1):
+        matrix, right = np.zeros((len(scales),) * 2), np.zeros(len(scales))
+        for block, basis in _blocks(heights.shape, dx, dy, form):
+            functions, target = basis, heights[block].ravel().astype(float)
+            if form == "sphere":
+                squared = _distance_squared(basis)
+                root = np.sqrt(1 - curvature**2 * squared)
+                slope = squared / (root * (1 + root))  # of the sag with respect to the curvature
+                target = target - _sag(curvature, squared) + curvature * slope
+                functions = np.vstack([basis, slope])
+            known = ~np.isnan(target)
+            functions = functions[:, known] / scales[:, None]
+            matrix += functions @ functions.T
+            right += functions @ target[known]
+        values = np.linalg.lstsq(matrix, right, rcond=1e-13)[0] / scales
+        if form != "sphere":
+            break
+        last, curvature = curvature, float(values[3])
+        if not abs(curvature) * reach < _LARGEST_SLOPE:
+            raise ValueError("detrend sphere: the sphere that fits is smaller than the map; crop to a cap of it")
+        if abs(curvature - last) <= 1e-12 * abs(curvature):
+            break
+    return values[:3], curvature
+
+
+def _tilt(indenter):
+    """A text if the map is tilted by much more than its roughness explains."""
+    heights, dx, dy = indenter.heights, indenter.spacing, indenter.row_spacing
+    lowest, highest, squares, count = np.inf, -np.inf, 0.0, 0
+    values, _ = _fit(heights, dx, dy, "plane")
+    for rows, basis in _blocks(heights.shape, dx, dy, "plane"):
+        known = ~np.isnan(heights[rows].ravel())
+        plane = (values @ basis)[known]
+        if plane.size:
+            lowest, highest = min(lowest, plane.min()), max(highest, plane.max())
+            squares += ((heights[rows].ravel()[known] - plane) ** 2).sum()
+            count += plane.size
+    rise, rms = highest - lowest, np.sqrt(squares / count)
+    if rise > _NOTABLE_TILT * rms and rise > 1e-9 * np.nanmax(np.abs(heights)):
+        ratio = f"{rise / rms:.3g} times" if rms > 0 else "without"
+        yield (
+            f"the map is tilted: a plane through it rises by {rise:.3g}, {ratio} the rms height about it ({rms:.3g}); "
+            "--detrend plane removes it"
+        )
+
+
+# ---- values that mark missing points, spikes
+
+
+def _suspicious_values(heights):
+    """Texts about extreme values that are repeated and far from all others."""
+    for extreme, sign in ((np.fmin, 1), (np.fmax, -1)):
+        value = float(extreme.reduce(heights, axis=None))
+        is_value = heights == value
+        count = int(np.count_nonzero(is_value))
+        others = heights[~is_value & ~np.isnan(heights)]
+        if not others.size:
+            return
+        lowest, highest = float(others.min()), float(others.max())
+        with np.errstate(over="ignore"):
+            gap = lowest - value if sign > 0 else value - highest
+        span = highest - lowest
+        is_mark = any(abs(value - mark) <= 1e-6 * abs(mark) for mark in _MARKS) or abs(value) >= 1e30
+        if gap > _FAR * span and (count > 1 or is_mark) and (span > 0 or is_mark):
+            share = 100 * count / (count + others.size)
+            yield (
+                f"{count} points ({share:.2g} %) have the value {value:g}, far from all others ({lowest:g} to "
+                f"{highest:g}): if it marks what was not measured, --nodata {value:g} removes it"
+            )
+
+
+def _spikes(heights):
+    """A text about single points that stand high above all their neighbours."""
+    middle = heights[1:-1, 1:-1]
+    highest = np.full(middle.shape, -np.inf, dtype=heights.dtype)
+    rows, columns = heights.shape
+    for row in range(3):
+        for column in range(3):
+            if (row, column) != (1, 1):
+                np.fmax(highest, heights[row : rows - 2 + row, column : columns - 2 + column], out=highest)
+    with np.errstate(invalid="ignore"):
+        above = np.subtract(middle, highest, out=highest)
+        steps = np.abs(np.diff(heights[:: max(1, rows // 256)], axis=1))
+        usual, relief = np.nanmedian(steps) if np.isfinite(steps).any() else 0.0, np.nanstd(heights)
+        spikes = np.isfinite(above) & (above > _SPIKE * usual) & (above > relief)
+    count = int(np.count_nonzero(spikes))
+    if usual > 0 and 0 < count <= 1e-3 * heights.size + 1:
+        largest = float(above[spikes].max())
+        yield (
+            f"{count} single points stand up to {largest:.3g} above all their neighbours, {largest / usual:.3g} times "
+            "the usual step between neighbours: spikes touch first; --nodata or a filter removes them"
+        )
+
+
+# ---- holes
+
+
+def _enclosed(heights):
+    """Labels of the nan regions that do not reach the edge, from 1 on, and their number; None if there is no nan."""
+    from scipy import ndimage
+
+    missing = np.isnan(heights)
+    if not missing.any():
+        return None, 0
+    labels, count = ndimage.label(missing)
+    at_edge = np.unique(np.concatenate([labels[0], labels[-1], labels[:, 0], labels[:, -1]]))
+    new = np.arange(count + 1)
+    new[at_edge] = 0
+    kept = np.unique(new)
+    return np.searchsorted(kept, new)[labels], kept.size - 1
+
+
+def _holes(heights):
+    labels, count = _enclosed(heights)
+    if count:
+        points = int(np.count_nonzero(labels))
+        yield (
+            f"{count} enclosed regions without heights ({points} points, {100 * points / heights.size:.2g} %) are "
+            "holes that never touch; --fill harmonic closes them"
+        )
+
+
+def _filled(heights, aspect):
+    """The heights with enclosed holes filled: each point is the mean of its neighbours, those along x and y weighted.
+
+    aspect : dy/dx. The five-point Laplace equation on rectangles: weights 1/dx² and 1/dy².
+    """
+    from scipy import sparse
+    from scipy.sparse.linalg import spsolve
+
+    labels, count = _enclosed(heights)
+    if count == 0:
+        return heights
+    holes = labels > 0
+    number = np.full(heights.shape, -1)
+    unknowns = int(np.count_nonzero(holes))
+    number[holes] = np.arange(unknowns)
+    rows, columns = np.nonzero(holes)
+    right, entries = np.zeros(unknowns), []
+    for step, weight in (((0, 1), aspect**2), ((0, -1), aspect**2), ((1, 0), 1.0), ((-1, 0), 1.0)):
+        at = rows + step[0], columns + step[1]
+        inside = number[at] >= 0
+        right[~inside] += weight * heights[at][~inside]
+        entries.append((np.nonzero(inside)[0], number[at][inside], np.full(np.count_nonzero(inside), -weight)))
+    i, j, values = (np.concatenate(parts) for parts in zip(*entries, strict=True))
+    matrix = sparse.csc_array((values, (i, j)), shape=(unknowns, unknowns))
+    matrix = matrix + sparse.diags_array(np.full(unknowns, 2 * aspect**2 + 2), format="csc")
+    filled = heights.copy()
+    filled[holes] = spsolve(sparse.csc_matrix(matrix), right)
+    return filled

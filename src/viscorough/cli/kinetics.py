@@ -1,62 +1,159 @@
 """`viscorough kinetics`: a loading curve to penetration over time."""
 
+import warnings
+
 import click
 
 from viscorough.cli.elasticity import check_incompressible
 from viscorough.cli.messages import announce
 from viscorough.cli.options import (
     FILE,
-    PositiveNumber,
+    Increasing,
+    Quantity,
+    check_not_an_input,
+    number_in,
     output_option,
+    printable_name,
     read_content,
     write_output,
 )
+from viscorough.errors import AccuracyWarning
+
+_EXACT = "exact for every topography, without 1/Gamma(2 - alpha)"
 
 
-@click.command(short_help="Penetration over time under a constant force.")
+@click.command(short_help="Penetration over time in any linear viscoelastic half-space.")
 @click.argument("curve", type=FILE, metavar="CURVE.nc")
-@click.option("--force", type=PositiveNumber(), required=True, help="Constant force F, applied at time 0.")
-@click.option("--viscosity", type=PositiveNumber(), required=True, help="Shear viscosity of the half-space.")
+@click.option("--force", type=Quantity("N"), help="Constant force F, applied at time 0.")
+@click.option(
+    "--force-history",
+    type=FILE,
+    metavar="FORCE.csv",
+    help="Two columns, times and forces, instead of --force: F >= 0, linear in between; a time given twice is a step.",
+)
+@click.option("--viscosity", type=Quantity("Pa s"), help="Shear viscosity of a Newtonian half-space.")
+@click.option("--medium", type=FILE, metavar="MEDIUM.yaml", help="Medium of the half-space, instead of --viscosity.")
+@click.option("--times", type=Increasing(), help="Times of the output  [default: of levels, or of the history]")
 @output_option("KIN.nc")
-def kinetics(curve, force, viscosity, output):
-    """Penetration over time, under a constant force, of the indenter whose loading curve is in CURVE.nc.
+def kinetics(curve, force, force_history, viscosity, medium, times, output):
+    """Penetration over time of the indenter whose loading curve is in CURVE.nc.
 
-    For each level of the curve, the time at which the indenter has penetrated a linearly viscous half-space to that
-    depth, and the velocity there: time = (F/G) VISCOSITY/FORCE, velocity = FORCE/(VISCOSITY k/G). This
-    correspondence is exact. KIN.nc is CURVE.nc with the variables time (in s) and velocity added.
+    For a constant force on a linearly viscous half-space, the times at which the levels of the curve are reached: time
+    = (F/G) VISCOSITY/FORCE, velocity = FORCE/(VISCOSITY k/G). KIN.nc is then CURVE.nc with the variables time (in s)
+    and velocity added. For other media, force histories and --times, KIN.nc holds time, depth, velocity and force.
+    Without --times these are the times of the history; or under a constant force those at which levels are reached,
+    after time 0 if the medium springs at once, without levels that it never reaches. The depth is that of the curve at
+    F/G = the creep, the integral of J(t - s) dF(s) with the creep compliance J. This is exact as long as the creep
+    does not decrease; where it would, the force is refused.
 
-    The unit of force is your choice; the viscosity is then in (unit of force) s/(unit of length)^2, where the unit
-    of length is that of the curve. With heights in metres and the force in newtons this is Pa s; with
-    heights in micrometres and the force in newtons, 1 Pa s = 1e-12 N s/um^2.
+    MEDIUM.yaml is one mapping: kind, and its parameters. The kinds are newtonian (viscosity), maxwell and kelvin_voigt
+    (shear_modulus, viscosity), standard_linear_solid (instantaneous_modulus, relaxed_modulus, relaxation_time), prony
+    (relaxed_modulus, moduli, relaxation_times), springpot (modulus, exponent) and creep_table (file, of two columns,
+    times and compliances J).
+
+    If the unit of length of the curve is known, forces are in N, moduli in Pa, viscosities in Pa s, or have a unit,
+    as in --viscosity "2 kPa s". If not, they are plain numbers in consistent units: with heights in metres, N and Pa s.
 
     \b
-    Example, 5 N on a medium of 1e6 Pa s, heights in metres:
+    Examples:
         viscorough kinetics curve.nc --force 5 --viscosity 1e6 -o kinetics.nc
+        viscorough kinetics curve.nc --force-history ramp.csv --medium rubber.yaml --times 1,10,100 -o kinetics.nc
     """
-    import numpy as np
+    if (force is None) == (force_history is None):
+        raise click.UsageError("one of --force and --force-history is needed")
+    if (viscosity is None) == (medium is None):
+        raise click.UsageError("one of --viscosity and --medium is needed")
 
     from viscorough.io.atomic import check_output
     from viscorough.io.curves import curve_from_content
-    from viscorough.io.motion import with_motion
     from viscorough.viscous import correspondence
 
     check_output(output)
+    for file, kind in ((force_history, "force history"), (medium, "medium")):
+        if file is not None:
+            check_not_an_input(output, file, kind)
     content = read_content(curve)
     check_incompressible(content, curve)
     try:
         loading = curve_from_content(content)
+        law, about = _medium(viscosity, medium, loading.length_unit)
     except ValueError as error:
-        raise ValueError(f"{curve}: {error}") from error
-    motion = correspondence.kinetics(loading, force, viscosity)
+        text = str(error)
+        raise ValueError(text if medium and text.startswith(str(medium)) else f"{curve}: {text}") from error
+    if force_history is not None:
+        history, about["force"] = _history(force_history), printable_name(force_history)
+    else:
+        history = about["force"] = number_in("N", force, loading.length_unit, "--force")
+    motion = correspondence.kinetics(loading, history, law, times)
+    if force is not None and viscosity is not None and times is None:
+        _check_that_levels_follow_each_other(motion, force, viscosity)
+    content, title = _content(content, motion, history, loading, times is None and viscosity is not None)
+    write_output(content, output, title=title, **about)
+    announce(output, f"{motion.time.size} times, depth {motion.depth[-1]:.6g} at time {motion.time[-1]:.6g}")
+
+
+def _medium(viscosity, medium, length_unit):
+    """The medium in N and the unit of length of the curve, and attributes of the output."""
+    from viscorough import units
+    from viscorough.io.media import read_medium, scaled
+    from viscorough.viscous.media import CreepTable, Newtonian
+
+    if viscosity is None:
+        law = read_medium(medium, length_unit)
+        about = {"medium": printable_name(medium)}
+        if not isinstance(law, CreepTable):
+            about["medium_in_units_of_the_curve"] = repr(law)
+        return law, about | {
+            "correspondence": "depth at a time is the elastic one at F/G = integral of J(t - s) dF(s), velocity is its "
+            f"derivative over k/G there; {_EXACT}"
+        }
+    number = number_in("Pa s", viscosity, length_unit, "--viscosity")
+    law = Newtonian(number) if length_unit == "1" else scaled(Newtonian(number), units.metres(length_unit) ** 2)
+    return law, {
+        "viscosity": number,
+        "correspondence": "depth at a time is the elastic one at F/G = impulse / viscosity, which is force * time / "
+        f"viscosity for a constant force, velocity is force / (viscosity * k/G) there; {_EXACT}",
+    }
+
+
+def _history(path):
+    """The ForceHistory in a file. Raises ValueError if it holds none."""
+    from viscorough.io.motion import read_force_history
+    from viscorough.viscous.correspondence import impulses
+
+    times, force = read_force_history(path)
+    try:
+        return impulses(force, times)
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from error
+
+
+def _check_that_levels_follow_each_other(motion, force, viscosity):
+    import numpy as np
+
     if not (np.diff(motion.time, prepend=0) > 0).all() or not (motion.velocity > 0).all():
-        raise ValueError(f"--force {force:g}, --viscosity {viscosity:g}: times overflow; closer values are allowed")
-    write_output(
-        with_motion(content, motion.time, motion.velocity),
-        output,
-        title="Penetration of a rigid indenter into a linearly viscous half-space under a constant force",
-        force=force,
-        viscosity=viscosity,
-        correspondence="depth at a time is the elastic one at F/G = force * time / viscosity, velocity is "
-        "force / (viscosity * k/G) there; exact for every topography, without 1/Gamma(2 - alpha)",
-    )
-    announce(output, f"{motion.time.size} levels, depth {motion.depth[-1]:.6g} at time {motion.time[-1]:.6g}")
+        raise ValueError(f"--force {force}, --viscosity {viscosity}: times overflow; closer values are allowed")
+
+
+def _content(content, motion, history, loading, of_levels):
+    """Content and title of the output; a warning for times at which depth or velocity are not known."""
+    import numpy as np
+
+    from viscorough.io.motion import kinetics_to_content, with_motion
+
+    if np.ndim(history) == 0 and of_levels:
+        title = "Penetration of a rigid indenter into a linearly viscous half-space under a constant force"
+        return with_motion(content, motion.time, motion.velocity), title
+    force = history
+    if np.ndim(history) > 0:
+        at_samples = np.array_equal(motion.time, history.times)
+        force = history.force if at_samples else np.interp(motion.time, history.times, history.force)
+    unknown = np.count_nonzero(~np.isfinite(motion.depth) | ~np.isfinite(motion.velocity))
+    if unknown == motion.time.size:
+        raise ValueError("times: all are before the curve's first level; later ones are needed, or an earlier level")
+    if unknown:
+        text = f"at {unknown} of {motion.time.size} times depth or velocity are missing: before the first level of the "
+        warnings.warn(f"{text}curve, or where a step moves a springpot without bound", AccuracyWarning, stacklevel=2)
+    kind = "a force history" if np.ndim(history) > 0 else "a constant force"
+    title = f"Penetration of a rigid indenter into a linear viscoelastic half-space under {kind}"
+    return kinetics_to_content(motion, force, loading.length_unit), title

@@ -1,14 +1,9 @@
 """Penetration over time in NetCDF files, and force histories read from files."""
 
-import contextlib
-import re
-from pathlib import Path
-
 import numpy as np
 
-from viscorough.io.atomic import reason
+from viscorough.io.columns import read_columns
 from viscorough.io.curves import level_attributes
-from viscorough.io.heights import npy_array
 from viscorough.io.netcdf import Content, Variable
 
 
@@ -19,6 +14,10 @@ def with_motion(content, time, velocity):
     """
     if not np.isfinite([time, velocity]).all():
         raise ValueError("times or velocities overflow; a force and a viscosity closer to each other are needed")
+    return _with_time_and_velocity(content, time, velocity)
+
+
+def _with_time_and_velocity(content, time, velocity):
     unit = content.variables["depth"].attributes.get("units", "1")
     unit = "s-1" if unit == "1" else f"{unit} s-1"
     added = {
@@ -100,33 +99,24 @@ def estimate_to_content(estimate, length_unit="1"):
 
 
 def read_force_history(path):
-    """Times and forces, both of shape (times,), in a file of two columns: .csv or .npy.
+    """Times and forces, both of shape (times,), in a file of two columns: .csv or .npy (io.columns.read_columns).
 
-    The first row of a .csv file may be a header, in which no field is or starts like a number, nan or infinity.
     Raises a one-line ValueError that names the file and what is wrong. Whether the numbers are a force history is
     checked by viscous.correspondence.impulses.
     """
-    if Path(path).suffix not in (".npy", ".csv"):
-        raise ValueError(f"{path}: unknown kind of file; a force history is read from .csv and .npy")
-    if Path(path).suffix == ".npy":
-        table = npy_array(path)
-    else:
-        try:
-            lines = [line for line in Path(path).read_text(encoding="utf-8-sig").splitlines() if line.strip()]
-            header = 1 if lines and not any(map(_starts_like_a_number, lines[0].split(","))) else 0
-            table = np.loadtxt(lines[header:], delimiter=",", ndmin=2) if lines[header:] else np.empty((0, 0))
-        except (OSError, ValueError) as error:
-            text = f"{path}: not readable ({reason(error)}); two columns, time and force, are needed"
-            raise ValueError(text) from error
-    if table.ndim != 2 or table.shape[1] != 2 or table.shape[0] < 2 or table.dtype.kind not in "iuf":
-        raise ValueError(f"{path}: has the shape {table.shape}; two columns, time and force, and two rows are needed")
-    return table[:, 0].astype(float), table[:, 1].astype(float)
+    return read_columns(path, "a force history", "time and force")
 
 
-def _starts_like_a_number(field):
-    """Whether a field is a number, nan or infinite, or starts with a digit ("1N" is a mistake, not a heading)."""
-    field = field.strip().lower()
-    with contextlib.suppress(ValueError):
-        float(field)
-        return True
-    return bool(re.match(r"[-+]?\.?\d", field))
+def kinetics_to_content(motion, force, length_unit="1"):
+    """A viscous.correspondence.Kinetics as a Content over its times; `force` is F there, or a constant.
+
+    Where a depth is undetermined (before the curve's first level) or a velocity infinite, the value is missing.
+    """
+    force = np.broadcast_to(np.asarray(force, dtype=float), motion.time.shape)
+    unit = "1" if length_unit == "1" else "N"
+    variables = {
+        "depth": Variable(("level",), motion.depth, level_attributes("depth", length_unit)),
+        "force": Variable(("level",), force, {"long_name": "force F at that time", "units": unit}),
+    }
+    velocity = np.where(np.isinf(motion.velocity), np.nan, motion.velocity)
+    return _with_time_and_velocity(Content(variables, {}), motion.time, velocity)

@@ -268,10 +268,10 @@ def _keep_positive(medium, *names):
 
 def _number(medium, name, value, *, zero=False):
     """The value as a float. Raises ValueError unless it is a finite number above 0, or 0 where that is allowed."""
-    real = isinstance(value, Real) and not isinstance(value, bool) and np.isfinite(float(value))
+    real = isinstance(value, Real) and not isinstance(value, bool) and abs(value) <= np.finfo(float).max
     if not (real and (value > 0 or (zero and value == 0))):
         allowed = "0 or a finite number above 0" if zero else "a finite number above 0"
-        raise ValueError(f"{type(medium).__name__}: {name}: {value!r}; allowed: {allowed}")
+        raise ValueError(f"{type(medium).__name__}: {name}: {repr(value)[:60]}; allowed: {allowed}")
     return float(value)
 
 

@@ -182,7 +182,7 @@ MISTAKES = [
         "",
     ),  # F/G overflows
     ([*INDENT[:-1], "heights.npy"], "viscorough indent: ", "replace the heights"),
-    (["kinetics", "curve.nc"], "viscorough kinetics: ", "--force"),
+    (["kinetics", "curve.nc", "-o", "out.nc"], "viscorough kinetics: ", "one of --force and --force-history"),
     (
         ["kinetics", "missing.nc", *KINETICS[2:]],
         "viscorough kinetics: ",

@@ -1,0 +1,140 @@
+"""Media read from YAML files: one mapping with the kind of medium and its parameters."""
+
+import contextlib
+import dataclasses
+from pathlib import Path
+
+import yaml
+
+from viscorough import units
+from viscorough.io.atomic import reason
+from viscorough.io.columns import read_columns
+from viscorough.viscous.media import (
+    CreepTable,
+    KelvinVoigt,
+    Maxwell,
+    Newtonian,
+    Prony,
+    Springpot,
+    StandardLinearSolid,
+)
+
+MODULUS, VISCOSITY, TIME, PLAIN = "Pa", "Pa s", "s", ""
+# Kinds of media, and their keys with the units that numbers in them may have. The keys are fields of the class.
+KINDS = {
+    "newtonian": (Newtonian, {"viscosity": VISCOSITY}),
+    "maxwell": (Maxwell, {"shear_modulus": MODULUS, "viscosity": VISCOSITY}),
+    "kelvin_voigt": (KelvinVoigt, {"shear_modulus": MODULUS, "viscosity": VISCOSITY}),
+    "standard_linear_solid": (
+        StandardLinearSolid,
+        {"instantaneous_modulus": MODULUS, "relaxed_modulus": MODULUS, "relaxation_time": TIME},
+    ),
+    "prony": (Prony, {"relaxed_modulus": MODULUS, "moduli": MODULUS, "relaxation_times": TIME}),
+    "springpot": (Springpot, {"modulus": PLAIN, "exponent": PLAIN}),
+    "creep_table": (CreepTable, {"file": None}),
+}
+_MODULI = {"viscosity", "shear_modulus", "instantaneous_modulus", "relaxed_modulus", "moduli", "modulus"}
+_LARGEST_FILE = 1_000_000  # bytes
+
+
+def read_medium(path, length_unit="1"):
+    """The medium in a YAML file, with moduli in N per square of the unit of length.
+
+    The file holds one mapping: `kind`, one of KINDS, and all keys of that kind. Where the unit of length is known,
+    plain moduli are in Pa, viscosities in Pa s and times in s, and any of them may have a unit of its own ("2 MPa"),
+    but for the springpot's; where it is "1", plain numbers are in consistent units of the user's choice, and no others
+    are allowed. A creep table names a file of two columns, times and compliances (1/Pa), relative to the YAML file.
+
+    Raises a one-line ValueError that names the file and what is wrong.
+    """
+    mapping = _mapping(path)
+    kind = mapping.pop("kind", None)
+    if not isinstance(kind, str) or kind not in KINDS:
+        raise ValueError(f"{path}: kind {_shown(kind)}; allowed: {', '.join(KINDS)}")
+    make, keys = KINDS[kind]
+    if unknown := [key for key in mapping if key not in keys]:
+        raise ValueError(f"{path}: unknown key {_shown(unknown[0])}; allowed for {kind}: {', '.join(keys)}")
+    if missing := [key for key in keys if key not in mapping]:
+        raise ValueError(f"{path}: lacks {', '.join(missing)}; {kind} needs {', '.join(keys)}")
+    try:
+        if make is CreepTable:
+            medium = _table(Path(path), mapping["file"])
+        else:
+            medium = make(**{key: _values(key, mapping[key], keys[key], length_unit) for key in keys})
+        return medium if length_unit == "1" else scaled(medium, units.metres(length_unit) ** 2)
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from error
+
+
+def scaled(medium, factor):
+    """The medium with its moduli and viscosities multiplied by a factor, as to other units of length."""
+    if factor == 1:
+        return medium
+    if isinstance(medium, CreepTable):
+        return CreepTable(medium.times, medium.compliances / factor)
+    changed = {}
+    for field in dataclasses.fields(medium):
+        value = getattr(medium, field.name)
+        if field.name in _MODULI:
+            changed[field.name] = tuple(factor * each for each in value) if isinstance(value, tuple) else factor * value
+    return dataclasses.replace(medium, **changed)
+
+
+class _Loader(yaml.SafeLoader):
+    """YAML without anchors, and with a fault where a key stands twice."""
+
+    def compose_node(self, parent, index):
+        if self.check_event(yaml.AliasEvent):
+            raise yaml.YAMLError("aliases are not allowed")
+        return super().compose_node(parent, index)
+
+    def construct_mapping(self, node, deep=False):
+        keys = [key.value for key, _ in node.value]
+        if twice := [key for key in keys if keys.count(key) > 1]:
+            raise yaml.YAMLError(f"the key {_shown(twice[0])} stands twice")
+        return super().construct_mapping(node, deep)
+
+
+def _mapping(path):
+    wanted = "one mapping of YAML with the kind of medium and its parameters is needed"
+    try:
+        if not Path(path).is_file():
+            raise ValueError("it is no file" if Path(path).exists() else "there is no such file")
+        if Path(path).stat().st_size > _LARGEST_FILE:
+            raise ValueError("it is too large")
+        content = yaml.load(Path(path).read_bytes(), Loader=_Loader)
+    except (OSError, ValueError, yaml.YAMLError, RecursionError, AttributeError, TypeError, LookupError) as error:
+        raise ValueError(f"{path}: not readable ({reason(error)[:200]}); {wanted}") from error
+    if not isinstance(content, dict):
+        raise ValueError(f"{path}: holds {_shown(content)}; {wanted}")
+    return content
+
+
+def _values(key, value, unit, length_unit):
+    """A number, or a list of numbers, in `unit`."""
+    if isinstance(value, list):
+        return [_values(f"{key}[{i}]", entry, unit, length_unit) for i, entry in enumerate(value)]
+    if not isinstance(value, str):
+        return value
+    with contextlib.suppress(ValueError):
+        return float(value)  # YAML takes 1e6, without a point, for a text
+    if unit == PLAIN:
+        raise ValueError(f"{key}: {_shown(value)}; allowed: a plain number")
+    if length_unit == "1":
+        raise ValueError(f"{key}: {_shown(value)}; allowed: a plain number, since the unit of length is not known")
+    try:
+        return units.quantity(value).to(unit)
+    except ValueError as error:
+        raise ValueError(f"{key}: {error}; allowed: a number above 0, plain or with a unit such as {unit}") from error
+
+
+def _table(path, name):
+    if not isinstance(name, str) or not name or "\0" in name:
+        raise ValueError(f"file: {_shown(name)}; allowed: the name of a .csv or .npy file")
+    times, compliances = read_columns(path.parent / name, "a creep table", "time and compliance")
+    return CreepTable(times, compliances)
+
+
+def _shown(value):
+    text = repr(value)
+    return text if len(text) <= 60 else f"{text[:60]}..."

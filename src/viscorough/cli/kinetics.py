@@ -89,7 +89,8 @@ def kinetics(curve, force, force_history, viscosity, medium, times, output):
         _check_that_levels_follow_each_other(motion, force, viscosity)
     content, title = _content(content, motion, history, loading, times is None and viscosity is not None)
     write_output(content, output, title=title, **about)
-    announce(output, f"{motion.time.size} times, depth {motion.depth[-1]:.6g} at time {motion.time[-1]:.6g}")
+    points = "levels" if times is None and force is not None else "times"
+    announce(output, f"{motion.time.size} {points}, depth {motion.depth[-1]:.6g} at time {motion.time[-1]:.6g}")
 
 
 def _medium(viscosity, medium, length_unit):

@@ -13,6 +13,7 @@ from viscorough.cli.options import (
     printable_name,
     write_output,
 )
+from viscorough.cli.progress import progress_bar, progress_option
 from viscorough.cli.surface_options import heights_input, read_indenter
 from viscorough.errors import AccuracyWarning
 
@@ -28,7 +29,8 @@ _OF_A_MAP = (
 @click.option("--realizations", type=click.IntRange(1, 100_000), help="Lines to make of a map  [default: 1]")
 @click.option("--seed", type=click.IntRange(min=0), help="Of the lines that are made of a map  [default: 0]")
 @output_option("CURVE.nc")
-def reduce(surface, until_fraction, realizations, seed, output):
+@progress_option
+def reduce(surface, until_fraction, realizations, seed, output, progress):
     """Loading curve of a line by the method of reduction of dimensionality (MDR), in a fraction of a second.
 
     LINE_OR_MAP is a .npy or NetCDF file with the heights of a line, as viscorough generate --points makes it: springs
@@ -72,7 +74,11 @@ def reduce(surface, until_fraction, realizations, seed, output):
         seeds = [[seed or 0, index] for index in range(realizations or 1)]
         lines = (mdr.line_of_map(indenter, entropy) for entropy in seeds)
         warnings.warn(_OF_A_MAP, AccuracyWarning, stacklevel=2)
-    curves = [mdr.reduce(line, **options) for line in lines]
+    curves = []
+    with progress_bar("viscorough reduce", progress) as report:
+        for line in lines:
+            curves.append(mdr.reduce(line, **options))
+            report(len(curves) / (realizations or 1))
     content = curve_to_content(curves[0]) if len(curves) == 1 else stack_curves(curves)
     write_output(content, output, **about)
     first = curves[0]

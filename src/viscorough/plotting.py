@@ -17,7 +17,14 @@ _BLUE, _VERMILION = "#0072b2", "#d55e00"  # of Okabe and Ito, which can be told 
 _FEW = 40  # points below which a curve has markers
 _MOST_MAPS = 4  # contacts of one file that are drawn
 _STYLE = {
-    **{"font.size": 8, "axes.linewidth": 0.6, "lines.linewidth": 1.2, "lines.markersize": 3, "savefig.dpi": 200},
+    **{
+        "font.size": 8,
+        "axes.titlesize": 8,
+        "axes.linewidth": 0.6,
+        "lines.linewidth": 1.2,
+        "lines.markersize": 3,
+        "savefig.dpi": 200,
+    },
     **{"xtick.direction": "in", "ytick.direction": "in", "pdf.fonttype": 42, "svg.hashsalt": "viscorough"},
 }
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -95,20 +102,21 @@ def _fields(variables, dimensions):
         for axes, name in zip(row, names, strict=True):
             values = stacks[name][i].astype(float)
             if name == "contact":
-                _contact(axes, variables, values)
+                _contact(axes, variables, np.where(np.isnan(stacks["pressure"][i]), np.nan, values))
             else:
                 _map(figure, axes, variables, name, values, "inferno" if name == "pressure" else "cividis")
-        row[0].set_title(_state(variables, i), fontsize=8, loc="left")
+        row[0].set_title(_state(variables, i, {"depth": "$u$", "force": "$F/G$"}), loc="left")
+        row[-1].set_title(_state(variables, i, {"contact_fraction": "contact fraction", "patches": "patches"}), loc="left")
     return figure
 
 
-def _state(variables, index):
-    """Depth and force of one of the contacts in a file, as text."""
+def _state(variables, index, symbols):
+    """Numbers of one of the contacts in a file, as text; symbols : {name of the variable: what it is called}."""
     texts = []
-    for name, symbol in (("depth", "u"), ("force", "F/G")):
+    for name, symbol in symbols.items():
         if name in variables and variables[name].values.size > index:
             unit = _unit(variables[name])
-            texts.append(f"${symbol}$ = {variables[name].values.flat[index]:.4g}{f' {unit}' if unit else ''}")
+            texts.append(f"{symbol} {variables[name].values.flat[index]:.4g}{f' {unit}' if unit else ''}")
     return ", ".join(texts)
 
 
@@ -122,8 +130,7 @@ def _map(figure, axes, variables, name, values, colours):
 def _contact(axes, variables, values):
     colours = mpl.colors.ListedColormap(["white", _VERMILION])
     axes.imshow(values, origin="lower", extent=_extent(variables, "contact", values), cmap=colours, vmin=0, vmax=1)
-    share = np.nanmean(values) if np.isfinite(values).any() else 0
-    axes.set_title(f"in contact: {100 * share:.3g} % of the map", fontsize=8, loc="left")
+    axes.set_facecolor("0.85")
     _label_map(axes, variables, "contact")
 
 

@@ -10,6 +10,7 @@ from viscorough.cli.options import (
     output_option,
     write_output,
 )
+from viscorough.cli.progress import progress_bar, progress_option
 from viscorough.cli.surface_options import heights_input, read_indenter
 
 
@@ -24,6 +25,7 @@ from viscorough.cli.surface_options import heights_input, read_indenter
 @click.option("--until-fraction", type=PositiveNumber(1), help="Contact fraction at which to stop  [default: 0.9]")
 @click.option("--until-force", type=Quantity("N"), help="F/G, or F with a modulus, at which to stop.")
 @elastic_constants_options
+@progress_option
 def indent(
     surface,
     output,
@@ -36,6 +38,7 @@ def indent(
     shear_modulus,
     young,
     poisson,
+    progress,
 ):
     """Loading curve of an indenter pressed into an elastic half-space.
 
@@ -83,7 +86,8 @@ def indent(
     from viscorough.contact.loading_path import indent
     from viscorough.io.curves import curve_to_content
 
-    curve = indent(indenter, tolerance=tolerance, **given)
+    with progress_bar("viscorough indent", progress) as report:
+        curve = indent(indenter, tolerance=tolerance, progress=report, **given)
     write_output(curve_to_content(curve), output, **surface.attributes(indenter), **medium.attributes)
     count = f"{curve.contact_count[-1]} of {curve.elements} elements in contact"
     announce(output, f"{curve.depth.size} levels, the last at depth {curve.depth[-1]:.6g} with {count}")

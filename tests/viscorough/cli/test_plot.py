@@ -12,8 +12,6 @@ from support.contract import complaint
 from viscorough.cli import main
 from viscorough.io import netcdf
 
-POSITION = {"long_name": "position", "units": "um"}
-
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
@@ -30,24 +28,13 @@ def made(tmp_path_factory):
         "march.nc": ["march", heights, "--spacing", "1", "--method", "events"],
         "disc.nc": [*surface, "--elements", "9"],
         "line.nc": [*surface, "--points", "64"],
+        "contact.nc": ["contact", heights, "--spacing", "1", "--depth", "0.01"],
+        "contacts.nc": ["contact", heights, "--spacing", "1", "--depth", "0.01,0.02"],
         "lines.nc": ["reduce", heights, "--spacing", "1", "--realizations", "3"],
         "estimate.nc": [*law, "--times", "1e-9,1e-5,1e-4"],
     }.items():
         assert main([*arguments, "-o", str(folder / name)]) == 0
-    netcdf.write(fields(), folder / "fields.nc")
     return folder
-
-
-def fields():
-    """Fields of two contacts, as viscorough contact writes them."""
-    gap = np.clip(sphere_heights(9)[None] + 0.2, 0, None) + np.array([0.0, 0.01])[:, None, None]
-    axes = ("contact_index", "y", "x")
-    described = {"pressure": gap, "gap": gap, "contact": (gap > 0.2).astype("i1")}
-    variables = {name: netcdf.Variable(axes, v, {"long_name": name, "units": "1"}) for name, v in described.items()}
-    variables |= {axis: netcdf.Variable((axis,), np.arange(9.0), POSITION) for axis in "yx"}
-    for name in ("depth", "force"):
-        variables[name] = netcdf.Variable(axes[:1], np.array([1.0, 2.0]), {"long_name": name, "units": "um"})
-    return netcdf.Content(variables, {"title": "fields"})
 
 
 @pytest.fixture
@@ -58,7 +45,8 @@ def here(made, tmp_path, monkeypatch):
     return tmp_path
 
 
-FILES = ["curve.nc", "curve.csv", "motion.nc", "march.nc", "disc.nc", "line.nc", "lines.nc", "estimate.nc", "fields.nc"]
+FILES = ["curve.nc", "curve.csv", "motion.nc", "march.nc", "disc.nc", "line.nc", "lines.nc", "estimate.nc"]
+FILES += ["contact.nc", "contacts.nc"]
 
 
 @pytest.mark.parametrize("file", FILES)

@@ -106,7 +106,8 @@ def _fields(variables, dimensions):
             else:
                 _map(figure, axes, variables, name, values, "inferno" if name == "pressure" else "cividis")
         row[0].set_title(_state(variables, i, {"depth": "$u$", "force": "$F/G$"}), loc="left")
-        row[-1].set_title(_state(variables, i, {"contact_fraction": "contact fraction", "patches": "patches"}), loc="left")
+        shares = {"contact_fraction": "contact fraction", "patches": "patches"}
+        row[-1].set_title(_state(variables, i, shares), loc="left")
     return figure
 
 

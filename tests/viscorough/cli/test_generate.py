@@ -6,7 +6,9 @@ import pytest
 from support.cf import violations
 from support.contract import complaint
 from viscorough.cli import main
+from viscorough.contact.loading_path import indent
 from viscorough.io import netcdf
+from viscorough.io.curves import curve_from_content
 from viscorough.io.surfaces import read_line
 from viscorough.surfaces import self_affine_disc, self_affine_line
 
@@ -40,6 +42,15 @@ def test_line_is_read_back_by_reduce(here):
     np.testing.assert_array_equal(line.heights, self_affine_line(0.7, 256, rms=0.2, length=128, seed=5).heights)
     assert (line.spacing, line.length_unit) == (pytest.approx(0.5, rel=1e-12), "um")
     assert violations(here / "made.nc") == []
+
+
+def test_disc_is_read_back_by_indent_with_nothing_else_said(here):
+    assert main([*DISC, *END]) == 0
+    assert main(["indent", "made.nc", "-o", "curve.nc"]) == 0
+    curve = curve_from_content(netcdf.read(here / "curve.nc"))
+    wanted = indent(self_affine_disc(0.7, 17, rms=0.2, diameter=34, seed=5))
+    np.testing.assert_allclose(curve.force, wanted.force, rtol=1e-9)
+    assert curve.length_unit == "um"
 
 
 def test_numbers_may_have_units(here):

@@ -70,10 +70,15 @@ class PowerLawBody:
         """k/G = 8a [length] at depth u."""
         return 8 * self.contact_radius(depth)
 
-    def indenter(self, elements_across, width=1.0):
-        """Indenter of this shape on a square of the given width, its tip (height 0) at the centre of the square."""
-        x = _element_centres(elements_across, width)
-        return Indenter(-self.coefficient * np.hypot(x[:, None], x) ** self.exponent, width / elements_across)
+    def indenter(self, elements_across, width=1.0, rows=None):
+        """Indenter of this shape on a square of the given width, its tip (height 0) at the centre of the square.
+
+        elements_across : columns of elements; rows : rows of elements, by default as many
+        """
+        rows = rows or elements_across
+        x, y = _element_centres(elements_across, width), _element_centres(rows, width)
+        heights = -self.coefficient * np.hypot(y[:, None], x) ** self.exponent
+        return Indenter(heights, width / elements_across, width / rows)
 
     def mdr_line(self, points, width=1.0):
         """Indenter on a line of the given width that represents this body in the MDR."""

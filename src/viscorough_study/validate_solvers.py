@@ -1,10 +1,10 @@
 """Validation: errors and observed orders of every method against exact solutions, on grids from coarse to fine.
 
-The bodies have exact solutions (viscorough.reference) and stand on grids of n elements across L = 1. Errors are root
-mean squares, over a range of contact radii, of the relative deviation from the exact value: at a single radius they
-oscillate with how the circle of contact happens to cut the grid. For that reason flat ellipses are of several sizes.
-The observed order is the slope of ln(error) over ln(1/n). Boundary elements are solved to a tolerance so small that the
-error of the grid dominates.
+The bodies have exact solutions (viscorough.reference) and stand on grids of n elements across L = 1. The elements are
+squares, but for a sphere that also stands on twice as many columns. Errors are root mean squares, over a range of
+contact radii, of the relative deviation from the exact value: at a single radius they oscillate with how the circle of
+contact happens to cut the grid. For that reason flat ellipses are of several sizes. The observed order is the slope of
+ln(error) over ln(1/n). Boundary elements are solved to a tolerance so small that the error of the grid dominates.
 """
 
 import numpy as np
@@ -28,10 +28,10 @@ EVENTS = 600  # contact events over which a rough disc is integrated directly; m
 EVENTS_APART = 20  # of these events every twentieth depth is compared
 CORRESPONDENCE_TOLERANCE = 1e-11  # of the elastic curve against direct integration
 
-# Uniform pressure on square elements, collocated at their centres, has an error of second order in force on a smooth
-# body, and of first order where an edge singularity or a count of elements enters. Depth and velocity at a given
-# impulse inherit the order of force and of stiffness. Direct integration and the correspondence are both exact on the
-# same grid.
+# Uniform pressure on elements, collocated at their centres, has an error of second order in force on a smooth body,
+# and of first order where an edge singularity or a count of elements enters. Depth and velocity at a given impulse
+# inherit the order of force and of stiffness. Direct integration and the correspondence are both exact on the same
+# grid.
 ORDERS = {"force": 2, "depth": 2, "stiffness": 1, "velocity": 1, "area": 1, "punch_stiffness": 1, "correspondence": 0}
 WITHOUT_ORDER = "rough_disc"
 GRIDS_FOR_ORDER = 3  # fewest grids on which an order can be told from scatter
@@ -108,6 +108,8 @@ def _errors_on_grid(n):
         for history, errors in _penetration(indenter, body).items():
             cases[f"{name}_{history}_force"] = errors
         cases[f"{name}_reduction"] = _reduction(body.mdr_line(n), body)
+    on_rectangles = BODIES["sphere"].indenter(2 * n, rows=n)
+    cases["sphere_on_rectangles"] = _indentation(on_rectangles, BODIES["sphere"])
     cases |= {name: {"punch_stiffness": error} for name, error in _flat_punches(n).items()}
     cases["rough_disc"] = {"correspondence": _correspondence(self_affine_disc(elements_across=n, **ROUGH))}
     return cases
@@ -140,7 +142,7 @@ def _indentation(indenter, body):
     return {
         "force": _error(curve.force, body.force(depth)),
         "stiffness": _error(curve.stiffness, body.stiffness(depth)),
-        "area": _error(curve.contact_count * indenter.spacing**2, np.pi * RADII**2),
+        "area": _error(curve.contact_count * indenter.element_side**2, np.pi * RADII**2),
     }
 
 

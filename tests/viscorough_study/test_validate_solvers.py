@@ -33,14 +33,14 @@ def test_table_has_every_case_on_every_grid(table):
     assert list(table.columns) == list(validate_solvers.COLUMNS)
     assert (table.groupby(["case", "quantity"])["elements"].apply(tuple) == GRIDS).all()
     assert set(table["quantity"]) == set(validate_solvers.ORDERS)
-    cases = {"disc", "ellipse", "rough_disc"}
+    cases = {"disc", "ellipse", "rough_disc", "sphere_on_rectangles"}
     for body in ("sphere", "cone"):
         cases |= {body, f"{body}_constant_force", f"{body}_rising_force", f"{body}_reduction"}
     assert set(table["case"]) == cases
 
 
 def test_force_is_of_second_order(table):
-    """Uniform pressure on square elements, sphere and cone: slope 2 within the scatter of three grids."""
+    """Uniform pressure on squares and rectangles, sphere and cone: slope 2 within the scatter of three grids."""
     order = table[table["quantity"] == "force"].groupby("case")["order"].first()
     assert order.between(1.8, 2.3).all()
 
@@ -56,7 +56,7 @@ def test_flat_punches_are_of_first_order(table, punch):
 def test_an_error_above_its_limit_is_named():
     table = validate_solvers.validation_table((33,), dict.fromkeys(LIMITS, 0.1) | {"area": 1e-3}, MARGIN)
     failed = validate_solvers.failures(table, MARGIN)
-    assert [line.split(":")[0] for line in failed] == ["sphere area", "cone area"]
+    assert [line.split(":")[0] for line in failed] == ["sphere area", "cone area", "sphere_on_rectangles area"]
     assert "allowed: error up to 0.001" in failed[0]
     assert not table[table["quantity"] == "area"]["passed"].any()
     assert table[table["quantity"] != "area"]["passed"].all()
@@ -70,7 +70,7 @@ def test_a_solver_that_does_not_converge_is_noticed(table):
     }
     judged = validate_solvers.judge_errors(GRIDS, errors, dict.fromkeys(LIMITS, 0.1), MARGIN)
     failed = validate_solvers.failures(judged, MARGIN)
-    assert [line.split(":")[0] for line in failed] == ["sphere force", "cone force"]
+    assert [line.split(":")[0] for line in failed] == ["sphere force", "cone force", "sphere_on_rectangles force"]
 
 
 def test_the_margin_of_the_order_decides(table):

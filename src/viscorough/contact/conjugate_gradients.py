@@ -3,7 +3,6 @@
 import numpy as np
 
 from viscorough.contact import grid_kernels as kernels
-from viscorough.contact.preconditioner import load_redistribution_stencil
 
 
 class ConjugateGradients:
@@ -56,7 +55,7 @@ class ConjugateGradients:
 
         width : of a row of flat fields
         """
-        contact_set, stencil = self._set, load_redistribution_stencil()
+        contact_set, stencil = self._set, self._preconditioner.stencil
         kernels.step_and_release(
             length, self._direction, pressure, contact_set.inside, contact_set.places, contact_set.slots,
             stencil, width, self._halfspace.load.shape[1],

@@ -53,19 +53,22 @@ class GridSolver:
         position in these arrays
     tolerance : largest |e| in contact or overlap outside it, over the depth
     options : SolverOptions
+    aspect : dy/dx of the elements
 
     place : index of every element in flat fields, by rank (0: not in the box)
     initial_gap : flat field
     """
 
-    def __init__(self, box, row, column, initial_gap, tolerance, options):
+    def __init__(self, box, row, column, initial_gap, tolerance, options, *, aspect=1.0):
         top, left, rows, columns = box
         if rows > _TALL * columns:
             row, column, top, left, rows, columns = column, row, left, top, columns, rows
+            aspect = 1 / aspect
         self._tolerance, self._options = tolerance, options
-        self._halfspace = Halfspace(rows, columns, _PRECISIONS[options.precision], padding=options.padding)
+        of_grid = {"aspect": aspect, "padding": options.padding}
+        self._halfspace = Halfspace(rows, columns, _PRECISIONS[options.precision], **of_grid)
         exact = tolerance < options.exact_gap_below
-        self._exact = Halfspace(rows, columns, padding=options.padding) if exact else self._halfspace
+        self._exact = Halfspace(rows, columns, **of_grid) if exact else self._halfspace
         self._rounding, self._exact_rounding = (
             options.operator_rounding * np.finfo(halfspace.load.dtype).eps
             for halfspace in (self._halfspace, self._exact)
@@ -81,7 +84,7 @@ class GridSolver:
         self.place = np.where(in_box, place, whole_number(0))
         self.initial_gap = np.full((rows + 2 * REACH) * self._width, _OUTSIDE, dtype=self._precision)
         self.initial_gap[self.place[in_box]] = initial_gap[in_box]
-        self._preconditioner = Preconditioner(rows + 2 * REACH, self._width, options.preconditioner)
+        self._preconditioner = Preconditioner(rows + 2 * REACH, self._width, options.preconditioner, aspect=aspect)
 
     @property
     def operator_applications(self):

@@ -1,14 +1,15 @@
-"""Elastic half-space under uniform pressure on square elements: influence coefficients and their operator."""
+"""Elastic half-space under uniform pressure on rectangular elements: influence coefficients and their operator."""
 
 from functools import lru_cache
 
 import ducc0
 import numpy as np
 
-from viscorough.compilation import vectorize
+from viscorough.compilation import njit, vectorize
 from viscorough.contact.column_fft import ColumnConvolution, good_length
 
-# Beyond this distance (in elements) the series below is more accurate than the difference of logarithms.
+# Beyond this distance (in sides of an element or of its parts) the series below is more accurate than the difference
+# of logarithms.
 _FAR = 30
 # Rows that lie a power of two apart in memory compete for the same cache lines; this many extra numbers per row prevent
 # that.
@@ -17,36 +18,68 @@ _ROW_PADDING = 16
 _FOLDED_BELOW = 4
 
 
-@vectorize("float64(float64, float64)")
-def influence_coefficient(x, y):
-    """K(x, y): displacement at distance (x, y), in element sides, of a unit square under uniform pressure.
+def influence_coefficient(row, column, aspect=1.0):
+    """K: displacement at a distance in rows and columns, of a rectangular element under uniform pressure.
 
-    Love's solution for the square, w = p d/(πE*) K = p d/(4πG) K with element side d (Love 1929). Near the square
-    it is the closed form, the sum over the four corners of ±(a ln(b + ρ) + b ln(a + ρ)); far from it, where that loses
-    digits to cancellation, the moment expansion of ∫∫ dA/r to fourth order. Accurate to 1e-11 relative.
-    K(0, 0) = 4 ln(1 + √2) = 3.5254943481.
+    Love's solution, w = p d/(πE*) K = p d/(4πG) K, for an element with sides dx along the rows and dy along the columns
+    and d = √(dx dy) (Love 1929). Near the element K is the closed form, the sum over the four corners of
+    ±(a ln(b + ρ) + b ln(a + ρ)); far from it, where that loses digits to cancellation, the moment expansion of ∫∫ dA/r
+    to fourth order. Accurate to 1e-11 relative. K(0, 0) = 4 (a asinh(b/a) + b asinh(a/b)) with the half sides a and b
+    in units of d, 4 ln(1 + √2) = 3.5254943481 for squares.
 
-    x, y : distances in element sides, broadcast. Returns K [1] of the broadcast shape.
+    row, column : distances in rows and columns, broadcast
+    aspect : dy/dx
+
+    Returns K [1] of the broadcast shape.
+    """
+    height, width = np.sqrt(aspect), np.sqrt(1 / aspect)  # dy and dx in units of d
+    # From far, a long rectangle is the sum of parts that are at most twice as long as wide.
+    parts = np.ceil(max(aspect / 2, 1.0)), np.ceil(max(1 / aspect / 2, 1.0))
+    return _potential(row * height, column * width, height / parts[0], width / parts[1], *parts)
+
+
+@vectorize("float64(float64, float64, float64, float64, float64, float64)")
+def _potential(x, y, part_length, part_width, parts_x, parts_y):
+    """∫∫ dA/r at (x, y) from the centre of a rectangle of area 1.
+
+    part_length, part_width : sides along x and y of the equal parts into which it is divided from far
+    parts_x, parts_y : number of parts along x and y
     """
     x, y = abs(x), abs(y)
-    if max(x, y) > _FAR:
-        x2, y2 = x * x, y * y
-        r2 = x2 + y2
-        r = np.sqrt(r2)
-        r9 = r2 * r2 * r2 * r2 * r
-        fourth = (33 * (x2 * x2 + y2 * y2) - 144 * x2 * y2) / r9
-        mixed = (81 * x2 * y2 - 12 * (x2 * x2 + y2 * y2)) / r9
-        return 1 / r + 1 / (24 * r2 * r) + fourth / 1920 + mixed / 576
-    total = 0.0
+    if max(x, y) > _FAR * max(part_length, part_width):
+        mean = 0.0
+        for i in range(parts_x):
+            for j in range(parts_y):
+                x_i, y_j = x + (i - 0.5 * (parts_x - 1)) * part_length, y + (j - 0.5 * (parts_y - 1)) * part_width
+                mean += _mean_inverse_distance(x_i, y_j, part_length, part_width)
+        return mean / (parts_x * parts_y)
+    total, half_length, half_width = 0.0, 0.5 * parts_x * part_length, 0.5 * parts_y * part_width
     for sign_x in (-1, 1):
         for sign_y in (-1, 1):
-            a, b = x + 0.5 * sign_x, y + 0.5 * sign_y
+            a, b = x + sign_x * half_length, y + sign_y * half_width
             rho = np.sqrt(a * a + b * b)
             # ln(b + ρ) = ln(a²/(ρ - b)) keeps its digits where b < 0; the constant parts cancel in the sum.
             log_b = np.log(b + rho) if b > 0 else 2 * np.log(abs(a)) - np.log(rho - b)
             log_a = np.log(a + rho) if a > 0 else 2 * np.log(abs(b)) - np.log(rho - a)
             total += sign_x * sign_y * (a * log_b + b * log_a)
     return total
+
+
+@njit
+def _mean_inverse_distance(x, y, length, width):
+    """Mean of 1/r over a rectangle as seen from far: its moment expansion to fourth order."""
+    x2, y2 = x * x, y * y
+    r2 = x2 + y2
+    r = np.sqrt(r2)
+    r9 = r2 * r2 * r2 * r2 * r
+    length2, width2 = length * length, width * width
+    # Mean and half the difference of the second and fourth powers of the sides: 1 and 0 for a square of side 1.
+    second, second_difference = 0.5 * (length2 + width2), 0.5 * (length2 - width2)
+    fourth, fourth_difference = 0.5 * (length2**2 + width2**2), 0.5 * (length2**2 - width2**2)
+    of_second = second / (24 * r2 * r) + second_difference * (x2 - y2) / (8 * r2 * r2 * r)
+    of_fourth = fourth * (33 * (x2 * x2 + y2 * y2) - 144 * x2 * y2) + fourth_difference * 15 * (x2 * x2 - y2 * y2)
+    mixed = (81 * x2 * y2 - 12 * (x2 * x2 + y2 * y2)) / r9
+    return 1 / r + of_second + of_fourth / r9 / 1920 + length2 * width2 * mixed / 576
 
 
 def convolution_lengths(rows, columns):
@@ -58,7 +91,7 @@ def convolution_lengths(rows, columns):
 
 
 @lru_cache(maxsize=2)
-def _spectrum(rows, columns, padding):
+def _spectrum(rows, columns, aspect, padding):
     """Lengths of the periodic convolution along both axes, and the real spectrum of K, divided by their product.
 
     K and its spectrum are even, so that a cosine transform over distances up to half the lengths gives the spectrum at
@@ -68,7 +101,7 @@ def _spectrum(rows, columns, padding):
     row, column = (np.arange(m // 2 + 1.0) for m in lengths)
     if not padding:
         row, column = (np.minimum(d, abs(n - d)) for d, n in ((row, rows), (column, columns)))
-    spectrum = influence_coefficient(row[:, None], column)
+    spectrum = influence_coefficient(row[:, None], column, aspect)
     ducc0.fft.dct(spectrum, axes=[0, 1] if rows > 1 else [1], type=1, out=spectrum)
     spectrum /= np.prod(lengths)
     return lengths, spectrum
@@ -111,9 +144,9 @@ class _RowTransforms:
 
 
 class Halfspace:
-    """The half-space operator w = K P on a grid of rows × columns square elements: w_i = Σ_j K(i − j) P_j.
+    """The half-space operator w = K P on a grid of rows × columns elements: w_i = Σ_j K(i − j) P_j.
 
-    With P = p d/(4πG) the result w is the deflection of the surface.
+    With P = p d/(4πG) and d = √(dx dy) the result w is the deflection of the surface.
 
     K is even, so a periodic convolution over 2(n − 1) points per axis holds every distance up to n − 1 once and
     nothing wraps around; its spectrum is real. The rows beyond the grid carry no data in or out: their transforms
@@ -122,6 +155,7 @@ class Halfspace:
 
     rows, columns : of the grid
     precision : floating-point type of the computation
+    aspect : dy/dx of the elements
     padding : whether the grid is padded; if not, periodic images of the grid act on it
 
     load : the array to write P into, of shape (rows, stride ≥ columns); it must be zero wherever there is no pressure
@@ -132,9 +166,9 @@ class Halfspace:
     are undefined.
     """
 
-    def __init__(self, rows, columns, precision=np.float64, *, padding=True):
+    def __init__(self, rows, columns, precision=np.float64, *, aspect=1.0, padding=True):
         self.shape = (rows, columns)
-        (_, length), spectrum = _spectrum(rows, columns, padding)
+        (_, length), spectrum = _spectrum(rows, columns, aspect, padding)
         self._rows = _RowTransforms(rows, length, precision)
         frequency = self._rows.frequency
         spectrum = spectrum[:, np.minimum(frequency, length - frequency).ravel()]

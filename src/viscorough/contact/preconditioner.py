@@ -15,14 +15,14 @@ of these vectors, normalised to unit length,
 
 where a is the length of the vector of row sums in a block, and K couples blocks as it couples elements. The inverse on
 the blocks is approximated in the same way with blocks of blocks, until there are few enough for a dense inverse. The
-eigenvalues of M K lie between 0.35 and 1.4 for contact sets of any shape
-(tests/viscorough/contact/test_preconditioner.py); without the coarse correction the largest grows with the size of the
-contact.
+eigenvalues of M K lie between 0.35 and 1.4 for contact sets of any shape, with elements five times as long as wide
+between 0.35 and 1.6 (tests/viscorough/contact/test_preconditioner.py); without the coarse correction the largest grows
+with the size of the contact.
 
 Compiled functions take plain arrays, hence their many arguments.
 """
 
-from functools import cache, lru_cache
+from functools import lru_cache
 
 import numpy as np
 import scipy.linalg
@@ -40,17 +40,19 @@ _BEFORE = [(r, c) for r in range(-REACH, 1) for c in range(-REACH, REACH + 1) if
 _NEIGHBOURS = len(_BEFORE)
 # The neighbours of a block of elements: the nearest ones only.
 _BEFORE_BLOCK = [(-1, -1), (-1, 0), (-1, 1), (0, -1)]
-# Elements across a block, blocks across a block of the next grid level, and blocks across a grid level that is inverted
-# densely. The number of iterations depends weakly on all three.
+# Elements across a block of square elements, blocks across a block of the next grid level, and blocks across a grid
+# level that is inverted densely. The number of iterations depends weakly on all three.
 _SIDE, _RATIO, _DENSE = 8, 4, 9
 # K of a block on itself, times its side: less than 2.97, the mean over a uniformly loaded square, because G already
 # accounts for near neighbours.
 _OWN = 1.0
 
 
-@cache
-def factor_rows():
+@lru_cache(maxsize=4)
+def factor_rows(aspect):
     """Rows of G by pattern: bit s of a pattern is set if neighbour s is in contact. The last entry is for the element.
+
+    aspect : dy/dx of the elements
 
     With A the influence matrix of the neighbours in contact and the element, the row is A⁻¹ b / (bᵀ A⁻¹ b)^½, b the
     unit vector of the element. Shape (4096, 13), zero where there is no contact.
@@ -62,27 +64,27 @@ def factor_rows():
     present[:, :-1] = patterns[:, None] >> np.arange(_NEIGHBOURS) & 1
     # Absent neighbours are replaced by identity rows.
     both = present[:, :, None] & present[:, None, :]
-    matrices = np.where(both, influence_coefficient(row, column), np.eye(_NEIGHBOURS + 1))
+    matrices = np.where(both, influence_coefficient(row, column, aspect), np.eye(_NEIGHBOURS + 1))
     own = np.zeros((patterns.size, _NEIGHBOURS + 1, 1))
     own[:, -1] = 1
     rows = np.linalg.solve(matrices, own)[..., 0]
     return rows / np.sqrt(rows[:, -1:])
 
 
-@cache
-def _row_sums():
+@lru_cache(maxsize=4)
+def _row_sums(aspect):
     """Row sums of G by pattern."""
-    return factor_rows().sum(axis=1)
+    return factor_rows(aspect).sum(axis=1)
 
 
-@cache
-def load_redistribution_stencil():
+@lru_cache(maxsize=4)
+def load_redistribution_stencil(aspect):
     """Share of an element's load that each of its eight neighbours takes over when it leaves the contact, shape (3, 3).
 
     Obtained by eliminating the element from the influence matrix of the 5 × 5 elements around it; the centre is −1.
     """
     row, column = np.divmod(np.arange(25.0), 5)
-    inverse = np.linalg.inv(influence_coefficient(row[:, None] - row, column[:, None] - column))
+    inverse = np.linalg.inv(influence_coefficient(row[:, None] - row, column[:, None] - column, aspect))
     return -inverse[12].reshape(5, 5)[1:-1, 1:-1] / inverse[12, 12]
 
 
@@ -200,15 +202,19 @@ class Preconditioner(_GridLevel):
     """M ≈ K⁻¹ for one contact set after another, on a flat grid of the given height and width, border included.
 
     kind : "multilevel", "sparse" (without the coarse correction) or "none" (M = 1)
+    aspect : dy/dx of the elements
     places : indices in flat fields of the contact set for which it was prepared last
+    stencil : load_redistribution_stencil of the elements
     """
 
-    def __init__(self, height, width, kind="multilevel"):
-        self.places = np.empty(0, dtype=int)
-        self._kind = kind
+    def __init__(self, height, width, kind="multilevel", *, aspect=1.0):
+        self.places, self.stencil = np.empty(0, dtype=int), load_redistribution_stencil(aspect)
+        self._kind, self._aspect = kind, aspect
         self._width, self._work = width, np.zeros(height * width)
-        self._blocks, blocks = _block_of_places(height, width, _SIDE)
-        self._coarser = _coarse_level(_SIDE, *blocks) if kind == "multilevel" else _NoCorrection(*blocks)
+        sides = _sides_of_block(aspect)
+        self._blocks, blocks = _block_of_places(height, width, sides)
+        multilevel = kind == "multilevel"
+        self._coarser = _coarse_level(sides, aspect, *blocks) if multilevel else _NoCorrection(*blocks)
 
     def apply(self, residual):
         """M r on the set, valid until the next call, for a residual r on the flat grid."""
@@ -220,21 +226,21 @@ class Preconditioner(_GridLevel):
         inside, places : as in state.ContactSet
         """
         patterns, weights = np.empty(places.size, np.int16), np.empty(places.size)
-        _neighbour_patterns(inside, places, self._width, _row_sums(), patterns, weights)
-        self._set_factor(places, patterns, factor_rows(), weights, self._blocks[places])
+        _neighbour_patterns(inside, places, self._width, _row_sums(self._aspect), patterns, weights)
+        self._set_factor(places, patterns, factor_rows(self._aspect), weights, self._blocks[places])
 
 
 class _ManyBlocks(_GridLevel):
     """The approximate inverse of 1 + a K a on blocks; `squares`, those of a, must be set before `prepare`."""
 
-    def __init__(self, side, height, width):
+    def __init__(self, sides, aspect, height, width):
         self._width = width
         self.squares, self._work = np.zeros((2, height * width))
         self._before = np.array(_BEFORE_BLOCK) @ [self._width, 1]
         self._slots = np.array([*map(_BEFORE.index, _BEFORE_BLOCK), _NEIGHBOURS])
-        self._kernel = _coupling(side, *np.transpose([*_BEFORE_BLOCK, (0, 0)]))
-        self._blocks, blocks = _block_of_places(height, width, _RATIO)
-        self._coarser = _coarse_level(side * _RATIO, *blocks)
+        self._kernel = _coupling(sides, aspect, *np.transpose([*_BEFORE_BLOCK, (0, 0)]))
+        self._blocks, blocks = _block_of_places(height, width, (_RATIO, _RATIO))
+        self._coarser = _coarse_level((_RATIO * sides[0], _RATIO * sides[1]), aspect, *blocks)
 
     def prepare(self):
         places = np.flatnonzero(self.squares)
@@ -246,9 +252,9 @@ class _ManyBlocks(_GridLevel):
 class _FewBlocks:
     """The inverse of 1 + a K a on blocks, dense; `squares`, those of a, must be set before `prepare`."""
 
-    def __init__(self, side, height, width):
+    def __init__(self, sides, aspect, height, width):
         self.squares = np.zeros(height * width)
-        self._kernel = _dense_coupling(side, height, width)
+        self._kernel = _dense_coupling(sides, aspect, height, width)
 
     def prepare(self):
         self.places = np.flatnonzero(self.squares)
@@ -274,26 +280,33 @@ class _NoCorrection:
         return residual[self.places]
 
 
-def _coarse_level(side, height, width):
-    """The grid level of blocks with `side` elements across, on a flat grid of given height and width."""
+def _sides_of_block(aspect):
+    """Rows and columns of elements in a block, about as long as wide."""
+    stretch = np.sqrt(aspect)
+    return round(_SIDE / stretch), round(_SIDE * stretch)
+
+
+def _coarse_level(sides, aspect, height, width):
+    """The grid level of blocks of sides[0] rows and sides[1] columns, on a flat grid of given height and width."""
     few = max(height, width) - 2 * REACH <= _DENSE
-    return _FewBlocks(side, height, width) if few else _ManyBlocks(side, height, width)
+    return _FewBlocks(sides, aspect, height, width) if few else _ManyBlocks(sides, aspect, height, width)
 
 
-def _block_of_places(height, width, side):
+def _block_of_places(height, width, sides):
     """Place of the block of every place of a flat grid, and height and width of the grid of blocks; with borders."""
-    row, column = ((np.arange(n) - REACH) // side + REACH for n in (height, width))
-    blocks = [-(-(n - 2 * REACH) // side) + 2 * REACH for n in (height, width)]
+    row, column = ((np.arange(n) - REACH) // side + REACH for n, side in zip((height, width), sides, strict=True))
+    blocks = [-(-(n - 2 * REACH) // side) + 2 * REACH for n, side in zip((height, width), sides, strict=True)]
     return (row[:, None] * blocks[1] + column).ravel().astype(np.int32), blocks
 
 
 @lru_cache(maxsize=2)
-def _dense_coupling(side, height, width):
+def _dense_coupling(sides, aspect, height, width):
     """K between all blocks of a grid with its border."""
-    return _coupling(side, *np.divmod(np.arange(height * width), width))
+    return _coupling(sides, aspect, *np.divmod(np.arange(height * width), width))
 
 
-def _coupling(side, row, column):
+def _coupling(sides, aspect, row, column):
     """K between blocks at (row, column): mean deflection of a block by a unit load distributed evenly over another."""
     row, column = (abs(position[:, None] - position).astype(float) for position in (row, column))
-    return np.where((row == 0) & (column == 0), _OWN, influence_coefficient(row, column)) / side
+    of_others = influence_coefficient(row, column, aspect * sides[0] / sides[1])
+    return np.where((row == 0) & (column == 0), _OWN, of_others) / np.sqrt(sides[0] * sides[1])

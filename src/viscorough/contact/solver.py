@@ -1,6 +1,6 @@
 """Frictionless contact of a rigid indenter with the elastic half-space at a given depth, started from a shallower one.
 
-Deflections are written w = K P with P = p d/(4πG), a length, so that F/G = 4π d ΣP for elements of side d (symbols:
+Deflections are written w = K P with P = p d/(4πG), a length, so that F/G = 4π d ΣP for elements of area d² (symbols:
 contact.state). At depth u the contact satisfies P ≥ 0, e = w − u + g ≥ 0 and P e = 0, with g the initial gap. With the
 tangent q, the solution of K q = 1 on the contact set (a flat punch of its shape), k/G = 4π d Σq is the exact tangent
 stiffness and P + Δu q the predictor for the depth u + Δu.
@@ -157,7 +157,7 @@ class ContactSolver:
                 reach, box = self.elements.count, (0, 0, rows, columns)
             self._former_applications, self._reach = self.operator_applications, reach
             self._grid = None  # its memory is free for the larger one
-            self._grid = GridSolver(box, row, column, gap, self.tolerance, self.options)
+            self._grid = GridSolver(box, row, column, gap, self.tolerance, self.options, aspect=self.elements.aspect)
         return self._grid
 
     def _checked(self, before, after):

@@ -1,6 +1,6 @@
 """The types that the parts of the contact solver exchange, and the symbols that describe them.
 
-For square elements of side d on an incompressible half-space of shear modulus G:
+For elements of sides dx and dy on an incompressible half-space of shear modulus G, with d = √(dx dy):
 
     u                  depth of the indenter below first contact
     g                  initial gap, between the undeformed surfaces at first contact
@@ -25,27 +25,27 @@ from viscorough.contact.halfspace import influence_coefficient
 class Units:
     """Factors that convert reduced quantities to the user's units.
 
-    length : the largest initial gap, or the side of an element for an indenter of one height [length]
-    spacing : side d of an element [length]
+    length : the largest initial gap, or the side d for an indenter of one height [length]
+    side : d, the side of the square with the area of an element [length]
     """
 
     length: float
-    spacing: float
+    side: float
 
     @property
     def stiffness(self):
         """Factor 4π d of the tangent stiffness k/G = 4π d Σq [length]."""
-        return 4 * np.pi * self.spacing
+        return 4 * np.pi * self.side
 
     @property
     def force(self):
         """Factor of the force F/G = 4π d ΣP [length²]."""
-        return 4 * np.pi * self.spacing * self.length
+        return 4 * np.pi * self.side * self.length
 
     @property
     def pressure(self):
         """Factor of the pressure p/G = 4π P/d [1]."""
-        return 4 * np.pi * self.length / self.spacing
+        return 4 * np.pi * self.length / self.side
 
 
 @dataclass(frozen=True)
@@ -56,6 +56,7 @@ class Elements:
     initial_gap : g, reduced
     origin : first row and column of the indenter's heights that have an element
     shape : rows and columns of the smallest grid with all elements
+    aspect : dy/dx of the elements
     influence : influence coefficients K by distance in rows and columns, of that shape
     """
 
@@ -64,6 +65,7 @@ class Elements:
     initial_gap: np.ndarray
     origin: tuple
     shape: tuple
+    aspect: float
     influence: np.ndarray
 
     @property
@@ -82,15 +84,15 @@ def elements_of(indenter):
     rows, columns = np.nonzero(np.isfinite(indenter.heights))
     gap = indenter.initial_gap[rows, columns].astype(float)
     order = np.argsort(gap, kind="stable")
-    units = Units(gap.max() or indenter.element_side, indenter.spacing)
+    units = Units(gap.max() or indenter.element_side, indenter.element_side)
     origin = int(rows.min()), int(columns.min())
     row, column = (
         (position[order] - first).astype(np.int32) for position, first in zip((rows, columns), origin, strict=True)
     )
     shape = int(row.max()) + 1, int(column.max()) + 1
     distance = [np.arange(n, dtype=float) for n in shape]
-    influence = influence_coefficient(distance[0][:, None], distance[1][None, :])
-    return Elements(row, column, gap[order] / units.length, origin, shape, influence), units
+    influence = influence_coefficient(distance[0][:, None], distance[1][None, :], indenter.aspect)
+    return Elements(row, column, gap[order] / units.length, origin, shape, indenter.aspect, influence), units
 
 
 @dataclass

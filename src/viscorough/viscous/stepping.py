@@ -113,7 +113,8 @@ class _Explicit:
         row, column = np.nonzero(np.isfinite(indenter.heights))
         gap = indenter.initial_gap[row, column].astype(float)
         # The error of Σq is the square of that of q.
-        self._grid = GridSolver((0, 0, *indenter.heights.shape), row, column, gap, tolerance**2, DEFAULT)
+        box = (0, 0, *indenter.heights.shape)
+        self._grid = GridSolver(box, row, column, gap, tolerance**2, DEFAULT, aspect=indenter.aspect)
         self._tolerance = tolerance
         self._gap = self._grid.initial_gap.copy()
         self._inside = self._gap <= 0
@@ -190,7 +191,8 @@ class _Implicit:
     """Surface and indenter in the implicit scheme; impulses are over 4π d."""
 
     def __init__(self, indenter, tolerance):
-        self._gap, self._spacing, self._tolerance = indenter.initial_gap.astype(float), indenter.spacing, tolerance
+        self._gap, self._tolerance = indenter.initial_gap.astype(float), tolerance
+        self._spacings = indenter.spacing, indenter.row_spacing
         self.depth, self.resistance, self.count, self.overlap, self.steps = 0.0, None, 0, 0.0, 0
 
     def longest_step(self, _overlap):
@@ -199,7 +201,7 @@ class _Implicit:
 
     def step(self, impulse):
         """Advance by an impulse; the depth that belongs to it is found by Newton's method."""
-        solver = ContactSolver(Indenter(-self._gap, self._spacing), self._tolerance)
+        solver = ContactSolver(Indenter(-self._gap, self._spacings), self._tolerance)
         depth_step = impulse / (self.resistance or 1.0)
         for _ in range(_MAX_NEWTON_ITERATIONS):
             contact = solver.advance(solver.unloaded_state(), depth_step)

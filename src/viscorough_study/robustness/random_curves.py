@@ -12,7 +12,7 @@ from viscorough.errors import AccuracyWarning
 from viscorough.indenter import Indenter
 from viscorough.viscous.correspondence import kinetics
 from viscorough.viscous.events import march_events
-from viscorough_study.robustness.random_heights import random_heights
+from viscorough_study.robustness.random_heights import random_heights, with_random_aspect
 
 _LARGEST = 32  # elements across
 # Depths smaller than this share of the height differences have lost their digits to the rounding of the heights.
@@ -47,7 +47,7 @@ def random_curve(generator, with_start=None):
     if generator.random() < 0.2:
         span = np.nanmax(indenter.initial_gap) or length
         arguments["depths"] = np.sort(span * 10.0 ** generator.uniform(-3, 1, generator.integers(1, 5)))
-    return RandomCurve(indenter, arguments)
+    return RandomCurve(with_random_aspect(indenter, generator), arguments)
 
 
 def curve_failure(case, compute=indent):

@@ -1,5 +1,7 @@
 """Random height maps of the kinds that are most likely to break a contact solver."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from viscorough.surfaces import self_affine_disc
@@ -19,6 +21,13 @@ def random_heights(generator, largest=12):
         heights = np.where(_mask(generator, heights.shape), np.nan, heights)
         heights.flat[generator.integers(heights.size)] = 0.5
     return heights
+
+
+def with_random_aspect(indenter, generator):
+    """The indenter with elements of any aspect dy/dx from 1/5 to 5 in a third of the cases, else as it is."""
+    if generator.random() > 1 / 3:
+        return indenter
+    return replace(indenter, row_spacing=indenter.spacing * 5 ** generator.uniform(-1, 1))
 
 
 def _mask(generator, shape):

@@ -10,7 +10,7 @@ from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
 from viscorough.viscous.events import march_events
 from viscorough_study.performance.ablations import GRID_ONLY
-from viscorough_study.robustness.random_heights import random_heights
+from viscorough_study.robustness.random_heights import random_heights, with_random_aspect
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,8 @@ def random_case(generator):
     indenter = Indenter(height * heights, length)
     span = np.nanmax(indenter.initial_gap) or length
     depths = np.sort(span * 10.0 ** generator.uniform(-3, 1.5, 3))
-    return RandomCase(indenter, depths, 10.0 ** -generator.uniform(1, 11), bool(generator.random() < 0.6))
+    tolerance, on_grid = 10.0 ** -generator.uniform(1, 11), bool(generator.random() < 0.6)
+    return RandomCase(with_random_aspect(indenter, generator), depths, tolerance, on_grid)
 
 
 def silent_failure(case, solver_type=ContactSolver):

@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from scipy.integrate import dblquad
 
 from viscorough.contact.halfspace import Halfspace, influence_coefficient
@@ -12,6 +14,30 @@ def test_known_coefficients():
     known = {(0, 0): 4 * np.log(1 + np.sqrt(2)), (1, 0): 1.0380497359, (1, 1): 0.7246974381}
     for (x, y), value in known.items():
         assert influence_coefficient(float(x), float(y)) == pytest.approx(value, rel=1e-10)
+
+
+@pytest.mark.parametrize("aspect", [1 / 5, 1 / 2, 1.3, 2, 5])
+def test_coefficient_of_a_rectangle_on_itself(aspect):
+    a, b = np.sqrt(aspect) / 2, 1 / np.sqrt(aspect) / 2  # half sides in units of d
+    exact = 4 * (a * np.arcsinh(b / a) + b * np.arcsinh(a / b))
+    assert influence_coefficient(0.0, 0.0, aspect) == pytest.approx(exact, rel=1e-13)
+
+
+@pytest.mark.skipif(np.finfo(np.longdouble).eps > 1e-18, reason="no numbers of higher precision")
+@given(st.floats(-1, 1))
+@settings(max_examples=30, deadline=None, derandomize=True)
+def test_coefficients_of_rectangles_are_accurate_at_every_distance(exponent):
+    """Against Love's closed form in extended precision, which keeps 1e-13 at these distances."""
+    aspect = 5**exponent
+    row, column = np.arange(0.0, 400, 7)[:, None], np.concatenate([np.arange(0.0, 70), np.arange(70.0, 1000, 31)])
+    height, exact = np.sqrt(np.longdouble(aspect)), 0
+    for sign_x in (-0.5, 0.5):
+        for sign_y in (-0.5, 0.5):
+            y, x = (row + sign_y) * height, (column + sign_x) / height
+            exact = exact + 4 * sign_x * sign_y * (x * np.arcsinh(y / abs(x)) + y * np.arcsinh(x / abs(y)))
+    computed = influence_coefficient(row, column, aspect)
+    assert np.abs(computed / exact - 1).max() < 1e-11
+    np.testing.assert_allclose(influence_coefficient(column, row, 1 / aspect), computed, rtol=1e-11)
 
 
 @pytest.mark.parametrize(("x", "y"), [(1, 0), (2, 1), (7, 3), (11, 0), (29, 30), (31, 4), (45, 60)])
@@ -34,12 +60,13 @@ def test_coefficients_are_even_and_the_two_formulas_agree_where_they_meet():
 SHAPES = [(1, 1), (1, 2), (1, 7), (1, 150), (2, 1), (2, 2), (2, 40), (3, 31), (4, 9), (5, 1), (9, 9), (12, 31)]
 
 
+@pytest.mark.parametrize("aspect", [1.0, 0.2, 3.0])
 @pytest.mark.parametrize("shape", SHAPES)
-def test_operator_is_the_dense_matrix(shape):
+def test_operator_is_the_dense_matrix(shape, aspect):
     rows, columns = (i.ravel().astype(float) for i in np.indices(shape))
-    matrix = influence_coefficient(rows[:, None] - rows, columns[:, None] - columns)
+    matrix = influence_coefficient(rows[:, None] - rows, columns[:, None] - columns, aspect)
     pressure = np.random.default_rng(1).standard_normal(shape)
-    halfspace = Halfspace(*shape)
+    halfspace = Halfspace(*shape, aspect=aspect)
     for _ in range(2):  # no data of the first application may remain in the second
         halfspace.load[:, : shape[1]] = pressure
         deflection = halfspace.apply()[:, : shape[1]]
@@ -48,13 +75,14 @@ def test_operator_is_the_dense_matrix(shape):
     assert halfspace.count == 2
 
 
+@pytest.mark.parametrize("aspect", [1.0, 0.2, 5.0])
 @pytest.mark.parametrize("shape", [(257, 257), (200, 77), (1, 50_000), (3, 5000), (5, 2000)])
-def test_rounding_stays_within_the_bound_that_the_solver_assumes(shape):
+def test_rounding_stays_within_the_bound_that_the_solver_assumes(shape, aspect):
     """For loads of both signs, whose deflections cancel, as those of search directions do."""
     load = np.random.default_rng(3).standard_normal(shape).astype(np.float32)
     deflections = []
     for precision in (np.float32, np.float64):
-        halfspace = Halfspace(*shape, precision)
+        halfspace = Halfspace(*shape, precision, aspect=aspect)
         halfspace.load[:, : shape[1]] = load
         deflections.append(halfspace.apply()[:, : shape[1]])
     single, double = deflections

@@ -24,12 +24,12 @@ def dense_complementarity(indenter, depth):
     """Force and stiffness over G by non-negative least squares with the Cholesky factor of the dense matrix."""
     place = np.argwhere(np.isfinite(indenter.heights)).astype(float)
     gap = indenter.initial_gap[np.isfinite(indenter.heights)]
-    matrix = influence_coefficient(*(place[:, None] - place[None]).transpose(2, 0, 1))
+    matrix = influence_coefficient(*(place[:, None] - place[None]).transpose(2, 0, 1), indenter.aspect)
     factor = np.linalg.cholesky(matrix)
     pressure, _ = nnls(factor.T, np.linalg.solve(factor, depth - gap), maxiter=10_000)
     inside = pressure > 0
     tangent = np.linalg.solve(matrix[np.ix_(inside, inside)], np.ones(inside.sum()))
-    scale = 4 * np.pi * indenter.spacing
+    scale = 4 * np.pi * indenter.element_side
     return scale * pressure.sum(), scale * tangent.sum(), inside.sum()
 
 
@@ -64,6 +64,56 @@ def test_sphere_contact_area_and_stiffness_converge():
     assert stiffnesses[-1] < 1e-2
 
 
+@pytest.mark.parametrize("aspect", [0.5, 2.0, 5.0])
+def test_sphere_on_rectangles_converges_at_second_order(aspect):
+    """Elements of this aspect dy/dx, about as many as on the grids of squares above."""
+    shape, depths = reference.sphere(2.0), np.linspace(0.1, 0.2, 9)
+    elements, errors = np.array([33, 65, 129]), []
+    for n in elements:
+        rows, columns = (2 * round(n * stretch / 2) + 1 for stretch in (aspect**-0.5, aspect**0.5))
+        curve = indent(shape.indenter(columns, width=2, rows=rows), tolerance=1e-6, depths=depths)
+        errors.append(np.abs(curve.force / shape.force(depths) - 1).mean())
+    assert observed_order(elements, errors) > 1.7
+    assert errors[-1] < 4e-4
+
+
+# Elements along the short and the long side of a rectangle of sides 1 and 2: squares, and both ways stretched.
+@pytest.mark.parametrize(("short", "long"), [(1, 2), (1, 1), (2, 1), (1, 5)])
+def test_flat_rectangle_tends_to_its_exact_stiffness(short, long):
+    """k = 0.531918 · 4πG · (short side), of first order; extrapolated from two grids."""
+    stiffness = []
+    for n in (24, 48):
+        punch = Indenter(np.zeros((n * short, n * long)), (2 / (n * long), 1 / (n * short)))
+        stiffness.append(indent(punch, tolerance=1e-6).stiffness[0] / (4 * np.pi))
+    assert 2 * stiffness[1] - stiffness[0] == pytest.approx(0.531918, rel=2e-3)
+
+
+@pytest.mark.parametrize("aspect", [0.5, 2.0, 5.0])
+def test_flat_ellipse_on_rectangles_converges(aspect):
+    """Mean error over sizes, since that of one ellipse depends on how its edge cuts the grid."""
+    elements, errors, majors = np.array([33, 65, 129]), [], np.linspace(0.8, 1.0, 7)
+    for n in elements:
+        rows, columns = (2 * round(n * stretch / 2) + 1 for stretch in (aspect**-0.5, aspect**0.5))
+        x, y = ((np.arange(m) - (m - 1) / 2) * 2 / m for m in (columns, rows))
+        maps = [np.where((2 * y[:, None]) ** 2 + x**2 <= major**2, 0.0, np.nan) for major in majors]
+        punches = [Indenter(heights, (2 / columns, 2 / rows)) for heights in maps]
+        stiffness = np.array([indent(punch, tolerance=1e-4).stiffness[0] for punch in punches])
+        errors.append(np.sqrt(np.mean((stiffness / reference.flat_ellipse_stiffness(majors, majors / 2) - 1) ** 2)))
+    assert 0.6 < observed_order(elements, errors) < 1.6
+    assert errors[-1] < 6e-3
+
+
+def test_one_rough_body_on_squares_and_on_rectangles():
+    """The same smooth heights on squares, and every third row of them: on fine grids they carry the same force."""
+    for n in (60, 120):
+        x, y = (np.arange(n) + 0.5) / n, (np.arange(3 * n) + 0.5) / n
+        waves = np.cos(2 * np.pi * x) + np.cos(2 * np.pi * y[:, None] / 3) + 0.3 * np.cos(4 * np.pi * (x + y[:, None]))
+        depths = np.array([0.5, 1.5, 3.0])
+        squares = indent(Indenter(waves, 1 / n), tolerance=1e-6, depths=depths)
+        rectangles = indent(Indenter(waves[1::3], (1 / n, 3 / n)), tolerance=1e-6, depths=depths)
+        np.testing.assert_allclose(rectangles.force, squares.force, rtol=1e-2)
+
+
 @pytest.mark.parametrize("aspect", [1.0, 0.5])
 def test_flat_ellipse_converges_at_first_order(aspect):
     exact = reference.flat_ellipse_stiffness(1.0, aspect)
@@ -80,9 +130,9 @@ def test_flat_ellipse_converges_at_first_order(aspect):
 
 
 # ---- against the dense complementarity problem -----------------------------------------------------------------------
-@pytest.mark.parametrize("hurst", [0.1, 0.5, 0.9])
-def test_path_solves_the_dense_problem(hurst):
-    disc = self_affine_disc(hurst, 21, seed=5)
+@pytest.mark.parametrize(("hurst", "row_spacing"), [(0.1, 1.0), (0.5, 1.0), (0.9, 1.0), (0.5, 0.2), (0.5, 2.0)])
+def test_path_solves_the_dense_problem(hurst, row_spacing):
+    disc = Indenter(self_affine_disc(hurst, 21, seed=5).heights, 1.0, row_spacing)
     depths = np.nanmax(disc.initial_gap) * np.array([0.1, 0.3, 0.6, 0.9, 1.4])
     expected = np.array([dense_complementarity(disc, depth) for depth in depths]).T
     for largest in (400, 0):  # the dense solver, then the grid from the first depth on

@@ -4,6 +4,8 @@ Neither more depth nor more or higher elements can lower the force, and contact 
 matrix has no positive entry off its diagonal (computed up to 25 × 25 elements).
 """
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -36,7 +38,9 @@ heights = st.floats(-4, 0, width=16) | st.integers(-3, 0) | st.just(np.nan)
 # Without a fill every element is drawn; with one, most are equal: a plateau, or nan, with a few peaks and pits.
 maps = arrays(float, shapes, elements=heights, fill=st.nothing()) | arrays(float, shapes, elements=heights)
 seeds = st.integers(0, 10**6)
-indenters = st.builds(Indenter, maps.filter(lambda array: np.isfinite(array).any()), st.just(0.3)) | st.builds(
+# Squares, and rectangles that are longer in either direction, up to the largest aspect.
+spacings = st.just((0.3, 0.3)) | st.sampled_from([(0.3, 0.5), (0.3, 0.06), (0.1, 0.5)])
+indenters = st.builds(Indenter, maps.filter(lambda array: np.isfinite(array).any()), spacings) | st.builds(
     self_affine_disc, st.floats(0, 1), st.integers(9, 17), seed=seeds
 )
 lines = st.builds(
@@ -54,14 +58,14 @@ def pressings(draw):
     return indenter, (np.nanmax(indenter.initial_gap) or indenter.spacing) * 1.3 ** np.sort(steps)
 
 
-def press(heights, spacing, depths, route):
-    curve = indent(Indenter(heights, spacing), tolerance=TOLERANCE, depths=depths, options=OPTIONS[route])
+def press(indenter, depths, route):
+    curve = indent(indenter, tolerance=TOLERANCE, depths=depths, options=OPTIONS[route])
     assert (curve.operator_applications > 0) == (route == "grid")
     return curve
 
 
-def influence_matrix(row, column):
-    return influence_coefficient(np.subtract.outer(row, row), np.subtract.outer(column, column))
+def influence_matrix(row, column, indenter):
+    return influence_coefficient(np.subtract.outer(row, row), np.subtract.outer(column, column), indenter.aspect)
 
 
 # ---- the curve of one indenter ---------------------------------------------------------------------------------------
@@ -71,7 +75,7 @@ def influence_matrix(row, column):
 def test_force_is_increasing_and_convex(route, pressing):
     """Contact grows with depth, so that every secant lies between the stiffnesses at its ends."""
     indenter, depths = pressing
-    curve = press(indenter.heights, indenter.spacing, depths, route)
+    curve = press(indenter, depths, route)
     secant = np.diff(curve.force, prepend=0) / np.diff(depths, prepend=0)
     assert np.all(secant > 0)
     assert np.all(secant <= curve.stiffness * (1 + STIFFNESS))
@@ -85,14 +89,14 @@ def test_force_is_increasing_and_convex(route, pressing):
 def test_stiffness_is_that_of_a_flat_punch_of_the_contact_set(route, pressing):
     """k/G = 4π d Σq with K q = 1 on the set, and F/G = 4π d Σ q (u − g)."""
     indenter, depths = pressing
-    curve = press(indenter.heights, indenter.spacing, depths, route)
+    curve = press(indenter, depths, route)
     solver = ContactSolver(indenter, TOLERANCE, OPTIONS[route])
     contact = solver.unloaded_state()
     for i, depth in enumerate(depths):
         contact = solver.advance(contact, depth)
         row, column = (place[contact.members] for place in solver.elements.map_place)
-        tangent = np.linalg.solve(influence_matrix(row, column), np.ones(row.size))
-        scale = 4 * np.pi * indenter.spacing
+        tangent = np.linalg.solve(influence_matrix(row, column, indenter), np.ones(row.size))
+        scale = 4 * np.pi * indenter.element_side
         assert contact.count == curve.contact_count[i]
         np.testing.assert_allclose(curve.stiffness[i], scale * tangent.sum(), rtol=STIFFNESS)
         force = scale * tangent @ (depth - indenter.initial_gap[row, column])
@@ -107,7 +111,7 @@ def test_complementarity(route, pressing):
     indenter, depths = pressing
     solver = ContactSolver(indenter, TOLERANCE, OPTIONS[route])
     place = solver.elements.map_place
-    matrix = influence_matrix(*place) * indenter.spacing / (4 * np.pi)
+    matrix = influence_matrix(*place, indenter) * indenter.element_side / (4 * np.pi)
     contact, inside = solver.unloaded_state(), np.zeros(indenter.elements, dtype=bool)
     for depth in depths:
         contact = solver.advance(contact, depth)
@@ -131,10 +135,12 @@ def test_complementarity(route, pressing):
 def test_bounded_by_flat_punches(route, pressing):
     """The highest element alone carries less, a flat punch of the indenter's outline more."""
     indenter, depths = pressing
-    curve = press(indenter.heights, indenter.spacing, depths, route)
+    curve = press(indenter, depths, route)
     place = np.nonzero(np.isfinite(indenter.heights))
-    tangents = 4 * np.pi * indenter.spacing * np.linalg.solve(influence_matrix(*place), np.ones(place[0].size))
-    one, full = 4 * np.pi * indenter.spacing / influence_coefficient(0.0, 0.0), tangents.sum()
+    tangents = (
+        4 * np.pi * indenter.element_side * np.linalg.solve(influence_matrix(*place, indenter), np.ones(place[0].size))
+    )
+    one, full = 4 * np.pi * indenter.element_side / influence_coefficient(0.0, 0.0, indenter.aspect), tangents.sum()
     for ratio in (curve.force / depths, curve.stiffness):
         assert np.all(ratio >= one * (1 - STIFFNESS))
         assert np.all(ratio <= full * (1 + STIFFNESS))
@@ -152,8 +158,11 @@ def test_bounded_by_flat_punches(route, pressing):
 def test_orientation_does_not_matter(route, pressing, turned):
     """Mirrored, transposed or turned by 90°, the map has the same force and stiffness."""
     indenter, depths = pressing
-    curve = press(indenter.heights, indenter.spacing, depths, route)
-    other = press(turned(indenter.heights), indenter.spacing, depths, route)
+    curve = press(indenter, depths, route)
+    spacings = indenter.spacing, indenter.row_spacing
+    if turned in (np.transpose, np.rot90):
+        spacings = spacings[::-1]
+    other = press(Indenter(turned(indenter.heights), spacings), depths, route)
     np.testing.assert_allclose(other.force, curve.force, rtol=FORCE)
     np.testing.assert_allclose(other.stiffness, curve.stiffness, rtol=STIFFNESS)
 
@@ -164,12 +173,13 @@ def test_orientation_does_not_matter(route, pressing, turned):
 def test_scaling_laws(route, pressing, height_decades, size_decades):
     """Force is linear in heights, and of second order in all lengths; stiffness is linear in the size alone."""
     indenter, depths = pressing
-    curve = press(indenter.heights, indenter.spacing, depths, route)
+    curve = press(indenter, depths, route)
     height, size = 10**height_decades, 10**size_decades
-    higher = press(height * indenter.heights, indenter.spacing, height * depths, route)
+    higher = press(replace(indenter, heights=height * indenter.heights), height * depths, route)
     np.testing.assert_allclose(higher.force, height * curve.force, rtol=FORCE)
     np.testing.assert_allclose(higher.stiffness, curve.stiffness, rtol=STIFFNESS)
-    larger = press(size * indenter.heights, size * indenter.spacing, size * depths, route)
+    spacings = size * indenter.spacing, size * indenter.row_spacing
+    larger = press(Indenter(size * indenter.heights, spacings), size * depths, route)
     np.testing.assert_allclose(larger.force, size**2 * curve.force, rtol=FORCE)
     np.testing.assert_allclose(larger.stiffness, size * curve.stiffness, rtol=STIFFNESS)
 
@@ -182,8 +192,8 @@ def test_a_part_carries_no_more_than_the_whole(route, pressing, share, seed):
     indenter, depths = pressing
     removed = np.random.default_rng(seed).random(indenter.heights.shape) < share
     removed.flat[np.nanargmax(indenter.heights)] = False
-    part = press(np.where(removed, np.nan, indenter.heights), indenter.spacing, depths, route)
-    whole = press(indenter.heights, indenter.spacing, depths, route)
+    part = press(replace(indenter, heights=np.where(removed, np.nan, indenter.heights)), depths, route)
+    whole = press(indenter, depths, route)
     assert np.all(part.force <= whole.force * (1 + FORCE))
 
 
@@ -196,8 +206,8 @@ def test_a_raised_element_carries_no_less(route, pressing, which, share):
     place = np.flatnonzero(np.isfinite(indenter.heights))
     raised = indenter.heights.copy()
     raised.flat[place[which % place.size]] += share * indenter.initial_gap.flat[place[which % place.size]]
-    before = press(indenter.heights, indenter.spacing, depths, route)
-    after = press(raised, indenter.spacing, depths, route)
+    before = press(indenter, depths, route)
+    after = press(replace(indenter, heights=raised), depths, route)
     assert np.all(after.force >= before.force * (1 - FORCE))
 
 
@@ -228,7 +238,7 @@ forces = st.lists(st.integers(0, 9), min_size=1, max_size=6)
 def test_indenter_never_rises_and_rests_without_force(pressing, earlier, later, rest, decades):
     """The depth grows under a force, and is exactly constant without one."""
     indenter, depths = pressing
-    curve = press(indenter.heights, indenter.spacing, depths, "dense")
+    curve = press(indenter, depths, "dense")
     force = np.array([*earlier, *np.zeros(1 + rest), *later, 1.0])
     times = np.linspace(0, 10**decades, force.size)
     viscosity = np.trapezoid(force, times) / curve.force[-1]  # the last level is reached in the end
@@ -247,7 +257,7 @@ def test_indenter_never_rises_and_rests_without_force(pressing, earlier, later, 
 def test_depth_is_a_function_of_force_times_time_over_viscosity(pressing, force_decades, viscosity_decades):
     """Under another constant force, and in another viscosity, the depths are the same at other times."""
     indenter, depths = pressing
-    curve = press(indenter.heights, indenter.spacing, depths, "dense")
+    curve = press(indenter, depths, "dense")
     times = np.linspace(0, curve.force[-1], 30)[1:]
     expected = kinetics(curve, 1.0, 1.0, times).depth
     force, viscosity = 10**force_decades, 10**viscosity_decades

@@ -48,6 +48,17 @@ def test_neither_orientation_nor_place_on_the_map_matters(shape):
         assert same.stiffness == pytest.approx(contact.stiffness, rel=1e-6)
 
 
+@pytest.mark.parametrize("spacings", [(1.0, 4.0), (1.0, 0.3)])
+def test_orientation_of_a_strip_of_rectangles_does_not_matter(spacings):
+    """The grid of a tall strip is transposed, and with it the aspect of the elements."""
+    contacts = []
+    for heights, sides in ((strip((3, 57)), spacings), (strip((3, 57)).T, spacings[::-1])):
+        solver = ContactSolver(Indenter(heights, sides), 1e-6, ON_THE_GRID)
+        contacts.append(solver.advance(solver.unloaded_state(), 0.8))
+    assert contacts[0].force == pytest.approx(contacts[1].force, rel=1e-9)
+    np.testing.assert_array_equal(np.sort(contacts[0].members), np.sort(contacts[1].members))
+
+
 def test_a_long_strip_meets_complementarity():
     """Its curve starts with contact events and goes on where blocks of blocks of the preconditioner are needed."""
     heights = strip((1, 6000))

@@ -22,6 +22,15 @@ def test_agrees_with_the_correspondence_over_the_whole_curve(hurst, elements):
     np.testing.assert_allclose(elastic.force, impulse, rtol=1e-10)
 
 
+@pytest.mark.parametrize("spacings", [(1.0, 2.0), (5.0, 1.0)])
+def test_agrees_with_the_correspondence_on_rectangles(spacings):
+    disc = Indenter(self_affine_disc(0.6, 25, seed=3).heights, spacings)
+    events = march_events(disc)
+    depths = np.unique(events.depth[1:])[::11]
+    elastic = indent(disc, tolerance=1e-11, depths=depths)
+    np.testing.assert_allclose(elastic.force, np.interp(depths, events.depth, events.impulse), rtol=1e-10)
+
+
 def test_sphere_follows_lee_and_radok():
     """Radius 2 on a square of side 2, F/η = 1: u^(3/2) = 3Ft/(16η√R), not the 11 % more of Eq. (8) with its Γ."""
     x = (np.arange(33) - 16) * 2 / 33

@@ -21,6 +21,15 @@ def events(disc):
     return march_events(disc)
 
 
+@pytest.mark.parametrize(("scheme", "error"), [("implicit", 1e-7), ("heun", 2e-2), ("explicit", 1e-3)])
+def test_steps_on_rectangles_follow_the_events(scheme, error):
+    disc = Indenter(self_affine_disc(0.6, 17, seed=3).heights, (1.0, 3.0))
+    events = march_events(disc)
+    impulses = np.geomspace(events.impulse[3], events.impulse[100], 5)
+    result = march_steps(disc, impulses, scheme=scheme, overlap=1e-3, tolerance=1e-8)
+    np.testing.assert_allclose(result.depth, events.depth_at(impulses), rtol=error)
+
+
 @pytest.mark.parametrize("steps", [1, 4, 15])
 def test_implicit_steps_are_exact_whatever_their_size(disc, events, steps):
     last = events.impulse[700]

@@ -130,7 +130,7 @@ def _newtonian(medium):
 
 def _newtonian_kinetics(curve, force, viscosity, times):
     """Kinetics in a Newtonian medium, of which the impulse is the state."""
-    history, place = _sampled(force, times)
+    history, place = resampled(force, times)
     times, force, impulse = (values[place] for values in history)
     depth, stiffness = _at_impulse(curve, impulse / viscosity, viscosity)
     # Without a force the velocity is 0 even before the first level, where the stiffness is nan.
@@ -166,7 +166,7 @@ def _at_levels(curve, force, medium):
 def _creep(force, medium, times):
     """Times, Φ and dΦ/dt there."""
     if np.ndim(force) > 0:
-        history, place = _sampled(force, times)
+        history, place = resampled(force, times)
         return history.times[place], *(values[place] for values in creep_response(medium, history))
     times = impulses(force, times).times
     if hasattr(medium, "times") and times[-1] > medium.times[-1]:
@@ -175,8 +175,11 @@ def _creep(force, medium, times):
         return times, force * medium.creep_compliance(times), force * medium.creep_rate(times)
 
 
-def _sampled(force, times):
-    """The ForceHistory with samples at `times`, and the indices of those."""
+def resampled(force, times):
+    """The ForceHistory with samples at `times` added, and the indices of those; after a step, where one is.
+
+    force, times : as of `impulses`, or a ForceHistory and times within it
+    """
     if not isinstance(force, ForceHistory):
         history = impulses(force, times)
         return history, np.arange(history.times.size)

@@ -215,6 +215,17 @@ def curve_bytes(variables, attributes):
     return bytes(content)
 
 
+@st.composite
+def curve_tables(draw):
+    """Tables of loading curves, as the command line writes them; some with another column."""
+    levels = draw(st.integers(1, 4))
+    numbers = np.cumsum(np.random.default_rng(draw(st.integers(0, 2**32))).random((4, levels)) + 0.1, axis=1)
+    header = draw(st.sampled_from(["depth (um),force (um2),stiffness (um),", "depth,force,stiffness,", "a,b,c,"]))
+    rows = [",".join(map(repr, [*row, i + 1, 0.5])) for i, row in enumerate(numbers[:3].T.tolist())]
+    about = ["# elements: 9", "# operator_applications: 0", "# tolerance: 0.001", '# method: "made up"']
+    return "\n".join([*about, f"{header}contact_count,residual", *rows, ""]).encode()
+
+
 FIELDS = st.one_of(
     st.integers(0, 9).map(str),
     st.floats(0, 1e3).map(repr),
@@ -238,10 +249,16 @@ SERIES = st.one_of(
     st.lists(NUMBERS, max_size=3).map(",".join),
 )
 SHARES = st.sampled_from(["0.5", "0.9", "1", "0.01"]) | NUMBERS
-OUTPUTS = ["out.nc"] * 12 + [
-    *["", ".", "/", "none/out.nc", "folder", "folder/out.nc", "out", "-", "a\nb.nc", "é.nc", "x" * 300, "pipe"],
-    *["heights.npy", "heights.nc", "force.csv", "curve.nc", "link.nc", "dangling.nc", "older.nc", "\udcff.nc"],
-]
+OUTPUTS = (
+    ["out.nc"] * 12
+    + ["out.csv"] * 3
+    + [
+        *["", ".", "/", "none/out.nc", "folder", "folder/out.nc", "out", "-", "a\nb.nc", "é.nc", "x" * 300, "pipe"],
+        *["heights.npy", "heights.nc", "force.csv", "curve.nc", "link.nc", "dangling.nc", "older.nc", "\udcff.nc"],
+    ]
+)
+FIGURES = [*["out.png"] * 6, "out.svg", "out.nc", "out", "none/out.png", "folder", "pipe", "curve.nc", "é.png"]
+WHOLE = st.sampled_from(["3", "9", "64", "0", "-1", "1.5", "99999999", "", "nan"])
 METHODS = [*["events", "explicit", "heun", "implicit"] * 4, "magic", ""]
 OPTIONS = {
     "indent": {"--tolerance": SHARES, "--until-fraction": SHARES, "--depths": SERIES},
@@ -254,8 +271,37 @@ OPTIONS = {
         "--until-fraction": SHARES,
         "--force-history": st.sampled_from(["force.csv", "force.npy", "older.nc", "none.csv", "folder"]),
     },
+    "reduce": {"--until-fraction": SHARES, "--realizations": st.sampled_from(["2", "5", "0", "a"]), "--seed": WHOLE},
+    "plot": {"--spacing": NUMBERS},
+    "generate": {
+        "--elements": WHOLE,
+        "--points": WHOLE,
+        "--roll-off": SHARES,
+        "--unit": st.sampled_from(["um", "m", "1", "kg", "", "1e-6 m", "µm"]),
+        "--seed": WHOLE,
+        "--rms": NUMBERS,
+    },
+    "estimate": {
+        "--rms": NUMBERS,
+        "--times": SERIES,
+        "--viscosity": NUMBERS,
+        "--medium": st.sampled_from(["none.yaml", "force.csv", "folder"]),
+    },
+}
+# {command: options that it mostly has}
+USUAL = {
+    "kinetics": [["--force", NUMBERS], ["--viscosity", NUMBERS]],
+    "generate": [
+        *(["--hurst", SHARES], ["--elements", st.sampled_from(["3", "9", "16"])]),
+        *(["--rms", NUMBERS], ["--diameter", NUMBERS], ["--seed", st.sampled_from(["0", "7"])]),
+    ],
+    "estimate": [
+        *(["--hurst", SHARES], ["--rms", st.sampled_from(["1", "2"])], ["--diameter", st.sampled_from(["5", "9"])]),
+        *(["--force", st.sampled_from(["1", "2"])], ["--viscosity", NUMBERS], ["--times", SERIES]),
+    ],
 }
 READ = {"indent": ["heights.npy", "heights.nc"], "kinetics": ["curve.nc"], "march": ["heights.npy", "heights.nc"]}
+READ |= {"reduce": ["heights.npy", "heights.nc", "line.npy"], "plot": ["curve.nc", "heights.nc", "curve.csv"]}
 ODD = ["--help", "--version", "--colour", "more.npy", "--", "-o", "\x00", "--tolerance=1e-2", "--force"]
 
 
@@ -265,20 +311,19 @@ def commands(draw):
     command = draw(st.sampled_from(sorted(OPTIONS)))
     rarely = st.integers(0, 19).map(lambda n: n == 0)
     odd_files = ["none.npy", "folder", "older.nc", "pipe", ""]
-    file = draw(st.sampled_from(odd_files if draw(rarely) else READ[command]))
-    given = [["-o", draw(st.sampled_from(OUTPUTS))]]
-    if command != "kinetics":
+    file = [draw(st.sampled_from(odd_files if draw(rarely) else READ[command]))] if command in READ else []
+    given = [["-o", draw(st.sampled_from(FIGURES if command == "plot" else OUTPUTS))]]
+    if command in ("indent", "march", "reduce"):
         given.append(["--spacing", draw(NUMBERS if draw(st.integers(0, 3)) == 0 else st.sampled_from(["1", "0.5"]))])
     if command == "march":
         method = draw(st.sampled_from(METHODS))
         given.append(["--method", method])
         given += [["--times", draw(SERIES)]] if method not in ("events", "") and draw(st.integers(0, 4)) else []
-    if command == "kinetics":
-        given += [["--force", draw(NUMBERS)], ["--viscosity", draw(NUMBERS)]]
+    given += [[name, draw(values)] for name, values in USUAL.get(command, [])]
     for name in draw(st.lists(st.sampled_from(sorted(OPTIONS[command])), max_size=2)):
         given.append([name, draw(OPTIONS[command][name])])
     given = [option for option in given if not draw(rarely)]
-    arguments = [command, file, *[text for option in given for text in option]]
+    arguments = [command, *file, *[text for option in given for text in option]]
     if draw(rarely):
         arguments.insert(draw(st.integers(0, len(arguments))), draw(st.sampled_from(ODD)))
     return arguments
@@ -288,6 +333,8 @@ FILES = {
     "heights.npy": npy_files(),
     "heights.nc": damaged(netcdf_heights()),
     "curve.nc": damaged(curve_files()),
+    "curve.csv": damaged(curve_tables()),
+    "line.npy": npy_files(array_strategies.array_shapes(min_dims=1, max_dims=1, max_side=9)),
     "force.csv": HISTORIES,
     "force.npy": npy_files(array_strategies.array_shapes(min_dims=2, max_dims=2, min_side=2, max_side=2)),
 }

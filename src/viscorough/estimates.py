@@ -82,6 +82,10 @@ def estimate(hurst, rms, diameter, force, medium, times):
     if times.ndim != 1 or times.size == 0 or not (np.diff(times, prepend=0) > 0).all() or not np.isfinite(times).all():
         raise ValueError("times: allowed is one row of finite numbers above 0, each larger than the one before")
     compliance, rate = medium.creep_compliance(times), medium.creep_rate(times)
+    if np.isnan(compliance).any():
+        raise ValueError(
+            f"times: up to {times[-1]:g}, beyond the last time of the creep table; earlier ones are allowed"
+        )
     with np.errstate(over="ignore", under="ignore", invalid="ignore"):
         x = force * compliance / (4 * rms * diameter)
     inside = (x >= law.x_low) & (x <= law.x_high)

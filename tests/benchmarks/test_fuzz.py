@@ -41,6 +41,8 @@ def test_every_kind_of_file_can_be_right(fuzz, folder, fuzz_cases):
         "heights.npy": ["indent", "heights.npy", "--spacing", "1"],
         "heights.nc": ["indent", "heights.nc", "--spacing", "1"],
         "curve.nc": ["kinetics", "curve.nc", "--force", "1", "--viscosity", "1"],
+        "curve.csv": ["kinetics", "curve.csv", "--force", "1", "--viscosity", "1"],
+        "line.npy": ["reduce", "line.npy", "--spacing", "1"],
         "force.csv": ["march", "one.npy", "--spacing", "1", "--method", "events", "--force-history", "force.csv"],
         "force.npy": ["march", "one.npy", "--spacing", "1", "--method", "events", "--force-history", "force.npy"],
     }

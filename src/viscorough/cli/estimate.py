@@ -5,7 +5,16 @@ import warnings
 import click
 
 from viscorough.cli.messages import announce
-from viscorough.cli.options import FILE, Increasing, PositiveNumber, Quantity, number_in, write_output
+from viscorough.cli.options import (
+    FILE,
+    Increasing,
+    PositiveNumber,
+    Quantity,
+    check_not_an_input,
+    number_in,
+    printable_name,
+    write_output,
+)
 from viscorough.errors import AccuracyWarning
 
 
@@ -14,43 +23,48 @@ from viscorough.errors import AccuracyWarning
 @click.option("--rms", type=Quantity("m"), required=True, help="Rms height h of the surface.")
 @click.option("--diameter", type=Quantity("m"), required=True, help="Diameter L of the indenter.")
 @click.option("--force", type=Quantity("N"), required=True, help="Constant force F, applied at time 0.")
-@click.option("--viscosity", type=Quantity("Pa s"), required=True, help="Shear viscosity of a Newtonian half-space.")
+@click.option("--viscosity", type=Quantity("Pa s"), help="Shear viscosity of a Newtonian half-space.")
+@click.option("--medium", type=FILE, metavar="MEDIUM.yaml", help="Medium, as for kinetics, instead of --viscosity.")
 @click.option("--times", type=Increasing(), required=True, help="Times at which depth and velocity are wanted.")
 @click.option("-o", "--output", type=FILE, metavar="FILE", help="NetCDF file or table (.csv) to write  [default: none]")
-def estimate(hurst, rms, diameter, force, viscosity, times, output):
+def estimate(hurst, rms, diameter, force, viscosity, medium, times, output):
     """Depth and velocity of a self-affine indenter without a simulation, from the calibrated penetration law.
 
     The law, vt/h = X^beta/zeta with X = Ft/(4 viscosity h L), was calibrated with boundary elements on discs of 257
     elements across. It gives the mean of many surfaces, with a 95 % interval of this mean; a single surface scatters
-    more. It holds from the first few contact spots until the contact is nearly complete; outside of that range no
-    number is given, and the last column says on which side the time is.
+    by about 30 %. In a medium with the creep compliance J(t), X is F J(t)/(4 h L). The law holds from the first few
+    contact spots until the contact is nearly complete; outside of that range no number is given, and the last column
+    says on which side the time is.
 
     Plain numbers are in consistent units: m, N and Pa s, for example. If the lengths have units, as in --rms "2 um",
-    force and viscosity may have, too; then results are in m and s, and what has none is in m, N and Pa s.
+    force and viscosity may have, too; then results are in m and s, and plain numbers are in N, Pa s and s.
 
     \b
     Example:
-        viscorough estimate --hurst 0.8 --rms 1e-6 --diameter 0.01 --force 10 --viscosity 1e6 --times 1e-3,1e-2,0.1
+        viscorough estimate --hurst 0.8 --rms 1e-6 --diameter 0.01 --force 10 --viscosity 1e9 --times 0.01,0.1
     """
     import numpy as np
 
     from viscorough.estimates import estimate
     from viscorough.io.atomic import check_output
+    from viscorough.io.media import read_medium
     from viscorough.io.motion import estimate_to_content
 
+    if (viscosity is None) == (medium is None):
+        raise click.UsageError("one of --viscosity and --medium is needed")
     if output:
         check_output(output)
+    if output and medium:
+        check_not_an_input(output, medium, "medium")
     unit = _length_unit(rms, diameter, {"--force": force, "--viscosity": viscosity})
-    rms, diameter, force, viscosity = (
-        number_in(to, number, unit, option)
-        for to, number, option in (
-            ("m", rms, "--rms"),
-            ("m", diameter, "--diameter"),
-            ("N", force, "--force"),
-            ("Pa s", viscosity, "--viscosity"),
-        )
-    )
-    result = estimate(hurst, rms, diameter, force, viscosity, times)
+    lengths = number_in("m", rms, unit, "--rms"), number_in("m", diameter, unit, "--diameter")
+    force = number_in("N", force, unit, "--force")
+    if medium is None:
+        half_space = number_in("Pa s", viscosity, unit, "--viscosity")
+        about = {"viscosity": half_space}
+    else:
+        half_space, about = read_medium(medium, unit), {"medium": printable_name(medium)}
+    result = estimate(hurst, *lengths, force, half_space, times)
     law, outside = result.law, np.count_nonzero(result.where != "")
     if outside:
         text = f"{outside} of {len(times)} times are outside the range of the law"
@@ -60,7 +74,7 @@ def estimate(hurst, rms, diameter, force, viscosity, times, output):
         click.echo(_heading(law))
         click.echo(str(result))
         return
-    about = {"hurst": hurst, "rms": rms, "diameter": diameter, "force": force, "viscosity": viscosity}
+    about |= {"hurst": hurst, "rms": lengths[0], "diameter": lengths[1], "force": force}
     write_output(estimate_to_content(result, unit), output, **about)
     announce(output, f"{len(times)} times, {len(times) - outside} in the range of the law")
 
@@ -70,7 +84,7 @@ def _length_unit(rms, diameter, others):
     if bool(rms.unit) != bool(diameter.unit):
         raise click.UsageError(f"--rms {rms}, --diameter {diameter}: one has a unit; both or none is allowed")
     for option, quantity in others.items():
-        if quantity.unit and not rms.unit:
+        if quantity and quantity.unit and not rms.unit:
             raise click.UsageError(f'{option} {quantity}: has a unit, but the lengths have none, as in --rms "2 um"')
     return "m" if rms.unit else "1"
 

@@ -7,6 +7,7 @@ from support.contract import complaint
 from viscorough.cli import main
 from viscorough.estimates import estimate
 from viscorough.io import netcdf, tables
+from viscorough.viscous.media import Maxwell
 
 SI = ["--rms", "1e-6", "--diameter", "0.01", "--force", "10", "--viscosity", "1e6"]
 ESTIMATE = ["estimate", "--hurst", "0.8", *SI, "--times", "1e-5,1e-4"]
@@ -51,6 +52,17 @@ def test_units_are_converted(here):
     assert (variables["depth"].attributes["units"], variables["velocity"].attributes["units"]) == ("m", "m s-1")
 
 
+def test_media_are_read_from_files(here):
+    (here / "maxwell.yaml").write_text("kind: maxwell\nshear_modulus: 50 MPa\nviscosity: 1000 Pa s\n")
+    units = ["--rms", "1 um", "--diameter", "1 cm", "--force", "10 mN"]
+    times = ["--times", "1e-4,1e-3", "-o", "a.nc"]
+    assert main(["estimate", "--hurst", "0.8", *units, "--medium", "maxwell.yaml", *times]) == 0
+    wanted = estimate(0.8, 1e-6, 0.01, 0.01, Maxwell(5e7, 1e3), [1e-4, 1e-3])
+    content = netcdf.read(here / "a.nc")
+    np.testing.assert_allclose(content.variables["velocity"].values, wanted.velocity, rtol=1e-12)
+    assert content.attributes["medium"] == "maxwell.yaml"
+
+
 def test_times_outside_of_the_range_are_marked_and_warned_about(here, capsys):
     assert main([*ESTIMATE[:-1], "1e-9,1e-5,1"]) == 0
     captured = capsys.readouterr()
@@ -81,10 +93,29 @@ def test_times_outside_of_the_range_are_marked_and_warned_about(here, capsys):
         (["--times", "1,2"], "where the law holds; elsewhere indent a surface made by viscorough generate"),
         (["--force", "1e300", "--rms", "1e-300"], "where the law holds"),
         (["-o", "none/out.nc"], "there is no folder none"),
+        (["--medium", "none.yaml"], "one of --viscosity and --medium is needed"),
     ],
 )
 def test_mistakes_are_one_line(here, capsys, arguments, what):
     assert what in complaint([*ESTIMATE, *arguments], capsys, here)
+
+
+@pytest.mark.parametrize(
+    ("text", "options", "what"),
+    [
+        ("kind: water", [], "medium.yaml: kind 'water'; allowed: newtonian"),
+        ("kind: newtonian\nviscosity: 1 Pa s", [], "since the unit of length is not known"),
+        ("kind: creep_table\nfile: J.csv", [], "beyond the last time of the creep table"),
+        ("kind: newtonian\nviscosity: 1.0e+6", ["-o", "medium.yaml"], "would replace the medium"),
+        ("", ["--medium", "none.yaml"], "none.yaml: not readable (there is no such file)"),
+    ],
+)
+def test_mistakes_in_media_are_one_line(here, capsys, text, options, what):
+    (here / "medium.yaml").write_text(text)
+    (here / "J.csv").write_text("0,0\n1e-6,1e-12\n")
+    place = ESTIMATE.index("--viscosity")
+    arguments = [*ESTIMATE[:place], *ESTIMATE[place + 2 :], "--medium", "medium.yaml", *options]
+    assert what in complaint(arguments, capsys, here)
 
 
 def test_options_that_are_missing_are_named(here, capsys):

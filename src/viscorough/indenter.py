@@ -103,7 +103,8 @@ def _spacings(spacing, row_spacing):
         raise ValueError(f"indenter spacing: must be one number or a pair, without row_spacing, not {spacing!r}")
     else:
         spacing, row_spacing = (positive("indenter spacing", entry) for entry in spacing)
-    if not 1 / LARGEST_ASPECT <= row_spacing / spacing <= LARGEST_ASPECT:
+    largest = LARGEST_ASPECT * (1 + 1e-9)  # spacings that were computed may miss it by rounding
+    if not 1 / largest <= row_spacing / spacing <= largest:
         raise ValueError(
             f"indenter spacing: {spacing:g} between columns and {row_spacing:g} between rows differ by more than "
             f"a factor of {LARGEST_ASPECT}, which is the largest allowed; resample the map"

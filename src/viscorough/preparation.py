@@ -149,11 +149,10 @@ def _tilt(indenter):
             count += plane.size
     rise, rms = highest - lowest, np.sqrt(squares / count)
     if rise > _NOTABLE_TILT * rms and rise > 1e-9 * np.nanmax(np.abs(heights)):
-        ratio = f"{rise / rms:.3g} times" if rms > 0 else "without"
-        yield (
-            f"the map is tilted: a plane through it rises by {rise:.3g}, {ratio} the rms height about it ({rms:.3g}); "
-            "--detrend plane removes it"
+        about = (
+            f"{rise / rms:.3g} times the rms height about it" if rms > 1e-9 * rise else "and nothing is left about it"
         )
+        yield f"the map is tilted: a plane through it rises by {rise:.3g}, {about}; --detrend plane removes it"
 
 
 # ---- values that mark missing points, spikes

@@ -4,7 +4,7 @@ import numpy as np
 
 _MERGED = 1e-6  # positions closer than this, relative to their range, are one
 _OFF_GRID = 0.1  # largest distance from the grid, relative to its spacing
-_LEAST_SHARE = 0.5  # of the grid that points of unknown meaning must cover to be taken for a map
+_LEAST_SHARE, _LEAST_POINTS = 0.5, 9  # of the grid, that rows of unknown meaning need to be taken for its points
 
 
 def gridded(points, required):
@@ -29,7 +29,7 @@ def gridded(points, required):
             fault = f"{len(points)} points on a grid of {columns} by {rows}"
         elif np.bincount(row * columns + column).max() > 1:
             fault = "some points stand twice"
-        elif not required and len(points) < _LEAST_SHARE * columns * rows:
+        elif not required and len(points) < max(_LEAST_POINTS, _LEAST_SHARE * columns * rows):
             fault = "few of its points"
     if fault is not None:
         if required:

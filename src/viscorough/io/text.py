@@ -20,8 +20,9 @@ _MISSING = r"[+-]?(?:nan|inf|na|n/a|null|bad|void|no data|\*+|-{2,})"
 _FIELD = re.compile(rf"(?:{_NUMBER}|{_MISSING}|)", re.IGNORECASE)
 _GAPS = re.compile(r"(?<![^\s,;])(?:na|n/a|null|bad|void|no data|\*+|-{2,})(?![^\s,;])", re.IGNORECASE)
 _UTF16 = (b"\xff\xfe", b"\xfe\xff")
-_COMMENT = ("#", "%", "//", ";", '"')
-_LENGTH = rf"({_NUMBER})\s*([^\d\s,;)]*)"
+_COMMENT = ("#", "%", "//", ";")
+_REMARK = re.compile(r"\s[#%].*")
+_LENGTH = rf"({_NUMBER})[ \t]*([^\d\s,;)]*)"
 _WIDTH = re.compile(rf"\b(?:width|breite|scan ?size ?x|x[ _-]?size)\s*[:=]\s*{_LENGTH}", re.IGNORECASE)
 _HEIGHT = re.compile(rf"\b(?:height|höhe|scan ?size ?y|y[ _-]?size)\s*[:=]\s*{_LENGTH}", re.IGNORECASE)
 _PIXEL = re.compile(rf"\b(?:pixel ?size|(?:x[ _-]?)?spacing|dx)\s*[:=]\s*{_LENGTH}", re.IGNORECASE)
@@ -80,21 +81,30 @@ def _decoded(path):
 
 
 def _lines(text):
-    """The header, with all comments, and the lines with rows of numbers, without a unit or name before them."""
-    lines = [line.strip() for line in text.splitlines()]
+    """The header, with all comments, and the lines with rows of numbers.
+
+    Raises ValueError if the line before the first row starts like a row: a height must not be lost for a misprint.
+    """
+    lines = [line.strip(" ") for line in text.replace('"', "").splitlines()]
+    if "#" in text or "%" in text:
+        lines = [line if line.startswith(_COMMENT) else _REMARK.sub("", line) for line in lines]
     first = next((number for number, line in enumerate(lines) if _is_row(line)), len(lines))
+    before = next((line for line in reversed(lines[:first]) if line.strip()), "")
+    if first < len(lines) and re.match(_NUMBER, before) and len(before.split()) == len(lines[first].split()):
+        raise ValueError(f"line {first} ({before[:40]!r}) is not a row of numbers; numbers or a comment are needed")
     comments, rows = lines[:first], []
     for line in lines[first:]:
         if line.startswith(_COMMENT):
             comments.append(line)
-        elif line:
+        elif line.strip():
             rows.append(line)
     return "\n".join(comments), rows
 
 
 def _is_row(line):
     """Whether a line holds numbers only; at least one of them, so that a line of marks is none."""
-    if not line or line.startswith(_COMMENT) or not re.search(r"\d|nan", line, re.IGNORECASE):
+    line = _GAPS.sub("nan", line)
+    if line.startswith(_COMMENT) or not re.search(r"\d|nan", line, re.IGNORECASE):
         return False
     fields = re.split(r"[;\t]|,(?!\d)|(?<!\d),|\s+", line)
     return all(_FIELD.fullmatch(part) for field in fields for part in field.split(","))
@@ -110,7 +120,9 @@ def _numbers(path, rows):
         text = _GAPS.sub("nan", text)
     if delimiter is not None:
         if all(row.endswith(delimiter) for row in rows):
-            text = "\n".join(row[: -len(delimiter)] for row in text.split("\n"))
+            text = "\n".join(row[:-1] for row in text.split("\n"))
+        if all(row.startswith(delimiter) for row in rows):
+            text = "\n".join(row[1:] for row in text.split("\n"))
         mark = re.escape(delimiter)
         empty = re.compile(rf"(?:(?<={mark})|^)[ ]*(?={mark}|$)", re.MULTILINE)
         if delimiter * 2 in text or re.search(rf"{mark}\s*{mark}|^{mark}|{mark}$", text, re.MULTILINE):
@@ -172,10 +184,10 @@ def _header_unit(header):
 
 def _esri_scan(path, table, esri):
     """A grid with the keys ncols, nrows, cellsize (or dx, dy) and nodata_value."""
-    shape = int(esri["nrows"]), int(esri["ncols"])
-    if table.size != shape[0] * shape[1]:
-        raise ValueError(f"{path}: {table.size} numbers; {shape[1]} columns and {shape[0]} rows are needed")
-    table = table.reshape(shape)
+    columns, rows = esri["ncols"], esri["nrows"]
+    if table.size != columns * rows or columns % 1 or rows % 1:
+        raise ValueError(f"{path}: {table.size} numbers; {columns:g} columns and {rows:g} rows are needed")
+    table = table.reshape(int(rows), int(columns))
     mark = esri.get("nodata_value", -9999.0)
     heights = np.where(table == mark, np.nan, table)
     sides = esri.get("dx", esri.get("cellsize")), esri.get("dy", esri.get("cellsize"))

@@ -14,6 +14,7 @@ def heights_file(folder, heights, name="heights.npy"):
     return folder / name
 
 
+@pytest.mark.filterwarnings("ignore:.*the map is tilted")
 @pytest.mark.parametrize("dtype", ["float64", "float32", "float16", ">f8", "int16", "uint8"])
 def test_heights_of_any_real_type_are_read_exactly(tmp_path, dtype):
     heights = np.arange(12).reshape(3, 4).astype(dtype)

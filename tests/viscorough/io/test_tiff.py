@@ -1,0 +1,103 @@
+"""Maps of heights in TIFF files, with the tags that GeoTIFF, GDAL and ImageJ define."""
+
+import numpy as np
+import pytest
+import tifffile
+
+from support.curves import one_line
+from viscorough.io.heights import read_heights
+
+HEIGHTS = np.random.default_rng(0).random((5, 7)).astype("f4")
+SCALE, TRANSFORMATION, KEYS, NODATA = 33550, 34264, 34735, 42113
+PROJECTED, GEOGRAPHIC, METRES, VERTICAL_METRES = (1024, 1), (1024, 2), (3076, 9001), (4099, 9001)
+
+
+def geotiff(path, *keys, heights=HEIGHTS, scale=(30.0, 20.0, 0.0), nodata=None, **options):
+    """A GeoTIFF with these (key, value) pairs in its directory of keys."""
+    directory = [1, 1, 0, len(keys), *(number for key, value in keys for number in (key, 0, 1, value))]
+    tags = [(KEYS, "H", len(directory), directory, True)]
+    tags += [] if scale is None else [(SCALE, "d", 3, scale, True), (33922, "d", 6, (0.0,) * 6, True)]
+    tags += [] if nodata is None else [(NODATA, "s", 0, nodata, True)]
+    tifffile.imwrite(path, heights, extratags=tags, **options)
+    return path
+
+
+def test_projected_geotiff(tmp_path):
+    path = geotiff(tmp_path / "a.tif", PROJECTED, METRES, VERTICAL_METRES, compression="zlib")
+    indenter = read_heights(path)
+    np.testing.assert_array_equal(indenter.heights, HEIGHTS)
+    assert (indenter.spacing, indenter.row_spacing, indenter.length_unit) == (30, 20, "m")
+
+
+def test_missing_values_of_gdal_are_nan(tmp_path):
+    heights = np.round(100 * HEIGHTS).astype("i2")
+    heights[1, 2] = -32768
+    indenter = read_heights(
+        geotiff(tmp_path / "a.tif", PROJECTED, METRES, VERTICAL_METRES, heights=heights, nodata="-32768")
+    )
+    assert np.isnan(indenter.heights[1, 2])
+    assert indenter.elements == heights.size - 1
+    lowest = np.where(HEIGHTS < 0.1, np.finfo("f4").min, HEIGHTS)
+    path = geotiff(tmp_path / "b.tif", heights=lowest, nodata="-3.4028234663852886e+38")
+    assert read_heights(path, unit="m").elements == np.count_nonzero(HEIGHTS >= 0.1)
+
+
+def test_feet_and_unknown_units_of_heights(tmp_path):
+    path = geotiff(tmp_path / "a.tif", PROJECTED, (3076, 9002))
+    assert read_heights(path, unit="m").spacing == pytest.approx(30 * 0.3048)
+    with pytest.raises(ValueError, match="heights in no stated unit; --unit is needed"):
+        read_heights(path)
+
+
+def test_transformation_without_rotation(tmp_path):
+    for off, name in ((0.0, "a.tif"), (1.0, "b.tif")):
+        matrix = [2.0, off, 0, 0, 0, -3.0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1.0]
+        tags = [(TRANSFORMATION, "d", 16, matrix, True), (KEYS, "H", 8, [1, 1, 0, 1, *(1024, 0, 1, 1)], True)]
+        tifffile.imwrite(tmp_path / name, HEIGHTS, extratags=tags)
+    indenter = read_heights(tmp_path / "a.tif")
+    assert (indenter.spacing, indenter.row_spacing) == (2, 3)
+    with pytest.raises(ValueError, match="rotated"):
+        read_heights(tmp_path / "b.tif")
+
+
+def test_imagej_states_its_unit(tmp_path):
+    tifffile.imwrite(tmp_path / "a.tif", HEIGHTS, imagej=True, resolution=(4, 2), metadata={"unit": "um", "axes": "YX"})
+    indenter = read_heights(tmp_path / "a.tif", unit="nm")
+    assert (indenter.spacing, indenter.row_spacing) == (250, 500)
+
+
+def test_resolution_of_a_plain_picture_is_no_spacing(tmp_path):
+    tifffile.imwrite(tmp_path / "a.tif", HEIGHTS, resolution=(72, 72), resolutionunit="INCH")
+    assert read_heights(tmp_path / "a.tif", 0.5).spacing == 0.5
+    with pytest.raises(ValueError, match="--spacing is needed"):
+        read_heights(tmp_path / "a.tif")
+
+
+def test_pages_are_chosen_by_number(tmp_path):
+    tifffile.imwrite(tmp_path / "a.tif", np.stack([HEIGHTS, 2 * HEIGHTS]), photometric="minisblack")
+    np.testing.assert_array_equal(read_heights(tmp_path / "a.tif", 1, channel="1").heights, 2 * HEIGHTS)
+    for channel, what in ((None, "2 pages; --channel 0 to 1"), ("2", "0 to 1 are allowed"), ("z", "0 to 1 are")):
+        with pytest.raises(ValueError, match=what):
+            read_heights(tmp_path / "a.tif", 1, channel=channel)
+
+
+def test_bad_files_are_one_line(tmp_path):
+    geotiff(tmp_path / "degrees.tif", GEOGRAPHIC)
+    geotiff(tmp_path / "fathoms.tif", PROJECTED, (3076, 9014), VERTICAL_METRES)
+    tifffile.imwrite(tmp_path / "colours.tif", np.zeros((5, 7, 3), "u1"), photometric="rgb")
+    tifffile.imwrite(tmp_path / "complex.tif", HEIGHTS.astype("c8"))
+    whole = geotiff(tmp_path / "whole.tif").read_bytes()
+    (tmp_path / "cut.tif").write_bytes(whole[:-90])
+    (tmp_path / "no.tiff").write_bytes(b"II*\x00")
+    (tmp_path / "text.tif").write_text("1 2\n")
+    (tmp_path / "folder.tif").mkdir()
+    for name, what in (
+        ("degrees.tif", "degrees; a map in projected"),
+        ("fathoms.tif", "EPSG:9014"),
+        ("colours.tif", "3 colours"),
+        ("complex.tif", "complex64"),
+        *((name, "not readable") for name in ("cut.tif", "no.tiff", "text.tif", "folder.tif", "missing.tif")),
+    ):
+        with pytest.raises(ValueError, match=what) as error:
+            read_heights(tmp_path / name, 1)
+        assert one_line(error).count(name) == 1

@@ -1,0 +1,192 @@
+"""Measured maps made ready for contact, and doubts about those that are not."""
+
+import tracemalloc
+
+import numpy as np
+import pytest
+
+from support.curves import one_line
+from viscorough.errors import AccuracyWarning
+from viscorough.indenter import Indenter
+from viscorough.io.heights import read_heights
+from viscorough.preparation import doubts, prepare
+from viscorough.surfaces import self_affine_disc
+
+DX, DY = 0.5, 0.7
+ROWS, COLUMNS = 31, 41
+X = DX * (np.arange(COLUMNS) - (COLUMNS - 1) / 2)
+Y = (DY * (np.arange(ROWS) - (ROWS - 1) / 2))[:, None]
+ROUGH = np.random.default_rng(5).standard_normal((ROWS, COLUMNS))
+PLANE = 3 + 0.2 * X - 0.1 * Y
+
+
+def indenter(heights, **options):
+    return Indenter(heights, DX, DY, **options)
+
+
+def test_nothing_is_done_unless_asked_for():
+    surface = indenter(ROUGH)
+    assert prepare(surface) is surface
+
+
+def test_nodata_crop_and_flip():
+    heights = ROUGH.copy()
+    heights[3, 4], heights[20, 30], heights[0, 0] = -9999, 1e38, 77
+    surface = prepare(indenter(heights, length_unit="nm"), nodata=(-9999, 1e38), crop=((2, 40), (3, 25)), flip=True)
+    expected = heights[3:25, 2:40].copy()
+    expected[0, 2] = expected[17, 28] = np.nan
+    np.testing.assert_array_equal(surface.heights, -expected)
+    assert (surface.spacing, surface.row_spacing, surface.length_unit) == (DX, DY, "nm")
+
+
+def test_nodata_in_single_precision_is_compared_there():
+    heights = np.zeros((2, 3), "f4")
+    heights[0, 1] = 1e-3 - 9999
+    assert prepare(indenter(heights), nodata=1e-3 - 9999).elements == 5
+
+
+@pytest.mark.parametrize("form", ["mean", "plane"])
+def test_detrended_heights_have_no_mean_and_no_tilt(form):
+    heights = ROUGH + PLANE
+    heights[5:9, 20:] = np.nan
+    residual = prepare(indenter(heights), detrend=form).heights
+    known = np.isfinite(residual)
+    np.testing.assert_array_equal(known, np.isfinite(heights))
+    assert residual[known].mean() == pytest.approx(0, abs=1e-12)
+    if form == "mean":
+        np.testing.assert_allclose(residual, heights - np.nanmean(heights), atol=1e-12)
+    else:
+        for position in (X, Y):
+            assert (residual * np.broadcast_to(position, residual.shape))[known].mean() == pytest.approx(0, abs=1e-11)
+        np.testing.assert_allclose(prepare(indenter(PLANE), detrend="plane").heights, 0, atol=1e-13)
+
+
+@pytest.mark.parametrize("radius", [18.0, 40.0, 1e4, -30.0])
+def test_detrend_sphere_is_exact_for_spheres(radius):
+    """Caps up to a polar angle of 54°; a negative radius stands for a hollow."""
+    sphere = np.sign(radius) * np.sqrt(radius**2 - X**2 - Y**2)
+    residual = prepare(indenter(sphere + 0.2 * X + 5), detrend="sphere").heights
+    np.testing.assert_allclose(residual, 0, atol=1e-9 * abs(radius))
+
+
+def test_detrend_sphere_keeps_the_roughness():
+    rough = self_affine_disc(0.8, 65, rms=1e-2, diameter=65.0, seed=2)
+    x = np.arange(65) - 32.0
+    form = -(x**2 + x[:, None] ** 2) / 400
+    residual = prepare(Indenter(rough.heights + form, 1.0), detrend="sphere").heights
+    alone = prepare(rough, detrend="sphere").heights
+    assert np.nanmax(abs(residual - alone)) < 1e-2 * np.nanstd(alone) + np.abs(form).max() * 1e-2
+
+
+def test_a_sphere_smaller_than_the_map_is_refused():
+    form = -(np.hypot(X, Y) ** 2)
+    with pytest.raises(ValueError, match="crop to a cap"):
+        prepare(indenter(form), detrend="sphere")
+
+
+def test_harmonic_fill_is_exact_for_harmonic_heights():
+    """x² − y² and planes are harmonic for the five-point equation on any rectangles; the outside stays nan."""
+    heights = PLANE + X**2 - Y**2
+    holes = heights.copy()
+    holes[4:15, 6:30], holes[20, 20], holes[25:28, 33:36] = np.nan, np.nan, np.nan
+    holes[:2, :3] = holes[-1, 10:20] = np.nan
+    filled = prepare(indenter(holes), fill="harmonic").heights
+    outside = np.zeros(heights.shape, bool)
+    outside[:2, :3] = outside[-1, 10:20] = True
+    np.testing.assert_allclose(filled, np.where(outside, np.nan, heights), atol=1e-10)
+
+
+def test_filled_heights_lie_between_those_around():
+    holes = np.where(ROUGH > 1, np.nan, ROUGH)
+    holes[0] = holes[-1] = holes[:, 0] = holes[:, -1] = 0
+    filled = prepare(indenter(holes), fill="harmonic")
+    assert filled.elements == holes.size
+    assert np.nanmin(holes) <= filled.heights.min()
+    assert filled.heights.max() <= np.nanmax(holes)
+
+
+@pytest.mark.parametrize(
+    ("options", "what"),
+    [
+        ({"detrend": "cubic"}, "allowed: none, mean, plane, sphere"),
+        ({"fill": "mean"}, "none, harmonic"),
+        ({"crop": ((0, 42), (0, 3))}, "crop to columns 0:42; within 0:41"),
+        ({"crop": ((0, 3), (5, 5))}, "crop to rows 5:5"),
+        ({"nodata": 1.0}, "no height is left"),
+    ],
+)
+def test_what_cannot_be_prepared_is_refused(options, what):
+    with pytest.raises(ValueError, match=what) as error:
+        prepare(indenter(np.ones((ROWS, COLUMNS))), **options)
+    one_line(error)
+
+
+def test_lines_are_not_prepared():
+    with pytest.raises(ValueError, match="two-dimensional"):
+        prepare(Indenter(np.arange(3.0), 1.0), flip=True)
+
+
+# ---- doubts
+
+
+@pytest.mark.parametrize("hurst", [0.1, 0.5, 0.9])
+def test_random_discs_and_smooth_bodies_raise_no_doubt(hurst):
+    for seed in range(5):
+        assert doubts(self_affine_disc(hurst, 65, seed=seed)) == []
+    for body in (-np.hypot(X, Y), -(np.hypot(X, Y) ** 2) / 99, np.zeros((ROWS, COLUMNS)), np.rint(ROUGH)):
+        assert doubts(indenter(body)) == []
+
+
+def test_tilt_is_told_with_numbers():
+    rough = ROUGH + 2.0 * X
+    (text,) = doubts(indenter(rough))
+    assert "rises by 40, 41.2 times the rms height" in text  # 41 columns, 2 per unit of length
+    assert "--detrend plane" in text
+    assert doubts(prepare(indenter(rough), detrend="plane")) == []
+    assert "nothing is left" in doubts(indenter(PLANE))[0]
+
+
+def test_enclosed_holes_are_counted():
+    holes = ROUGH.copy()
+    holes[3:5, 3:5] = holes[9, 9] = holes[0, :5] = np.nan
+    (text,) = doubts(indenter(holes))
+    assert text.startswith("2 enclosed regions without heights (5 points, 0.39 %)")
+    assert doubts(prepare(indenter(holes), fill="harmonic")) == []
+
+
+@pytest.mark.parametrize(("mark", "points"), [(-9999, 3), (-32768, 1), (1e38, 2), (3.4028235e38, 1), (1000, 4)])
+def test_marks_of_missing_points_are_told(mark, points):
+    heights = ROUGH.copy()
+    heights.flat[:points] = mark
+    (text,) = doubts(indenter(heights))
+    assert text.startswith(f"{points} points (")
+    assert f"--nodata {mark:g}" in text
+    assert doubts(prepare(indenter(heights), nodata=mark)) == []
+
+
+def test_spikes_are_told():
+    surface = self_affine_disc(0.8, 65, rms=1.0, diameter=65.0, seed=1)
+    heights = surface.heights.copy()
+    heights[30, 30] += 40
+    heights[10, 31] += 30
+    (text,) = doubts(Indenter(heights, 1.0))
+    assert text.startswith("2 single points stand up to ")
+
+
+def test_read_heights_prepares_and_warns(tmp_path):
+    np.save(tmp_path / "a.npy", ROUGH + 9 * X)
+    with pytest.warns(AccuracyWarning, match=r"a\.npy: the map is tilted"):
+        read_heights(tmp_path / "a.npy", (DX, DY))
+    surface = read_heights(tmp_path / "a.npy", (DX, DY), detrend="plane")
+    np.testing.assert_array_equal(surface.heights, prepare(indenter(ROUGH + 9 * X), detrend="plane").heights)
+    with pytest.raises(ValueError, match=r"a\.npy: crop"):
+        read_heights(tmp_path / "a.npy", (DX, DY), crop=((0, 99), (0, 9)))
+
+
+def test_detrending_needs_little_memory_beside_the_map():
+    surface = Indenter(np.random.default_rng(0).random((1025, 1025)), 1.0)
+    tracemalloc.start()
+    prepare(surface, detrend="plane")
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert most < 3 * surface.heights.nbytes

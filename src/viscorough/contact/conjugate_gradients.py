@@ -38,13 +38,15 @@ class ConjugateGradients:
     def step(self, pressure, gap):
         """Take a step of conjugate gradients, which changes pressure and gap in place.
 
-        Returns the largest |e| on the set and whether any pressure is negative.
+        gap : e − g, or e_q, flat field
+
+        Returns whether any pressure is negative.
         """
         deflection, (_, columns) = self._halfspace.apply(), self._halfspace.shape
         length = self._norm / kernels.inner_product(self._direction, deflection.ravel(), self._set.slots)
         length = gap.dtype.type(length)  # in the precision of the fields, which the compiled loops then keep to
         kernels.update_gap(length, deflection[:, :columns], gap)
-        return kernels.update_pressure(length, self._direction, pressure, gap, self._set.places, self._set.slots)
+        return kernels.update_pressure(length, self._direction, pressure, self._set.places, self._set.slots)
 
     def step_causes_tension(self, length, pressure):
         """Whether a step of that length along the direction puts any element under tension."""
@@ -53,6 +55,7 @@ class ConjugateGradients:
     def step_and_release(self, length, pressure, gap, width):
         """Take a step of given length, after which elements under tension leave the set; all in place.
 
+        gap : e − g, flat field
         width : of a row of flat fields
         """
         contact_set, stencil = self._set, self._preconditioner.stencil

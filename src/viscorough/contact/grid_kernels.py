@@ -52,22 +52,53 @@ def product_on_set(values, field, places):
     return result
 
 
+@njit
+def gap_on_set(gap_change, initial_gap, places, gap):
+    """Store e on the set in the flat field `gap`; returns the largest |e| there."""
+    largest = 0.0
+    for t in range(places.size):
+        i = places[t]
+        gap[i] = gap_change[i] + initial_gap[i]
+        largest = max(largest, abs(gap[i]))
+    return largest
+
+
+@njit
+def largest_overlap(gap_change, initial_gap):
+    """Largest −e of a flat field, or 0."""
+    lowest = 0.0
+    for i in range(gap_change.size):
+        lowest = min(lowest, gap_change[i] + initial_gap[i])
+    return -lowest
+
+
+@njit
+def largest_on_set(field, places):
+    """Largest magnitude of a field on the set."""
+    largest = 0.0
+    for t in range(places.size):
+        largest = max(largest, abs(field[places[t]]))
+    return largest
+
+
 @njit(fastmath=True)
-def energies(depths, pressure, gap, last_pressure, last_gap, last_tangent, last_tangent_gap, initial_gap, places):
+def energies(
+    depths, pressure, gap_change, last_pressure, last_gap_change, last_tangent, last_tangent_gap, places
+):  # fmt: skip
     """Inner products over a contact set: of P, last P and last q with the deflections of each, and with 1.
 
-    depths : at which the two gaps are, the last one second
+    depths : of the two pressures, the last one second
 
-    The deflections are K P = e − g + u and K q = e_q + 1. Returns arrays of shapes (3, 3) and (3,).
+    The deflections are K P = (e − g) + u and K q = e_q + 1. Returns arrays of shapes (3, 3) and (3,).
     """
     products, sums = np.zeros((3, 3)), np.zeros(3)
     load, deflection = np.empty(3), np.empty(3)
     for t in range(places.size):
         i = places[t]
         load[0], load[1], load[2] = pressure[i], last_pressure[i], last_tangent[i]
-        deflection[0] = np.float64(gap[i]) - initial_gap[i] + depths[0]
-        deflection[1] = np.float64(last_gap[i]) - initial_gap[i] + depths[1]
-        deflection[2] = np.float64(last_tangent_gap[i]) + 1.0
+        deflection[0] = gap_change[i] + depths[0]
+        deflection[1] = last_gap_change[i] + depths[1]
+        deflection[2] = last_tangent_gap[i] + 1.0
         for a in range(3):
             sums[a] += load[a]
             for b in range(3):
@@ -76,35 +107,35 @@ def energies(depths, pressure, gap, last_pressure, last_gap, last_tangent, last_
 
 
 @njit
-def predict(predicted, predicted_gap, depth_step, pressure, tangent, gap, tangent_gap):
-    """Store P + Δu q in `predicted` and e + Δu e_q in `predicted_gap`."""
-    for i in range(gap.size):
+def predict(predicted, predicted_change, depth_step, pressure, tangent, gap_change, tangent_gap):
+    """Store P + Δu q in `predicted` and e − g + Δu e_q in `predicted_change`."""
+    for i in range(pressure.size):
         predicted[i] = pressure[i] + depth_step * tangent[i]
-        predicted_gap[i] = gap[i] + depth_step * tangent_gap[i]
+        predicted_change[i] = gap_change[i] + depth_step * tangent_gap[i]
 
 
 @njit
 def combine(
     tangent, tangent_gap, weights, shift,
-    pressure, gap, last_pressure, last_gap, last_tangent, last_tangent_gap, initial_gap,
+    pressure, gap_change, last_pressure, last_gap_change, last_tangent, last_tangent_gap,
 ):  # fmt: skip
     """Store q as a combination of two pressures and a tangent in `tangent`, and K q − 1 in `tangent_gap`.
 
     weights : of the pressure, of the last pressure and of the last tangent
-    shift : constant part of K q − 1, from K P = e − g + u for both pressures and K q = e_q + 1 for the last tangent
+    shift : constant part of K q − 1, from K P = (e − g) + u for both pressures and K q = e_q + 1 for the last tangent
     """
     pressure_weight, last_pressure_weight, tangent_weight = weights
-    for i in range(gap.size):
+    for i in range(pressure.size):
         tangent[i] = (
             pressure_weight * pressure[i] + last_pressure_weight * last_pressure[i] + tangent_weight * last_tangent[i]
         )
-        deflection = pressure_weight * (gap[i] - initial_gap[i]) + last_pressure_weight * (last_gap[i] - initial_gap[i])
+        deflection = pressure_weight * gap_change[i] + last_pressure_weight * last_gap_change[i]
         tangent_gap[i] = deflection + tangent_weight * last_tangent_gap[i] + shift
 
 
 @njit(fastmath=True)
 def update_gap(length, deflection, gap):
-    """e += α K d everywhere, in place."""
+    """e − g, or e_q, += α K d everywhere, in place."""
     rows, columns = deflection.shape
     for i in range(rows):
         start = (i + REACH) * (columns + 2 * REACH) + REACH
@@ -113,15 +144,14 @@ def update_gap(length, deflection, gap):
 
 
 @njit(fastmath=True)
-def update_pressure(length, direction, pressure, gap, places, slots):
-    """P += α d on the set, in place; returns the largest |e| there and whether any pressure is negative."""
-    largest, lowest = 0.0, 0.0
+def update_pressure(length, direction, pressure, places, slots):
+    """P += α d on the set, in place; returns whether any pressure is negative."""
+    lowest = 0.0
     for t in range(places.size):
         i = places[t]
         pressure[i] += length * direction[slots[t]]
-        largest = max(largest, abs(gap[i]))
         lowest = min(lowest, pressure[i])
-    return largest, lowest < 0
+    return lowest < 0
 
 
 @njit(fastmath=True)
@@ -132,13 +162,12 @@ def update_search_direction(direction, preconditioned, factor, slots):
 
 
 @njit
-def gap_and_tension(pressure, gap, places):
-    """Largest |e| on the set, and whether any pressure is negative."""
-    largest, lowest = 0.0, 0.0
+def has_tension(pressure, places):
+    """Whether any pressure on the set is negative."""
+    lowest = 0.0
     for t in range(places.size):
-        largest = max(largest, abs(gap[places[t]]))
         lowest = min(lowest, pressure[places[t]])
-    return largest, lowest < 0
+    return lowest < 0
 
 
 @njit
@@ -182,11 +211,11 @@ def step_and_release(length, direction, pressure, inside, places, slots, stencil
 
 
 @njit
-def add_penetrating_elements(gap, inside, limit):
+def add_penetrating_elements(gap_change, initial_gap, inside, limit):
     """Elements that overlap the surface by more than `limit` join the set, in place; returns how many did."""
     joined = 0
-    for i in range(gap.size):
-        if gap[i] < -limit and not inside[i]:
+    for i in range(gap_change.size):
+        if gap_change[i] + initial_gap[i] < -limit and not inside[i]:
             inside[i] = True
             joined += 1
     return joined

@@ -26,6 +26,7 @@ from viscorough.contact.conjugate_gradients import ConjugateGradients
 from viscorough.contact.halfspace import Halfspace
 from viscorough.contact.preconditioner import LEAST_EIGENVALUE, REACH, Preconditioner
 from viscorough.contact.state import BoundedField, ContactSet, ContactState, GridFields
+from viscorough.contact.tangent_start import Loads, initial_tangent
 from viscorough.errors import ConvergenceError
 
 # The release step is halved after every so many of them: a safeguard against cycles where the preconditioner is poor.
@@ -40,7 +41,7 @@ _SEARCH_SHARE = 0.999
 # A box with more than this many times as many rows as columns is transposed: the operator works on blocks of columns,
 # which few columns do not fill.
 _TALL = 4
-# Gap where there is no element; finite, since differences of gaps are taken.
+# Initial gap where there is no element, far beyond the largest depth.
 _OUTSIDE = 1e30
 _PRECISIONS = {"single": np.float32, "double": np.float64}
 
@@ -74,16 +75,18 @@ class GridSolver:
             for halfspace in (self._halfspace, self._exact)
         )
         self._precision = self._exact.load.dtype.type
-        # A step rounds the gap, which does not exceed the depth where it matters, and the pressure, whose deflection
-        # does not either. Where rounding is to be ignored, this is ignored, too.
+        # A step rounds e − g, which does not exceed the depth, and the pressure, whose deflection does not either.
+        # Where rounding is to be ignored, this is ignored, too.
         self._field_rounding = min(options.operator_rounding, 1.0) * np.finfo(self._precision).eps
         self._width = columns + 2 * REACH
+        self._inner = slice(REACH * self._width, -REACH * self._width)
         in_box = (row >= top) & (row < top + rows) & (column >= left) & (column < left + columns)
         whole_number = np.int32 if (rows + 2 * REACH) * self._width < 2**31 else np.int64
         place = (row.astype(whole_number) - (top - REACH)) * self._width + (column - (left - REACH))
         self.place = np.where(in_box, place, whole_number(0))
         self.initial_gap = np.full((rows + 2 * REACH) * self._width, _OUTSIDE, dtype=self._precision)
         self.initial_gap[self.place[in_box]] = initial_gap[in_box]
+        self._gap = np.zeros_like(self.initial_gap)  # e on the contact set, as last computed
         self._preconditioner = Preconditioner(rows + 2 * REACH, self._width, options.preconditioner, aspect=aspect)
 
     @property
@@ -98,8 +101,8 @@ class GridSolver:
         inside = np.zeros(self.initial_gap.size, dtype=bool)
         pressure, tangent = np.zeros_like(self.initial_gap), np.zeros_like(self.initial_gap)
         inside[place], pressure[place], tangent[place] = True, loads.pressure, loads.tangent
-        gap, tangent_gap = self._gap(pressure, contact.reduced_depth), self._tangent_gap(tangent)
-        return GridFields(inside, pressure, gap, tangent, tangent_gap, self.place)
+        change, tangent_gap = self._gap_change(pressure, contact.reduced_depth), self._tangent_gap(tangent)
+        return GridFields(inside, pressure, change, tangent, tangent_gap, self.initial_gap, self.place)
 
     def solve(self, contact, depth):
         """The ContactState at a larger reduced depth, from a contact with GridFields on this grid.
@@ -108,18 +111,20 @@ class GridSolver:
         """
         before, last_depth = self._start_fields(contact), contact.reduced_depth
         depth_step = depth - last_depth
-        pressure, gap = np.zeros_like(self.initial_gap), np.zeros_like(self.initial_gap)
-        fields = before.pressure, before.tangent, before.gap.values, before.tangent_gap.values
+        pressure, change = np.zeros_like(self.initial_gap), np.zeros_like(self.initial_gap)
+        fields = before.pressure, before.tangent, before.gap_change.values, before.tangent_gap.values
         step = self._precision(depth_step)
-        kernels.predict(self._inner_rows(pressure), self._inner_rows(gap), step, *map(self._inner_rows, fields))
-        rounding = before.gap.rounding + depth_step * before.tangent_gap.rounding + self._field_rounding * depth
-        gap, inside = BoundedField(gap, rounding), pressure != 0  # elements under tension leave later
-        self._add_penetrating_elements(gap.values, inside, 0.0)
-        contact_set = self._solve_pressure(pressure, gap, inside, depth)
-        weights = self._tangent_weights(before, last_depth, pressure, gap, contact_set, depth)
-        tangent, tangent_gap = self._tangent_start(weights, before, last_depth, pressure, gap, depth)
+        kernels.predict(self._inner_rows(pressure), self._inner_rows(change), step, *map(self._inner_rows, fields))
+        rounding = before.gap_change.rounding + depth_step * before.tangent_gap.rounding + self._field_rounding * depth
+        change, inside = BoundedField(change, rounding), pressure != 0  # elements under tension leave later
+        self._add_penetrating_elements(change, inside, 0.0)
+        contact_set = self._solve_pressure(pressure, change, inside, depth)
+        now, last = Loads(pressure, change, depth), Loads(before.pressure, before.gap_change, last_depth)
+        tangent, tangent_gap = initial_tangent(now, last, before, contact_set, self._inner)
         self._solve_tangent(contact_set, tangent, tangent_gap)
-        fields = GridFields(contact_set.inside, pressure, gap, tangent, tangent_gap, self.place)
+        fields = GridFields(
+            contact_set.inside, pressure, change, tangent, tangent_gap, self.initial_gap, self.place
+        )  # fmt: skip
         return self._state(contact.units, depth, fields, contact_set)
 
     def settled(self, contact, depth, pressure_sum):
@@ -133,8 +138,8 @@ class GridSolver:
         share = (pressure_sum - kernels.total(fields.pressure, places)) / kernels.total(fields.tangent, places)
         pressure = np.maximum(fields.pressure + self._precision(share) * fields.tangent, self._precision(0))
         pressure *= self._precision(pressure_sum / kernels.total(pressure, places))
-        gap, inside = self._gap(pressure, depth), pressure > 0
-        fields = GridFields(inside, pressure, gap, fields.tangent, fields.tangent_gap, self.place)
+        change, inside = self._gap_change(pressure, depth), pressure > 0
+        fields = replace(fields, inside=inside, pressure=pressure, gap_change=change)
         settled = self._state(contact.units, depth, fields, self._contact_set(inside))
         return replace(settled, pressure_sum=pressure_sum, tangent_sum=contact.tangent_sum)
 
@@ -155,9 +160,10 @@ class GridSolver:
 
     def _state(self, units, depth, fields, contact_set):
         """The ContactState of GridFields at a reduced depth."""
-        places, gap, tangent = contact_set.places, fields.gap, fields.tangent
-        largest, _ = kernels.gap_and_tension(fields.pressure, gap.values, places)
-        correction = kernels.inner_product(tangent, gap.values, places)
+        places, change, tangent = contact_set.places, fields.gap_change, fields.tangent
+        largest = kernels.gap_on_set(change.values, self.initial_gap, places, self._gap)
+        overlap = kernels.largest_overlap(self._inner_rows(change.values), self._inner_rows(self.initial_gap))
+        correction = kernels.inner_product(tangent, self._gap, places)
         tangent_correction = kernels.inner_product(tangent, fields.tangent_gap.values, places)
         return ContactState(
             units=units,
@@ -165,7 +171,7 @@ class GridSolver:
             count=places.size,
             pressure_sum=kernels.total(fields.pressure, places) - correction,
             tangent_sum=kernels.total(tangent, places) - tangent_correction,
-            residual=(max(largest, -float(gap.values.min())) + gap.rounding) / depth,
+            residual=(max(largest, overlap) + change.rounding) / depth,
             fields=fields,
         )
 
@@ -177,90 +183,51 @@ class GridSolver:
         no_tangent_gap = BoundedField(np.full_like(fields.pressure, -1.0), fields.tangent_gap.rounding)
         return replace(fields, tangent=np.zeros_like(fields.tangent), tangent_gap=no_tangent_gap)
 
-    def _solve_pressure(self, pressure, gap, inside, depth):
+    def _solve_pressure(self, pressure, change, inside, depth):
         """Pressure P ≥ 0 with |e| on the set below the limit and no overlap beyond it elsewhere.
 
-        Changes pressure, gap and set in place. Returns the contact set.
+        change : BoundedField of e − g
+
+        Changes pressure, e − g and set in place. Returns the contact set.
         """
         limit = _SEARCH_SHARE * self._tolerance * depth
         changed, releases = True, 0
         for _ in range(self._options.max_iterations):
             if changed:
                 contact_set = self._contact_set(inside)
-                largest, tension = kernels.gap_and_tension(pressure, gap.values, contact_set.places)
+                tension = kernels.has_tension(pressure, contact_set.places)
+            largest = kernels.gap_on_set(change.values, self.initial_gap, contact_set.places, self._gap)
             # Residual and rounding error together must not exceed the limit. Where the rounding error takes most of it,
             # the gap is recomputed as soon as it is no larger than its rounding error.
-            close_enough = max(limit - gap.rounding, gap.rounding)
+            close_enough = max(limit - change.rounding, change.rounding)
             if largest <= close_enough and not tension:
-                if gap.rounding <= 0.5 * limit:
+                if change.rounding <= 0.5 * limit:
                     return contact_set
-                exact = self._gap(pressure, depth)
-                gap.values, gap.rounding = exact.values, exact.rounding
-                self._add_penetrating_elements(gap.values, inside, limit)
+                exact = self._gap_change(pressure, depth)
+                change.values, change.rounding = exact.values, exact.rounding
+                self._add_penetrating_elements(change, inside, limit)
                 changed = True
                 continue
             if changed:
                 search = ConjugateGradients(self._halfspace, self._preconditioner, contact_set)
-            search.precondition(gap.values)
+            search.precondition(self._gap)
             search.update_direction()
-            gap.rounding += self._rounding * largest + self._field_rounding * depth
+            change.rounding += self._rounding * largest + self._field_rounding * depth
             release_step = self._options.release_step * 0.5 ** (releases // _HALVE_STEP_EVERY)
             changed = search.step_causes_tension(release_step, pressure)
             if changed:
-                search.step_and_release(release_step, pressure, gap.values, self._width)
+                search.step_and_release(release_step, pressure, change.values, self._width)
                 releases += 1
             else:
-                largest, tension = search.step(pressure, gap.values)
-            changed = self._add_penetrating_elements(gap.values, inside, close_enough) > 0 or changed
+                tension = search.step(pressure, change.values)
+            changed = self._add_penetrating_elements(change, inside, close_enough) > 0 or changed
         raise self._not_converged(contact_set, largest, limit)
-
-    def _tangent_weights(self, before, last_depth, pressure, gap, contact_set, depth):
-        """Weights of pressure, last pressure and last tangent in the combination of them closest to q in energy."""
-        energy, sums = kernels.energies(
-            (depth, last_depth), pressure, gap.values, before.pressure, before.gap.values,
-            before.tangent, before.tangent_gap.values, self.initial_gap, contact_set.places,
-        )  # fmt: skip
-        if np.any(before.inside & ~contact_set.inside):
-            # An element left the contact, within the tolerance: fields that load it cannot be part of q.
-            energy, sums = energy[:1, :1], sums[:1]
-        scale = 1 / np.sqrt(np.maximum(np.diag(energy), np.finfo(float).tiny))
-        weights = scale * np.linalg.lstsq(scale[:, None] * energy * scale, scale * sums, rcond=1e-10)[0]
-        return *weights, *[0.0] * (3 - weights.size)
-
-    def _tangent_start(self, weights, before, last_depth, pressure, gap, depth):
-        """The combination with these weights as initial q, and e_q = K q − 1 everywhere with its rounding bound."""
-        pressure_weight, last_pressure_weight, tangent_weight = weights
-        shift = pressure_weight * depth + last_pressure_weight * last_depth + tangent_weight - 1
-        tangent, tangent_gap = np.zeros_like(self.initial_gap), np.zeros_like(self.initial_gap)
-        fields = (
-            pressure, gap.values, before.pressure, before.gap.values, before.tangent, before.tangent_gap.values,
-            self.initial_gap,
-        )  # fmt: skip
-        kernels.combine(
-            self._inner_rows(tangent), self._inner_rows(tangent_gap), weights, shift, *map(self._inner_rows, fields)
-        )
-        # Unless it was recomputed, the gap has the errors of the last gap and tangent gap, which partly cancel here.
-        depth_step, last_rounding, tangent_rounding = (
-            depth - last_depth,
-            before.gap.rounding,
-            before.tangent_gap.rounding,
-        )
-        added = gap.rounding - last_rounding - depth_step * tangent_rounding
-        if added >= 0:
-            rounding = abs(pressure_weight + last_pressure_weight) * last_rounding
-            rounding += abs(pressure_weight * depth_step + tangent_weight) * tangent_rounding
-            rounding += abs(pressure_weight) * added
-        else:
-            rounding = abs(pressure_weight) * gap.rounding + abs(last_pressure_weight) * last_rounding
-            rounding += abs(tangent_weight) * tangent_rounding
-        return tangent, BoundedField(tangent_gap, rounding)
 
     def _solve_tangent(self, contact_set, tangent, tangent_gap):
         """Solve K q = 1 on a set by conjugate gradients; changes q and e_q, with its rounding bound, in place."""
         tolerance = min(_TANGENT_TOLERANCE, np.sqrt(self._tolerance))
         accepted = max(_TANGENT_ROUNDING * self._tolerance, self._exact_rounding + self._field_rounding)
         search = ConjugateGradients(self._halfspace, self._preconditioner, contact_set)
-        largest, _ = kernels.gap_and_tension(tangent, tangent_gap.values, contact_set.places)
         for _ in range(self._options.max_iterations):
             norm = search.precondition(tangent_gap.values)
             # The error of Σq is e_qᵀ K⁻¹ e_q, which is at most e_qᵀ M e_q / LEAST_EIGENVALUE.
@@ -274,8 +241,9 @@ class GridSolver:
                 search = ConjugateGradients(self._halfspace, self._preconditioner, contact_set)
                 continue
             search.update_direction()
+            largest = kernels.largest_on_set(tangent_gap.values, contact_set.places)
             tangent_gap.rounding += self._rounding * largest + self._field_rounding
-            largest, _ = search.step(tangent, tangent_gap.values)
+            search.step(tangent, tangent_gap.values)
         raise self._not_converged(contact_set, error, tolerance)
 
     def _not_converged(self, contact_set, residual, limit):
@@ -290,12 +258,11 @@ class GridSolver:
         kernels.contact_places(inside, self._width, self._halfspace.load.shape[1], places, slots)
         return ContactSet(inside, places, slots)
 
-    def _gap(self, pressure, depth):
-        """e = K P + g − u of a pressure as a BoundedField."""
-        gap = self._deflection(pressure)
-        gap += self.initial_gap
-        gap -= self._precision(depth)
-        return BoundedField(gap, (self._exact_rounding + self._field_rounding) * depth)
+    def _gap_change(self, pressure, depth):
+        """e − g = K P − u of a pressure as a BoundedField."""
+        change = self._deflection(pressure)
+        change -= self._precision(depth)
+        return BoundedField(change, (self._exact_rounding + self._field_rounding) * depth)
 
     def _tangent_gap(self, tangent):
         """e_q = K q − 1 of a tangent as a BoundedField."""
@@ -313,12 +280,14 @@ class GridSolver:
         self._interior(deflection)[:] = self._exact.apply()[:, :columns]
         return deflection
 
-    def _add_penetrating_elements(self, gap, inside, limit):
-        return kernels.add_penetrating_elements(self._inner_rows(gap), self._inner_rows(inside), limit)
+    def _add_penetrating_elements(self, change, inside, limit):
+        return kernels.add_penetrating_elements(
+            *map(self._inner_rows, (change.values, self.initial_gap, inside)), limit
+        )  # fmt: skip
 
     def _inner_rows(self, field):
         """View of a flat field without the rows of its border, which are most of the field of a strip."""
-        return field[REACH * self._width : -REACH * self._width]
+        return field[self._inner]
 
     def _interior(self, field):
         """View of a flat field without its border, in rows and columns."""

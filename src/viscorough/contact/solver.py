@@ -135,7 +135,7 @@ class ContactSolver:
             return dense.gap_at_all(self.elements, contact)
         grid = self._grid_up_to(self.elements.count)
         fields = contact.fields if _has_fields_on(grid, contact) else grid.fields(contact)
-        return fields.gap_at(slice(None))
+        return fields.gap_change.values[fields.place] + self.elements.initial_gap
 
     def _is_small(self, candidates, contact):
         """Whether a dense evaluation is cheaper than the grid."""
@@ -183,7 +183,7 @@ class ContactSolver:
         """Number of elements that left the contact in a step, and the largest gap there, reduced."""
         if after.fields and before.fields and before.fields.place is after.fields.place:
             lost = np.flatnonzero(before.fields.inside & ~after.fields.inside)
-            return lost.size, after.fields.gap.values[lost].max(initial=0)
+            return lost.size, after.fields.gap(lost).max(initial=0)
         kept = np.zeros(self.elements.count, dtype=bool)
         kept[after.members] = True
         members = before.members

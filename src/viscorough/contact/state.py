@@ -97,11 +97,7 @@ def elements_of(indenter):
 
 @dataclass
 class BoundedField:
-    """A reduced field on the grid, as a flat array, and a bound on the rounding error accumulated in it.
-
-    The bound holds wherever the field matters to the solution: at elements that can come into contact so far, whose gap
-    does not exceed the depth.
-    """
+    """A reduced field on the grid, as a flat array, and a bound on the rounding error accumulated in it."""
 
     values: np.ndarray
     rounding: float
@@ -140,22 +136,29 @@ class GridFields:
 
     inside : whether a place is in contact
     pressure : P
-    gap : e = w − u + g, zero in contact
+    gap_change : e − g = w − u, the change of the gap since first contact; unlike e it does not exceed the depth, so
+        that single precision suffices for it
     tangent : q = dP/du
     tangent_gap : e_q = K q − 1 = de/du, zero in contact
+    initial_gap : g
     place : indices of the elements in the flat arrays, by rank
     """
 
     inside: np.ndarray
     pressure: np.ndarray
-    gap: BoundedField
+    gap_change: BoundedField
     tangent: np.ndarray
     tangent_gap: BoundedField
+    initial_gap: np.ndarray
     place: np.ndarray
+
+    def gap(self, places):
+        """Reduced gap e at places of the flat arrays."""
+        return self.gap_change.values[places] + self.initial_gap[places]
 
     def gap_at(self, ranks):
         """Reduced gap e at the elements of given ranks."""
-        return self.gap.values[self.place[ranks]]
+        return self.gap(self.place[ranks])
 
     def member_loads(self):
         """The MemberLoads, in double precision."""

@@ -178,7 +178,7 @@ def _predicted_touches(before, after):
     if not place.all():  # place 0 is outside the grid of the contact before
         return nothing
     tangent_gap = np.minimum(before.fields.tangent_gap.values[place].astype(float), -_TINY)
-    gap = np.maximum(before.fields.gap.values[place].astype(float), 0)
+    gap = np.maximum(before.fields.gap(place).astype(float), 0)
     width = after.reduced_depth - before.reduced_depth
     from_before = -gap / tangent_gap / width
     from_after = 1 - pressure / np.maximum(tangent, _TINY) / width

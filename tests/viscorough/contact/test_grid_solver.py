@@ -11,6 +11,7 @@ from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.preconditioner import REACH
 from viscorough.contact.solver import ContactSolver
 from viscorough.contact.state import elements_of
+from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
 
 DOUBLE = SolverOptions(precision="double", exact_gap_below=0.0)
@@ -43,7 +44,7 @@ def test_solution_meets_complementarity_and_its_residual(tolerance):
     assert (contact.reduced_pressure >= 0).all()
     left = max(np.abs(gap[contact.members]).max(), -gap.min()) / 0.5
     assert left <= contact.residual <= tolerance
-    np.testing.assert_allclose(contact.fields.gap_at(slice(None)), gap, atol=contact.fields.gap.rounding)
+    np.testing.assert_allclose(contact.fields.gap_at(slice(None)), gap, atol=contact.fields.gap_change.rounding)
 
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-6])
@@ -78,7 +79,7 @@ def test_rounding_bound_holds_from_level_to_level():
         pressure = np.zeros(elements.count)
         pressure[contact.members] = contact.reduced_pressure
         gap = matrix @ pressure - depth + elements.initial_gap
-        bounds.append(contact.fields.gap.rounding)
+        bounds.append(contact.fields.gap_change.rounding)
         assert np.abs(contact.fields.gap_at(slice(None)) - gap).max() <= bounds[-1]
         tangent = np.zeros(elements.count)
         tangent[contact.members] = contact.tangent
@@ -86,6 +87,24 @@ def test_rounding_bound_holds_from_level_to_level():
         error = np.abs(tangent_gap - (matrix @ tangent - 1)).max()
         assert error <= contact.fields.tangent_gap.rounding
     assert 0 < bounds[0] < bounds[-1] < 1e-3
+
+
+def test_rounding_bounds_hold_for_elements_far_below_the_others():
+    """Initial gaps of very different size: single precision must not lose what small depths change in large gaps."""
+    indenter = Indenter(-(10.0 ** np.random.default_rng(1).uniform(-6, 0, (14, 14))), 1.0)
+    elements, _, grid = whole_grid(indenter, 1e-3)
+    matrix = influence_matrix(elements.row, elements.column)
+    contact = contact_on(grid, indenter, 1e-5)
+    for depth in np.geomspace(3e-5, 3, 11):
+        contact = grid.solve(contact, depth)
+        fields, loads = contact.fields, contact.member_loads()
+        pressure, tangent = np.zeros((2, elements.count))
+        pressure[loads.members], tangent[loads.members] = loads.pressure, loads.tangent
+        change = matrix @ pressure - depth
+        assert np.abs(fields.gap_change.values[fields.place] - change).max() <= fields.gap_change.rounding
+        tangent_gap = matrix @ tangent - 1
+        assert np.abs(fields.tangent_gap.values[fields.place] - tangent_gap).max() <= fields.tangent_gap.rounding
+    assert contact.count > 0.8 * elements.count
 
 
 def test_a_box_gives_the_solution_of_the_whole_grid():

@@ -1,0 +1,72 @@
+"""The tangent of a new contact before its iteration: the combination of known fields that is closest to it in energy.
+
+Both pressures of a step and the last tangent are fields whose deflection is known, and the new tangent q is nearly a
+combination of them.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from viscorough.contact import grid_kernels as kernels
+from viscorough.contact.state import BoundedField
+
+
+class Loads(NamedTuple):
+    """Pressure P and e − g = w − u, a BoundedField, of a contact at a reduced depth u; flat fields."""
+
+    pressure: np.ndarray
+    gap_change: BoundedField
+    depth: float
+
+
+def initial_tangent(now, last, before, contact_set, inner):
+    """The combination as initial q, and e_q = K q − 1 everywhere as a BoundedField.
+
+    now, last : Loads after and before the step; before : the GridFields before it
+    contact_set : the ContactSet after the step
+    inner : slice of flat fields without the first and last rows of their border
+    """
+    weights = _weights(now, last, before, contact_set)
+    pressure_weight, last_pressure_weight, tangent_weight = weights
+    shift = pressure_weight * now.depth + last_pressure_weight * last.depth + tangent_weight - 1
+    tangent, tangent_gap = np.zeros_like(now.pressure), np.zeros_like(now.pressure)
+    fields = (
+        now.pressure, now.gap_change.values, last.pressure, last.gap_change.values,
+        before.tangent, before.tangent_gap.values,
+    )  # fmt: skip
+    kernels.combine(tangent[inner], tangent_gap[inner], weights, shift, *(field[inner] for field in fields))
+    return tangent, BoundedField(tangent_gap, _rounding(weights, now, last, before.tangent_gap.rounding))
+
+
+def _weights(now, last, before, contact_set):
+    """Weights of pressure, last pressure and last tangent in the combination of them closest to q in energy."""
+    energy, sums = kernels.energies(
+        (now.depth, last.depth), now.pressure, now.gap_change.values, last.pressure, last.gap_change.values,
+        before.tangent, before.tangent_gap.values, contact_set.places,
+    )  # fmt: skip
+    if np.any(before.inside & ~contact_set.inside):
+        # An element left the contact, within the tolerance: fields that load it cannot be part of q.
+        energy, sums = energy[:1, :1], sums[:1]
+    scale = 1 / np.sqrt(np.maximum(np.diag(energy), np.finfo(float).tiny))
+    weights = scale * np.linalg.lstsq(scale[:, None] * energy * scale, scale * sums, rcond=1e-10)[0]
+    return *weights, *[0.0] * (3 - weights.size)
+
+
+def _rounding(weights, now, last, tangent_rounding):
+    """Bound on the rounding error of the combined e_q."""
+    pressure_weight, last_pressure_weight, tangent_weight = weights
+    rounding, last_rounding, depth_step = now.gap_change.rounding, last.gap_change.rounding, now.depth - last.depth
+    # Unless it was recomputed, the gap has the errors of the last gap and tangent gap, which partly cancel here.
+    added = rounding - last_rounding - depth_step * tangent_rounding
+    if added >= 0:
+        return (
+            abs(pressure_weight + last_pressure_weight) * last_rounding
+            + abs(pressure_weight * depth_step + tangent_weight) * tangent_rounding
+            + abs(pressure_weight) * added
+        )
+    return (
+        abs(pressure_weight) * rounding
+        + abs(last_pressure_weight) * last_rounding
+        + abs(tangent_weight) * tangent_rounding
+    )

@@ -9,6 +9,8 @@ from support.documentation import ROOT, read
 from support.output_files import documented
 from viscorough.cli import main
 
+DISC = ["--hurst", "0.8", "--elements", "9"]
+LAW = ["--hurst", "0.8", "--force", "10", "--viscosity", "1e9", "--times", "0.01,0.1"]
 DOCUMENTED = documented(read(ROOT / "docs/output.md"))
 
 
@@ -21,17 +23,27 @@ def files(tmp_path_factory):
         ["indent", heights, "--spacing", "1", "-o", curve],
         ["kinetics", curve, "--force", "1", "--viscosity", "1", "-o", str(folder / "kinetics.nc")],
         ["march", heights, "--spacing", "1", "--method", "events", "-o", str(folder / "march.nc")],
+        ["generate", *DISC, "--rms", "1e-6", "--diameter", "0.01", "--seed", "1", "-o", str(folder / "surface.nc")],
+        ["estimate", *LAW, "--rms", "1e-6", "--diameter", "0.01", "-o", str(folder / "estimate.nc")],
     ):
         assert main(arguments) == 0
     return folder
 
 
-@pytest.mark.parametrize(("command", "file"), [("indent", "curve"), ("kinetics", "kinetics"), ("march", "march")])
+@pytest.mark.parametrize(
+    ("command", "file"),
+    [
+        *[("indent", "curve"), ("kinetics", "kinetics"), ("march", "march")],
+        *[("generate", "surface"), ("estimate", "estimate")],
+    ],
+)
 def test_files_of_the_command_line(files, command, file):
     (row,) = (row for name, row in DOCUMENTED.items() if name.endswith(f"viscorough {command}"))
     variables = set(row.variables)
     if command == "kinetics":  # "those of the curve, ..."
         variables |= set(next(row for name, row in DOCUMENTED.items() if "indent" in name).variables)
+    if command == "generate":
+        variables |= {"x", "y"}  # the coordinates
     with netCDF4.Dataset(files / f"{file}.nc") as made:
         assert set(made.dimensions) == set(row.dimensions)
         assert set(made.variables) == variables - {"force"} if command == "march" else variables

@@ -3,7 +3,7 @@
 import numpy as np
 
 _MERGED = 1e-6  # positions closer than this, relative to their range, are one
-_OFF_GRID = 0.1  # largest distance from the grid, relative to its spacing
+_OFF_GRID = 0.05  # largest distance from the grid, relative to its spacing
 _LEAST_SHARE, _LEAST_POINTS = 0.5, 9  # of the grid, that rows of unknown meaning need to be taken for its points
 
 

@@ -234,7 +234,64 @@ FIELDS = st.one_of(
 ROWS = st.lists(st.lists(FIELDS, min_size=1, max_size=3).map(",".join), max_size=5)
 FORCES = st.lists(st.integers(0, 5), min_size=2, max_size=5)
 GOOD = FORCES.map(lambda forces: [f"{time},{force}" for time, force in enumerate(forces)])
-HISTORIES = damaged(st.one_of(GOOD, GOOD.map(lambda rows: ["t,F", *rows]), ROWS).map("\n".join).map(str.encode))
+
+POSITIVE = st.sampled_from(["1", "2.5", "1e6", "3e-4", "0.5", "7"])
+ODD_VALUES = st.sampled_from(
+    [
+        *["0", "-1", ".nan", ".inf", "1e400", "[1, 2]", "{a: 1}", "true", "null", "'1 Pa'", "2 MPa", "x", "''", "*a"],
+        f"!!python/object/apply:open ['{STARTED}', w]",
+    ]
+)
+PARAMETERS = {
+    "newtonian": ["viscosity"],
+    "maxwell": ["shear_modulus", "viscosity"],
+    "kelvin_voigt": ["shear_modulus", "viscosity"],
+    "standard_linear_solid": ["instantaneous_modulus", "relaxed_modulus", "relaxation_time"],
+    "prony": ["relaxed_modulus", "moduli", "relaxation_times"],
+    "springpot": ["modulus", "exponent"],
+    "creep_table": ["file"],
+}
+
+
+@st.composite
+def media(draw):
+    """YAML files of media, most of them right; with values changed, keys missing, repeated or unknown."""
+    kind = draw(st.sampled_from(sorted(PARAMETERS)))
+    entries = [("kind", kind)]
+    branches = draw(st.integers(1, 4))
+    for name in PARAMETERS[kind]:
+        values = POSITIVE
+        if name in ("moduli", "relaxation_times"):
+            values = st.lists(POSITIVE, min_size=branches, max_size=branches).map(lambda texts: f"[{', '.join(texts)}]")
+        elif name == "file":
+            values = st.sampled_from(["table.csv"] * 6 + ["none.csv", "folder", "../table.csv", "medium.yaml", ""])
+        elif name == "exponent":
+            values = st.sampled_from(["0.2", "0.5", "0.9"])
+        elif name == "instantaneous_modulus":
+            values = st.sampled_from(["1e7", "8"])
+        entries.append((name, draw(ODD_VALUES if draw(st.integers(0, 9)) == 0 else values)))
+    for _ in range(draw(st.sampled_from([0, 0, 0, 0, 0, 1]))):
+        change = draw(st.sampled_from(["missing", "repeated", "unknown", "kind"]))
+        entry = draw(st.integers(0, len(entries) - 1))
+        if change == "missing":
+            del entries[entry]
+        elif change == "kind":
+            entries[0] = ("kind", draw(st.sampled_from(["rubber", "[maxwell]", "1", "Prony"])))
+        else:
+            entries.append(entries[entry] if change == "repeated" else (draw(TEXTS), draw(POSITIVE)))
+    return "\n".join(f"{name}: {value}" for name, value in entries).encode(errors="replace")
+
+
+# Creep that slows down, with steps of time of 1.
+TABLES = st.lists(st.floats(0, 1), min_size=2, max_size=6).map(
+    lambda steps: "\n".join(
+        f"{time},{float(value)!r}" for time, value in enumerate(np.cumsum(sorted(steps, reverse=True)))
+    )
+)
+TABLES = damaged(st.one_of(TABLES, TABLES, ROWS.map("\n".join)).map(str.encode))
+STEPS = GOOD.map(lambda rows: [*rows, f"{len(rows) - 1},9", f"{len(rows)},9"])  # a step at the last time
+HEADED = GOOD.map(lambda rows: ["t,F", *rows])
+HISTORIES = damaged(st.one_of(GOOD, HEADED, STEPS, ROWS).map("\n".join).map(str.encode))
 
 # ---- options
 
@@ -262,7 +319,7 @@ WHOLE = st.sampled_from(["3", "9", "64", "0", "-1", "1.5", "99999999", "", "nan"
 METHODS = [*["events", "explicit", "heun", "implicit"] * 4, "magic", ""]
 OPTIONS = {
     "indent": {"--tolerance": SHARES, "--until-fraction": SHARES, "--depths": SERIES},
-    "kinetics": {"--force": NUMBERS, "--viscosity": NUMBERS},
+    "kinetics": {"--times": SERIES},
     "march": {
         "--force": NUMBERS,
         "--viscosity": NUMBERS,
@@ -285,12 +342,11 @@ OPTIONS = {
         "--rms": NUMBERS,
         "--times": SERIES,
         "--viscosity": NUMBERS,
-        "--medium": st.sampled_from(["none.yaml", "force.csv", "folder"]),
+        "--medium": st.sampled_from(["medium.yaml", "none.yaml", "force.csv", "folder"]),
     },
 }
 # {command: options that it mostly has}
 USUAL = {
-    "kinetics": [["--force", NUMBERS], ["--viscosity", NUMBERS]],
     "generate": [
         *(["--hurst", SHARES], ["--elements", st.sampled_from(["3", "9", "16"])]),
         *(["--rms", NUMBERS], ["--diameter", NUMBERS], ["--seed", st.sampled_from(["0", "7"])]),
@@ -299,6 +355,13 @@ USUAL = {
         *(["--hurst", SHARES], ["--rms", st.sampled_from(["1", "2"])], ["--diameter", st.sampled_from(["5", "9"])]),
         *(["--force", st.sampled_from(["1", "2"])], ["--viscosity", NUMBERS], ["--times", SERIES]),
     ],
+}
+# Options of kinetics that exclude those given, repeat them or name other files.
+AGAIN = {
+    "--force": NUMBERS,
+    "--viscosity": NUMBERS,
+    "--force-history": st.sampled_from(["force.csv", "force.npy", "older.nc", "none.csv", "folder", "pipe"]),
+    "--medium": st.sampled_from(["medium.yaml", "older.nc", "none.yaml", "folder", "pipe"]),
 }
 READ = {"indent": ["heights.npy", "heights.nc"], "kinetics": ["curve.nc"], "march": ["heights.npy", "heights.nc"]}
 READ |= {"reduce": ["heights.npy", "heights.nc", "line.npy"], "plot": ["curve.nc", "heights.nc", "curve.csv"]}
@@ -320,6 +383,11 @@ def commands(draw):
         given.append(["--method", method])
         given += [["--times", draw(SERIES)]] if method not in ("events", "") and draw(st.integers(0, 4)) else []
     given += [[name, draw(values)] for name, values in USUAL.get(command, [])]
+    if command == "kinetics":
+        history = draw(st.integers(0, 2)) == 0
+        given.append(["--force-history", "force.csv"] if history else ["--force", draw(NUMBERS)])
+        given.append(["--medium", "medium.yaml"] if draw(st.booleans()) else ["--viscosity", draw(NUMBERS)])
+        given += [[name, draw(values)] for name, values in AGAIN.items() if draw(rarely)]
     for name in draw(st.lists(st.sampled_from(sorted(OPTIONS[command])), max_size=2)):
         given.append([name, draw(OPTIONS[command][name])])
     given = [option for option in given if not draw(rarely)]
@@ -336,12 +404,15 @@ FILES = {
     "curve.csv": damaged(curve_tables()),
     "line.npy": npy_files(array_strategies.array_shapes(min_dims=1, max_dims=1, max_side=9)),
     "force.csv": HISTORIES,
+    "medium.yaml": damaged(media()),
+    "table.csv": TABLES,
     "force.npy": npy_files(array_strategies.array_shapes(min_dims=2, max_dims=2, min_side=2, max_side=2)),
 }
 
 
 @st.composite
 def cases(draw):
-    """A command line, and those files that it names."""
+    """A command line, and those files that it names, or that a medium may name."""
     arguments = draw(commands())
-    return arguments, {name: draw(content) for name, content in FILES.items() if name in arguments}
+    named = {*arguments, *(["table.csv"] if "medium.yaml" in arguments else [])}
+    return arguments, {name: draw(content) for name, content in FILES.items() if name in named}

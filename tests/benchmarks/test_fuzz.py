@@ -9,6 +9,8 @@ import pytest
 from hypothesis import given, settings
 
 from viscorough.io import netcdf
+from viscorough.io.curves import curve_to_content
+from viscorough.loading_curve import LoadingCurve
 
 
 @pytest.fixture(scope="module")
@@ -35,8 +37,12 @@ def test_random_files_and_options_keep_the_contract(fuzz, folder):
     assert codes["2"] > 50
 
 
-def test_every_kind_of_file_can_be_right(fuzz, folder, fuzz_cases):
+def test_every_kind_of_file_can_be_right(fuzz, folder, fuzz_cases, tmp_path):
     """Otherwise the readers would only be tried with what they refuse."""
+    one_level = [np.array([value]) for value in (1e100, 1e100, 1.0, 1)]  # a straight curve, for any force
+    curve = LoadingCurve(*one_level, 1, "by hand", 1e-9, 0, np.zeros(1))
+    netcdf.write(curve_to_content(curve), tmp_path / "whole.nc")
+    kinetics = ["kinetics", "whole.nc", "--force", "1", "--times", "0.5"]
     commands = {
         "heights.npy": ["indent", "heights.npy", "--spacing", "1"],
         "heights.nc": ["indent", "heights.nc", "--spacing", "1"],
@@ -46,8 +52,14 @@ def test_every_kind_of_file_can_be_right(fuzz, folder, fuzz_cases):
         "force.csv": ["march", "one.npy", "--spacing", "1", "--method", "events", "--force-history", "force.csv"],
         "force.npy": ["march", "one.npy", "--spacing", "1", "--method", "events", "--force-history", "force.npy"],
     }
+    commands["medium.yaml"] = [*kinetics, "--medium", "medium.yaml"]
+    commands["table.csv"] = [*kinetics, "--medium", "of_table.yaml"]
     assert set(commands) == set(fuzz_cases.FILES)
-    one = fuzz_cases.npy_bytes(np.zeros((1, 1)))
+    others = {
+        "one.npy": fuzz_cases.npy_bytes(np.zeros((1, 1))),
+        "whole.nc": (tmp_path / "whole.nc").read_bytes(),
+        "of_table.yaml": b"{kind: creep_table, file: table.csv}",
+    }
 
     def codes_of(name):
         codes = set()
@@ -56,7 +68,7 @@ def test_every_kind_of_file_can_be_right(fuzz, folder, fuzz_cases):
         @given(fuzz_cases.FILES[name])
         def run(content):
             arguments = [*commands[name], "-o", "out.nc"]
-            code, words = fuzz.result_of(folder, arguments, {name: content, "one.npy": one})
+            code, words = fuzz.result_of(folder, arguments, others | {name: content})
             assert not words
             codes.add(code)
 

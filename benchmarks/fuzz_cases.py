@@ -319,7 +319,12 @@ WHOLE = st.sampled_from(["3", "9", "64", "0", "-1", "1.5", "99999999", "", "nan"
 METHODS = [*["events", "explicit", "heun", "implicit"] * 4, "magic", ""]
 OPTIONS = {
     "indent": {"--tolerance": SHARES, "--until-fraction": SHARES, "--depths": SERIES},
-    "kinetics": {"--times": SERIES},
+    "kinetics": {  # these exclude those that it has, repeat them or name other files
+        "--force": NUMBERS,
+        "--viscosity": NUMBERS,
+        "--force-history": st.sampled_from(["force.csv", "force.npy", "older.nc", "none.csv", "folder", "pipe"]),
+        "--medium": st.sampled_from(["medium.yaml", "older.nc", "none.yaml", "folder", "pipe"]),
+    },
     "march": {
         "--force": NUMBERS,
         "--viscosity": NUMBERS,
@@ -356,13 +361,6 @@ USUAL = {
         *(["--force", st.sampled_from(["1", "2"])], ["--viscosity", NUMBERS], ["--times", SERIES]),
     ],
 }
-# Options of kinetics that exclude those given, repeat them or name other files.
-AGAIN = {
-    "--force": NUMBERS,
-    "--viscosity": NUMBERS,
-    "--force-history": st.sampled_from(["force.csv", "force.npy", "older.nc", "none.csv", "folder", "pipe"]),
-    "--medium": st.sampled_from(["medium.yaml", "older.nc", "none.yaml", "folder", "pipe"]),
-}
 READ = {"indent": ["heights.npy", "heights.nc"], "kinetics": ["curve.nc"], "march": ["heights.npy", "heights.nc"]}
 READ |= {"reduce": ["heights.npy", "heights.nc", "line.npy"], "plot": ["curve.nc", "heights.nc", "curve.csv"]}
 ODD = ["--help", "--version", "--colour", "more.npy", "--", "-o", "\x00", "--tolerance=1e-2", "--force"]
@@ -387,9 +385,10 @@ def commands(draw):
         history = draw(st.integers(0, 2)) == 0
         given.append(["--force-history", "force.csv"] if history else ["--force", draw(NUMBERS)])
         given.append(["--medium", "medium.yaml"] if draw(st.booleans()) else ["--viscosity", draw(NUMBERS)])
-        given += [[name, draw(values)] for name, values in AGAIN.items() if draw(rarely)]
-    for name in draw(st.lists(st.sampled_from(sorted(OPTIONS[command])), max_size=2)):
-        given.append([name, draw(OPTIONS[command][name])])
+        given += [["--times", draw(SERIES)]] if draw(st.integers(0, 3)) == 0 else []
+    if command != "kinetics" or draw(rarely):
+        for name in draw(st.lists(st.sampled_from(sorted(OPTIONS[command])), max_size=2)):
+            given.append([name, draw(OPTIONS[command][name])])
     given = [option for option in given if not draw(rarely)]
     arguments = [command, *file, *[text for option in given for text in option]]
     if draw(rarely):

@@ -88,6 +88,7 @@ test: environment docs
 bench: environment
 	$(BIN)/python benchmarks/curves.py --reproduction --cores $(CORES) --output results/benchmarks.json
 	$(BIN)/python benchmarks/strips.py --output results/strips.json
+	$(BIN)/python benchmarks/large_map.py --output results/large_map.json
 	$(BIN)/python benchmarks/rectangles.py --output results/rectangles.json
 
 speed stability: SETTINGS = config/methods.yaml

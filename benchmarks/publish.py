@@ -28,6 +28,7 @@ from viscorough_study.verdicts import markdown, overall
 ROOT = Path(__file__).resolve().parents[1]
 BEGIN, END = "<!-- {}: by benchmarks/publish.py -->\n", "<!-- end of {} -->\n"
 OTHER_SOLVERS = "resources/published/other_solvers.csv"  # with which runs are compared that do not measure them
+DEPTH_RATIOS = "src/viscorough/data/depth_ratio.csv"  # of the calibrated law, from the claims
 # {command of make: files in results/ that it makes and that are published in docs/results/}
 PUBLISHED = {
     "paper": (
@@ -125,6 +126,14 @@ def copy_other_solvers(table, target, machine, date):
     times.to_csv(target, index=False, lineterminator="\n")
 
 
+def write_depth_ratios(claims, target):
+    """Write the depth over X^β/(ζβ) at the centre of region (b), the claim "depth", for the calibrated law."""
+    table = pd.read_csv(claims).query("claim == 'depth'")
+    hurst = table["case"].str.removeprefix("H = ").astype(float)
+    ratios = table[["value", "low", "high"]].rename(columns={"value": "ratio"})
+    ratios.assign(hurst=hurst)[["hurst", "ratio", "low", "high"]].to_csv(target, index=False, lineterminator="\n")
+
+
 def copy_picture(file, target):
     """Copy a PNG file with at most 128 colours, in a third of the bytes: git keeps every version."""
     with Image.open(file) as picture:
@@ -148,6 +157,8 @@ def copy_results(results, project, commands, commit):
     for command in commands:
         for name, target in KEPT.get(command, {}).items():
             shutil.copyfile(results / name, project / target)
+            if name == "tables/claims.csv":
+                write_depth_ratios(results / name, project / DEPTH_RATIOS)
         for file in (results / name for name in PUBLISHED[command]):
             (copy_picture if file.suffix == ".png" else shutil.copyfile)(file, folder / file.name)
             if file.name in PICTURES:

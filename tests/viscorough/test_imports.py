@@ -54,6 +54,7 @@ def viscorough(folder, *arguments):
 
 
 HEIGHTS = ["heights.npy", "--spacing", "1"]
+SIZE = ["--rms", "1", "--diameter", "9"]
 
 
 @pytest.mark.parametrize(
@@ -66,6 +67,8 @@ HEIGHTS = ["heights.npy", "--spacing", "1"]
         ["march", *HEIGHTS, "--method", "events", "-o", "events.nc"],
         ["march", *HEIGHTS, "--method", "implicit", "--times", "1,2", "-o", "steps.nc"],
         ["indent", "heights.nc", "--spacing", "1", "-o", "again.nc"],
+        ["generate", "--hurst", "0.8", "--elements", "9", *SIZE, "--seed", "1", "-o", "disc.nc"],
+        ["estimate", "--hurst", "0.8", *SIZE, "--force", "1", "--viscosity", "1", "--times", "1", "-o", "law.csv"],
     ],
     ids=lambda arguments: " ".join(arguments[:4]),
 )

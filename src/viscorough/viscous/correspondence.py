@@ -252,7 +252,7 @@ def _at_impulse(curve, elastic_force, viscosity):
     if largest > last * (1 + _ROUNDING):
         raise ValueError(
             f"impulse: {largest * viscosity:.6g} is beyond the curve's last level; "
-            f"allowed: up to {last * viscosity:.6g}"
+            f"allowed: up to {last * viscosity:.6g}; {_remedy(largest)}"
         )
     return _on_curve(curve, elastic_force)
 
@@ -264,9 +264,14 @@ def _at_elastic_force(curve, creep, times):
         where = int(np.argmax(beyond | ~np.isfinite(creep)))
         raise ValueError(
             f"force: at time {times[where]:g} the creep ∫J dF is {creep[where]:.6g}, beyond the curve's last level; "
-            f"allowed: up to {curve.force[-1]:.6g}"
+            f"allowed: up to {curve.force[-1]:.6g}; {_remedy(creep[np.isfinite(creep)].max())}"
         )
     return _on_curve(curve, creep)
+
+
+def _remedy(force):
+    """What makes a curve long enough for this F/G."""
+    return f"indent further, with until_fraction=1 or a level at F/G = {1.01 * force:.3g} (forces)"
 
 
 def _on_curve(curve, elastic_force):

@@ -79,7 +79,10 @@ def _depth_samples(curve, depth, times):
             "under which the contact does not recede (march_medium goes on there)"
         )
     if depth[-1] > curve.depth[-1] * (1 + 1e-12):
-        raise ValueError(f"depth: {depth[-1]:g} is beyond the curve's last level; allowed: up to {curve.depth[-1]:g}")
+        raise ValueError(
+            f"depth: {depth[-1]:g} is beyond the curve's last level; allowed: up to {curve.depth[-1]:g}; indent "
+            "further, with until_fraction=1 or a level at that depth (depths)"
+        )
     return times, np.minimum(depth, curve.depth[-1])
 
 

@@ -1,11 +1,15 @@
 """Kinetics from exact loading curves, against solutions that do not use the correspondence."""
 
+import re
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
 from viscorough import reference
+from viscorough.contact.loading_path import indent
 from viscorough.loading_curve import LoadingCurve
+from viscorough.surfaces import self_affine_disc
 from viscorough.viscous.correspondence import kinetics
 
 RADIUS, SLOPE, VISCOSITY = 1.7, 0.4, 30.0
@@ -225,3 +229,14 @@ def test_refusal_names_the_largest_impulse(sphere_curve):
     kinetics(sphere_curve, 1.0, VISCOSITY, [limit])
     with pytest.raises(ValueError, match=f"allowed: up to {limit:.6g}"):
         kinetics(sphere_curve, 1.0, VISCOSITY, [1.0001 * limit])
+
+
+def test_the_remedy_of_a_short_curve_is_one():
+    """What the message asks for gives a curve on which the same motion is found."""
+    disc = self_affine_disc(0.7, 17, seed=1)
+    curve = indent(disc, until_fraction=0.1)
+    with pytest.raises(ValueError, match=r"beyond the curve's last level; .*; indent further, with") as error:
+        kinetics(curve, 3.0, 2.0, [1.0, 40.0])
+    force = float(re.search(r"level at F/G = (\S+) \(forces\)", str(error.value))[1])
+    longer = indent(disc, forces=[*curve.force, force])
+    assert np.isfinite(kinetics(longer, 3.0, 2.0, [40.0]).depth).all()

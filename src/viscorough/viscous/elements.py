@@ -22,10 +22,10 @@ class Elements:
         self.row, self.column = np.nonzero(np.isfinite(indenter.heights))
         self.initial_gap = indenter.initial_gap[self.row, self.column].astype(float)
         distance = [np.arange(n, dtype=float) for n in indenter.heights.shape]
-        self.influence = influence_coefficient(distance[0][:, None], distance[1][None, :])
+        self.influence = influence_coefficient(distance[0][:, None], distance[1][None, :], indenter.aspect)
         self.scale = 4 * np.pi * indenter.element_side
         self.count, self.shape = self.initial_gap.size, indenter.heights.shape
-        self._side, self._operator = indenter.element_side, Halfspace(*self.shape)
+        self._side, self._operator = indenter.element_side, Halfspace(*self.shape, aspect=indenter.aspect)
 
     def deflection(self, load):
         """K times a load at all elements."""

@@ -81,6 +81,20 @@ def test_events_end_where_contact_recedes(disc, curve):
         march_medium_events(disc, medium, [0.0, 1.0], force=force[[0, 0]], until_fraction=1e-3)
 
 
+def test_rectangular_elements():
+    """Spacings of 1 and 2: events and steps against the loading curve of the same elements."""
+    heights = self_affine_disc(0.7, 17, seed=3).heights
+    indenter = Indenter(heights, 0.1, 0.2)
+    medium, curve = MEDIA["solid"], indent(indenter, until_fraction=0.5, tolerance=1e-10)
+    force = np.full(3, largest_force(curve, medium))
+    expected = kinetics(curve, force[0], medium, [0.0, 1.0, END])
+    events = march_medium_events(indenter, medium, [0.0, 1.0, END], force=force)
+    np.testing.assert_allclose(events.depth, expected.depth, rtol=1e-10)
+    assert np.nansum(events.pressure) * 0.1 * 0.2 == pytest.approx(force[0], rel=1e-12)
+    steps = march_medium(indenter, medium, np.linspace(0, END, 41), force=np.full(41, force[0]))
+    np.testing.assert_allclose(steps.depth[::20], expected.depth, rtol=1e-3)
+
+
 # ---- steps
 
 

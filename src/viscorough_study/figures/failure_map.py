@@ -30,6 +30,7 @@ MEANINGS = {
 KINDS = {  # of methods, by the beginnings of their names
     "elastic path": ("path",),
     "direct integration": ("events", "explicit", "heun", "implicit"),
+    "media": ("media",),
     "models": ("MDR", "power law"),
 }
 OTHER_KIND = "other methods"
@@ -39,6 +40,7 @@ CONCERNED = {
     "force in time": ("explicit steps",),
     "no padding": ("path, grid",),
     "tolerance": ("path",),
+    "medium": ("media",),
 }
 GROUP_NAMES = {"ties": "equal\nheights", "Hurst exponent": "Hurst\nexponent", "force in time": "force\nin time"}
 FLOOR = 1e-16  # smaller errors are drawn here

@@ -7,6 +7,7 @@ import numpy as np
 from viscorough import reference
 from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
+from viscorough.viscous.media import KelvinVoigt, Maxwell, Prony, StandardLinearSolid
 
 NOT_SELF_AFFINE = "the indenter is no isotropic self-affine surface, which a line with its spectrum stands for"
 ROLL_OFF = "the spectrum rolls off: there is no power law"
@@ -23,6 +24,8 @@ class StressCase:
     force : F at equal intervals of time; constant by default
     stated : why, according to their documentation, models do not hold for this case
     periodic : whether the grid of the elastic path has no padding, so that periodic images of the indenter press, too
+    medium : a viscoelastic medium; None: a Newtonian one
+    medium_load : (time, force) in it, up to a factor of the force; recedes : whether contact is lost under it
     """
 
     group: str
@@ -36,6 +39,9 @@ class StressCase:
     force: tuple = (1.0, 1.0)
     stated: str = ""
     periodic: bool = False
+    medium: object = None
+    medium_load: tuple = ()
+    recedes: bool = False
 
 
 def stress_cases(seed, across, grids, hurst_min):
@@ -56,6 +62,7 @@ def stress_cases(seed, across, grids, hurst_min):
     yield from _scale_cases(maps)
     yield from _force_cases(maps)
     yield from _tolerance_cases(maps)
+    yield from _medium_cases(maps)
 
 
 @dataclass(frozen=True)
@@ -180,3 +187,23 @@ def _force_cases(maps):
 def _tolerance_cases(maps):
     for tolerance in (1e-1, 1e-3, 1e-10, 1e-12, 1e-14):
         yield StressCase("tolerance", f"{tolerance:g}", **maps.usual, tolerance=tolerance)
+
+
+def _medium_cases(maps):
+    """Media and loads in them; times are from 0 to 1, and a time given twice is a step."""
+    step, ramp = ((0, 1), (1, 1)), ((0, 0), (0.5, 0.4), (1, 1))
+    hold, unloading = ((0, 0), (0.1, 1), (1, 1)), ((0, 0), (0.4, 1), (0.5, 0.3), (1, 0.3))
+    solid = StandardLinearSolid(3.0, 1.0, 0.3)
+    series = Prony(0.5, (2.0, 1.0, 1.0), (0.03, 0.3, 3.0))
+    for name, medium, load in (
+        ("Maxwell, step", Maxwell(1.0, 0.5), step),
+        ("Kelvin-Voigt, ramp", KelvinVoigt(1.0, 0.5), ramp),
+        ("solid, two steps", solid, ((0, 0.5), (0.5, 0.5), (0.5, 1), (1, 1))),
+        ("Prony series, hold", series, hold),
+        ("relaxation time 1e-6", StandardLinearSolid(3.0, 1.0, 1e-6), hold),
+        ("relaxation time 1e6", StandardLinearSolid(3.0, 1.0, 1e6), hold),
+        ("moduli 1 and 1e-10", Prony(1e-10, (1.0,), (1e-4,)), hold),
+    ):
+        yield StressCase("medium", name, **maps.usual, medium=medium, medium_load=load)
+    for name, medium in (("Maxwell, unloading", Maxwell(1.0, 0.5)), ("solid, unloading", solid)):
+        yield StressCase("medium", name, **maps.usual, medium=medium, medium_load=unloading, recedes=True)

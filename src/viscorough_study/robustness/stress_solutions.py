@@ -23,6 +23,7 @@ from viscorough.viscous.correspondence import impulses, kinetics
 from viscorough.viscous.events import march_events
 from viscorough.viscous.stepping import march_steps
 from viscorough_study.performance.ablations import DENSE_ONLY, GRID_ONLY, NO_PADDING
+from viscorough_study.robustness.stress_media import TOLERANCE, by_correspondence, by_steps
 
 DEPTHS = 6  # at which solutions are compared
 INTERPOLATED_FORCES = 20  # between two of them, at which interpolation between levels is compared
@@ -188,6 +189,8 @@ METHODS = (
     StressedMethod("path, interpolated", _interpolated, lambda case: max(case.tolerance, FINEST_ACCURACY)),
     StressedMethod("events", _events, lambda case: LIMIT_EVENTS),
     StressedMethod("explicit steps", _steps, lambda case: LIMIT_STEPS),
+    StressedMethod("media, correspondence", by_correspondence, lambda case: max(TOLERANCE, FINEST_ACCURACY)),
+    StressedMethod("media, steps", by_steps, lambda case: LIMIT_STEPS),
     StressedMethod("MDR", _reduction, lambda case: LIMIT_MODEL, model=True),
     StressedMethod("power law", partial(_power_law, False), lambda case: LIMIT_MODEL, model=True),
     StressedMethod("power law with Γ", partial(_power_law, True), lambda case: LIMIT_MODEL, model=True),

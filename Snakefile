@@ -21,12 +21,14 @@ report: "workflow/report/workflow.rst"
 require_valid(config)
 DISCS = cases.disc_cases(config)
 LINES = cases.line_cases(config)
+MEASURED = measured_cases(config["measured"])
 PROBLEMS = cases.method_problems(config)
 
 
 wildcard_constraints:
     case="|".join(DISCS),
     line="|".join(LINES),
+    scan="|".join(MEASURED) or "no_scan",
     problem="|".join(PROBLEMS),
     pool="|".join(cases.POOLS),
     batch=r"\d{4}-\d{4}",
@@ -42,6 +44,8 @@ include: "workflow/rules/claims.smk"
 include: "workflow/rules/methods.smk"
 include: "workflow/rules/stability.smk"
 include: "workflow/rules/sizes.smk"
+include: "workflow/rules/media.smk"
+include: "workflow/rules/measured.smk"
 
 
 onstart:
@@ -88,6 +92,7 @@ rule figures:
         rules.plot_speed.output,
         rules.plot_failure_map.output,
         rules.plot_level_placement.output,
+        rules.plot_media.output,
 
 
 rule tables:
@@ -102,11 +107,18 @@ rule tables:
         rules.tabulate_methods.output,
         rules.map_failures.output,
         rules.compare_level_placement.output,
+        rules.compute_media.output,
 
 
 rule validation:
     input:
         rules.check_validation.output,
+
+
+rule measured:
+    input:
+        rules.evaluate_measured.output if MEASURED else [],
+        rules.plot_measured.output if MEASURED else [],
 
 
 rule speed:
@@ -150,6 +162,7 @@ rule all:
         rules.figures.input,
         rules.tables.input,
         rules.validation.input,
+        rules.measured.input,
         rules.costs.input,
         rules.make_page.output,
 

@@ -108,10 +108,35 @@ def other_solver_times():
     return "\n".join(lines) + "\n"
 
 
+def published_results(records):
+    """What lies in docs/results/, in Markdown: for every command its origin, its figures, and links to its tables.
+
+    records : content of docs/results/published.json
+    """
+    text = []
+    for command, names in PUBLISHED.items():
+        files = [name.split("/")[-1] for name in names if name.split("/")[-1] in records]
+        if not files:
+            continue
+        first = records[files[0]]
+        origin = f"`{first['command']}`, {first['date']}, commit {first['commit']}, {first['processor']}, "
+        text += [f"### make {command}", "", textwrap.fill(f"{origin}{first['cores']} cores.", 120), ""]
+        for file in files:
+            if file.endswith(".png"):
+                name = file.removesuffix(".png").replace("_", " ")
+                text += [f"![{name}](results/{file})", ""]
+        others = [f"[{file}](results/{file})" for file in files if not file.endswith(".png")]
+        text += ["Files:", *(f"- {link}" for link in others), ""]
+    return "\n".join(text) or "None yet.\n"
+
+
 def write_tables():
-    """Write what is between the marks of a table: in README.md, docs/verdicts.md and docs/performance.md."""
+    """Write what is between the marks of a table: in README.md and in pages of docs/."""
     tables = {("README.md", "verdicts"): verdict_lines(), ("docs/verdicts.md", "verdicts"): verdicts()}
     tables["docs/performance.md", "other solvers"] = other_solver_times()
+    records = ROOT / "docs/results/published.json"
+    known = json.loads(records.read_text(encoding="utf-8")) if records.is_file() else {}
+    tables["docs/published.md", "results"] = published_results(known)
     for (page, name), table in tables.items():
         begin, end = BEGIN.format(name), END.format(name)
         before, rest = (ROOT / page).read_text(encoding="utf-8").split(begin)

@@ -16,6 +16,7 @@ POOLS = {
     "lines": ("line",),
     "size_discs": ("disc", "square", "peak"),
     "size_lines": ("line",),
+    "measured": ("disc",),
 }
 UNIT_DISC = {"rms": 1.0, "diameter": 1.0}
 UNIT_LINE = {"rms": 1.0, "length": 1.0}
@@ -132,14 +133,26 @@ def method_problems(settings):
     }
 
 
+def measured_cases(scans):
+    """{scan: its description} of measured surfaces, each an ensemble of one; scans : viscorough_study.scans.scans."""
+    return {
+        name: {"pool": "measured", "group": scan["group"], "realizations": 1, "batch": 1, **scan}
+        for name, scan in scans.items()
+    }
+
+
+def first_combination(settings):
+    """Names of the base cases of the first combination, one for every Hurst exponent."""
+    first = settings["discs"]["combinations"][0]["number"]
+    return [f"{hurst_id(hurst)}_c{first}" for hurst in settings["discs"]["hurst"]]
+
+
 def example_discs(settings):
     """Spawn keys, and arguments of self_affine_disc, of one disc for every Hurst exponent: the first combination's.
 
     Rms height and diameter are 1.
     """
-    first = settings["discs"]["combinations"][0]["number"]
-    names = [f"{hurst_id(hurst)}_c{first}" for hurst in settings["discs"]["hurst"]]
-    cases = disc_cases(settings)
+    names, cases = first_combination(settings), disc_cases(settings)
     return {
         "spawn_keys": [cases[name]["spawn_key"] for name in names],
         "discs": [cases[name]["surface"] | UNIT_DISC for name in names],
@@ -186,6 +199,11 @@ def example_memory(settings):
 def large_memory(elements):
     """One disc and the fields of the solver on its grid."""
     return round(BASE_MEMORY + 500 * elements**2 / 1e6)
+
+
+def measured_memory(case):
+    """A scan of at least four bytes for each height in its file, and the fields of the solver on its grid."""
+    return round(BASE_MEMORY + 400 / 4 * case["bytes"] / 1e6)
 
 
 def line_memory(case):

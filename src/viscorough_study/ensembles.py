@@ -98,13 +98,14 @@ def ensemble_dataset(conventions, x, stiffness, count, coords):
     stiffness, count : κ and elements in contact, shape (conventions, realizations, abscissae), nan where undefined
     coords : hurst, case, diameter, elements
     """
-    velocity = x / stiffness
+    velocity, elements = x / stiffness, coords["elements"]
+    elements = elements[1] if isinstance(elements, tuple) else elements  # of every realization
     of_curves = ("rms_convention", "realization", "abscissa")
     variables = {"velocity": velocity, "stiffness": stiffness, "contact_count": count}
     variables = {name: (of_curves, values) for name, values in variables.items()}
     variables |= {
         name: (("rms_convention", "abscissa"), values)
-        for name, values in _averages(x, velocity, count, coords["elements"]).items()
+        for name, values in _averages(x, velocity, count, elements).items()
     }
     dataset = xr.Dataset(variables, {"x": ("abscissa", x), "rms_convention": conventions, **coords})
     for name, (long_name, equation) in MEANING.items():
@@ -136,7 +137,7 @@ def _averages(x, velocity, count, elements):
             "velocity_spread": np.sqrt(squares / (number - 1)),
             "stiffness_geometric": x / np.exp(geometric),
             "contact_count_median": np.nanmedian(count, axis=1),
-            "contact_fraction_mean": mean(count) / elements,
+            "contact_fraction_mean": mean(count / np.reshape(elements, (-1, 1))),
             "realizations_defined": number,
             "fraction_defined": number / velocity.shape[1],
         }

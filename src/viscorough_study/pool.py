@@ -68,7 +68,7 @@ def ensembles(pool, name):
 
     The ensembles have averages over their realizations (viscorough_study.ensembles). Their case and diameter are
     numbers where all realizations agree, else coordinates of the realizations.
-    Raises ValueError unless all realizations of an ensemble have one Hurst exponent and number of elements.
+    Raises ValueError unless all realizations of an ensemble have one Hurst exponent.
     """
     values = pool[name].values.tolist()
     return {value: _ensemble(select(pool, **{name: value}), value) for value in dict.fromkeys(values)}
@@ -78,8 +78,8 @@ def _ensemble(part, about):
     coords = {}
     for name in ("hurst", "elements", "case", "diameter"):
         values = part[name].values
-        same = np.all(values == values[0])
-        if not same and name in ("hurst", "elements"):
+        same = np.unique(values).size == 1  # nan, of measured surfaces, is equal to nan
+        if not same and name == "hurst":
             raise ValueError(f"{about}: the realizations differ in {name}, it must be the same in all")
         coords[name] = values[0] if same else ("realization", values)
     arrays = (part[name].values for name in ("x", *VARIABLES))

@@ -7,6 +7,7 @@ import jsonschema
 
 # Groups of cases that every run has, and which variants can therefore not be called (viscorough_study.cases).
 GROUPS = ("base", "controls", "lines", "sizes")
+_RANGES = ("ensemble", "reduction")  # sections with a range of X
 
 
 class SettingsError(ValueError):
@@ -87,7 +88,7 @@ def _allowed(rule):
 def _contradiction(settings):
     """One line on settings that are allowed one by one but not together, or None."""
     checks = (_reserved, _repeated, _too_precise, _disc_without_line, _too_rough, _too_smooth)
-    checks += (_decreasing_task, _too_short_wave, _empty_range)
+    checks += (_decreasing_task, _too_short_wave, _empty_range, _wrong_medium)
     return next(filter(None, (check(settings) for check in checks)), None)
 
 
@@ -109,6 +110,8 @@ def _repeated(settings):
         **{f"methods.{key}": methods[key] for key in ("groups", "hurst", "bodies")},
         "methods.elements": methods["elements"],
         "methods.bodies_elements": methods["bodies_elements"],
+        "name in measured": [group["name"] for group in settings["measured"]],
+        "name in media.cases": [case["name"] for case in settings["media"]["cases"]],
         "name in methods.tasks": [task["name"] for task in methods["tasks"]],
         "stability.grids": settings["stability"]["grids"],
         **{f"sizes.{key}": sizes[key] for key in ("hurst", "elements", "points")},
@@ -180,11 +183,23 @@ def _too_short_wave(settings):
 
 
 def _empty_range(settings):
-    for part in ("ensemble", "reduction"):
-        low, high = settings[part]["x_low"], settings[part]["x_high"]
+    ranges = {f"{part}.x_low and x_high": (settings[part]["x_low"], settings[part]["x_high"]) for part in _RANGES}
+    ranges["media.times.low and high"] = settings["media"]["times"]["low"], settings["media"]["times"]["high"]
+    for name, (low, high) in ranges.items():
         if high < 9.99 * low:  # rounded
-            return f"{part}.x_low and x_high: {low} and {high} are less than a decade; allowed: from one decade"
+            return f"{name}: {low} and {high} are less than a decade; allowed: from one decade"
     low, high = settings["scaling"]["stiffness_range"]
     if not low < high:
         return f"scaling.stiffness_range: {low} and {high} are no range; allowed: the first below the second"
+    return None
+
+
+def _wrong_medium(settings):
+    from viscorough.io.media import medium_from_mapping  # takes long to import
+
+    for case in settings["media"]["cases"]:
+        try:
+            medium_from_mapping({key: value for key, value in case.items() if key != "name"})
+        except ValueError as error:
+            return f"{case['name']} in media.cases: {error}"
     return None

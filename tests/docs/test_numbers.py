@@ -94,6 +94,7 @@ def test_published_files_say_where_they_come_from():
     if not folder.exists():
         pytest.skip("nothing is published yet")
     records = json.loads(read(folder / "published.json"))
+    assert between_marks(ROOT / "docs/published.md", "results") == load_benchmark("publish").published_results(records)
     assert set(records) == {path.name for path in folder.iterdir()} - {"published.json"}
     assert sum(path.stat().st_size for path in folder.iterdir()) <= 3e6
     for name in load_benchmark("publish").PICTURES:

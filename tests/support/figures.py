@@ -4,9 +4,10 @@ import numpy as np
 import pandas as pd
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from support.study import fit_row
+from support.study import SHOWN, fit_row
 from viscorough_study.conventions import of_source
 from viscorough_study.ensembles import abscissa
+from viscorough_study.figures.measured import plot_measured
 from viscorough_study.fit_table import COLUMNS as SCALING_COLUMNS
 from viscorough_study.performance import measurement
 
@@ -163,3 +164,37 @@ def failure_curves_table():
     rows = [("steps", name, n, 1 / n) for name in ("error of the depth", "overlap over depth") for n in (1, 64)]
     rows += [("contact", f"method {rank}", x, 10.0 ** -(2 * rank)) for rank in range(9) for x in (0.01, 1.0)]
     return pd.DataFrame(rows, columns=["curve", "method", "x", "y"])
+
+
+def media_table():
+    """Two media, in which the velocity is a power of time."""
+    time = np.geomspace(1e-3, 1e3, 13)
+    parts = [
+        pd.DataFrame({"time": time, "x": 1e-2 * time, "depth": time**hurst, "velocity": time**hurst}).assign(
+            medium=medium, hurst=hurst, velocity_error=0.1, exponent=hurst, realizations=6
+        )
+        for medium in ("newtonian", "standard_linear_solid")
+        for hurst in HURST
+    ]
+    return pd.concat(parts, ignore_index=True)
+
+
+def measured_kinetics():
+    """Two scans of one group under two forces in two media."""
+    time = np.geomspace(1e-3, 1e3, 13)
+    parts = [
+        pd.DataFrame({"time": time, "depth": 1e-6 * force * time, "velocity": 1e-6 * force}).assign(
+            scan=scan, group="polished", medium=medium, force=force
+        )
+        for scan in ("polished_1", "polished_2")
+        for medium in ("newtonian", "maxwell")
+        for force in (0.1, 1.0)
+    ]
+    return pd.concat(parts, ignore_index=True)
+
+
+def measured_figure(pooled, scaling):
+    """The figure of one group of measured surfaces, which are the discs of one Hurst exponent."""
+    fits = scaling[(scaling["source"] == "discs") & (scaling["hurst"] == pooled[0]["hurst"].item())]
+    fits = fits.assign(source="measured", case_group="polished")
+    return plot_measured({"polished": pooled[0]}, pooled, fits, measured_kinetics(), SHOWN, fraction_min=0.95)

@@ -15,7 +15,19 @@ import yaml
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPTS = ROOT / "workflow/scripts"
 TEST = ("--configfile", "config/test.yaml")
-TARGETS = {"all", "curves", "figures", "tables", "validation", "speed", "stability", "sizes", "large", "costs"}
+TARGETS = {
+    "all",
+    "curves",
+    "figures",
+    "tables",
+    "validation",
+    "speed",
+    "stability",
+    "sizes",
+    "large",
+    "costs",
+    "measured",
+}
 TARGETS |= {f"figure_{number}" for number in range(1, 5)}
 
 

@@ -54,6 +54,24 @@ WRONG = [
     ({"dis\ncs": 1}, r"unknown key 'dis\ncs'; did you mean discs?"),
     ({"discs": {"combinations": [COMBINATION | {"rms": 1e-200}]}}, "rms is 1e-200; allowed: a number from 1e-12"),
     ({"discs": {"combinations": [COMBINATION | {"diameter": 10.0, "rms": 1e-12}]}}, "rms 1e-12 in combination 1"),
+    (
+        {"media": {"cases": [{"name": "fluid", "kind": "maxwell", "viscosity": 1.0}]}},
+        "fluid in media.cases: lacks shear_modulus; maxwell needs shear_modulus, viscosity",
+    ),
+    (
+        {"media": {"cases": [{"name": "fluid", "kind": "newtonian", "viscosity": 1.0, "exponent": 0.5}]}},
+        "fluid in media.cases: unknown key 'exponent'; allowed for newtonian: viscosity",
+    ),
+    (
+        {"media": {"cases": [{"name": "fluid", "kind": "honey"}]}},
+        "media.cases[0].kind is 'honey'; allowed: one of newt",
+    ),
+    ({"media": {"times": {"low": 1.0, "high": 2.0}}}, "media.times.low and high: 1.0 and 2.0 are less than a decade"),
+    ({"measured": [{"name": "mine", "files": []}]}, "measured[0].files is []; allowed: a list of at least 1"),
+    (
+        {"measured": [{"name": "mine", "files": ["a.npy"], "preparation": {"detrend": "cubic"}}]},
+        "measured[0].preparation.detrend is 'cubic'; allowed: one of none, mean, plane, sphere",
+    ),
     ({"lines": {"hurst": [0.4, 0.40000000001]}}, "lines.hurst has 0.40000000001; allowed: at most four decimals"),
     ({"discs": {"hurst": [0.4, 0.4]}}, "discs.hurst: 0.4 occurs twice; allowed: once"),
     ({"sizes": {"elements": [17, 257]}}, "roll_off_wavelength 0.0625 of sizes.control is too short"),

@@ -55,7 +55,15 @@ def test_short_rules_run_where_snakemake_runs():
     """Only what computes for long goes through a cluster's queue."""
     queued = {name for name, text in rules().items() if "localrule: True" not in text}
     assert queued == {
-        *("indent_discs", "indent_lines", "validate", "compare_reduction", "measure_large", "map_failures"),
+        *(
+            "indent_discs",
+            "indent_lines",
+            "indent_measured",
+            "validate",
+            "compare_reduction",
+            "measure_large",
+            "map_failures",
+        ),
         *("measure_failure_curves", "measure_methods", "time_other_solvers", "compare_level_placement"),
     }
 

@@ -14,6 +14,7 @@ AFTER_FITS = {"plot_kinetics", "plot_master_curve", "plot_exponent", "plot_conve
 FITS_AND_FIGURES = FITS | AFTER_FITS
 BOUNDARY_ELEMENTS = {"indent_discs", "compare_direct", "compare_reduction", "validate"}
 BOUNDARY_ELEMENTS |= {"measure_methods", "map_failures", "compare_level_placement"}
+MEDIA = {"compute_media", "plot_media"}
 SPEED = {"measure_methods", "tabulate_methods", "plot_speed"}
 LAST = {"tabulate_rule_costs", "make_page"}  # made again with whatever is
 
@@ -59,6 +60,7 @@ def with_another_statement(text):
     [
         ({"scaling": {"stiffness_max": 0.25}}, FITS_AND_FIGURES | SPEED),  # errors in region (b) are tabulated, too
         ({"methods": {"levels": 3}}, SPEED),
+        ({"media": {"force": 2e-4}}, MEDIA),
         (
             {"stability": {"across": 11}, "methods": {"scenes": {"elements": 31}}},
             {"map_failures", "plot_failure_map", "compare_level_placement", "plot_level_placement"},
@@ -69,11 +71,11 @@ def with_another_statement(text):
         ({"lines": {"points": 2048}}, FITS_AND_FIGURES | {"indent_lines", "pool_curves"}),
         (
             {"indentation": {"tolerance": 2e-3}},
-            FITS_AND_FIGURES | {"indent_discs", "pool_curves", "compare_reduction", "plot_reduction"},
+            FITS_AND_FIGURES | MEDIA | {"indent_discs", "pool_curves", "compare_reduction", "plot_reduction"},
         ),
         (
             {"surface": {"period": 1.5}},  # not of the variant that has its own period, nor of lines
-            FITS_AND_FIGURES | {"indent_discs", "pool_curves", "generate_example_discs", "plot_surfaces"},
+            FITS_AND_FIGURES | MEDIA | {"indent_discs", "pool_curves", "generate_example_discs", "plot_surfaces"},
         ),
         (
             {"direct": {"elements": 31}, "reduction": {"per_decade": 5}},
@@ -121,14 +123,17 @@ def test_a_changed_line_of_the_column_convolution_reruns_what_uses_boundary_elem
     """And what depends on it, but neither lines nor example discs."""
     edit(editable / "src/viscorough/contact/column_fft.py", with_another_statement)
     after = {"pool_curves", "plot_direct", "plot_reduction", "check_validation", "plot_validation"}
-    after |= {"plot_failure_map", "plot_level_placement", *SPEED, *LAST}
+    after |= {"plot_failure_map", "plot_level_placement", *SPEED, *MEDIA, *LAST}
     assert set(plan(editable, *TEST)) == BOUNDARY_ELEMENTS | FITS_AND_FIGURES | after
 
 
 @pytest.mark.parametrize(
     ("module", "scripts"),
     [
-        ("viscorough_study/power_law.py", {"fit_scaling", "fit_sizes", "judge_claims", "make_page"}),
+        (
+            "viscorough_study/power_law.py",
+            {"fit_scaling", "fit_sizes", "evaluate_measured", "judge_claims", "make_page"},
+        ),
         ("viscorough_study/validate_solvers.py", {"validate", "check_validation"}),
         (
             "viscorough/mdr.py",

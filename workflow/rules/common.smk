@@ -11,6 +11,7 @@ import yaml
 
 from viscorough_study import cases
 from viscorough_study.paper_data import number, read_paper
+from viscorough_study.scans import scans
 from viscorough_study.settings import SettingsError, check_settings
 from viscorough_study.settings_files import read_settings_file
 from viscorough_study.source_digest import SourceDigests
@@ -56,6 +57,14 @@ def require_valid(settings):
         raise SystemExit(f"Error in the settings: {error}")
 
 
+def measured_cases(settings):
+    """Cases of the measured surfaces; ends with one line about a file that is not there."""
+    try:
+        return cases.measured_cases(scans(settings))
+    except SettingsError as error:
+        raise SystemExit(f"Error in the settings: {error}")
+
+
 # ---- inputs and params
 
 
@@ -69,12 +78,19 @@ def of_line(name):
     return lambda wildcards: LINES[wildcards.line][name]
 
 
+def of_scan(name):
+    """Params function: a value of the measured surface."""
+    return lambda wildcards: MEASURED[wildcards.scan][name]
+
+
 def realizations(wildcards):
     """First realization of a batch, and the one after its last."""
     return cases.realizations(wildcards.batch)
 
 
 def cases_of_pool(pool):
+    if pool == "measured":
+        return MEASURED
     return LINES if pool.endswith("lines") else DISCS
 
 
@@ -84,8 +100,17 @@ def batches_of_pool(pool):
 
 
 def curves_of_pool(pool):
-    kind = "lines" if pool.endswith("lines") else "discs"
+    kind = pool if pool == "measured" else "lines" if pool.endswith("lines") else "discs"
     return [f"results/curves/{kind}/{case}/{batch}.nc" for case, batch in batches_of_pool(pool)]
+
+
+def curves_of_first_combination(wildcards):
+    """Curves of the discs of the first combination, of every Hurst exponent."""
+    return [
+        f"results/curves/discs/{case}/{batch}.nc"
+        for case in cases.first_combination(config)
+        for batch in cases.batches(DISCS[case])
+    ]
 
 
 def names_of_pool(wildcards):
@@ -149,9 +174,16 @@ CHAPTERS = (
     ("fits", "5 Fits"),
     ("speed", "6 Speed and accuracy"),
     ("failures", "7 Where methods fail"),
-    ("sizes", "8 Grids from coarse to fine"),
+    ("beyond", "8 Beyond the paper"),
     ("costs", "9 Costs"),
 )
+
+
+def table_files(name, caption, result):
+    """CSV, HTML and NetCDF of a table about measured surfaces."""
+    labels = {"result": result, "kind": "table"}
+    html = report(f"results/tables/{name}.html", caption, category=chapter("beyond"), labels=labels)
+    return [f"results/tables/{name}.csv", html, f"results/tables/{name}.nc"]
 
 
 def chapter(name):
@@ -186,6 +218,10 @@ def line_memory(wildcards):
 
 def pool_memory(wildcards):
     return cases.pool_memory(cases_of_pool(wildcards.pool), wildcards.pool, config["ensemble"])
+
+
+def measured_memory(wildcards):
+    return cases.measured_memory(MEASURED[wildcards.scan])
 
 
 def large_memory(wildcards):

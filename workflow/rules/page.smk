@@ -14,7 +14,8 @@ PAGE_FIGURES = {
     "direct": rules.plot_direct,
     "reduction": rules.plot_reduction,
     "validation": rules.plot_validation,
-}
+    "media": rules.plot_media,
+} | ({"measured": rules.plot_measured} if MEASURED else {})
 
 
 rule make_page:
@@ -29,7 +30,9 @@ rule make_page:
             rules.map_failures.output.csv,
             rules.compare_level_placement.output.csv,
             rules.tabulate_rule_costs.output.csv,
-        ],
+            rules.compute_media.output.csv,
+        ]
+        + ([rules.evaluate_measured.output[name][0] for name in ("scans", "fits")] if MEASURED else []),
         figures=[rule.output.png for rule in PAGE_FIGURES.values()],
     output:
         page=report(

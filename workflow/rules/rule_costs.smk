@@ -6,6 +6,7 @@ rule tabulate_rule_costs:
         rules.figures.input,
         rules.tables.input,
         rules.validation.input,
+        rules.measured.input,
     output:
         csv="results/tables/rule_costs.csv",
         html=report(

@@ -10,7 +10,7 @@ rule fit_sizes:
         html=report(
             "results/tables/sizes.html",
             caption="../report/sizes_table.rst",
-            category=chapter("sizes"),
+            category=chapter("beyond"),
             labels={"result": "exponents on grids from coarse to fine", "kind": "table"},
         ),
         nc="results/tables/sizes.nc",
@@ -18,7 +18,7 @@ rule fit_sizes:
         trends_html=report(
             "results/tables/sizes_trends.html",
             caption="../report/sizes_trends.rst",
-            category=chapter("sizes"),
+            category=chapter("beyond"),
             labels={"result": "trends of exponents over the grid", "kind": "table"},
         ),
         trends_nc="results/tables/sizes_trends.nc",
@@ -50,7 +50,7 @@ rule plot_sizes:
         png=report(
             "results/figures/sizes.png",
             caption="../report/sizes.rst",
-            category=chapter("sizes"),
+            category=chapter("beyond"),
             labels={"result": "exponents on grids from coarse to fine", "kind": "figure"},
         ),
         pdf="results/figures/sizes.pdf",
@@ -105,7 +105,7 @@ rule tabulate_large:
         html=report(
             "results/tables/large.html",
             caption="../report/large_table.rst",
-            category=chapter("sizes"),
+            category=chapter("beyond"),
             labels={"result": "cost of one disc", "kind": "table"},
         ),
         nc="results/tables/large.nc",
@@ -132,7 +132,7 @@ rule plot_large:
         png=report(
             "results/figures/large.png",
             caption="../report/large.rst",
-            category=chapter("sizes"),
+            category=chapter("beyond"),
             labels={"result": "cost of one disc", "kind": "figure"},
         ),
         pdf="results/figures/large.pdf",

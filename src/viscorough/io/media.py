@@ -38,32 +38,41 @@ _LARGEST_FILE = 1_000_000  # bytes
 
 
 def read_medium(path, length_unit="1"):
-    """The medium in a YAML file, with moduli in N per square of the unit of length.
+    """The medium in a YAML file, which holds one mapping as `medium_from_mapping` takes it.
 
-    The file holds one mapping: `kind`, one of KINDS, and all keys of that kind. Where the unit of length is known,
-    plain moduli are in Pa, viscosities in Pa s and times in s, and any of them may have a unit of its own ("2 MPa"),
-    but for the springpot's; where it is "1", plain numbers are in consistent units of the user's choice, and no others
-    are allowed. A creep table names a file of two columns, times and compliances (1/Pa), relative to the YAML file.
-
+    The file of a creep table is relative to the YAML file.
     Raises a one-line ValueError that names the file and what is wrong.
     """
     mapping = _mapping(path)
-    kind = mapping.pop("kind", None)
-    if not isinstance(kind, str) or kind not in KINDS:
-        raise ValueError(f"{path}: kind {_shown(kind)}; allowed: {', '.join(KINDS)}")
-    make, keys = KINDS[kind]
-    if unknown := [key for key in mapping if key not in keys]:
-        raise ValueError(f"{path}: unknown key {_shown(unknown[0])}; allowed for {kind}: {', '.join(keys)}")
-    if missing := [key for key in keys if key not in mapping]:
-        raise ValueError(f"{path}: lacks {', '.join(missing)}; {kind} needs {', '.join(keys)}")
     try:
-        if make is CreepTable:
-            medium = _table(Path(path), mapping["file"])
-        else:
-            medium = make(**{key: _values(key, mapping[key], keys[key], length_unit) for key in keys})
-        return medium if length_unit == "1" else scaled(medium, units.metres(length_unit) ** 2)
+        return medium_from_mapping(mapping, length_unit, folder=Path(path).parent)
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from error
+
+
+def medium_from_mapping(mapping, length_unit="1", *, folder=Path()):
+    """The medium of a mapping, with moduli in N per square of the unit of length.
+
+    mapping : `kind`, one of KINDS, and all keys of that kind. Where the unit of length is known, plain moduli are in
+        Pa, viscosities in Pa s and times in s, and any of them may have a unit of its own ("2 MPa"), but for the
+        springpot's; where it is "1", plain numbers are in consistent units of the user's choice, and no others are
+        allowed. A creep table names a file of two columns, times and compliances (1/Pa), relative to `folder`
+
+    Raises a one-line ValueError that says what is wrong.
+    """
+    kind = mapping.get("kind")
+    if not isinstance(kind, str) or kind not in KINDS:
+        raise ValueError(f"kind {_shown(kind)}; allowed: {', '.join(KINDS)}")
+    make, keys = KINDS[kind]
+    if unknown := [key for key in mapping if key != "kind" and key not in keys]:
+        raise ValueError(f"unknown key {_shown(unknown[0])}; allowed for {kind}: {', '.join(keys)}")
+    if missing := [key for key in keys if key not in mapping]:
+        raise ValueError(f"lacks {', '.join(missing)}; {kind} needs {', '.join(keys)}")
+    if make is CreepTable:
+        medium = _table(folder, mapping["file"])
+    else:
+        medium = make(**{key: _values(key, mapping[key], keys[key], length_unit) for key in keys})
+    return medium if length_unit == "1" else scaled(medium, units.metres(length_unit) ** 2)
 
 
 def scaled(medium, factor):
@@ -128,10 +137,10 @@ def _values(key, value, unit, length_unit):
         raise ValueError(f"{key}: {error}; allowed: a number above 0, plain or with a unit such as {unit}") from error
 
 
-def _table(path, name):
+def _table(folder, name):
     if not isinstance(name, str) or not name or "\0" in name:
         raise ValueError(f"file: {_shown(name)}; allowed: the name of a .csv or .npy file")
-    times, compliances = read_columns(path.parent / name, "a creep table", "time and compliance")
+    times, compliances = read_columns(folder / name, "a creep table", "time and compliance")
     return CreepTable(times, compliances)
 
 

@@ -55,6 +55,8 @@ def page(template, style, discs, lines, other_solvers, tables, figures, captions
         outcomes=OUTCOMES,
         other=content.other_solvers(other_solvers),
         scenes=content.scenes(results),
+        media=content.media(results),
+        measured=content.measured(results, results.settings["claims"]["conventions"]),
         choices=("automatic", "best by hand", "naive"),
         further=FURTHER,
         settings=content.settings_in_words(results, scale),

@@ -27,6 +27,10 @@ ALTERNATIVE_TEXTS = {
     "prefactors": "Prefactor zeta over the laws of the paper, under every combination of conventions.",
     "direct": "Depth by direct integration in time over the elastic depth: 1, not the factor that Equation 8 predicts.",
     "reduction": "Stiffness and contact of lines over those of discs with the same spectrum, surface by surface.",
+    "media": "Double-logarithmic charts of velocity over time in several media, and of depth over creep compliance, "
+    "where the points of all media lie on one curve for each Hurst exponent.",
+    "measured": "Velocity of the measured surfaces over dimensionless force beside that of generated discs, and their "
+    "depth over time under the forces of the settings.",
     "validation": "Errors against exact solutions over the number of elements across, falling as expected.",
 }
 VERDICT_SHORT = {
@@ -97,6 +101,34 @@ def scenes(results):
         accuracy = results.number("level_placement", rows.index[0], "accuracy")
         scenes.append({"scene": name, "accuracy": accuracy, "choices": choices})
     return scenes
+
+
+def media(results):
+    """For every medium and Hurst exponent the exponent of vt/h in time: at first, at X nearest to 0.01, in the end."""
+    table, rows = results.tables["media"], []
+    for (name, hurst), part in table.groupby(["medium", "hurst"], sort=False):
+        middle = np.log(part["x"] / 0.01).abs().idxmin()
+        places = {"first": part.index[0], "middle": middle, "last": part.index[-1]}
+        exponents = {when: results.number("media", row, "exponent") for when, row in places.items()}
+        rows.append({"medium": name.replace("_", " "), "hurst": hurst} | exponents)
+    return rows
+
+
+def measured(results, conventions):
+    """Measured scans, and the power law of each group in the conventions of the figures; empty without any."""
+    if "measured_scans" not in results.tables:
+        return {"scans": [], "groups": []}
+    names = ("elements", "spacing", "row_spacing", "rms", "rms_slope", "diameter")
+    table = results.tables["measured_scans"]
+    scans = [
+        {"file": row["file"], "group": row["group"]} | results.numbers("measured_scans", i, *names)
+        for i, row in table.iterrows()
+    ]
+    names = ("realizations", "decades", "beta", "beta_low", "beta_high", "zeta")
+    wanted = {"rms_convention": "disc", "average": conventions["average"], "window_rule": conventions["window_rule"]}
+    fits = results.rows("measured_fits", **wanted)
+    groups = [{"group": row["case_group"]} | results.numbers("measured_fits", i, *names) for i, row in fits.iterrows()]
+    return {"scans": scans, "groups": groups}
 
 
 def costs(results):

@@ -29,6 +29,7 @@ from viscorough_study.figures.large import plot_large
 from viscorough_study.figures.level_placement import plot_level_placement
 from viscorough_study.figures.master_curve import plot_master_curve
 from viscorough_study.figures.mdr_comparison import plot_mdr_comparison
+from viscorough_study.figures.media import plot_media
 from viscorough_study.figures.other_solvers import plot_other_solvers
 from viscorough_study.figures.prefactors import plot_prefactors
 from viscorough_study.figures.sizes import plot_sizes
@@ -65,6 +66,8 @@ def drawn(discs, pooled, lines, scaling, combinations):
         "validation": Drawn(plot_validation(tables.validation_table()), {"quantity": 2}),
         "direct": Drawn(plot_direct_integration(tables.direct_table()), {"indenter": 2}),
         "reduction": Drawn(plot_mdr_comparison(tables.mdr_table())),
+        "media": Drawn(plot_media(tables.media_table()), {"medium": 2}),
+        "measured": Drawn(tables.measured_figure(pooled, scaling)),
         "sizes": Drawn(plot_sizes(tables.sizes_table(), SHOWN)),
         "large": Drawn(plot_large(tables.large_table())),
         "speed": Drawn(plot_speed(tables.methods_table())),
@@ -103,7 +106,7 @@ def names_in_caption(caption):
 
 def repeated_in_caption(caption):
     """What there is a panel or a column for, each."""
-    return re.findall(r"one (?:panel|column) for each (Hurst exponent|quantity|indenter)", caption)
+    return re.findall(r"one (?:panel|column) for each (Hurst exponent|quantity|indenter|medium)", caption)
 
 
 def quantities(figure):
@@ -207,7 +210,7 @@ def test_units_stand_in_parentheses_and_dimensionless_quantities_have_none(drawn
         labels = [text for axes in each.figure.axes for text in (axes.get_xlabel(), axes.get_ylabel())]
         assert not [label for label in labels if re.search(r" \[\w*\]$", label)]
         units |= {match.group(1) for label in labels if (match := re.search(r" \(([^()]*)\)$", label))}
-    assert units - {"b"} == {"s", "m/s", "GB", "darker is higher"}  # region (b)
+    assert units - {"b"} == {"s", "m/s", "µm", "GB", "darker is higher"}  # region (b)
 
 
 def test_no_text_is_smaller_than_the_smallest_size(drawn):

@@ -1,0 +1,66 @@
+"""Measured surfaces beside the generated ones."""
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from viscorough_study.conventions import fits
+from viscorough_study.figures.mean_curve import mean_curve
+from viscorough_study.figures.style import (
+    GREY,
+    MM,
+    STYLE,
+    WIDE,
+    hurst_handles,
+    hurst_looks,
+    logarithmic_ticks,
+    series_looks,
+)
+
+_LINES = ("-", "--", ":", "-.", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 3)))
+
+
+@rc_context(STYLE)
+def plot_measured(groups, discs, scaling, kinetics, conventions, *, fraction_min):
+    """vt/h over X of measured surfaces and of generated discs (a), and the depth over time under given forces (b).
+
+    groups : {name: ensemble dataset of its scans}; discs : ensemble datasets of discs, one for each Hurst exponent
+    scaling : fits of the groups; kinetics : table of depth over time by scan, medium and force, which may be empty
+    conventions : {column of a scaling table: value}; fraction_min : share of the discs defined, for a mean to be drawn
+    """
+    figure = Figure(figsize=(WIDE, 85 * MM))
+    law, motion = figure.subplots(1, 2)
+    looks, hursts = series_looks(groups), hurst_looks(ds["hurst"].item() for ds in discs)
+    for ds in discs:
+        curve, look = mean_curve(ds, conventions, fraction_min), hursts[ds["hurst"].item()]
+        style = {"color": look["color"], "linestyle": look["linestyle"], "linewidth": 0.7, "alpha": 0.6}
+        law.plot(curve.x[curve.several], curve.velocity[curve.several], **style)
+    for name, group in groups.items():
+        color, x = looks[name]["color"], group["x"].values
+        for velocity, count in zip(group["velocity"].values[0], group["contact_count"].values[0], strict=True):
+            law.plot(x[count > 1], velocity[count > 1], color=color, linewidth=0.9)
+        own_rms = {"rms_convention": "disc", "source": "measured", "case_group": name}
+        for row in fits(scaling, conventions, **own_rms).itertuples():
+            window = np.array([row.x_low, row.x_high])
+            law.plot(window, window**row.beta / row.zeta, color=color, linewidth=3, alpha=0.4)
+    law.set(
+        xscale="log", yscale="log", xlabel=r"$X = Ft/(4\eta hL)$", ylabel="$vt/h$", title="(a) dimensionless velocity"
+    )
+    media = dict(zip(dict.fromkeys(kinetics["medium"]), _LINES, strict=False))
+    for (_, group, medium, _), rows in kinetics.groupby(["scan", "group", "medium", "force"]):
+        style = {"color": looks[group]["color"], "linestyle": media[medium], "linewidth": 0.9}
+        motion.plot(rows["time"], rows["depth"] * 1e6, **style)
+    forces = ", ".join(f"{force:g}" for force in sorted(set(kinetics["force"])))
+    title = f"(b) depth under {forces} N" if forces else "(b) depth: no forces were given"
+    motion.set(xlabel="time $t$ (s)", ylabel="depth $u$ (µm)", title=title)
+    if len(kinetics):
+        motion.set(xscale="log", yscale="log")
+    logarithmic_ticks(law, motion)
+    handles = [Line2D([], [], color=looks[name]["color"], label=name.replace("_", " ")) for name in groups]
+    handles += hurst_handles(hursts, marker="", linewidth=0.7, alpha=0.6)
+    handles.append(Line2D([], [], color=GREY, linewidth=3, alpha=0.4, label="power law, region (b)"))
+    lines = {"color": GREY, "linewidth": 0.9}
+    handles += [Line2D([], [], linestyle=line, label=name.replace("_", " "), **lines) for name, line in media.items()]
+    figure.legend(handles=handles, loc="outside lower center", ncols=5)
+    return figure

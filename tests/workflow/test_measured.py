@@ -1,0 +1,91 @@
+"""Measured surfaces of the settings, through the workflow beside the generated ones."""
+
+import shutil
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from support.cf import violations
+from support.page import Page
+from support.workflow import TEST, jobs, plan, settings_file, snakemake
+from viscorough.surfaces import self_affine_disc
+
+SCANS = {"ground_a", "ground_b", "polished_c"}
+MADE = {"indent_measured", "pool_curves", "evaluate_measured", "plot_measured", "tabulate_rule_costs", "make_page"}
+
+
+def write_scans(folder):
+    """Three small maps in micrometres; returns the file of settings that names them."""
+    (folder / "scans").mkdir()
+    for seed, name in enumerate("abc"):
+        heights = self_affine_disc(0.6, 25, rms=0.5, diameter=250.0, seed=seed).heights
+        np.save(folder / f"scans/{name}.npy", heights)
+    shared = {"spacing": [10.0], "unit": "um"}
+    ground = {"name": "ground", "files": ["scans/[ab].npy"], "forces": [1e-4, 1e-3], **shared}
+    polished = {"name": "polished", "files": ["scans/c.npy"], "preparation": {"detrend": "plane"}, **shared}
+    return settings_file(folder, "scans", measured=[ground, polished])
+
+
+@pytest.fixture(scope="module")
+def folder(finished_once, tmp_path_factory):
+    """The finished project with three measured surfaces."""
+    project = shutil.copytree(finished_once, tmp_path_factory.mktemp("measured") / "project")
+    write_scans(project)
+    output = snakemake(project, *TEST, "scans.yaml")
+    assert set(jobs(output)) == MADE
+    return project
+
+
+def test_scans_are_evaluated_in_metres(folder):
+    scans = pd.read_csv(folder / "results/tables/measured_scans.csv").set_index("scan")
+    assert set(scans.index) == SCANS
+    np.testing.assert_allclose(scans["spacing"], 1e-5)
+    np.testing.assert_allclose(scans["rms"], 0.5e-6, rtol=0.2)
+    np.testing.assert_allclose(scans["diameter"], 250e-6, rtol=0.06)  # a coarse disc
+    for path in (folder / "results").rglob("*measured*.nc"):
+        assert violations(path) == [], path
+
+
+def test_power_laws_have_the_numbers_of_scans(folder):
+    fits = pd.read_csv(folder / "results/tables/measured_fits.csv")
+    assert fits.groupby("case_group")["realizations"].first().to_dict() == {"ground": 2, "polished": 1}
+    assert fits[fits["case_group"] == "polished"]["beta_low"].isna().all()  # one scan has no interval
+
+
+def test_kinetics_under_the_forces_in_every_medium(folder):
+    kinetics = pd.read_csv(folder / "results/tables/measured_kinetics.csv")
+    assert set(kinetics["scan"]) == {"ground_a", "ground_b"}
+    assert set(kinetics["force"]) == {1e-4, 1e-3}
+    assert set(kinetics["medium"]) == {"newtonian", "maxwell", "standard_linear_solid"}
+    rows = kinetics[(kinetics["scan"] == "ground_a") & (kinetics["medium"] == "newtonian")]
+    weak, strong = (rows[rows["force"] == force] for force in (1e-4, 1e-3))
+    weak, strong = (part.assign(impulse=(part["force"] * part["time"]).round(15)) for part in (weak, strong))
+    both = pd.merge(weak, strong, on="impulse")
+    np.testing.assert_allclose(both["depth_x"], both["depth_y"], rtol=1e-9)  # one depth for one impulse
+    assert len(both) > 5
+
+
+def test_the_page_has_a_section(folder):
+    page = Page((folder / "results/index.html").read_text(encoding="utf-8"))
+    assert "measured" in page.ids
+    assert "scans/a.npy" in page.text
+    assert (folder / "results/figures/measured.png").stat().st_size > 10_000
+
+
+def test_a_scan_is_indented_again_if_its_content_changes(folder):
+    assert plan(folder, *TEST, "scans.yaml") == {}
+    heights = np.load(folder / "scans/b.npy")
+    np.save(folder / "scans/b.npy", 1.1 * heights)
+    planned = plan(folder, *TEST, "scans.yaml")
+    assert planned == dict.fromkeys(MADE, 1)
+    np.save(folder / "scans/b.npy", heights)
+
+
+def test_wrong_scans_are_one_line(folder):
+    settings_file(folder, "none", measured=[{"name": "ground", "files": ["scans/z.npy"]}])
+    output = snakemake(folder, "--dry-run", *TEST, "none.yaml", fails=True)
+    assert (
+        "Error in the settings: measured: no file scans/z.npy of ground; allowed: files or patterns of files" in output
+    )
+    assert "Traceback" not in output

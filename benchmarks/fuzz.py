@@ -133,7 +133,7 @@ def fault_of_output(path):
             values = values[~np.isnan(values)]
         if not values.size or not np.isfinite(values).all():
             return f"the output has {name} = {values.tolist()}"
-        if name in ("depth", "time") and not (np.diff(values) >= 0).all():
+        if name in ("depth", "time") and not (np.diff(np.atleast_1d(values)) >= 0).all():
             return f"{name} does not increase in the output: {values.tolist()}"
     return ""
 

@@ -317,8 +317,24 @@ OUTPUTS = (
 FIGURES = [*["out.png"] * 6, "out.svg", "out.nc", "out", "none/out.png", "folder", "pipe", "curve.nc", "é.png"]
 WHOLE = st.sampled_from(["3", "9", "64", "0", "-1", "1.5", "99999999", "", "nan"])
 METHODS = [*["events", "explicit", "heun", "implicit"] * 4, "magic", ""]
+QUANTITIES = st.one_of(
+    NUMBERS, st.sampled_from(["1 N", "5 mN", "2 MPa", "3 um", "1e-3 m", "1 kg", "2 ", "1 N,2", "1 mN,2 mN"])
+)
+CONSTANTS = {
+    "--shear-modulus": QUANTITIES,
+    "--young": QUANTITIES,
+    "--poisson": st.sampled_from(["0.3", "0.5"]) | NUMBERS,
+}
 OPTIONS = {
-    "indent": {"--tolerance": SHARES, "--until-fraction": SHARES, "--depths": SERIES},
+    "indent": {
+        "--tolerance": SHARES,
+        "--until-fraction": SHARES,
+        "--depths": SERIES | QUANTITIES,
+        "--forces": SERIES | QUANTITIES,
+        "--until-force": QUANTITIES,
+        **CONSTANTS,
+    },
+    "contact": {"--tolerance": SHARES, "--force": SERIES | QUANTITIES, "--depth": SERIES | QUANTITIES, **CONSTANTS},
     "kinetics": {  # these exclude those that it has, repeat them or name other files
         "--force": NUMBERS,
         "--viscosity": NUMBERS,
@@ -352,6 +368,7 @@ OPTIONS = {
 }
 # {command: options that it mostly has}
 USUAL = {
+    "contact": [["--force", SERIES]],
     "generate": [
         *(["--hurst", SHARES], ["--elements", st.sampled_from(["3", "9", "16"])]),
         *(["--rms", NUMBERS], ["--diameter", NUMBERS], ["--seed", st.sampled_from(["0", "7"])]),
@@ -362,6 +379,7 @@ USUAL = {
     ],
 }
 READ = {"indent": ["heights.npy", "heights.nc"], "kinetics": ["curve.nc"], "march": ["heights.npy", "heights.nc"]}
+READ |= {"contact": ["heights.npy", "heights.nc"]}
 READ |= {"reduce": ["heights.npy", "heights.nc", "line.npy"], "plot": ["curve.nc", "heights.nc", "curve.csv"]}
 ODD = ["--help", "--version", "--colour", "more.npy", "--", "-o", "\x00", "--tolerance=1e-2", "--force"]
 
@@ -374,7 +392,7 @@ def commands(draw):
     odd_files = ["none.npy", "folder", "older.nc", "pipe", ""]
     file = [draw(st.sampled_from(odd_files if draw(rarely) else READ[command]))] if command in READ else []
     given = [["-o", draw(st.sampled_from(FIGURES if command == "plot" else OUTPUTS))]]
-    if command in ("indent", "march", "reduce"):
+    if command in ("indent", "contact", "march", "reduce"):
         given.append(["--spacing", draw(NUMBERS if draw(st.integers(0, 3)) == 0 else st.sampled_from(["1", "0.5"]))])
     if command == "march":
         method = draw(st.sampled_from(METHODS))

@@ -28,8 +28,8 @@ NUMBERS = {
     "largest_pressure": ("largest pressure over shear modulus", 0),
     "residual": ("largest gap in contact or overlap outside it that remains, over depth", 0),
 }
-# Tolerance from which on maps are stored in single precision, as the solver has them.
-_SINGLE_FROM = 1e-4
+# Tolerance from which on maps are stored in single precision, as the solver has them, and the range of their numbers.
+_SINGLE_FROM, _SINGLE_RANGE = 1e-4, (1e-25, 1e30)
 
 
 def contacts_to_content(contacts, heights):
@@ -56,7 +56,7 @@ def contacts_to_content(contacts, heights):
         position = spacing * (np.arange(points) - (points - 1) / 2)
         variables[name] = Variable((name,), position, attributes(f"position along {name}", 1))
     variables["heights"] = Variable(("y", "x"), heights, attributes("height", 1))
-    stored = np.float32 if first.tolerance >= _SINGLE_FROM else np.float64
+    stored = _kind_of_maps(contacts)
     for name, about in MAPS.items():
         kind = np.int8 if name == "contact" else stored
         values = joined([getattr(contact, name).astype(kind) for contact in contacts])
@@ -75,3 +75,12 @@ def contacts_to_content(contacts, heights):
     variables["patch_area"] = Variable((*level, "patch"), joined(list(padded)), attributes("area of a patch", 2))
     about = {"title": "Contact of a rigid indenter with an elastic half-space", "comment": COMMENT}
     return Content(variables, about | {"tolerance": first.tolerance, "spacing": [first.spacing, first.row_spacing]})
+
+
+def _kind_of_maps(contacts):
+    """Type of the numbers in the maps of pressure and gap."""
+    least, largest = _SINGLE_RANGE
+    small = min(min(contact.depth, contact.mean_pressure) for contact in contacts)
+    large = max(max(contact.largest_pressure, np.nanmax(contact.gap)) for contact in contacts)
+    fits = contacts[0].tolerance >= _SINGLE_FROM and small > least and large < largest
+    return np.float32 if fits else np.float64

@@ -209,6 +209,14 @@ def test_a_file_of_fields_can_be_indented_again(here):
     assert main(["indent", "out.nc", "--spacing", "1", "--depths", "0.5", "-o", "curve.nc"]) == 0
 
 
+def test_numbers_beyond_single_precision_are_kept(here):
+    """Heights of 1e100: the same contact as that of heights of 1, scaled."""
+    np.save("huge.npy", 1e100 * np.load("heights.npy"))
+    one, huge = values(contact("--depth", "0.5")), values(contact("--depth", "0.5e100", heights="huge.npy"))
+    for name in ("pressure", "gap", "force"):
+        np.testing.assert_allclose(1e-100 * huge[name], one[name], rtol=1e-5, atol=1e-6)
+
+
 def test_a_sphere_has_one_patch(here, capsys):
     np.save("sphere.npy", sphere_heights(33))
     assert values(contact("--depth", "1", heights="sphere.npy"))["patches"] == 1

@@ -90,6 +90,7 @@ bench: environment
 	$(BIN)/python benchmarks/strips.py --output results/strips.json
 	$(BIN)/python benchmarks/large_map.py --output results/large_map.json
 	$(BIN)/python benchmarks/rectangles.py --output results/rectangles.json
+	$(BIN)/python benchmarks/kinetics.py --output results/kinetics.json
 
 speed stability: SETTINGS = config/methods.yaml
 

@@ -173,6 +173,7 @@ def workplace():
         ]
         commands += [["march", *heights, "--method", "events"], ["indent", *heights]]
         commands += [["kinetics", "curve.nc", "--force", "1", "--viscosity", "1", "-o", "curve.nc"]]
+        commands += [["indent", *heights, "--unit", "inch", "--crop", "0:6,0:6", "--fill", "harmonic"]]
         for arguments in commands:
             with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
                 assert cli.main(arguments) == 0, arguments

@@ -3,6 +3,7 @@
 import contextlib
 import io
 
+import fuzz_surfaces
 import netCDF4
 import numpy as np
 from hypothesis import strategies as st
@@ -333,6 +334,7 @@ OPTIONS = {
         "--forces": SERIES | QUANTITIES,
         "--until-force": QUANTITIES,
         **CONSTANTS,
+        **fuzz_surfaces.OPTIONS,
     },
     "contact": {"--tolerance": SHARES, "--force": SERIES | QUANTITIES, "--depth": SERIES | QUANTITIES, **CONSTANTS},
     "kinetics": {  # these exclude those that it has, repeat them or name other files
@@ -349,7 +351,8 @@ OPTIONS = {
         "--until-fraction": SHARES,
         "--force-history": st.sampled_from(["force.csv", "force.npy", "older.nc", "none.csv", "folder"]),
     },
-    "reduce": {"--until-fraction": SHARES, "--realizations": st.sampled_from(["2", "5", "0", "a"]), "--seed": WHOLE},
+    "reduce": {"--until-fraction": SHARES, "--realizations": st.sampled_from(["2", "5", "0", "a"]), "--seed": WHOLE}
+    | fuzz_surfaces.OPTIONS,
     "plot": {"--spacing": NUMBERS},
     "generate": {
         "--elements": WHOLE,
@@ -378,8 +381,8 @@ USUAL = {
         *(["--force", st.sampled_from(["1", "2"])], ["--viscosity", NUMBERS], ["--times", SERIES]),
     ],
 }
-READ = {"indent": ["heights.npy", "heights.nc"], "kinetics": ["curve.nc"], "march": ["heights.npy", "heights.nc"]}
-READ |= {"contact": ["heights.npy", "heights.nc"]}
+SURFACES = ["heights.npy", "heights.nc", *fuzz_surfaces.READ]
+READ = {"indent": SURFACES, "contact": SURFACES, "kinetics": ["curve.nc"], "march": ["heights.npy", "heights.nc"]}
 READ |= {"reduce": ["heights.npy", "heights.nc", "line.npy"], "plot": ["curve.nc", "heights.nc", "curve.csv"]}
 ODD = ["--help", "--version", "--colour", "more.npy", "--", "-o", "\x00", "--tolerance=1e-2", "--force"]
 
@@ -393,7 +396,8 @@ def commands(draw):
     file = [draw(st.sampled_from(odd_files if draw(rarely) else READ[command]))] if command in READ else []
     given = [["-o", draw(st.sampled_from(FIGURES if command == "plot" else OUTPUTS))]]
     if command in ("indent", "contact", "march", "reduce"):
-        given.append(["--spacing", draw(NUMBERS if draw(st.integers(0, 3)) == 0 else st.sampled_from(["1", "0.5"]))])
+        usual = st.sampled_from(["1", "0.5"])
+        given.append(["--spacing", draw(draw(st.sampled_from([usual, usual, NUMBERS, fuzz_surfaces.SPACINGS])))])
     if command == "march":
         method = draw(st.sampled_from(METHODS))
         given.append(["--method", method])
@@ -407,6 +411,7 @@ def commands(draw):
     if command != "kinetics" or draw(rarely):
         for name in draw(st.lists(st.sampled_from(sorted(OPTIONS[command])), max_size=2)):
             given.append([name, draw(OPTIONS[command][name])])
+    given += [["--flip"]] if command == "indent" and draw(rarely) else []
     given = [option for option in given if not draw(rarely)]
     arguments = [command, *file, *[text for option in given for text in option]]
     if draw(rarely):
@@ -417,6 +422,11 @@ def commands(draw):
 FILES = {
     "heights.npy": npy_files(),
     "heights.nc": damaged(netcdf_heights()),
+    "heights.txt": damaged(fuzz_surfaces.texts()),
+    "heights.csv": damaged(fuzz_surfaces.texts()),
+    "heights.asc": damaged(fuzz_surfaces.texts()),
+    "heights.xyz": damaged(fuzz_surfaces.points()),
+    "heights.tif": damaged(fuzz_surfaces.tiffs(arrays())),
     "curve.nc": damaged(curve_files()),
     "curve.csv": damaged(curve_tables()),
     "line.npy": npy_files(array_strategies.array_shapes(min_dims=1, max_dims=1, max_side=9)),

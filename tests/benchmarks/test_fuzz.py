@@ -15,6 +15,8 @@ from viscorough.loading_curve import LoadingCurve
 
 @pytest.fixture(scope="module")
 def fuzz_cases(script):
+    """Imports fuzz_surfaces, which is loaded first."""
+    script("fuzz_surfaces")
     return script("fuzz_cases")
 
 
@@ -46,6 +48,8 @@ def test_every_kind_of_file_can_be_right(fuzz, folder, fuzz_cases, tmp_path):
     commands = {
         "heights.npy": ["indent", "heights.npy", "--spacing", "1"],
         "heights.nc": ["indent", "heights.nc", "--spacing", "1"],
+        **{f"heights.{kind}": ["indent", f"heights.{kind}", "--spacing", "1"] for kind in ("txt", "csv", "asc", "tif")},
+        "heights.xyz": ["indent", "heights.xyz"],
         "curve.nc": ["kinetics", "curve.nc", "--force", "1", "--viscosity", "1"],
         "curve.csv": ["kinetics", "curve.csv", "--force", "1", "--viscosity", "1"],
         "line.npy": ["reduce", "line.npy", "--spacing", "1"],

@@ -50,12 +50,11 @@ _OWN = 1.0
 
 @lru_cache(maxsize=4)
 def factor_rows(aspect):
-    """Rows of G by pattern: bit s of a pattern is set if neighbour s is in contact. The last entry is for the element.
+    """Rows of G by pattern, the last entry for the element, and their sums; for elements of an aspect dy/dx.
 
-    aspect : dy/dx of the elements
-
-    With A the influence matrix of the neighbours in contact and the element, the row is A⁻¹ b / (bᵀ A⁻¹ b)^½, b the
-    unit vector of the element. Shape (4096, 13), zero where there is no contact.
+    Bit s of a pattern is set if neighbour s is in contact. With A the influence matrix of the neighbours in contact and
+    the element, the row is A⁻¹ b / (bᵀ A⁻¹ b)^½, b the unit vector of the element. Shapes (4096, 13), zero where there
+    is no contact, and (4096,).
     """
     places = np.array([*_BEFORE, (0, 0)], dtype=float)
     row, column = np.moveaxis(places[:, None] - places, -1, 0)
@@ -68,13 +67,8 @@ def factor_rows(aspect):
     own = np.zeros((patterns.size, _NEIGHBOURS + 1, 1))
     own[:, -1] = 1
     rows = np.linalg.solve(matrices, own)[..., 0]
-    return rows / np.sqrt(rows[:, -1:])
-
-
-@lru_cache(maxsize=4)
-def _row_sums(aspect):
-    """Row sums of G by pattern."""
-    return factor_rows(aspect).sum(axis=1)
+    rows /= np.sqrt(rows[:, -1:])
+    return rows, rows.sum(axis=1)
 
 
 @lru_cache(maxsize=4)
@@ -209,12 +203,12 @@ class Preconditioner(_GridLevel):
 
     def __init__(self, height, width, kind="multilevel", *, aspect=1.0):
         self.places, self.stencil = np.empty(0, dtype=int), load_redistribution_stencil(aspect)
-        self._kind, self._aspect = kind, aspect
+        self._kind, self._rows = kind, factor_rows(aspect)
         self._width, self._work = width, np.zeros(height * width)
-        sides = _sides_of_block(aspect)
+        sides = round(_SIDE / aspect**0.5), round(_SIDE * aspect**0.5)  # blocks about as long as wide
         self._blocks, blocks = _block_of_places(height, width, sides)
-        multilevel = kind == "multilevel"
-        self._coarser = _coarse_level(sides, aspect, *blocks) if multilevel else _NoCorrection(*blocks)
+        of_blocks = sides, aspect, *blocks
+        self._coarser = _coarse_level(*of_blocks) if kind == "multilevel" else _NoCorrection(*blocks)
 
     def apply(self, residual):
         """M r on the set, valid until the next call, for a residual r on the flat grid."""
@@ -225,9 +219,9 @@ class Preconditioner(_GridLevel):
 
         inside, places : as in state.ContactSet
         """
-        patterns, weights = np.empty(places.size, np.int16), np.empty(places.size)
-        _neighbour_patterns(inside, places, self._width, _row_sums(self._aspect), patterns, weights)
-        self._set_factor(places, patterns, factor_rows(self._aspect), weights, self._blocks[places])
+        (rows, sums), patterns, weights = self._rows, np.empty(places.size, np.int16), np.empty(places.size)
+        _neighbour_patterns(inside, places, self._width, sums, patterns, weights)
+        self._set_factor(places, patterns, rows, weights, self._blocks[places])
 
 
 class _ManyBlocks(_GridLevel):
@@ -280,12 +274,6 @@ class _NoCorrection:
         return residual[self.places]
 
 
-def _sides_of_block(aspect):
-    """Rows and columns of elements in a block, about as long as wide."""
-    stretch = np.sqrt(aspect)
-    return round(_SIDE / stretch), round(_SIDE * stretch)
-
-
 def _coarse_level(sides, aspect, height, width):
     """The grid level of blocks of sides[0] rows and sides[1] columns, on a flat grid of given height and width."""
     few = max(height, width) - 2 * REACH <= _DENSE
@@ -294,8 +282,8 @@ def _coarse_level(sides, aspect, height, width):
 
 def _block_of_places(height, width, sides):
     """Place of the block of every place of a flat grid, and height and width of the grid of blocks; with borders."""
-    row, column = ((np.arange(n) - REACH) // side + REACH for n, side in zip((height, width), sides, strict=True))
-    blocks = [-(-(n - 2 * REACH) // side) + 2 * REACH for n, side in zip((height, width), sides, strict=True)]
+    row, column = ((np.arange(n) - REACH) // side + REACH for n, side in ((height, sides[0]), (width, sides[1])))
+    blocks = [-(-(n - 2 * REACH) // side) + 2 * REACH for n, side in ((height, sides[0]), (width, sides[1]))]
     return (row[:, None] * blocks[1] + column).ravel().astype(np.int32), blocks
 
 

@@ -68,6 +68,22 @@ def test_unit_of_length_and_spacing_are_those_of_the_indenter():
     assert (contact.length_unit, contact.spacing, contact.row_spacing) == ("um", DISC.spacing, DISC.spacing)
 
 
+@pytest.mark.parametrize("options", [SolverOptions(), GRID], ids=["default", "grid"])
+def test_maps_on_rectangular_elements(options):
+    """The deflection of rectangles dx × dy, and the force as pressures times their area."""
+    indenter = Indenter(DISC.heights, (0.2, 0.1))
+    contact = contact_at(indenter, force=0.5, options=options)
+    row, column = np.nonzero(np.isfinite(indenter.heights))
+    distances = (np.subtract.outer(place, place) * 1.0 for place in (row, column))
+    influence = influence_coefficient(*distances, indenter.aspect)
+    surface = influence @ contact.pressure[row, column] * indenter.element_side / (4 * np.pi)
+    recomputed = surface - contact.depth + indenter.initial_gap[row, column]
+    assert np.abs(recomputed[contact.contact[row, column]]).max() <= (contact.residual + 1e-12) * contact.depth
+    assert recomputed.min() >= -(contact.residual + 1e-12) * contact.depth
+    assert np.nansum(contact.pressure) * 0.2 * 0.1 == pytest.approx(0.5, rel=1e-7)
+    assert contact.contact_area == pytest.approx(contact.contact_count * 0.02)
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

@@ -9,12 +9,14 @@ from pathlib import Path
 import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter
 
 from viscorough.io.atomic import atomic_write
 
 FORMATS = (".png", ".pdf", ".svg")
 _BLUE, _VERMILION = "#0072b2", "#d55e00"  # of Okabe and Ito, which can be told apart with any colour vision
 _FEW = 40  # points below which a curve has markers
+_FEW_DECADES = 80  # ratio of the ends of a logarithmic axis
 _MOST_MAPS = 4  # contacts of one file that are drawn
 _STYLE = {
     **{
@@ -210,6 +212,18 @@ def _curve(axes, x, y, thin=False):
 def _label(axes, x, y):
     axes.set_xlabel(x)
     axes.set_ylabel(y)
+    for axis in (axes.xaxis, axes.yaxis):
+        low, high = axis.get_view_interval()
+        if axis.get_scale() == "log" and 0 < high < _FEW_DECADES * low:  # ticks at decades alone would be too few
+            axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0), numticks=20))
+            axis.set_major_formatter(_tick_label)
+            axis.set_minor_formatter(NullFormatter())
+
+
+def _tick_label(value, _position):
+    """A number of three digits, with a power of ten where it is very small or large."""
+    mantissa, _, exponent = f"{value:.3g}".partition("e")
+    return rf"${mantissa}\times 10^{{{int(exponent)}}}$" if exponent else mantissa
 
 
 def _label_of(variables, name):

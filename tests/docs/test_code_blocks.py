@@ -78,7 +78,7 @@ def test_settings_shown_are_valid():
     for settings in shown:
         merged = yaml.safe_load(default)
         for section, keys in settings.items():
-            merged[section] |= keys
+            merged[section] = keys if isinstance(keys, list) else merged[section] | keys
         check_settings(merged, schema)
 
 

@@ -317,7 +317,7 @@ OUTPUTS = (
 )
 FIGURES = [*["out.png"] * 6, "out.svg", "out.nc", "out", "none/out.png", "folder", "pipe", "curve.nc", "é.png"]
 WHOLE = st.sampled_from(["3", "9", "64", "0", "-1", "1.5", "99999999", "", "nan"])
-METHODS = [*["events", "explicit", "heun", "implicit"] * 4, "magic", ""]
+METHODS = [*["events", "explicit", "heun", "implicit", "second_order"] * 4, "magic", ""]
 QUANTITIES = st.one_of(
     NUMBERS, st.sampled_from(["1 N", "5 mN", "2 MPa", "3 um", "1e-3 m", "1 kg", "2 ", "1 N,2", "1 mN,2 mN"])
 )
@@ -345,6 +345,7 @@ OPTIONS = {
     },
     "march": {
         "--force": NUMBERS,
+        "--medium": st.sampled_from(["medium.yaml", "none.yaml", "force.csv", "folder"]),
         "--viscosity": NUMBERS,
         "--times": SERIES,
         "--overlap": SHARES,

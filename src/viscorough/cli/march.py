@@ -1,4 +1,4 @@
-"""`viscorough march`: direct integration of the viscous problem in time."""
+"""`viscorough march`: direct integration of the viscous or viscoelastic problem in time."""
 
 import click
 
@@ -7,12 +7,17 @@ from viscorough.cli.options import (
     FILE,
     Increasing,
     PositiveNumber,
+    Quantity,
     check_not_an_input,
+    number_in,
     output_option,
     printable_name,
     write_output,
 )
 from viscorough.cli.surface_options import heights_input, read_indenter
+
+METHODS = ("events", "explicit", "heun", "implicit", "second_order")
+_OF_MEDIA = ("events", "implicit", "second_order")  # methods that integrate viscoelastic media
 
 
 @click.command(short_help="Penetration over time by direct integration.")
@@ -20,14 +25,15 @@ from viscorough.cli.surface_options import heights_input, read_indenter
 @output_option("KIN.nc")
 @click.option(
     "--method",
-    type=click.Choice(["events", "explicit", "heun", "implicit"]),
+    type=click.Choice(METHODS),
     required=True,
     help="events: exactly from one contact event to the next; or in time steps by the forward Euler (explicit), "
-    "Heun (heun) or backward Euler method (implicit).",
+    "Heun (heun) or backward Euler method (implicit), or with --medium by one of second order.",
 )
-@click.option("--force", type=PositiveNumber(), help="Constant force F  [default: 1]")
-@click.option("--viscosity", type=PositiveNumber(), default=1.0, show_default=True, help="Shear viscosity.")
-@click.option("--times", type=Increasing(), help="Ends of the time steps; required by the methods that take steps.")
+@click.option("--force", type=Quantity("N"), help="Constant force F  [default: 1]")
+@click.option("--viscosity", type=Quantity("Pa s"), help="Shear viscosity  [default: 1]")
+@click.option("--medium", type=FILE, metavar="MEDIUM.yaml", help="Medium, as for kinetics, instead of --viscosity.")
+@click.option("--times", type=Increasing(), help="Ends of the time steps; for events with --medium, times of output.")
 @click.option(
     "--force-history",
     type=FILE,
@@ -40,8 +46,8 @@ from viscorough.cli.surface_options import heights_input, read_indenter
     help="Largest overlap allowed, relative to the depth; explicit and heun divide their steps to keep to it.",
 )
 @click.option("--until-fraction", type=PositiveNumber(1), help="Contact fraction at which events stop  [default: 1]")
-def march(surface, output, *, method, force, viscosity, times, force_history, overlap, until_fraction):
-    """Integrate the viscous problem directly in time, without its correspondence with the elastic one.
+def march(surface, output, *, method, force, viscosity, medium, times, force_history, overlap, until_fraction):
+    """Integrate the viscous or viscoelastic problem directly in time, without its correspondence with the elastic one.
 
     HEIGHTS and units are as for indent and kinetics. KIN.nc has the dimension "level" (contact events or ends of steps)
     and the variables time, depth, velocity, contact_count and overlap (of the indenter with the surface, relative to
@@ -49,50 +55,99 @@ def march(surface, output, *, method, force, viscosity, times, force_history, ov
     serves to check the other commands: the events of 3000 elements take seconds, and memory grows with the square of
     their number.
 
+    With --medium, springs and dashpots are integrated with internal variables, for small maps. The steps of implicit
+    and second_order go on where the force falls and the contact recedes, for which kinetics has no answer. KIN.nc then
+    holds time, depth, force and contact_count.
+
     \b
     Example:
         viscorough march heights.npy --spacing 2e-6 --method events --until-fraction 0.05 -o events.nc
         viscorough march heights.npy --spacing 2e-6 --method implicit --times 1,2,4,8 -o steps.nc
-        viscorough march heights.npy --spacing 2e-6 --method heun --force-history pulses.csv -o pulses.nc
+        viscorough march heights.npy --spacing 2e-6 --method second_order --medium rubber.yaml \\
+            --force-history pulses.csv -o pulses.nc
     """
     if force_history and (force or times):
         raise click.UsageError("--force-history replaces --force and --times; they exclude each other")
-    _check_options_of_method(method, bool(force_history), times, overlap, until_fraction)
-    if force_history:
-        check_not_an_input(output, force_history, "force history")
+    if medium and viscosity:
+        raise click.UsageError("--medium replaces --viscosity; they exclude each other")
+    _check_options_of_method(method, bool(medium), bool(force_history), times, overlap, until_fraction)
+    for file, kind in ((force_history, "force history"), (medium, "medium")):
+        if file:
+            check_not_an_input(output, file, kind)
     indenter = read_indenter(surface, output)
-
-    import numpy as np
-
-    from viscorough.io import motion
-
-    options = {"overlap": overlap, "until_fraction": until_fraction}
-    if force_history:
-        history = _read_history(force_history)
-        steps = np.unique(history.impulse[history.impulse > 0]) / viscosity
-        integrated = _integrate(indenter, method, steps, **options)
-        content = motion.integration_under_history(integrated, history, viscosity)
-        force = printable_name(force_history)
+    force = 1.0 if force is None else number_in("N", force, indenter.length_unit, "--force")
+    if medium:
+        content, about = _in_medium(indenter, method, medium, force, times, force_history, until_fraction)
     else:
-        force = force or 1.0
-        per_time = force / viscosity
-        integrated = _integrate(indenter, method, None if times is None else per_time * np.array(times), **options)
-        content = motion.integration_to_content(integrated, per_time)
-    attributes = {"method": method, "force": force, "viscosity": viscosity, **surface.attributes(indenter)}
-    write_output(content, output, **attributes)
+        number, viscosity = _viscosity(viscosity, indenter.length_unit)
+        options = {"overlap": overlap, "until_fraction": until_fraction}
+        content = _in_viscous_medium(indenter, method, viscosity, force, times, force_history, **options)
+        about = {"viscosity": number}
+    about["force"] = printable_name(force_history) if force_history else force
+    write_output(content, output, method=method, **about, **surface.attributes(indenter))
     time, depth, count = (content.variables[name].values for name in ("time", "depth", "contact_count"))
     contact = f"{count[-1]} of {indenter.elements} elements in contact"
     announce(output, f"{time.size} levels, depth {depth[-1]:.6g} at time {time[-1]:.6g} with {contact}")
 
 
-def _check_options_of_method(method, has_history, times, overlap, until_fraction):
+def _check_options_of_method(method, has_medium, has_history, times, overlap, until_fraction):
     """Raise UsageError if an option that the method requires is missing, or one is given that does not apply to it."""
-    if not has_history and (method == "events") != (times is None):
+    if has_medium and method not in _OF_MEDIA:
+        raise click.UsageError(f"--method {method} is not for --medium; allowed: {', '.join(_OF_MEDIA)}")
+    if not has_medium and method == "second_order":
+        raise click.UsageError("--method second_order is for use with --medium")
+    needs_times = has_medium or method != "events"
+    if not has_history and needs_times == (times is None):
         raise click.UsageError(f"--times is {'not for' if times else 'needed by'} --method {method}")
     if overlap is not None and method not in ("explicit", "heun"):
         raise click.UsageError(f"--overlap is not for --method {method}; allowed: explicit, heun")
     if until_fraction is not None and method != "events":
         raise click.UsageError(f"--until-fraction is not for --method {method}; allowed: events")
+
+
+def _viscosity(viscosity, length_unit):
+    """The viscosity as stated, in Pa s where the unit of length is known, and in N s per square of that unit."""
+    from viscorough import units
+
+    number = 1.0 if viscosity is None else number_in("Pa s", viscosity, length_unit, "--viscosity")
+    return number, number if length_unit == "1" else number * units.metres(length_unit) ** 2
+
+
+def _in_viscous_medium(indenter, method, viscosity, force, times, force_history, **options):
+    """Content of the output for a Newtonian medium; viscosity in N s per square of the unit of length."""
+    import numpy as np
+
+    from viscorough.io import motion
+
+    if force_history:
+        history = _read_history(force_history)
+        steps = np.unique(history.impulse[history.impulse > 0]) / viscosity
+        integrated = _integrate(indenter, method, steps, **options)
+        return motion.integration_under_history(integrated, history, viscosity)
+    per_time = force / viscosity
+    integrated = _integrate(indenter, method, None if times is None else per_time * np.array(times), **options)
+    return motion.integration_to_content(integrated, per_time)
+
+
+def _in_medium(indenter, method, medium, force, times, force_history, until_fraction):
+    """Content of the output for a viscoelastic medium, and attributes that describe it."""
+    from viscorough.io import motion
+    from viscorough.io.media import read_medium
+    from viscorough.viscous.internal_variable_events import march_medium_events
+    from viscorough.viscous.internal_variables import march_medium
+
+    law = read_medium(medium, indenter.length_unit)
+    if force_history:
+        history = _read_history(force_history)
+        times, forces = history.times, history.force
+    else:
+        times, forces = [0.0, *times], [force] * (1 + len(times))
+    if method == "events":
+        moved = march_medium_events(indenter, law, times, force=forces, until_fraction=until_fraction or 1.0)
+    else:
+        scheme = "backward_euler" if method == "implicit" else method
+        moved = march_medium(indenter, law, times, force=forces, scheme=scheme)
+    return motion.medium_motion_to_content(moved), {"medium": printable_name(medium)}
 
 
 def _read_history(path):

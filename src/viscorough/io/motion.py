@@ -69,11 +69,41 @@ def integration_under_history(integration, history, viscosity):
         "contact_count": Variable(
             ("level",), integration.contact_count[i], level_attributes("contact_count", length_unit)
         ),
-        "force": Variable(("level",), history.force, {"long_name": "force F at that time", "units": "1"}),
+        "force": Variable(
+            ("level",),
+            history.force,
+            {"long_name": "force F at that time", "units": "1" if length_unit == "1" else "N"},
+        ),
     }
     title = "Penetration of a rigid indenter under a force history, integrated directly in time"
     velocity = history.force / (viscosity * integration.resistance[i])
     return with_motion(Content(variables, {"title": title}), history.times, velocity)
+
+
+def medium_motion_to_content(motion):
+    """A direct integration in a viscoelastic medium as a Content over its times.
+
+    motion : viscous.internal_variables.MediumMotion or viscous.internal_variable_events.MediumEvents
+    """
+    force_unit = "1" if motion.length_unit == "1" else "N"
+    variables = {
+        "time": Variable(("level",), motion.time, {"long_name": "time since the force was applied", "units": "s"}),
+        "depth": Variable(("level",), motion.depth, level_attributes("depth", motion.length_unit)),
+        "force": Variable(("level",), motion.force, {"long_name": "force F at that time", "units": force_unit}),
+        "contact_count": Variable(
+            ("level",), motion.contact_count, level_attributes("contact_count", motion.length_unit)
+        ),
+    }
+    attributes = {
+        "title": "Penetration of a rigid indenter into a viscoelastic half-space, integrated directly in time"
+    }
+    receding = getattr(motion, "receding_from", np.nan)
+    if np.isfinite(receding):
+        attributes["receding_from"] = float(receding)
+        attributes["comment"] = (
+            "From the time receding_from on the contact recedes; no elastic contact corresponds to it."
+        )
+    return Content(variables, attributes)
 
 
 def estimate_to_content(estimate, length_unit="1"):

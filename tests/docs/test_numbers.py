@@ -115,14 +115,14 @@ def test_publishing(tmp_path):
             (results / name).write_text(name)
     claims = "claim,case,value,low,high\ncollapse,all,1,1,1\ndepth,H = 0.4,0.9,0.8,1.0\n"
     (results / "tables/claims.csv").write_text(claims)
-    os.utime(results / "costs.json", (86400 * 365.25 * 30,) * 2)
+    os.utime(results / "tables/rule_costs.csv", (86400 * 365.25 * 30,) * 2)
     publish.copy_results(results, project, ["paper"], "abc")
     publish.copy_results(results, project, ["large"], "def")
     records = json.loads((project / "docs/results/published.json").read_text())
     assert {path.name for path in (project / "docs/results").iterdir()} == {*records, "published.json"}
     assert set(records) == {name.split("/")[-1] for name in publish.PUBLISHED["paper"] + publish.PUBLISHED["large"]}
-    assert records["costs.json"]["date"] == "2000-01-01"
-    for name, command, commit in (("large.csv", "make large", "def"), ("costs.json", "make paper", "abc")):
+    assert records["rule_costs.csv"]["date"] == "2000-01-01"
+    for name, command, commit in (("large.csv", "make large", "def"), ("rule_costs.csv", "make paper", "abc")):
         assert records[name]["command"] == command
         assert records[name]["commit"] == commit
     assert (project / "docs/claims.csv").read_text() == claims

@@ -120,7 +120,7 @@ def published_results(records):
             continue
         first = records[files[0]]
         origin = f"`{first['command']}`, {first['date']}, commit {first['commit']}, {first['processor']}, "
-        text += [f"### make {command}", "", textwrap.fill(f"{origin}{first['cores']} cores.", 120), ""]
+        text += [f"## make {command}", "", textwrap.fill(f"{origin}{first['cores']} cores.", 120), ""]
         for file in files:
             if file.endswith(".png"):
                 name = file.removesuffix(".png").replace("_", " ")

@@ -345,7 +345,6 @@ OPTIONS = {
     },
     "march": {
         "--force": NUMBERS,
-        "--medium": st.sampled_from(["medium.yaml", "none.yaml", "force.csv", "folder"]),
         "--viscosity": NUMBERS,
         "--times": SERIES,
         "--overlap": SHARES,
@@ -402,7 +401,10 @@ def commands(draw):
     if command == "march":
         method = draw(st.sampled_from(METHODS))
         given.append(["--method", method])
-        given += [["--times", draw(SERIES)]] if method not in ("events", "") and draw(st.integers(0, 4)) else []
+        in_medium = method == "second_order" or (method in ("events", "implicit") and draw(st.booleans()))
+        given += [["--medium", "medium.yaml"]] if in_medium else []
+        stepping = in_medium or method not in ("events", "")
+        given += [["--times", draw(SERIES)]] if stepping and draw(st.integers(0, 4)) else []
     given += [[name, draw(values)] for name, values in USUAL.get(command, [])]
     if command == "kinetics":
         history = draw(st.integers(0, 2)) == 0

@@ -158,7 +158,7 @@ def used(script):
 def test_scripts_of_the_workflow():
     boundary_elements = {"indent_discs", "compare_direct", "compare_reduction", "validate", "map_failures"}
     boundary_elements |= {"measure_failure_curves", "measure_large", "measure_methods", "time_other_solvers"}
-    boundary_elements |= {"compare_level_placement"}
+    boundary_elements |= {"compare_level_placement", "indent_measured"}
     for script in sorted(path.stem for path in SCRIPTS.glob("*.py")):
         modules = used(script)
         assert ("viscorough/contact/column_fft.py" in modules) == (script in boundary_elements), script

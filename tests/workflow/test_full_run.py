@@ -13,7 +13,7 @@ from support.workflow import ROOT, TEST, load_script, plan, snakemake
 FIGURES = ("fig1_surfaces", "fig2_kinetics", "fig3_master_curve", "fig4_exponent", "conventions", "validation")
 FIGURES += ("prefactors", "direct", "reduction", "speed", "failure_map", "level_placement")
 TABLES = ("scaling", "validation", "claims", "calibration", "prefactors", "direct", "reduction")
-TABLES += ("methods", "failure_map", "level_placement", "rule_costs")
+TABLES += ("methods", "failure_map", "level_placement", "rule_costs", "media")
 
 
 def test_every_figure_and_table_is_made(finished):
@@ -61,11 +61,11 @@ def test_every_job_has_a_log_and_a_benchmark(finished, tmp_path):
 
     logs = stems("results/logs", ".log")
     assert logs == stems("results/benchmarks", ".tsv")
-    assert len(logs) == 40
+    assert len(logs) == 42
     files = {kind: tmp_path / f"costs.{kind}" for kind in ("csv", "html", "nc")}
     load_script("tabulate_rule_costs").main(**files, benchmarks=finished / "results/benchmarks")
     table = pd.read_csv(files["csv"]).set_index("rule")
-    assert table["jobs"].sum() == 40
+    assert table["jobs"].sum() == 42
     assert table.loc["indent_discs", "jobs"] == 6
     assert (table["longest_s"] <= table["seconds"]).all()
     assert table["seconds"].is_monotonic_decreasing

@@ -36,7 +36,6 @@ def plot_media(table):
     rows = -(-(len(names) + 1) // 2)
     figure = Figure(figsize=(WIDE, (15 + 55 * rows) * MM))
     panels = figure.subplots(rows, 2, squeeze=False).ravel()
-    figure.align_ylabels()
     for axes, name in zip(panels, names, strict=False):
         _plot_velocity(axes, table[table["medium"] == name], looks)
         axes.set_title(_in_words(name))
@@ -53,6 +52,7 @@ def plot_media(table):
     collapsed.legend(handles=handles, loc="upper left")
     for axes in panels[len(names) + 1 :]:
         axes.remove()
+    figure.align_ylabels()
     logarithmic_ticks(*panels[: len(names) + 1])
     guides = (("slope 1", ":"), ("slope $H/(1+H)$, Eq. 10", "--"))
     handles = [Line2D([], [], color=GREY, linestyle=style, linewidth=0.8, label=label) for label, style in guides]

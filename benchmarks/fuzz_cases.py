@@ -308,14 +308,14 @@ SERIES = st.one_of(
 )
 SHARES = st.sampled_from(["0.5", "0.9", "1", "0.01"]) | NUMBERS
 OUTPUTS = (
-    ["out.nc"] * 12
-    + ["out.csv"] * 3
+    ["out.nc"] * 24
+    + ["out.csv"] * 6
     + [
         *["", ".", "/", "none/out.nc", "folder", "folder/out.nc", "out", "-", "a\nb.nc", "é.nc", "x" * 300, "pipe"],
         *["heights.npy", "heights.nc", "force.csv", "curve.nc", "link.nc", "dangling.nc", "older.nc", "\udcff.nc"],
     ]
 )
-FIGURES = [*["out.png"] * 6, "out.svg", "out.nc", "out", "none/out.png", "folder", "pipe", "curve.nc", "é.png"]
+FIGURES = [*["out.png"] * 12, "out.svg", "out.nc", "out", "none/out.png", "folder", "pipe", "curve.nc", "é.png"]
 WHOLE = st.sampled_from(["3", "9", "64", "0", "-1", "1.5", "99999999", "", "nan"])
 METHODS = [*["events", "explicit", "heun", "implicit", "second_order"] * 4, "magic", ""]
 QUANTITIES = st.one_of(

@@ -10,6 +10,7 @@ import pandas as pd
 
 from viscorough.io.media import medium_from_mapping
 from viscorough.viscous.correspondence import kinetics
+from viscorough_study.power_law import local_slope
 
 COLUMNS = {
     "medium": ("name of the medium", None),
@@ -19,9 +20,10 @@ COLUMNS = {
     "depth": ("geometric mean of the depth u/h", "1"),
     "velocity": ("geometric mean of the velocity vt/h", "1"),
     "velocity_error": ("two standard errors of ln(vt/h)", "1"),
-    "exponent": ("local exponent d ln(vt/h)/d ln t", "1"),
+    "exponent": ("local exponent d ln(vt/h)/d ln t, fitted over a quarter of a decade to either side", "1"),
     "realizations": ("realizations in the mean", "1"),
 }
+HALF_WIDTH = 0.25  # decades of time to either side over which local exponents are fitted
 
 
 def named_media(cases):
@@ -66,7 +68,7 @@ def _means(times, x, depth, velocity):
             "depth": np.exp(log_depth.mean(axis=0)),
             "velocity": np.exp(mean),
             "velocity_error": 2 * log_velocity.std(axis=0, ddof=1) / np.sqrt(number),
-            "exponent": np.gradient(mean, np.log(time)) if time.size > 1 else np.nan,
+            "exponent": local_slope(time, np.exp(mean), HALF_WIDTH),
             "realizations": number,
         }
     )

@@ -132,7 +132,7 @@ def test_a_changed_line_of_the_column_convolution_reruns_what_uses_boundary_elem
     [
         (
             "viscorough_study/power_law.py",
-            {"fit_scaling", "fit_sizes", "evaluate_measured", "judge_claims", "make_page"},
+            {"fit_scaling", "fit_sizes", "compute_media", "evaluate_measured", "judge_claims", "make_page"},
         ),
         ("viscorough_study/validate_solvers.py", {"validate", "check_validation"}),
         (

@@ -7,8 +7,10 @@ from viscorough.contact.prescribed_force import ForceSearch
 from viscorough.contact.solver import ContactSolver, check_solvable, increasing
 from viscorough.contact_maps import Contact
 
+_SHARE_OF_APPROACH = 0.6  # of the time for a force, which the contacts up to it take
 
-def contact_at(indenter, *, depth=None, force=None, tolerance=1e-3, options=DEFAULT):
+
+def contact_at(indenter, *, depth=None, force=None, tolerance=1e-3, progress=None, options=DEFAULT):
     """Contact of a rigid indenter with an incompressible elastic half-space at a given depth or force.
 
     Solves the same problem as `indent`, at this depth only, or at the few depths that lead to the force.
@@ -18,6 +20,8 @@ def contact_at(indenter, *, depth=None, force=None, tolerance=1e-3, options=DEFA
     force : F/G, G the shear modulus [length²]; or several ones, increasing. Either depth or force must be given
     tolerance : largest gap in contact, or overlap outside it, over the depth, rounding included; the relative errors of
         force at a given depth, and of depth at a given force, are of second order in it. Between 1e-12 and 0.1
+    progress : function that is called after a contact is solved with the estimated share of the computation that is
+        done, up to 1
     options : SolverOptions
 
     Returns a Contact; for several depths or forces a list of them, which are solved along one path. The pressures add
@@ -31,11 +35,13 @@ def contact_at(indenter, *, depth=None, force=None, tolerance=1e-3, options=DEFA
     values = increasing(f"contact_at: {'depth' if by_depth else 'force'}", depth if by_depth else force)
     # Pressures that add up to the force exactly take the other half of the tolerance.
     solver = ContactSolver(indenter, tolerance / 2, options)
-    states = _states_at_depths(solver, values) if by_depth else map(ForceSearch(solver).contact_at, values)
+    progress = progress or (lambda done: None)
+    states = _states_at_depths(solver, values) if by_depth else _states_at_forces(solver, values, progress)
     contacts = []
     for state, value in zip(states, values, strict=True):
         given = {"depth": float(value)} if by_depth else {"force": float(value)}
         contacts.append(_contact(indenter, tolerance, solver, state, **given))
+        progress(len(contacts) / values.size)
     return contacts if np.ndim(force if depth is None else depth) else contacts[0]
 
 
@@ -44,6 +50,15 @@ def _states_at_depths(solver, depths):
     for depth in depths:
         contact = solver.advance(contact, depth)
         yield solver.settled(contact, contact.reduced_depth, contact.pressure_sum)
+
+
+def _states_at_forces(solver, forces, progress):
+    search = ForceSearch(solver)
+    for number, force in enumerate(forces):
+        # The last contacts, near the force, take the rest of the time.
+        yield search.contact_at(
+            force, lambda share, number=number: progress((number + _SHARE_OF_APPROACH * share) / forces.size)
+        )
 
 
 def _contact(indenter, tolerance, solver, state, **given):

@@ -28,11 +28,12 @@ class ForceSearch:
         self._first = self._below = solver.first_contact()
         self._above = []  # contacts at larger forces, the nearest one last
 
-    def contact_at(self, force):
+    def contact_at(self, force, progress=lambda share: None):
         """The ContactState at F/G [length²], a larger one than at the last call.
 
         ΣP is that of the force, and the pressures sum to it. The depth is the one at which the tangent from the nearest
         contact that was solved reaches the force; over this distance the stiffness changes by less than the tolerance.
+        progress : function that is called after each contact with the share of the force that was reached, up to 1
         Raises ConvergenceError if a contact cannot be solved to the tolerance, ValueError for a force beyond all
         measure.
         """
@@ -46,6 +47,7 @@ class ForceSearch:
             self._below = self._above.pop()
         for attempt in range(_MAX_ATTEMPTS):
             contact = self._solver.advance_reduced(self._below, self._next_depth(target, attempt))
+            progress(1.0 if self._above else min(1.0, contact.pressure_sum / target))
             other = self._above[-1] if self._above else self._below
             if contact.pressure_sum <= target:
                 self._below = contact

@@ -105,3 +105,13 @@ def test_invalid_arguments_are_refused(arguments, message):
 def test_a_line_is_refused():
     with pytest.raises(ValueError, match="contact_at: the indenter's heights must be two-dimensional"):
         contact_at(Indenter(np.zeros(5), 1.0), depth=1.0)
+
+
+def test_progress_grows_to_one():
+    disc = self_affine_disc(0.7, 65, seed=1)
+    seen = []
+    contact_at(disc, force=[0.5, 1.0], progress=seen.append)
+    assert len(seen) > 4
+    assert (np.diff(seen) >= 0).all()
+    assert seen[-1] == 1
+    assert 0.5 in seen

@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
+from viscorough import units
 from viscorough.io.atomic import atomic_write
 
 FORMATS = (".png", ".pdf", ".svg")
@@ -87,6 +88,8 @@ def _surface(variables, dimensions):
         return figure
     if dimensions != 2:
         return None
+    variables = _in_readable_units(variables)
+    heights = variables["heights"]
     figure, axes = _panels(1, width=4.6, height=3.8)
     _map(figure, axes[0], variables, "heights", heights.values, "cividis")
     return figure
@@ -95,22 +98,41 @@ def _surface(variables, dimensions):
 def _fields(variables, dimensions):
     if dimensions not in (2, 3):
         return None
+    variables = _in_readable_units(variables)
     names = [name for name in ("pressure", "gap", "contact") if name in variables]
     stacks = {name: variables[name].values.reshape(-1, *variables[name].values.shape[-2:]) for name in names}
     contacts = min(len(stacks["pressure"]), _MOST_MAPS)
     figure = Figure(figsize=(3.1 * len(names), 2.7 * contacts), layout="constrained")
-    panels = figure.subplots(contacts, len(names), squeeze=False)
-    for i, row in enumerate(panels):
-        for axes, name in zip(row, names, strict=True):
+    symbols = {"depth": "$u$", "force": "$F/G$", "contact_fraction": "contact fraction", "patches": "patches"}
+    for i, part in enumerate(figure.subfigures(contacts, 1, squeeze=False)[:, 0]):
+        part.suptitle(_state(variables, i, symbols), fontsize=mpl.rcParams["axes.titlesize"])
+        for axes, name in zip(part.subplots(1, len(names), squeeze=False)[0], names, strict=True):
             values = stacks[name][i].astype(float)
             if name == "contact":
                 _contact(axes, variables, np.where(np.isnan(stacks["pressure"][i]), np.nan, values))
             else:
-                _map(figure, axes, variables, name, values, "inferno" if name == "pressure" else "cividis")
-        row[0].set_title(_state(variables, i, {"depth": "$u$", "force": "$F/G$"}), loc="left")
-        shares = {"contact_fraction": "contact fraction", "patches": "patches"}
-        row[-1].set_title(_state(variables, i, shares), loc="left")
+                _map(part, axes, variables, name, values, "inferno" if name == "pressure" else "cividis")
     return figure
+
+
+def _in_readable_units(variables):
+    """The variables with positions, gap, heights and depth in units in which their numbers are easy to read.
+
+    Positions along x and y have one unit. Lengths of no known unit stay as they are.
+    """
+    changed = dict(variables)
+    for names in (("x", "y"), ("gap",), ("heights",), ("depth",)):
+        known = [name for name in names if name in variables and variables[name].attributes.get("units", "1") != "1"]
+        largest = max((np.nanmax(np.abs(variables[name].values)) for name in known), default=0)
+        if len({variables[name].attributes["units"] for name in known}) != 1 or not 0 < largest < np.inf:
+            continue
+        stated = variables[known[0]].attributes["units"]
+        metres = units.metres(stated)
+        unit = next((unit for unit in ("m", "mm", "um") if largest * metres >= 2 * units.metres(unit)), "nm")
+        for name in known:
+            values = variables[name].values * units.factor(stated, unit)
+            changed[name] = variables[name]._replace(values=values, attributes={"units": unit})
+    return changed
 
 
 def _state(variables, index, symbols):

@@ -11,6 +11,8 @@ from support.command_line import sphere_heights
 from support.contract import complaint
 from viscorough.cli import main
 from viscorough.io import netcdf
+from viscorough.io.netcdf import Content, Variable
+from viscorough.plotting import figure_of
 
 
 @pytest.fixture(scope="module")
@@ -119,3 +121,23 @@ def test_mistakes_are_one_line(here, capsys, arguments, what):
     (here / "other.csv").write_text("a,b\n1,2\n")
     (here / "picture.png").write_bytes(b"")
     assert what in complaint(["plot", *arguments], capsys, here)
+
+
+def test_lengths_are_drawn_in_readable_units(tmp_path):
+    """Positions up to 0.1 mm and heights of nanometres, both in m in the file; without a unit nothing changes."""
+    position = np.linspace(-1e-4, 1e-4, 5)
+    attributes = {"long_name": "position", "units": "m"}
+    content = Content(
+        {
+            "heights": Variable(("y", "x"), 5e-9 * np.eye(5), {"long_name": "height", "units": "m"}),
+            "x": Variable(("x",), position, attributes),
+            "y": Variable(("y",), 0.1 * position, attributes),
+        },
+        {},
+    )
+    axes, colours = figure_of(content).axes
+    assert (axes.get_xlabel(), axes.get_ylabel(), colours.get_ylabel()) == ("$x$ (µm)", "$y$ (µm)", "height $z$ (nm)")
+    np.testing.assert_allclose(axes.images[0].get_extent(), [-125, 125, -12.5, 12.5])
+    assert axes.images[0].get_array().max() == pytest.approx(5)
+    plain = {name: variable._replace(attributes={"units": "1"}) for name, variable in content.variables.items()}
+    assert figure_of(Content(plain, {})).axes[0].images[0].get_array().max() == 5e-9

@@ -297,13 +297,17 @@ HISTORIES = damaged(st.one_of(GOOD, HEADED, STEPS, ROWS).map("\n".join).map(str.
 # ---- options
 
 NUMBERS = st.one_of(
-    st.floats(1e-3, 10).map(repr),
-    st.floats(1e-3, 10).map(repr),
+    *[st.floats(1e-3, 10).map(repr)] * 6,
     st.floats().map(repr),
     st.sampled_from([*map(repr, EXTREME), "", "a", "1e400", "1e-400", "1_0", "0x1", "１", " 1 ", "1,5", "--help", "-"]),
 )
 SERIES = st.one_of(
-    st.lists(st.floats(1e-3, 5), min_size=1, max_size=4, unique=True).map(sorted).map(lambda x: ",".join(map(repr, x))),
+    *[
+        st.lists(st.floats(1e-3, 5), min_size=1, max_size=4, unique=True)
+        .map(sorted)
+        .map(lambda x: ",".join(map(repr, x)))
+    ]
+    * 3,
     st.lists(NUMBERS, max_size=3).map(",".join),
 )
 SHARES = st.sampled_from(["0.5", "0.9", "1", "0.01"]) | NUMBERS

@@ -33,7 +33,7 @@ def folder(fuzz):
 
 
 def test_random_files_and_options_keep_the_contract(fuzz, folder):
-    found, codes = fuzz.breaches(2013, 100, folder)
+    found, codes = fuzz.breaches(2013, 200, folder)
     assert found == []
     assert codes["0"] > 10
     assert codes["2"] > 50

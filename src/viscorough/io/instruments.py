@@ -28,7 +28,7 @@ def read_instrument(path, channel=None):
             warnings.simplefilter("ignore")  # about optional packages
             from SurfaceTopography.IO import open_topography
     except ImportError as error:
-        text = "unknown kind of file; .npy, .nc, text and TIFF are read as they are, formats of instruments with"
+        text = "unknown kind of file; .npy, .nc, text and TIFF are read directly, formats of instruments with"
         raise ValueError(f"{path}: {text} pip install 'viscorough[formats]'") from error
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # about the layout of files, which no user can change

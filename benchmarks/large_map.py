@@ -56,7 +56,7 @@ QUESTIONS = {"curve": curve, "contact": contact}
 
 
 def measure(question, heights):
-    """Print the cost of one question as JSON; for a process of its own."""
+    """Print the cost of one question as JSON; in a separate process."""
     QUESTIONS[question](self_affine_disc(HURST, 129, seed=SEED))
     surface = np.load(heights)
     surface = Indenter(surface, 1 / len(surface))

@@ -29,7 +29,7 @@ class Quantity:
     unit: str = ""
 
     def to(self, unit):
-        """The number in another unit; a plain number is returned as it is. Raises ValueError as `factor` does."""
+        """The number in another unit; a plain number is returned unchanged. Raises ValueError as `factor` does."""
         return self.number * factor(self.unit, unit) if self.unit else self.number
 
     def __str__(self):

@@ -64,7 +64,7 @@ class Quantity(click.ParamType):
 
 
 def number_in(unit, quantity, length_unit, option):
-    """The number of a Quantity in `unit`; a plain number is returned as it is.
+    """The number of a Quantity in `unit`; a plain number is returned unchanged.
 
     Raises UsageError if the quantity has a unit although the unit of length is not known: numbers are then in
     consistent units of the user's choice.

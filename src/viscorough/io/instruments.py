@@ -41,7 +41,7 @@ def read_instrument(path, channel=None):
             raise
         except _NoHeightsError:
             raise
-        except Exception as error:  # every format has errors of its own
+        except Exception as error:  # each format raises other errors
             kind = "no known format" if type(error).__name__ == "CannotDetectFileFormat" else reason(error)[:200]
             raise ValueError(f"{path}: not readable ({kind}); a file of heights is needed") from error
     if others:

@@ -54,7 +54,7 @@ def medium_from_mapping(mapping, length_unit="1", *, folder=Path()):
     """The medium of a mapping, with moduli in N per square of the unit of length.
 
     mapping : `kind`, one of KINDS, and all keys of that kind. Where the unit of length is known, plain moduli are in
-        Pa, viscosities in Pa s and times in s, and any of them may have a unit of its own ("2 MPa"), but for the
+        Pa, viscosities in Pa s and times in s, and any of them may be given with a unit ("2 MPa"), but for the
         springpot's; where it is "1", plain numbers are in consistent units of the user's choice, and no others are
         allowed. A creep table names a file of two columns, times and compliances (1/Pa), relative to `folder`
 

@@ -7,6 +7,7 @@ import numpy as np
 from viscorough.indenter import Indenter
 from viscorough.io.heights import npy_array
 from viscorough.io.netcdf import Content, Variable, attributes_of, opened
+from viscorough.io.scan import uniform_spacing
 from viscorough.io.unpacking import unpacked
 
 
@@ -80,10 +81,5 @@ def _from_netcdf(path):
         coordinate = file[axis]
         if attributes_of(coordinate).get("units", unit) != unit:
             raise ValueError(f"{axis} is not in the unit of the heights, {unit}")
-        steps = np.diff(np.asarray(unpacked(coordinate), dtype=float))
-        if steps.size == 0:
-            return unpacked(variable), unit, None
-        mean = steps.mean()
-        if not (np.abs(steps - mean) <= 1e-3 * abs(mean)).all():
-            raise ValueError(f"the points of {axis} are not equally spaced")
-        return unpacked(variable), unit, abs(float(mean))
+        positions = unpacked(coordinate)
+        return unpacked(variable), unit, uniform_spacing(axis, positions) if positions.size > 1 else None

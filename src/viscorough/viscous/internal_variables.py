@@ -30,8 +30,8 @@ class MediumMotion:
 
     time : t; depth : u [length]; force : F; contact_count : elements in contact
     elements : number of elements of the indenter
-    pressure : p at the last time, on the grid of the heights, nan outside the indenter; in a medium with a dashpot of
-        its own (Newtonian, Kelvin-Voigt) and the second-order scheme, the mean over the last step
+    pressure : p at the last time, on the grid of the heights, nan outside the indenter; in a medium with a
+        parallel dashpot (Newtonian, Kelvin-Voigt) and the second-order scheme, the mean over the last step
     receding_from : the first time at which an element had left the contact, so that the correspondence with the elastic
         problem holds no more; nan if none has
     """
@@ -53,7 +53,7 @@ def march_medium(indenter, medium, times, *, force=None, depth=None, scheme="sec
     """Motion of a rigid indenter on a viscoelastic half-space, one contact problem per step in time.
 
     "backward_euler" is of first order in the steps. "second_order" integrates the branches exactly for surfaces that
-    move linearly within a step; a dashpot of its own (Newtonian, Kelvin-Voigt) exactly for pressures that are constant
+    move linearly within a step; a parallel dashpot (Newtonian, Kelvin-Voigt) exactly for pressures that are constant
     within it. Both keep pressures positive where the exact ones are, and neither needs short steps to be stable.
 
     indenter : Indenter with a small two-dimensional map: the cost is of third order in the elements in contact

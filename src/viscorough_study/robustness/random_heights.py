@@ -24,7 +24,7 @@ def random_heights(generator, largest=12):
 
 
 def with_random_aspect(indenter, generator):
-    """The indenter with elements of any aspect dy/dx from 1/5 to 5 in a third of the cases, else as it is."""
+    """The indenter with elements of any aspect dy/dx from 1/5 to 5 in a third of the cases, else unchanged."""
     if generator.random() > 1 / 3:
         return indenter
     return replace(indenter, row_spacing=indenter.spacing * 5 ** generator.uniform(-1, 1))

@@ -94,10 +94,10 @@ def test_mistakes_are_one_line(here, capsys, arguments, what):
 @pytest.mark.parametrize(
     ("positions", "unit", "spacing", "what"),
     [
-        ([0, 1, 3], "um", None, "the points of x are not equally spaced"),
+        ([0, 1, 3], "um", None, "coordinate x is not uniform: its steps lie between 1 and 2"),
         ([0, 1, 2], "m", None, "x is not in the unit of the heights, um"),
         ([0, 1, 2], "um", "2", "its points are 1 apart, not 2"),
-        ([0, np.nan, 2], "um", None, "the points of x are not equally spaced"),
+        ([0, np.nan, 2], "um", None, "coordinate x is not finite everywhere"),
     ],
 )
 def test_coordinates_that_contradict_are_refused(here, capsys, positions, unit, spacing, what):

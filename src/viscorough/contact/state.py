@@ -83,7 +83,7 @@ def elements_of(indenter):
     """The Elements of an indenter, and the Units in which their initial gaps are expressed."""
     rows, columns = np.nonzero(np.isfinite(indenter.heights))
     gap = indenter.initial_gap[rows, columns].astype(float)
-    order = np.argsort(gap, kind="stable")
+    order = _increasing_order(gap)
     units = Units(gap.max() or indenter.element_side, indenter.element_side)
     origin = int(rows.min()), int(columns.min())
     row, column = (
@@ -93,6 +93,16 @@ def elements_of(indenter):
     distance = [np.arange(n, dtype=float) for n in shape]
     influence = influence_coefficient(distance[0][:, None], distance[1][None, :], indenter.aspect)
     return Elements(row, column, gap[order] / units.length, origin, shape, indenter.aspect, influence), units
+
+
+def _increasing_order(gap):
+    """Indices that sort an array, equal values in the order in which they stand, so that ranks are the same everywhere.
+
+    Sorting is several times as fast where that order need not be kept, which makes no difference if no two are equal.
+    """
+    order = np.argsort(gap)
+    in_order = gap[order]
+    return np.argsort(gap, kind="stable") if np.any(in_order[1:] == in_order[:-1]) else order
 
 
 @dataclass

@@ -7,7 +7,7 @@ import pytest
 
 from viscorough.contact.options import SolverOptions
 from viscorough.contact.solver import ContactSolver
-from viscorough.contact.state import MemberLoads
+from viscorough.contact.state import MemberLoads, elements_of
 from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
@@ -15,6 +15,14 @@ from viscorough.surfaces import self_affine_disc
 ROUTES = {"dense": SolverOptions(dense_contacts=10**9, dense_interactions=10**9),
           "grid": SolverOptions(dense_contacts=0, dense_interactions=0)}  # fmt: skip
 both_routes = pytest.mark.parametrize("options", ROUTES.values(), ids=ROUTES)
+
+
+def test_elements_are_ranked_by_their_gap_and_equal_ones_in_the_order_of_the_map():
+    heights = np.random.default_rng(1).integers(0, 5, (40, 40)).astype(float)
+    for values in (heights, np.random.default_rng(2).random((40, 40))):
+        elements, _ = elements_of(Indenter(values, 1.0))
+        expected = np.argsort((values.max() - values).ravel(), kind="stable")
+        np.testing.assert_array_equal(elements.row * 40 + elements.column, expected)
 
 
 def test_an_element_that_loses_contact_on_the_grid_is_an_error():

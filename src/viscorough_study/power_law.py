@@ -122,14 +122,14 @@ class PowerLaw:
     @property
     def beta_interval(self):
         """95 % interval (low, high) of β."""
-        return _interval(self.beta_samples, self.realizations)
+        return percentile_interval(self.beta_samples, self.realizations)
 
     def zeta(self, *, gamma=PLAIN["gamma"], diameter_convention=PLAIN["diameter_convention"]):
         """ζ and its 95 % interval, (value, low, high), in a reading of the law (viscorough_study.conventions)."""
         reading = {"gamma": gamma, "diameter_convention": diameter_convention}
         samples = zeta_scale(self.beta_samples, **reading) / self.prefactor_samples
         value = zeta_scale(self.beta, **reading) / self.prefactor
-        return value, *_interval(samples, self.realizations)
+        return value, *percentile_interval(samples, self.realizations)
 
 
 def fit_power_law(x, velocity, window, *, average, resamples, seed):
@@ -149,7 +149,7 @@ def fit_power_law(x, velocity, window, *, average, resamples, seed):
     log_x, velocity = np.log(x[chosen]), velocity[:, chosen]
     if not np.isfinite(velocity).any(axis=0).all():
         raise ValueError("fit_power_law: an abscissa of the window has no realization, 1 at least is needed")
-    mean = _log_means(velocity, average, resamples, np.random.default_rng(seed))
+    mean = log_means(velocity, average, resamples, np.random.default_rng(seed))
 
     offset = log_x - log_x.mean()
     beta = mean @ offset / (offset @ offset)
@@ -173,8 +173,8 @@ def match_lambda(x, discs, lines, window, *, average, resamples, seed):
     """
     generator, log_x, centre = np.random.default_rng(seed), np.log(x), np.log(window[0] * window[1]) / 2
     complete = np.isfinite(lines).all(axis=0)
-    softness = _log_means(discs, average, resamples, generator) - log_x
-    of_lines = _log_means(lines, average, resamples, generator) - log_x
+    softness = log_means(discs, average, resamples, generator) - log_x
+    of_lines = log_means(lines, average, resamples, generator) - log_x
     values = np.full(resamples + 1, np.nan)
     for i in range(len(values) if complete.any() else 0):
         target = np.interp(centre, log_x, softness[i])
@@ -184,11 +184,15 @@ def match_lambda(x, discs, lines, window, *, average, resamples, seed):
         values[i] = np.pi * np.exp(2 * (centre - log_x1))
     if np.isnan(values[0]):
         raise ValueError("match_lambda: the lines do not reach the stiffness of the discs, all of them must")
-    return values[0], *_interval(values[1:], min(len(discs), len(lines)))
+    return values[0], *percentile_interval(values[1:], min(len(discs), len(lines)))
 
 
-def _log_means(velocity, average, resamples, generator):
-    """ln of the mean of vt/h over the realizations defined: of the ensemble, then of each resample."""
+def log_means(velocity, average, resamples, generator):
+    """ln of the mean of vt/h over the realizations defined: of the ensemble, then of each of its bootstrap resamples.
+
+    velocity : shape (realizations, abscissae), nan where undefined; average : "arithmetic" or "geometric"
+    Returns an array of shape (resamples + 1, abscissae). Raises ValueError for another average.
+    """
     if average not in FITTED["average"]:
         raise ValueError(f"average: must be one of {', '.join(FITTED['average'])}, not {average!r}")
     n = len(velocity)
@@ -201,16 +205,19 @@ def _log_means(velocity, average, resamples, generator):
     return mean if average == "geometric" else np.log(mean)
 
 
-def _interval(samples, realizations):
+def percentile_interval(samples, realizations):
     """95 % interval (low, high) of bootstrap samples: percentiles, widened for few realizations.
+
+    samples : shape (resamples,), or (resamples, quantities) for an interval of each; resamples with undefined (nan)
+        values are left out
 
     Plain percentiles are too narrow for small n. The levels Φ(∓√(n/(n−1)) t), t the 97.5 % point of Student's
     t with n − 1 degrees of freedom, make them the t interval for a mean (Hesterberg, The American
     Statistician 69, 371 (2015): expanded percentile interval). Nan for a single realization.
     """
-    samples = samples[np.isfinite(samples)]
+    samples = samples[np.isfinite(samples).reshape(len(samples), -1).all(axis=1)]
     if realizations < 2 or samples.size == 0:
         return np.nan, np.nan
     tail = ndtr(-np.sqrt(realizations / (realizations - 1)) * stdtrit(realizations - 1, 0.975))
-    low, high = np.quantile(samples, [tail, 1 - tail])
+    low, high = np.quantile(samples, [tail, 1 - tail], axis=0)
     return low, high

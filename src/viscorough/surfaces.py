@@ -69,11 +69,10 @@ def self_affine_disc(
         raise ValueError(f"period: must be at least 1 diameter, not {period}")
     if rms_over not in ("disc", "square"):
         raise ValueError(f"rms_over: must be 'disc' or 'square', not {rms_over!r}")
-    if roll_off_wavelength is not None:
-        roll_off_wavelength = positive("roll_off_wavelength", roll_off_wavelength) * n
-    square = self_affine_square(
+    square = square_of_disc(
         hurst,
-        round(period * n),
+        n,
+        period=period,
         corners=corners,
         roll_off_wavelength=roll_off_wavelength,
         roll_off_level=roll_off_level,
@@ -85,14 +84,36 @@ def self_affine_disc(
     return Indenter(heights, diameter / n, length_unit=length_unit)
 
 
+def square_of_disc(hurst, elements_across, *, period=1.0, roll_off_wavelength=None, **options):
+    """Heights of the periodic square that a disc is cut from, shape (points, points); see `self_affine_square`.
+
+    hurst, elements_across, period, roll_off_wavelength : as in `self_affine_disc`; options : of `self_affine_square`
+    """
+    if roll_off_wavelength is not None:
+        roll_off_wavelength = positive("roll_off_wavelength", roll_off_wavelength) * elements_across
+    return self_affine_square(
+        hurst, round(period * elements_across), roll_off_wavelength=roll_off_wavelength, **options
+    )
+
+
 def self_affine_square(
-    hurst, points, *, corners=False, roll_off_wavelength=None, roll_off_level=0.0, amplitudes="random", seed
+    hurst,
+    points,
+    *,
+    corners=False,
+    roll_off_wavelength=None,
+    roll_off_level=0.0,
+    amplitudes="random",
+    normalised=True,
+    seed,
 ):
-    """Heights of a periodic self-affine square, shape (points, points), of mean 0 and rms 1.
+    """Heights of a periodic self-affine square, shape (points, points), of mean 0.
 
     hurst, corners, roll_off_level, amplitudes, seed : as in `self_affine_disc`
     points : number of points per period, at least 2
     roll_off_wavelength : as in `self_affine_disc`, but in points
+    normalised : whether the rms height is 1 in every realization; otherwise the spectrum is the same in every
+        realization, and the mean over all of them of the mean square height is 1
 
     White noise is filtered: its spectrum has the symmetry of real heights, also where a wave is its own mirror
     image. Raises ValueError for values outside the allowed ranges.
@@ -113,8 +134,20 @@ def self_affine_square(
         spectrum /= np.abs(spectrum)
     spectrum *= amplitude
     heights = fft.c2r(spectrum, lastsize=points, forward=False, allow_overwriting_input=True)
-    heights *= _scale_factor(1.0, np.mean(heights**2))
+    mean_square = np.mean(heights**2) if normalised else _expected_mean_square(amplitude, points, fixed=fixed)
+    heights *= _scale_factor(1.0, mean_square)
     return heights
+
+
+def _expected_mean_square(amplitude, points, *, fixed):
+    """Mean square height that filtered white noise has on average over all realizations (Parseval's theorem).
+
+    amplitude : modulus of the filter at the waves of a real Fourier transform; all but those of the first and, of an
+        even number of points, the last column stand for their mirror images, too
+    """
+    square = amplitude**2
+    once = square[:, 0].sum() + (square[:, -1].sum() if points % 2 == 0 else 0.0)
+    return (2 * square.sum() - once) * (1 if fixed else points**2)
 
 
 def cut_disc(square, elements_across):

@@ -11,6 +11,7 @@ RMS = {
     "disc": "rms height over the disc",
     "square": "rms height over the periodic square",
     "peak": "highest peak above the mean",
+    "ensemble": "rms height over the periodic square on average over all realizations of its spectrum",
     "line": "rms height of the line",
 }
 

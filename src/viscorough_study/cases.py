@@ -12,12 +12,13 @@ from viscorough_study import seeds
 
 # {pool: rms conventions of its surfaces}
 POOLS = {
-    "discs": ("disc", "square", "peak"),
+    "discs": ("disc", "square", "peak", "ensemble"),
     "lines": ("line",),
     "size_discs": ("disc", "square", "peak"),
     "size_lines": ("line",),
     "measured": ("disc",),
 }
+SURFACE_CONVENTIONS = ("period", "corners", "amplitudes")  # settings of surfaces that the paper leaves open
 UNIT_DISC = {"rms": 1.0, "diameter": 1.0}
 UNIT_LINE = {"rms": 1.0, "length": 1.0}
 
@@ -65,6 +66,22 @@ def _paper_discs(settings):
                 "batch": variants["batch"],
             }
     return cases
+
+
+def surface_conventions(settings):
+    """{group: {convention: value}} of discs whose surfaces differ only in what the paper leaves open.
+
+    Variants with other differences, such as a roll-off, are controls, and are left out.
+    """
+    changes = {"base": {}} | {
+        variant["name"]: {key: value for key, value in variant.items() if key != "name"}
+        for variant in settings["variants"]["cases"]
+    }
+    return {
+        group: {name: (settings["surface"] | changed)[name] for name in SURFACE_CONVENTIONS}
+        for group, changed in changes.items()
+        if set(changed) <= set(SURFACE_CONVENTIONS)
+    }
 
 
 def _size_discs(settings):

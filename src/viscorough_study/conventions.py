@@ -1,15 +1,16 @@
 """The conventions that the paper leaves open, and how a fit changes from one reading of the law to another.
 
 The paper states neither where the rms height h is measured, nor how realizations are averaged, nor over which window
-its power laws are fitted, nor what its L is, and it prints some laws with a factor 1/Γ(2 − α) that others lack. The
-first three conventions (`FITTED`) change the mean curve or the window: each combination needs a fit. The last two
-(`READINGS`) only rescale a fit of vt/h = X^β/ζ:
+its power laws are fitted, and it prints some laws with a factor 1/Γ(2 − α) that others lack. The first three
+conventions (`FITTED`) change the mean curve or the window: each combination needs a fit. The others (`READINGS`) only
+rescale a fit of vt/h = X^β/ζ. One of them is not open: the paper says that L is the diameter. With the radius the
+tables show what a misprint there would change, but no claim holds because of it (`left_open`).
 
 - L the radius: X = F/(4GhL) and κ = k/(4GL) are doubled while vt/h is not. The window doubles, and ζ is 2^β times that
   with the diameter.
 - The law with the factor (Eq. 9), vt/h = X^β/(ζ Γ(1 + β)), where 1 + β = 2 − α: ζ is 1/Γ(1 + β) times that without.
 
-In the same way a factor c in F or 1/G makes X and κ c times as large, and ζ c^β times (`factor_scale`).
+Twice the force, or half the modulus, has the same effect as the radius.
 
 β, λ, the residual and the decades of the window do not depend on the reading, and window and ζ follow from those of
 the plain reading (no factor, L the diameter), so the tables of fits contain them once. The 95 % interval of ζ does not
@@ -23,15 +24,15 @@ import pandas as pd
 from scipy.special import gamma as gamma_function
 
 FITTED = {
-    "rms_convention": ("disc", "square", "peak"),  # of lines: "line"
+    "rms_convention": ("disc", "square", "peak", "ensemble"),  # of lines: "line"
     "average": ("arithmetic", "geometric"),
     "window_rule": ("default", "lower_half", "upper_half", "kappa"),
 }
 READINGS = {"gamma": ("without", "with"), "diameter_convention": ("diameter", "radius")}
 VALUES = FITTED | READINGS  # convention: its allowed values
 NAMES = list(VALUES)
-FACTORS = (1, 2)  # in F or 1/G
 LENGTH = {"diameter": 1.0, "radius": 0.5}  # L over the diameter
+CONTRADICTING = {"diameter_convention": ("radius",)}  # values that the text of the paper excludes
 PLAIN = {"gamma": "without", "diameter_convention": "diameter"}
 
 
@@ -50,11 +51,6 @@ def zeta_scale(beta, *, gamma, diameter_convention):
             raise ValueError(f"{name}: must be one of {', '.join(READINGS[name])}, not {value!r}")
     scale = (1 / LENGTH[diameter_convention]) ** beta
     return scale / gamma_function(1 + beta) if gamma == "with" else scale
-
-
-def factor_scale(beta, factor):
-    """ζ with a factor in F or 1/G over ζ without; of the shape of β."""
-    return factor**beta
 
 
 def interval_columns(*, gamma, diameter_convention):
@@ -85,6 +81,13 @@ def in_every_reading(fits):
     """Fits in all readings of the law, with the readings of one fit in consecutive rows."""
     parts = [in_reading(fits, **reading) for reading in readings()]
     return pd.concat(parts).sort_index(kind="stable").reset_index(drop=True)
+
+
+def left_open(table):
+    """Rows of a table with columns of conventions in which none contradicts the paper."""
+    for name, values in CONTRADICTING.items():
+        table = table[~table[name].isin(values)]
+    return table
 
 
 def select(table, wanted):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from viscorough.indenter import Indenter
-from viscorough.surfaces import self_affine_disc
+from viscorough.surfaces import cut_disc, square_of_disc
 
 
 def ensemble_disc(elements, surface, seed):
@@ -12,14 +12,15 @@ def ensemble_disc(elements, surface, seed):
     elements : across the disc; surface : arguments of self_affine_disc with rms, diameter and rms_over
 
     The nominal rms height is met over the disc or over the periodic square that the disc is cut from, as rms_over says.
-    The conventions are the rms height over the disc, that over the square, and the height of the highest peak above the
-    mean of the disc.
+    The conventions are the rms height over the disc, that over the square, the height of the highest peak above the
+    mean of the disc, and the rms height of the ensemble: with it as unit, realizations are not normalised one by one
+    but have the same spectrum, and it is the rms height that this spectrum gives the square on average.
     """
-    shape = surface | {"elements_across": elements, "rms_over": "square"}
-    heights = self_affine_disc(**shape, seed=seed).heights[None]
-    # Sums over the last two axes are those of a stack of discs, to the last digit.
-    over_disc, mean = np.nanstd(heights, axis=(1, 2)).item(), np.nanmean(heights, axis=(1, 2)).item()
-    factor = surface["rms"] / (over_disc if surface["rms_over"] == "disc" else surface["rms"])
-    peak = np.nanmax(heights).item() - mean
-    rms = {"disc": over_disc * factor, "peak": peak * factor, "square": surface["rms"] * factor}
-    return Indenter(heights[0] * factor, surface["diameter"] / elements, length_unit="m"), rms
+    shape = {name: value for name, value in surface.items() if name not in ("rms", "diameter", "rms_over")}
+    square = square_of_disc(**shape, elements_across=elements, normalised=False, seed=seed)
+    disc = cut_disc(square, elements)
+    peak = np.nanmax(disc) - np.nanmean(disc)
+    rms = {"disc": np.nanstd(disc), "square": np.sqrt(np.mean(square**2)), "peak": peak, "ensemble": 1.0}
+    factor = surface["rms"] / rms[surface["rms_over"]]
+    indenter = Indenter(disc * factor, surface["diameter"] / elements, length_unit="m")
+    return indenter, {name: float(height * factor) for name, height in rms.items()}

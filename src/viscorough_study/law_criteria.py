@@ -10,7 +10,7 @@ from itertools import product
 import numpy as np
 
 from viscorough import reference
-from viscorough_study.conventions import FITTED, NAMES, in_every_reading
+from viscorough_study.conventions import FITTED, NAMES, in_every_reading, left_open
 from viscorough_study.evidence import judged
 from viscorough_study.power_law import fit_power_law
 
@@ -48,7 +48,7 @@ def _deviations(fits, *, column, law, relative, above):
 
 def _nearest_convention(scaling, source, fixed, deviation, hursts, tolerance):
     """Conventions in words for which every Hurst exponent meets the law, with the smallest deviation; "" if none."""
-    fits = in_every_reading(scaling[(scaling["source"] == source) & (scaling["case_group"] == "base")])
+    fits = left_open(in_every_reading(scaling[(scaling["source"] == source) & (scaling["case_group"] == "base")]))
     for name, value in fixed.items():
         fits = fits[fits[name] == value]
     nearest, smallest = "", tolerance

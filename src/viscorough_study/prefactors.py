@@ -1,54 +1,85 @@
-"""The prefactor ζ in every combination of the conventions that the paper leaves open, against Eqs. (4) and (11)."""
+"""The prefactor ζ in every combination of the conventions that the paper leaves open, against Eqs. (4) and (11).
 
-from itertools import product
+A combination names the surfaces (the disc's cut, corners of the spectrum, kind of amplitudes) and the conventions of
+viscorough_study.conventions. Over the Hurst exponents of a combination, the ratios of ζ to a law have
+
+- a largest deviation, max |ln ratio|, by which combinations are ranked;
+- an rms deviation √(mean ln² ratio);
+- a common factor c = exp(mean ln ratio), the same for all H;
+- an rms deviation from c times the law: what is wrong with the law's shape in H, whatever its absolute value.
+"""
 
 import numpy as np
-import pandas as pd
 
 from viscorough import reference
-from viscorough_study.conventions import FACTORS, NAMES, factor_scale, in_every_reading
+from viscorough_study.conventions import NAMES, in_every_reading, left_open
 
-COMBINED = [*NAMES, "factor"]  # columns that name a combination
-LAWS = {"eq4": reference.zeta_elastic, "eq11": reference.zeta_viscous}
+COMBINED = ["case_group", *NAMES]  # columns that name a combination
+LAWS = {"eq4": ("Eq. 4", reference.zeta_elastic), "eq11": ("Eq. 11", reference.zeta_viscous)}
+
+
+def _law_columns():
+    """Columns that compare ζ with each law."""
+    described = {name: (f"ζ over {title}", "1") for name, (title, _) in LAWS.items()}
+    for name, (title, _) in LAWS.items():
+        described |= {
+            f"worst_{name}": (f"largest |ln| of the ratio to {title} over all Hurst exponents", "1"),
+            f"deviation_{name}": (f"rms over all Hurst exponents of ln of the ratio to {title}", "1"),
+            f"common_{name}": (f"common factor of all Hurst exponents: geometric mean of the ratios to {title}", "1"),
+            f"shape_{name}": (f"rms over all Hurst exponents of ln of the ratio to common factor times {title}", "1"),
+        }
+    return described
+
+
 COLUMNS = {
-    "rms_convention": ("h: rms height of the disc or of the square, or the highest peak", ""),
+    "case_group": ("base, or name of the variant of the surfaces", ""),
+    "period": ("period of the square that the disc is cut from, in diameters", "1"),
+    "corners": ("whether the spectrum has waves beyond the Nyquist circle", ""),
+    "amplitudes": ("random or fixed amplitudes of the waves", ""),
+    "rms_convention": ("h: rms height of the disc, of the square or of the ensemble, or the highest peak", ""),
     "average": ("mean over the realizations at fixed X", ""),
     "window_rule": ("rule of the window of the fit", ""),
     "gamma": ("law with or without the factor 1/Γ(2−α)", ""),
-    "diameter_convention": ("L in X and κ is the diameter or the radius", ""),
-    "factor": ("factor in force and stiffness over modulus: 2 if F is twice, or G half, of what was meant", "1"),
+    "diameter_convention": ("L in X and κ is the diameter or, which contradicts the paper, the radius", ""),
+    "status": ("left open by the paper, or contradicts the paper", ""),
     "hurst": ("Hurst exponent H", "1"),
     "zeta": ("prefactor ζ", "1"),
-    "zeta_low": ("lower end of the 95 % interval of ζ; with a factor, scaled like ζ", "1"),
-    "zeta_high": ("upper end of the 95 % interval of ζ; with a factor, scaled like ζ", "1"),
-    "eq4": ("ζ over π(3 − H)/10, Eq. 4", "1"),
-    "eq11": ("ζ over 2 − H, Eq. 11", "1"),
-    "worst_eq4": ("largest |ln| of the ratio to Eq. 4 over all Hurst exponents", "1"),
-    "worst_eq11": ("largest |ln| of the ratio to Eq. 11 over all Hurst exponents", "1"),
+    "zeta_low": ("lower end of the 95 % interval of ζ", "1"),
+    "zeta_high": ("upper end of the 95 % interval of ζ", "1"),
+    **_law_columns(),
 }
 
 
-def prefactors(scaling):
-    """ζ of the base discs in every combination of conventions; a pandas.DataFrame with the columns of `COLUMNS`.
+def prefactors(scaling, surfaces):
+    """ζ of the discs in every combination of conventions; a pandas.DataFrame with the columns of `COLUMNS`.
 
     scaling : table of viscorough_study.fit_table
-    `worst_eq4` and `worst_eq11` are nan for a combination in which not every Hurst exponent has a window.
+    surfaces : {case_group: {"period", "corners", "amplitudes"}} of the groups to be compared
+    The columns over all Hurst exponents are nan for a combination in which one of them has no window.
     """
-    discs = in_every_reading(scaling[(scaling["source"] == "discs") & (scaling["case_group"] == "base")])
-    table = pd.concat([_with_factor(discs, factor) for factor in FACTORS], ignore_index=True)
-    combination = [table[name] for name in COMBINED]
-    complete = table["zeta"].notna().groupby(combination).transform("all")
-    for name, law in LAWS.items():
+    discs = scaling[(scaling["source"] == "discs") & scaling["case_group"].isin(list(surfaces))]
+    table = in_every_reading(discs)
+    for name in ("period", "corners", "amplitudes"):
+        table[name] = [surfaces[group][name] for group in table["case_group"]]
+    table["corners"] = np.where(table["corners"], "yes", "no")
+    open_rows = table.index.isin(left_open(table).index)
+    table["status"] = np.where(open_rows, "left open by the paper", "contradicts the paper")
+    for name, (_, law) in LAWS.items():
         table[name] = table["zeta"] / law(table["hurst"])
-        worst = np.abs(np.log(table[name])).groupby(combination).transform("max")
-        table[f"worst_{name}"] = worst.where(complete)
+        logarithm = np.log(table[name])
+        mean = _over_hursts(table, logarithm)
+        table[f"worst_{name}"] = _over_hursts(table, logarithm.abs(), "max")
+        table[f"deviation_{name}"] = np.sqrt(_over_hursts(table, logarithm**2))
+        table[f"common_{name}"] = np.exp(mean)
+        table[f"shape_{name}"] = np.sqrt(_over_hursts(table, (logarithm - mean) ** 2))
     return table[list(COLUMNS)]
 
 
-def _with_factor(fits, factor):
-    scale = factor_scale(fits["beta"], factor)
-    scaled = {name: fits[name] * scale for name in ("zeta", "zeta_low", "zeta_high")}
-    return fits.assign(factor=factor, **scaled)
+def _over_hursts(table, values, how="mean"):
+    """Mean or maximum of values over the Hurst exponents of each combination, nan where one is missing."""
+    combination = [table[name] for name in COMBINED]
+    complete = values.notna().groupby(combination).transform("all")
+    return values.groupby(combination).transform(how).where(complete)
 
 
 def ranked(table, law):
@@ -69,5 +100,4 @@ def rows_of(table, combination):
 
 def combinations(table):
     """All combinations of conventions in a table, as dicts."""
-    present = [list(dict.fromkeys(table[name])) for name in COMBINED]
-    return [dict(zip(COMBINED, values, strict=True)) for values in product(*present)]
+    return table[COMBINED].drop_duplicates().to_dict("records")

@@ -27,6 +27,7 @@ LIMITS = {
     "fraction_min": 0.95,
     "decades_min": 0.5,
 }
+BASE_SURFACES = {"base": {"period": 1.0, "corners": False, "amplitudes": "random"}}
 RULES = {"interval_ratio_max": 2.0, "decades_min": 1.0, "end_decades": 0.25}
 BOOTSTRAP = {"resamples": 50, "seed": 1}
 X = abscissa(1e-7, 30.0, 20)

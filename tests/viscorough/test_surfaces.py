@@ -216,6 +216,23 @@ def test_roll_off_of_disc_is_in_diameters():
 
 
 @pytest.mark.parametrize("points", [32, 33])
+def test_squares_that_are_not_normalised_have_one_spectrum(points):
+    """On average over 400 realizations, with the total power 1; normalised ones are the same up to a factor."""
+    options = {"corners": True, "normalised": False}
+    spectra = [np.abs(np.fft.fft2(self_affine_square(0.5, points, seed=seed, **options))) ** 2 for seed in range(400)]
+    power = np.mean(spectra, axis=0) / points**4
+    assert power.sum() == pytest.approx(1, abs=0.1)
+    x = np.abs(np.fft.fftfreq(points, 1 / points))
+    expected = np.hypot(x[:, None], x)
+    expected[0, 0] = np.inf
+    expected = expected**-3.0 / (expected**-3.0).sum()
+    inside = expected > 0
+    np.testing.assert_allclose(power[inside] / expected[inside], 1, atol=0.45)  # nine standard errors
+    ratio = self_affine_square(0.5, points, seed=1, **options) / self_affine_square(0.5, points, seed=1, corners=True)
+    np.testing.assert_allclose(ratio, ratio[0, 0], rtol=1e-9)
+
+
+@pytest.mark.parametrize("points", [32, 33])
 def test_corners(points):
     x = np.abs(np.fft.fftfreq(points, 1 / points))
     beyond = np.hypot(x[:, None], x) > points / 2

@@ -42,6 +42,14 @@ def test_variants_change_only_what_they_name(settings):
     assert (variant["period"], variant["rms"], variant["diameter"]) == (2.0, 1.0, 1.0)
 
 
+def test_surfaces_that_are_compared_differ_only_in_what_the_paper_leaves_open(settings):
+    surfaces = cases.surface_conventions(settings)
+    assert list(surfaces) == ["base", "longer_period", "corners", "fixed_amplitudes"]  # without the control
+    assert surfaces["corners"] == {"period": 1.0, "corners": True, "amplitudes": "random"}
+    crossed = cases.surface_conventions(merged(settings, read_settings("paper")))
+    assert len({tuple(surface.values()) for surface in crossed.values()}) == len(crossed) == 8
+
+
 def test_batches():
     assert cases.batches({"realizations": 10, "batch": 4}) == ["0000-0003", "0004-0007", "0008-0009"]
     assert cases.batches({"realizations": 2, "batch": 8}) == ["0000-0001"]

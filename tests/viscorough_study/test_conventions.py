@@ -71,11 +71,20 @@ def test_select_is_one_row_for_each_ensemble(table):
     assert row["x_low"] == 2 * plain["x_low"]
 
 
-def test_a_factor_in_the_force_is_a_fit_on_scaled_curves(discs):
-    """F/G three times as large: X and κ are, and vt/h stays."""
-    velocity, window = discs["velocity"].values[0], np.array([1e-5, 1e-2])
-    fit, scaled = (fit_power_law(c * X, velocity, c * window, average="geometric", **BOOTSTRAP) for c in (1, 3))
-    assert scaled.zeta()[0] == pytest.approx(fit.zeta()[0] * conventions.factor_scale(fit.beta, 3), rel=1e-12)
+def test_twice_the_force_is_like_the_radius(discs, table):
+    """F/G twice as large: X and κ are, and vt/h stays."""
+    row = in_reading(table, gamma="without", diameter_convention="radius").iloc[0]
+    velocity, window = discs["velocity"].values[0], (row["x_low"], row["x_high"])
+    scaled = fit_power_law(2 * X, velocity, window, average=row["average"], **BOOTSTRAP)
+    assert row["zeta"] == pytest.approx(scaled.zeta()[0], rel=1e-12)
+
+
+def test_the_radius_is_not_left_open(table):
+    every = in_every_reading(table)
+    chosen = conventions.left_open(every)
+    assert len(chosen) == len(every) / 2
+    assert set(chosen["diameter_convention"]) == {"diameter"}
+    assert set(chosen["gamma"]) == {"with", "without"}
 
 
 @pytest.mark.parametrize("wrong", [{"gamma": True}, {"diameter_convention": "width"}])

@@ -26,6 +26,21 @@ def test_both_rms_heights_are_those_of_the_surface(rms_over):
         assert disc.spacing == pytest.approx(1e-2 / 33)
 
 
+def test_rms_height_of_the_ensemble_is_that_of_the_spectrum():
+    """In its unit the mean square height over the square is 1 on average; with fixed amplitudes, in each."""
+    surface = {"hurst": 0.9, "rms": 1.0, "diameter": 1.0, "rms_over": "disc"}
+
+    def squares(amplitudes, number):
+        drawn = [ensemble_disc(16, surface | {"amplitudes": amplitudes}, seed)[1] for seed in range(number)]
+        return np.array([(rms["square"] / rms["ensemble"]) ** 2 for rms in drawn])
+
+    np.testing.assert_allclose(squares("fixed", 3), 1, rtol=1e-12)
+    random = squares("random", 600)
+    error = random.std(ddof=1) / np.sqrt(random.size)
+    assert error < 0.03  # a realization's own mean square scatters by more than half
+    assert abs(random.mean() - 1) < 4 * error
+
+
 @pytest.mark.parametrize("kind", ["discs", "lines"])
 def test_a_realization_is_the_same_in_every_batch(tmp_path, kind):
     settings = read_settings("config")

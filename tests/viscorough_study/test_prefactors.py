@@ -1,38 +1,50 @@
-"""The prefactor in every combination of conventions: scaling by the factor, and the nearest combination."""
+"""The prefactor in every combination of conventions: its deviations from the laws, and the nearest combination."""
 
 import numpy as np
+import pandas as pd
 import pytest
 
-from support.study import SHOWN, evidence
-from viscorough.reference import zeta_elastic
+from support.study import BASE_SURFACES, SHOWN, evidence
+from viscorough.reference import zeta_elastic, zeta_viscous
+from viscorough_study.conventions import left_open
 from viscorough_study.prefactors import COLUMNS, combinations, prefactors, ranked, rows_of
+
+OWN = {"case_group": "base"} | SHOWN
 
 
 @pytest.fixture(scope="module")
-def table():
+def scaling():
     """Surfaces with ζ twice Eq. 4 in h of the disc, and just Eq. 4 in h of the square."""
-    return prefactors(evidence(lambda hurst: 2 * zeta_elastic(hurst), square=0.5).scaling)
+    return evidence(lambda hurst: 2 * zeta_elastic(hurst), square=0.5).scaling
 
 
-def test_factor_is_a_larger_force(table):
+@pytest.fixture(scope="module")
+def table(scaling):
+    return prefactors(scaling, BASE_SURFACES)
+
+
+def test_deviations_from_a_law_with_and_without_a_common_factor(table):
     assert list(table) == list(COLUMNS)
-    assert len(combinations(table)) == 2 * 2 * 4 * 2 * 2 * 2
-    once, twice = (rows_of(table, SHOWN | {"factor": factor}) for factor in (1, 2))
+    assert len(combinations(table)) == 2 * 2 * 4 * 2 * 2
+    own = rows_of(table, OWN)
+    np.testing.assert_allclose(own["eq4"], 2, rtol=0.05)
+    for name in ("worst", "deviation"):
+        np.testing.assert_allclose(own[f"{name}_eq4"], np.log(2), atol=0.05)
+    np.testing.assert_allclose(own["common_eq4"], 2, rtol=0.03)
+    assert (own["shape_eq4"] < 0.02).all()
+    logarithm = np.log(own["zeta"] / zeta_viscous(own["hurst"]))
+    assert own["deviation_eq11"].iloc[0] == pytest.approx(np.sqrt(np.mean(logarithm**2)), rel=1e-12)
+    assert own["common_eq11"].iloc[0] == pytest.approx(np.exp(logarithm.mean()), rel=1e-12)
+    assert own["shape_eq11"].iloc[0] == pytest.approx(np.std(logarithm), rel=1e-12)
     np.testing.assert_allclose(
-        twice["zeta"].values, once["zeta"].values * 2 ** np.array([0.4 / 1.4, 0.6 / 1.6, 0.9 / 1.9])
+        own["deviation_eq11"] ** 2, own["shape_eq11"] ** 2 + np.log(own["common_eq11"]) ** 2, rtol=1e-12
     )
-    np.testing.assert_allclose(once["eq4"], 2, rtol=0.05)
-    np.testing.assert_allclose(once["worst_eq4"], np.log(2), atol=0.05)
 
 
 def test_combinations_are_ranked_by_their_largest_deviation(table):
     ranking = ranked(table, "eq4")
-    assert (ranking[0]["rms_convention"], ranking[0]["gamma"], ranking[0]["diameter_convention"]) == (
-        "square",
-        "without",
-        "diameter",
-    )
-    assert ranking[0]["factor"] == 1
+    assert ranking[0]["rms_convention"] == "square"
+    assert (ranking[0]["gamma"], ranking[0]["diameter_convention"]) == ("without", "diameter")
     deviations = [rows_of(table, combination)["worst_eq4"].iloc[0] for combination in ranking]
     assert deviations == sorted(deviations)
     assert deviations[0] < 0.05
@@ -40,9 +52,29 @@ def test_combinations_are_ranked_by_their_largest_deviation(table):
     assert ranked(table.assign(worst_eq4=np.nan), "eq4") == []
 
 
-def test_combination_without_all_exponents_is_not_compared(table):
-    scaling = evidence().scaling
+def test_the_radius_contradicts_the_paper(table):
+    assert set(left_open(table)["status"]) == {"left open by the paper"}
+    contradicting = table.drop(left_open(table).index)
+    assert set(contradicting["status"]) == {"contradicts the paper"}
+    assert set(contradicting["diameter_convention"]) == {"radius"}
+
+
+def test_surfaces_are_crossed_with_the_other_conventions(scaling):
+    """Variants that differ in several conventions at once are combinations of their own; controls are left out."""
+    both = {"period": 2.0, "corners": True, "amplitudes": "random"}
+    groups = [scaling.assign(case_group=name) for name in ("base", "both", "roll_off")]
+    groups[1]["zeta"] *= 1.5
+    table = prefactors(pd.concat(groups, ignore_index=True), BASE_SURFACES | {"both": both})
+    assert set(table["case_group"]) == {"base", "both"}
+    assert len(combinations(table)) == 2 * 2 * 2 * 4 * 2 * 2
+    base, crossed = (rows_of(table, OWN | {"case_group": name}) for name in ("base", "both"))
+    assert set(zip(crossed["period"], crossed["corners"], crossed["amplitudes"], strict=True)) == {(2, "yes", "random")}
+    np.testing.assert_allclose(crossed["common_eq4"].iloc[0], 1.5 * base["common_eq4"].iloc[0], rtol=1e-12)
+    np.testing.assert_allclose(crossed["shape_eq4"].iloc[0], base["shape_eq4"].iloc[0], rtol=1e-9)
+
+
+def test_combination_without_all_exponents_is_not_compared(scaling):
     missing = (scaling["source"] == "discs") & (scaling["hurst"] == 0.6) & (scaling["window_rule"] == "kappa")
-    found = prefactors(scaling.assign(zeta=scaling["zeta"].mask(missing)))
-    assert found.loc[found["window_rule"] == "kappa", "worst_eq4"].isna().all()
+    found = prefactors(scaling.assign(zeta=scaling["zeta"].mask(missing)), BASE_SURFACES)
+    assert found.loc[found["window_rule"] == "kappa", ["worst_eq4", "shape_eq4", "common_eq11"]].isna().all(axis=None)
     assert found.loc[found["window_rule"] == "default", "worst_eq4"].notna().all()

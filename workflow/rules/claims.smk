@@ -121,6 +121,8 @@ rule compare_prefactors:
     threads: 1
     resources:
         mem_mb=1000,
+    params:
+        surfaces=cases.surface_conventions(config),
     message:
         "Prefactor under every convention"
     script:

@@ -7,12 +7,12 @@ from viscorough_study.prefactors import COLUMNS, prefactors
 from viscorough_study.tables import write_table
 
 
-def main(scaling, csv, html, nc):
-    """Tabulate the prefactors of the scaling table."""
-    table = prefactors(pd.read_csv(scaling))
+def main(scaling, csv, html, nc, *, surfaces):
+    """Tabulate the prefactors of the scaling table; surfaces : what each group of discs to be compared is like."""
+    table = prefactors(pd.read_csv(scaling), surfaces)
     write_table(table, csv, nc, html, columns=COLUMNS, dimension="fit", title="Prefactor under every convention")
 
 
 if job := globals().get("snakemake"):
     log_to(job.log[0])
-    main(**job.input, **job.output)
+    main(**job.input, **job.output, **job.params)

@@ -17,7 +17,7 @@ def main(curves, *, realizations, seed, spawn_key, elements, surface, indentatio
     surface : arguments of self_affine_disc; indentation : tolerance and where a curve ends, at a contact fraction or
         at X = F/(4GhL), with h the larger of the rms heights over disc and square
     """
-    numbers, indented, heights = range(*realizations), [], {"disc": [], "square": [], "peak": []}
+    numbers, indented, heights = range(*realizations), [], {}
     for number in progress(numbers, len(numbers), "indentations"):
         disc, rms = ensemble_disc(elements, surface, realization_seed(seed, *spawn_key, number))
         until_force = 4 * max(rms["disc"], rms["square"]) * surface["diameter"] * indentation["until_x"]
@@ -27,7 +27,7 @@ def main(curves, *, realizations, seed, spawn_key, elements, surface, indentatio
         about = number, curve.depth.size, curve.operator_applications, time.perf_counter() - start
         logging.info("realization %d: %d levels, %d operator applications, %.2f s", *about)
         indented.append(curve)
-        heights = {name: [*values, rms[name]] for name, values in heights.items()}
+        heights = {name: [*heights.get(name, []), height] for name, height in rms.items()}
     settings = {"seed": seed, "spawn_key": [*spawn_key, "realization"], "elements": elements, "surface": surface}
     lengths = {"rms": heights, "spacing": surface["diameter"] / elements, "diameter": surface["diameter"]}
     about = {"hurst": surface["hurst"], "settings": settings | {"indentation": indentation}, **lengths}

@@ -15,6 +15,10 @@ VARIANTS = {
     "longer_period": "longer period",
     "corners": "corners of spectrum",
     "fixed_amplitudes": "fixed amplitudes",
+    "longer_period_corners": "longer period, corners",
+    "longer_period_fixed": "longer period, fixed amplitudes",
+    "corners_fixed": "corners, fixed amplitudes",
+    "longer_period_corners_fixed": "all three of these",
     "roll_off": "roll-off (control)",
 }
 

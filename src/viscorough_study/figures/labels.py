@@ -2,7 +2,12 @@
 
 CONVENTION_LABELS = {
     "average": {"arithmetic": "arithmetic mean", "geometric": "geometric mean"},
-    "rms_convention": {"disc": "$h$ of the disc", "square": "$h$ of the square", "peak": "$h$ of the highest peak"},
+    "rms_convention": {
+        "disc": "$h$ of the disc",
+        "square": "$h$ of the square",
+        "peak": "$h$ of the highest peak",
+        "ensemble": "$h$ of the ensemble",
+    },
     "window_rule": {
         "default": "whole window",
         "lower_half": "lower half of window",
@@ -10,5 +15,5 @@ CONVENTION_LABELS = {
         "kappa": "window of given κ",
     },
     "gamma": {"without": "law without Γ", "with": "law with Γ (Eq. 9)"},
-    "diameter_convention": {"diameter": "$L$ the diameter", "radius": "$L$ the radius"},
+    "diameter_convention": {"diameter": "$L$ the diameter", "radius": "$L$ the radius\n(contradicts the paper)"},
 }

@@ -6,6 +6,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from viscorough_study import prefactors
+from viscorough_study.conventions import left_open
 from viscorough_study.figures.style import (
     BLACK,
     GREY,
@@ -24,7 +25,7 @@ LAWS = {"eq4": r"(a) $\zeta$ over $\pi(3-H)/10$, Eq. 4", "eq11": r"(b) $\zeta$ o
 NEAREST = 6  # combinations drawn one by one
 AGREEMENT = 1.1  # factor within which ζ agrees with a law, the grey band
 SHORT = {
-    "rms_convention": {"disc": "$h$ disc", "square": "$h$ square", "peak": "$h$ peak"},
+    "rms_convention": {"disc": "$h$ disc", "square": "$h$ square", "peak": "$h$ peak", "ensemble": "$h$ ensemble"},
     "average": {"arithmetic": "arithmetic", "geometric": "geometric"},
     "window_rule": {
         "default": "whole window",
@@ -33,8 +34,6 @@ SHORT = {
         "kappa": "window of κ",
     },
     "gamma": {"without": "no Γ", "with": "Γ"},
-    "diameter_convention": {"diameter": "diameter", "radius": "radius"},
-    "factor": {1: "×1", 2: "×2"},
 }
 
 
@@ -43,14 +42,15 @@ def plot_prefactors(table, conventions):
     """ζ over each of the paper's two laws: the nearest combinations of conventions, that of the figures, and all.
 
     table : of viscorough_study.prefactors; conventions : those of the other figures, {column: value}
-    Rows are ranked by the largest deviation over all Hurst exponents. Raises ValueError for a table without rows.
+    Rows are ranked by the largest deviation over all Hurst exponents, among the combinations that the paper leaves
+    open; below them is the nearest of those that contradict it. Raises ValueError for a table without rows.
     """
     require_rows("plot_prefactors", table)
     looks = hurst_looks(table["hurst"])
-    figure = Figure(figsize=(WIDE, 150 * MM))
+    figure = Figure(figsize=(WIDE, 165 * MM))
     panels = figure.subplots(2, 1, sharex=True)
     for axes, (law, title) in zip(panels, LAWS.items(), strict=True):
-        _draw_law(axes, table, law, conventions | {"factor": 1}, looks)
+        _draw_law(axes, table, law, {"case_group": "base"} | conventions, looks)
         axes.set(title=title, xscale="log")
         plain_ticks(axes.xaxis, [0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3, 5])
     panels[1].set_xlabel(r"$\zeta$ over the law")
@@ -65,21 +65,25 @@ def plot_prefactors(table, conventions):
 
 def _draw_law(axes, table, law, shown, looks):
     """One law: a row for each of the nearest combinations, for that of the figures, and one for all of them."""
-    ranking = prefactors.ranked(table, law)
-    rows = [(f"{_words(combination)}   {rank}", combination) for rank, combination in enumerate(ranking[:NEAREST], 1)]
+    open_rows = left_open(table)
+    ranking = prefactors.ranked(open_rows, law)
+    rows = [(f"{_words(table, one)}   {rank}", one) for rank, one in enumerate(ranking[:NEAREST], 1)]
     own = f", rank {ranking.index(shown) + 1}" if shown in ranking else ""
-    rows.append((f"as in the other figures{own}:\n{_words(shown)}", shown))
+    rows.append((f"as in the other figures{own}:\n{_words(table, shown)}", shown))
+    if contradicting := prefactors.ranked(table.drop(open_rows.index), law):
+        words = _words(table, contradicting[0])
+        rows.append((f"$L$ the radius (contradicts the paper), nearest:\n{words}", contradicting[0]))
     axes.axvspan(1 / AGREEMENT, AGREEMENT, color="0.92", linewidth=0, zorder=0)
     axes.axvline(1, color=BLACK, linestyle="--", linewidth=0.8, zorder=1)
     for y, (_, combination) in enumerate(rows):
         _draw_combination(axes, y, prefactors.rows_of(table, combination), law, looks)
     for rank, (hurst, look) in enumerate(looks.items()):
-        every = table.loc[table["hurst"] == hurst, law]
+        every = open_rows.loc[open_rows["hurst"] == hurst, law]
         height = [len(rows) + _shift(rank, looks)] * len(every)
         axes.plot(every, height, **look | {"linestyle": "", "marker": "|", "markersize": 4.5, "alpha": 0.6})
-    axes.axhline(len(rows) - 1.5, color=GREY, linewidth=0.5)
-    axes.axhline(len(rows) - 0.5, color=GREY, linewidth=0.5)
-    labels = [label for label, _ in rows] + [f"all {len(prefactors.combinations(table))} combinations"]
+    for y in range(min(NEAREST, len(ranking)), len(rows) + 1):
+        axes.axhline(y - 0.5, color=GREY, linewidth=0.5)
+    labels = [label for label, _ in rows] + [f"all {len(prefactors.combinations(open_rows))} combinations left open"]
     axes.set_yticks(range(len(labels)), labels, fontsize=SMALL)
     axes.set_ylim(len(labels) - 0.5, -0.6)
     axes.tick_params(axis="y", which="both", length=0)
@@ -100,5 +104,14 @@ def _shift(rank, looks):
     return 0.8 * ((rank + 0.5) / len(looks) - 0.5)
 
 
-def _words(combination):
-    return ", ".join(labels[combination[name]] for name, labels in SHORT.items())
+def _words(table, combination):
+    """A combination in words; the surfaces only where they are not those of the base."""
+    words = [labels[combination[name]] for name, labels in SHORT.items()]
+    surfaces = table.loc[table["case_group"] == combination["case_group"], ["period", "corners", "amplitudes"]].iloc[0]
+    base = table.loc[table["case_group"] == "base", ["period", "corners", "amplitudes"]].iloc[0]
+    labels = {
+        "period": f"period {surfaces['period']:g}",
+        "corners": "corners" if surfaces["corners"] == "yes" else "no corners",
+        "amplitudes": f"{surfaces['amplitudes']} amplitudes",
+    }
+    return ", ".join(words + [label for name, label in labels.items() if surfaces[name] != base[name]])

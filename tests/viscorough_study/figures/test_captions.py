@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 from support import figures as tables
-from support.study import ROOT, SHOWN
+from support.study import BASE_SURFACES, ROOT, SHOWN
 from support.workflow import read_settings
 from viscorough.surfaces import self_affine_disc
 from viscorough_study.figures.all_methods import plot_all_methods
@@ -62,7 +62,7 @@ def drawn(discs, pooled, lines, scaling, combinations):
         "fig3_master_curve": Drawn(plot_master_curve(pooled, lines, scaling, SHOWN, fraction_min=0.95)),
         "fig4_exponent": Drawn(plot_exponent(scaling, SHOWN, (0.4, 1.0))),
         "conventions": Drawn(plot_conventions(scaling, SHOWN), {"Hurst exponent": 2}),
-        "prefactors": Drawn(plot_prefactors(prefactors(scaling), SHOWN)),
+        "prefactors": Drawn(plot_prefactors(prefactors(scaling, BASE_SURFACES), SHOWN)),
         "validation": Drawn(plot_validation(tables.validation_table()), {"quantity": 2}),
         "direct": Drawn(plot_direct_integration(tables.direct_table()), {"indenter": 2}),
         "reduction": Drawn(plot_mdr_comparison(tables.mdr_table())),

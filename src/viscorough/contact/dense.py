@@ -18,6 +18,8 @@ from viscorough.interrupts import uninterrupted
 # Rounding error allowed for in a gap over the depth, in a pressure over the largest one, and in the depth of an event.
 ROUNDING = 1e-12
 _MAX_ITERATIONS = 100
+# A depth beyond all measure, finite because compiled loops may assume that numbers are.
+_NEVER = 1e300
 
 
 @dataclass(frozen=True)
@@ -112,7 +114,7 @@ def follow_events(elements, contact, most, pressure_sum):
     same depth, to rounding, are one event.
     """
     with uninterrupted():
-        depth, total, stiffness, members = _follow(
+        depth, total, stiffness, members, factor = _follow(
             elements.influence, elements.row, elements.column, elements.initial_gap, contact.reduced_depth,
             contact.members, contact.reduced_pressure, min(most, elements.count), pressure_sum,
         )  # fmt: skip
@@ -122,11 +124,18 @@ def follow_events(elements, contact, most, pressure_sum):
     complete[0] = False
     events = ContactEvents(depth[complete], total[complete], stiffness[complete], count[complete])
     if events.depth.size:
-        members = np.sort(members[: events.count[-1]])
-        last_depth = events.depth[-1]
-        solution = _pressure_and_tangent(elements, members, last_depth)
-        contact = _exact_contact(contact.units, last_depth, members, *solution)
+        contact = _last_contact(elements, contact.units, events, members, factor)
     return events, contact
+
+
+def _last_contact(elements, units, events, members, factor):
+    """The ContactState at the last event, solved anew, from the members and their Cholesky factor."""
+    count, depth = events.count[-1], events.depth[-1]
+    members, factor = members[:count], factor[:count, :count]
+    right = np.stack([depth - elements.initial_gap[members], np.ones(count)], axis=1)
+    solution = scipy.linalg.cho_solve((factor, True), right, overwrite_b=True, check_finite=False)
+    order = np.argsort(members)
+    return _exact_contact(units, depth, members[order], *solution[order].T)
 
 
 def _pressure_and_tangent(elements, members, depth):
@@ -149,48 +158,64 @@ def _exact_contact(units, depth, members, pressure, tangent):
 def _follow(influence, row, column, initial_gap, depth, start, pressure, most, force):
     """The events after a contact of the elements `start` with these pressures; plain arrays, since it is compiled.
 
-    Returns the depth, ΣP and Σq of every event, the first of which is the given contact, and all elements in contact.
+    Returns the depth, ΣP and Σq of every event, the first of which is the given contact, all elements in contact, and
+    the Cholesky factor of their influence matrix.
     """
     factor, members = np.empty((most, most)), np.empty(most, np.int64)
     forward, tangent, load = np.zeros(most), np.zeros(most), np.zeros(most)
     depths, totals, stiffnesses = np.zeros(most), np.zeros(most), np.zeros(most)
-    inside = np.zeros(initial_gap.size, np.bool_)
-    # The gap of an element was `last_gap` at `last_depth`, and it closes no faster than the depth grows.
-    last_gap, last_depth = initial_gap.copy(), np.zeros(initial_gap.size)
-    count, total = 0, 0.0
+    # Depth before which an element does not touch, _NEVER for those in contact. A gap is a convex function of the depth:
+    # it closes ever more slowly, and never faster than the depth grows.
+    earliest = initial_gap.copy()
+    count, total, following = 0, 0.0, 0
     for t in range(start.size - 1):
         append_element(factor, influence, row, column, members, count, start[t], forward)
-        inside[start[t]] = True
+        earliest[start[t]] = _NEVER
         count += 1
     load[: start.size] = pressure
     total, element, events = pressure.sum(), start[start.size - 1], 0
     while True:
         append_element(factor, influence, row, column, members, count, element, forward)
-        inside[element] = True
+        earliest[element] = _NEVER
         count += 1
         stiffness = solve_flat_punch(factor, count, forward, tangent)
         depths[events], totals[events], stiffnesses[events] = depth, total, stiffness
         events += 1
         if count == most or total > force or tangent[:count].min() < 0:
             break
-        depth_step, element = np.inf, -1
-        # By rank: a gap is at least initial_gap − depth, so that elements beyond the break cannot touch next.
-        for i in range(initial_gap.size):
-            if initial_gap[i] - depth >= depth_step:
-                break
-            if inside[i] or last_gap[i] + last_depth[i] - depth >= depth_step:
-                continue
-            deflection, deflection_per_depth = 0.0, 0.0
-            for t in range(count):
-                value = influence[abs(row[members[t]] - row[i]), abs(column[members[t]] - column[i])]
-                deflection += value * load[t]
-                deflection_per_depth += value * tangent[t]
-            last_gap[i], last_depth[i] = deflection - depth + initial_gap[i], depth
-            touch = max(last_gap[i], 0.0) / max(1.0 - deflection_per_depth, 1e-300)
-            if touch < depth_step:
-                depth_step, element = touch, i
+        depth_step, element, following = _next_touch(
+            influence, row, column, initial_gap, depth, members[:count], load, tangent, earliest, following
+        )
         depth += depth_step
         total += depth_step * stiffness
         for t in range(count):
             load[t] += depth_step * tangent[t]
-    return depths[:events], totals[:events], stiffnesses[:events], members[:count]
+    return depths[:events], totals[:events], stiffnesses[:events], members[:count], factor
+
+
+@njit(fastmath=True)
+def _next_touch(influence, row, column, initial_gap, depth, members, load, tangent, earliest, guess):
+    """Depth from here to the next touch, the element that touches, and the one that may touch first after it.
+
+    earliest : depth before which an element does not touch, _NEVER in contact; changed in place where it is evaluated
+    guess : element to evaluate first; the nearer its touch, the fewer others have to be evaluated
+    """
+    depth_step, element, following, first_later = _NEVER, -1, 0, _NEVER
+    for position in range(-1, initial_gap.size):
+        i = guess if position < 0 else position
+        # By rank: an element touches no earlier than at a depth of its initial gap.
+        if position >= 0 and initial_gap[i] - depth >= depth_step:
+            break
+        if earliest[i] - depth < depth_step:
+            deflection, deflection_per_depth = 0.0, 0.0
+            for t in range(members.size):
+                value = influence[abs(row[members[t]] - row[i]), abs(column[members[t]] - column[i])]
+                deflection += value * load[t]
+                deflection_per_depth += value * tangent[t]
+            touch = max(deflection - depth + initial_gap[i], 0.0) / max(1.0 - deflection_per_depth, 1e-300)
+            earliest[i] = depth + touch
+            if touch < depth_step:
+                depth_step, element = touch, i
+        if i != element and earliest[i] < first_later:
+            first_later, following = earliest[i], i
+    return depth_step, element, following

@@ -20,6 +20,7 @@ import click
 import pandas as pd
 from PIL import Image  # which matplotlib needs
 
+from viscorough_study.evidence import VERDICTS
 from viscorough_study.paper_data import read_paper
 from viscorough_study.performance import timing
 from viscorough_study.tables import write_json
@@ -67,10 +68,14 @@ def verdicts():
 
 
 def verdict_lines():
-    """The same without numbers, one line for each claim."""
-    claims, lines = read_claims(), ["| the paper says | verdict |", "|---|---|"]
-    for name, verdict in overall(published_claims()).items():
-        lines.append(f"| {claims[name]['statement']} | {verdict} |")
+    """The same without numbers: the titles of the claims on physics, one line for each verdict."""
+    claims, verdicts = read_claims(), overall(published_claims())
+    lines = ["| verdict | claims on physics |", "|---|---|"]
+    for verdict in VERDICTS:
+        names = [name for name, given in verdicts.items() if given == verdict]
+        titles = [claims[name]["title"] for name in names if claims[name]["kind"] == "physics"]
+        if titles:
+            lines.append(f"| {verdict} | {'; '.join(titles)} |")
     return "\n".join(lines) + "\n"
 
 

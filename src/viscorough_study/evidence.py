@@ -6,14 +6,17 @@ from functools import cached_property
 import numpy as np
 import pandas as pd
 import xarray as xr
+from scipy import stats
 
 from viscorough_study import pool
 from viscorough_study.conventions import of_source, select
 from viscorough_study.paper_data import number
 from viscorough_study.power_law import find_region
 
-VERDICTS = ("reproduced", "reproduced under a stated convention", "not reproduced", "not testable")
+# From the best to the worst: the verdict on a claim is the worst of its cases.
+VERDICTS = ("reproduced", "reproduced under a stated convention", "undecided", "not reproduced")
 UNDEFINED = (np.nan, np.nan, np.nan)  # value and interval of a quantity that cannot be computed
+NO_INTERVAL = (np.nan, np.nan)  # of a quantity without statistical scatter, and of one without a range
 
 
 @dataclass(frozen=True)
@@ -21,17 +24,15 @@ class Evidence:
     """What claims are judged by.
 
     discs : pool of the base discs (viscorough_study.pool)
-    scaling, validation, direct : the tables of these names
+    tables : {name: pandas.DataFrame} of the tables of the workflow that some criterion reads
     numbers : content of resources/paper/numbers.yaml; conventions : those of the figures, {convention: value}
     across : elements across a disc; limits : arguments of viscorough_study.power_law.find_region
-    rules : interval_ratio_max, decades_min and end_decades, as the settings in section `verdicts`
+    rules : decades_min and end_decades, as the settings in section `verdicts`
     resamples, seed : of bootstraps
     """
 
     discs: xr.Dataset
-    scaling: pd.DataFrame
-    validation: pd.DataFrame
-    direct: pd.DataFrame
+    tables: dict[str, pd.DataFrame]
     numbers: dict
     conventions: dict
     across: int
@@ -73,20 +74,42 @@ class Evidence:
         wanted : conventions in place of those of the figures
         """
         wanted = self.conventions | wanted | of_source(source) | {"case_group": "base"}
-        return select(self.scaling, wanted).set_index("hurst")
+        return select(self.tables["scaling"], wanted).set_index("hurst")
 
     def said(self, section, name):
         """A number that the paper states (resources/paper/numbers.yaml)."""
         return number(self.numbers, section, name)
 
-    def may_lie_within(self, interval, low, high):
-        """Whether a quantity with this 95 % interval may lie in a range; None where the interval is too wide to tell.
 
-        It is too wide if it is more than interval_ratio_max times as wide as the range.
-        """
-        if interval[0] > high or interval[1] < low:
-            return False
-        return True if interval[1] - interval[0] <= self.rules["interval_ratio_max"] * (high - low) else None
+def equivalence(interval, low, high):
+    """Whether a quantity with this 95 % interval lies in the range from low to high.
+
+    True if the whole interval lies in the range, False if it lies wholly outside, None if it reaches over an end of the
+    range or is not defined: then the data do not decide. Two one-sided tests at 2.5 % each make of it a test of
+    equivalence (Schuirmann, J. Pharmacokinet. Biopharm. 15, 657 (1987)).
+    """
+    if not np.all(np.isfinite(interval)):
+        return None
+    if low <= interval[0] and interval[1] <= high:
+        return True
+    return False if interval[1] < low or interval[0] > high else None
+
+
+def mean_with_interval(samples):
+    """Mean of independent samples and its 95 % interval by Student's t: (value, low, high); nan for a single one."""
+    mean, number = samples.mean(), samples.size
+    error = stats.t.ppf(0.975, number - 1) * samples.std(ddof=1) / np.sqrt(number) if number > 1 else np.nan
+    return mean, mean - error, mean + error
+
+
+def hurst_name(hurst):
+    """Name of the case of a Hurst exponent."""
+    return f"H = {hurst:g}"
+
+
+def opposite(met):
+    """The outcome for the contrary of what was tested; None stays None."""
+    return None if met is None else not met
 
 
 @dataclass(frozen=True)
@@ -94,7 +117,8 @@ class Case:
     """Outcome of one case of a claim.
 
     name : Hurst exponent or part that the case is about; expected : what the paper says, nan if it is not a number
-    value, low, high : the quantity and its 95 % interval, or its least and largest value
+    value, low, high : the quantity and its 95 % interval, nan where it has no statistical scatter
+    least, largest : smallest and largest value over grids, windows, times or realizations, nan where there is one value
     convention : in which the claim holds where it does not in those of the figures
     """
 
@@ -102,21 +126,28 @@ class Case:
     value: float
     low: float
     high: float
+    least: float
+    largest: float
     expected: float
     verdict: str
     convention: str = ""
 
 
-def judged(name, values, expected, met, convention=""):
+def judged(name, values, expected, met, convention="", *, extremes=NO_INTERVAL):
     """Case with its verdict.
 
-    values : value, low, high; met : whether the criterion is met, None where that cannot be said
+    values : value, low, high; extremes : least, largest
+    met : whether the criterion is met, None where the data do not decide (`equivalence`); a value that could not be
+        computed is never decided
     convention : in which it is met where it is not in those of the figures, if any
     """
-    if met is None or not np.isfinite(values[0]):
-        return Case(name, *values, expected, "not testable")
-    if met:
-        return Case(name, *values, expected, "reproduced")
-    if convention:
-        return Case(name, *values, expected, "reproduced under a stated convention", convention)
-    return Case(name, *values, expected, "not reproduced")
+    verdict = "not reproduced"
+    if not np.isfinite(values[0]):
+        verdict, convention = "undecided", ""
+    elif met:
+        verdict, convention = "reproduced", ""
+    elif convention:
+        verdict = "reproduced under a stated convention"
+    elif met is None:
+        verdict = "undecided"
+    return Case(name, *values, *extremes, expected, verdict, convention)

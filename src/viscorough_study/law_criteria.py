@@ -8,16 +8,12 @@ from functools import partial
 from itertools import product
 
 import numpy as np
+import pandas as pd
 
 from viscorough import reference
 from viscorough_study.conventions import FITTED, NAMES, in_every_reading, left_open
-from viscorough_study.evidence import judged
+from viscorough_study.evidence import equivalence, hurst_name, judged, mean_with_interval
 from viscorough_study.power_law import fit_power_law
-
-
-def hurst_name(hurst):
-    """Name of the case of a Hurst exponent."""
-    return f"H = {hurst:g}"
 
 
 def law_cases(evidence, tolerance, *, source, column, law, relative=False, above=-1.0, **fixed):
@@ -28,40 +24,41 @@ def law_cases(evidence, tolerance, *, source, column, law, relative=False, above
     """
     fits = evidence.fits(source, **fixed)
     fits = fits[fits.index > above]
-    deviation = partial(_deviations, column=column, law=law, relative=relative, above=above)
-    convention = _nearest_convention(evidence.scaling, source, fixed, deviation, fits.index, tolerance)
+    deviation = partial(_largest_deviation, column=column, law=law, relative=relative, hursts=fits.index)
+    convention = _nearest_convention(evidence.tables["scaling"], source, fixed, deviation, tolerance)
     cases = []
     for hurst, fit in fits.iterrows():
         values = fit[[column, f"{column}_low", f"{column}_high"]].tolist()
         margin = tolerance * (law(hurst) if relative else 1)
-        met = evidence.may_lie_within(values[1:], law(hurst) - margin, law(hurst) + margin)
+        met = equivalence(values[1:], law(hurst) - margin, law(hurst) + margin)
         cases.append(judged(hurst_name(hurst), values, law(hurst), met, convention))
     return cases
 
 
-def _deviations(fits, *, column, law, relative, above):
-    """|value − law|, or that over the law, for each Hurst exponent of fits by H."""
-    fits = fits[fits.index > above]
+def _largest_deviation(fits, *, column, law, relative, hursts):
+    """Largest deviation from the law of an end of an interval, absolute or over the law; inf if one is undefined."""
+    if fits["hurst"].isin(hursts).sum() != len(hursts):
+        return np.inf
+    fits = fits.set_index("hurst").loc[hursts]
     expected = law(fits.index.to_numpy())
-    return np.abs(fits[column] - expected) / (expected if relative else 1)
+    ends = fits[[f"{column}_low", f"{column}_high"]].to_numpy()
+    deviations = np.abs(ends - expected[:, None]) / (expected[:, None] if relative else 1)
+    return deviations.max() if np.isfinite(deviations).all() else np.inf
 
 
-def _nearest_convention(scaling, source, fixed, deviation, hursts, tolerance):
-    """Conventions in words for which every Hurst exponent meets the law, with the smallest deviation; "" if none."""
+def _nearest_convention(scaling, source, fixed, deviation, tolerance):
+    """Conventions in words in which the interval of every Hurst exponent lies within the tolerance; "" if none.
+
+    Of several, those with the smallest deviation.
+    """
     fits = left_open(in_every_reading(scaling[(scaling["source"] == source) & (scaling["case_group"] == "base")]))
     for name, value in fixed.items():
         fits = fits[fits[name] == value]
     nearest, smallest = "", tolerance
     for values, group in fits.groupby(NAMES, sort=False):
-        deviations = deviation(group.set_index("hurst").sort_index())
-        if _meets_everywhere(deviations, hursts, smallest):
-            nearest, smallest = _in_words(dict(zip(NAMES, values, strict=True))), deviations.max()
+        if (largest := deviation(group)) <= smallest:
+            nearest, smallest = _in_words(dict(zip(NAMES, values, strict=True))), largest
     return nearest
-
-
-def _meets_everywhere(deviations, hursts, limit):
-    """Whether there is a deviation for each Hurst exponent and none exceeds the limit."""
-    return len(deviations) == len(hursts) and deviations.notna().all() and deviations.max() <= limit
 
 
 def _in_words(conventions):
@@ -85,39 +82,61 @@ def beta_lines(evidence, tolerance):
 
 def coincide(evidence, tolerance):
     """β of lines minus β of discs, with the conventions in which the difference is smallest."""
-    discs, lines = _discs_and_lines(evidence, {})
-    differences = lines["beta"] - discs["beta"]
-    convention = _nearest_to_coincidence(evidence, differences.index, tolerance)
+    nearest, smallest = "", tolerance
+    for values in product(*(evidence.tables["scaling"][name].unique() for name in FITTED)):
+        conventions = dict(zip(FITTED, values, strict=True))
+        ends = np.abs(_differences(evidence, conventions)[["low", "high"]].to_numpy())
+        if ends.size and np.isfinite(ends).all() and ends.max() <= smallest:
+            nearest, smallest = _in_words(conventions), ends.max()
     cases = []
-    for hurst, difference in differences.items():
-        disc, line = discs.loc[hurst], lines.loc[hurst]
-        below = np.hypot(line["beta"] - line["beta_low"], disc["beta_high"] - disc["beta"])
-        above = np.hypot(line["beta_high"] - line["beta"], disc["beta"] - disc["beta_low"])
-        interval = difference - below, difference + above
-        met = evidence.may_lie_within(interval, -tolerance, tolerance)
-        cases.append(judged(hurst_name(hurst), (difference, *interval), 0.0, met, convention))
+    for hurst, values in _differences(evidence, {}).iterrows():
+        values = values.tolist()
+        met = equivalence(values[1:], -tolerance, tolerance)
+        cases.append(judged(hurst_name(hurst), values, 0.0, met, nearest))
     return cases
 
 
-def _discs_and_lines(evidence, conventions):
-    """Fits of discs, and of lines at the same Hurst exponents."""
+def _differences(evidence, conventions):
+    """β of lines minus β of discs with its 95 % interval: value, low and high by H."""
     discs, lines = (evidence.fits(source, **conventions) for source in ("discs", "lines"))
-    return discs, lines.reindex(discs.index)
-
-
-def _nearest_to_coincidence(evidence, hursts, tolerance):
-    """Conventions in words in which discs and lines coincide best at every Hurst exponent; "" if none do."""
-    nearest, smallest = "", tolerance
-    for values in product(*(evidence.scaling[name].unique() for name in FITTED)):
-        conventions = dict(zip(FITTED, values, strict=True))
-        discs, lines = _discs_and_lines(evidence, conventions)
-        differences = np.abs(lines["beta"] - discs["beta"])
-        if _meets_everywhere(differences, hursts, smallest):
-            nearest, smallest = _in_words(conventions), differences.max()
-    return nearest
+    lines = lines.reindex(discs.index)
+    difference = lines["beta"] - discs["beta"]
+    below = np.hypot(lines["beta"] - lines["beta_low"], discs["beta_high"] - discs["beta"])
+    above = np.hypot(lines["beta_high"] - lines["beta"], discs["beta"] - discs["beta_low"])
+    return pd.DataFrame({"value": difference, "low": difference - below, "high": difference + above})
 
 
 # ---- prefactors
+
+
+def zeta_better(evidence, tolerance):
+    """Rms over H of ln(ζ/law) by Eq. 4 less that by Eq. 11, both with the factor of Eq. 9; better if positive.
+
+    The interval is that of 10 000 draws of ln ζ, independent for each H and normal with the width of its interval. As
+    conventions, those in which the whole interval is farthest above the tolerance.
+    """
+    nearest, largest = "", tolerance
+    for values in product(*(evidence.tables["scaling"][name].unique() for name in FITTED)):
+        conventions = dict(zip(FITTED, values, strict=True))
+        low = _advantage(evidence, conventions)[1]
+        if low > largest:
+            nearest, largest = _in_words(conventions | {"gamma": "with"}), low
+    values = _advantage(evidence, {})
+    return [judged("all H", values, np.nan, equivalence(values[1:], tolerance, np.inf), nearest)]
+
+
+def _advantage(evidence, conventions):
+    """Value, low and high of the rms of ln(ζ/Eq. 4) less that of ln(ζ/Eq. 11) over the Hurst exponents."""
+    fits = evidence.fits("discs", **conventions | {"gamma": "with"})
+    logarithms = np.log(fits[["zeta", "zeta_low", "zeta_high"]].to_numpy())
+    if fits.empty or not np.isfinite(logarithms).all():
+        return np.full(3, np.nan)
+    spread = (logarithms[:, 2] - logarithms[:, 1]) / (2 * 1.96)
+    draws = logarithms[:, 0] + spread * np.random.default_rng(evidence.seed).standard_normal((10_000, len(fits)))
+    draws = np.vstack([logarithms[:, 0], draws])
+    laws = (reference.zeta_elastic(fits.index.to_numpy()), reference.zeta_viscous(fits.index.to_numpy()))
+    first, second = (np.sqrt(np.mean((draws - np.log(law)) ** 2, axis=1)) for law in laws)
+    return np.append((first - second)[0], np.quantile((first - second)[1:], [0.025, 0.975]))
 
 
 def zeta_elastic(evidence, tolerance):
@@ -142,8 +161,7 @@ def depth(evidence, tolerance):
         end = int(np.argmin(np.abs(np.log(x / centre)))) + 1
         depths = x[0] * softness[:, 0] + np.trapezoid(softness[:, :end], x[:end], axis=1)
         ratios = fit.beta * depths / (x[end - 1] * softness[:, end - 1])
-        error = 1.96 * ratios.std(ddof=1) / np.sqrt(ratios.size)
-        return ratios.mean(), ratios.mean() - error, ratios.mean() + error
+        return mean_with_interval(ratios)
 
     return _cases_at_centre(evidence, tolerance, ratio)
 
@@ -160,7 +178,7 @@ def master_curve(evidence, tolerance):
 
 
 def _cases_at_centre(evidence, tolerance, ratio):
-    """Cases of a ratio that should be 1 at the geometric centre of region (b); not testable without a region.
+    """Cases of a ratio that should be 1 at the geometric centre of region (b); undecided without a region.
 
     ratio : function of H, ensemble, fit of region (b) and centre; returns the value and its 95 % interval
     """
@@ -173,6 +191,18 @@ def _cases_at_centre(evidence, tolerance, ratio):
             continue
         fit = fit_power_law(ensemble["x"].values, ensemble["velocity"].values, window, **bootstrap)
         values = ratio(hurst, ensemble, fit, np.sqrt(np.prod(window)))
-        met = evidence.may_lie_within(values[1:], 1 - tolerance, 1 + tolerance)
+        met = equivalence(values[1:], 1 - tolerance, 1 + tolerance)
         cases.append(judged(hurst_name(hurst), values, 1.0, met))
     return cases
+
+
+JUDGES = {
+    "beta": beta,
+    "beta_lines": beta_lines,
+    "coincide": coincide,
+    "depth": depth,
+    "zeta_elastic": zeta_elastic,
+    "zeta_viscous": zeta_viscous,
+    "zeta_better": zeta_better,
+    "master_curve": master_curve,
+}

@@ -1,7 +1,7 @@
 """Verdicts on the paper's claims: a table of all cases, the verdict on each claim, and a summary in Markdown.
 
-What a claim says and by which criterion it is judged stands in resources/paper/claims.yaml; viscorough_study.criteria
-has the function of each criterion, under the name of the claim.
+What a claim says, of which kind it is, by which criterion it is judged and why its tolerance is what it is stands in
+resources/paper/claims.yaml; viscorough_study.criteria has the function of each criterion, under the name of the claim.
 """
 
 from dataclasses import astuple
@@ -12,18 +12,27 @@ import pandas as pd
 from viscorough_study.criteria import JUDGES
 from viscorough_study.evidence import VERDICTS
 
+KINDS = {
+    "physics": "Physics",
+    "identity": "Identities of the method, which hold for every surface",
+    "bookkeeping": "Bookkeeping",
+}
 COLUMNS = {
     "claim": ("name of the claim, as in resources/paper/claims.yaml", ""),
+    "kind": ("one of: " + "; ".join(KINDS), ""),
     "where": ("equation, section or figure of the paper", ""),
     "case": ("Hurst exponent or part that the row is about", ""),
     "value": ("quantity by which the claim is judged", "1"),
-    "low": ("lower end of its 95 % interval, or least value", "1"),
-    "high": ("upper end of its 95 % interval, or largest value", "1"),
+    "low": ("lower end of its 95 % interval, missing where it has no statistical scatter", "1"),
+    "high": ("upper end of its 95 % interval", "1"),
+    "least": ("smallest value over grids, windows, times or realizations, missing where there is one value", "1"),
+    "largest": ("largest value over them", "1"),
     "expected": ("what the paper says", "1"),
     "tolerance": ("tolerance of the criterion", "1"),
     "verdict": ("one of: " + "; ".join(VERDICTS), ""),
     "convention": ("convention in which the claim holds, where it does not in those of the figures", ""),
     "criterion": ("when the claim counts as reproduced", ""),
+    "reason": ("why the tolerance is what it is", ""),
     "figure": ("figure that shows it", ""),
 }
 CASES_SHOWN_MAX = 10  # cases of a claim, beyond which the summary shows three of them
@@ -32,43 +41,57 @@ CASES_SHOWN_MAX = 10  # cases of a claim, beyond which the summary shows three o
 def judge(claims, evidence):
     """Verdicts on the claims; a pandas.DataFrame with the columns of `COLUMNS`, a row for every case of a claim.
 
-    claims : {name: where, statement, criterion, tolerance, figure}
+    claims : {name: title, kind, where, statement, criterion, tolerance, reason, figure}
     A case whose quantity cannot be computed from the evidence, such as an exponent where there is no region (b), is
-    not testable. Raises ValueError for a claim that has no criterion.
+    undecided. Raises ValueError for a claim that has no criterion.
     """
     rows = []
     for name, claim in claims.items():
         if name not in JUDGES:
             raise ValueError(f"claim {name}: no criterion computes it; known are {', '.join(JUDGES)}")
-        for case in JUDGES[name](evidence, claim["tolerance"]):
-            case_name, value, low, high, expected, verdict, convention = astuple(case)
-            numbers = value, low, high, expected, claim["tolerance"]
-            rows.append(
-                (name, claim["where"], case_name, *numbers, verdict, convention, claim["criterion"], claim["figure"])
-            )
+        stated = {key: claim[key] for key in ("kind", "where", "tolerance", "criterion", "reason", "figure")}
+        cases = JUDGES[name](evidence, claim["tolerance"])
+        rows += [{"claim": name, **stated, **_columns(case)} for case in cases]
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
+def _columns(case):
+    """Columns of a case."""
+    names = ("case", "value", "low", "high", "least", "largest", "expected", "verdict", "convention")
+    return dict(zip(names, astuple(case), strict=True))
+
+
 def overall(table):
-    """{claim: verdict} over all cases of a claim: the worst of those that are testable."""
-    verdicts = {}
-    for claim, rows in table.groupby("claim", sort=False):
-        ranks = [VERDICTS.index(verdict) for verdict in rows["verdict"] if verdict != "not testable"]
-        verdicts[claim] = VERDICTS[max(ranks)] if ranks else "not testable"
-    return verdicts
+    """{claim: verdict} over all cases of a claim: the worst of them, in the order of `VERDICTS`."""
+    ranks = table["verdict"].map(VERDICTS.index).groupby(table["claim"], sort=False).max()
+    return {claim: VERDICTS[rank] for claim, rank in ranks.items()}
+
+
+def undecided_cases(rows):
+    """How many cases are undecided, in words, such as "2 of 4 cases undecided"; "" if none."""
+    number = int((rows["verdict"] == "undecided").sum())
+    return f"{number} of {len(rows)} cases undecided" if number else ""
 
 
 def markdown(table, claims):
-    """The verdicts as a table in Markdown, a row for each claim with its statement, its cases and the verdict.
+    """The verdicts as tables in Markdown, one for each kind, a row for each claim.
 
     Of more than `CASES_SHOWN_MAX` cases it shows the first, the last, and the one that is farthest from what the paper
-    says.
+    says. Behind a verdict stands how many of the cases are undecided.
     """
-    lines = ["| the paper says | where | computed [95 % interval] | verdict |", "|---|---|---|---|"]
-    for name, verdict in overall(table).items():
-        cases = _cases_in_words(table[table["claim"] == name])
-        lines.append(f"| {claims[name]['statement']} | {claims[name]['where']} | {cases} | {verdict} |")
-    return "\n".join(lines) + "\n"
+    parts, verdicts = [], overall(table)
+    for kind, heading in KINDS.items():
+        names = [name for name in verdicts if claims[name]["kind"] == kind]
+        if not names:
+            continue
+        lines = [f"### {heading}", "", "| the paper says | where | computed | verdict |", "|---|---|---|---|"]
+        for name in names:
+            rows = table[table["claim"] == name]
+            undecided = undecided_cases(rows)
+            verdict = verdicts[name] + (f" ({undecided})" if undecided else "")
+            lines.append(f"| {claims[name]['statement']} | {claims[name]['where']} | {_in_words(rows)} | {verdict} |")
+        parts.append("\n".join(lines) + "\n")
+    return "\n".join(parts)
 
 
 def cases_shown(rows):
@@ -79,16 +102,23 @@ def cases_shown(rows):
     return rows.loc[sorted({rows.index[0], farthest, rows.index[-1]})]
 
 
-def _cases_in_words(rows):
+def _in_words(rows):
     shown = cases_shown(rows)
     number = f"{len(rows)} cases, of which " if len(shown) < len(rows) else ""
     return number + "; ".join(_case_in_words(row) for _, row in shown.iterrows())
 
 
 def _case_in_words(row):
-    """Name, value and interval of a case, with what the paper says."""
+    """Name and value of a case, its interval in brackets, its range in words, and what the paper says."""
     if not np.isfinite(row["value"]):
         return f"{row['case']}: –"
-    numbers = [row[name] for name in ("value", "low", "high", "expected")]
-    value, low, high, said = (f"{number:.0f}" if abs(number) >= 1e3 else f"{number:.3g}" for number in numbers)
-    return f"{row['case']}: {value} [{low}, {high}]" + (f", paper {said}" if np.isfinite(numbers[-1]) else "")
+    text = f"{row['case']}: {_digits(row['value'])}"
+    if np.isfinite(row["low"]):
+        text += f" [{_digits(row['low'])}, {_digits(row['high'])}]"
+    if np.isfinite(row["least"]):
+        text += f", least {_digits(row['least'])}, largest {_digits(row['largest'])}"
+    return text + (f", paper {_digits(row['expected'])}" if np.isfinite(row["expected"]) else "")
+
+
+def _digits(number):
+    return f"{number:.0f}" if abs(number) >= 1e3 else f"{number:.3g}"

@@ -3,12 +3,14 @@
 import dataclasses
 
 import numpy as np
+import pandas as pd
 import pytest
 from scipy import stats
 
 from support.study import evidence
-from viscorough_study.criteria import excess_variance, last_region, power_law
-from viscorough_study.evidence import judged
+from viscorough_study.evidence import equivalence, judged, mean_with_interval, opposite
+from viscorough_study.method_criteria import bodies_of_revolution, elements
+from viscorough_study.region_criteria import excess_variance, last_region, power_law
 
 
 def test_variance_between_groups_is_covered_at_the_stated_rate():
@@ -49,11 +51,28 @@ def test_variance_between_groups_is_never_negative_and_needs_two_groups():
 
 @pytest.mark.parametrize(
     ("interval", "verdict"),
-    [((0.1, 0.3), True), ((1.05, 1.2), False), ((-2.0, -1.05), False), ((0.9, 1.2), True), ((-1.9, 2.2), None)],
+    [
+        ((0.1, 0.3), True),
+        ((-1.0, 1.0), True),
+        ((1.05, 1.2), False),
+        ((-2.0, -1.05), False),
+        ((0.9, 1.2), None),
+        ((-1.2, -0.9), None),
+        ((-1.9, 2.2), None),
+        ((np.nan, np.nan), None),
+    ],
 )
 def test_interval_against_a_range(interval, verdict):
-    """[-1, 1] is the range: inside, beyond either end, over an end, and more than twice as wide."""
-    assert evidence().may_lie_within(interval, -1.0, 1.0) is verdict
+    """[-1, 1] is the range: inside, up to its ends, beyond either end, over an end, over both, and undefined."""
+    assert equivalence(interval, -1.0, 1.0) is verdict
+    assert opposite(equivalence(interval, -1.0, 1.0)) is {True: False, False: True, None: None}[verdict]
+
+
+def test_interval_of_a_mean_is_that_of_student():
+    mean, low, high = mean_with_interval(np.array([1.0, 2.0, 3.0]))
+    assert (mean, high - mean) == pytest.approx((2.0, 4.302653 / np.sqrt(3)))
+    assert low + high == pytest.approx(2 * mean)
+    assert np.isnan(mean_with_interval(np.ones(1))[1:]).all()
 
 
 def test_outcomes_of_a_case():
@@ -64,8 +83,34 @@ def test_outcomes_of_a_case():
     assert under_other.verdict == "reproduced under a stated convention"
     assert under_other.convention == "rms_convention square"
     assert judged("a", values, 1.0, False).verdict == "not reproduced"
-    assert judged("a", values, 1.0, None).verdict == "not testable"
-    assert judged("a", (np.nan, 0.0, 1.0), 1.0, False).verdict == "not testable"
+    assert judged("a", values, 1.0, None).verdict == "undecided"
+    assert judged("a", values, 1.0, None, "rms_convention square").verdict == under_other.verdict
+    assert judged("a", (np.nan, 0.0, 1.0), 1.0, False).verdict == "undecided"
+    assert judged("a", (np.nan, 0.0, 1.0), 1.0, False, "rms_convention square").convention == ""
+    assert np.isnan([judged("a", values, 1.0, True).least, judged("a", values, 1.0, True).largest]).all()
+
+
+def test_all_errors_of_bodies_of_revolution_are_held_to_the_tolerance():
+    """Also those of the stiffness, of which the finest grid decides."""
+    found = evidence()
+    errors = {"depth": (1e-2, 1e-5), "stiffness": (3e-2, 3e-3)}
+    rows = [
+        ("cone_reduction", name, n, error)
+        for name, two in errors.items()
+        for n, error in zip((65, 129), two, strict=True)
+    ]
+    found.tables["validation"] = pd.DataFrame(rows, columns=["case", "quantity", "elements", "error"])
+    for tolerance, verdicts in ((5e-3, ["reproduced"] * 2), (1e-3, ["reproduced", "not reproduced"])):
+        cases = bodies_of_revolution(found, tolerance)
+        assert [case.verdict for case in cases] == verdicts
+        assert [(case.value, case.least, case.largest) for case in cases] == [(1e-5, 1e-5, 1e-2), (3e-3, 3e-3, 3e-2)]
+
+
+def test_four_elements_lie_on_the_rim_of_the_disc():
+    (case,) = elements(evidence(), 4)
+    assert (case.value, case.least, case.largest) == (51433, 51429, 51433)
+    assert case.verdict == "reproduced"
+    assert elements(evidence(), 0)[0].verdict == "not reproduced"
 
 
 def test_settings_decide_how_long_a_power_law_must_be():

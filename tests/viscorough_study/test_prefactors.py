@@ -15,7 +15,7 @@ OWN = {"case_group": "base"} | SHOWN
 @pytest.fixture(scope="module")
 def scaling():
     """Surfaces with ζ twice Eq. 4 in h of the disc, and just Eq. 4 in h of the square."""
-    return evidence(lambda hurst: 2 * zeta_elastic(hurst), square=0.5).scaling
+    return evidence(lambda hurst: 2 * zeta_elastic(hurst), square=0.5).tables["scaling"]
 
 
 @pytest.fixture(scope="module")

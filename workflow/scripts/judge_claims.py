@@ -12,13 +12,11 @@ from viscorough_study.tables import recorded, write_table
 from viscorough_study.verdicts import COLUMNS, judge, markdown
 
 
-def main(discs, scaling, validation, direct, csv, html, nc, verdicts, *, claims, **settings):
-    """Judge the claims by the pool of discs and by the tables; settings : further fields of Evidence."""
+def main(discs, tables, csv, html, nc, verdicts, *, claims, **settings):
+    """Judge the claims by the pool of discs and by tables {name: path}; settings : further fields of Evidence."""
     evidence = Evidence(
         discs=select(read_dataset(discs), group="base"),
-        scaling=pd.read_csv(scaling),
-        validation=pd.read_csv(validation),
-        direct=pd.read_csv(direct),
+        tables={name: pd.read_csv(path) for name, path in tables.items()},
         **settings,
     )
     table = judge(claims, evidence)
@@ -32,4 +30,5 @@ def main(discs, scaling, validation, direct, csv, html, nc, verdicts, *, claims,
 
 if job := globals().get("snakemake"):
     log_to(job.log[0])
-    main(**job.input, **job.output, **job.params)
+    files = dict(job.input)
+    main(files.pop("discs"), files, **job.output, **job.params)

@@ -13,11 +13,14 @@ CASE = ("value", "low", "high", "expected")
 
 
 def verdict_counts(results):
-    """[Count] of claims by verdict, most frequent first; a claim has the verdict over all its cases."""
-    verdicts = list(overall(results.tables["claims"]).values())
+    """[Count] of claims on physics by verdict, most frequent first; a claim has the verdict over all its cases."""
+    table = results.tables["claims"]
+    verdicts = list(overall(table[table["kind"] == "physics"]).values())
     numbers = {verdict: verdicts.count(verdict) for verdict in dict.fromkeys(verdicts)}
     ordered = sorted(numbers.items(), key=lambda item: -item[1])
-    return [Count(number, "claims", "verdict over all cases of a claim", verdict) for verdict, number in ordered]
+    return [
+        Count(number, "claims", "verdict over all cases of a claim on physics", verdict) for verdict, number in ordered
+    ]
 
 
 def answers(results):
@@ -40,7 +43,7 @@ def answers(results):
         "coincide": _case(results, differences.idxmax() if len(differences) else None),
         "elastic": _ends(cases("zeta_elastic")),
         "viscous": _ends(cases("zeta_viscous")),
-        "gamma": [extremes("gamma", "low")[0], extremes("gamma", "high")[1], *extremes("gamma", "expected")],
+        "gamma": [extremes("gamma", "least")[0], extremes("gamma", "largest")[1], *extremes("gamma", "expected")],
     }
 
 

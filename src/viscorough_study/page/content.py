@@ -7,7 +7,7 @@ import pandas as pd
 
 from viscorough.io.netcdf import opened
 from viscorough_study.scale import is_trial
-from viscorough_study.verdicts import cases_shown, overall
+from viscorough_study.verdicts import KINDS, cases_shown, overall, undecided_cases
 
 # {name of the figure: what it shows, for those who cannot see it}
 ALTERNATIVE_TEXTS = {
@@ -37,35 +37,37 @@ VERDICT_SHORT = {
     "reproduced": "yes",
     "reproduced under a stated convention": "partly",
     "not reproduced": "no",
-    "not testable": "open",
+    "undecided": "open",
 }
 
 
 def verdicts(results, statements):
-    """Every claim with its statement, its verdict and the cases that are shown, with their numbers."""
-    table, claims = results.tables["claims"], []
+    """Every claim with its statement, its verdict and the cases that are shown, with their numbers: {kind: claims}."""
+    table, claims = results.tables["claims"], {heading: [] for heading in KINDS.values()}
     for name, verdict in overall(table).items():
         rows = table[table["claim"] == name]
         first, shown = rows.iloc[0], cases_shown(rows)
         cases = [
             {"case": row["case"], "verdict": row["verdict"], "convention": row["convention"]}
-            | results.numbers("claims", i, "value", "low", "high", "expected")
+            | results.numbers("claims", i, "value", "low", "high", "least", "largest", "expected")
             for i, row in shown.iterrows()
         ]
-        claims.append(
+        claims[KINDS[first["kind"]]].append(
             {
                 "name": name,
                 "statement": statements[name]["statement"],
                 "where": first["where"],
                 "criterion": first["criterion"],
+                "reason": first["reason"],
                 "tolerance": results.number("claims", rows.index[0], "tolerance"),
                 "verdict": verdict,
                 "short": VERDICT_SHORT[verdict],
+                "undecided": undecided_cases(rows),
                 "cases": cases,
                 "left_out": len(rows) - len(shown),
             }
         )
-    return claims
+    return {heading: of_kind for heading, of_kind in claims.items() if of_kind}
 
 
 def other_solvers(path):

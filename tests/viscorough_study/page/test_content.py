@@ -73,7 +73,8 @@ def test_the_fastest_method_that_reaches_an_error_is_named(methods):
 
 def test_a_claim_counts_once_with_the_worst_of_its_verdicts():
     rows = [("a", "reproduced"), ("a", "not reproduced"), ("b", "reproduced"), ("c", "reproduced")]
-    counts = verdict_counts(Results({"claims": pd.DataFrame(rows, columns=["claim", "verdict"])}, {}, {}))
+    rows = [(*row, "physics") for row in rows] + [("d", "not reproduced", "bookkeeping")]
+    counts = verdict_counts(Results({"claims": pd.DataFrame(rows, columns=["claim", "verdict", "kind"])}, {}, {}))
     assert [(count.counted, count.value) for count in counts] == [("reproduced", 2), ("not reproduced", 1)]
 
 

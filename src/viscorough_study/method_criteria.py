@@ -1,0 +1,76 @@
+"""Criteria of claims on the methods: the factor Γ, the line of the reduction of dimensionality, counts and time."""
+
+import numpy as np
+
+from viscorough.surfaces import cut_disc
+from viscorough_study.evidence import NO_INTERVAL, equivalence, judged, opposite
+
+
+def gamma(evidence, tolerance):
+    """Depth of direct integrations in time over the elastic depth, against the factor of Eq. 8."""
+    cases = []
+    for name, rows in evidence.tables["direct"].groupby("case", sort=False):
+        ratio, factor = rows["depth_ratio"], rows["with_gamma"].iloc[0]
+        met, extremes = bool((np.abs(ratio - factor) <= tolerance).all()), (ratio.min(), ratio.max())
+        cases.append(judged(name, (ratio.median(), *NO_INTERVAL), factor, met, extremes=extremes))
+    return cases
+
+
+def line_spectrum(evidence, tolerance):
+    """λ at the largest Hurst exponent over λ at the smallest, with the smallest and the largest λ/π of all.
+
+    Where λ depends on H by more than the tolerance, no constant serves, and π neither. The two λ are independent, and
+    the logarithm of each has an interval of its own; that of the difference is their root of the sum of squares.
+    """
+    fits = evidence.fits("discs")[["lambda", "lambda_low", "lambda_high"]].dropna()
+    if len(fits) < 2:
+        return [judged("λ over H", (np.nan,) * 3, np.nan, None)]
+    logarithms = np.log(fits.to_numpy())
+    (first, first_low, first_high), (last, last_low, last_high) = logarithms[0], logarithms[-1]
+    ratio = last - first
+    below, above = np.hypot(last - last_low, first_high - first), np.hypot(last_high - last, first - first_low)
+    values = np.exp([ratio, ratio - below, ratio + above])
+    met = opposite(equivalence(values[1:], 1 / (1 + tolerance), 1 + tolerance))
+    name = f"λ at H = {fits.index[-1]:g} over λ at H = {fits.index[0]:g}; least and largest λ/π"
+    extremes = fits["lambda"].min() / np.pi, fits["lambda"].max() / np.pi
+    return [judged(name, values, np.nan, met, extremes=extremes)]
+
+
+def bodies_of_revolution(evidence, tolerance):
+    """Error of the reduction on the finest grid, with the least and the largest of all grids."""
+    validation = evidence.tables["validation"]
+    rows = validation[validation["case"].str.endswith("_reduction")]
+    cases = []
+    for (case, quantity), grids in rows.groupby(["case", "quantity"], sort=False):
+        error = grids.sort_values("elements")["error"]
+        met, extremes = bool(error.iloc[-1] <= tolerance), (error.min(), error.max())
+        name = f"{case.removesuffix('_reduction')}, {quantity}"
+        cases.append(judged(name, (error.iloc[-1], *NO_INTERVAL), 0.0, met, extremes=extremes))
+    return cases
+
+
+def elements(evidence, tolerance):
+    """Elements of a disc as large as the paper's; least and largest: without and with those exactly on the rim."""
+    across, said = (evidence.said("boundary_elements", name) for name in ("elements_across", "elements"))
+    count = np.isfinite(cut_disc(np.zeros((across, across)), across)).sum()
+    x = np.arange(across) - (across - 1) / 2
+    on_rim = (x[:, None] ** 2 + x**2 == ((across - 1) / 2) ** 2).sum()
+    met, extremes = bool(abs(count - said) <= tolerance), (count - on_rim, count)
+    return [judged(f"{across} across", (count, *NO_INTERVAL), said, met, extremes=extremes)]
+
+
+def computing_time(evidence, tolerance):
+    """Contact events of one indentation to the end of its curve, each of them a contact problem for explicit steps."""
+    counts = [ensemble["contact_count"].max("abscissa").values for ensemble in evidence.pooled.values()]
+    counts = np.concatenate(counts)
+    values, extremes = (np.median(counts), *NO_INTERVAL), (counts.min(), counts.max())
+    return [judged("events of an indentation", values, np.nan, None, extremes=extremes)]
+
+
+JUDGES = {
+    "gamma": gamma,
+    "line_spectrum": line_spectrum,
+    "bodies_of_revolution": bodies_of_revolution,
+    "elements": elements,
+    "computing_time": computing_time,
+}

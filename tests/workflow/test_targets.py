@@ -33,7 +33,7 @@ def drawn(folder, *figures):
 
 @pytest.mark.parametrize(
     ("name", "indent_discs", "indent_lines"),
-    [("config", 4 * (9 + 4), 21), ("paper", 4 * (9 * 2 + 8 * 2), 101), ("test", 2 * (2 + 1), 2 * 2)],
+    [("config", 4 * (9 + 4), 21), ("paper", 4 * (9 * 2 + 8), 101), ("test", 2 * (2 + 1), 2 * 2)],
 )
 def test_plans_of_every_scale(unmade, name, indent_discs, indent_lines):
     planned = plan(unmade, "--configfile", f"config/{name}.yaml")

@@ -337,10 +337,17 @@ OPTIONS = {
         "--depths": SERIES | QUANTITIES,
         "--forces": SERIES | QUANTITIES,
         "--until-force": QUANTITIES,
+        "--threads": WHOLE,
         **CONSTANTS,
         **fuzz_surfaces.OPTIONS,
     },
-    "contact": {"--tolerance": SHARES, "--force": SERIES | QUANTITIES, "--depth": SERIES | QUANTITIES, **CONSTANTS},
+    "contact": {
+        "--tolerance": SHARES,
+        "--force": SERIES | QUANTITIES,
+        "--depth": SERIES | QUANTITIES,
+        "--threads": WHOLE,
+        **CONSTANTS,
+    },
     "kinetics": {  # these exclude those that it has, repeat them or name other files
         "--force": NUMBERS,
         "--viscosity": NUMBERS,

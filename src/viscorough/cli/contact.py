@@ -7,6 +7,7 @@ from viscorough.cli.messages import announce
 from viscorough.cli.options import (
     PositiveNumber,
     output_option,
+    threads_option,
     write_output,
 )
 from viscorough.cli.progress import progress_bar, progress_option
@@ -20,8 +21,9 @@ from viscorough.cli.surface_options import heights_input, read_indenter
 @click.option("--depth", type=IncreasingQuantities("m"), help="Depth from first contact, or several.")
 @elastic_constants_options
 @click.option("--tolerance", type=PositiveNumber(0.1), default=1e-3, show_default=True, help="Relative accuracy.")
+@threads_option
 @progress_option
-def contact(surface, output, *, force, depth, shear_modulus, young, poisson, tolerance, progress):
+def contact(surface, output, *, force, depth, shear_modulus, young, poisson, tolerance, threads, progress):
     """Pressure, gap and contact of an indenter pressed into an elastic half-space, at a given force or depth.
 
     HEIGHTS, spacing and units are as for viscorough indent; no loading curve is computed. Without a modulus,
@@ -52,7 +54,7 @@ def contact(surface, output, *, force, depth, shear_modulus, young, poisson, tol
     from viscorough.io.contacts import contacts_to_content
 
     with progress_bar("viscorough contact", progress) as report:
-        contacts = contact_at(indenter, tolerance=tolerance, progress=report, **given)
+        contacts = contact_at(indenter, tolerance=tolerance, progress=report, threads=threads, **given)
     content = contacts_to_content(contacts, indenter.heights)
     write_output(content, output, **surface.attributes(indenter), **medium.attributes)
     last, patches = contacts[-1], int(content.variables["patches"].values.flat[-1])

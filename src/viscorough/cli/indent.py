@@ -8,6 +8,7 @@ from viscorough.cli.options import (
     PositiveNumber,
     Quantity,
     output_option,
+    threads_option,
     write_output,
 )
 from viscorough.cli.progress import progress_bar, progress_option
@@ -25,6 +26,7 @@ from viscorough.cli.surface_options import heights_input, read_indenter
 @click.option("--until-fraction", type=PositiveNumber(1), help="Contact fraction at which to stop  [default: 0.9]")
 @click.option("--until-force", type=Quantity("N"), help="F/G, or F with a modulus, at which to stop.")
 @elastic_constants_options
+@threads_option
 @progress_option
 def indent(
     surface,
@@ -38,6 +40,7 @@ def indent(
     shear_modulus,
     young,
     poisson,
+    threads,
     progress,
 ):
     """Loading curve of an indenter pressed into an elastic half-space.
@@ -87,7 +90,7 @@ def indent(
     from viscorough.io.curves import curve_to_content
 
     with progress_bar("viscorough indent", progress) as report:
-        curve = indent(indenter, tolerance=tolerance, progress=report, **given)
+        curve = indent(indenter, tolerance=tolerance, progress=report, threads=threads, **given)
     write_output(curve_to_content(curve), output, **surface.attributes(indenter), **medium.attributes)
     count = f"{curve.contact_count[-1]} of {curve.elements} elements in contact"
     announce(output, f"{curve.depth.size} levels, the last at depth {curve.depth[-1]:.6g} with {count}")

@@ -103,6 +103,15 @@ def output_option(metavar, table=True):
     return click.option("-o", "--output", type=FILE, required=True, metavar=metavar, help=text, callback=check)
 
 
+threads_option = click.option(
+    "--threads",
+    type=click.IntRange(1, 1024),
+    default=1,
+    show_default=True,
+    help="Threads of the processor; the result does not depend on them.",
+)
+
+
 def check_not_an_input(output, file, kind):
     """Raise ValueError if the output would replace a file that is read; `kind` says what it holds."""
     if output.exists() and file.exists() and output.samefile(file):

@@ -10,6 +10,7 @@ so that every operation below acts on as many columns at once as a register of t
 import numpy as np
 
 from viscorough.compilation import njit
+from viscorough.contact.parallel import Buffers, run_blocks
 
 # Columns of a block, which is small enough for the cache, and how many more columns the last block may have.
 _BLOCK, _REST = 64, 8
@@ -175,10 +176,10 @@ def _store(x, place, data, first, width):
             row[j] = complex(x[at, _PARTS + j], x[at, j])
 
 
-@njit
-def _convolve(data, edges, spectra, radices, factors, padded, place, same, x, y):
-    """Convolve the columns of data in place; takes the plan of ColumnConvolution as plain arrays, being compiled."""
-    for block in range(spectra.shape[0]):
+@njit(nogil=True)
+def _convolve(start, stop, data, edges, spectra, radices, factors, padded, place, same, x, y):
+    """Convolve blocks of columns in place; takes the plan of ColumnConvolution as plain arrays, being compiled."""
+    for block in range(start, stop):
         first, width = edges[block], edges[block + 1] - edges[block]
         _load(data, first, x, width)
         frequencies, other = _transform(x, y, padded, same, radices, factors, width)
@@ -194,9 +195,10 @@ class ColumnConvolution:
     spectrum : real transforms of the kernels along the columns, divided by the length of the transform: the frequencies
         up to half of it, shape (length/2 + 1, columns), where length is a good_length above `rows`
     precision : floating-point type of the computation
+    threads : on which blocks of columns are convolved
     """
 
-    def __init__(self, rows, spectrum, precision):
+    def __init__(self, rows, spectrum, precision, threads=1):
         length, columns = 2 * (spectrum.shape[0] - 1), spectrum.shape[1]
         radices = _radices(length)
         frequency, factors, rest = np.zeros(1, dtype=int), [], length
@@ -215,8 +217,14 @@ class ColumnConvolution:
             edges, spectra, np.array(radices), np.concatenate(factors).astype(spectral),
             np.minimum(same, rows), np.argsort(frequency), same,
         )  # fmt: skip
-        self._work = [np.empty((length, _ROW), dtype=precision) for _ in range(2)]
+        self._blocks, self._threads = edges.size - 1, threads
+        self._work = Buffers((2, length, _ROW), precision)
 
     def apply(self, data):
         """Convolve the columns of `data`, complex numbers of shape (rows, columns), in place."""
-        _convolve(data, *self._plan, *self._work)
+
+        def convolve(start, stop):
+            with self._work.one() as (x, y):
+                _convolve(start, stop, data, *self._plan, x, y)
+
+        run_blocks(convolve, self._blocks, self._threads, 1 if self._threads > 1 else self._blocks)

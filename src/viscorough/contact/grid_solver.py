@@ -55,18 +55,19 @@ class GridSolver:
     tolerance : largest |e| in contact or overlap outside it, over the depth
     options : SolverOptions
     aspect : dy/dx of the elements
+    threads : on which it computes
 
     place : index of every element in flat fields, by rank (0: not in the box)
     initial_gap : flat field
     """
 
-    def __init__(self, box, row, column, initial_gap, tolerance, options, *, aspect=1.0):
+    def __init__(self, box, row, column, initial_gap, tolerance, options, *, aspect=1.0, threads=1):
         top, left, rows, columns = box
         if rows > _TALL * columns:
             row, column, top, left, rows, columns = column, row, left, top, columns, rows
             aspect = 1 / aspect
-        self._tolerance, self._options = tolerance, options
-        of_grid = {"aspect": aspect, "padding": options.padding}
+        self._tolerance, self._options, self._threads = tolerance, options, threads
+        of_grid = {"aspect": aspect, "padding": options.padding, "threads": threads}
         self._halfspace = Halfspace(rows, columns, _PRECISIONS[options.precision], **of_grid)
         exact = tolerance < options.exact_gap_below
         self._exact = Halfspace(rows, columns, **of_grid) if exact else self._halfspace

@@ -7,6 +7,7 @@ import numpy as np
 
 from viscorough.compilation import njit, vectorize
 from viscorough.contact.column_fft import ColumnConvolution, good_length
+from viscorough.contact.parallel import BLOCK, Buffers, run_blocks
 
 # Beyond this distance (in sides of an element or of its parts) the series below is more accurate than the difference
 # of logarithms.
@@ -16,6 +17,8 @@ _FAR = 30
 _ROW_PADDING = 16
 # Fewer rows than this are folded before they are transformed.
 _FOLDED_BELOW = 4
+# The number of rows in a block is a multiple of this: the library transforms so many at once.
+_ROWS_AT_ONCE = 16
 
 
 def influence_coefficient(row, column, aspect=1.0):
@@ -108,39 +111,69 @@ def _spectrum(rows, columns, aspect, padding):
 
 
 class _RowTransforms:
-    """Real transforms of rows, and their inverses without a factor.
+    """Real transforms of rows padded with zeros, and their inverses without a factor, on so many threads.
 
     The library transforms many rows at once, in the lanes of the processor's registers, but a single row number by
     number. Few rows of length A B are therefore folded: with n = B a + b and frequencies k + A l, transforms over a, of
     columns b side by side, are multiplied by exp(−2πi b k/(A B)) and transformed over b.
 
+    Rows that are many are transformed block by block, and padded only there.
+
     frequency : of every entry of a transformed row, shape (A/2 + 1, B), with B = 1 for rows that are not folded
+    width : of rows as `forward` takes them; what lies beyond the columns of the grid must be zero
     """
 
-    def __init__(self, rows, length, precision):
+    def __init__(self, rows, columns, length, precision, threads):
         folds = 1 if rows >= _FOLDED_BELOW else max(n for n in range(1, int(length**0.5) + 1) if length % n == 0)
-        self._shape, self._length, self._folded = (rows, length // folds, folds), length // folds, folds > 1
+        self._shape, self._folded, self._threads = (length // folds, folds), folds > 1, threads
         first, second = np.arange(length // folds // 2 + 1)[:, None], np.arange(folds)
         self.frequency = first + length // folds * second
         self._twiddles = np.exp(-2j * np.pi / length * first * second).astype(np.result_type(precision, np.complex64))
+        self._block = rows if rows * columns <= BLOCK else -(-BLOCK // (columns * _ROWS_AT_ONCE)) * _ROWS_AT_ONCE
+        is_one = self._block >= rows
+        self.width = (length if is_one else columns) + _ROW_PADDING
+        # Two blocks of rows: with their padding, and as they result from inverse transforms.
+        buffers = Buffers((2, self._block, length + _ROW_PADDING), precision)
+        self._columns, self._buffers = columns, None if is_one else buffers
 
     def forward(self, data, out):
-        """Transform the rows of `data`, of which the columns beyond the length are left out."""
-        ducc0.fft.r2c(self._fold(data), axes=[1], out=out)
-        if self._folded:
-            out *= self._twiddles
-            ducc0.fft.c2c(out, axes=[2], out=out)
+        """Transform the rows of `data`."""
+        if self._buffers is None:
+            ducc0.fft.r2c(self._fold(data), axes=[1], out=out)
+            if self._folded:
+                out *= self._twiddles
+                ducc0.fft.c2c(out, axes=[2], out=out)
+            return
+
+        def transform(start, stop):
+            with self._buffers.one() as (padded, _):
+                padded[: stop - start, : self._columns] = data[start:stop, : self._columns]
+                ducc0.fft.r2c(self._fold(padded[: stop - start]), axes=[1], out=out[start:stop])
+
+        run_blocks(transform, len(data), self._threads, self._block)
 
     def backward(self, data, out):
-        """The inverse of `forward`, which overwrites `data`."""
-        if self._folded:
-            ducc0.fft.c2c(data, axes=[2], forward=False, out=data)
-            data *= self._twiddles.conj()
-        ducc0.fft.c2r(data, axes=[1], forward=False, lastsize=self._length, out=self._fold(out))
+        """The inverse of `forward`, which overwrites `data`; the columns of `out` beyond the grid are undefined."""
+        if self._buffers is None:
+            if self._folded:
+                ducc0.fft.c2c(data, axes=[2], forward=False, out=data)
+                data *= self._twiddles.conj()
+            self._inverse(data, out)
+            return
+
+        def transform(start, stop):
+            with self._buffers.one() as (_, rows):
+                self._inverse(data[start:stop], rows[: stop - start])
+                out[start:stop, : self._columns] = rows[: stop - start, : self._columns]
+
+        run_blocks(transform, len(data), self._threads, self._block)
+
+    def _inverse(self, data, out):
+        ducc0.fft.c2r(data, axes=[1], forward=False, lastsize=self._shape[0], out=self._fold(out))
 
     def _fold(self, data):
-        _, length, folds = self._shape
-        return data[:, : length * folds].reshape(self._shape)
+        length, folds = self._shape
+        return data[:, : length * folds].reshape(len(data), length, folds)
 
 
 class Halfspace:
@@ -157,6 +190,7 @@ class Halfspace:
     precision : floating-point type of the computation
     aspect : dy/dx of the elements
     padding : whether the grid is padded; if not, periodic images of the grid act on it
+    threads : on which it is computed
 
     load : the array to write P into, of shape (rows, stride ≥ columns); it must be zero wherever there is no pressure
         and in the columns beyond the grid
@@ -166,15 +200,15 @@ class Halfspace:
     are undefined.
     """
 
-    def __init__(self, rows, columns, precision=np.float64, *, aspect=1.0, padding=True):
+    def __init__(self, rows, columns, precision=np.float64, *, aspect=1.0, padding=True, threads=1):
         self.shape = (rows, columns)
         (_, length), spectrum = _spectrum(rows, columns, aspect, padding)
-        self._rows = _RowTransforms(rows, length, precision)
+        self._rows = _RowTransforms(rows, columns, length, precision, threads)
         frequency = self._rows.frequency
         spectrum = spectrum[:, np.minimum(frequency, length - frequency).ravel()]
-        self._columns = ColumnConvolution(rows, spectrum, precision) if rows > 1 else None
+        self._columns = ColumnConvolution(rows, spectrum, precision, threads) if rows > 1 else None
         self._spectrum = spectrum.reshape(frequency.shape).astype(precision) if rows == 1 else None
-        self.load = np.zeros((rows, length + _ROW_PADDING), dtype=precision)
+        self.load = np.zeros((rows, self._rows.width), dtype=precision)
         self._transformed = np.empty((rows, *frequency.shape), dtype=np.result_type(precision, np.complex64))
         self._deflection = np.empty_like(self.load)
         self.count = 0

@@ -34,6 +34,7 @@ def indent(
     until_fraction=0.9,
     until_force=np.inf,
     progress=None,
+    threads=1,
     options=DEFAULT,
 ):
     """Loading curve of a rigid indenter pressed without friction into an incompressible elastic half-space.
@@ -54,6 +55,7 @@ def indent(
     until_fraction : contact fraction at which to stop, in (0, 1]; ignored where depths or forces are given
     until_force : F/G at which to stop [length²]; ignored where depths or forces are given
     progress : function that is called after a level with the estimated share of the computation that is done, up to 1
+    threads : of the processor on which a curve is computed; the result does not depend on them. Worth it for large maps
     options : SolverOptions
 
     Returns a LoadingCurve. The last level is the first one at or beyond `until_fraction` or `until_force`.
@@ -61,7 +63,7 @@ def indent(
     straight line from the origin through it.
     Raises ValueError for arguments out of range, ConvergenceError if a level cannot be solved to the tolerance.
     """
-    check_solvable("indent", indenter, tolerance)
+    check_solvable("indent", indenter, tolerance, threads)
     if depths is not None and forces is not None:
         raise ValueError("indent: depths and forces exclude each other; one of them is allowed")
     if not 0 < until_fraction <= 1:
@@ -76,13 +78,15 @@ def indent(
         forces = increasing("indent: forces", forces)
     progress = progress or (lambda done: None)
     if depths is not None:
-        solver = ContactSolver(indenter, tolerance, options)
+        solver = ContactSolver(indenter, tolerance, options, threads)
         levels = _levels_at_depths(solver, depths, progress)
     elif forces is not None:
-        solver = ContactSolver(indenter, tolerance / 2, options)  # the correction to the force takes the other half
+        solver = ContactSolver(
+            indenter, tolerance / 2, options, threads
+        )  # the correction to the force takes the other half
         levels = _levels_at_forces(solver, forces, progress)
     else:
-        solver = ContactSolver(indenter, tolerance, options)
+        solver = ContactSolver(indenter, tolerance, options, threads)
         levels = _LoadingPath(solver, until_fraction, until_force, progress).levels_from(start_fraction)
     depth = solver.units.length * np.array([level.depth for level in levels])
     force = solver.units.force * np.array([level.pressure_sum for level in levels])

@@ -10,7 +10,7 @@ from viscorough.contact_maps import Contact
 _SHARE_OF_APPROACH = 0.6  # of the time for a force, which the contacts up to it take
 
 
-def contact_at(indenter, *, depth=None, force=None, tolerance=1e-3, progress=None, options=DEFAULT):
+def contact_at(indenter, *, depth=None, force=None, tolerance=1e-3, progress=None, threads=1, options=DEFAULT):
     """Contact of a rigid indenter with an incompressible elastic half-space at a given depth or force.
 
     Solves the same problem as `indent`, at this depth only, or at the few depths that lead to the force.
@@ -22,19 +22,20 @@ def contact_at(indenter, *, depth=None, force=None, tolerance=1e-3, progress=Non
         force at a given depth, and of depth at a given force, are of second order in it. Between 1e-12 and 0.1
     progress : function that is called after a contact is solved with the estimated share of the computation that is
         done, up to 1
+    threads : of the processor on which it is computed; the result does not depend on them. Worth it for large maps
     options : SolverOptions
 
     Returns a Contact; for several depths or forces a list of them, which are solved along one path. The pressures add
     up to `force` to rounding.
     Raises ValueError for arguments out of range, ConvergenceError if a contact cannot be solved to the tolerance.
     """
-    check_solvable("contact_at", indenter, tolerance)
+    check_solvable("contact_at", indenter, tolerance, threads)
     if (depth is None) == (force is None):
         raise ValueError("contact_at: either depth or force must be given")
     by_depth = force is None
     values = increasing(f"contact_at: {'depth' if by_depth else 'force'}", depth if by_depth else force)
     # Pressures that add up to the force exactly take the other half of the tolerance.
-    solver = ContactSolver(indenter, tolerance / 2, options)
+    solver = ContactSolver(indenter, tolerance / 2, options, threads)
     progress = progress or (lambda done: None)
     states = _states_at_depths(solver, values) if by_depth else _states_at_forces(solver, values, progress)
     contacts = []

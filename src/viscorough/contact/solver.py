@@ -14,6 +14,7 @@ from viscorough.contact import dense
 from viscorough.contact.grid_solver import GridSolver
 from viscorough.contact.memory_demand import require_for_contact
 from viscorough.contact.options import DEFAULT
+from viscorough.contact.parallel import require_threads
 from viscorough.contact.state import ContactState, MemberLoads, elements_of
 from viscorough.errors import ConvergenceError
 
@@ -27,12 +28,13 @@ _LOST_CONTACT = 3
 _LARGEST_DEPTH = 1e25
 
 
-def check_solvable(name, indenter, tolerance):
-    """Raise ValueError, which starts with the name, unless an indenter is a map and the tolerance in its range."""
+def check_solvable(name, indenter, tolerance, threads=1):
+    """Raise ValueError, which starts with the name, unless an indenter is a map, and tolerance and threads in range."""
     if indenter.heights.ndim != 2:
         raise ValueError(f"{name}: the indenter's heights must be two-dimensional (lines are for reduce)")
     if not 1e-12 <= tolerance <= 0.1:
         raise ValueError(f"{name}: tolerance must be between 1e-12 and 0.1, not {tolerance!r}")
+    require_threads(name, threads)
 
 
 def increasing(name, values):
@@ -51,16 +53,17 @@ class ContactSolver:
     indenter : Indenter with two-dimensional heights
     tolerance : largest |e| in contact or overlap outside it, over the depth
     options : SolverOptions
+    threads : on which contacts on the grid are computed
 
     elements, units : state.Elements and state.Units of the indenter
 
     Raises MemoryError if the available memory does not suffice for the map.
     """
 
-    def __init__(self, indenter, tolerance, options=DEFAULT):
+    def __init__(self, indenter, tolerance, options=DEFAULT, threads=1):
         require_for_contact(indenter.heights, exact=tolerance < options.exact_gap_below)
         self.elements, self.units = elements_of(indenter)
-        self.tolerance, self.options = tolerance, options
+        self.tolerance, self.options, self._threads = tolerance, options, threads
         self._grid, self._reach, self._former_applications = None, 0, 0
 
     @property
@@ -157,7 +160,8 @@ class ContactSolver:
                 reach, box = self.elements.count, (0, 0, rows, columns)
             self._former_applications, self._reach = self.operator_applications, reach
             self._grid = None  # its memory is free for the larger one
-            self._grid = GridSolver(box, row, column, gap, self.tolerance, self.options, aspect=self.elements.aspect)
+            how = {"aspect": self.elements.aspect, "threads": self._threads}
+            self._grid = GridSolver(box, row, column, gap, self.tolerance, self.options, **how)
         return self._grid
 
     def _checked(self, before, after):

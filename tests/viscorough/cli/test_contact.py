@@ -174,6 +174,13 @@ MISTAKES = [
     (f"{CONTACT} --force 1e-300 --young 1e300", "must be positive"),
     (f"{CONTACT} --force 1e300 --young 1e-300", "must be a list of finite numbers"),
     (f"{CONTACT} --force 1 --tolerance 1", "is not a number above 0 and up to 0.1"),
+    *[
+        (f"{CONTACT} --force 1 --threads {n}", f"'--threads': {n} is not in the range 1<=x<=1024")
+        for n in (0, -1, 1025)
+    ],
+    *[(f"{CONTACT} --force 1 --threads {n}", f"'{n}' is not a valid integer") for n in ("two", "1.5")],
+    *[(f"{INDENT} --threads {n}", f"'--threads': {n} is not in the range 1<=x<=1024") for n in (0, -1, 1025)],
+    *[(f"{INDENT} --threads {n}", f"'{n}' is not a valid integer") for n in ("two", "1.5")],
     (f"{CONTACT} --force 1 --tolerance 1e-13", "tolerance must be between 1e-12 and 0.1"),
     (f"{CONTACT.replace('out.nc', 'out.csv')} --force 1", "maps are no table"),
     (f"{CONTACT.replace('heights.npy', 'none.npy')} --force 1", "none.npy"),

@@ -1,0 +1,73 @@
+"""Loops over large arrays on several threads of the process.
+
+Compiled loops and Fourier transforms release the interpreter's lock, so that blocks of an array are processed at the
+same time. How an array is divided does not depend on the number of threads, and results of blocks are combined in their
+order: computed numbers are the same to the last bit, however many threads there are.
+"""
+
+import os
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from functools import lru_cache
+from numbers import Integral
+
+import numpy as np
+
+# Entries of a block: those of a map of 257 x 257 elements are one block, so that such maps take no more time.
+BLOCK = 1 << 17
+MOST_THREADS = 1024
+
+
+def require_threads(name, threads):
+    """Raise ValueError, which starts with the name, unless `threads` is a whole number from 1 to MOST_THREADS."""
+    if not isinstance(threads, Integral) or isinstance(threads, bool) or not 1 <= threads <= MOST_THREADS:
+        raise ValueError(f"{name}: threads must be a whole number from 1 to {MOST_THREADS}, not {threads!r}")
+
+
+def run_blocks(function, size, threads, block=BLOCK):
+    """Call function(start, stop) for every block of range(size), on so many threads; returns its results in order.
+
+    function : releases the interpreter's lock while it computes, and writes to no entry that another block reads
+    block : entries of a block, the last of which may have fewer
+    """
+    if size <= block:
+        return [function(0, size)]
+    starts = range(0, size, block)
+    results, remaining = [None] * len(starts), iter(enumerate(starts))
+
+    def work():
+        for number, start in remaining:
+            results[number] = function(start, min(start + block, size))
+
+    helpers = min(threads, len(starts)) - 1
+    pending = [_helpers(os.getpid(), threads - 1).submit(work) for _ in range(helpers)]
+    try:
+        work()
+    finally:
+        for helper in pending:
+            if not helper.cancel():  # where it has not started yet, nothing is left for it
+                helper.result()
+    return results
+
+
+class Buffers:
+    """Arrays to compute in, as many as threads compute at the same time; zero when they are made."""
+
+    def __init__(self, shape, dtype):
+        self._shape, self._dtype, self._free = shape, dtype, []
+
+    @contextmanager
+    def one(self):
+        """Context that lends an array, with what its last user left in it."""
+        try:
+            buffer = self._free.pop()
+        except IndexError:
+            buffer = np.zeros(self._shape, self._dtype)
+        yield buffer
+        self._free.append(buffer)
+
+
+@lru_cache(maxsize=1)
+def _helpers(_process, threads):
+    """Threads besides the calling one; a process that was forked from another one needs its own."""
+    return ThreadPoolExecutor(threads, thread_name_prefix="viscorough")

@@ -1,0 +1,105 @@
+"""Loops over blocks on several threads, and the contact solver on them: the same numbers for any number of threads."""
+
+import os
+import threading
+import time
+
+import numpy as np
+import pytest
+
+from viscorough.contact.halfspace import Halfspace
+from viscorough.contact.loading_path import indent
+from viscorough.contact.one_contact import contact_at
+from viscorough.contact.parallel import Buffers, run_blocks
+from viscorough.indenter import Indenter
+from viscorough.surfaces import self_affine_disc
+
+THREADS = (1, 2, 3)
+
+
+@pytest.mark.parametrize("threads", [*THREADS, 1000])
+@pytest.mark.parametrize("size", [0, 1, 9, 10, 11, 20, 95])
+def test_blocks_cover_the_range_and_results_are_in_order(size, threads):
+    blocks = run_blocks(lambda start, stop: (start, stop), size, threads, block=10)
+    assert [i for start, stop in blocks for i in range(start, stop)] == list(range(size))
+    assert all(stop - start <= 10 for start, stop in blocks)
+
+
+def test_blocks_run_at_the_same_time():
+    barrier = threading.Barrier(3)  # is passed only by three threads together
+    run_blocks(lambda start, stop: barrier.wait(timeout=10), 3, 3, block=1)
+
+
+@pytest.mark.parametrize("threads", THREADS)
+def test_errors_in_a_block_are_raised(threads):
+    with pytest.raises(ZeroDivisionError):
+        run_blocks(lambda start, stop: 1 / (start - 50), 100, threads, block=10)
+
+
+def test_loops_within_loops_end():
+    def inner(start, stop):
+        return sum(run_blocks(lambda first, last: last - first, 40, 2, block=10))
+
+    assert run_blocks(inner, 40, 2, block=10) == [40] * 4
+
+
+def test_a_forked_process_has_threads_of_its_own():
+    run_blocks(lambda start, stop: None, 20, 2, block=10)
+    child = os.fork()
+    if child == 0:
+        barrier = threading.Barrier(2)
+        run_blocks(lambda start, stop: barrier.wait(timeout=10), 2, 2, block=1)
+        os._exit(0)
+    deadline = time.monotonic() + 30
+    while (done := os.waitpid(child, os.WNOHANG)) == (0, 0):
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+    assert done[1] == 0
+
+
+def test_buffers_in_use_are_different_ones():
+    buffers = Buffers(3, float)
+    with buffers.one() as first, buffers.one() as second:
+        assert first is not second
+    with buffers.one() as third:
+        assert third is first or third is second
+
+
+@pytest.mark.parametrize("shape", [(400, 700), (3, 100_000), (17, 20_000)])
+@pytest.mark.parametrize("precision", [np.float32, np.float64])
+def test_the_half_space_is_the_same(shape, precision):
+    load = np.random.default_rng(1).random(shape)
+    results = []
+    for threads in THREADS:
+        halfspace = Halfspace(*shape, precision, threads=threads)
+        halfspace.load[:, : shape[1]] = load
+        results.append(halfspace.apply()[:, : shape[1]].copy())
+    for result in results[1:]:
+        np.testing.assert_array_equal(result, results[0])
+
+
+@pytest.fixture(scope="module")
+def disc():
+    """A disc of several blocks."""
+    return self_affine_disc(0.8, 601, seed=1)
+
+
+def test_a_curve_is_the_same(disc):
+    one, *others = (indent(disc, until_fraction=0.2, threads=threads) for threads in THREADS)
+    for other in others:
+        for name in ("depth", "force", "stiffness", "contact_count", "residual"):
+            np.testing.assert_array_equal(getattr(other, name), getattr(one, name))
+
+
+def test_a_contact_in_double_precision_is_the_same(disc):
+    one, *others = (contact_at(disc, force=1.0, tolerance=1e-6, threads=threads) for threads in THREADS)
+    for other in others:
+        np.testing.assert_array_equal(other.pressure, one.pressure)
+        np.testing.assert_array_equal(other.gap, one.gap)
+
+
+@pytest.mark.parametrize("threads", [0, -1, 1.0, "two", None, True, 1025])
+@pytest.mark.parametrize("compute", [indent, lambda *args, **kwargs: contact_at(*args, depth=1.0, **kwargs)])
+def test_numbers_of_threads_that_are_none(compute, threads):
+    with pytest.raises(ValueError, match="threads must be a whole number from 1 to 1024, not "):
+        compute(Indenter(np.zeros((3, 3)), 1.0), threads=threads)

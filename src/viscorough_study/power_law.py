@@ -196,7 +196,10 @@ def log_means(velocity, average, resamples, generator):
     if average not in FITTED["average"]:
         raise ValueError(f"average: must be one of {', '.join(FITTED['average'])}, not {average!r}")
     n = len(velocity)
-    weights = np.vstack([np.ones(n), generator.multinomial(n, np.full(n, 1 / n), size=resamples)])
+    # How often each realization is drawn: multinomial numbers, which take longer to draw as such.
+    drawn = generator.integers(n, size=(resamples, n)) + n * np.arange(resamples)[:, None]
+    weights = np.bincount(drawn.ravel(), minlength=resamples * n).reshape(resamples, n)
+    weights = np.vstack([np.ones(n), weights])
     defined = np.isfinite(velocity)
     positive = np.where(defined, velocity, 1)
     values = np.where(defined, np.log(positive) if average == "geometric" else positive, 0)

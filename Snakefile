@@ -40,6 +40,7 @@ include: "workflow/rules/pools.smk"
 include: "workflow/rules/scaling.smk"
 include: "workflow/rules/validation.smk"
 include: "workflow/rules/figures.smk"
+include: "workflow/rules/mdr.smk"
 include: "workflow/rules/claims.smk"
 include: "workflow/rules/methods.smk"
 include: "workflow/rules/stability.smk"
@@ -87,6 +88,7 @@ rule figures:
         rules.plot_conventions.output,
         rules.plot_prefactors.output,
         rules.plot_reduction.output,
+        rules.plot_mdr_lambda.output,
         rules.plot_direct.output,
         rules.plot_validation.output,
         rules.plot_speed.output,
@@ -103,6 +105,7 @@ rule tables:
         rules.tabulate_calibration.output,
         rules.compare_prefactors.output,
         rules.compare_reduction.output,
+        rules.match_lines.output,
         rules.compare_direct.output,
         rules.tabulate_methods.output,
         rules.map_failures.output,

@@ -69,12 +69,13 @@ class CommandHelp(Directive):
 
 
 class TableColumns(Directive):
-    """The columns of a table: meaning and unit, from `COLUMNS` of the module that is the argument."""
+    """The columns of a table: meaning and unit, from `COLUMNS`, or a second argument, of the module that is the first."""
 
-    required_arguments = 1
+    required_arguments, optional_arguments = 1, 1
 
     def run(self):
-        columns = importlib.import_module(self.arguments[0]).COLUMNS
+        module, name = [*self.arguments, "COLUMNS"][:2]
+        columns = getattr(importlib.import_module(module), name)
         rows = [("column", "unit", "meaning"), *((name, unit or "", text) for name, (text, unit) in columns.items())]
         head, *body = [nodes.row("", *(nodes.entry("", nodes.paragraph("", cell)) for cell in row)) for row in rows]
         widths = [nodes.colspec(colwidth=width) for width in (20, 10, 70)]

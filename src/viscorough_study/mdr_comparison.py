@@ -2,12 +2,16 @@
 
 The line that stands for a surface has the spectrum C1D = π q C2D (Eq. 13): here that of the same realization of the
 surface, ring by ring of the wave vectors, with independent random phases, which the method does not specify.
+
+Contact area and separation are where the literature finds the method to fail (Lyashenko, Pastewka & Persson, Tribology
+Letters 52, 223 (2013)). The mean gap of a disc takes its deflections, so it is computed only at whole powers of ten.
 """
 
 import numpy as np
 import pandas as pd
 
 from viscorough.contact.loading_path import indent
+from viscorough.contact.one_contact import contact_at
 from viscorough.indenter import Indenter
 from viscorough.mdr import line_of_surface, reduce
 from viscorough.surfaces import cut_disc, self_affine_square
@@ -28,10 +32,15 @@ COLUMNS = {
         "geometric mean of X of a line over that of its disc, at equal u/h, where the disc has this X",
         "1",
     ),
+    "gap": ("mean gap of a disc over h, geometric mean; at whole powers of ten only", "1"),
+    "gap_ratio": ("geometric mean of the mean gap of the lines over that of the discs", "1"),
+    "gap_ratio_low": ("lower end of its 95 % interval", "1"),
+    "gap_ratio_high": ("upper end of its 95 % interval", "1"),
     "correlation": ("correlation of ln κ of discs and their lines over the realizations", "1"),
     "chance": ("correlations of as many unrelated pairs are within ± this in 95 % of all cases", "1"),
     "realizations": ("realizations", "1"),
 }
+_MUST_BE_DEFINED = 9  # columns from `stiffness` to `force_ratio`
 FORCE_MARGIN = 1.01  # by which the curve of a disc reaches beyond the last force compared, so that it is defined there
 
 
@@ -44,14 +53,22 @@ def compare_reduction(hursts, elements, realizations, x, *, tolerance, seed, pro
     Abscissae that some curve does not reach are left out.
     """
     force, rows = 4 * x, []  # F/G = 4hLX with h = L = 1
+    with_gap = is_power_of_ten(x)
     for hurst in hursts:
-        compared = []
+        compared, gaps = [], []
         for number in progress(range(realizations)):
             seed_of_both = realization_seed(seed, *mdr_comparison_key(hurst, number))
             disc, line = _disc_and_line(hurst, elements, *seed_of_both.spawn(2))
             disc_curve = indent(disc, tolerance=tolerance, until_force=FORCE_MARGIN * force[-1])
-            compared.append(_compare(disc_curve, reduce(line), force))
-        rows += _rows(hurst, x, np.array(compared))
+            line_curve = reduce(line)
+            compared.append(_compare(disc_curve, line_curve, force))
+            curves = disc_curve, line_curve
+            gaps.append(
+                [mean_gaps(*pair, force[with_gap], tolerance) for pair in zip((disc, line), curves, strict=True)]
+            )
+        of_gaps = np.full((4, x.size), np.nan)
+        of_gaps[:, with_gap] = _of_gaps(np.log(gaps))
+        rows += _rows(hurst, x, np.array(compared), of_gaps)
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
@@ -70,11 +87,42 @@ def _compare(disc, line, force):
     fractions = [
         np.interp(np.log(force), np.log(curve.force), np.log(curve.contact_fraction)) for curve in (disc, line)
     ]
-    line_force = np.interp(np.log(depth), np.log(line.depth), np.log(line.force))
+    # Before the first level the curve of the line is straight.
+    straight = np.minimum(np.log(depth / line.depth[0]), 0)
+    line_force = straight + np.interp(np.log(depth), np.log(line.depth), np.log(line.force))
     return np.log([disc_stiffness / 4, line_stiffness / 4]), fractions, [np.log(force), line_force]
 
 
-def _rows(hurst, x, compared):
+def is_power_of_ten(x):
+    """Whether numbers are whole powers of ten, to rounding; of the shape of x."""
+    exponent = np.log10(x)
+    return np.abs(exponent - np.rint(exponent)) < 1e-9
+
+
+def mean_gaps(indenter, curve, force, tolerance):
+    """Mean over all elements of the gap between indenter and deformed surface, at F/G; shape (forces,) [length].
+
+    curve : LoadingCurve of the indenter; tolerance : of the contacts of a map, which are solved at the curve's depths.
+    Springs of a line deflect by u − g where they touch, on average by F/(4GL): their mean gap is ⟨g⟩ − u + F/(4GL).
+    nan beyond the end of the curve.
+    """
+    depth, _ = curve.at_force(force)
+    if indenter.heights.ndim == 1:
+        heights = indenter.heights
+        return heights.max() - heights.mean() - depth + force / (4 * indenter.spacing * heights.size)
+    gaps, reached = np.full(force.size, np.nan), np.isfinite(depth)
+    if reached.any():
+        contacts = contact_at(indenter, depth=depth[reached], tolerance=tolerance)
+        gaps[reached] = [np.nanmean(contact.gap) for contact in contacts]
+    return gaps
+
+
+def _of_gaps(gaps):
+    """Columns of the mean gap; gaps : their logarithms, shape (realizations, disc and line, abscissae)."""
+    return [np.exp(gaps[:, 0].mean(axis=0)), *_mean_with_interval(gaps[:, 1] - gaps[:, 0])]
+
+
+def _rows(hurst, x, compared, of_gaps):
     """Rows of one Hurst exponent; compared : results of _compare, shape (realizations, 3, 2, abscissae)."""
     stiffness, fraction, force = np.moveaxis(compared, 1, 0)
     number = len(compared)
@@ -88,11 +136,12 @@ def _rows(hurst, x, compared):
         ratio.std(axis=0, ddof=1),
         *_mean_with_interval(fraction[:, 1] - fraction[:, 0]),
         np.exp((force[:, 1] - force[:, 0]).mean(axis=0)),
+        *of_gaps,
         correlation,
         np.full(x.size, chance),
     ]
     rows = zip(x, np.transpose(columns), strict=True)
-    return [(hurst, at, *values, number) for at, values in rows if np.isfinite(values[:-2]).all()]
+    return [(hurst, at, *values, number) for at, values in rows if np.isfinite(values[:_MUST_BE_DEFINED]).all()]
 
 
 def _mean_with_interval(logarithms):

@@ -76,12 +76,27 @@ def validation_table(grids=(33, 65, 129), quantities=("force", "depth")):
 
 
 def mdr_table():
-    """Lines as stiff as their discs, ten times larger in contact, and without correlation."""
+    """Lines as stiff as their discs, ten times larger in contact, half as far apart, and without correlation."""
     x = np.geomspace(1e-4, 1, 5)
     columns = {"x": x, "stiffness_scatter": 0.3, "correlation": 0.0, "chance": 0.5, "realizations": 6}
-    for name, value in (("stiffness_ratio", 1.0), ("area_ratio", 10.0)):
+    columns |= {"force_ratio": 1.0}
+    for name, value in (("stiffness_ratio", 1.0), ("area_ratio", 10.0), ("gap_ratio", 0.5)):
         columns |= {name: value, f"{name}_low": value / 2, f"{name}_high": value * 2}
     return pd.concat([pd.DataFrame({"hurst": hurst, **columns}) for hurst in (0.4, 0.9)], ignore_index=True)
+
+
+def mdr_lambda_tables():
+    """λ = 2 in region (b) and more beyond it; exponents that differ by -0.1 in one window and are unknown in another."""
+    x = np.geomspace(1e-3, 10, 9)
+    of_lambda, difference = {"x": x, "in_region": (x < 0.1).astype(int)}, np.array([-0.1, 0.0, np.nan])
+    for name, value in (("lambda", 2 + x), ("velocity_ratio", 1 / (1 + x))):
+        of_lambda |= {name: value, f"{name}_low": value / 1.1, f"{name}_high": value * 1.1}
+    exponents = {"window": ["own region", "same X", "same κ"], "difference": difference}
+    exponents |= {"difference_low": difference - 0.05, "difference_high": difference + 0.05}
+    return [
+        pd.concat([pd.DataFrame(table | {"hurst": hurst}) for hurst in (0.4, 0.9)], ignore_index=True)
+        for table in (of_lambda, exponents)
+    ]
 
 
 def direct_table():

@@ -3,10 +3,12 @@
 import numpy as np
 import pytest
 
-from viscorough.mdr import line_of_surface
+from viscorough.contact.loading_path import indent
+from viscorough.indenter import Indenter
+from viscorough.mdr import line_of_surface, reduce
 from viscorough.surfaces import self_affine_square
 from viscorough_study.ensembles import abscissa
-from viscorough_study.mdr_comparison import COLUMNS, compare_reduction
+from viscorough_study.mdr_comparison import COLUMNS, compare_reduction, is_power_of_ten, mean_gaps
 
 
 @pytest.mark.parametrize("n", [64, 65])
@@ -52,3 +54,31 @@ def test_comparison():
     assert table["correlation"].between(-1, 1).all()
     assert (table["realizations"] == 6).all()
     assert table["stiffness"].is_monotonic_increasing
+    with_gap = is_power_of_ten(table["x"])
+    assert with_gap.sum() == 4
+    assert (table["gap"].notna() == with_gap).all()
+    assert table["gap"].dropna().is_monotonic_decreasing
+    assert table["gap_ratio"].dropna().between(0.05, 1.5).all()
+
+
+def test_mean_gap_of_a_line_is_that_of_its_points():
+    line = Indenter(np.random.default_rng(1).normal(size=500), 0.01)
+    curve = reduce(line)
+    force = curve.force[[3, 40, -1]]
+    initial = line.heights.max() - line.heights
+    gaps = [np.maximum(initial - depth, 0).mean() for depth in curve.depth[[3, 40, -1]]]
+    np.testing.assert_allclose(mean_gaps(line, curve, force, 1e-3), gaps, rtol=1e-12, atol=1e-15)
+
+
+def test_mean_gap_of_flat_and_raised_discs():
+    """A flat punch has no gap; one raised element of height 1 holds the others apart by about its height."""
+    n = 17
+    place = np.hypot(*np.mgrid[-8:9, -8:9]) <= 8.5
+    flat = np.where(place, 0.0, np.nan)
+    raised = flat.copy()
+    raised[8, 8] = 1.0
+    for heights, expected in ((flat, 0.0), (raised, 1.0)):
+        disc = Indenter(heights, 1 / n)
+        force = np.array([1e-4])
+        (gap,) = mean_gaps(disc, indent(disc, until_force=1.0), force, 1e-3)
+        assert gap == pytest.approx(expected, abs=5e-3)

@@ -8,7 +8,7 @@ from scipy.stats import binom
 from support.study import LIMITS, ensemble_of, three_regions
 from viscorough import reference
 from viscorough_study.ensembles import abscissa
-from viscorough_study.power_law import find_region, fit_power_law, local_slope, match_lambda, named_windows
+from viscorough_study.power_law import find_region, fit_power_law, local_slope, named_windows
 
 x = abscissa(1e-7, 10, 20)
 HALF_WIDTH = LIMITS["slope_half_width"]
@@ -214,33 +214,3 @@ def test_radius_for_diameter_is_a_fit_on_doubled_abscissae():
     assert fit.zeta(diameter_convention="radius") == pytest.approx(doubled.zeta(), rel=1e-9)
     assert fit.beta == pytest.approx(doubled.beta, rel=1e-12)
     assert fit.zeta(diameter_convention="radius")[0] == pytest.approx(2**fit.beta * fit.zeta()[0])
-
-
-def test_lambda_of_power_laws():
-    """ζ1 and ζ3 of equal exponents: s = (ζ1/ζ3)^(1/α), λ = π s²."""
-    alpha, zeta1, zeta3 = 0.6, 1.3, 1.0
-    discs, lines = np.tile(x / (zeta3 * x**alpha), (4, 1)), np.tile(x / (zeta1 * x**alpha), (6, 1))
-    for average in ("arithmetic", "geometric"):
-        found = match_lambda(x, discs, lines, (1e-4, 3e-2), average=average, **BOOTSTRAP)
-        assert found == pytest.approx([np.pi * (zeta1 / zeta3) ** (2 / alpha)] * 3, rel=1e-9)
-
-
-def test_lambda_of_a_line_stretched_in_height():
-    """Any curve: discs that are the lines with s times the rms height, y3(X) = s y1(X/s), give back s."""
-    steps = 7
-    s = 10 ** (steps / 20)
-    lines = scattered(0.4, 0.7, 12, seed=8) * (1 + 0.5 * x)  # bent
-    discs = s * np.roll(lines, steps, axis=1)
-    found, low, high = match_lambda(x, discs, lines, (1e-4, 1e-2), average="arithmetic", **BOOTSTRAP)
-    assert found == pytest.approx(np.pi * s**2, rel=1e-9)
-    assert low < found < high
-    same, *_ = match_lambda(x, lines, lines, (1e-4, 1e-2), average="geometric", **BOOTSTRAP)
-    assert same == pytest.approx(np.pi, rel=1e-9)
-
-
-def test_lambda_refuses_lines_that_do_not_reach():
-    discs = np.tile(x / three_regions(x), (3, 1))
-    lines = discs.copy()
-    lines[0, x > 1e-5] = np.nan
-    with pytest.raises(ValueError, match="do not reach"):
-        match_lambda(x, discs, lines, (1e-3, 1e-2), average="geometric", **BOOTSTRAP)

@@ -11,8 +11,9 @@ from support.cf import violations
 from support.workflow import ROOT, TEST, load_script, plan, snakemake
 
 FIGURES = ("fig1_surfaces", "fig2_kinetics", "fig3_master_curve", "fig4_exponent", "conventions", "validation")
-FIGURES += ("prefactors", "direct", "reduction", "speed", "failure_map", "level_placement")
+FIGURES += ("prefactors", "direct", "reduction", "mdr_lambda", "speed", "failure_map", "level_placement")
 TABLES = ("scaling", "validation", "claims", "calibration", "prefactors", "direct", "reduction")
+TABLES += ("mdr_lambda", "mdr_summary", "mdr_exponents")
 TABLES += ("methods", "failure_map", "level_placement", "rule_costs", "media")
 
 

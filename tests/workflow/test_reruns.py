@@ -9,8 +9,15 @@ import pytest
 from support.workflow import SCRIPTS, TEST, copy_sources, jobs, plan, settings_file, snakemake
 from viscorough_study.source_digest import SourceDigests
 
-FITS = {"fit_scaling", "judge_claims", "compare_prefactors", "tabulate_calibration"}
-AFTER_FITS = {"plot_kinetics", "plot_master_curve", "plot_exponent", "plot_conventions", "plot_prefactors"}
+FITS = {"match_lines", "fit_scaling", "judge_claims", "compare_prefactors", "tabulate_calibration"}
+AFTER_FITS = {
+    "plot_mdr_lambda",
+    "plot_kinetics",
+    "plot_master_curve",
+    "plot_exponent",
+    "plot_conventions",
+    "plot_prefactors",
+}
 FITS_AND_FIGURES = FITS | AFTER_FITS
 BOUNDARY_ELEMENTS = {"indent_discs", "compare_direct", "compare_reduction", "validate"}
 BOUNDARY_ELEMENTS |= {"measure_methods", "map_failures", "compare_level_placement"}
@@ -132,7 +139,8 @@ def test_a_changed_line_of_the_column_convolution_reruns_what_uses_boundary_elem
     [
         (
             "viscorough_study/power_law.py",
-            {"fit_scaling", "fit_sizes", "compute_media", "evaluate_measured", "judge_claims", "make_page"},
+            {"fit_scaling", "fit_sizes", "compute_media", "evaluate_measured", "judge_claims", "make_page"}
+            | {"match_lines", "plot_mdr_lambda"},
         ),
         ("viscorough_study/validate_solvers.py", {"validate", "check_validation"}),
         (

@@ -13,6 +13,7 @@ PAGE_FIGURES = {
     "prefactors": rules.plot_prefactors,
     "direct": rules.plot_direct,
     "reduction": rules.plot_reduction,
+    "mdr_lambda": rules.plot_mdr_lambda,
     "validation": rules.plot_validation,
     "media": rules.plot_media,
 } | ({"measured": rules.plot_measured} if MEASURED else {})

@@ -17,43 +17,47 @@ from viscorough_study.figures.style import (
     require_rows,
 )
 
-TICKS = [0.1, 0.2, 0.5, 1, 1.5, 2, 3, 5, 10, 20, 50, 100, 200, 500, 1000]
+TICKS = [0.05, 0.1, 0.2, 0.5, 1, 1.5, 2, 3, 5, 10, 20, 50, 100, 200, 500, 1000]
 
 
 @rc_context(STYLE)
 def plot_mdr_comparison(table):
-    """Lines over the discs with their spectra, over X: κ (a), its scatter (b), contact fraction (c), correlation (d).
+    """Lines over the discs with their spectra: κ (a, b), contact fraction (c), gap (d), correlation (e), force (f).
 
     table : of viscorough_study.mdr_comparison
-    Bands are 95 % intervals of the means; in (d), 95 % of the correlations of unrelated pairs.
+    Bands are 95 % intervals of the means; in (e), 95 % of the correlations of unrelated pairs.
     Raises ValueError for a table without rows.
     """
     require_rows("plot_mdr_comparison", table)
-    figure = Figure(figsize=(WIDE, 125 * MM))
-    stiffness, scatter, area, correlation = figure.subplots(2, 2, sharex=True).flat
+    figure = Figure(figsize=(WIDE, 185 * MM))
+    stiffness, scatter, area, gap, correlation, force = figure.subplots(3, 2, sharex=True).flat
     looks = hurst_looks(table["hurst"])
     for hurst, rows in table.groupby("hurst"):
         look = {"color": looks[hurst]["color"], "linestyle": looks[hurst]["linestyle"]}
-        for axes, name in ((stiffness, "stiffness_ratio"), (area, "area_ratio")):
-            interval = rows[f"{name}_low"], rows[f"{name}_high"]
-            axes.fill_between(rows["x"], *interval, color=look["color"], alpha=0.15, linewidth=0)
-            axes.plot(rows["x"], rows[name], **look)
+        for axes, name in ((stiffness, "stiffness_ratio"), (area, "area_ratio"), (gap, "gap_ratio")):
+            known = rows.dropna(subset=name)
+            interval = known[f"{name}_low"], known[f"{name}_high"]
+            axes.fill_between(known["x"], *interval, color=look["color"], alpha=0.15, linewidth=0)
+            axes.plot(known["x"], known[name], **look | {"marker": looks[hurst]["marker"] if axes is gap else ""})
         scatter.plot(rows["x"], np.exp(rows["stiffness_scatter"]), **look)
         correlation.plot(rows["x"], rows["correlation"], **look)
+        force.plot(rows["x"], rows["force_ratio"], **look)
     chance = table.groupby("x")["chance"].max()
     correlation.fill_between(chance.index, -chance, chance, color="0.9", linewidth=0, zorder=0)
     for axes, title, label in (
         (stiffness, "(a) mean stiffness", r"$\kappa$ of line over disc"),
         (scatter, "(b) a single surface", r"factor between $\kappa$ of line and disc"),
         (area, "(c) mean contact fraction", "contact fraction of line over disc"),
-        (correlation, "(d) realization by realization", r"correlation of $\ln\kappa$"),
+        (gap, "(d) mean separation", "mean gap of line over disc"),
+        (correlation, "(e) realization by realization", r"correlation of $\ln\kappa$"),
+        (force, "(f) at the depth of the disc", "force of line over disc"),
     ):
         axes.set(title=title, ylabel=label, xscale="log")
         axes.axhline(0 if axes is correlation else 1, color=GREY, linewidth=0.6)
-    for axes in (stiffness, scatter, area):
+    for axes in (stiffness, scatter, area, gap, force):
         axes.set_yscale("log")
         plain_ticks(axes.yaxis, TICKS if axes is not area else [tick for tick in TICKS if tick not in (1.5, 3)])
-    for axes in (area, correlation):
+    for axes in (correlation, force):
         axes.set_xlabel("$X=F/(4GhL)$")
     correlation.set_ylim(-1, 1)
     title = f"{count_text(table['realizations'])} discs and lines for each $H$"

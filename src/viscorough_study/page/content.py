@@ -26,7 +26,10 @@ ALTERNATIVE_TEXTS = {
     "conventions": "Exponent and prefactor under every convention that the paper leaves open.",
     "prefactors": "Prefactor zeta over the laws of the paper, under every combination of conventions.",
     "direct": "Depth by direct integration in time over the elastic depth: 1, not the factor that Equation 8 predicts.",
-    "reduction": "Stiffness and contact of lines over those of discs with the same spectrum, surface by surface.",
+    "reduction": "Stiffness, contact, mean gap and force of lines over those of discs with the same spectrum, surface "
+    "by surface: stiffness and force are close to 1, contact is many times larger, and the gap smaller.",
+    "mdr_lambda": "Lambda over force, which is no constant; velocity of lines with the best lambda over that of discs; "
+    "differences of their exponents in equal windows.",
     "media": "Double-logarithmic charts of velocity over time in several media, and of depth over creep compliance, "
     "where the points of all media lie on one curve for each Hurst exponent.",
     "measured": "Velocity of the measured surfaces over dimensionless force beside that of generated discs, and their "

@@ -29,6 +29,7 @@ from viscorough_study.figures.large import plot_large
 from viscorough_study.figures.level_placement import plot_level_placement
 from viscorough_study.figures.master_curve import plot_master_curve
 from viscorough_study.figures.mdr_comparison import plot_mdr_comparison
+from viscorough_study.figures.mdr_lambda import plot_mdr_lambda
 from viscorough_study.figures.media import plot_media
 from viscorough_study.figures.other_solvers import plot_other_solvers
 from viscorough_study.figures.prefactors import plot_prefactors
@@ -66,6 +67,7 @@ def drawn(discs, pooled, lines, scaling, combinations):
         "validation": Drawn(plot_validation(tables.validation_table()), {"quantity": 2}),
         "direct": Drawn(plot_direct_integration(tables.direct_table()), {"indenter": 2}),
         "reduction": Drawn(plot_mdr_comparison(tables.mdr_table())),
+        "mdr_lambda": Drawn(plot_mdr_lambda(*tables.mdr_lambda_tables())),
         "media": Drawn(plot_media(tables.media_table()), {"medium": 2}),
         "measured": Drawn(tables.measured_figure(pooled, scaling)),
         "sizes": Drawn(plot_sizes(tables.sizes_table(), SHOWN)),

@@ -69,7 +69,7 @@ class CommandHelp(Directive):
 
 
 class TableColumns(Directive):
-    """The columns of a table: meaning and unit, from `COLUMNS`, or a second argument, of the module that is the first."""
+    """The columns of a table: meaning and unit, from `COLUMNS`, or from the second argument, of a module."""
 
     required_arguments, optional_arguments = 1, 1
 

@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 
 from viscorough_study.mdr_lambda import match_lines
-from viscorough_study.power_law import percentile_interval, find_region, fit_power_law, in_window, named_windows
+from viscorough_study.power_law import find_region, fit_power_law, in_window, named_windows, percentile_interval
 
 _ENDS = {"low": "lower", "high": "upper"}
 FRACTION_KEPT = 1 - 1e-9  # of the realizations, that must be defined at an X of the whole curve

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from viscorough_study.power_law import percentile_interval, in_window, log_means
+from viscorough_study.power_law import in_window, log_means, percentile_interval
 
 _BISECTIONS = 40  # of ln s, which end far below the rounding of λ in the tables
 

@@ -1,4 +1,4 @@
-"""Region (b) of an ensemble, the power law in it (β, ζ), and the line that stands for a surface (λ).
+"""Region (b) of an ensemble, and the power law in it (β, ζ).
 
 In region (b) κ = ζ X^α (paper, Eq. 3), hence vt/h = X/κ = X^β/ζ with β = 1 − α. Fits are made in this plain reading of
 the law; viscorough_study.conventions has the others.
@@ -156,35 +156,6 @@ def fit_power_law(x, velocity, window, *, average, resamples, seed):
     intercept = mean.mean(axis=1) - beta * log_x.mean()
     residual = np.sqrt(np.mean((mean[0] - intercept[0] - beta[0] * log_x) ** 2))
     return PowerLaw(beta[0], np.exp(intercept[0]), beta[1:], np.exp(intercept[1:]), len(velocity), residual)
-
-
-def match_lambda(x, discs, lines, window, *, average, resamples, seed):
-    """λ of the line that penetrates like the surface, and its 95 % interval: (value, low, high).
-
-    A line of the same L and s times the rms height, h1D = s h2D, has X1 = X/s and vt/h2D = s vt/h1D: the mean
-    curves y3 of discs and y1 of lines match at X where y3(X) = s y1(X/s), that is y3(X)/X = y1(X1)/X1, the
-    mean of 1/κ. Solved at the geometric centre of the window, between abscissae by interpolation of the
-    logarithms. C1D = π q C2D has equal rms heights, C1D = λ q C2D has (h1D/h2D)² = λ/π (Eq. 13 and below), so
-    λ = π s².
-
-    x : X of both, shape (abscissae,); discs, lines : vt/h, (realizations, abscissae), nan where undefined
-    window : of the discs; average, resamples, seed : as in fit_power_law. Both ensembles are resampled.
-    Raises ValueError if the lines, where all of them are defined, do not reach the stiffness of the discs.
-    """
-    generator, log_x, centre = np.random.default_rng(seed), np.log(x), np.log(window[0] * window[1]) / 2
-    complete = np.isfinite(lines).all(axis=0)
-    softness = log_means(discs, average, resamples, generator) - log_x
-    of_lines = log_means(lines, average, resamples, generator) - log_x
-    values = np.full(resamples + 1, np.nan)
-    for i in range(len(values) if complete.any() else 0):
-        target = np.interp(centre, log_x, softness[i])
-        # 1/κ falls as X grows; it is constant only where each line has one element in contact, left of every window.
-        falling = of_lines[i, complete][::-1]
-        log_x1 = np.interp(target, falling, log_x[complete][::-1], left=np.nan, right=np.nan)
-        values[i] = np.pi * np.exp(2 * (centre - log_x1))
-    if np.isnan(values[0]):
-        raise ValueError("match_lambda: the lines do not reach the stiffness of the discs, all of them must")
-    return values[0], *percentile_interval(values[1:], min(len(discs), len(lines)))
 
 
 def log_means(velocity, average, resamples, generator):

@@ -86,7 +86,7 @@ def mdr_table():
 
 
 def mdr_lambda_tables():
-    """λ = 2 in region (b) and more beyond it; exponents that differ by -0.1 in one window and are unknown in another."""
+    """λ = 2 in region (b) and more beyond it; exponents that differ in one window and are unknown in another."""
     x = np.geomspace(1e-3, 10, 9)
     of_lambda, difference = {"x": x, "in_region": (x < 0.1).astype(int)}, np.array([-0.1, 0.0, np.nan])
     for name, value in (("lambda", 2 + x), ("velocity_ratio", 1 / (1 + x))):

@@ -56,7 +56,7 @@ def plot_mdr_lambda(of_lambda, exponents):
         interval = row["difference_low"], row["difference_high"]
         mark_with_interval(differences, place, row["difference"], interval, look)
     differences.axhline(0, color=GREY, linewidth=0.6)
-    differences.set(title="(c) exponents", xlabel="$H$", ylabel=r"$\beta$ of lines $-$ $\beta$ of discs", xlim=(0, 1))
+    differences.set(title="(c) exponents", xlabel="$H$", ylabel=r"$\beta$ of lines minus $\beta$ of discs", xlim=(0, 1))
     marks = [Line2D([], [], color=GREY, linestyle="", marker=mark, label=name) for name, mark in _MARKERS.items()]
     handles = [*hurst_handles(looks, marker=""), *marks]
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))

@@ -11,7 +11,7 @@ def test_means_scatter_and_correlations_have_a_panel_each():
     table = mdr_table()
     figure = plot_mdr_comparison(table)
     drawn = table.assign(stiffness_scatter=np.exp(table["stiffness_scatter"]))
-    names = ("stiffness_ratio", "stiffness_scatter", "area_ratio", "correlation")
+    names = ("stiffness_ratio", "stiffness_scatter", "area_ratio", "gap_ratio", "correlation", "force_ratio")
     for axes, name in zip(figure.axes, names, strict=True):
         for hurst, line in zip((0.4, 0.9), coordinates(axes), strict=False):
             np.testing.assert_array_equal(line, drawn.loc[drawn["hurst"] == hurst, ["x", name]])
@@ -24,8 +24,8 @@ def test_means_scatter_and_correlations_have_a_panel_each():
 
 
 def test_bands_are_the_intervals_and_the_correlations_by_chance():
-    stiffness, _, area, correlation = plot_mdr_comparison(mdr_table()).axes
-    for axes, ends in ((stiffness, {0.5, 2.0}), (area, {5.0, 20.0}), (correlation, {-0.5, 0.5})):
+    stiffness, _, area, gap, correlation, _ = plot_mdr_comparison(mdr_table()).axes
+    for axes, ends in ((stiffness, {0.5, 2.0}), (area, {5.0, 20.0}), (gap, {0.25, 1.0}), (correlation, {-0.5, 0.5})):
         for band in axes.collections:
             assert set(band.get_paths()[0].vertices[:, 1]) == ends
-    assert [len(axes.collections) for axes in (stiffness, area, correlation)] == [2, 2, 1]
+    assert [len(axes.collections) for axes in (stiffness, area, gap, correlation)] == [2, 2, 2, 1]

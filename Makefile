@@ -19,7 +19,7 @@ help:
 	@echo "make bench       cost and errors of curves and lines, and cost of the reproduction, in results/benchmarks.json"
 	@echo "make speed       speed against accuracy of every method, in results/figures/speed.png; 80 minutes"
 	@echo "make stability   where each method fails, and random small indenters against dense solutions"
-	@echo "make sizes       exponents on grids from 65 to 1025 elements across, and on lines"
+	@echo "make sizes       exponents on grids from 33 to 2049 elements across and on lines, and their collapse"
 	@echo "make large       time and memory of a disc of up to 4097 elements across, 13 million in all"
 	@echo "make fuzz        10000 random files and options, most of them bad, through the command line; ten minutes"
 	@echo "make faults      faults planted in copies of the project, one at a time: how many do the tests catch?"
@@ -93,6 +93,7 @@ bench: environment
 	$(BIN)/python benchmarks/kinetics.py --output results/kinetics.json
 
 speed stability: SETTINGS = config/methods.yaml
+sizes: SETTINGS = config/sizes.yaml
 
 speed: settings
 	$(SNAKEMAKE) -- speed

@@ -95,6 +95,7 @@ rule figures:
         rules.plot_failure_map.output,
         rules.plot_level_placement.output,
         rules.plot_media.output,
+        rules.plot_sizes.output,
 
 
 rule tables:
@@ -111,6 +112,7 @@ rule tables:
         rules.map_failures.output,
         rules.compare_level_placement.output,
         rules.compute_media.output,
+        rules.fit_sizes.output,
 
 
 rule validation:

@@ -21,23 +21,34 @@ def batch_of_curves(curves, *, realizations, hurst, rms, spacing, diameter, sett
 
     curves : LoadingCurve of every realization; realizations : their numbers
     rms : {convention: rms heights, shape (realizations,)}, conventions of `RMS`
-    spacing : of the grid; diameter : L; settings : what the curves were made from, for the attribute settings
+    hurst, spacing, diameter : Hurst exponent, spacing of the grid and L of every realization, one number in the file
+        where all are equal
+    settings : what the curves were made from, for the attribute settings
     """
     content = stack_curves(curves)
-    heights = {f"rms_{name}": (values, RMS[name]) for name, values in rms.items()}
-    lengths = heights | {
-        "spacing": (spacing, "spacing of the grid"),
-        "diameter": (diameter, "diameter of the indenter"),
+    lengths = {f"rms_{name}": (np.asarray(values), RMS[name], "m") for name, values in rms.items()}
+    lengths |= {
+        "spacing": (_one_if_equal(spacing), "spacing of the grid", "m"),
+        "diameter": (_one_if_equal(diameter), "diameter of the indenter", "m"),
+        "hurst": (_one_if_equal(hurst), "Hurst exponent", "1"),
+        "realization": (np.asarray(realizations), "number of it", "1"),
     }
-    variables = {
-        name: Variable(("realization",) if np.ndim(values) else (), np.asarray(values), _about(text, "m"))
-        for name, (values, text) in lengths.items()
-    }
-    variables["hurst"] = Variable((), np.asarray(hurst), _about("Hurst exponent", "1"))
-    variables["realization"] = Variable(("realization",), np.asarray(realizations), _about("number of it", "1"))
-    content.variables.update(variables)
+    for name, (values, text, units) in lengths.items():
+        dimensions = ("realization",) if values.ndim else ()
+        content.variables[name] = Variable(dimensions, values, {"long_name": text, "units": units})
     return content.with_attributes(settings=json.dumps(settings))
 
 
-def _about(text, units):
-    return {"long_name": text, "units": units}
+def numbered(ensembles):
+    """[(ensemble, number)] of every realization of a batch (viscorough_study.cases.ensembles_of_batch)."""
+    return [(one, number) for one in ensembles for number in range(*one["numbers"])]
+
+
+def without_numbers(ensembles):
+    """The ensembles of a batch as the settings of a file record them, whichever realizations the batch has."""
+    return [{name: value for name, value in one.items() if name != "numbers"} for one in ensembles]
+
+
+def _one_if_equal(values):
+    values = np.asarray(values)
+    return values[0] if (values == values[0]).all() or values.size == 1 else values

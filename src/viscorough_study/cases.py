@@ -1,8 +1,9 @@
 """Tables of cases: which ensembles, batches and indenters the settings ask for, and what their jobs need.
 
-A case is an ensemble of surfaces of one kind, a dictionary of what its jobs need. Its name stands in file names, which
-hold no floating-point numbers. Cases of one meaning form a group; the curves of all cases that are evaluated together
-are brought to common abscissae in one pool.
+A case is a dictionary of what its jobs need: one ensemble of surfaces of one kind, or, of grids from coarse to fine,
+several, whose realizations are numbered one after the other, so that a job can hold many small ones. Its name stands in
+file names, which hold no floating-point numbers. Cases of one meaning form a group; the curves of all cases that are
+evaluated together are brought to common abscissae in one pool.
 """
 
 import itertools
@@ -29,39 +30,36 @@ def hurst_id(hurst):
 
 
 def disc_cases(settings):
-    """{case: its description} of every ensemble of discs.
+    """{case: its description} of every case of discs.
 
-    A description holds pool, group, spawn_key, realizations, batch, elements and surface (arguments of
-    self_affine_disc), for the base cases also combination. To the spawn key (viscorough_study.seeds) the number of the
-    realization is added.
+    A description holds pool, group, realizations, batch, indentation and either ensembles or the keys of one ensemble:
+    spawn_key, elements and surface (arguments of self_affine_disc). The base cases also hold combination. To the spawn
+    key (viscorough_study.seeds) the number of the realization is added.
     """
     return _paper_discs(settings) | _size_discs(settings)
 
 
 def _paper_discs(settings):
     cases, discs, variants = {}, settings["discs"], settings["variants"]
+    shared = {"pool": "discs", "elements": discs["elements"], "indentation": settings["indentation"]}
     for hurst in discs["hurst"]:
         for combination in discs["combinations"]:
             number = combination["number"]
             lengths = {name: combination[name] for name in ("rms", "diameter")}
-            cases[f"{hurst_id(hurst)}_c{number}"] = {
-                "pool": "discs",
+            cases[f"{hurst_id(hurst)}_c{number}"] = shared | {
                 "group": "base",
                 "spawn_key": seeds.disc_key(hurst, number),
                 "combination": combination,
                 "surface": settings["surface"] | {"hurst": hurst} | lengths,
-                "elements": discs["elements"],
                 "realizations": discs["realizations"],
                 "batch": discs["batch"],
             }
         for variant in variants["cases"]:
             changed = {key: value for key, value in variant.items() if key != "name"}
-            cases[f"{hurst_id(hurst)}_{variant['name']}"] = {
-                "pool": "discs",
+            cases[f"{hurst_id(hurst)}_{variant['name']}"] = shared | {
                 "group": variant["name"],
                 "spawn_key": seeds.variant_key(hurst, variant["name"]),
                 "surface": settings["surface"] | changed | UNIT_DISC | {"hurst": hurst},
-                "elements": discs["elements"],
                 "realizations": variants["realizations"],
                 "batch": variants["batch"],
             }
@@ -85,31 +83,38 @@ def surface_conventions(settings):
 
 
 def _size_discs(settings):
-    sizes, cases = settings["sizes"], {}
-    shared = {"pool": "size_discs", "realizations": sizes["realizations"], "batch": sizes["batch"]}
-    for hurst, elements in itertools.product(sizes["hurst"], sizes["elements"]):
-        cases[f"{hurst_id(hurst)}_n{elements}"] = shared | {
-            "group": "sizes",
-            "spawn_key": seeds.size_disc_key(hurst, elements),
-            "surface": settings["surface"] | UNIT_DISC | {"hurst": hurst},
-            "elements": elements,
-        }
-    hurst = sizes["control"]["hurst"]
-    for elements in sizes["elements"]:
-        cases[f"{hurst_id(hurst)}_control_n{elements}"] = shared | {
-            "group": "controls",
-            "spawn_key": seeds.size_control_key(hurst, elements),
-            "surface": settings["surface"] | UNIT_DISC | sizes["control"],
-            "elements": elements,
-        }
-    return cases
+    sizes = settings["sizes"]
+    shared = {"pool": "size_discs", "indentation": settings["indentation"] | {"until_x": sizes["until_x"]}}
+    surface, control = settings["surface"] | UNIT_DISC, sizes["control"]
+    powers = [
+        grid | {"spawn_key": seeds.size_disc_key(hurst, grid["elements"]), "surface": surface | {"hurst": hurst}}
+        for hurst, grid in itertools.product(sizes["hurst"], sizes["discs"])
+    ]
+    controls = [
+        grid | {"spawn_key": seeds.size_control_key(control["hurst"], grid["elements"]), "surface": surface | control}
+        for grid in sizes["discs"]
+    ]
+    return {
+        group: shared | _of_several(ensembles, sizes["batch"], group)
+        for group, ensembles in (("sizes", powers), ("controls", controls))
+    }
+
+
+def _of_several(ensembles, batch, group):
+    """Part of the description of a case of several ensembles."""
+    return {
+        "group": group,
+        "ensembles": ensembles,
+        "realizations": sum(ensemble["realizations"] for ensemble in ensembles),
+        "batch": batch,
+    }
 
 
 def line_cases(settings):
-    """{line: its description} of every ensemble of lines.
+    """{line: its description} of every case of lines.
 
-    A description holds pool, group, spawn_key, realizations, batch, points and surface (arguments of
-    self_affine_line).
+    A description is that of a case of discs, with points in place of elements, surface the arguments of
+    self_affine_line, and until_x in place of indentation.
     """
     lines, sizes = settings["lines"], settings["sizes"]
     shared = {name: settings["surface"][name] for name in ("amplitudes", "roll_off_wavelength", "roll_off_level")}
@@ -123,17 +128,15 @@ def line_cases(settings):
             "points": lines["points"],
             "realizations": lines["realizations"],
             "batch": lines["batch"],
+            "until_x": settings["indentation"]["until_x"],
         }
-    for hurst, points in itertools.product(sizes["hurst"], sizes["points"]):
-        cases[f"{hurst_id(hurst)}_n{points}"] = {
-            "pool": "size_lines",
-            "group": "sizes",
-            "spawn_key": seeds.size_line_key(hurst, points),
-            "surface": shared | UNIT_LINE | {"hurst": hurst},
-            "points": points,
-            "realizations": sizes["realizations"],
-            "batch": sizes["batch"],
-        }
+    powers = [
+        grid
+        | {"spawn_key": seeds.size_line_key(hurst, grid["points"]), "surface": shared | UNIT_LINE | {"hurst": hurst}}
+        for hurst, grid in itertools.product(sizes["hurst"], sizes["lines"])
+    ]
+    cases["sizes"] = {"pool": "size_lines", "until_x": sizes["until_x"]}
+    cases["sizes"] |= _of_several(powers, sizes["batch"], "sizes")
     return cases
 
 
@@ -191,6 +194,23 @@ def realizations(batch):
     return [int(first), int(last) + 1]
 
 
+def ensembles_of_batch(case, batch):
+    """Ensembles of a batch, each with spawn_key, surface, elements or points, and the numbers of its realizations.
+
+    numbers : first realization of the batch in this ensemble, and the one after its last
+    """
+    first, end = realizations(batch)
+    parts, before = [], 0
+    for ensemble in case.get("ensembles", [case]):
+        after = before + ensemble["realizations"]
+        if before < end and first < after:
+            numbers = [max(first - before, 0), min(end, after) - before]
+            kept = {name: ensemble[name] for name in ("spawn_key", "surface", "elements", "points") if name in ensemble}
+            parts.append(kept | {"numbers": numbers})
+        before = after
+    return parts
+
+
 def pool_batches(cases, pool):
     """[(case, batch)] of all cases of a pool, in the order of the table."""
     return [(name, batch) for name, case in cases.items() if case["pool"] == pool for batch in batches(case)]
@@ -203,8 +223,9 @@ BASE_MEMORY = 700  # Python with its imports and, as a job of Slurm, two Snakema
 
 def disc_memory(case):
     """A disc, the square that it is cut from, and the fields of the solver on a doubled grid."""
-    square = 64 * case["surface"]["period"] ** 2
-    return round(BASE_MEMORY + (24 + square + 400) * case["elements"] ** 2 / 1e6)
+    ensembles = case.get("ensembles", [case])
+    bytes_ = max((424 + 64 * one["surface"]["period"] ** 2) * one["elements"] ** 2 for one in ensembles)
+    return round(BASE_MEMORY + bytes_ / 1e6)
 
 
 def example_memory(settings):
@@ -225,7 +246,7 @@ def measured_memory(case):
 
 def line_memory(case):
     """Spectrum, heights and gaps of a line."""
-    return round(BASE_MEMORY + 40 * case["points"] / 1e6)
+    return round(BASE_MEMORY + 40 * max(one["points"] for one in case.get("ensembles", [case])) / 1e6)
 
 
 def pool_memory(cases, pool, ensemble):

@@ -47,20 +47,17 @@ def abscissa(low, high, per_decade):
 def on_abscissae(curves, rms, diameter, x):
     """κ and the elements in contact on common abscissae, each of shape (rms conventions, realizations, abscissae).
 
-    curves : list of LoadingCurve, all with the same number of elements
+    curves : list of LoadingCurve
     rms : {convention: rms heights h, shape (realizations,) or a number for all} [length]
     diameter : L [length]; x : X, shape (abscissae,) [1], strictly increasing
 
     κ = k/(4GL) at F/G = 4hLX (Eq. 3); nan beyond the last level of a curve. Between levels ln(count) is linear in
     ln F, and below the first level the count is that of the first level.
-    Raises ValueError for no curves, different numbers of elements, rms heights or abscissae out of range.
+    Raises ValueError for no curves, rms heights or abscissae out of range.
     """
     x = np.asarray(x, dtype=float)
     if not curves:
         raise ValueError("on_abscissae: there is no loading curve; at least one is needed")
-    elements = curves[0].elements
-    if any(curve.elements != elements for curve in curves):
-        raise ValueError("on_abscissae: all curves of an ensemble must have the same number of elements")
     if not 0 < diameter < np.inf:
         raise ValueError(f"on_abscissae: diameter must be positive and finite, not {diameter}")
     if x.ndim != 1 or x.size == 0 or not (x[0] > 0 and np.all(np.diff(x) > 0) and x[-1] < np.inf):

@@ -40,11 +40,13 @@ def pool_batches(batches, conventions, x):
         diameter = values["diameter"].item()
         for parts, part in zip((stiffness, count), on_abscissae(curves, rms, diameter, x), strict=True):
             parts.append(part)
-        same = {"hurst": values["hurst"].item(), "group": group, "case": case}
-        same |= {"diameter": diameter, "elements": curves[0].elements}
-        for name, value in same.items():
-            about[name] += [value] * len(curves)
-        settings.setdefault(case, json.loads(batch.attributes["settings"]))
+        of_batch = {"hurst": values["hurst"], "group": group, "case": case, "diameter": diameter}
+        of_batch |= {"elements": [curve.elements for curve in curves]}
+        for name, value in of_batch.items():
+            about[name] += np.broadcast_to(value, len(curves)).tolist()
+        made_from = json.loads(batch.attributes["settings"])
+        known = settings.setdefault(case, made_from).get("ensembles", [])
+        known += [one for one in made_from.get("ensembles", []) if one not in known]
     pool = xr.Dataset(coords={"x": ("abscissa", x), "rms_convention": list(conventions)})
     for (name, text), parts in zip(VARIABLES.items(), (stiffness, count), strict=True):
         pool[name] = (DIMENSIONS, np.concatenate(parts, axis=1), {"long_name": text, "units": "1"})
@@ -72,6 +74,17 @@ def ensembles(pool, name):
     """
     values = pool[name].values.tolist()
     return {value: _ensemble(select(pool, **{name: value}), value) for value in dict.fromkeys(values)}
+
+
+def ensembles_on_grids(pool):
+    """{(Hurst exponent, elements): ensemble} of realizations on grids from coarse to fine, in the order of the pool."""
+    grids = zip(pool["hurst"].values.tolist(), pool["elements"].values.tolist(), strict=True)
+    return {
+        (hurst, elements): _ensemble(
+            select(pool, hurst=hurst, elements=elements), f"H = {hurst:g}, {elements} elements"
+        )
+        for hurst, elements in dict.fromkeys(grids)
+    }
 
 
 def _ensemble(part, about):

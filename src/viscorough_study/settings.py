@@ -114,7 +114,9 @@ def _repeated(settings):
         "name in media.cases": [case["name"] for case in settings["media"]["cases"]],
         "name in methods.tasks": [task["name"] for task in methods["tasks"]],
         "stability.grids": settings["stability"]["grids"],
-        **{f"sizes.{key}": sizes[key] for key in ("hurst", "elements", "points")},
+        "sizes.hurst": sizes["hurst"],
+        "elements in sizes.discs": [grid["elements"] for grid in sizes["discs"]],
+        "points in sizes.lines": [grid["points"] for grid in sizes["lines"]],
         "large.elements": settings["large"]["elements"],
     }
     for key, values in lists.items():
@@ -173,7 +175,11 @@ def _decreasing_task(settings):
 
 def _too_short_wave(settings):
     sizes = settings["sizes"]
-    control = {"name": "sizes.control", "elements": min(sizes["elements"]), **sizes["control"]}
+    control = {
+        "name": "sizes.control",
+        "elements": min(grid["elements"] for grid in sizes["discs"]),
+        **sizes["control"],
+    }
     for changed in [{"name": "surface"}, *settings["variants"]["cases"], control]:
         surface = {"elements": settings["discs"]["elements"]} | settings["surface"] | changed
         wavelength = surface["roll_off_wavelength"]

@@ -13,16 +13,17 @@ def settings():
 
 def test_spawn_keys_do_not_depend_on_order(settings):
     discs, lines = cases.disc_cases(settings), cases.line_cases(settings)
-    keys = [case["spawn_key"] for case in (discs | lines).values()]
-    assert len(set(keys)) == len(keys) == 4 * 13 + 21 + 5 * (5 + 9) + 5
+    all_cases = [*discs.values(), *lines.values()]
+    keys = [one["spawn_key"] for case in all_cases for one in case.get("ensembles", [case])]
+    assert len(set(keys)) == len(keys) == 4 * 13 + 21 + 5 * (4 + 5) + 4
     assert discs["h01000_c3"]["spawn_key"] == (1, 100000, 3)
     assert lines["h01000"]["spawn_key"] == (3, 100000)
-    assert discs["h01000_n257"]["spawn_key"] == (8, 100000, 257)
-    assert lines["h01000_n4096"]["spawn_key"] == (9, 100000, 4096)
+    assert discs["sizes"]["ensembles"][3]["spawn_key"] == (8, 100000, 257)
+    assert discs["controls"]["ensembles"][0]["spawn_key"] == (13, 700000, 33)
+    assert lines["sizes"]["ensembles"][2]["spawn_key"] == (9, 100000, 4096)
     settings["discs"]["hurst"].reverse()
     settings["discs"]["combinations"].reverse()
     settings["variants"]["cases"] = settings["variants"]["cases"][::-1]
-    settings["sizes"]["elements"] = settings["sizes"]["elements"][::-1]
     assert cases.disc_cases(settings) == discs
 
 
@@ -32,7 +33,29 @@ def test_every_case_is_in_one_pool(settings):
         pooled = [case for pool in pools for case, _ in cases.pool_batches(table, pool)]
         assert set(pooled) == set(table)
     assert len(cases.pool_batches(discs, "discs")) == 52
-    assert cases.pool_batches(lines, "size_lines")[:2] == [("h01000_n64", "0000-0007"), ("h01000_n64", "0008-0015")]
+    assert cases.pool_batches(lines, "size_lines") == [("sizes", "0000-0599")]
+
+
+def test_a_batch_of_several_ensembles_holds_each_realization_once(settings):
+    """Batches that do not end where an ensemble ends: [ensemble, number] of all of them, in order."""
+    settings["sizes"] |= {"hurst": [0.1, 0.9], "batch": 7}
+    settings["sizes"]["discs"] = [{"elements": 33, "realizations": 9}, {"elements": 65, "realizations": 2}]
+    case = cases.disc_cases(settings)["sizes"]
+    members = [
+        (*one["spawn_key"], number)
+        for batch in cases.batches(case)
+        for one in cases.ensembles_of_batch(case, batch)
+        for number in range(*one["numbers"])
+    ]
+    sizes = [(100000, 33, 9), (100000, 65, 2), (900000, 33, 9), (900000, 65, 2)]
+    assert members == [(8, hurst, n, number) for hurst, n, numbers in sizes for number in range(numbers)]
+    assert cases.ensembles_of_batch(case, "0007-0013")[1]["surface"]["hurst"] == 0.1
+    assert case["indentation"]["until_x"] == settings["sizes"]["until_x"] != settings["indentation"]["until_x"]
+
+
+def test_a_batch_of_one_ensemble(settings):
+    (one,) = cases.ensembles_of_batch(cases.disc_cases(settings)["h04000_c3"], "0002-0005")
+    assert (one["numbers"], one["spawn_key"], one["elements"]) == ([2, 6], (1, 400000, 3), 257)
 
 
 def test_variants_change_only_what_they_name(settings):

@@ -45,14 +45,18 @@ def test_rms_height_of_the_ensemble_is_that_of_the_spectrum():
 def test_a_realization_is_the_same_in_every_batch(tmp_path, kind):
     settings = read_settings("config")
     case = {"discs": cases.disc_cases(settings)["h04000_c3"], "lines": cases.line_cases(settings)["h04000"]}[kind]
-    about = {"seed": 7, "spawn_key": case["spawn_key"], "surface": case["surface"]}
+    (ensemble,) = cases.ensembles_of_batch(case, "0000-0002")
+    about = {"seed": 7}
     if kind == "discs":
-        about |= {"elements": 17, "indentation": {"tolerance": 1e-3, "until_fraction": 0.5, "until_x": 30.0}}
+        ensemble["elements"] = 17
+        about |= {"indentation": {"tolerance": 1e-3, "until_fraction": 0.5, "until_x": 30.0}}
     else:
-        about |= {"points": 512, "until_x": 30.0}
+        ensemble["points"] = 512
+        about |= {"until_x": 30.0}
     curves = {}
     for first in (0, 2):
-        load_script(f"indent_{kind}").main(tmp_path / "curves.nc", realizations=[first, 3], **about)
+        numbers = {"numbers": [first, 3]}
+        load_script(f"indent_{kind}").main(tmp_path / "curves.nc", ensembles=[ensemble | numbers], **about)
         content = netcdf.read(tmp_path / "curves.nc")
         assert content.variables["realization"].values.tolist() == list(range(first, 3))
         force = content.variables["force"].values

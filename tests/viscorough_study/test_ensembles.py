@@ -148,7 +148,6 @@ def test_every_variable_is_described(gaps):
     ("change", "message"),
     [
         ({"curves": []}, "at least one"),
-        ({"curves": [line_curve([0, 1]), line_curve([0, 1, 2])]}, "same number of elements"),
         ({"rms": {"disc": -1.0}}, r"rms\['disc'\]"),
         ({"rms": {"disc": [1.0, 2.0]}}, r"rms\['disc'\]"),
         ({"rms": {"disc": np.nan}}, r"rms\['disc'\]"),

@@ -9,7 +9,7 @@ from support.study import aggregate, line_curve
 from viscorough.io.curves import stack_curves
 from viscorough.io.netcdf import Variable
 from viscorough_study.ensembles import abscissa
-from viscorough_study.pool import ensembles, pool_batches, select
+from viscorough_study.pool import ensembles, ensembles_on_grids, pool_batches, select
 
 X = abscissa(1e-3, 3, 10)
 RMS = np.linspace(0.8, 1.2, 12)
@@ -61,6 +61,24 @@ def test_unlike_realizations_make_no_ensemble(pool):
     mixed = pool.assign_coords(group=("realization", ["all"] * pool.sizes["realization"]))
     with pytest.raises(ValueError, match="all: the realizations differ in hurst"):
         ensembles(mixed, "group")
+
+
+def test_a_batch_of_several_ensembles(curves):
+    """Realizations on two grids and with two Hurst exponents in one file."""
+    short = line_curve([0.0, 0.5, 1.0])
+    content = batch([*curves[:2], short], np.ones(3), hurst=0.5)
+    content.variables["hurst"] = Variable(("realization",), np.array([0.5, 0.5, 0.7]), {})
+    other = batch([short], np.ones(1), hurst=0.7)
+    for one, names in ((content, ("a", "b")), (other, ("b", "c"))):
+        one.attributes["settings"] = json.dumps({"ensembles": [{"name": name} for name in names]})
+    mixed = pool_batches([("sizes", "sizes", content), ("sizes", "sizes", other)], ["line"], X)
+    assert mixed["elements"].values.tolist() == [40, 40, 3, 3]
+    assert mixed["hurst"].values.tolist() == [0.5, 0.5, 0.7, 0.7]
+    assert [one["name"] for one in json.loads(mixed.attrs["settings"])["sizes"]["ensembles"]] == ["a", "b", "c"]
+    assert list(ensembles_on_grids(mixed)) == [(0.5, 40), (0.7, 3)]
+    found = ensembles_on_grids(mixed)[0.5, 40]
+    whole = aggregate(curves[:2], {"line": np.ones(2)}, 1.0, X, hurst=0.5, case="a")
+    np.testing.assert_array_equal(found["stiffness"], whole["stiffness"])
 
 
 def test_settings_of_every_case_are_kept(pool):

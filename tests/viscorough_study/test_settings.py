@@ -74,7 +74,11 @@ WRONG = [
     ),
     ({"lines": {"hurst": [0.4, 0.40000000001]}}, "lines.hurst has 0.40000000001; allowed: at most four decimals"),
     ({"discs": {"hurst": [0.4, 0.4]}}, "discs.hurst: 0.4 occurs twice; allowed: once"),
-    ({"sizes": {"elements": [17, 257]}}, "roll_off_wavelength 0.0625 of sizes.control is too short"),
+    (
+        {"sizes": {"discs": [{"elements": 17, "realizations": 2}]}},
+        "roll_off_wavelength 0.125 of sizes.control is too short",
+    ),
+    ({"sizes": {"lines": 2 * [{"points": 64, "realizations": 2}]}}, "points in sizes.lines: 64 occurs twice"),
     ({"discs": {"hurst": [0.4, 0.33]}}, "discs.hurst has 0.33, lines.hurst has not"),
     ({"lines": {"hurst": [0.12345]}}, "lines.hurst has 0.12345; allowed: at most four decimals"),
     ({"ensemble": {"x_low": 40.0}}, "ensemble.x_low and x_high: 40.0 and 30.0 are less than a decade"),
@@ -109,12 +113,12 @@ def test_too_rough_a_combination(settings):
         check_settings(settings, SCHEMA)
 
 
-@pytest.mark.parametrize("name", ["config", "paper", "large", "methods", "test"])
+@pytest.mark.parametrize("name", ["config", "paper", "sizes", "methods", "test"])
 def test_settings_of_every_scale_are_right(name):
     check_settings(merged(read_settings("config"), read_settings(name)), SCHEMA)
 
 
-@pytest.mark.parametrize("name", ["paper", "large", "methods", "test"])
+@pytest.mark.parametrize("name", ["paper", "sizes", "methods", "test"])
 def test_other_scales_hold_only_what_differs(settings, name):
     def same(base, extra, path=""):
         for key, value in extra.items():

@@ -15,7 +15,7 @@ from viscorough.io import netcdf
 SETTINGS = (*TEST, "faults.yaml")
 TARGET = "results/ensembles/lines.nc"
 CURVES = "results/curves/lines/h04000/0000-0001.nc"
-NEW_FOLDER = "results/curves/lines/h04000_n4096"
+NEW_FOLDER = "results/curves/lines/sizes"
 NEW = f"{NEW_FOLDER}/0000-0001.nc"  # not needed for the target
 
 
@@ -25,7 +25,8 @@ def lines(tmp_path_factory, tmp_path):
 
     def make(folder):
         copy_project(folder)
-        settings_file(folder, "faults", discs={"hurst": [0.4]}, lines={"hurst": [0.4]}, sizes={"points": [4096]})
+        grid = {"points": 4096, "realizations": 2}
+        settings_file(folder, "faults", discs={"hurst": [0.4]}, lines={"hurst": [0.4]}, sizes={"lines": [grid]})
         snakemake(folder, *SETTINGS, "--", TARGET)
 
     return shutil.copytree(made_once(tmp_path_factory, "lines", make), tmp_path / "lines")

@@ -22,6 +22,7 @@ FITS_AND_FIGURES = FITS | AFTER_FITS
 BOUNDARY_ELEMENTS = {"indent_discs", "compare_direct", "compare_reduction", "validate"}
 BOUNDARY_ELEMENTS |= {"measure_methods", "map_failures", "compare_level_placement"}
 MEDIA = {"compute_media", "plot_media"}
+SIZES = {"fit_sizes", "plot_sizes"}
 SPEED = {"measure_methods", "tabulate_methods", "plot_speed"}
 LAST = {"tabulate_rule_costs", "make_page"}  # made again with whatever is
 
@@ -65,25 +66,35 @@ def with_another_statement(text):
 @pytest.mark.parametrize(
     ("changed", "rerun"),
     [
-        ({"scaling": {"stiffness_max": 0.25}}, FITS_AND_FIGURES | SPEED),  # errors in region (b) are tabulated, too
+        (
+            {"scaling": {"stiffness_max": 0.25}},
+            FITS_AND_FIGURES | SIZES | SPEED,
+        ),  # errors in region (b) are tabulated, too
         ({"methods": {"levels": 3}}, SPEED),
         ({"media": {"force": 2e-4}}, MEDIA),
         (
             {"stability": {"across": 11}, "methods": {"scenes": {"elements": 31}}},
             {"map_failures", "plot_failure_map", "compare_level_placement", "plot_level_placement"},
         ),
-        ({"figures": {"average": "arithmetic"}}, FITS_AND_FIGURES - {"fit_scaling", "compare_prefactors"}),
-        ({"ensemble": {"per_decade": 25}}, FITS_AND_FIGURES | {"pool_curves"}),
+        (
+            {"figures": {"average": "arithmetic"}},
+            (FITS_AND_FIGURES | SIZES) - {"fit_scaling", "compare_prefactors"},
+        ),
+        ({"ensemble": {"per_decade": 25}}, FITS_AND_FIGURES | SIZES | {"pool_curves"}),
         ({"validation": {"elements": [17, 31]}}, {"validate", "check_validation", "plot_validation", "judge_claims"}),
         ({"lines": {"points": 2048}}, FITS_AND_FIGURES | {"indent_lines", "pool_curves"}),
         (
             {"indentation": {"tolerance": 2e-3}},
-            FITS_AND_FIGURES | MEDIA | {"indent_discs", "pool_curves", "compare_reduction", "plot_reduction"},
+            FITS_AND_FIGURES | MEDIA | SIZES | {"indent_discs", "pool_curves", "compare_reduction", "plot_reduction"},
         ),
         (
             {"surface": {"period": 1.5}},  # not of the variant that has its own period, nor of lines
-            FITS_AND_FIGURES | MEDIA | {"indent_discs", "pool_curves", "generate_example_discs", "plot_surfaces"},
+            FITS_AND_FIGURES
+            | MEDIA
+            | SIZES
+            | {"indent_discs", "pool_curves", "generate_example_discs", "plot_surfaces"},
         ),
+        ({"sizes": {"until_x": 2.0}}, SIZES | {"indent_discs", "indent_lines", "pool_curves"}),
         (
             {"direct": {"elements": 31}, "reduction": {"per_decade": 5}},
             {"compare_direct", "plot_direct", "judge_claims", "compare_reduction", "plot_reduction"},
@@ -95,7 +106,7 @@ def test_a_changed_setting_reruns_what_uses_it(finished, changed, rerun):
     planned = plan(finished, *TEST, settings_file(finished, "changed", **changed))
     assert set(planned) == rerun | LAST
     if "surface" in changed:
-        assert planned["indent_discs"] == 4
+        assert planned["indent_discs"] == 4 + 4  # two batches each of grids from coarse to fine and of their control
 
 
 def test_a_further_exponent_reruns_only_what_depends_on_it(finished):
@@ -131,7 +142,7 @@ def test_a_changed_line_of_the_column_convolution_reruns_what_uses_boundary_elem
     edit(editable / "src/viscorough/contact/column_fft.py", with_another_statement)
     after = {"pool_curves", "plot_direct", "plot_reduction", "check_validation", "plot_validation"}
     after |= {"plot_failure_map", "plot_level_placement", *SPEED, *MEDIA, *LAST}
-    assert set(plan(editable, *TEST)) == BOUNDARY_ELEMENTS | FITS_AND_FIGURES | after
+    assert set(plan(editable, *TEST)) == BOUNDARY_ELEMENTS | FITS_AND_FIGURES | SIZES | after
 
 
 @pytest.mark.parametrize(

@@ -33,12 +33,12 @@ def drawn(folder, *figures):
 
 @pytest.mark.parametrize(
     ("name", "indent_discs", "indent_lines"),
-    [("config", 4 * (9 + 4), 21), ("paper", 4 * (9 * 2 + 8), 101), ("test", 2 * (2 + 1), 2 * 2)],
+    [("config", 4 * (9 + 4) + 2, 22), ("paper", 4 * (9 * 2 + 8) + 2, 102), ("test", 2 * (2 + 1) + 4, 2 * 2 + 2)],
 )
 def test_plans_of_every_scale(unmade, name, indent_discs, indent_lines):
     planned = plan(unmade, "--configfile", f"config/{name}.yaml")
     assert (planned.pop("indent_discs"), planned.pop("indent_lines")) == (indent_discs, indent_lines)
-    assert planned.pop("pool_curves") == 2
+    assert planned.pop("pool_curves") == 4
     assert planned.pop("measure_methods") == (2 if name == "test" else 3)
     assert set(planned.values()) == {1}
     assert {"check_validation", "fit_scaling", "judge_claims", "make_page"} < set(planned)
@@ -62,15 +62,18 @@ def test_stability(fresh, default_plan):
 
 
 def test_sizes_and_large_discs(fresh, default_plan):
-    """Ensembles on their own grids, fitted and plotted; cost of one disc."""
+    """Ensembles on their own grids, which are part of the default run; cost of one disc, which is not."""
     planned = jobs(snakemake(fresh, *TEST, "--", "sizes", "large"))
     assert planned["indent_discs"] == 2 * planned["indent_lines"] == 2 * planned["measure_large"] == 4
-    assert not set(planned) & {"fit_sizes", "plot_sizes", "measure_large"} & set(default_plan)
+    assert set(planned) - set(default_plan) == {"measure_large", "tabulate_large", "plot_large"}
     sizes = pd.read_csv(fresh / "results/tables/sizes.csv")
     discs = sizes[(sizes["source"] == "discs") & (sizes["case_group"] == "sizes")]
     assert set(sizes.loc[sizes["case_group"] == "controls", "elements"]) == set(discs["elements"])
     assert "finding" in pd.read_csv(fresh / "results/tables/sizes_trends.csv")
-    assert sorted(set(discs["elements"])) == [disc_elements(across) for across in (17, 33)]
+    assert dict(zip(discs["elements"], discs["realizations"], strict=True)) == {
+        disc_elements(17): 3,
+        disc_elements(33): 2,
+    }
     assert sorted(set(sizes.loc[sizes["source"] == "lines", "elements"])) == [64, 1024]
     costs = pd.read_csv(fresh / "results/tables/large.csv")
     assert costs["across"].tolist() == [17, 33]

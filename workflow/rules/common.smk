@@ -83,9 +83,14 @@ def of_scan(name):
     return lambda wildcards: MEASURED[wildcards.scan][name]
 
 
-def realizations(wildcards):
-    """First realization of a batch, and the one after its last."""
-    return cases.realizations(wildcards.batch)
+def disc_ensembles(wildcards):
+    """Ensembles of discs in a batch."""
+    return cases.ensembles_of_batch(DISCS[wildcards.case], wildcards.batch)
+
+
+def line_ensembles(wildcards):
+    """Ensembles of lines in a batch."""
+    return cases.ensembles_of_batch(LINES[wildcards.line], wildcards.batch)
 
 
 def cases_of_pool(pool):

@@ -15,12 +15,9 @@ rule indent_discs:
     resources:
         mem_mb=disc_memory,
     params:
-        realizations=realizations,
+        ensembles=disc_ensembles,
         seed=config["seed"],
-        spawn_key=of_disc("spawn_key"),
-        elements=of_disc("elements"),
-        surface=of_disc("surface"),
-        indentation=config["indentation"],
+        indentation=of_disc("indentation"),
     message:
         "Boundary elements, discs {wildcards.case}, realizations {wildcards.batch}"
     script:
@@ -40,12 +37,9 @@ rule indent_lines:
     resources:
         mem_mb=line_memory,
     params:
-        realizations=realizations,
+        ensembles=line_ensembles,
         seed=config["seed"],
-        spawn_key=of_line("spawn_key"),
-        points=of_line("points"),
-        surface=of_line("surface"),
-        until_x=config["indentation"]["until_x"],
+        until_x=of_line("until_x"),
     message:
         "Reduction of dimensionality, lines {wildcards.line}, realizations {wildcards.batch}"
     script:

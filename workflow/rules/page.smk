@@ -16,6 +16,7 @@ PAGE_FIGURES = {
     "mdr_lambda": rules.plot_mdr_lambda,
     "validation": rules.plot_validation,
     "media": rules.plot_media,
+    "sizes": rules.plot_sizes,
 } | ({"measured": rules.plot_measured} if MEASURED else {})
 
 

@@ -7,7 +7,7 @@ from viscorough_study.fit_table import COLUMNS, fit_rows
 from viscorough_study.grid_trends import COLUMNS as TRENDS
 from viscorough_study.grid_trends import trends
 from viscorough_study.job_log import log_to, progress
-from viscorough_study.pool import ensembles, select
+from viscorough_study.pool import ensembles_on_grids, select
 from viscorough_study.tables import write_table
 
 
@@ -20,8 +20,8 @@ def main(discs, lines, csv, html, nc, trends_csv, trends_html, trends_nc, *, see
     discs, lines = read_dataset(discs), read_dataset(lines)
     rows = []
     for source, group, pool in (("discs", "sizes", discs), ("discs", "controls", discs), ("lines", "sizes", lines)):
-        cases = ensembles(select(pool, group=group), "case").values()
-        for ensemble in progress(cases, len(cases), f"{source}, {group}"):
+        grids = ensembles_on_grids(select(pool, group=group)).values()
+        for ensemble in progress(grids, len(grids), f"{source}, {group}"):
             fits = fit_rows(ensemble, source=source, case_group=group, seed=seed, **fit)
             rows += [row | {"elements": ensemble["elements"].item()} for row in fits]
     columns = COLUMNS | {"elements": ("elements of an indenter: of a disc, points of a line", "1")}

@@ -21,8 +21,8 @@ def main(heights, curves, *, group, indentation, **reading):
     limits = {"until_fraction": indentation["until_fraction"], "until_force": until_force}
     curve = indent(indenter, tolerance=indentation["tolerance"], **limits)
     settings = {"file": str(heights), "group": group, **reading, "indentation": indentation, "lengths": about}
-    about = {"rms": {"disc": [about["rms"]]}, "spacing": about["spacing"], "diameter": about["diameter"]}
-    content = batch_of_curves([curve], realizations=[0], hurst=float("nan"), settings=settings, **about)
+    about = {"rms": {"disc": [about["rms"]]}, "spacing": [about["spacing"]], "diameter": [about["diameter"]]}
+    content = batch_of_curves([curve], realizations=[0], hurst=[float("nan")], settings=settings, **about)
     netcdf.write(content, curves)
 
 

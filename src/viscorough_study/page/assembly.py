@@ -13,6 +13,7 @@ FURTHER = {
     "prefactors": "The prefactor under every combination of conventions",
     "direct": "Direct integration in time against both readings of the law",
     "reduction": "The reduction of dimensionality, surface by surface",
+    "sizes": "Exponents on grids from coarse to fine",
 }
 
 

@@ -32,6 +32,7 @@ ALTERNATIVE_TEXTS = {
     "differences of their exponents in equal windows.",
     "media": "Double-logarithmic charts of velocity over time in several media, and of depth over creep compliance, "
     "where the points of all media lie on one curve for each Hurst exponent.",
+    "sizes": "Exponent beta over the number of elements, of discs, of lines and of a control without a power law.",
     "measured": "Velocity of the measured surfaces over dimensionless force beside that of generated discs, and their "
     "depth over time under the forces of the settings.",
     "validation": "Errors against exact solutions over the number of elements across, falling as expected.",
@@ -180,12 +181,13 @@ def _pool(path):
         case, hurst, group = (np.ma.getdata(file[name][...]) for name in ("case", "hurst", "group"))
     base = group == group[0]
     first = case[0]
+    description = settings[str(first)]
     return {
         "realizations": int((case == first).sum()),
         "hurst": sorted({float(value) for value in hurst[base]}),
         "cases_per_hurst": len(set(case[base & (hurst == hurst[0])])),
         "groups": list(dict.fromkeys(group.tolist())),
-        "description": settings[str(first)],
+        "description": description | description["ensembles"][0],
     }
 
 

@@ -21,7 +21,7 @@ def pool(path, description, realizations):
         "hurst": ("realization", np.repeat([0.4, 0.4, 0.9, 0.9], realizations)),
         "group": ("realization", np.full(cases.size, "base", dtype=object)),
     }
-    settings = json.dumps({"h04_c1": description})
+    settings = json.dumps({"h04_c1": {"seed": 1, "ensembles": [description]}})
     xr.Dataset(variables, attrs={"settings": settings}).to_netcdf(path)
     return path
 

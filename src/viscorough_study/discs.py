@@ -24,3 +24,11 @@ def ensemble_disc(elements, surface, seed):
     factor = surface["rms"] / rms[surface["rms_over"]]
     indenter = Indenter(disc * factor, surface["diameter"] / elements, length_unit="m")
     return indenter, {name: float(height * factor) for name, height in rms.items()}
+
+
+def elements_across(elements):
+    """Elements across the disc that has so many elements.
+
+    A disc of n elements across holds those whose centres lie within (n − 1)/2 of its centre, about π (n − 1)²/4 of them.
+    """
+    return round(1 + np.sqrt(4 * elements / np.pi))

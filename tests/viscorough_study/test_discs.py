@@ -7,7 +7,7 @@ from support.workflow import load_script, read_settings
 from viscorough.io import netcdf
 from viscorough.surfaces import cut_disc, self_affine_square
 from viscorough_study import cases
-from viscorough_study.discs import ensemble_disc
+from viscorough_study.discs import elements_across, ensemble_disc
 from viscorough_study.seeds import realization_seed
 
 
@@ -63,3 +63,9 @@ def test_a_realization_is_the_same_in_every_batch(tmp_path, kind):
         curves[first] = [row[np.isfinite(row)] for row in force]
     np.testing.assert_array_equal(curves[0][2], curves[2][0])
     assert not np.array_equal(curves[0][2], curves[0][0])
+
+
+@pytest.mark.parametrize("across", [9, 17, 33, 64, 65, 129, 200, 257, 513])
+def test_elements_across_follow_from_their_number(across):
+    elements = np.isfinite(cut_disc(np.zeros((across, across)), across)).sum()
+    assert elements_across(elements) == across

@@ -10,7 +10,7 @@ from viscorough.compilation import njit
 from viscorough.contact.preconditioner import REACH
 
 
-@njit(fastmath=True)
+@njit(fastmath=True, nogil=True)
 def inner_product(left, right, slots):
     """Σ left·right over the contact set in double precision, for arrays laid out as the operator's load."""
     total = 0.0
@@ -19,22 +19,23 @@ def inner_product(left, right, slots):
     return total
 
 
-@njit
-def contact_places(inside, width, stride, places, slots):
-    """Store the places in contact in `places`, and their indices in the load array, which has no border, in `slots`.
+@njit(nogil=True)
+def contact_places(inside, start, stop, width, stride, end, places, slots):
+    """Store the places in contact from `start` to `stop`, and their indices in the load array, which has no border.
 
     width : length of a row of flat fields
     stride : length of a row of the load array
+    end : of their entries in `places` and `slots`
     """
-    t = 0
-    for i in range(REACH * width, inside.size - REACH * width):
+    t = end
+    for i in range(stop - 1, start - 1, -1):
         if inside[i]:
+            t -= 1
             row, column = divmod(i, width)
             places[t], slots[t] = i, (row - REACH) * stride + column - REACH
-            t += 1
 
 
-@njit
+@njit(nogil=True)
 def total(field, places):
     """Sum of a field over places, in double precision."""
     result = 0.0
@@ -43,7 +44,7 @@ def total(field, places):
     return result
 
 
-@njit(fastmath=True)
+@njit(fastmath=True, nogil=True)
 def product_on_set(values, field, places):
     """Σ values·field over the contact set in double precision, for values of the set alone, shape (count,)."""
     result = 0.0
@@ -52,7 +53,7 @@ def product_on_set(values, field, places):
     return result
 
 
-@njit
+@njit(nogil=True)
 def gap_on_set(gap_change, initial_gap, places, gap):
     """Store e on the set in the flat field `gap`; returns the largest |e| there."""
     largest = 0.0
@@ -63,7 +64,7 @@ def gap_on_set(gap_change, initial_gap, places, gap):
     return largest
 
 
-@njit
+@njit(nogil=True)
 def largest_overlap(gap_change, initial_gap):
     """Largest −e of a flat field, or 0."""
     lowest = 0.0
@@ -72,7 +73,7 @@ def largest_overlap(gap_change, initial_gap):
     return -lowest
 
 
-@njit
+@njit(nogil=True)
 def largest_on_set(field, places):
     """Largest magnitude of a field on the set."""
     largest = 0.0
@@ -81,7 +82,7 @@ def largest_on_set(field, places):
     return largest
 
 
-@njit(fastmath=True)
+@njit(fastmath=True, nogil=True)
 def energies(
     depths, pressure, gap_change, last_pressure, last_gap_change, last_tangent, last_tangent_gap, places
 ):  # fmt: skip
@@ -106,7 +107,7 @@ def energies(
     return products, sums
 
 
-@njit
+@njit(nogil=True)
 def predict(predicted, predicted_change, depth_step, pressure, tangent, gap_change, tangent_gap):
     """Store P + Δu q in `predicted` and e − g + Δu e_q in `predicted_change`."""
     for i in range(pressure.size):
@@ -114,7 +115,7 @@ def predict(predicted, predicted_change, depth_step, pressure, tangent, gap_chan
         predicted_change[i] = gap_change[i] + depth_step * tangent_gap[i]
 
 
-@njit
+@njit(nogil=True)
 def combine(
     tangent, tangent_gap, weights, shift,
     pressure, gap_change, last_pressure, last_gap_change, last_tangent, last_tangent_gap,
@@ -133,7 +134,7 @@ def combine(
         tangent_gap[i] = deflection + tangent_weight * last_tangent_gap[i] + shift
 
 
-@njit(fastmath=True)
+@njit(fastmath=True, nogil=True)
 def update_gap(length, deflection, gap):
     """e − g, or e_q, += α K d everywhere, in place."""
     rows, columns = deflection.shape
@@ -143,7 +144,7 @@ def update_gap(length, deflection, gap):
             gap[start + j] += length * deflection[i, j]
 
 
-@njit(fastmath=True)
+@njit(fastmath=True, nogil=True)
 def update_pressure(length, direction, pressure, places, slots):
     """P += α d on the set, in place; returns whether any pressure is negative."""
     lowest = 0.0
@@ -154,14 +155,14 @@ def update_pressure(length, direction, pressure, places, slots):
     return lowest < 0
 
 
-@njit(fastmath=True)
+@njit(fastmath=True, nogil=True)
 def update_search_direction(direction, preconditioned, factor, slots):
     """d = β d − z on the set, in place, with z the preconditioned residual."""
     for t in range(slots.size):
         direction[slots[t]] = factor * direction[slots[t]] - preconditioned[t]
 
 
-@njit
+@njit(nogil=True)
 def has_tension(pressure, places):
     """Whether any pressure on the set is negative."""
     lowest = 0.0
@@ -170,7 +171,7 @@ def has_tension(pressure, places):
     return lowest < 0
 
 
-@njit
+@njit(nogil=True)
 def step_causes_tension(length, direction, pressure, places, slots):
     """Whether a step of that length would put any element under tension."""
     lowest = 0.0
@@ -179,25 +180,42 @@ def step_causes_tension(length, direction, pressure, places, slots):
     return lowest < 0
 
 
-@njit
-def step_and_release(length, direction, pressure, inside, places, slots, stencil, width, stride):
-    """P += α d; elements under tension leave the set; the direction becomes the total change of pressure; all in place.
+@njit(nogil=True)
+def step_and_find_tension(length, direction, pressure, inside, places, slots, first):
+    """P += α d, the direction becomes α d, and elements under tension are marked as outside; all in place.
 
-    When an element under tension leaves, the load of its neighbours changes. They take the change that eliminating the
-    element from the influence matrix would give, which saves iterations, but lose at most half of their pressure.
+    first : index of the first of these places in the set
 
-    stencil : preconditioner.load_redistribution_stencil
-    width : length of a row of flat fields
-    stride : length of a row of the load array
+    Returns the indices in the set of the elements under tension.
     """
+    count = 0
     for t in range(places.size):
         direction[slots[t]] *= length
         pressure[places[t]] += direction[slots[t]]
         inside[places[t]] = pressure[places[t]] >= 0
-    for t in range(places.size):
+        count += not inside[places[t]]
+    released = np.empty(count, np.int64)
+    for t in range(places.size - 1, -1, -1):
+        if not inside[places[t]]:
+            count -= 1
+            released[count] = first + t
+    return released
+
+
+@njit(nogil=True)
+def release(direction, pressure, inside, places, slots, released, stencil, width, stride):
+    """Elements under tension leave the set: the direction becomes the total change of pressure; all in place.
+
+    When an element under tension leaves, the load of its neighbours changes. They take the change that eliminating the
+    element from the influence matrix would give, which saves iterations, but lose at most half of their pressure.
+
+    released : indices of these elements in the set
+    stencil : preconditioner.load_redistribution_stencil
+    width : length of a row of flat fields
+    stride : length of a row of the load array
+    """
+    for t in released:
         i = places[t]
-        if inside[i]:
-            continue
         tension = pressure[i]
         direction[slots[t]] -= tension
         pressure[i] = 0.0
@@ -210,7 +228,7 @@ def step_and_release(length, direction, pressure, inside, places, slots, stencil
                     direction[slots[t] + row * stride + column] += change
 
 
-@njit
+@njit(nogil=True)
 def add_penetrating_elements(gap_change, initial_gap, inside, limit):
     """Elements that overlap the surface by more than `limit` join the set, in place; returns how many did."""
     joined = 0

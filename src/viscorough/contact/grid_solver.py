@@ -21,8 +21,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from viscorough.contact import grid_kernels as kernels
 from viscorough.contact.conjugate_gradients import ConjugateGradients
+from viscorough.contact.grid_loops import GridLoops
 from viscorough.contact.halfspace import Halfspace
 from viscorough.contact.preconditioner import LEAST_EIGENVALUE, REACH, Preconditioner
 from viscorough.contact.state import BoundedField, ContactSet, ContactState, GridFields
@@ -66,7 +66,7 @@ class GridSolver:
         if rows > _TALL * columns:
             row, column, top, left, rows, columns = column, row, left, top, columns, rows
             aspect = 1 / aspect
-        self._tolerance, self._options, self._threads = tolerance, options, threads
+        self._tolerance, self._options, self._loops = tolerance, options, GridLoops(threads)
         of_grid = {"aspect": aspect, "padding": options.padding, "threads": threads}
         self._halfspace = Halfspace(rows, columns, _PRECISIONS[options.precision], **of_grid)
         exact = tolerance < options.exact_gap_below
@@ -115,13 +115,13 @@ class GridSolver:
         pressure, change = np.zeros_like(self.initial_gap), np.zeros_like(self.initial_gap)
         fields = before.pressure, before.tangent, before.gap_change.values, before.tangent_gap.values
         step = self._precision(depth_step)
-        kernels.predict(self._inner_rows(pressure), self._inner_rows(change), step, *map(self._inner_rows, fields))
+        self._loops.predict(self._inner_rows(pressure), self._inner_rows(change), step, *map(self._inner_rows, fields))
         rounding = before.gap_change.rounding + depth_step * before.tangent_gap.rounding + self._field_rounding * depth
         change, inside = BoundedField(change, rounding), pressure != 0  # elements under tension leave later
         self._add_penetrating_elements(change, inside, 0.0)
         contact_set = self._solve_pressure(pressure, change, inside, depth)
         now, last = Loads(pressure, change, depth), Loads(before.pressure, before.gap_change, last_depth)
-        tangent, tangent_gap = initial_tangent(now, last, before, contact_set, self._inner)
+        tangent, tangent_gap = initial_tangent(now, last, before, contact_set, self._inner, self._loops)
         self._solve_tangent(contact_set, tangent, tangent_gap)
         fields = GridFields(
             contact_set.inside, pressure, change, tangent, tangent_gap, self.initial_gap, self.place
@@ -136,9 +136,9 @@ class GridSolver:
         """
         fields = contact.fields
         places = np.flatnonzero(fields.inside)
-        share = (pressure_sum - kernels.total(fields.pressure, places)) / kernels.total(fields.tangent, places)
+        share = (pressure_sum - self._loops.total(fields.pressure, places)) / self._loops.total(fields.tangent, places)
         pressure = np.maximum(fields.pressure + self._precision(share) * fields.tangent, self._precision(0))
-        pressure *= self._precision(pressure_sum / kernels.total(pressure, places))
+        pressure *= self._precision(pressure_sum / self._loops.total(pressure, places))
         change, inside = self._gap_change(pressure, depth), pressure > 0
         fields = replace(fields, inside=inside, pressure=pressure, gap_change=change)
         settled = self._state(contact.units, depth, fields, self._contact_set(inside))
@@ -157,21 +157,21 @@ class GridSolver:
         # The caller passes the tangent gap on from set to set, so that no bound on its rounding error is known.
         self._solve_tangent(contact_set, tangent, BoundedField(tangent_gap, np.inf))
         places = contact_set.places
-        return kernels.total(tangent, places) - kernels.inner_product(tangent, tangent_gap, places)
+        return self._loops.total(tangent, places) - self._loops.inner_product(tangent, tangent_gap, places)
 
     def _state(self, units, depth, fields, contact_set):
         """The ContactState of GridFields at a reduced depth."""
         places, change, tangent = contact_set.places, fields.gap_change, fields.tangent
-        largest = kernels.gap_on_set(change.values, self.initial_gap, places, self._gap)
-        overlap = kernels.largest_overlap(self._inner_rows(change.values), self._inner_rows(self.initial_gap))
-        correction = kernels.inner_product(tangent, self._gap, places)
-        tangent_correction = kernels.inner_product(tangent, fields.tangent_gap.values, places)
+        largest = self._loops.gap_on_set(change.values, self.initial_gap, places, self._gap)
+        overlap = self._loops.largest_overlap(self._inner_rows(change.values), self._inner_rows(self.initial_gap))
+        correction = self._loops.inner_product(tangent, self._gap, places)
+        tangent_correction = self._loops.inner_product(tangent, fields.tangent_gap.values, places)
         return ContactState(
             units=units,
             reduced_depth=depth,
             count=places.size,
-            pressure_sum=kernels.total(fields.pressure, places) - correction,
-            tangent_sum=kernels.total(tangent, places) - tangent_correction,
+            pressure_sum=self._loops.total(fields.pressure, places) - correction,
+            tangent_sum=self._loops.total(tangent, places) - tangent_correction,
             residual=(max(largest, overlap) + change.rounding) / depth,
             fields=fields,
         )
@@ -196,8 +196,8 @@ class GridSolver:
         for _ in range(self._options.max_iterations):
             if changed:
                 contact_set = self._contact_set(inside)
-                tension = kernels.has_tension(pressure, contact_set.places)
-            largest = kernels.gap_on_set(change.values, self.initial_gap, contact_set.places, self._gap)
+                tension = self._loops.has_tension(pressure, contact_set.places)
+            largest = self._loops.gap_on_set(change.values, self.initial_gap, contact_set.places, self._gap)
             # Residual and rounding error together must not exceed the limit. Where the rounding error takes most of it,
             # the gap is recomputed as soon as it is no larger than its rounding error.
             close_enough = max(limit - change.rounding, change.rounding)
@@ -210,7 +210,7 @@ class GridSolver:
                 changed = True
                 continue
             if changed:
-                search = ConjugateGradients(self._halfspace, self._preconditioner, contact_set)
+                search = ConjugateGradients(self._halfspace, self._preconditioner, contact_set, self._loops)
             search.precondition(self._gap)
             search.update_direction()
             change.rounding += self._rounding * largest + self._field_rounding * depth
@@ -228,21 +228,21 @@ class GridSolver:
         """Solve K q = 1 on a set by conjugate gradients; changes q and e_q, with its rounding bound, in place."""
         tolerance = min(_TANGENT_TOLERANCE, np.sqrt(self._tolerance))
         accepted = max(_TANGENT_ROUNDING * self._tolerance, self._exact_rounding + self._field_rounding)
-        search = ConjugateGradients(self._halfspace, self._preconditioner, contact_set)
+        search = ConjugateGradients(self._halfspace, self._preconditioner, contact_set, self._loops)
         for _ in range(self._options.max_iterations):
             norm = search.precondition(tangent_gap.values)
             # The error of Σq is e_qᵀ K⁻¹ e_q, which is at most e_qᵀ M e_q / LEAST_EIGENVALUE.
-            total = kernels.total(tangent, contact_set.places)
+            total = self._loops.total(tangent, contact_set.places)
             error = np.sqrt(norm / (LEAST_EIGENVALUE * total)) if total > 0 else np.inf
             if error <= tolerance:
                 if tangent_gap.rounding <= accepted:
                     return
                 exact = self._tangent_gap(tangent)
                 tangent_gap.values[:], tangent_gap.rounding = exact.values, exact.rounding
-                search = ConjugateGradients(self._halfspace, self._preconditioner, contact_set)
+                search = ConjugateGradients(self._halfspace, self._preconditioner, contact_set, self._loops)
                 continue
             search.update_direction()
-            largest = kernels.largest_on_set(tangent_gap.values, contact_set.places)
+            largest = self._loops.largest_on_set(tangent_gap.values, contact_set.places)
             tangent_gap.rounding += self._rounding * largest + self._field_rounding
             search.step(tangent, tangent_gap.values)
         raise self._not_converged(contact_set, error, tolerance)
@@ -254,10 +254,7 @@ class GridSolver:
         )
 
     def _contact_set(self, inside):
-        count = np.count_nonzero(inside)
-        places, slots = np.empty(count, self.place.dtype), np.empty(count, self.place.dtype)
-        kernels.contact_places(inside, self._width, self._halfspace.load.shape[1], places, slots)
-        return ContactSet(inside, places, slots)
+        return ContactSet(inside, *self._loops.contact_places(inside, self._width, self._halfspace.load.shape[1]))
 
     def _gap_change(self, pressure, depth):
         """e − g = K P − u of a pressure as a BoundedField."""
@@ -282,7 +279,7 @@ class GridSolver:
         return deflection
 
     def _add_penetrating_elements(self, change, inside, limit):
-        return kernels.add_penetrating_elements(
+        return self._loops.add_penetrating_elements(
             *map(self._inner_rows, (change.values, self.initial_gap, inside)), limit
         )  # fmt: skip
 

@@ -8,7 +8,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from viscorough.contact import grid_kernels as kernels
 from viscorough.contact.state import BoundedField
 
 
@@ -20,14 +19,15 @@ class Loads(NamedTuple):
     depth: float
 
 
-def initial_tangent(now, last, before, contact_set, inner):
+def initial_tangent(now, last, before, contact_set, inner, loops):
     """The combination as initial q, and e_q = K q − 1 everywhere as a BoundedField.
 
     now, last : Loads after and before the step; before : the GridFields before it
     contact_set : the ContactSet after the step
     inner : slice of flat fields without the first and last rows of their border
+    loops : GridLoops
     """
-    weights = _weights(now, last, before, contact_set)
+    weights = _weights(now, last, before, contact_set, loops)
     pressure_weight, last_pressure_weight, tangent_weight = weights
     shift = pressure_weight * now.depth + last_pressure_weight * last.depth + tangent_weight - 1
     tangent, tangent_gap = np.zeros_like(now.pressure), np.zeros_like(now.pressure)
@@ -35,15 +35,15 @@ def initial_tangent(now, last, before, contact_set, inner):
         now.pressure, now.gap_change.values, last.pressure, last.gap_change.values,
         before.tangent, before.tangent_gap.values,
     )  # fmt: skip
-    kernels.combine(tangent[inner], tangent_gap[inner], weights, shift, *(field[inner] for field in fields))
+    loops.combine(tangent[inner], tangent_gap[inner], weights, shift, *(field[inner] for field in fields))
     return tangent, BoundedField(tangent_gap, _rounding(weights, now, last, before.tangent_gap.rounding))
 
 
-def _weights(now, last, before, contact_set):
+def _weights(now, last, before, contact_set, loops):
     """Weights of pressure, last pressure and last tangent in the combination of them closest to q in energy."""
-    energy, sums = kernels.energies(
+    energy, sums = loops.energies(
         (now.depth, last.depth), now.pressure, now.gap_change.values, last.pressure, last.gap_change.values,
-        before.tangent, before.tangent_gap.values, contact_set.places,
+        before.tangent, before.tangent_gap.values, places=contact_set.places,
     )  # fmt: skip
     if np.any(before.inside & ~contact_set.inside):
         # An element left the contact, within the tolerance: fields that load it cannot be part of q.

@@ -1,0 +1,110 @@
+"""The loops of grid_kernels over large arrays, block by block on several threads.
+
+Methods have the arguments and results of the kernels of the same name, which document them.
+"""
+
+import numpy as np
+
+from viscorough.contact import grid_kernels as kernels
+from viscorough.contact.parallel import BLOCK, run_blocks
+
+
+class GridLoops:
+    """Loops over the fields of a grid and its contact sets on so many threads."""
+
+    def __init__(self, threads):
+        self._threads = threads
+
+    # Over the places of a set.
+
+    def inner_product(self, left, right, slots):
+        return sum(self._over(slots, lambda i, j: kernels.inner_product(left, right, slots[i:j])))
+
+    def total(self, field, places):
+        return sum(self._over(places, lambda i, j: kernels.total(field, places[i:j])))
+
+    def product_on_set(self, values, field, places):
+        return sum(self._over(places, lambda i, j: kernels.product_on_set(values[i:j], field, places[i:j])))
+
+    def gap_on_set(self, gap_change, initial_gap, places, gap):
+        return max(self._over(places, lambda i, j: kernels.gap_on_set(gap_change, initial_gap, places[i:j], gap)))
+
+    def largest_on_set(self, field, places):
+        return max(self._over(places, lambda i, j: kernels.largest_on_set(field, places[i:j])))
+
+    def has_tension(self, pressure, places):
+        return any(self._over(places, lambda i, j: kernels.has_tension(pressure, places[i:j])))
+
+    def step_causes_tension(self, length, direction, pressure, places, slots):
+        step = length, direction, pressure
+        return any(self._over(places, lambda i, j: kernels.step_causes_tension(*step, places[i:j], slots[i:j])))
+
+    def update_pressure(self, length, direction, pressure, places, slots):
+        step = length, direction, pressure
+        return any(self._over(places, lambda i, j: kernels.update_pressure(*step, places[i:j], slots[i:j])))
+
+    def update_search_direction(self, direction, preconditioned, factor, slots):
+        def update(i, j):
+            kernels.update_search_direction(direction, preconditioned[i:j], factor, slots[i:j])
+
+        self._over(slots, update)
+
+    def step_and_release(self, length, direction, pressure, inside, places, slots, stencil, width, stride):
+        def step(i, j):
+            return kernels.step_and_find_tension(length, direction, pressure, inside, places[i:j], slots[i:j], i)
+
+        # Elements leave one after the other, since neighbours share the load of both.
+        released = np.concatenate(self._over(places, step))
+        kernels.release(direction, pressure, inside, places, slots, released, stencil, width, stride)
+
+    def energies(self, depths, *fields, places):
+        parts = self._over(places, lambda i, j: kernels.energies(depths, *fields, places[i:j]))
+        return [sum(part) for part in zip(*parts, strict=True)]
+
+    # Over flat fields.
+
+    def contact_places(self, inside, width, stride):
+        """Places in contact, and their indices in the load array, as int32, or int64 where these are too large."""
+        whole_number = np.int32 if inside.size // width * max(width, stride) < 2**31 else np.int64
+        ends = np.cumsum(self._over(inside, lambda i, j: np.count_nonzero(inside[i:j])))
+        places, slots = np.empty((2, ends[-1]), whole_number)
+
+        def store(i, j):
+            end = ends[i // BLOCK] if inside.size > BLOCK else ends[0]
+            kernels.contact_places(inside, i, j, width, stride, end, places, slots)
+
+        self._over(inside, store)
+        return places, slots
+
+    def largest_overlap(self, gap_change, initial_gap):
+        return max(self._over(gap_change, lambda i, j: kernels.largest_overlap(gap_change[i:j], initial_gap[i:j])))
+
+    def predict(self, predicted, predicted_change, depth_step, *fields):
+        def predict(i, j):
+            kernels.predict(predicted[i:j], predicted_change[i:j], depth_step, *(field[i:j] for field in fields))
+
+        self._over(predicted, predict)
+
+    def combine(self, tangent, tangent_gap, weights, shift, *fields):
+        def combine(i, j):
+            kernels.combine(tangent[i:j], tangent_gap[i:j], weights, shift, *(field[i:j] for field in fields))
+
+        self._over(tangent, combine)
+
+    def update_gap(self, length, deflection, gap):
+        rows, columns = deflection.shape
+        width = gap.size // (rows + 2 * kernels.REACH)
+
+        def update(i, j):
+            kernels.update_gap(length, deflection[i:j], gap[i * width :])
+
+        run_blocks(update, rows, self._threads, -(-BLOCK // columns))
+
+    def add_penetrating_elements(self, gap_change, initial_gap, inside, limit):
+        def add(i, j):
+            return kernels.add_penetrating_elements(gap_change[i:j], initial_gap[i:j], inside[i:j], limit)
+
+        return sum(self._over(inside, add))
+
+    def _over(self, array, function):
+        return run_blocks(function, array.size, self._threads)

@@ -158,12 +158,13 @@ def _load(data, first, x, width):
 
 
 @njit
-def _multiply(x, spectrum, y, width):
+def _multiply(x, spectrum, frequency, y, width):
     """Product with the spectrum, real and imaginary parts exchanged, so that the next transform is an inverse one."""
-    for i in range(spectrum.shape[0]):
+    for i in range(frequency.size):
+        factor = spectrum[frequency[i]]
         for j in range(width):
-            real = spectrum[i, j] * x[i, j]
-            y[i, j] = spectrum[i, j] * x[i, _PARTS + j]
+            real = factor[j] * x[i, j]
+            y[i, j] = factor[j] * x[i, _PARTS + j]
             y[i, _PARTS + j] = real
 
 
@@ -177,13 +178,13 @@ def _store(x, place, data, first, width):
 
 
 @njit(nogil=True)
-def _convolve(start, stop, data, edges, spectra, radices, factors, padded, place, same, x, y):
+def _convolve(start, stop, data, edges, spectra, frequency, radices, factors, padded, place, same, x, y):
     """Convolve blocks of columns in place; takes the plan of ColumnConvolution as plain arrays, being compiled."""
     for block in range(start, stop):
         first, width = edges[block], edges[block + 1] - edges[block]
         _load(data, first, x, width)
         frequencies, other = _transform(x, y, padded, same, radices, factors, width)
-        _multiply(frequencies, spectra[block], other, width)
+        _multiply(frequencies, spectra[block], frequency, other, width)
         convolved, _ = _transform(other, frequencies, place, same, radices, factors, width)
         _store(convolved, place, data, first, width)
 
@@ -207,14 +208,14 @@ class ColumnConvolution:
             frequency = np.add.outer(frequency, length // rest * np.arange(radix)).ravel()
             rest //= radix
         edges = np.array([*range(0, max(columns - _REST, 1), _BLOCK), columns])
-        spectra = np.zeros((edges.size - 1, length, _PARTS), dtype=precision)
-        in_order = spectrum[np.minimum(frequency, length - frequency)]
-        for block, of_block in enumerate(np.split(in_order, edges[1:-1], axis=1)):
+        spectra = np.zeros((edges.size - 1, length // 2 + 1, _PARTS), dtype=precision)
+        for block, of_block in enumerate(np.split(spectrum, edges[1:-1], axis=1)):
             spectra[block, :, : of_block.shape[1]] = of_block
         spectral = np.result_type(precision, np.complex64)
         same = np.arange(length)
         self._plan = (
-            edges, spectra, np.array(radices), np.concatenate(factors).astype(spectral),
+            edges, spectra, np.minimum(frequency, length - frequency),
+            np.array(radices), np.concatenate(factors).astype(spectral),
             np.minimum(same, rows), np.argsort(frequency), same,
         )  # fmt: skip
         self._blocks, self._threads = edges.size - 1, threads

@@ -17,6 +17,8 @@ _FAR = 30
 _ROW_PADDING = 16
 # Fewer rows than this are folded before they are transformed.
 _FOLDED_BELOW = 4
+# Elements up to which the spectrum of a grid is kept for further ones of that shape.
+_KEPT = 1 << 20
 # The number of rows in a block is a multiple of this: the library transforms so many at once.
 _ROWS_AT_ONCE = 16
 
@@ -94,7 +96,12 @@ def convolution_lengths(rows, columns):
 
 
 @lru_cache(maxsize=2)
-def _spectrum(rows, columns, aspect, padding):
+def _kept_spectrum(*grid):
+    """The same as `_spectrum`, kept for the next grid of that shape."""
+    return _spectrum(*grid, threads=1)
+
+
+def _spectrum(rows, columns, aspect, padding, threads):
     """Lengths of the periodic convolution along both axes, and the real spectrum of K, divided by their product.
 
     K and its spectrum are even, so that a cosine transform over distances up to half the lengths gives the spectrum at
@@ -104,9 +111,21 @@ def _spectrum(rows, columns, aspect, padding):
     row, column = (np.arange(m // 2 + 1.0) for m in lengths)
     if not padding:
         row, column = (np.minimum(d, abs(n - d)) for d, n in ((row, rows), (column, columns)))
-    spectrum = influence_coefficient(row[:, None], column, aspect)
-    ducc0.fft.dct(spectrum, axes=[0, 1] if rows > 1 else [1], type=1, out=spectrum)
-    spectrum /= np.prod(lengths)
+    spectrum = np.empty((row.size, column.size))
+
+    def transform_columns(start, stop):
+        part = spectrum[:, start:stop]
+        part[:] = influence_coefficient(row[:, None], column[start:stop], aspect)
+        if rows > 1:
+            ducc0.fft.dct(part, axes=[0], type=1, out=part)
+
+    def transform_rows(start, stop):
+        part = spectrum[start:stop]
+        ducc0.fft.dct(part, axes=[1], type=1, out=part)
+        part /= np.prod(lengths)
+
+    for transform, size, other in ((transform_columns, column.size, row.size), (transform_rows, row.size, column.size)):
+        run_blocks(transform, size, threads, max(BLOCK // other // _ROWS_AT_ONCE, 1) * _ROWS_AT_ONCE)
     return lengths, spectrum
 
 
@@ -202,10 +221,13 @@ class Halfspace:
 
     def __init__(self, rows, columns, precision=np.float64, *, aspect=1.0, padding=True, threads=1):
         self.shape = (rows, columns)
-        (_, length), spectrum = _spectrum(rows, columns, aspect, padding)
+        grid = rows, columns, aspect, padding
+        is_kept = rows * columns <= _KEPT
+        (_, length), spectrum = _kept_spectrum(*grid) if is_kept else _spectrum(*grid, threads)
         self._rows = _RowTransforms(rows, columns, length, precision, threads)
         frequency = self._rows.frequency
-        spectrum = spectrum[:, np.minimum(frequency, length - frequency).ravel()]
+        if frequency.shape[1] > 1:
+            spectrum = spectrum[:, np.minimum(frequency, length - frequency).ravel()]
         self._columns = ColumnConvolution(rows, spectrum, precision, threads) if rows > 1 else None
         self._spectrum = spectrum.reshape(frequency.shape).astype(precision) if rows == 1 else None
         self.load = np.zeros((rows, self._rows.width), dtype=precision)

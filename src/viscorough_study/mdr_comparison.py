@@ -9,6 +9,7 @@ Letters 52, 223 (2013)). The mean gap of a disc takes its deflections, so it is 
 
 import numpy as np
 import pandas as pd
+from scipy.special import stdtrit
 
 from viscorough.contact.loading_path import indent
 from viscorough.contact.one_contact import contact_at
@@ -145,7 +146,7 @@ def _rows(hurst, x, compared, of_gaps):
 
 
 def _mean_with_interval(logarithms):
-    """Geometric mean over the realizations, and the ends of its 95 % interval."""
-    mean, spread = logarithms.mean(axis=0), logarithms.std(axis=0, ddof=1)
-    error = 1.96 * spread / np.sqrt(len(logarithms))
+    """Geometric mean over the realizations, and the ends of its 95 % interval by Student's t."""
+    mean, spread, number = logarithms.mean(axis=0), logarithms.std(axis=0, ddof=1), len(logarithms)
+    error = stdtrit(number - 1, 0.975) * spread / np.sqrt(number)
     return np.exp(mean), np.exp(mean - error), np.exp(mean + error)

@@ -13,6 +13,7 @@ from viscorough_study.ensembles import abscissa, ensemble_dataset, on_abscissae
 from viscorough_study.evidence import Evidence
 from viscorough_study.fit_table import COLUMNS, fit_rows
 from viscorough_study.gamma_factor import compare_direct
+from viscorough_study.mdr_equivalence import WINDOWS
 from viscorough_study.paper_data import read_paper
 from viscorough_study.pool import OF_REALIZATIONS, VARIABLES, ensembles
 
@@ -83,6 +84,7 @@ def evidence(zeta=reference.zeta_elastic, **options):
             "scaling": pd.DataFrame(rows, columns=list(COLUMNS)),
             "validation": validation,
             "direct": compare_direct(HURST, 17, 25, 1),
+            **mdr_tables(),
         },
         numbers=NUMBERS,
         conventions=SHOWN,
@@ -91,6 +93,32 @@ def evidence(zeta=reference.zeta_elastic, **options):
         rules=RULES,
         **BOOTSTRAP,
     )
+
+
+def mdr_tables(drift=1.0, ratio=1.0):
+    """Tables of lines against discs, of narrow intervals: λ drifts by a factor, and ratios of all quantities are equal.
+
+    ratio : of contact fraction and gap; the factor between single stiffnesses, too
+    """
+
+    def interval(name, value, half):
+        return {name: value, f"{name}_low": value - half, f"{name}_high": value + half}
+
+    summary = interval("drift", drift, 0.01) | interval("error_trend", np.log(drift) / 4, 0.005)
+    summary |= interval("error_whole", np.abs(np.log(drift)), 0.005)
+    difference = [interval("difference", np.log(drift) / 10, 0.002) | {"window": name} for name in WINDOWS]
+    compared = interval("area_ratio", ratio, 0.01) | {"realizations": 1000, "stiffness_scatter": np.log(ratio)}
+    x = np.geomspace(1e-4, 1, 9)
+    gap = {
+        name: np.where(np.arange(9) % 2, np.nan, value) for name, value in interval("gap_ratio", ratio, 0.01).items()
+    }
+    return {
+        "mdr_summary": pd.DataFrame([{"hurst": hurst} | summary for hurst in HURST]),
+        "mdr_exponents": pd.DataFrame([{"hurst": hurst} | row for hurst in HURST for row in difference]),
+        "reduction": pd.concat(
+            [pd.DataFrame({"hurst": hurst, "x": x} | compared | gap) for hurst in HURST], ignore_index=True
+        ),
+    }
 
 
 def fit_row(**columns):

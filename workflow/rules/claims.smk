@@ -64,6 +64,9 @@ rule judge_claims:
         scaling=rules.fit_scaling.output.csv,
         validation=rules.validate.output.csv,
         direct=rules.compare_direct.output.csv,
+        reduction=rules.compare_reduction.output.csv,
+        mdr_summary=rules.match_lines.output.summary_csv,
+        mdr_exponents=rules.match_lines.output.exponents_csv,
     output:
         csv="results/tables/claims.csv",
         html=report(

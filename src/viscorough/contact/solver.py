@@ -161,6 +161,8 @@ class ContactSolver:
             self._former_applications, self._reach = self.operator_applications, reach
             self._grid = None  # its memory is free for the larger one
             how = {"aspect": self.elements.aspect, "threads": self._threads}
+            if reach == self.elements.count:
+                self.elements.free_influence()  # contacts on the whole grid need no dense solutions
             self._grid = GridSolver(box, row, column, gap, self.tolerance, self.options, **how)
         return self._grid
 

@@ -15,6 +15,7 @@ unit of length; such quantities are called reduced. `Units` holds the factors th
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -57,7 +58,6 @@ class Elements:
     origin : first row and column of the indenter's heights that have an element
     shape : rows and columns of the smallest grid with all elements
     aspect : dy/dx of the elements
-    influence : influence coefficients K by distance in rows and columns, of that shape
     """
 
     row: np.ndarray
@@ -66,7 +66,16 @@ class Elements:
     origin: tuple
     shape: tuple
     aspect: float
-    influence: np.ndarray
+
+    @cached_property
+    def influence(self):
+        """Influence coefficients K by distance in rows and columns, of the shape of the grid, for dense solutions."""
+        distance = [np.arange(n, dtype=float) for n in self.shape]
+        return influence_coefficient(distance[0][:, None], distance[1][None, :], self.aspect)
+
+    def free_influence(self):
+        """Free the memory of `influence` until it is next used."""
+        self.__dict__.pop("influence", None)
 
     @property
     def count(self):
@@ -90,9 +99,7 @@ def elements_of(indenter):
         (position[order] - first).astype(np.int32) for position, first in zip((rows, columns), origin, strict=True)
     )
     shape = int(row.max()) + 1, int(column.max()) + 1
-    distance = [np.arange(n, dtype=float) for n in shape]
-    influence = influence_coefficient(distance[0][:, None], distance[1][None, :], indenter.aspect)
-    return Elements(row, column, gap[order] / units.length, origin, shape, indenter.aspect, influence), units
+    return Elements(row, column, gap[order] / units.length, origin, shape, indenter.aspect), units
 
 
 def _increasing_order(gap):

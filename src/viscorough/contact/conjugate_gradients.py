@@ -14,8 +14,7 @@ class ConjugateGradients:
 
     def __init__(self, halfspace, preconditioner, contact_set, loops):
         self._halfspace, self._preconditioner, self._set, self._loops = halfspace, preconditioner, contact_set, loops
-        if not np.array_equal(contact_set.places, preconditioner.places):
-            preconditioner.prepare(contact_set.inside, contact_set.places)
+        preconditioner.prepare(contact_set.inside, contact_set.places.size)
         halfspace.load[:] = 0
         self._direction = halfspace.load.ravel()  # a view: the direction is the operator's load
         self._norm, self._last_norm = np.nan, np.inf
@@ -24,13 +23,14 @@ class ConjugateGradients:
         """Compute the preconditioned gap z = M e on the set; returns zᵀe."""
         self._preconditioned = self._preconditioner.apply(gap)
         # Both factors have the opposite sign: the residual is −e.
-        self._norm = self._loops.product_on_set(self._preconditioned, gap, self._set.places)
+        self._norm = self._loops.inner_product(self._preconditioned, gap, self._set.places)
         return self._norm
 
     def update_direction(self):
         """Update the search direction: conjugate to the last one, from the preconditioned residual."""
         factor = self._norm / self._last_norm
-        self._loops.update_search_direction(self._direction, self._preconditioned, factor, self._set.slots)
+        of_set = self._set.places, self._set.slots
+        self._loops.update_search_direction(self._direction, self._preconditioned, factor, *of_set)
         self._last_norm = self._norm
 
     def step(self, pressure, gap):

@@ -164,8 +164,8 @@ def _follow(influence, row, column, initial_gap, depth, start, pressure, most, f
     factor, members = np.empty((most, most)), np.empty(most, np.int64)
     forward, tangent, load = np.zeros(most), np.zeros(most), np.zeros(most)
     depths, totals, stiffnesses = np.zeros(most), np.zeros(most), np.zeros(most)
-    # Depth before which an element does not touch, _NEVER in contact. A gap is a convex function of the depth: it closes
-    # ever more slowly, and never faster than the depth grows.
+    # Depth before which an element does not touch, _NEVER in contact. A gap is a convex function of the depth: it
+    # closes ever more slowly, and never faster than the depth grows.
     earliest = initial_gap.copy()
     count, total, following = 0, 0.0, 0
     for t in range(start.size - 1):

@@ -44,15 +44,6 @@ def total(field, places):
     return result
 
 
-@njit(fastmath=True, nogil=True)
-def product_on_set(values, field, places):
-    """Σ values·field over the contact set in double precision, for values of the set alone, shape (count,)."""
-    result = 0.0
-    for t in range(places.size):
-        result += values[t] * np.float64(field[places[t]])
-    return result
-
-
 @njit(nogil=True)
 def gap_on_set(gap_change, initial_gap, places, gap):
     """Store e on the set in the flat field `gap`; returns the largest |e| there."""
@@ -156,10 +147,10 @@ def update_pressure(length, direction, pressure, places, slots):
 
 
 @njit(fastmath=True, nogil=True)
-def update_search_direction(direction, preconditioned, factor, slots):
-    """d = β d − z on the set, in place, with z the preconditioned residual."""
+def update_search_direction(direction, preconditioned, factor, places, slots):
+    """d = β d − z on the set, in place, with z the preconditioned residual, a flat field."""
     for t in range(slots.size):
-        direction[slots[t]] = factor * direction[slots[t]] - preconditioned[t]
+        direction[slots[t]] = factor * direction[slots[t]] - preconditioned[places[t]]
 
 
 @njit(nogil=True)

@@ -23,9 +23,6 @@ class GridLoops:
     def total(self, field, places):
         return sum(self._over(places, lambda i, j: kernels.total(field, places[i:j])))
 
-    def product_on_set(self, values, field, places):
-        return sum(self._over(places, lambda i, j: kernels.product_on_set(values[i:j], field, places[i:j])))
-
     def gap_on_set(self, gap_change, initial_gap, places, gap):
         return max(self._over(places, lambda i, j: kernels.gap_on_set(gap_change, initial_gap, places[i:j], gap)))
 
@@ -43,9 +40,9 @@ class GridLoops:
         step = length, direction, pressure
         return any(self._over(places, lambda i, j: kernels.update_pressure(*step, places[i:j], slots[i:j])))
 
-    def update_search_direction(self, direction, preconditioned, factor, slots):
+    def update_search_direction(self, direction, preconditioned, factor, places, slots):
         def update(i, j):
-            kernels.update_search_direction(direction, preconditioned[i:j], factor, slots[i:j])
+            kernels.update_search_direction(direction, preconditioned, factor, places[i:j], slots[i:j])
 
         self._over(slots, update)
 

@@ -4,8 +4,7 @@ It is a factorized sparse approximate inverse (FSAI) with a multilevel coarse co
 
 The sparse factor G (in this module not the shear modulus) is lower triangular with G K Gᵀ ≈ 1. Row i of G holds entries
 for element i and for those of the twelve nearest elements before it (in rows and columns) that are in contact, and is
-exact if no other elements are in contact (Kolotilina and Yeremin 1993). It depends only on which of the twelve are in
-contact, so that all 4096 possible rows are tabulated.
+exact if no other elements are in contact (Kolotilina and Yeremin 1993). How it is stored: contact.sparse_factor.
 
 The remainder G K Gᵀ − 1 is smooth: it is the deflection by distant loads. The coarse correction represents it on blocks
 of elements, the next grid level. In a block the smooth part acts along one vector, the row sums of G. With W the matrix
@@ -29,46 +28,22 @@ import scipy.linalg
 
 from viscorough.compilation import njit
 from viscorough.contact.halfspace import influence_coefficient
+from viscorough.contact.sparse_factor import BEFORE, NEIGHBOURS, REACH, SparseFactor
 
-# Largest distance of a neighbour, in rows or columns: the width of the border that fields need.
-REACH = 2
 # Lower bound of the eigenvalues of M K (tests/viscorough/contact/test_preconditioner.py).
 LEAST_EIGENVALUE = 0.35
 _ACROSS = 2 * REACH + 1
-# Relative positions (row, column) of the neighbours.
-_BEFORE = [(r, c) for r in range(-REACH, 1) for c in range(-REACH, REACH + 1) if (r, c) < (0, 0)]
-_NEIGHBOURS = len(_BEFORE)
 # The neighbours of a block of elements: the nearest ones only.
 _BEFORE_BLOCK = [(-1, -1), (-1, 0), (-1, 1), (0, -1)]
 # Elements across a block of square elements, blocks across a block of the next grid level, and blocks across a grid
 # level that is inverted densely. The number of iterations depends weakly on all three.
 _SIDE, _RATIO, _DENSE = 8, 4, 9
+# Share of the elements that may join or leave the set before the coarse levels are prepared anew.
+_OUTDATED = 0.02
+_TINY = np.finfo(float).tiny
 # K of a block on itself, times its side: less than 2.97, the mean over a uniformly loaded square, because G already
 # accounts for near neighbours.
 _OWN = 1.0
-
-
-@lru_cache(maxsize=4)
-def factor_rows(aspect):
-    """Rows of G by pattern, the last entry for the element, and their sums; for elements of an aspect dy/dx.
-
-    Bit s of a pattern is set if neighbour s is in contact. With A the influence matrix of the neighbours in contact and
-    the element, the row is A⁻¹ b / (bᵀ A⁻¹ b)^½, b the unit vector of the element. Shapes (4096, 13), zero where there
-    is no contact, and (4096,).
-    """
-    places = np.array([*_BEFORE, (0, 0)], dtype=float)
-    row, column = np.moveaxis(places[:, None] - places, -1, 0)
-    patterns = np.arange(1 << _NEIGHBOURS)
-    present = np.ones((patterns.size, _NEIGHBOURS + 1), dtype=bool)
-    present[:, :-1] = patterns[:, None] >> np.arange(_NEIGHBOURS) & 1
-    # Absent neighbours are replaced by identity rows.
-    both = present[:, :, None] & present[:, None, :]
-    matrices = np.where(both, influence_coefficient(row, column, aspect), np.eye(_NEIGHBOURS + 1))
-    own = np.zeros((patterns.size, _NEIGHBOURS + 1, 1))
-    own[:, -1] = 1
-    rows = np.linalg.solve(matrices, own)[..., 0]
-    rows /= np.sqrt(rows[:, -1:])
-    return rows, rows.sum(axis=1)
 
 
 @lru_cache(maxsize=4)
@@ -86,17 +61,6 @@ def load_redistribution_stencil(aspect):
 def _rows(field, place, width):
     """Views of a flat field from a place's first neighbour on, in three rows: two before, one before, and its own."""
     return field[place - 2 * width - REACH :], field[place - width - REACH :], field[place - REACH :]
-
-
-@njit
-def _neighbour_patterns(inside, places, width, sums, patterns, weights):
-    """Store the pattern of neighbours in contact, and the row sum of G, of every element of the set."""
-    for t in range(places.size):
-        far, near, own = _rows(inside, places[t], width)
-        pattern = own[0] << 2 * _ACROSS | own[1] << 2 * _ACROSS + 1
-        for s in range(_ACROSS):
-            pattern |= far[s] << s | near[s] << _ACROSS + s
-        patterns[t], weights[t] = pattern, sums[pattern]
 
 
 @njit
@@ -142,11 +106,11 @@ def _normalise(weights, blocks, squares):
 
 
 @njit(fastmath=True)
-def _restrict(residual, places, index, rows, width, weights, blocks, values, loads):
+def _restrict(residual, places, rows, width, weights, blocks, values, loads):
     """values = G r on the set, and loads = Wᵀ G r of the blocks."""
     loads[:] = 0
     for t in range(places.size):
-        row = rows[index[t]]
+        row = rows[t]
         far, near, own = _rows(residual, places[t], width)
         value = row[-3] * own[0] + row[-2] * own[1] + row[-1] * own[2]
         for s in range(_ACROSS):
@@ -156,10 +120,10 @@ def _restrict(residual, places, index, rows, width, weights, blocks, values, loa
 
 
 @njit(fastmath=True)
-def _prolong(places, index, rows, width, weights, blocks, values, loads, work):
+def _prolong(places, rows, width, weights, blocks, values, loads, work):
     """values = Gᵀ (values − W loads); `work` is a flat field of zeros on entry and on return."""
     for t in range(places.size):
-        row = rows[index[t]]
+        row = rows[t]
         value = values[t] - weights[t] * loads[blocks[t]]
         far, near, own = _rows(work, places[t], width)
         for s in range(_ACROSS):
@@ -173,81 +137,94 @@ def _prolong(places, index, rows, width, weights, blocks, values, loads, work):
         work[places[t]] = 0.0
 
 
-class _GridLevel:
-    """Common part of the grid levels: the sparse factor G, and the correction by the next grid level, `_coarser`."""
-
-    def _set_factor(self, places, index, rows, weights, blocks):
-        """Set G, whose row for places[t] is rows[index[t]] with the sum weights[t], and prepare the coarser levels."""
-        self.places = places
-        _normalise(weights, blocks, self._coarser.squares)
-        self._coarser.prepare()
-        self._factor = places, index, rows, self._width, weights, blocks
-        self._values, self._loads = np.empty(places.size), np.empty_like(self._coarser.squares)
-
-    def apply(self, residual):
-        """M r on the set, valid until the next call, for a residual r on the flat grid."""
-        _restrict(residual, *self._factor, self._values, self._loads)
-        self._loads[self._coarser.places] -= self._coarser.apply(self._loads)
-        _prolong(*self._factor, self._values, self._loads, self._work)
-        return self._values
-
-
-class Preconditioner(_GridLevel):
+class Preconditioner:
     """M ≈ K⁻¹ for one contact set after another, on a flat grid of the given height and width, border included.
 
     kind : "multilevel", "sparse" (without the coarse correction) or "none" (M = 1)
     aspect : dy/dx of the elements
-    places : indices in flat fields of the contact set for which it was prepared last
+    precision : floating-point type in which M is applied
     stencil : load_redistribution_stencil of the elements
     """
 
-    def __init__(self, height, width, kind="multilevel", *, aspect=1.0):
-        self.places, self.stencil = np.empty(0, dtype=int), load_redistribution_stencil(aspect)
-        self._kind, self._rows = kind, factor_rows(aspect)
-        self._width, self._work = width, np.zeros(height * width)
+    def __init__(self, height, width, kind="multilevel", *, aspect=1.0, precision=np.float64):
+        self.stencil = load_redistribution_stencil(aspect)
+        self._kind, self._precision = kind, precision
         sides = round(_SIDE / aspect**0.5), round(_SIDE * aspect**0.5)  # blocks about as long as wide
-        self._blocks, blocks = _block_of_places(height, width, sides)
-        of_blocks = sides, aspect, *blocks
-        self._coarser = _coarse_level(*of_blocks) if kind == "multilevel" else _NoCorrection(*blocks)
+        self._factor = SparseFactor(height, width, sides, aspect, precision)
+        blocks = [n + 2 * REACH for n in self._factor.squares.shape]
+        self._coarser = _coarse_level(sides, aspect, *blocks) if kind == "multilevel" else _NoCorrection(*blocks)
+        self._changed, self._scale = 0, np.zeros(blocks)
+        self._squares, self._loads = np.zeros((2, *blocks))
 
     def apply(self, residual):
-        """M r on the set, valid until the next call, for a residual r on the flat grid."""
-        return residual[self.places] if self._kind == "none" else super().apply(residual)
+        """M r of a residual r, both flat fields, of which only the set is defined; valid until the next call."""
+        if self._kind == "none":
+            return residual
+        if residual.dtype != self._precision:
+            residual = residual.astype(self._precision)
+        loads, interior = self._loads, self._loads[REACH:-REACH, REACH:-REACH]
+        interior[:] = self._factor.restrict(residual)
+        loads *= self._scale
+        places, corrected = self._coarser.places, np.zeros(loads.size)
+        corrected[places] = loads.ravel()[places] - self._coarser.apply(loads.ravel())
+        corrected = corrected.reshape(loads.shape) * self._scale
+        return self._factor.prolong(corrected[REACH:-REACH, REACH:-REACH])
 
-    def prepare(self, inside, places):
+    def prepare(self, inside, count):
         """Prepare for a contact set.
 
-        inside, places : as in state.ContactSet
+        inside : whether an element is in the set, flat field; count : elements in it
         """
-        (rows, sums), patterns, weights = self._rows, np.empty(places.size, np.int16), np.empty(places.size)
-        _neighbour_patterns(inside, places, self._width, sums, patterns, weights)
-        self._set_factor(places, patterns, rows, weights, self._blocks[places])
+        if self._kind == "none":
+            return
+        changed = self._factor.update(inside)
+        if not changed:
+            return
+        squares, of_blocks = self._squares, self._factor.squares
+        squares[REACH:-REACH, REACH:-REACH] = of_blocks
+        self._scale = (squares > 0) / np.sqrt(np.maximum(squares, _TINY))  # zero for blocks without contact
+        self._changed += changed
+        if self._changed > _OUTDATED * count:
+            self._coarser.squares[:] = squares.ravel()
+            self._coarser.prepare()
+            self._changed = 0
 
 
-class _ManyBlocks(_GridLevel):
+class _ManyBlocks:
     """The approximate inverse of 1 + a K a on blocks; `squares`, those of a, must be set before `prepare`."""
 
     def __init__(self, sides, aspect, height, width):
         self._width = width
         self.squares, self._work = np.zeros((2, height * width))
         self._before = np.array(_BEFORE_BLOCK) @ [self._width, 1]
-        self._slots = np.array([*map(_BEFORE.index, _BEFORE_BLOCK), _NEIGHBOURS])
+        self._slots = np.array([*map(BEFORE.index, _BEFORE_BLOCK), NEIGHBOURS])
         self._kernel = _coupling(sides, aspect, *np.transpose([*_BEFORE_BLOCK, (0, 0)]))
         self._blocks, blocks = _block_of_places(height, width, (_RATIO, _RATIO))
         self._coarser = _coarse_level((_RATIO * sides[0], _RATIO * sides[1]), aspect, *blocks)
+        self.places = np.empty(0, dtype=int)
 
     def prepare(self):
-        places = np.flatnonzero(self.squares)
-        rows, weights = np.zeros((places.size, _NEIGHBOURS + 1)), np.empty(places.size)
+        places = self.places = np.flatnonzero(self.squares)
+        rows, weights, blocks = np.zeros((places.size, NEIGHBOURS + 1)), np.empty(places.size), self._blocks[places]
         _factorise(np.sqrt(self.squares), places, self._before, self._slots, self._kernel, rows, weights)
-        self._set_factor(places, np.arange(places.size), rows, weights, self._blocks[places])
+        _normalise(weights, blocks, self._coarser.squares)
+        self._coarser.prepare()
+        self._factor = places, rows, self._width, weights, blocks
+        self._values, self._loads = np.empty(places.size), np.empty_like(self._coarser.squares)
+
+    def apply(self, residual):
+        """M r at the places, valid until the next call, for a residual r on the flat grid of blocks."""
+        _restrict(residual, *self._factor, self._values, self._loads)
+        self._loads[self._coarser.places] -= self._coarser.apply(self._loads)
+        _prolong(*self._factor, self._values, self._loads, self._work)
+        return self._values
 
 
 class _FewBlocks:
     """The inverse of 1 + a K a on blocks, dense; `squares`, those of a, must be set before `prepare`."""
 
     def __init__(self, sides, aspect, height, width):
-        self.squares = np.zeros(height * width)
+        self.squares, self.places = np.zeros(height * width), np.empty(0, dtype=int)
         self._kernel = _dense_coupling(sides, aspect, height, width)
 
     def prepare(self):
@@ -255,17 +232,17 @@ class _FewBlocks:
         amplitude = np.sqrt(self.squares[self.places])
         matrix = self._kernel[np.ix_(self.places, self.places)] * amplitude * amplitude[:, None]
         matrix.flat[:: self.places.size + 1] += 1
-        self._factor = scipy.linalg.cho_factor(matrix, overwrite_a=True, check_finite=False)
+        self._factor, _ = scipy.linalg.lapack.dpotrf(matrix.T, overwrite_a=True)
 
     def apply(self, residual):
-        return scipy.linalg.cho_solve(self._factor, residual[self.places], check_finite=False)
+        return scipy.linalg.lapack.dpotrs(self._factor, residual[self.places])[0]
 
 
 class _NoCorrection:
     """Replaces the coarse levels by a unit matrix, so that nothing is corrected."""
 
     def __init__(self, height, width):
-        self.squares = np.zeros(height * width)
+        self.squares, self.places = np.zeros(height * width), np.empty(0, dtype=int)
 
     def prepare(self):
         self.places = np.flatnonzero(self.squares)

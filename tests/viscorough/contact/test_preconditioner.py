@@ -6,6 +6,7 @@ import scipy.linalg
 
 from viscorough.contact.halfspace import influence_coefficient
 from viscorough.contact.preconditioner import LEAST_EIGENVALUE, REACH, Preconditioner, load_redistribution_stencil
+from viscorough.contact.sparse_factor import SparseFactor
 
 WIDTH = 20
 
@@ -15,17 +16,18 @@ def influence(places, width=WIDTH, aspect=1.0):
     return influence_coefficient(row[:, None] - row, column[:, None] - column, aspect)
 
 
-def approximate_inverse(inside, kind="multilevel", aspect=1.0):
-    """M as a matrix, column by column, on the set."""
-    places, preconditioner = np.flatnonzero(inside), Preconditioner(*inside.shape, kind, aspect=aspect)
-    preconditioner.prepare(inside.ravel(), places)
-    columns = []
+def approximate_inverse(inside, kind="multilevel", aspect=1.0, precision=np.float64, before=()):
+    """The places of a set, and M on it as a matrix, column by column; prepared for other sets before."""
+    preconditioner = Preconditioner(*inside.shape, kind, aspect=aspect, precision=precision)
+    for of_set in (*before, inside):
+        preconditioner.prepare(of_set.ravel(), np.count_nonzero(of_set))
+    places, columns = np.flatnonzero(inside), []
     for place in places:
-        residual = np.full(inside.size, 1e300)  # values outside the set must not matter
+        residual = np.full(inside.size, np.finfo(precision).max / 1e8)  # values outside the set must not matter
         residual[places] = 0
         residual[place] = 1
-        columns.append(preconditioner.apply(residual).copy())
-    return places, np.array(columns).T
+        columns.append(preconditioner.apply(residual)[places])
+    return places, np.array(columns, dtype=float).T
 
 
 @pytest.mark.parametrize("aspect", [1.0, 0.3, 5.0])
@@ -74,6 +76,54 @@ def test_symmetric_and_close_to_the_inverse_for_any_set(name, aspect):
     values = scipy.linalg.eigvalsh(root.T @ inverse @ root)
     assert values[0] > LEAST_EIGENVALUE
     assert values[-1] < (1.4 if aspect in (1, 2) else 1.6)
+
+
+@pytest.mark.parametrize("aspect", [1.0, 5.0])
+@pytest.mark.parametrize("name", ["scattered", "hills with holes", "square", "lattice", "strip", "full strip"])
+def test_rounded_to_bytes_it_is_as_close(name, aspect):
+    inside = np.pad(dict(sets())[name], REACH)
+    places, inverse = approximate_inverse(inside, aspect=aspect, precision=np.float32)
+    np.testing.assert_allclose(inverse, inverse.T, atol=1e-6)
+    root = scipy.linalg.cholesky(influence(places, inside.shape[1], aspect), lower=True)
+    values = scipy.linalg.eigvalsh(root.T @ (inverse + inverse.T) @ root / 2)
+    assert values[0] > LEAST_EIGENVALUE
+    assert values[-1] < (1.4 if aspect == 1 else 1.6)
+
+
+@pytest.mark.parametrize("precision", [np.float64, np.float32])
+@pytest.mark.parametrize("share", [0.001, 0.3])
+def test_the_sparse_part_follows_the_set(share, precision):
+    """Where few elements join and leave, only their rows are renewed; where many do, all are."""
+    row, column = np.mgrid[:70, :70]
+    random = np.random.default_rng(3).random((2, *row.shape))
+    former = np.pad(np.hypot(row - 33, column - 35) < 30, REACH) & np.pad(random[0] < 0.8, REACH)
+    inside = former ^ np.pad(random[1] < share, REACH)
+    assert 0 < np.count_nonzero(inside != former) < inside.size
+    followed, anew = (SparseFactor(*inside.shape, (8, 8), 1.0, precision) for _ in range(2))
+    followed.update(former.ravel())
+    assert followed.update(inside.ravel()) == np.count_nonzero(inside != former)
+    anew.update(inside.ravel())
+    residual = np.random.default_rng(4).random(inside.size).astype(precision)
+    np.testing.assert_array_equal(followed.restrict(residual), anew.restrict(residual))
+    np.testing.assert_array_equal(followed.squares, anew.squares)
+    loads = np.random.default_rng(5).random(followed.squares.shape)
+    on_set = inside.ravel()
+    np.testing.assert_array_equal(followed.prolong(loads)[on_set], anew.prolong(loads)[on_set])
+
+
+@pytest.mark.parametrize("name", ["hills", "square", "scattered", "cross"])
+def test_coarse_levels_of_a_slightly_other_set_serve(name):
+    """Up to a share of the elements may join or leave before the coarse levels are prepared anew."""
+    inside = np.pad(dict(sets())[name], REACH)
+    generator = np.random.default_rng(6)
+    members = np.flatnonzero(inside)
+    former = inside.copy()
+    former.ravel()[generator.choice(members, int(0.019 * members.size), replace=False)] = False
+    places, inverse = approximate_inverse(inside, precision=np.float32, before=[former])
+    root = scipy.linalg.cholesky(influence(places, inside.shape[1]), lower=True)
+    values = scipy.linalg.eigvalsh(root.T @ (inverse + inverse.T) @ root / 2)
+    assert values[0] > LEAST_EIGENVALUE
+    assert values[-1] < 1.4
 
 
 @pytest.mark.parametrize("aspect", [1.0, 3.0])

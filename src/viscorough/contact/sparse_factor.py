@@ -1,0 +1,297 @@
+"""The sparse factor G of the preconditioner, and its products, on the grid of the elements.
+
+Row i of G (in this module not the shear modulus) holds entries for element i and for those of the twelve nearest
+elements before it that are in contact. It depends only on which of the twelve are in contact, so that all 4096 possible
+rows are tabulated.
+
+Entries are stored for the whole grid, one neighbour after the other for every row of it, and are zero where there is no
+contact: loops over a row of the grid then read consecutive numbers and process as many elements at once as a register
+of the processor holds. In single precision an entry is rounded to a whole number of one byte, so that they fit into the
+cache.
+Rounding changes G, and with it the preconditioner, by a few percent, but not the symmetry of Gᵀ … G.
+
+Blocks without contact are skipped. Compiled functions take plain arrays, hence their many arguments.
+"""
+
+from functools import lru_cache
+
+import numpy as np
+
+from viscorough.compilation import njit
+from viscorough.contact.halfspace import influence_coefficient
+
+# Largest distance of a neighbour, in rows or columns: the width of the border that fields need.
+REACH = 2
+# Relative positions (row, column) of the neighbours.
+BEFORE = [(r, c) for r in range(-REACH, 1) for c in range(-REACH, REACH + 1) if (r, c) < (0, 0)]
+NEIGHBOURS = len(BEFORE)
+# Blocks side by side that are processed together if any of them has elements in contact: wide enough for registers.
+_TOGETHER = 4
+# Largest entry as a whole number; the sum of a row, which is rounded up at most thirteen times, fits into a byte, too.
+_LARGEST_ENTRY = 120
+# An element that joins or leaves the set costs as much time as this number of elements where all rows of G are renewed.
+_COST_OF_CHANGE = 20
+# Bit of a pattern that marks rows of G to be renewed.
+_RENEWED = 1 << NEIGHBOURS
+
+
+@lru_cache(maxsize=4)
+def factor_rows(aspect):
+    """Rows of G by pattern, the last entry for the element, for elements of an aspect dy/dx; shape (4096, 13).
+
+    Bit s of a pattern is set if neighbour s is in contact. With A the influence matrix of the neighbours in contact and
+    the element, the row is A⁻¹ b / (bᵀ A⁻¹ b)^½, b the unit vector of the element. Entries are zero where there is no
+    contact.
+    """
+    places = np.array([*BEFORE, (0, 0)], dtype=float)
+    row, column = np.moveaxis(places[:, None] - places, -1, 0)
+    patterns = np.arange(1 << NEIGHBOURS)
+    present = np.ones((patterns.size, NEIGHBOURS + 1), dtype=bool)
+    present[:, :-1] = patterns[:, None] >> np.arange(NEIGHBOURS) & 1
+    # Absent neighbours are replaced by identity rows.
+    both = present[:, :, None] & present[:, None, :]
+    matrices = np.where(both, influence_coefficient(row, column, aspect), np.eye(NEIGHBOURS + 1))
+    own = np.zeros((patterns.size, NEIGHBOURS + 1, 1))
+    own[:, -1] = 1
+    rows = np.linalg.solve(matrices, own)[..., 0]
+    rows /= np.sqrt(rows[:, -1:])
+    return rows
+
+
+@lru_cache(maxsize=4)
+def _entries(aspect, precision):
+    """Entries of G by neighbour and pattern, the last ones their sums, and the unit in which they are stored."""
+    rows, unit = factor_rows(aspect), 1.0
+    if precision == np.float32:
+        unit = rows.max() / _LARGEST_ENTRY
+        rows = np.round(rows / unit)
+    entries = np.column_stack([rows, rows.sum(axis=1)])
+    entries = np.ascontiguousarray(entries.T, np.int8 if precision == np.float32 else precision)
+    return entries, precision(unit)
+
+
+@njit
+def _renew(inside, changed, offsets, patterns, entries, factor):
+    """Renew the patterns and the rows of G where elements joined or left the set.
+
+    inside : the new contact set, flat field; changed : places of elements that joined or left
+    offsets : from a place to its neighbours
+    """
+    rows, count = np.empty(changed.size * (offsets.size + 1), changed.dtype), 0
+    for k in changed:
+        for s in range(offsets.size + 1):
+            i = k
+            if s < offsets.size:
+                i -= offsets[s]
+                patterns[i] ^= 1 << s
+            if (i == k or inside[i]) and not patterns[i] & _RENEWED:
+                patterns[i] |= _RENEWED
+                rows[count] = i
+                count += 1
+    for i in rows[:count]:
+        patterns[i] &= ~_RENEWED
+        pattern = patterns[i]
+        row, column = divmod(i, factor.shape[2])
+        for s in range(factor.shape[1]):
+            factor[row, s, column] = entries[s, pattern] if inside[i] else 0
+
+
+@njit(nogil=True)
+def _renew_all(first_row, last_row, inside, patterns, entries, factor):
+    """Renew all patterns and rows of G in some rows of the grid.
+
+    entries : by neighbour and pattern
+    """
+    width = factor.shape[2]
+    columns = width - 2 * REACH
+    for row in range(first_row + REACH, last_row + REACH):
+        at = row * width + REACH
+        of_row, members = patterns[at : at + columns], inside[at : at + columns]
+        far, near, same = inside[at - 2 * width - REACH :], inside[at - width - REACH :], inside[at - REACH :]
+        for j in range(columns):
+            pattern = far[j] | far[j + 1] << 1 | far[j + 2] << 2 | far[j + 3] << 3 | far[j + 4] << 4
+            pattern |= near[j] << 5 | near[j + 1] << 6 | near[j + 2] << 7 | near[j + 3] << 8 | near[j + 4] << 9
+            of_row[j] = pattern | same[j] << 10 | same[j + 1] << 11
+        for s in range(factor.shape[1]):
+            of_neighbour, out = entries[s], factor[row, s, REACH : REACH + columns]
+            for j in range(columns):
+                out[j] = of_neighbour[of_row[j]] * members[j]
+
+
+@njit
+def _any_active(active, first):
+    """Whether any of the blocks that are processed together, from the first one on, has elements in contact."""
+    total = 0.0
+    for block in range(first, min(first + _TOGETHER, active.size)):
+        total += active[block]
+    return total > 0
+
+
+@njit
+def _next_run(active, first):
+    """First and last of the next blocks side by side to be processed, from `first` on; both at the end if none."""
+    while first < active.size and not _any_active(active, first):
+        first += _TOGETHER
+    last = first
+    while last < active.size and _any_active(active, last):
+        last += _TOGETHER
+    return min(first, active.size), min(last, active.size)
+
+
+@njit(nogil=True, fastmath=True)
+def _sum_squares(first_row, last_row, factor, unit, height, sides, squares):
+    """Store Σ of the squares of the row sums of G in every block, for some rows of blocks."""
+    for block_row in range(first_row, last_row):
+        total = np.zeros(factor.shape[2])
+        for row in range(block_row * sides[0], min((block_row + 1) * sides[0], height)):
+            sums = factor[row + REACH, -1]
+            for j in range(sums.size):
+                value = unit * sums[j]
+                total[j] += value * value
+        _add_up(total[REACH:-REACH], sides[1], squares[block_row], 0, squares.shape[1])
+
+
+@njit(fastmath=True)
+def _add_up(values, side, sums, first, last):
+    """Store the sums of the values of every block from the first to the last one."""
+    for block in range(first, last):
+        total = 0.0
+        for j in range(block * side, min((block + 1) * side, values.size)):
+            total += values[j]
+        sums[block] = total
+
+
+@njit(fastmath=True)
+def _multiply_row(factor, unit, residual, row, first, values):
+    """values = G r for consecutive elements of a row of the grid, from a column on, both with the border."""
+    width = factor.shape[2]
+    at, rows = row * width + first, factor[row]
+    a, b, c, d, e = rows[0][first:], rows[1][first:], rows[2][first:], rows[3][first:], rows[4][first:]
+    f, g, h, k, m = rows[5][first:], rows[6][first:], rows[7][first:], rows[8][first:], rows[9][first:]
+    n, p, own = rows[10][first:], rows[11][first:], rows[12][first:]
+    x, y, z = residual[at - 2 * width - REACH :], residual[at - width - REACH :], residual[at - REACH :]
+    for j in range(values.size):
+        value = a[j] * x[j] + b[j] * x[j + 1] + c[j] * x[j + 2] + d[j] * x[j + 3] + e[j] * x[j + 4]
+        value += f[j] * y[j] + g[j] * y[j + 1] + h[j] * y[j + 2] + k[j] * y[j + 3] + m[j] * y[j + 4]
+        value += n[j] * z[j] + p[j] * z[j + 1] + own[j] * z[j + 2]
+        values[j] = unit * value
+
+
+@njit(fastmath=True)
+def _multiply_row_transposed(factor, unit, residual, row, first, values):
+    """values = Gᵀ r for consecutive elements of a row of the grid, from a column on, both with the border."""
+    width, left = factor.shape[2], first - REACH
+    at, two, one, rows = row * width + first, factor[row + 2], factor[row + 1], factor[row]
+    a, b, c, d, e = two[4][left:], two[3][left:], two[2][left:], two[1][left:], two[0][left:]
+    f, g, h, k, m = one[9][left:], one[8][left:], one[7][left:], one[6][left:], one[5][left:]
+    own, n, p = rows[12][first:], rows[11][first:], rows[10][first:]
+    x, y, z = residual[at + 2 * width - REACH :], residual[at + width - REACH :], residual[at:]
+    for j in range(values.size):
+        value = a[j] * x[j] + b[j + 1] * x[j + 1] + c[j + 2] * x[j + 2] + d[j + 3] * x[j + 3] + e[j + 4] * x[j + 4]
+        value += f[j] * y[j] + g[j + 1] * y[j + 1] + h[j + 2] * y[j + 2] + k[j + 3] * y[j + 3] + m[j + 4] * y[j + 4]
+        value += own[j] * z[j] + n[j + 1] * z[j + 1] + p[j + 2] * z[j + 2]
+        values[j] = unit * value
+
+
+@njit(nogil=True, fastmath=True)
+def _restrict(first_row, last_row, factor, unit, residual, height, sides, active, values, loads):
+    """values = G r, and loads = Wᵀ G r of the blocks before W is normalised, for some rows of blocks."""
+    width = factor.shape[2]
+    columns = width - 2 * REACH
+    for block_row in range(first_row, last_row):
+        total = np.zeros(columns, values.dtype)
+        first, last = _next_run(active[block_row], 0)
+        while first < last:
+            start, stop = first * sides[1], min(last * sides[1], columns)
+            part = total[start:stop]
+            for row in range(REACH + block_row * sides[0], REACH + min((block_row + 1) * sides[0], height)):
+                out, sums = values[row * width + REACH + start :][: stop - start], factor[row, -1][REACH + start :]
+                _multiply_row(factor, unit, residual, row, REACH + start, out)
+                for j in range(part.size):
+                    part[j] += unit * sums[j] * out[j]
+            _add_up(total, sides[1], loads[block_row], first, last)
+            first, last = _next_run(active[block_row], last)
+
+
+@njit(nogil=True, fastmath=True)
+def _correct(first_row, last_row, factor, unit, loads, height, sides, active, values):
+    """values −= W loads for some rows of blocks, with W not normalised."""
+    width = factor.shape[2]
+    columns = width - 2 * REACH
+    spread = np.empty(columns, values.dtype)
+    for block_row in range(first_row, last_row):
+        first, last = _next_run(active[block_row], 0)
+        while first < last:
+            start, stop = first * sides[1], min(last * sides[1], columns)
+            for block in range(first, last):
+                spread[block * sides[1] : (block + 1) * sides[1]] = loads[block_row, block]
+            part = spread[start:stop]
+            for row in range(REACH + block_row * sides[0], REACH + min((block_row + 1) * sides[0], height)):
+                out, sums = values[row * width + REACH + start :][: stop - start], factor[row, -1][REACH + start :]
+                for j in range(part.size):
+                    out[j] -= unit * sums[j] * part[j]
+            first, last = _next_run(active[block_row], last)
+
+
+@njit(nogil=True, fastmath=True)
+def _prolong(first_row, last_row, factor, unit, values, height, sides, active, result):
+    """result = Gᵀ values for some rows of blocks."""
+    width = factor.shape[2]
+    for block_row in range(first_row, last_row):
+        first, last = _next_run(active[block_row], 0)
+        while first < last:
+            start, stop = first * sides[1], min(last * sides[1], width - 2 * REACH)
+            for row in range(REACH + block_row * sides[0], REACH + min((block_row + 1) * sides[0], height)):
+                out = result[row * width + REACH + start :][: stop - start]
+                _multiply_row_transposed(factor, unit, values, row, REACH + start, out)
+            first, last = _next_run(active[block_row], last)
+
+
+class SparseFactor:
+    """G for one contact set after another, on a flat grid of the given height and width, border included.
+
+    sides : rows and columns of a block
+    aspect : dy/dx of the elements
+    precision : floating-point type of the products; in single precision entries are rounded to one byte
+
+    squares : of the lengths of the vectors of row sums of G, by rows and columns of blocks
+    """
+
+    def __init__(self, height, width, sides, aspect, precision):
+        self._height, self._sides = height - 2 * REACH, sides
+        self._entries, self._unit = _entries(aspect, precision)
+        self._offsets = np.array(BEFORE) @ [width, 1]
+        self._inside = np.zeros(height * width, dtype=bool)
+        self._patterns = np.zeros(height * width, dtype=np.uint16)
+        self._factor = np.zeros((height, NEIGHBOURS + 2, width), dtype=self._entries.dtype)
+        self._values, self._result = np.zeros((2, height * width), dtype=precision)
+        blocks = [-(-(n - 2 * REACH) // side) for n, side in zip((height, width), sides, strict=True)]
+        self.squares, self._loads = np.zeros((2, *blocks))
+
+    def update(self, inside):
+        """Change to another contact set, whether an element is in it, flat field; returns how many joined or left."""
+        changed = np.flatnonzero(inside != self._inside)
+        if changed.size:
+            if changed.size * _COST_OF_CHANGE > inside.size:
+                _renew_all(0, self._height, inside.view(np.uint8), self._patterns, self._entries, self._factor)
+            else:
+                _renew(inside, changed, self._offsets, self._patterns, self._entries, self._factor)
+            self._inside[:] = inside
+            _sum_squares(0, len(self.squares), self._factor, self._unit, self._height, self._sides, self.squares)
+        return changed.size
+
+    def restrict(self, residual):
+        """Compute G r, which is kept, from a flat field r; returns Wᵀ G r by rows and columns of blocks.
+
+        W is the matrix of the vectors of row sums in the blocks, not normalised.
+        """
+        of_grid = self._height, self._sides, self.squares
+        _restrict(0, len(self.squares), self._factor, self._unit, residual, *of_grid, self._values, self._loads)
+        return self._loads
+
+    def prolong(self, loads):
+        """Gᵀ (G r − W loads), flat field, of which only the contact set is defined; valid until the next call."""
+        of_grid = self._height, self._sides, self.squares
+        _correct(0, len(self.squares), self._factor, self._unit, loads, *of_grid, self._values)
+        _prolong(0, len(self.squares), self._factor, self._unit, self._values, *of_grid, self._result)
+        return self._result

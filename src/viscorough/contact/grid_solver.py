@@ -88,9 +88,8 @@ class GridSolver:
         self.initial_gap = np.full((rows + 2 * REACH) * self._width, _OUTSIDE, dtype=self._precision)
         self.initial_gap[self.place[in_box]] = initial_gap[in_box]
         self._gap = np.zeros_like(self.initial_gap)  # e on the contact set, as last computed
-        self._preconditioner = Preconditioner(
-            rows + 2 * REACH, self._width, options.preconditioner, aspect=aspect, precision=np.float32
-        )
+        of_grid = {"aspect": aspect, "precision": np.float32, "threads": threads}
+        self._preconditioner = Preconditioner(rows + 2 * REACH, self._width, options.preconditioner, **of_grid)
 
     @property
     def operator_applications(self):

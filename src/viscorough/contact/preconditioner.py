@@ -142,15 +142,16 @@ class Preconditioner:
 
     kind : "multilevel", "sparse" (without the coarse correction) or "none" (M = 1)
     aspect : dy/dx of the elements
-    precision : floating-point type in which M is applied
+    precision : floating-point type in which M is applied; see SparseFactor
+    threads : on which it computes
     stencil : load_redistribution_stencil of the elements
     """
 
-    def __init__(self, height, width, kind="multilevel", *, aspect=1.0, precision=np.float64):
+    def __init__(self, height, width, kind="multilevel", *, aspect=1.0, precision=np.float64, threads=1):
         self.stencil = load_redistribution_stencil(aspect)
         self._kind, self._precision = kind, precision
         sides = round(_SIDE / aspect**0.5), round(_SIDE * aspect**0.5)  # blocks about as long as wide
-        self._factor = SparseFactor(height, width, sides, aspect, precision)
+        self._factor = SparseFactor(height, width, sides, aspect, precision, threads)
         blocks = [n + 2 * REACH for n in self._factor.squares.shape]
         self._coarser = _coarse_level(sides, aspect, *blocks) if kind == "multilevel" else _NoCorrection(*blocks)
         self._changed, self._scale = 0, np.zeros(blocks)

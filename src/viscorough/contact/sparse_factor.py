@@ -10,7 +10,7 @@ of the processor holds. In single precision an entry is rounded to a whole numbe
 cache.
 Rounding changes G, and with it the preconditioner, by a few percent, but not the symmetry of Gᵀ … G.
 
-Blocks without contact are skipped. Compiled functions take plain arrays, hence their many arguments.
+Blocks without contact are skipped. Compiled functions take plain arrays, hence many arguments.
 """
 
 from functools import lru_cache
@@ -19,6 +19,7 @@ import numpy as np
 
 from viscorough.compilation import njit
 from viscorough.contact.halfspace import influence_coefficient
+from viscorough.contact.parallel import BLOCK, run_blocks
 
 # Largest distance of a neighbour, in rows or columns: the width of the border that fields need.
 REACH = 2
@@ -54,8 +55,7 @@ def factor_rows(aspect):
     own = np.zeros((patterns.size, NEIGHBOURS + 1, 1))
     own[:, -1] = 1
     rows = np.linalg.solve(matrices, own)[..., 0]
-    rows /= np.sqrt(rows[:, -1:])
-    return rows
+    return rows / np.sqrt(rows[:, -1:])
 
 
 @lru_cache(maxsize=4)
@@ -97,14 +97,14 @@ def _renew(inside, changed, offsets, patterns, entries, factor):
 
 
 @njit(nogil=True)
-def _renew_all(first_row, last_row, inside, patterns, entries, factor):
-    """Renew all patterns and rows of G in some rows of the grid.
+def _renew_all(first_row, last_row, side, inside, patterns, entries, factor):
+    """Renew all patterns and rows of G in some rows of blocks, which have so many rows of the grid.
 
     entries : by neighbour and pattern
     """
     width = factor.shape[2]
     columns = width - 2 * REACH
-    for row in range(first_row + REACH, last_row + REACH):
+    for row in range(first_row * side + REACH, min(last_row * side, factor.shape[0] - 2 * REACH) + REACH):
         at = row * width + REACH
         of_row, members = patterns[at : at + columns], inside[at : at + columns]
         far, near, same = inside[at - 2 * width - REACH :], inside[at - width - REACH :], inside[at - REACH :]
@@ -121,10 +121,7 @@ def _renew_all(first_row, last_row, inside, patterns, entries, factor):
 @njit
 def _any_active(active, first):
     """Whether any of the blocks that are processed together, from the first one on, has elements in contact."""
-    total = 0.0
-    for block in range(first, min(first + _TOGETHER, active.size)):
-        total += active[block]
-    return total > 0
+    return active[first : first + _TOGETHER].sum() > 0
 
 
 @njit
@@ -253,12 +250,14 @@ class SparseFactor:
     sides : rows and columns of a block
     aspect : dy/dx of the elements
     precision : floating-point type of the products; in single precision entries are rounded to one byte
+    threads : on which rows of blocks are computed
 
     squares : of the lengths of the vectors of row sums of G, by rows and columns of blocks
     """
 
-    def __init__(self, height, width, sides, aspect, precision):
+    def __init__(self, height, width, sides, aspect, precision, threads=1):
         self._height, self._sides = height - 2 * REACH, sides
+        self._threads, self._rows_at_once = threads, -(-BLOCK // (sides[0] * width))
         self._entries, self._unit = _entries(aspect, precision)
         self._offsets = np.array(BEFORE) @ [width, 1]
         self._inside = np.zeros(height * width, dtype=bool)
@@ -273,11 +272,12 @@ class SparseFactor:
         changed = np.flatnonzero(inside != self._inside)
         if changed.size:
             if changed.size * _COST_OF_CHANGE > inside.size:
-                _renew_all(0, self._height, inside.view(np.uint8), self._patterns, self._entries, self._factor)
+                members = inside.view(np.uint8)  # whose bits are shifted
+                self._over_rows(_renew_all, self._sides[0], members, self._patterns, self._entries, self._factor)
             else:
                 _renew(inside, changed, self._offsets, self._patterns, self._entries, self._factor)
             self._inside[:] = inside
-            _sum_squares(0, len(self.squares), self._factor, self._unit, self._height, self._sides, self.squares)
+            self._over_rows(_sum_squares, self._factor, self._unit, self._height, self._sides, self.squares)
         return changed.size
 
     def restrict(self, residual):
@@ -286,12 +286,17 @@ class SparseFactor:
         W is the matrix of the vectors of row sums in the blocks, not normalised.
         """
         of_grid = self._height, self._sides, self.squares
-        _restrict(0, len(self.squares), self._factor, self._unit, residual, *of_grid, self._values, self._loads)
+        self._over_rows(_restrict, self._factor, self._unit, residual, *of_grid, self._values, self._loads)
         return self._loads
 
     def prolong(self, loads):
         """Gᵀ (G r − W loads), flat field, of which only the contact set is defined; valid until the next call."""
         of_grid = self._height, self._sides, self.squares
-        _correct(0, len(self.squares), self._factor, self._unit, loads, *of_grid, self._values)
-        _prolong(0, len(self.squares), self._factor, self._unit, self._values, *of_grid, self._result)
+        self._over_rows(_correct, self._factor, self._unit, loads, *of_grid, self._values)
+        self._over_rows(_prolong, self._factor, self._unit, self._values, *of_grid, self._result)
         return self._result
+
+    def _over_rows(self, function, *arguments):
+        """Call function(first, last, *arguments) for all rows of blocks."""
+        size = len(self.squares), self._threads, self._rows_at_once
+        run_blocks(lambda first, last: function(first, last, *arguments), *size)

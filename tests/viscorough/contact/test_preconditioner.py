@@ -111,6 +111,20 @@ def test_the_sparse_part_follows_the_set(share, precision):
     np.testing.assert_array_equal(followed.prolong(loads)[on_set], anew.prolong(loads)[on_set])
 
 
+def test_threads_do_not_change_a_bit():
+    row, column = np.mgrid[:600, :600]
+    inside = np.pad(
+        (np.hypot(row - 300, column - 300) < 290) & (np.random.default_rng(7).random(row.shape) < 0.6), REACH
+    )
+    residual = np.random.default_rng(8).random(inside.size).astype(np.float32)
+    results = []
+    for threads in (1, 3):
+        preconditioner = Preconditioner(*inside.shape, precision=np.float32, threads=threads)
+        preconditioner.prepare(inside.ravel(), np.count_nonzero(inside))
+        results.append(preconditioner.apply(residual)[inside.ravel()])
+    np.testing.assert_array_equal(*results)
+
+
 @pytest.mark.parametrize("name", ["hills", "square", "scattered", "cross"])
 def test_coarse_levels_of_a_slightly_other_set_serve(name):
     """Up to a share of the elements may join or leave before the coarse levels are prepared anew."""

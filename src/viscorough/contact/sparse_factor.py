@@ -45,8 +45,7 @@ def factor_rows(aspect):
     contact.
     """
     places = np.array([*BEFORE, (0, 0)], dtype=float)
-    row, column = np.moveaxis(places[:, None] - places, -1, 0)
-    patterns = np.arange(1 << NEIGHBOURS)
+    patterns, (row, column) = np.arange(1 << NEIGHBOURS), np.moveaxis(places[:, None] - places, -1, 0)
     present = np.ones((patterns.size, NEIGHBOURS + 1), dtype=bool)
     present[:, :-1] = patterns[:, None] >> np.arange(NEIGHBOURS) & 1
     # Absent neighbours are replaced by identity rows.
@@ -102,8 +101,7 @@ def _renew_all(first_row, last_row, side, inside, patterns, entries, factor):
 
     entries : by neighbour and pattern
     """
-    width = factor.shape[2]
-    columns = width - 2 * REACH
+    width, columns = factor.shape[2], factor.shape[2] - 2 * REACH
     for row in range(first_row * side + REACH, min(last_row * side, factor.shape[0] - 2 * REACH) + REACH):
         at = row * width + REACH
         of_row, members = patterns[at : at + columns], inside[at : at + columns]
@@ -193,8 +191,7 @@ def _multiply_row_transposed(factor, unit, residual, row, first, values):
 @njit(nogil=True, fastmath=True)
 def _restrict(first_row, last_row, factor, unit, residual, height, sides, active, values, loads):
     """values = G r, and loads = Wᵀ G r of the blocks before W is normalised, for some rows of blocks."""
-    width = factor.shape[2]
-    columns = width - 2 * REACH
+    width, columns = factor.shape[2], factor.shape[2] - 2 * REACH
     for block_row in range(first_row, last_row):
         total = np.zeros(columns, values.dtype)
         first, last = _next_run(active[block_row], 0)
@@ -213,8 +210,7 @@ def _restrict(first_row, last_row, factor, unit, residual, height, sides, active
 @njit(nogil=True, fastmath=True)
 def _correct(first_row, last_row, factor, unit, loads, height, sides, active, values):
     """values −= W loads for some rows of blocks, with W not normalised."""
-    width = factor.shape[2]
-    columns = width - 2 * REACH
+    width, columns = factor.shape[2], factor.shape[2] - 2 * REACH
     spread = np.empty(columns, values.dtype)
     for block_row in range(first_row, last_row):
         first, last = _next_run(active[block_row], 0)

@@ -36,6 +36,8 @@ PUBLISHED = {
         *("figures/fig1_surfaces.png", "figures/fig2_kinetics.png", "figures/fig3_master_curve.png"),
         *("figures/fig4_exponent.png", "figures/conventions.png", "figures/validation.png", "tables/scaling.csv"),
         *("tables/validation.csv", "tables/direct.csv", "tables/reduction.csv", "tables/rule_costs.csv"),
+        *("figures/reduction.png", "figures/mdr_lambda.png", "tables/mdr_lambda.csv", "tables/mdr_summary.csv"),
+        "tables/mdr_exponents.csv",
     ),
     "speed": (
         *("figures/speed.png", "figures/all_methods.png", "figures/growth.png", "figures/other_solvers.png"),

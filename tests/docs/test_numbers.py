@@ -54,6 +54,22 @@ def test_prefactors():
     assert f"*ζ* as defined here is {low} to {high} % above Eq. 4" in read(VERDICTS)
 
 
+def test_lines_that_stand_for_discs():
+    text = " ".join(read(ROOT / "docs/verification.md").split())
+    drift, error = of_claim("lambda_constant")["value"], of_claim("exact_correspondence")["value"].abs()
+    assert f"factors of {drift.iloc[0]:.2f}, {drift.iloc[1]:.2f}, {drift.iloc[2]:.2f} and {drift.iloc[3]:.2f}" in text
+    percents = [round(100 * value) for value in error]
+    inside, beyond = percents[::2], percents[1::2]
+    assert "of {}, {}, {} and {} %, and".format(*inside) in text
+    assert "up to {}, {}, {} and {} % |".format(*beyond) in text
+    difference = of_claim("coincide_equal_windows")["value"].abs()
+    assert f"within {difference.iloc[2:].max():.2f}" in text
+    assert difference.iloc[:2].round(2).tolist() == [0.08, 0.08]
+    area, gap = (of_claim(f"line_{name}")["value"] for name in ("area", "gap"))
+    assert f"{area.min():.0f} to {area.max():.0f} times too large" in text
+    assert f"{gap.min():.2f} to {gap.max():.2f} of that of the discs" in text
+
+
 def test_exponents():
     law = pd.read_csv(ROOT / "src/viscorough/data/calibration.csv").query("source == 'discs'").set_index("hurst")
     above = [f"{law['beta'][hurst] - exponent_beta(hurst):.2f}" for hurst in (0.1, 0.4)]

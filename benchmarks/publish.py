@@ -38,6 +38,7 @@ PUBLISHED = {
         *("tables/validation.csv", "tables/direct.csv", "tables/reduction.csv", "tables/rule_costs.csv"),
         *("figures/reduction.png", "figures/mdr_lambda.png", "tables/mdr_lambda.csv", "tables/mdr_summary.csv"),
         "tables/mdr_exponents.csv",
+        "tables/plateaus.csv",
     ),
     "speed": (
         *("figures/speed.png", "figures/all_methods.png", "figures/growth.png", "figures/other_solvers.png"),

@@ -32,6 +32,7 @@ class Stream(IntEnum):
     GAMMA_FACTOR = 11
     MDR_COMPARISON = 12
     SIZE_CONTROLS = 13
+    PLATEAUS = 14
 
 
 ROOT_KEY = ()
@@ -105,6 +106,11 @@ def gamma_factor_key(hurst):
 def mdr_comparison_key(hurst, realization):
     """Disc and line with its spectrum, which share a seed and spawn one each."""
     return _key(Stream.MDR_COMPARISON, _millionths(hurst), realization)
+
+
+def plateau_key(hurst, group):
+    """Bootstrap and synthetic ensembles of the test for a power law; group : base or name of the control."""
+    return _key(Stream.PLATEAUS, _millionths(hurst), zlib.crc32(group.encode()))
 
 
 def random_indenter_key(case):

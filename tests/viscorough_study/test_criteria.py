@@ -114,11 +114,13 @@ def test_four_elements_lie_on_the_rim_of_the_disc():
 
 
 def test_settings_decide_how_long_a_power_law_must_be():
+    """The intervals are 2.2 to 2.6 decades."""
     found = evidence()
-    decades = max(case.value for case in power_law(found, 0.05) if "decades" in case.name)
-    longer = dataclasses.replace(found, rules=found.rules | {"decades_min": decades + 0.1})
-    verdicts = {case.verdict for case in power_law(longer, 0.05) if "decades" in case.name}
-    assert verdicts == {"not reproduced"}
+    for decades, verdict in ((2.2, "reproduced"), (2.3, "undecided"), (2.7, "not reproduced")):
+        changed = dataclasses.replace(found, rules=found.rules | {"decades_min": decades})
+        assert {case.verdict for case in power_law(changed, 0.05)} == {verdict}
+    changed.tables["plateaus"]["power_law_fails"] = 0.1
+    assert {case.verdict for case in power_law(changed, 0.05)} == {"undecided"}, "the test loses power laws"
 
 
 def test_slope_of_the_last_region_is_over_the_end_of_the_curves():

@@ -58,6 +58,36 @@ rule plot_direct:
         "../scripts/plot_direct.py"
 
 
+rule measure_plateaus:
+    input:
+        discs="results/ensembles/discs.nc",
+    output:
+        csv="results/tables/plateaus.csv",
+        html=report(
+            "results/tables/plateaus.html",
+            caption="../report/plateaus.rst",
+            category=chapter("verdicts"),
+            labels={"result": "decades of constant slope, and the control", "kind": "table"},
+        ),
+        nc="results/tables/plateaus.nc",
+    log:
+        "results/logs/measure_plateaus.log",
+    benchmark:
+        "results/benchmarks/measure_plateaus.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=2000,
+    params:
+        **plateau_settings(),
+    message:
+        "Decades over which the slope is constant"
+    script:
+        "../scripts/measure_plateaus.py"
+
+
 rule judge_claims:
     input:
         discs="results/ensembles/discs.nc",
@@ -67,6 +97,7 @@ rule judge_claims:
         reduction=rules.compare_reduction.output.csv,
         mdr_summary=rules.match_lines.output.summary_csv,
         mdr_exponents=rules.match_lines.output.exponents_csv,
+        plateaus=rules.measure_plateaus.output.csv,
     output:
         csv="results/tables/claims.csv",
         html=report(

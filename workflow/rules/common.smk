@@ -138,6 +138,22 @@ def region_limits():
     return {name: value for name, value in config["scaling"].items() if name not in ("stiffness_range", "resamples")}
 
 
+def plateau_settings():
+    """Settings of the test for a power law; its control is the first variant whose spectrum has a roll-off."""
+    variants = (case["name"] for case in config["variants"]["cases"] if case.get("roll_off_wavelength"))
+    return {
+        "control": next(variants, None),
+        "rms_convention": config["figures"]["rms_convention"],
+        "x_range": config["verdicts"]["plateau_range"],
+        "half_width": config["scaling"]["slope_half_width"],
+        "tolerance": paper("claims")["power_law"]["tolerance"],
+        "decades_min": config["verdicts"]["decades_min"],
+        "resamples": config["scaling"]["resamples"],
+        "draws": config["verdicts"]["draws"],
+        "seed": config["seed"],
+    }
+
+
 def combinations():
     """{case: force [N], viscosity [Pa s], diameter [m], rms [m]} of the base cases."""
     return {name: case["combination"] for name, case in DISCS.items() if case["group"] == "base"}

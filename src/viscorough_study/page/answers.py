@@ -38,7 +38,7 @@ def answers(results):
     differences = claims[claims["claim"] == "coincide"]["value"].abs().dropna()
     return {
         "collapse": extremes("collapse", "value"),
-        "decades": extremes("power_law", "value", "decades"),
+        "decades": extremes("power_law", "value"),
         "beta": cases("beta"),
         "coincide": _case(results, differences.idxmax() if len(differences) else None),
         "elastic": _ends(cases("zeta_elastic")),

@@ -1,0 +1,95 @@
+"""Plateaus of the local slope: over how many decades of X a curve is a power law, and with which certainty.
+
+A power law has one slope d ln y/d ln X. Every curve that bends upwards at both ends has a flat piece in between, so
+what counts is its length: the decades of X over which all local slopes lie within ± the tolerance of their middle.
+Slopes are those of straight lines through fixed abscissae, so that no window is chosen by what is tested.
+"""
+
+import numpy as np
+
+from viscorough_study.power_law import percentile_interval
+
+ROUNDING = 1e-9  # relative difference up to which distances on the logarithmic axis count as equal
+
+
+def local_slopes(log_x, log_y, half_width):
+    """Abscissae and slopes d ln y/d ln X of straight lines through all points within half_width to either side.
+
+    log_x : ln X, equally spaced, shape (abscissae,); log_y : ln y, shape (curves, abscissae), without nan
+    Only abscissae are returned that have points over the whole width: shapes (inner,) and (curves, inner).
+    Raises ValueError if there is none.
+    """
+    reach = int(half_width / (log_x[1] - log_x[0]) + ROUNDING)
+    if reach < 1 or log_x.size <= 2 * reach:
+        raise ValueError(f"local_slopes: {log_x.size} abscissae are too few for lines of {2 * reach + 1} points")
+    offsets = (log_x[1] - log_x[0]) * np.arange(-reach, reach + 1)
+    weights = offsets / (offsets @ offsets)
+    windows = np.lib.stride_tricks.sliding_window_view(log_y, offsets.size, axis=-1)
+    return log_x[reach:-reach], windows @ weights
+
+
+def longest_plateau(slopes, tolerance):
+    """Number of steps of the longest run of slopes within ± tolerance of their middle, of each curve, and its start.
+
+    slopes : shape (curves, abscissae); returns two arrays of shape (curves,), a run of n + 1 slopes has n steps
+    """
+    steps, start = np.zeros(len(slopes), dtype=int), np.zeros(len(slopes), dtype=int)
+    least, largest = slopes, slopes
+    for length in range(1, slopes.shape[1]):
+        least = np.minimum(least[:, :-1], slopes[:, length:])
+        largest = np.maximum(largest[:, :-1], slopes[:, length:])
+        flat = largest - least <= 2 * tolerance
+        found = flat.any(axis=1)
+        if not found.any():
+            break
+        steps[found], start[found] = length, flat.argmax(axis=1)[found]
+    return steps, start
+
+
+def plateau(log_x, log_y, *, half_width, tolerance, resamples, random):
+    """The plateau of the mean of realizations, with 95 % bootstrap intervals over them.
+
+    log_x, log_y, half_width : as in `local_slopes`, log_y of the realizations; random : numpy.random.Generator
+    Returns a dict: decades, decades_low, decades_high; slope, slope_low, slope_high, the mean slope over the plateau;
+    x_low, x_high, its ends in X.
+
+    A resample has twice the variance of the mean, and scatter shortens plateaus: the interval lies rather low. Few curves
+    pass that have no power law, but of power laws that scatter much some fail, as `shares` tells.
+    """
+    number = len(log_y)
+    weights = random.multinomial(number, np.full(number, 1 / number), size=resamples) / number
+    inner, slopes = local_slopes(log_x, np.vstack([log_y.mean(axis=0), weights @ log_y]), half_width)
+    step = (inner[1] - inner[0]) / np.log(10)
+    steps, start = longest_plateau(slopes, tolerance)
+    run = slice(start[0], start[0] + steps[0] + 1)
+    means = slopes[:, run].mean(axis=1)
+    decades_low, decades_high = percentile_interval(steps[1:] * step, number)
+    slope_low, slope_high = percentile_interval(means[1:], number)
+    return {
+        "decades": steps[0] * step,
+        "decades_low": decades_low,
+        "decades_high": decades_high,
+        "slope": means[0],
+        "slope_low": slope_low,
+        "slope_high": slope_high,
+        "x_low": np.exp(inner[run][0]),
+        "x_high": np.exp(inner[run][-1]),
+    }
+
+
+def shares(log_x, mean, residuals, *, draws, decades_min, random, **how):
+    """Shares of synthetic ensembles that pass and that fail: (passed, failed).
+
+    Of those that pass the whole interval of the decades is decades_min or more, of those that fail it is less.
+    mean : ln y of the curve that all ensembles have, shape (abscissae,)
+    residuals : ln y of realizations less their mean, shape (realizations, abscissae): every ensemble is as many draws
+        of them with replacement, so that it scatters, and is correlated along X, as the real one is
+    draws : number of ensembles; how : further arguments of `plateau`
+    """
+    passed, failed, needed = 0, 0, decades_min * (1 - ROUNDING)
+    for _ in range(draws):
+        drawn = residuals[random.integers(len(residuals), size=len(residuals))]
+        found = plateau(log_x, mean + drawn, random=random, **how)
+        passed += found["decades_low"] >= needed
+        failed += found["decades_high"] < needed
+    return passed / draws, failed / draws

@@ -53,8 +53,8 @@ def plateau(log_x, log_y, *, half_width, tolerance, resamples, random):
     Returns a dict: decades, decades_low, decades_high; slope, slope_low, slope_high, the mean slope over the plateau;
     x_low, x_high, its ends in X.
 
-    A resample has twice the variance of the mean, and scatter shortens plateaus: the interval lies rather low. Few curves
-    pass that have no power law, but of power laws that scatter much some fail, as `shares` tells.
+    A resample has twice the variance of the mean, and scatter shortens plateaus: the interval lies rather low. Few
+    curves pass that have no power law, but of power laws that scatter much some fail, as `shares` tells.
     """
     number = len(log_y)
     weights = random.multinomial(number, np.full(number, 1 / number), size=resamples) / number

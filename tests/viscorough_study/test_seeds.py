@@ -20,6 +20,7 @@ KEYS = {
     seeds.gamma_factor_key(0.4): (11, 400000),
     seeds.mdr_comparison_key(0.4, 3): (12, 400000, 3),
     seeds.size_control_key(0.4, 65): (13, 400000, 65),
+    seeds.plateau_key(0.4, "base"): (14, 400000, zlib.crc32(b"base")),
 }
 
 
@@ -30,7 +31,7 @@ def test_published_keys_do_not_change():
 
 
 def test_every_stream_has_its_own_number():
-    assert [key[0] for key in KEYS] == list(seeds.Stream) == list(range(1, 14))
+    assert [key[0] for key in KEYS] == list(seeds.Stream) == list(range(1, 15))
 
 
 def test_neighbouring_hurst_exponents_have_their_own_keys():

@@ -91,6 +91,7 @@ bench: environment
 	$(BIN)/python benchmarks/large_map.py --output results/large_map.json
 	$(BIN)/python benchmarks/rectangles.py --output results/rectangles.json
 	$(BIN)/python benchmarks/kinetics.py --output results/kinetics.json
+	$(BIN)/python benchmarks/lines.py --output results/lines.json
 
 speed stability: SETTINGS = config/methods.yaml
 sizes: SETTINGS = config/sizes.yaml

@@ -26,9 +26,11 @@ import pandas as pd
 import scipy.fft
 
 import viscorough
-from viscorough import indent, reduce, self_affine_disc, self_affine_line
+from viscorough import indent, self_affine_disc, self_affine_line
 from viscorough.contact.column_fft import ColumnConvolution, good_length
 from viscorough.contact.halfspace import Halfspace
+from viscorough.lines import SelfAffineLines
+from viscorough.mdr import reduce_heights
 from viscorough_study.performance import timing
 from viscorough_study.tables import write_json
 
@@ -54,7 +56,11 @@ PARTS_OF_CURVE = {
         "viscorough.contact.solver.ContactSolver.__init__",
     ),
 }
-PARTS_OF_LINE = {"transform": ("ducc0.fft.r2r_fftpack",), "bins": ("viscorough.mdr._bin_gaps",)}
+PARTS_OF_LINE = {
+    "waves": ("viscorough.line_waves.fill_packed_spectrum",),
+    "transform": ("ducc0.fft.c2c", "viscorough.line_waves.twiddle"),
+    "bins": ("viscorough.mdr._bin_gaps",),
+}
 
 
 def interleaved(functions, repeats):
@@ -104,14 +110,16 @@ def curves(hursts, seeds, repeats):
     return rows
 
 
+def curve_of_line(lines):
+    """Loading curve of one of the lines, as in the workflow."""
+    return reduce_heights(lines.heights_in_any_order(1), lines.spacing, until_force=4 * UNTIL_X)
+
+
 def lines(hursts, points, repeats):
     """Loading curves of lines by the reduction of dimensionality, generation of the lines included."""
     rows = []
     for hurst in hursts:
-
-        def one(hurst=hurst):
-            reduce(self_affine_line(hurst, points, seed=1), until_force=4 * UNTIL_X)
-
+        one = partial(curve_of_line, SelfAffineLines(hurst, points))
         rows.append({"hurst": hurst, "points": points, **interleaved({"line": one}, repeats)["line"]})
         print("line of {points} points at H = {hurst}: {wall_s:.3f} s".format(**rows[-1]))
     return rows
@@ -156,7 +164,7 @@ def parts(points):
         disc = self_affine_disc(0.6, across, seed=1)
         curve = partial(indent, disc, until_fraction=UNTIL, until_force=4 * UNTIL_X)
         rows[f"curve of a {across} disc"] = curve, PARTS_OF_CURVE
-    rows[f"line of {points} points"] = lambda: reduce(self_affine_line(0.6, points, seed=1)), PARTS_OF_LINE
+    rows[f"line of {points} points"] = partial(curve_of_line, SelfAffineLines(0.6, points)), PARTS_OF_LINE
     result = {}
     for name, (function, of_function) in rows.items():
         function()

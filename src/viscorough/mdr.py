@@ -16,6 +16,7 @@ from viscorough.loading_curve import LoadingCurve
 _OCTAVES = 128  # octaves below the largest gap that are divided into bins; smaller gaps share one bin
 _SPOILED = 3  # longest waves of a map that a window changes
 _LANES = 4  # neighbouring points often fall into one bin: separate counters avoid waiting for the last update
+_BLOCK = 512  # points whose bins are found at a time
 
 
 def reduce(line, *, until_fraction=1.0, until_force=None, bins_per_octave=64):
@@ -42,6 +43,23 @@ def reduce(line, *, until_fraction=1.0, until_force=None, bins_per_octave=64):
     """
     if line.heights.ndim != 1:
         raise ValueError("reduce: the indenter's heights must be one-dimensional (maps are for indent)")
+    return reduce_heights(
+        line.heights,
+        line.spacing,
+        until_fraction=until_fraction,
+        until_force=until_force,
+        bins_per_octave=bins_per_octave,
+        length_unit=line.length_unit,
+    )
+
+
+def reduce_heights(heights, spacing, *, until_fraction=1.0, until_force=None, bins_per_octave=64, length_unit="1"):
+    """As `reduce`, for heights in any order: springs are independent, so that the order does not matter.
+
+    heights : shape (points,), in single or double precision and finite, which is not checked [length]
+    spacing : distance between neighbouring points [length]
+    length_unit : of both, as in Indenter
+    """
     if not 0 < until_fraction <= 1:
         raise ValueError(f"reduce: until_fraction must lie in (0, 1], not {until_fraction!r}")
     if until_force is not None and not 0 < until_force < np.inf:
@@ -49,40 +67,40 @@ def reduce(line, *, until_fraction=1.0, until_force=None, bins_per_octave=64):
     if bins_per_octave not in 2 ** np.arange(11):
         raise ValueError(f"reduce: bins_per_octave must be a power of 2 up to 1024, not {bins_per_octave!r}")
 
-    depth, force, stiffness, contact_count = _levels(line, int(bins_per_octave))
+    depth, force, stiffness, contact_count = _levels(heights, spacing, int(bins_per_octave))
     if until_force is not None and force[-1] < until_force:
         depth = np.append(depth, depth[-1] + (until_force - force[-1]) / stiffness[-1])
         force = np.append(force, until_force)
         stiffness, contact_count = (np.append(column, column[-1]) for column in (stiffness, contact_count))
     last = force.size - 1 if until_force is None else np.searchsorted(force, until_force)
     if until_fraction < 1:
-        last = min(last, np.searchsorted(contact_count / line.heights.size, until_fraction))
+        last = min(last, np.searchsorted(contact_count / heights.size, until_fraction))
     levels = slice(max(last, 1) + 1)
     return LoadingCurve(
         depth=depth[levels],
         force=force[levels],
         stiffness=stiffness[levels],
         contact_count=contact_count[levels],
-        elements=line.heights.size,
+        elements=heights.size,
         method="reduction",
         tolerance=0.0,
         operator_applications=0,
         residual=np.zeros_like(depth[levels]),
-        length_unit=line.length_unit,
+        length_unit=length_unit,
     )
 
 
-def _levels(line, bins_per_octave):
+def _levels(heights, spacing, bins_per_octave):
     """Depth, force F/G, stiffness k/G and contact count at the edges of the bins in which contact grows."""
-    edges, counts, sums = _binned_gaps(line.heights, bins_per_octave)
+    edges, counts, sums = _binned_gaps(heights, bins_per_octave)
     grown = 1 + np.flatnonzero(counts[1:])
     levels = np.union1d(grown, grown + 1)  # edge r is the lower one of bin r
     depth, below = edges[levels], levels - 1
     if levels.size == 0:
-        depth, below = np.array([0.5, 1.0]) * line.spacing, np.array([0, 0])
+        depth, below = np.array([0.5, 1.0]) * spacing, np.array([0, 0])
     contact_count = np.cumsum(counts)[below]
-    stiffness = 4 * line.spacing * contact_count
-    force = stiffness * depth - 4 * line.spacing * np.cumsum(sums)[below]
+    stiffness = 4 * spacing * contact_count
+    force = stiffness * depth - 4 * spacing * np.cumsum(sums)[below]
     return depth, force, stiffness, contact_count
 
 
@@ -185,8 +203,12 @@ def _binned_gaps(heights, bins_per_octave):
 @njit
 def _bin_gaps(heights, highest, shift, base, table):
     """Add the number and the sum of the gaps in every bin to table[bin, lane, :]."""
-    for i in range(heights.size):
-        gap = np.float64(highest - np.float64(heights[i]))
-        bin_ = max(gap.view(np.uint64) >> shift, base) - base
-        table[bin_, i % _LANES, 0] += 1
-        table[bin_, i % _LANES, 1] += gap
+    gaps, bins = np.empty(_BLOCK), np.empty(_BLOCK, np.int32)  # a loop of its own, which is vectorized
+    for start in range(0, heights.size, _BLOCK):
+        block = heights[start : start + _BLOCK]
+        for i in range(block.size):
+            gaps[i] = highest - np.float64(block[i])
+            bins[i] = max(np.float64(gaps[i]).view(np.uint64) >> shift, base) - base
+        for i in range(block.size):
+            table[bins[i], i % _LANES, 0] += 1
+            table[bins[i], i % _LANES, 1] += gaps[i]

@@ -12,14 +12,16 @@ def compile_kernels():
     The disc is large enough for the preconditioner to use coarse grids.
     """
     from viscorough.contact.loading_path import indent
-    from viscorough.mdr import reduce
-    from viscorough.surfaces import self_affine_disc, self_affine_line
+    from viscorough.lines import SelfAffineLines
+    from viscorough.mdr import reduce_heights
+    from viscorough.surfaces import self_affine_disc
     from viscorough.viscous.events import march_events
 
     indent(self_affine_disc(0.6, 129, seed=0))
     march_events(self_affine_disc(0.6, 17, seed=0))
     for dtype in ("f4", "f8"):
-        reduce(self_affine_line(0.6, 256, seed=0, dtype=dtype))
+        lines = SelfAffineLines(0.6, 256, dtype=dtype)
+        reduce_heights(lines.heights_in_any_order(0), lines.spacing)
 
 
 if __name__ == "__main__":

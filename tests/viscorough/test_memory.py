@@ -80,15 +80,17 @@ def test_memory_required_for_a_contact_follows_what_its_arrays_take(present, tol
 
 @pytest.mark.skipif(not Path("/proc/self/clear_refs").exists(), reason="the peak of a process is read from /proc")
 @pytest.mark.parametrize("points", [2**20, 1_000_003, 2 * 500_009, 3 * 333_337, 11 * 90_911, 101 * 9901])
-def test_memory_required_for_a_line_follows_what_its_transform_takes(points, monkeypatch):
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+def test_memory_required_for_a_line_follows_what_its_transform_takes(points, dtype, monkeypatch):
     """The transform of a length with a large prime factor takes up to eight times the memory of others."""
-    generate = partial(self_affine_line, 0.5, points, seed=1, dtype=float)
+    generate = partial(self_affine_line, 0.5, points, seed=1, dtype=dtype)
+    self_affine_line(0.5, 256, seed=1, dtype=dtype)  # loads compiled code
     Path("/proc/self/clear_refs").write_text("5")  # the peak starts from the present memory
     before = resident("VmRSS")
     generate()
     peak = resident("VmHWM") - before
     assert peak < demand(generate, monkeypatch)
-    if points == 1_000_003:
+    if points == 1_000_003 and dtype == np.float64:
         assert demand(generate, monkeypatch) < 1.5 * peak
 
 

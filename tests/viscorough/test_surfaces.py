@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from viscorough import surfaces
+from viscorough import lines, surfaces
 from viscorough.indenter import Indenter
 from viscorough.surfaces import cut_disc, self_affine_disc, self_affine_line, self_affine_square
 from viscorough_study.seeds import realization_seed
@@ -104,27 +104,11 @@ def test_line_of_any_length(points, amplitudes):
         assert abs(np.mean(line.heights, dtype=float)) < 2e-6 * rounding
 
 
-@pytest.mark.parametrize("fixed", [False, True])
-@pytest.mark.parametrize("points", [5000, 5001])
-def test_waves_do_not_depend_on_how_many_are_computed_at_a_time(points, fixed):
-    """Blocks smaller than, equal to and larger than the line."""
-    drawn = []
-    for block in (333, points // 2, 16384):
-        waves = np.empty((points // 2, 2))
-        random = np.random.Generator(np.random.SFC64(9))
-        square = surfaces._draw_waves(waves, points, lambda k: k**-0.9, random, fixed=fixed, block=block)
-        drawn.append((waves, square))
-    for waves, square in drawn[1:]:
-        np.testing.assert_allclose(waves, drawn[0][0], rtol=1e-13, atol=1e-15)
-        assert square == pytest.approx(drawn[0][1], rel=1e-13)
-    assert len(np.unique(drawn[0][0])) > points // 2, "blocks are not repetitions of the first one"
-
-
 @pytest.mark.parametrize(
     ("generate", "lowest", "highest"),
     [
         (lambda: self_affine_square(0.5, 300, seed=1), 25, surfaces._BYTES_PER_POINT),
-        (lambda: self_affine_line(0.5, 300_000, seed=1).heights, 4, 4 * surfaces._COPIES_OF_LINE),
+        (lambda: self_affine_line(0.5, 300_000, seed=1).heights, 4, 4 * lines._COPIES),
     ],
     ids=["square", "line"],
 )

@@ -1,8 +1,8 @@
 """Loading curves of a batch of self-affine lines by the reduction of dimensionality; no line is stored."""
 
 from viscorough.io import netcdf
-from viscorough.mdr import reduce
-from viscorough.surfaces import self_affine_line
+from viscorough.lines import SelfAffineLines
+from viscorough.mdr import reduce_heights
 from viscorough_study.batches import batch_of_curves, numbered, without_numbers
 from viscorough_study.job_log import log_to, progress
 from viscorough_study.seeds import realization_seed
@@ -11,14 +11,17 @@ from viscorough_study.seeds import realization_seed
 def main(curves, *, ensembles, seed, until_x):
     """Indent the realizations of a batch until X = F/(4GhL) is until_x; lengths in m.
 
-    ensembles : the batch's, each with spawn_key, points, surface (arguments of self_affine_line) and numbers, first
+    ensembles : the batch's, each with spawn_key, points, surface (arguments of SelfAffineLines) and numbers, first
         realization and the one after the last
     """
-    batch, reduced = numbered(ensembles), []
+    batch, reduced, before = numbered(ensembles), [], None
     for one, number in progress(batch, len(batch), "lines"):
-        surface, line_seed = one["surface"], realization_seed(seed, *one["spawn_key"], number)
-        line = self_affine_line(points=one["points"], **surface, length_unit="m", seed=line_seed)
-        reduced.append(reduce(line, until_force=4 * surface["rms"] * surface["length"] * until_x))
+        surface = one["surface"]
+        if one is not before:  # what the realizations of an ensemble share is computed once
+            lines, before = SelfAffineLines(points=one["points"], **surface), one
+        heights = lines.heights_in_any_order(realization_seed(seed, *one["spawn_key"], number))
+        until_force = 4 * surface["rms"] * surface["length"] * until_x
+        reduced.append(reduce_heights(heights, lines.spacing, until_force=until_force, length_unit="m"))
     settings = {"seed": seed, "until_x": until_x, "ensembles": without_numbers(ensembles)}
     surfaces = [one["surface"] for one, _ in batch]
     about = {"hurst": [surface["hurst"] for surface in surfaces], "realizations": [number for _, number in batch]}

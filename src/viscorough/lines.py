@@ -1,0 +1,137 @@
+"""Self-affine lines, one after the other: what does not depend on the realization is computed once.
+
+Heights are the transform of random waves (`line_waves`). Those of an even number n of points in single precision are a
+complex transform of half the length, m = n/2, over points taken in pairs. It is done in four steps (D. H. Bailey, FFTs
+in external or hierarchical memory, 1990): with m = N₁N₂, k = N₂k₁ + k₂ and j = j₁ + N₁j₂,
+    z_j = Σ_k₂ exp(2πi j₂k₂/N₂) exp(2πi j₁k₂/m) Σ_k₁ exp(2πi j₁k₁/N₁) Z_k,
+so that every transform fits in the cache. Pairs are then stored in the order of (j₁, j₂), which does not matter to the
+method of reduction of dimensionality. All other lines are an ordinary real transform.
+"""
+
+import math
+
+import numpy as np
+from ducc0 import fft
+
+from viscorough import line_waves, memory, spectrum
+from viscorough.indenter import positive
+
+_BLOCK = 16384  # waves computed at a time in double precision
+# Memory that must be available, in multiples of the heights of a line, since the Fourier transform copies them. If the
+# number n of points has prime factors above 11, more is needed, and still more in proportion to p/n for the largest
+# factor p (tests/viscorough/test_memory.py).
+_COPIES, _COPIES_OF_OTHER, _MORE_PER_SHARE, _MOST_COPIES = 2.6, 3.3, 28, 17
+
+
+class SelfAffineLines:
+    """Periodic self-affine lines of one spectrum, of as many realizations as wanted.
+
+    All arguments, and the errors raised, are those of `surfaces.self_affine_line`.
+    spacing : distance between neighbouring points, length/points [length]
+    """
+
+    def __init__(
+        self,
+        hurst,
+        points,
+        *,
+        rms=1.0,
+        length=1.0,
+        roll_off_wavelength=None,
+        roll_off_level=0.0,
+        amplitudes="random",
+        dtype=np.float32,
+    ):
+        self._points = points = spectrum.whole("points", points, at_least=2)
+        self._exponent = spectrum.hurst_exponent(hurst) + 0.5
+        self._rms, length = positive("rms", rms), positive("length", length)
+        if roll_off_wavelength is not None:
+            roll_off_wavelength = positive("roll_off_wavelength", roll_off_wavelength) * points
+        self._roll_off = spectrum.roll_off(roll_off_wavelength, roll_off_level, points)
+        self._fixed = spectrum.fixed_amplitudes(amplitudes)
+        self._dtype = np.dtype(dtype)
+        if self._dtype not in (np.float32, np.float64):
+            raise ValueError(f"dtype: must be float32 or float64, not {self._dtype}")
+        memory.require(_copies(points) * self._dtype.itemsize * points, f"a line of {points} points")
+        if points // 2 > line_waves.MOST_WAVES:
+            raise ValueError(f"points: must be at most {2 * line_waves.MOST_WAVES + 1}, not {points}")
+        self.spacing = length / points
+        self._in_pairs = self._dtype == np.float32 and points % 2 == 0
+        if self._in_pairs:
+            self._amplitude = self._moduli(0, points // 2 + 1)
+            rows = _divisor_near_root(points // 2)
+            self._packed = np.empty((rows, points // 2 // rows), np.complex64)
+
+    def heights(self, seed):
+        """Heights of the realization of this seed, in order; shape (points,), read-only."""
+        if not self._in_pairs:
+            return self._by_real_transform(seed)
+        ordered = self._by_four_steps(seed).T.copy()
+        ordered.flags.writeable = False  # so that an indenter need not copy them
+        return ordered.reshape(-1).view(np.float32)
+
+    def heights_in_any_order(self, seed):
+        """The same heights, read-only, in an order without a meaning; valid until the next call of a method."""
+        if not self._in_pairs:
+            return self._by_real_transform(seed)
+        heights = self._by_four_steps(seed).reshape(-1).view(np.float32)
+        heights.flags.writeable = False
+        return heights
+
+    def _by_four_steps(self, seed):
+        """Pairs of heights, y_2j + i y_2j+1 at [j₁, j₂]; overwritten by the next call."""
+        packed = self._packed
+        mean_square = line_waves.fill_packed_spectrum(
+            packed.reshape(-1), self._key(seed), self._amplitude, fixed=self._fixed
+        )
+        fft.c2c(packed, axes=[0], forward=False, out=packed)
+        line_waves.twiddle(packed.view(np.float32), np.float32(spectrum.scale_factor(self._rms, mean_square)))
+        return fft.c2c(packed, axes=[1], forward=False, out=packed)
+
+    def _by_real_transform(self, seed):
+        points, key = self._points, self._key(seed)
+        memory_ = np.empty(2 * (points // 2 + 1), self._dtype)
+        coefficients = memory_.view(np.result_type(self._dtype, np.complex64))  # of the waves k = 0, 1, ...
+        mean_square = 0.0
+        for start in range(1, len(coefficients), _BLOCK):
+            block = coefficients[start : start + _BLOCK]
+            amplitude = self._moduli(start, len(block), float)
+            block[:] = waves = line_waves.waves(start, key, amplitude, fixed=self._fixed)
+            mean_square += 2 * np.vdot(waves, waves).real
+        if points % 2 == 0:
+            shortest = line_waves.shortest_wave(points, key, amplitude[-1], fixed=self._fixed)
+            mean_square += shortest**2 - 2 * abs(waves[-1]) ** 2
+            coefficients[-1] = shortest
+        # The heights overwrite their spectrum: the mean, then real and imaginary parts of wave after wave.
+        heights = memory_[1 : points + 1]
+        heights[0] = 0
+        heights *= spectrum.scale_factor(self._rms, mean_square)
+        fft.r2r_fftpack(heights, axes=[0], real2hermitian=False, forward=False, out=heights)
+        memory_.flags.writeable = heights.flags.writeable = False
+        return heights
+
+    def _moduli(self, first, count, dtype=np.float32):
+        """Moduli of the waves first, first + 1, ...; that of wave 0 has no meaning."""
+        return spectrum.amplitude(np.arange(first, first + count, dtype=dtype), self._exponent, *self._roll_off)
+
+    @staticmethod
+    def _key(seed):
+        return line_waves.key_of(spectrum.seed_sequence(seed))
+
+
+def _divisor_near_root(number):
+    """The largest divisor that is at most √number."""
+    return next(d for d in range(math.isqrt(number), 0, -1) if number % d == 0)
+
+
+def _copies(points):
+    """Memory for the generation of a line of that many points, over that of its heights."""
+    if fft.good_size(points, True) == points:
+        return _COPIES
+    left, factor = points, 2
+    while factor * factor <= left:
+        if left % factor:
+            factor += 1
+        else:
+            left //= factor
+    return min(_COPIES_OF_OTHER + _MORE_PER_SHARE * left / points, _MOST_COPIES)

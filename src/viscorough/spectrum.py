@@ -1,0 +1,65 @@
+"""The power-law spectrum of self-affine surfaces and lines, and checks of the arguments that describe it."""
+
+from numbers import Integral
+
+import numpy as np
+
+from viscorough.indenter import positive
+
+
+def amplitude(wavenumber, exponent, longest, level):
+    """Modulus k^-exponent of waves with wavenumber k per period; for k < longest √level times that of k = longest.
+
+    longest : wavenumber per period of the roll-off, 0 if there is none
+    level : spectral density of longer waves relative to that at the roll-off
+
+    The zero mode gets a finite value, which the caller must remove.
+    """
+    modulus = np.maximum(wavenumber, max(1, longest))
+    np.power(modulus, -exponent, out=modulus)
+    if longest > 1:
+        modulus[wavenumber < longest] *= np.sqrt(level)
+    return modulus
+
+
+def roll_off(wavelength, level, points):
+    """Wavenumber per period (0 if there is no roll-off) and level of the roll-off at a wavelength in points."""
+    if not 0 <= level < np.inf:
+        raise ValueError(f"roll_off_level: must be a finite number >= 0, not {level!r}")
+    if wavelength is None:
+        return 0.0, level
+    rounding = 1 - 1e-12  # so that waves of exactly this length belong to the power law
+    return rounding * points / positive("roll_off_wavelength", wavelength), level
+
+
+def scale_factor(rms, mean_square):
+    """Scale factor to the requested rms height."""
+    if mean_square == 0:
+        raise ValueError("roll_off_wavelength: must leave at least one wave of two spacings or more")
+    return rms / np.sqrt(mean_square)
+
+
+def seed_sequence(seed):
+    """The SeedSequence of a whole number, or the one given."""
+    return seed if isinstance(seed, np.random.SeedSequence) else np.random.SeedSequence(whole("seed", seed, at_least=0))
+
+
+def hurst_exponent(hurst):
+    """The Hurst exponent as a float. Raises ValueError unless it is from 0 to 1."""
+    if not 0 <= hurst <= 1:
+        raise ValueError(f"hurst: must be from 0 to 1, not {hurst!r}")
+    return float(hurst)
+
+
+def fixed_amplitudes(amplitudes):
+    """Whether only phases are random."""
+    if amplitudes not in ("random", "fixed"):
+        raise ValueError(f"amplitudes: must be 'random' or 'fixed', not {amplitudes!r}")
+    return amplitudes == "fixed"
+
+
+def whole(name, value, at_least):
+    """The value as an int. Raises ValueError with the name unless it is a whole number of at least `at_least`."""
+    if not isinstance(value, Integral) or value < at_least:
+        raise ValueError(f"{name}: must be a whole number of at least {at_least}, not {value!r}")
+    return int(value)

@@ -1,0 +1,123 @@
+"""Random waves of lines: known answers of the generator, the formula in numpy, statistics of a million waves."""
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from viscorough import line_waves
+from viscorough.line_waves import fill_packed_spectrum, key_of, random_words, shortest_wave, waves
+
+KEY = key_of(np.random.SeedSequence(7))
+MANY = 2**20
+
+
+# Known answers of philox2x32 with ten rounds, from Random123's tests (tests/kat_vectors): counter (two words), key.
+@pytest.mark.parametrize(
+    ("counter", "key", "answer"),
+    [
+        ((0, 0), 0, (0xFF1DAE59, 0x6CD10DF2)),
+        ((0xFFFFFFFF, 0xFFFFFFFF), 0xFFFFFFFF, (0x2C3F628B, 0xAB4FD7AD)),
+        ((0x243F6A88, 0x85A308D3), 0x13198A2E, (0xDD7CE038, 0xF62A4C12)),
+    ],
+)
+def test_known_answers(counter, key, answer):
+    low, high = np.empty((2, 1), np.uint32)
+    random_words(counter[0], np.array([key, counter[1]], np.uint64), low, high)
+    assert (low[0], high[0]) == answer
+
+
+def test_waves_depend_on_their_number_and_key_alone():
+    """Whatever is computed with them."""
+    together = waves(1, KEY, np.ones(50), fixed=False)
+    for first, count in ((1, 1), (7, 20), (50, 1)):
+        np.testing.assert_array_equal(
+            waves(first, KEY, np.ones(count), fixed=False), together[first - 1 : first - 1 + count]
+        )
+    other = waves(1, key_of(np.random.SeedSequence(8)), np.ones(50), fixed=False)
+    assert len(np.intersect1d(together, other)) == 0
+
+
+def drawn(count, *, fixed):
+    """Parts of waves as the compiled code draws them, in single precision."""
+    parts = np.empty((2, count), np.float32)
+    square = line_waves._draw(1, KEY, np.ones(count, np.float32), fixed, parts)
+    return parts, square
+
+
+@pytest.mark.parametrize("fixed", [False, True])
+def test_single_precision_is_the_formula(fixed):
+    parts, square = drawn(MANY, fixed=fixed)
+    exact = waves(1, KEY, np.ones(MANY), fixed=fixed)
+    # 2e-7 of the largest modulus, √(-2 ln 2^-33) = 6.8, and rounding of U near 1, where moduli are small
+    assert np.all(abs(parts[0] + 1j * parts[1] - exact) < 1.5e-6 + 1e-7 / abs(exact))
+    assert square == pytest.approx(np.sum(abs(exact) ** 2), rel=1e-5)
+
+
+def test_coefficients_are_independent_and_gaussian():
+    """Real and imaginary parts of a million waves; a false alarm has a chance of 1e-4 or less at each line."""
+    parts, _ = drawn(MANY, fixed=False)
+    normal = parts.astype(float).ravel()
+    assert stats.kstest(normal, "norm").pvalue > 1e-4
+    for power, moment, variance in ((1, 0, 1), (2, 1, 2), (3, 0, 15), (4, 3, 96), (6, 15, 10170)):
+        assert abs(np.mean(normal**power) - moment) < 4 * np.sqrt(variance / normal.size)
+    for bound in (3, 4, 4.5):
+        expected = 2 * stats.norm.sf(bound) * normal.size
+        assert abs(np.sum(abs(normal) > bound) - expected) < 4 * np.sqrt(expected) + 1
+    real, imag = parts.astype(float)
+    pairs = [(real, imag), (real**2 - 1, imag**2 - 1)]
+    for lag in (1, 2, 1024, MANY // 2):
+        pairs += [(x[lag:], y[:-lag]) for x, y in ((real, real), (imag, imag), (real, imag), (imag, real))]
+        pairs += [(real[lag:] ** 2 - 1, real[:-lag] ** 2 - 1)]
+    for x, y in pairs:
+        assert abs(np.mean(x * y)) < 5 * np.sqrt(np.var(x) * np.var(y) / x.size)
+
+
+def test_every_bit_is_random():
+    """Bits of neighbouring counters and of neighbouring keys agree half of the time."""
+    words = np.empty((3, 2, MANY // 16), np.uint32)
+    for row, key, first in ((0, KEY, 1), (1, KEY, 2), (2, KEY ^ np.array([1, 0], np.uint64), 1)):
+        random_words(first, key, *words[row])
+    for other in (np.zeros_like(words[0]), words[1], words[2]):
+        agree = ~(words[0] ^ other)
+        share = [np.mean(agree >> np.uint32(bit) & np.uint32(1), axis=1) for bit in range(32)]
+        assert np.abs(np.array(share) - 0.5).max() < 5 * 0.5 / np.sqrt(words.shape[2])
+
+
+@pytest.mark.parametrize("fixed", [False, True])
+@pytest.mark.parametrize("half", [1, 2, 3, 4, 2047, 2048, 2049, 5000])
+def test_packed_spectrum(half, fixed):
+    """Spectrum of y_2j + i y_2j+1 by numpy, of a real line with the waves of the formula; parts of blocks, too."""
+    amplitude = np.arange(half + 1.0) ** 0.3
+    spectrum = np.empty(half, np.complex64)
+    mean_square = fill_packed_spectrum(spectrum, KEY, amplitude.astype(np.float32), fixed=fixed)
+
+    coefficients = waves(0, KEY, amplitude, fixed=fixed)
+    coefficients[-1] = shortest_wave(2 * half, KEY, amplitude[-1], fixed=fixed)
+    line = np.fft.irfft(coefficients, 2 * half, norm="forward")
+    wanted = np.fft.fft(line[::2] + 1j * line[1::2], norm="forward")
+    np.testing.assert_allclose(spectrum, wanted, atol=2e-6 * np.abs(wanted).max())
+    assert mean_square == pytest.approx(np.mean(line**2), rel=3e-7)
+
+
+def test_shortest_wave_has_the_mean_power_of_others():
+    """A cosine of modulus √2 A times a normal variate; A exactly, of random sign, if amplitudes are fixed."""
+    keys = [key_of(np.random.SeedSequence(seed)) for seed in range(2000)]
+    drawn = np.array([shortest_wave(8, key, 3.0, fixed=False) for key in keys])
+    assert stats.kstest(drawn / (3 * np.sqrt(2)), "norm").pvalue > 1e-4
+    fixed = np.array([shortest_wave(8, key, 3.0, fixed=True) for key in keys])
+    np.testing.assert_allclose(abs(fixed), 3, rtol=1e-15)
+    assert abs(np.mean(np.sign(fixed))) < 4 / np.sqrt(len(keys))
+
+
+@pytest.mark.parametrize("shape", [(1, 7), (3, 5), (40, 50)])
+def test_twiddle(shape):
+    ones = np.ones(shape, np.complex64)
+    line_waves.twiddle(ones.view(np.float32), np.float32(2.5))
+    j, k = np.indices(shape)
+    np.testing.assert_allclose(ones, 2.5 * np.exp(2j * np.pi * j * k / ones.size), atol=1e-6)
+
+
+def test_smallest_and_largest_moduli_are_finite():
+    size, modulus = np.array([0, 1, 2**31, 2**32 - 1], np.uint32), np.empty(4, np.float32)
+    line_waves._moduli(size, np.ones(4, np.float32), modulus)
+    np.testing.assert_allclose(modulus, np.sqrt(-2 * np.log((size + 0.5) * 2.0**-32)), rtol=3e-7, atol=3e-4)

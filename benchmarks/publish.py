@@ -152,8 +152,11 @@ def write_tables():
 
 
 def copy_other_solvers(table, target, machine, date):
-    """Write the times of other solvers on one thread over that of the path, with date and machine."""
-    times = pd.read_csv(table).query("solver != 'viscorough' and threads == 1")
+    """Write the times of other solvers on one thread over that of the path, with date and machine.
+
+    What does not meet the residual has no time.
+    """
+    times = pd.read_csv(table).query("solver != 'viscorough' and threads == 1").dropna(subset="ratio")
     times = times[["task", "hurst", "elements", "levels", "solver", "version", "threads", "ratio"]]
     times = times.assign(ratio=times["ratio"].map("{:.3g}".format), measured=date, machine=machine)
     times.to_csv(target, index=False, lineterminator="\n")

@@ -163,8 +163,12 @@ def other_solvers():
     """{solver: Python of its environment, its adapter}, whether or not `make peers` has built the environments."""
     adapters, root = WORKFLOW / "peers", Path(workflow.basedir)
     modern, slippy = (str(root / name / "bin" / "python") for name in (".venv-peers", ".venv-slippy"))
-    pythons = {"ASPHER": modern, "ContactMechanics": modern, "SlipPY": slippy, "Tamaas": modern}
-    return {name: [python, str(adapters / f"{name.lower()}_adapter.py")] for name, python in pythons.items()}
+    pythons = {"ASPHER": modern, "ASPHER nested": modern, "ContactMechanics": modern, "SlipPY": slippy}
+    pythons["Tamaas"] = modern
+    return {
+        name: [python, str(adapters / f"{name.lower().replace(' ', '_')}_adapter.py")]
+        for name, python in pythons.items()
+    }
 
 
 def other_solvers_wanted():

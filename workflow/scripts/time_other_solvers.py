@@ -15,7 +15,7 @@ from viscorough_study.seeds import realization_seed, solver_race_key
 from viscorough_study.tables import recorded, write_table
 
 
-def main(csv, html, nc, *, seed, hurst, repeats, longest, tasks, peers):
+def main(csv, html, nc, *, seed, hurst, pairs, longest, tasks, peers):
     """Compare on every task for every Hurst exponent; other solvers that are not installed are left out."""
     solvers = [OtherSolver(name, *map(Path, paths)) for name, paths in peers.items()]
     for solver in solvers:
@@ -23,13 +23,13 @@ def main(csv, html, nc, *, seed, hurst, repeats, longest, tasks, peers):
             logging.warning("%s is not installed: left out (make peers installs it)", solver.name)
     installed = [solver for solver in solvers if solver.installed]
     tables = []
-    threadpool_limits(1)  # of the path, for good; Snakemake gives the job all cores, so that nothing runs beside it
+    threadpool_limits(1)  # of linear algebra, for good; Snakemake gives the job all cores: nothing runs beside it
     for number, task in enumerate(tasks):
         fractions = np.geomspace(*task["fractions"], task["levels"]) if task["levels"] > 1 else task["fractions"][:1]
         for each in hurst:
             of_disc = {"seed": realization_seed(seed, *solver_race_key(number, each)), "threads": task["threads"]}
             levels = disc_task(task["name"], each, task["elements"], fractions, task["residual"], **of_disc)
-            common = {"repeats": repeats, "time_limit": longest, "report": logging.info}
+            common = {"pairs": pairs, "time_limit": longest, "report": logging.info}
             tables.append(compare_solvers(levels, installed, **common))
     about = {"title": "The same levels by other solvers", "attributes": recorded(machine=timing.machine())}
     write_table(pd.concat(tables), csv, nc, html, columns=COLUMNS, dimension="measurement", **about)

@@ -13,9 +13,11 @@ TICKS = (1, 2, 4, 8, 16, 32, 64, 128)
 def plot_other_solvers(table):
     """Wall time over that of the elastic path, of every solver on every task; hollow markers are of two threads.
 
+    Lines are from the least to the largest ratio of a pair. What does not meet the residual is left out.
     table : of viscorough_study.performance.solver_comparison. Raises ValueError for a table without rows.
     """
     require_rows("plot_other_solvers", table)
+    table = table[table["met"] == 1]
     tasks, solvers = list(table["task"].unique()), list(table["solver"].unique())
     exponents = sorted(table["hurst"].unique())
     looks = {name: {"linestyle": "", **look} for name, look in series_looks(solvers).items()}
@@ -29,7 +31,9 @@ def plot_other_solvers(table):
     axes = figure.subplots()
     for row in table.itertuples():
         hollow = {"markerfacecolor": "none"} if row.threads > 1 else {}
-        axes.plot(row.ratio, heights[row.task, row.hurst], markersize=6, **looks[row.solver] | hollow)
+        height = heights[row.task, row.hurst]
+        axes.plot([row.ratio_low, row.ratio_high], [height, height], color=looks[row.solver]["color"], linewidth=1)
+        axes.plot(row.ratio, height, markersize=6, **looks[row.solver] | hollow)
     for place in range(len(tasks)):
         axes.axhspan(-place - 0.48, -place + 0.48, color=PALE, alpha=0.35, zorder=0)
     right = {"transform": axes.get_yaxis_transform(), "ha": "right", "va": "center"}

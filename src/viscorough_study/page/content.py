@@ -80,7 +80,7 @@ def other_solvers(path):
     path : table of the workflow, or of published numbers, which says when and on which machine they were measured
     """
     table = pd.read_csv(path)
-    table = table[(table["solver"] != "viscorough") & (table["threads"] == 1)]
+    table = table[(table["solver"] != "viscorough") & (table["threads"] == 1)].dropna(subset="ratio")
     solvers = list(dict.fromkeys(table["solver"]))
     rows = []
     for (task, hurst, elements, levels), group in table.groupby(

@@ -1,10 +1,10 @@
 """The elastic loading path against other solvers: the same levels of one indenter, to the same residual.
 
 The path's time is for everything, exact stiffness at every level included; that of another solver is without its set-up
-and without stiffness. Each other solver starts every level from the one before.
+and without stiffness. Other solvers start every level from the one before, if they can.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 
 import numpy as np
@@ -20,6 +20,7 @@ from viscorough_study.performance import other_solvers, timing
 # own way. The search for the loosest that will do begins in the middle of them.
 TOLERANCE_RATIOS = (30, 10, 3, 1, 1 / 3, 1 / 10, 1 / 30, 1 / 100)
 FIRST_RATIO = 3
+HOPELESS = 4  # times as long as another solver: more than a looser tolerance can gain
 MAX_REPEATED = 20.0  # seconds; what takes longer is not repeated
 REFERENCE_TOLERANCE = 1e-10  # of the forces that all are compared with
 COLUMNS = {
@@ -34,9 +35,11 @@ COLUMNS = {
     "residual": ("largest residual of any level, from the pressures", "1"),
     "met": ("1 if that is within the residual required", "1"),
     "force_error": ("largest relative error of the force at any level", "1"),
-    "wall_s": ("wall time, median of interleaved repeats", "s"),
-    "processor_s": ("processor time, median of interleaved repeats", "s"),
-    "ratio": ("wall time over that of the path on one thread", "1"),
+    "wall_s": ("wall time, median; empty if the residual is not met", "s"),
+    "processor_s": ("processor time, median; empty if the residual is not met", "s"),
+    "ratio": ("wall time over that of the path on as many threads, median of pairs run one after the other", "1"),
+    "ratio_low": ("least ratio of a pair", "1"),
+    "ratio_high": ("largest ratio of a pair", "1"),
     "iterations": ("iterations of another solver (-1 if not reported), operator applications of the path", "1"),
     "memory": ("peak memory of another solver's process; of the path, of its arrays", "byte"),
 }
@@ -65,61 +68,92 @@ def disc_task(name, hurst, elements, fractions, residual, *, seed, threads=(1,))
     return Task(name, hurst, disc, depths, residual, tuple(threads))
 
 
-def compare_solvers(task, solvers, *, repeats, time_limit, report=lambda text: None):
+def compare_solvers(task, solvers, *, pairs, time_limit, report=lambda text: None):
     """Time and residual of the path and of other solvers on one task, each with the loosest tolerance that will do.
 
-    repeats : number of interleaved repeats; time_limit : seconds after which a run of another solver is abandoned
-    report : called with a line of text before each solver and repeat
+    pairs : number of pairs of runs, of the path and of another solver on as many threads, in alternating order
+    time_limit : seconds after which a run of another solver is abandoned
+    report : called with a line of text before each solver and round of pairs
 
-    Returns a pandas.DataFrame with the columns of `COLUMNS`: the path, then a row per solver and number of threads.
+    What does not meet the residual is not timed. Returns a pandas.DataFrame with the columns of `COLUMNS`: the path on
+    each number of threads, then a row per solver and number of threads.
     """
     exact = indent(task.indenter, tolerance=REFERENCE_TOLERANCE, depths=task.depths)
-    path = partial(indent, task.indenter, tolerance=task.residual, depths=task.depths)
-    rows, timed_runs = [_row_of_path(task, path, exact)], []
+    paths = {
+        threads: partial(indent, task.indenter, tolerance=task.residual, depths=task.depths, threads=threads)
+        for threads in task.threads
+    }
+    rows = [_row_of_path(task, path, threads, exact) for threads, path in paths.items()]
+    races, fastest = [], np.inf
     for solver in solvers:
         report(f"{task.name}, H = {task.hurst:g}: {solver.name}, search for its tolerance")
         ask = partial(other_solvers.solve, solver, task.indenter, task.depths, exact.force, time_limit=time_limit)
-        tolerance, solution = _loosest_tolerance(ask, task.residual)
+        tolerance, solution = _loosest_tolerance(ask, task.residual, fastest)
         if solution is None:
             continue
-        for threads in task.threads:
+        met = solution.residual.max() <= task.residual
+        fastest = min(fastest, solution.wall_s) if met else fastest
+        for threads, path in paths.items():
             rows.append(_row_of_other(task, solver, threads, tolerance, solution, exact))
-            known = (solution.wall_s, solution.processor_s) if threads == 1 else None
-            timed_runs.append(_TimedRun(partial(ask, [tolerance], threads=threads), known))
-    times = [[] for _ in rows]
-    for repeat in range(repeats):
-        report(f"{task.name}, H = {task.hurst:g}: repeat {repeat + 1} of {repeats}")
-        times[0].append(timing.timed(path)[1:])
-        for run, seconds in zip(timed_runs, times[1:], strict=True):
-            seconds.append(run.measure())
-    for row, seconds in zip(rows, times, strict=True):
+            if met:
+                known = (solution.wall_s, solution.processor_s) if threads == 1 else None
+                races.append(_Race(path, partial(ask, [tolerance], threads=threads), known, rows[-1]))
+    for number in range(pairs):
+        report(f"{task.name}, H = {task.hurst:g}: pair {number + 1} of {pairs}")
+        for race in races:
+            race.run_pair(path_first=number % 2 == 0)
+    for race in races:
+        race.record()
+    for row, path in zip(rows, paths.values(), strict=False):
+        seconds = [own for race in races if race.path is path for own, _ in race.seconds] or [timing.timed(path)[1:]]
         row["wall_s"], row["processor_s"] = np.median(seconds, axis=0)
-        row["ratio"] = row["wall_s"] / rows[0]["wall_s"]
+        row |= dict.fromkeys(("ratio", "ratio_low", "ratio_high"), 1.0)
+    for row in rows:
         row["met"] = int(row["residual"] <= task.residual)
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
 @dataclass
-class _TimedRun:
-    """A run of another solver on the task, and the (wall, processor) seconds of the last one, None before the first."""
+class _Race:
+    """Pairs of runs of the path and of another solver, and the row that records them.
 
-    solve: partial
-    seconds: tuple | None
+    known : (wall, processor) seconds of the other solver if it has run with its tolerance before
+    """
 
-    def measure(self):
-        """Seconds of one more run; the last ones again where a run takes longer than MAX_REPEATED."""
-        if self.seconds is None or self.seconds[0] < MAX_REPEATED:
-            (solution,) = self.solve()
-            self.seconds = (solution.wall_s, solution.processor_s) if solution else (np.nan, np.nan)
-        return self.seconds
+    path: partial
+    other: partial
+    known: tuple | None
+    row: dict
+    seconds: list = field(default_factory=list)
+
+    def run_pair(self, *, path_first):
+        """One more pair; only one where a run of the other solver takes longer than MAX_REPEATED."""
+        if self.seconds and not self.known[0] < MAX_REPEATED:
+            return
+        own = timing.timed(self.path)[1:] if path_first else None
+        if self.known is None or self.known[0] < MAX_REPEATED:
+            (solution,) = self.other()
+            self.known = (solution.wall_s, solution.processor_s) if solution else (np.nan, np.nan)
+        self.seconds.append((own or timing.timed(self.path)[1:], self.known))
+
+    def record(self):
+        """Median times and ratios; the median ratio lies between the least and the largest with 1 − 2^(1−n)."""
+        if not self.seconds:
+            return
+        own, other = np.moveaxis(np.array(self.seconds), 1, 0)
+        ratios = other[:, 0] / own[:, 0]
+        self.row["wall_s"], self.row["processor_s"] = np.median(other, axis=0)
+        self.row["ratio"] = np.median(ratios)
+        if ratios.size > 1:
+            self.row["ratio_low"], self.row["ratio_high"] = ratios.min(), ratios.max()
 
 
-def _row_of_path(task, path, exact):
+def _row_of_path(task, path, threads, exact):
     curve, memory = timing.with_memory(path)
     return _about(task) | {
         "solver": "viscorough",
         "version": __version__,
-        "threads": 1,
+        "threads": threads,
         "tolerance": task.residual,
         "residual": curve.residual.max(),
         "iterations": curve.operator_applications,
@@ -146,10 +180,11 @@ def _about(task):
     return about | {"levels": len(task.depths)}
 
 
-def _loosest_tolerance(ask, required):
+def _loosest_tolerance(ask, required, fastest):
     """The loosest tolerance with which a solver meets the required residual, otherwise the best one, and its Solution.
 
     ask : returns the solver's Solutions for a list of tolerances, None where it has none
+    fastest : seconds of the fastest solver so far; one that takes HOPELESS times as long is not tried at looser ones
     The Solution is None if no tolerance gave any.
     """
     solutions = {}
@@ -160,7 +195,7 @@ def _loosest_tolerance(ask, required):
 
     i = TOLERANCE_RATIOS.index(FIRST_RATIO)
     if residual(i) <= required:
-        while i > 0 and residual(i - 1) <= required:
+        while i > 0 and solutions[i].wall_s < HOPELESS * fastest and residual(i - 1) <= required:
             i -= 1
     else:
         while i + 1 < len(TOLERANCE_RATIOS) and solutions[i] is not None:

@@ -23,3 +23,12 @@ class ContactSolver:
 
     def matvec(self, p):
         return dense_contact.displacement(p.reshape(self.shape), self.modulus, self.side).reshape(p.shape)
+
+
+def solve_nested(grid_size, gap, p_nominal, *, domain_size, E_star, coarsest, tol, backend, precision):
+    """The solution on the finest of the grids, whose numbers of points along a side are coarsest * 2^k."""
+    assert (grid_size % coarsest, (grid_size // coarsest).bit_count()) == (0, 1)
+    assert precision == "float_then_double"
+    start = np.ones(gap.size)
+    result = ContactSolver(grid_size, domain_size, E_star, backend=backend).solve(gap, p_nominal, tol, p_init=start)
+    return SimpleNamespace(pressure=result.pressure.ravel(), iterations=result.iterations)

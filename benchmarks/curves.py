@@ -3,8 +3,9 @@
     python benchmarks/curves.py --output results/benchmarks.json [--reproduction]
 
 The file has the name of the machine and one key for each function below: operator_ms, column_ms, operator_rounding,
-memory_bytes, parts, line, curve. Times are medians of repeats in one run; the repeats of what is compared are
-interleaved. `--reproduction` also times the default workflow from nothing, in a temporary folder.
+memory_bytes, parts, over_operators, line, curve; with `--only KEY`, that one. Times are medians of repeats in one run;
+the repeats of what is compared are interleaved. `--reproduction` also times the default workflow from nothing, in a
+temporary folder.
 """
 
 import argparse
@@ -178,6 +179,23 @@ def parts(points):
     return result
 
 
+def over_operators(hursts, across, repeats):
+    """Time of whole curves to 1e-3 over that of the half-space operators that they apply.
+
+    Returns rows of hurst, processor_s of the curve, ratio, and the number of operators; medians over the repeats.
+    """
+    rows = []
+    for hurst in hursts:
+        curve = partial(indent, self_affine_disc(hurst, across, seed=3), until_fraction=UNTIL)
+        applications = curve().operator_applications
+        measured = [shares(curve, {"operator": PARTS_OF_CURVE["operator"]}) for _ in range(repeats)]
+        seconds, share = (np.median([row[name] for row in measured]) for name in ("processor_s", "operator"))
+        row = {"hurst": hurst, "processor_s": float(seconds), "ratio": float(1 / share), "operators": applications}
+        rows.append(row)
+        print("disc of {e} at H = {hurst}: {ratio:.2f} times its {operators} operators".format(e=across, **row))
+    return rows
+
+
 def scipy_operator(load, kernel):
     """The same convolution with full padding."""
     shape = kernel.shape[:1] * 2
@@ -277,23 +295,27 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--output", type=Path, required=True, help="file to write, JSON")
     parser.add_argument("--reproduction", action="store_true", help="time the default workflow, too")
+    parser.add_argument("--only", metavar="KEY", help="only this key")
     parser.add_argument("--cores", type=int, default=2, help="cores of the workflow")
     parser.add_argument("--repeats", type=int, default=5, help="repeats of which the median is taken")
     arguments = parser.parse_args()
     if any(os.environ.get(name) != value for name, value in ENVIRONMENT.items()):
         os.environ.update(ENVIRONMENT)
         os.execv(sys.executable, [sys.executable, *sys.argv])
-    result = {
-        "machine": timing.machine(),
-        "viscorough": viscorough.__version__,
-        "operator_ms": operators(10 * arguments.repeats),
-        "column_ms": columns(10 * arguments.repeats),
-        "operator_rounding": rounding(arguments.repeats),
-        "memory_bytes": memory(4_000_000),
-        "parts": parts(4_000_000),
-        "line": lines((0.1, 0.6, 0.9), 4_000_000, 3 * arguments.repeats),
-        "curve": curves((0.1, 0.4, 0.6, 0.9), (1, 2), arguments.repeats),
+    repeats = arguments.repeats
+    measurements = {
+        "operator_ms": lambda: operators(10 * repeats),
+        "column_ms": lambda: columns(10 * repeats),
+        "operator_rounding": lambda: rounding(repeats),
+        "memory_bytes": lambda: memory(4_000_000),
+        "parts": lambda: parts(4_000_000),
+        "over_operators": lambda: over_operators((0.1, 0.4, 0.9), ELEMENTS, 3 * repeats),
+        "line": lambda: lines((0.1, 0.6, 0.9), 4_000_000, 3 * repeats),
+        "curve": lambda: curves((0.1, 0.4, 0.6, 0.9), (1, 2), repeats),
     }
+    keys = [arguments.only] if arguments.only else measurements
+    result = {"machine": timing.machine(), "viscorough": viscorough.__version__}
+    result |= {key: measurements[key]() for key in keys}
     result["memory_mb"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     if arguments.reproduction:
         result["reproduction"] = reproduction(arguments.cores)

@@ -32,6 +32,13 @@ def test_every_part_takes_time_and_is_restored(curves):
     assert functions == [pkgutil.resolve_name(name) for names in curves.PARTS_OF_CURVE.values() for name in names]
 
 
+def test_a_curve_takes_longer_than_its_operators(curves):
+    (row,) = curves.over_operators([0.6], 65, 1)
+    assert row["ratio"] > 1
+    disc = self_affine_disc(0.6, 65, seed=3)
+    assert row["operators"] == curves.indent(disc, until_fraction=curves.UNTIL).operator_applications
+
+
 def test_stopwatch_counts_the_time_within(curves, monkeypatch):
     def work():
         end = time.process_time() + 0.02

@@ -74,6 +74,8 @@ def solve(elements, contact, depth, candidates, max_count):
     set is that of the given contact, with the pressure P + Δu q, or all candidates if the given contact has no members.
     Raises ConvergenceError if the set still changes after the largest number of iterations.
     """
+    if contact.count >= max_count and candidates > max_count:
+        return None  # the contact only grows
     if contact.count:
         members, tangent = contact.members, contact.tangent
         pressure = contact.reduced_pressure + (depth - contact.reduced_depth) * tangent

@@ -9,6 +9,9 @@ import numpy as np
 from viscorough.compilation import njit
 from viscorough.contact.preconditioner import REACH
 
+# Places of a field that are searched for those in contact at a time.
+_PLACES_AT_ONCE = 1024
+
 
 @njit(fastmath=True, nogil=True)
 def inner_product(left, right, slots):
@@ -27,12 +30,19 @@ def contact_places(inside, start, stop, width, stride, end, places, slots):
     stride : length of a row of the load array
     end : of their entries in `places` and `slots`
     """
-    t = end
-    for i in range(stop - 1, start - 1, -1):
-        if inside[i]:
-            t -= 1
-            row, column = divmod(i, width)
-            places[t], slots[t] = i, (row - REACH) * stride + column - REACH
+    found = np.empty(_PLACES_AT_ONCE, places.dtype)
+    for last in range(stop, start, -_PLACES_AT_ONCE):
+        first, count = max(last - _PLACES_AT_ONCE, start), 0
+        for i in range(first, last):
+            found[count] = i  # overwritten unless in contact, which takes less time than a branch
+            count += inside[i]
+        end -= count
+        row, column = divmod(first, width)
+        next_row, shift = first - column + width, (row - REACH) * stride - REACH - (first - column)
+        for t in range(count):
+            while found[t] >= next_row:
+                next_row, shift = next_row + width, shift + stride - width
+            places[end + t], slots[end + t] = found[t], found[t] + shift
 
 
 @njit(nogil=True)
@@ -83,19 +93,17 @@ def energies(
 
     The deflections are K P = (e − g) + u and K q = e_q + 1. Returns arrays of shapes (3, 3) and (3,).
     """
-    products, sums = np.zeros((3, 3)), np.zeros(3)
-    load, deflection = np.empty(3), np.empty(3)
+    a = b = c = aa = ab = ac = ba = bb = bc = ca = cb = cc = 0.0
     for t in range(places.size):
         i = places[t]
-        load[0], load[1], load[2] = pressure[i], last_pressure[i], last_tangent[i]
-        deflection[0] = gap_change[i] + depths[0]
-        deflection[1] = last_gap_change[i] + depths[1]
-        deflection[2] = last_tangent_gap[i] + 1.0
-        for a in range(3):
-            sums[a] += load[a]
-            for b in range(3):
-                products[a, b] += load[a] * deflection[b]
-    return products, sums
+        load, last, tangent = np.float64(pressure[i]), np.float64(last_pressure[i]), np.float64(last_tangent[i])
+        by_load, by_last = gap_change[i] + depths[0], last_gap_change[i] + depths[1]
+        by_tangent = last_tangent_gap[i] + 1.0
+        a, b, c = a + load, b + last, c + tangent
+        aa, ab, ac = aa + load * by_load, ab + load * by_last, ac + load * by_tangent
+        ba, bb, bc = ba + last * by_load, bb + last * by_last, bc + last * by_tangent
+        ca, cb, cc = ca + tangent * by_load, cb + tangent * by_last, cc + tangent * by_tangent
+    return np.array([[aa, ab, ac], [ba, bb, bc], [ca, cb, cc]]), np.array([a, b, c])
 
 
 @njit(nogil=True)

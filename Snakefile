@@ -96,6 +96,7 @@ rule figures:
         rules.plot_level_placement.output,
         rules.plot_media.output,
         rules.plot_sizes.output,
+        rules.plot_collapse.output,
 
 
 rule tables:
@@ -113,6 +114,7 @@ rule tables:
         rules.compare_level_placement.output,
         rules.compute_media.output,
         rules.fit_sizes.output,
+        rules.fit_collapse.output,
 
 
 rule validation:
@@ -145,6 +147,7 @@ rule stability:
 rule sizes:
     input:
         rules.plot_sizes.output,
+        rules.plot_collapse.output,
 
 
 rule large:

@@ -48,7 +48,15 @@ PUBLISHED = {
     "stability": (
         *("figures/failure_map.png", "figures/failure_curves.png", "tables/failure_map.csv", "campaign.json"),
     ),
-    "sizes": ("figures/sizes.png", "tables/sizes.csv", "tables/sizes_trends.csv"),
+    "sizes": (
+        "figures/sizes.png",
+        "figures/collapse.png",
+        "tables/sizes.csv",
+        "tables/sizes_trends.csv",
+        "tables/collapse.csv",
+        "tables/infinite_grid.csv",
+        "tables/needed_grids.csv",
+    ),
     "large": ("figures/large.png", "tables/large.csv"),
     "seeds": (),
 }

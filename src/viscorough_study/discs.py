@@ -1,7 +1,10 @@
-"""One self-affine disc of an ensemble, and its rms heights by every convention."""
+"""Discs of an ensemble: one realization and its rms heights by every convention, number of elements, flat disc."""
+
+from functools import cache
 
 import numpy as np
 
+from viscorough import contact_at
 from viscorough.indenter import Indenter
 from viscorough.surfaces import cut_disc, square_of_disc
 
@@ -26,9 +29,16 @@ def ensemble_disc(elements, surface, seed):
     return indenter, {name: float(height * factor) for name, height in rms.items()}
 
 
+@cache
+def punch_stiffness(elements_across):
+    """κ_c of a flat disc of so many elements across, by boundary elements; 1 for ever finer grids."""
+    disc = cut_disc(np.zeros((elements_across, elements_across)), elements_across)
+    return contact_at(Indenter(disc, 1 / elements_across), depth=1.0, tolerance=1e-5).stiffness / 4
+
+
 def elements_across(elements):
     """Elements across the disc that has so many elements.
 
-    A disc of n elements across holds those whose centres lie within (n − 1)/2 of its centre, about π (n − 1)²/4 of them.
+    With n across, the disc holds those whose centres lie within (n − 1)/2 of its centre, about π (n − 1)²/4 of them.
     """
     return round(1 + np.sqrt(4 * elements / np.pi))

@@ -1,10 +1,18 @@
-"""Exponents over the number of elements: is a departure from H/(1 + H) a property of the surface or of the grid?"""
+"""Exponents over the number of elements: does a departure from H/(1 + H) change with the grid, and where?
+
+The window of region (b) moves with the grid: a finer one opens smaller X. In windows of fixed X the grid alone changes.
+A departure that becomes smaller in the moving window but not in the fixed ones is that of the X at which it was fitted,
+not of the grid.
+"""
+
+from itertools import product
 
 import numpy as np
 import pandas as pd
 
 from viscorough.reference import exponent_beta
-from viscorough_study.conventions import fits, of_source
+from viscorough_study.conventions import FITTED, fits, of_source
+from viscorough_study.power_law import fit_power_law, in_window
 
 FINDINGS = (
     "agrees on the finest grid",
@@ -14,10 +22,11 @@ FINDINGS = (
 )
 COLUMNS = {
     "source": ("discs by boundary elements, lines by the MDR, controls: discs whose spectrum has a roll-off", ""),
+    "window_rule": ("rule of the window, which moves with the grid, or its fixed ends in X", ""),
     "hurst": ("Hurst exponent", "1"),
-    "grids": ("grids that have a region (b)", "1"),
+    "grids": ("grids that have a fit in this window", "1"),
     "elements": ("elements of the finest grid", "1"),
-    "beta": ("exponent of region (b) on the finest grid", "1"),
+    "beta": ("exponent in this window on the finest grid", "1"),
     "beta_low": ("lower end of its 95 % interval", "1"),
     "beta_high": ("upper end of its 95 % interval", "1"),
     "expected": ("H/(1 + H), Eq. 10; 0 for controls", "1"),
@@ -32,7 +41,8 @@ ERROR_MIN = 1e-12  # of an exponent, so that equal curves have a finite weight
 def trends(table, conventions, tolerance):
     """Trend of β over the logarithm of the number of elements, for every source and Hurst exponent.
 
-    table : of workflow/scripts/fit_sizes.py; conventions : {convention: value}
+    table : of workflow/scripts/fit_sizes.py; conventions : {convention: value}; window_rule is that of the windows
+        that move with the grid, beside which are the fixed ones of the table
     tolerance : of β, that of the claims on β in resources/paper/claims.yaml
 
     The trend is a line by least squares, weighted by the intervals of β, and its own interval is widened where β
@@ -41,13 +51,41 @@ def trends(table, conventions, tolerance):
     Returns a pandas.DataFrame with the columns of `COLUMNS`.
     """
     rows = []
-    for name in ("discs", "controls", "lines"):
-        wanted = of_source("lines" if name == "lines" else "discs")
+    for name, rule in product(("discs", "controls", "lines"), [conventions["window_rule"], *fixed_rules(table)]):
+        wanted = of_source("lines" if name == "lines" else "discs") | {"window_rule": rule}
         wanted["case_group"] = "controls" if name == "controls" else "sizes"
         for hurst, grids in fits(table, conventions | wanted).groupby("hurst"):
             expected = 0.0 if name == "controls" else exponent_beta(hurst)
-            rows.append((name, hurst, *_trend(grids.sort_values("elements"), expected, tolerance)))
+            rows.append((name, rule, hurst, *_trend(grids.sort_values("elements"), expected, tolerance)))
     return pd.DataFrame(rows, columns=list(COLUMNS))
+
+
+def fixed_rules(table):
+    """Names of the fixed windows in a table of fits, in its order."""
+    return [rule for rule in dict.fromkeys(table["window_rule"]) if rule not in FITTED["window_rule"]]
+
+
+def fixed_window_rows(ensemble, windows, about, *, average, rms_convention, elements_min, fraction_min, **bootstrap):
+    """Fits (dicts) of an ensemble in windows of fixed X, of those where they can be fitted; named by their ends.
+
+    windows : [(X_low, X_high)]; about : source and case_group; bootstrap : resamples and seed
+    A window is fitted where the median of the elements in contact is elements_min at least at its lower end, as in
+    region (b), and a share fraction_min of the realizations is defined throughout.
+    """
+    own = of_source(about["source"]).get("rms_convention", rms_convention)
+    one, x, rows = ensemble.sel(rms_convention=own), ensemble["x"].values, []
+    for low, high in windows:
+        inside = in_window(x, (low, high))
+        enough = one["contact_count_median"].values[inside][:1] >= elements_min
+        if not (enough.all() and (one["fraction_defined"].values[inside] >= fraction_min).all()):
+            continue
+        fit = fit_power_law(x, one["velocity"].values, (low, high), average=average, **bootstrap)
+        row = about | {"hurst": ensemble["hurst"].item(), "rms_convention": own, "average": average}
+        row |= {"window_rule": f"X = {low:g} to {high:g}", "x_low": low, "x_high": high}
+        row |= {"decades": np.log10(high / low), "realizations": one.sizes["realization"], "beta": fit.beta}
+        row["beta_low"], row["beta_high"] = fit.beta_interval
+        rows.append(row | {"zeta": fit.zeta()[0], "residual": fit.residual})
+    return rows
 
 
 def _trend(grids, expected, tolerance):

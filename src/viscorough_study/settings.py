@@ -190,6 +190,7 @@ def _too_short_wave(settings):
 
 def _empty_range(settings):
     ranges = {f"{part}.x_low and x_high": (settings[part]["x_low"], settings[part]["x_high"]) for part in _RANGES}
+    ranges |= {f"sizes.windows[{i}]": window for i, window in enumerate(settings["sizes"]["windows"])}
     ranges["media.times.low and high"] = settings["media"]["times"]["low"], settings["media"]["times"]["high"]
     for name, (low, high) in ranges.items():
         if high < 9.99 * low:  # rounded

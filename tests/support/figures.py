@@ -1,5 +1,7 @@
 """Small tables for the figures, and what the figures made from them show."""
 
+from itertools import product
+
 import numpy as np
 import pandas as pd
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -10,6 +12,7 @@ from viscorough_study.ensembles import abscissa
 from viscorough_study.figures.measured import plot_measured
 from viscorough_study.fit_table import COLUMNS as SCALING_COLUMNS
 from viscorough_study.performance import measurement
+from viscorough_study.scaling_collapse import QUANTITIES, Grid
 
 HURST = (0.4, 0.9)
 COMBINATIONS = {
@@ -148,16 +151,48 @@ def level_placement_table():
 
 
 def sizes_table():
-    """Discs and lines of two Hurst exponents on three grids, the coarsest without region (b), and one control."""
+    """Discs and lines of two Hurst exponents on three grids, the coarsest without region (b), and one control.
+
+    In a window of fixed X, all exponents are 0.35.
+    """
+    fixed = {"window_rule": "X = 0.01 to 0.1"}
     rows = [
-        fit_row(case_group="sizes", hurst=hurst, beta=beta, beta_low=0.2, beta_high=0.4)
+        fit_row(case_group="sizes", hurst=hurst, beta=beta, beta_low=0.2, beta_high=0.4, realizations=realizations)
         | of_source(source)
         | {"elements": n}
+        | window
         for source in ("discs", "lines")
         for hurst in (0.3, 0.7)
-        for n, beta in ((100, np.nan), (1000, 0.3), (10000, 0.31))
+        for n, realizations, moving in ((100, 8, np.nan), (1000, 6, 0.3), (10000, 4, 0.31))
+        for window, beta in (({}, moving), (fixed, 0.35))
     ]
-    return pd.DataFrame([*rows, rows[1] | {"case_group": "controls", "beta": 0.01}])
+    return pd.DataFrame([*rows, rows[2] | {"case_group": "controls", "beta": 0.01}])
+
+
+def grids_of_sizes():
+    """{H: grids} whose curves are X^(H/(1+H)) for two Hurst exponents on two grids, without resamples."""
+    log_x = np.log(10.0) * np.arange(-4, 0.1, 0.1)
+    return {
+        hurst: [
+            Grid(number, 4, log_x, (hurst / (1 + hurst) * log_x + 0.5)[None], np.full(log_x.size, 20.0), 1.0, 1.0)
+            for number in (33, 129)
+        ]
+        for hurst in (0.4, 0.9)
+    }
+
+
+def collapse_tables():
+    """Tables of the collapse and of the infinitely fine grid for discs of two Hurst exponents."""
+    about = {"source": "discs", "height": "spectrum", "x_high": 0.03}
+    collapse, infinite = [], []
+    for hurst, quantity in product((0.4, 0.9), QUANTITIES):
+        row = about | {"hurst": hurst, "quantity": quantity, "expected": hurst / (1 + hurst)}
+        collapse.append(row | {"beta_low": row["expected"] - 0.02, "beta_high": row["expected"] + 0.02})
+        for law in ("power", "corrected"):
+            beta = row["expected"] + 0.03
+            infinite.append(row | {"law": law, "beta": beta, "beta_low": beta - 0.05, "beta_high": beta + 0.05})
+    collapse.append(collapse[-1] | {"hurst": 1.0, "beta_low": np.nan, "beta_high": np.nan})
+    return pd.DataFrame(collapse), pd.DataFrame(infinite)
 
 
 def large_table():

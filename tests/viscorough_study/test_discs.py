@@ -7,7 +7,7 @@ from support.workflow import load_script, read_settings
 from viscorough.io import netcdf
 from viscorough.surfaces import cut_disc, self_affine_square
 from viscorough_study import cases
-from viscorough_study.discs import elements_across, ensemble_disc
+from viscorough_study.discs import elements_across, ensemble_disc, punch_stiffness
 from viscorough_study.seeds import realization_seed
 
 
@@ -69,3 +69,8 @@ def test_a_realization_is_the_same_in_every_batch(tmp_path, kind):
 def test_elements_across_follow_from_their_number(across):
     elements = np.isfinite(cut_disc(np.zeros((across, across)), across)).sum()
     assert elements_across(elements) == across
+
+
+def test_stiffness_of_a_flat_disc_approaches_that_of_the_punch_at_first_order():
+    errors = np.array([(1 - punch_stiffness(across)) * across for across in (33, 65, 129)])
+    np.testing.assert_allclose(errors, 1.3, rtol=0.05)

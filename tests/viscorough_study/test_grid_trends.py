@@ -4,9 +4,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from support.study import SHOWN, fit_row
+from support.study import BOOTSTRAP, SHOWN, ensemble, fit_row
 from viscorough.reference import exponent_beta
-from viscorough_study.grid_trends import COLUMNS, FINDINGS, trends
+from viscorough_study.fit_table import COLUMNS as SCALING
+from viscorough_study.grid_trends import COLUMNS, FINDINGS, fixed_window_rows, trends
 
 TOLERANCE = 0.03
 ELEMENTS = np.array([1e3, 1e4, 1e5, 1e6])
@@ -52,6 +53,25 @@ def test_slope_and_its_interval():
     scattered = trends(table(0.3 - 0.05 * np.arange(4) + 0.05 * np.array([1, -1, -1, 1])), SHOWN, TOLERANCE).iloc[0]
     assert scattered["slope"] == pytest.approx(-0.05)
     assert scattered["slope_high"] - scattered["slope"] > 3 * half
+
+
+def test_fixed_windows_beside_the_moving_one():
+    fixed = table(np.full(4, 0.2)).assign(window_rule="X = 0.01 to 0.1")
+    found = trends(pd.concat([table(np.array([0.3, 0.25, 0.2, 0.15])), fixed]), SHOWN, TOLERANCE)
+    assert found["window_rule"].tolist() == ["default", "X = 0.01 to 0.1"]
+    assert found["finding"].tolist() == ["departs, and less on finer grids", "departs on every grid"]
+
+
+def test_fits_in_windows_of_fixed_x():
+    """Of a power law; a window that begins before enough elements are in contact has no fit."""
+    about = {"source": "discs", "case_group": "sizes"}
+    how = {"average": "geometric", "rms_convention": "disc", "elements_min": 10, "fraction_min": 0.95, **BOOTSTRAP}
+    windows = [(1e-5, 1e-4), (1e-3, 1e-2), (1e-2, 1e-1)]
+    rows = fixed_window_rows(ensemble(0.6, "c1", 1.2, scatter=0.0), windows, about, **how)
+    assert [row["window_rule"] for row in rows] == ["X = 0.001 to 0.01", "X = 0.01 to 0.1"]
+    assert [row["beta"] for row in rows] == pytest.approx([exponent_beta(0.6)] * 2)
+    assert (rows[0]["x_low"], rows[0]["x_high"], rows[0]["decades"]) == pytest.approx((1e-3, 1e-2, 1.0))
+    assert set(rows[0]) < set(SCALING)
 
 
 def test_other_conventions_do_not_enter():

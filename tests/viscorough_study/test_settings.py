@@ -22,7 +22,7 @@ TASK = {"name": "few", "elements": 33, "levels": 8, "fractions": [0.01, 0.5], "r
 COMBINATION = {"number": 1, "force": 1.0, "viscosity": 1.0, "diameter": 1.0, "rms": 1e-3}
 WRONG = [
     ({"discs": {"elemnts": 33}}, "unknown key elemnts in discs; did you mean elements?"),
-    ({"colour": "blue"}, "unknown key colour; allowed: direct, discs, ensemble"),
+    ({"colour": "blue"}, "unknown key colour; allowed: collapse, direct, discs"),
     ({"discs": {"elements": "many"}}, "discs.elements is 'many'; allowed: a whole number from 9 up to 4097"),
     ({"discs": {"elements": 33.0}}, "discs.elements is 33.0; allowed: a whole number"),
     ({"discs": {"realizations": True}}, "discs.realizations is True; allowed: a whole number"),
@@ -82,6 +82,7 @@ WRONG = [
     ({"discs": {"hurst": [0.4, 0.33]}}, "discs.hurst has 0.33, lines.hurst has not"),
     ({"lines": {"hurst": [0.12345]}}, "lines.hurst has 0.12345; allowed: at most four decimals"),
     ({"ensemble": {"x_low": 40.0}}, "ensemble.x_low and x_high: 40.0 and 30.0 are less than a decade"),
+    ({"sizes": {"windows": [[0.01, 0.02]]}}, "sizes.windows[0]: 0.01 and 0.02 are less than a decade"),
     ({"reduction": {"x_low": 3.0}}, "reduction.x_low is 3.0; allowed: a number from 1e-15 up to 0.1"),
     ({"reduction": {"x_low": 0.1, "x_high": 0.1000001}}, "0.1 and 0.1000001 are less than a decade"),
     ({"methods": {"groups": ["path", "paths"]}}, "methods.groups[1] is 'paths'; allowed: one of path, path without"),

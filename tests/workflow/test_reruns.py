@@ -22,7 +22,7 @@ FITS_AND_FIGURES = FITS | AFTER_FITS
 BOUNDARY_ELEMENTS = {"indent_discs", "compare_direct", "compare_reduction", "validate"}
 BOUNDARY_ELEMENTS |= {"measure_methods", "map_failures", "compare_level_placement"}
 MEDIA = {"compute_media", "plot_media"}
-SIZES = {"fit_sizes", "plot_sizes"}
+SIZES = {"fit_sizes", "plot_sizes", "fit_collapse", "plot_collapse"}
 SPEED = {"measure_methods", "tabulate_methods", "plot_speed"}
 LAST = {"tabulate_rule_costs", "make_page"}  # made again with whatever is
 
@@ -150,7 +150,16 @@ def test_a_changed_line_of_the_column_convolution_reruns_what_uses_boundary_elem
     [
         (
             "viscorough_study/power_law.py",
-            {"fit_scaling", "fit_sizes", "compute_media", "evaluate_measured", "judge_claims", "make_page"}
+            {
+                "fit_scaling",
+                "fit_sizes",
+                "fit_collapse",
+                "plot_collapse",
+                "compute_media",
+                "evaluate_measured",
+                "judge_claims",
+                "make_page",
+            }
             | {"match_lines", "plot_mdr_lambda"},
         ),
         ("viscorough_study/validate_solvers.py", {"validate", "check_validation"}),

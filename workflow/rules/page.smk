@@ -17,6 +17,7 @@ PAGE_FIGURES = {
     "validation": rules.plot_validation,
     "media": rules.plot_media,
     "sizes": rules.plot_sizes,
+    "collapse": rules.plot_collapse,
 } | ({"measured": rules.plot_measured} if MEASURED else {})
 
 

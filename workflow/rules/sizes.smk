@@ -35,6 +35,7 @@ rule fit_sizes:
     params:
         seed=config["seed"],
         fit=config["scaling"],
+        windows=config["sizes"]["windows"],
         tolerance=paper("claims")["beta"]["tolerance"],
         conventions=config["figures"],
     message:
@@ -70,6 +71,90 @@ rule plot_sizes:
         "Figure of exponents on grids from coarse to fine"
     script:
         "../scripts/plot_sizes.py"
+
+
+rule fit_collapse:
+    input:
+        discs="results/ensembles/size_discs.nc",
+        lines="results/ensembles/size_lines.nc",
+    output:
+        collapse_csv="results/tables/collapse.csv",
+        collapse_html=report(
+            "results/tables/collapse.html",
+            caption="../report/collapse_table.rst",
+            category=chapter("beyond"),
+            labels={"result": "collapse of the curves of all grids", "kind": "table"},
+        ),
+        collapse_nc="results/tables/collapse.nc",
+        infinite_csv="results/tables/infinite_grid.csv",
+        infinite_html=report(
+            "results/tables/infinite_grid.html",
+            caption="../report/infinite_grid.rst",
+            category=chapter("beyond"),
+            labels={"result": "exponents of an infinitely fine grid", "kind": "table"},
+        ),
+        infinite_nc="results/tables/infinite_grid.nc",
+        needed_csv="results/tables/needed_grids.csv",
+        needed_html=report(
+            "results/tables/needed_grids.html",
+            caption="../report/needed_grids.rst",
+            category=chapter("beyond"),
+            labels={"result": "grids needed for an exponent", "kind": "table"},
+        ),
+        needed_nc="results/tables/needed_grids.nc",
+    log:
+        "results/logs/fit_collapse.log",
+    benchmark:
+        "results/benchmarks/fit_collapse.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+    params:
+        ranges=config["collapse"],
+        conventions=config["figures"],
+        fraction_min=config["scaling"]["fraction_min"],
+        tolerance=paper("claims")["beta"]["tolerance"],
+        seed=config["seed"],
+    message:
+        "Collapse of the curves of all grids, and the exponent of an infinitely fine grid"
+    script:
+        "../scripts/fit_collapse.py"
+
+
+rule plot_collapse:
+    input:
+        discs="results/ensembles/size_discs.nc",
+        collapse=rules.fit_collapse.output.collapse_csv,
+        infinite=rules.fit_collapse.output.infinite_csv,
+    output:
+        png=report(
+            "results/figures/collapse.png",
+            caption="../report/collapse.rst",
+            category=chapter("beyond"),
+            labels={"result": "collapse of the curves of all grids", "kind": "figure"},
+        ),
+        pdf="results/figures/collapse.pdf",
+    log:
+        "results/logs/plot_collapse.log",
+    benchmark:
+        "results/benchmarks/plot_collapse.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+    params:
+        ranges=config["collapse"],
+        conventions=config["figures"],
+        fraction_min=config["scaling"]["fraction_min"],
+    message:
+        "Figure of the collapse of the curves of all grids"
+    script:
+        "../scripts/plot_collapse.py"
 
 
 rule measure_large:

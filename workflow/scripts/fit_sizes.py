@@ -5,24 +5,29 @@ import pandas as pd
 from viscorough.io.datasets import read_dataset
 from viscorough_study.fit_table import COLUMNS, fit_rows
 from viscorough_study.grid_trends import COLUMNS as TRENDS
-from viscorough_study.grid_trends import trends
+from viscorough_study.grid_trends import fixed_window_rows, trends
 from viscorough_study.job_log import log_to, progress
 from viscorough_study.pool import ensembles_on_grids, select
 from viscorough_study.tables import write_table
 
 
-def main(discs, lines, csv, html, nc, trends_csv, trends_html, trends_nc, *, seed, fit, conventions, tolerance):
-    """Fit every ensemble by itself.
+def main(
+    discs, lines, csv, html, nc, trends_csv, trends_html, trends_nc, *, seed, fit, windows, conventions, tolerance
+):
+    """Fit every ensemble by itself, in the windows of region (b) and in those of fixed X.
 
-    discs, lines : pools; fit : further arguments of fit_rows; conventions : those of the figures
-    tolerance : of the exponents
+    discs, lines : pools; fit : further arguments of fit_rows; windows : [(X_low, X_high)]
+    conventions : those of the figures; tolerance : of the exponents
     """
+    fixed = {name: fit[name] for name in ("elements_min", "fraction_min", "resamples")} | {"seed": seed}
+    fixed |= {name: conventions[name] for name in ("average", "rms_convention")}
     discs, lines = read_dataset(discs), read_dataset(lines)
     rows = []
     for source, group, pool in (("discs", "sizes", discs), ("discs", "controls", discs), ("lines", "sizes", lines)):
-        grids = ensembles_on_grids(select(pool, group=group)).values()
+        about, grids = {"source": source, "case_group": group}, ensembles_on_grids(select(pool, group=group)).values()
         for ensemble in progress(grids, len(grids), f"{source}, {group}"):
-            fits = fit_rows(ensemble, source=source, case_group=group, seed=seed, **fit)
+            fits = fit_rows(ensemble, **about, seed=seed, **fit)
+            fits += fixed_window_rows(ensemble, windows, about, **fixed)
             rows += [row | {"elements": ensemble["elements"].item()} for row in fits]
     columns = COLUMNS | {"elements": ("elements of an indenter: of a disc, points of a line", "1")}
     table = pd.DataFrame(rows, columns=list(columns))

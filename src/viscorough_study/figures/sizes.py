@@ -18,39 +18,56 @@ from viscorough_study.figures.style import (
     mark_with_interval,
     require_rows,
 )
+from viscorough_study.grid_trends import fixed_rules
+
+CONTROL = {"color": GREY, "marker": "x", "linestyle": ""}
 
 
 @rc_context(STYLE)
 def plot_sizes(table, conventions):
-    """β of region (b) over the number of elements, discs (a) and lines (b), one colour for each Hurst exponent.
+    """β over the number of elements, of discs (a) and lines (b) in region (b), and in a fixed window (c), (d).
 
     table : that of fit_sizes; conventions : {column of it: value}
-    Dotted lines are H/(1 + H), Eq. 10; crosses are controls, discs whose spectrum rolls off.
+    The fixed window is that at the largest X. One colour for each Hurst exponent; dotted lines are H/(1 + H), Eq. 10;
+    crosses are controls, discs whose spectrum rolls off.
     Raises ValueError for a table without rows.
     """
     require_rows("plot_sizes", table)
-    figure = Figure(figsize=(WIDE, 85 * MM))
-    panels = dict(zip(("discs", "lines"), figure.subplots(1, 2, sharey=True), strict=True))
+    rules = [conventions["window_rule"], *fixed_rules(table)[-1:]]
+    figure = Figure(figsize=(WIDE, (25 + 60 * len(rules)) * MM))
+    panels = figure.subplots(len(rules), 2, sharey=True, squeeze=False)
     looks = hurst_looks(table.loc[table["case_group"] == "sizes", "hurst"])
-    for rank, (hurst, look) in enumerate(looks.items()):
-        for source, axes in panels.items():
-            own_rms = {"rms_convention": "line"} if source == "lines" else {}
-            rows = fits(table, conventions | own_rms, source=source, case_group="sizes", hurst=hurst)
-            axes.axhline(exponent_beta(hurst), color=look["color"], linestyle=":", linewidth=0.8)
-            for row in rows.sort_values("elements").itertuples():
-                shifted = row.elements * 1.06 ** (rank - len(looks) / 2)  # so that intervals do not hide each other
-                mark_with_interval(axes, shifted, row.beta, (row.beta_low, row.beta_high), look)
-    control = {"color": GREY, "marker": "x", "linestyle": ""}
-    for row in fits(table, conventions, source="discs", case_group="controls").itertuples():
-        mark_with_interval(panels["discs"], row.elements, row.beta, (row.beta_low, row.beta_high), control)
-    for (source, axes), title in zip(panels.items(), ("(a) boundary elements", "(b) MDR"), strict=True):
-        numbers = table.loc[(table["source"] == source) & (table["case_group"] == "sizes"), "realizations"]
-        title += f", {count_text(numbers)} {source} each" if len(numbers) else ""
-        label = "elements of a disc" if source == "discs" else "points of a line"
-        axes.set(xscale="log", title=title, xlabel=label, ylim=(-0.05, 0.7))
-    panels["discs"].set_ylabel(r"exponent $\beta$ of region (b)")
-    logarithmic_ticks(*panels.values())
-    handles = [*hurst_handles(looks, linestyle=""), Line2D([], [], label="control, roll-off", **control)]
+    letters = iter("abcd")
+    for row, rule in zip(panels, rules, strict=True):
+        window = "region (b)" if rule == conventions["window_rule"] else rule
+        for axes, source, name in zip(row, ("discs", "lines"), ("boundary elements", "MDR"), strict=True):
+            _panel(axes, table, conventions | {"window_rule": rule}, source, looks)
+            axes.set_title(f"({next(letters)}) {name}, {_realizations(table, source)}, {window}")
+        row[0].set_ylabel(r"exponent $\beta$")
+    logarithmic_ticks(*panels.flat)
+    handles = [*hurst_handles(looks, linestyle=""), Line2D([], [], label="control, roll-off", **CONTROL)]
     handles.append(Line2D([], [], color=GREY, linestyle=":", linewidth=0.8, label="$H/(1+H)$, Eq. 10"))
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
     return figure
+
+
+def _realizations(table, source):
+    """Number of discs or lines of an ensemble in words."""
+    numbers = table.loc[(table["source"] == source) & (table["case_group"] == "sizes"), "realizations"]
+    return f"{count_text(numbers)} {source}" if len(numbers) else source
+
+
+def _panel(axes, table, conventions, source, looks):
+    """β of discs or lines in one window."""
+    own_rms = {"rms_convention": "line"} if source == "lines" else {}
+    for rank, (hurst, look) in enumerate(looks.items()):
+        rows = fits(table, conventions | own_rms, source=source, case_group="sizes", hurst=hurst)
+        axes.axhline(exponent_beta(hurst), color=look["color"], linestyle=":", linewidth=0.8)
+        for row in rows.sort_values("elements").itertuples():
+            shifted = row.elements * 1.06 ** (rank - len(looks) / 2)  # so that intervals do not hide each other
+            mark_with_interval(axes, shifted, row.beta, (row.beta_low, row.beta_high), look)
+    if source == "discs":
+        for row in fits(table, conventions, source="discs", case_group="controls").itertuples():
+            mark_with_interval(axes, row.elements, row.beta, (row.beta_low, row.beta_high), CONTROL)
+    label = "elements of a disc" if source == "discs" else "points of a line"
+    axes.set(xscale="log", xlabel=label, ylim=(-0.05, 0.7))

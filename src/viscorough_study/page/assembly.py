@@ -14,6 +14,7 @@ FURTHER = {
     "direct": "Direct integration in time against both readings of the law",
     "reduction": "The reduction of dimensionality, surface by surface",
     "sizes": "Exponents on grids from coarse to fine",
+    "collapse": "The curves of all grids as one scaling law",
 }
 
 

@@ -33,6 +33,8 @@ ALTERNATIVE_TEXTS = {
     "media": "Double-logarithmic charts of velocity over time in several media, and of depth over creep compliance, "
     "where the points of all media lie on one curve for each Hurst exponent.",
     "sizes": "Exponent beta over the number of elements, of discs, of lines and of a control without a power law.",
+    "collapse": "Scaled curves of grids from coarse to fine, which fall on one another for each Hurst exponent, and "
+    "the exponents less H/(1 + H) that this allows.",
     "measured": "Velocity of the measured surfaces over dimensionless force beside that of generated discs, and their "
     "depth over time under the forces of the settings.",
     "validation": "Errors against exact solutions over the number of elements across, falling as expected.",

@@ -18,6 +18,7 @@ from support.study import BASE_SURFACES, ROOT, SHOWN
 from support.workflow import read_settings
 from viscorough.surfaces import self_affine_disc
 from viscorough_study.figures.all_methods import plot_all_methods
+from viscorough_study.figures.collapse import plot_collapse
 from viscorough_study.figures.conventions import plot_conventions
 from viscorough_study.figures.direct_integration import plot_direct_integration
 from viscorough_study.figures.exponent import plot_exponent
@@ -71,6 +72,7 @@ def drawn(discs, pooled, lines, scaling, combinations):
         "media": Drawn(plot_media(tables.media_table()), {"medium": 2}),
         "measured": Drawn(tables.measured_figure(pooled, scaling)),
         "sizes": Drawn(plot_sizes(tables.sizes_table(), SHOWN)),
+        "collapse": Drawn(plot_collapse(tables.grids_of_sizes(), *tables.collapse_tables())),
         "large": Drawn(plot_large(tables.large_table())),
         "speed": Drawn(plot_speed(tables.methods_table())),
         "all_methods": Drawn(plot_all_methods(tables.methods_table()), {"indenter": 2}),

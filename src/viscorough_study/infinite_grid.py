@@ -1,0 +1,164 @@
+"""The exponent of an infinitely fine grid: one power law with a correction to scaling, fitted to all grids at once.
+
+    vt/h = A X^β exp(B X^ω),    and the same for the interface, vt/h − X/κ_c
+
+To first order the correction is the factor 1 + B X^ω of the theory of corrections to scaling; as an exponential it
+leaves ln(vt/h) linear in ln A, β and B for a given ω, so that all resamples are fitted at once. What a fit depends on
+beside the realizations is the range: the elements in contact at which it begins and the X at which it ends. The range
+has an interval of its own, from the lowest to the highest end of the intervals of all ranges.
+"""
+
+from itertools import product
+
+import numpy as np
+import pandas as pd
+
+from viscorough.reference import exponent_beta
+from viscorough_study.scaling_collapse import HEIGHTS, QUANTITIES
+
+OMEGA = np.round(np.arange(0.2, 1.51, 0.1), 1)  # exponents of the correction that are tried
+ERRORS = (0.05, 0.02, 0.01)  # of β, for which the grid needed is estimated
+FINDINGS = ("agrees", "departs", "undecided")
+COLUMNS = {
+    "source": ("discs by boundary elements, lines by the MDR", ""),
+    "hurst": ("Hurst exponent", "1"),
+    "quantity": ("; ".join(f"{name}: {text}" for name, text in QUANTITIES.items()), ""),
+    "height": ("; ".join(f"{name}: {text}" for name, text in HEIGHTS.items()), ""),
+    "law": ("power: A X^β; corrected: A X^β exp(B X^ω)", ""),
+    "grids": ("grids fitted together", "1"),
+    "finest": ("elements across discs, or points of lines, of the finest of them", "1"),
+    "elements_min": ("elements in contact from which the fit begins", "1"),
+    "x_high": ("X at which it ends", "1"),
+    "expected": ("H/(1 + H), Eq. 10", "1"),
+    "beta": ("exponent of an infinitely fine grid", "1"),
+    "beta_low": ("lower end of its 95 % interval over realizations", "1"),
+    "beta_high": ("upper end of its 95 % interval over realizations", "1"),
+    "ranges": ("ranges fitted", "1"),
+    "ranges_low": ("lowest end of the intervals in all ranges", "1"),
+    "ranges_high": ("highest end of the intervals in all ranges", "1"),
+    "amplitude": ("A", "1"),
+    "correction": ("B", "1"),
+    "omega": ("exponent ω of the correction", "1"),
+    "omega_low": ("lower end of its 95 % interval", "1"),
+    "omega_high": ("upper end of its 95 % interval", "1"),
+    "deviation": ("rms deviation of ln(vt/h) from the law, weighted", "1"),
+    "finding": (
+        "agrees: the intervals in all ranges lie within the tolerance of H/(1 + H), departs: outside, else undecided",
+        "",
+    ),
+}
+NEEDED = {
+    "source": COLUMNS["source"],
+    "hurst": COLUMNS["hurst"],
+    "quantity": COLUMNS["quantity"],
+    "error": ("departure from the limit of the exponent in the first decade of the power law", "1"),
+    "number": ("elements across discs, or points of lines, with that departure", "1"),
+    "number_low": ("lower end of its 95 % interval over realizations", "1"),
+    "number_high": ("upper end of its 95 % interval over realizations", "1"),
+    "finest": COLUMNS["finest"],
+    "extrapolated": ("1 if that is finer than all grids computed", "1"),
+}
+
+
+def points(of_hurst, quantity, height, *, elements_min, x_high):
+    """(ln X, ln of the quantity of ensemble and resamples, weights) of all grids, one after the other; None if few."""
+    parts = []
+    for one in of_hurst:
+        curve = one.beginning_at(elements_min).curve(quantity, height, x_high)
+        if curve is not None:
+            log_x, log_y = curve
+            # Means of n realizations scatter more than those of resamples of n.
+            widened = log_y.copy()
+            widened[1:] = log_y[0] + (log_y[1:] - log_y[0]) * np.sqrt(one.realizations / (one.realizations - 1))
+            parts.append((log_x, widened, np.full(log_x.size, float(one.realizations))))
+    if len(parts) < 2:
+        return None
+    return tuple(np.concatenate([part[i] for part in parts], axis=-1) for i in range(3))
+
+
+def fit(log_x, log_y, weights, *, corrected):
+    """(ln A, β, B, ω) of every row of log_y, shape (rows, 4), and the weighted rms deviation of the first; ω free."""
+    root = np.sqrt(weights)
+    aim = (log_y * root).T
+    best, explained = None, None
+    for omega in OMEGA if corrected else OMEGA[:1]:
+        columns = [root, log_x * root] + ([np.exp(omega * log_x) * root] if corrected else [])
+        basis, triangle = np.linalg.qr(np.stack(columns, axis=1))
+        parts = basis.T @ aim
+        fitted = np.zeros((aim.shape[1], 4))
+        fitted[:, : len(columns)] = np.linalg.solve(triangle, parts).T
+        fitted[:, 3] = omega
+        squares = np.sum(parts**2, axis=0)
+        better = np.full(squares.size, True) if best is None else squares > explained
+        best = fitted if best is None else np.where(better[:, None], fitted, best)
+        explained = squares if explained is None else np.where(better, squares, explained)
+    left = max(np.sum(aim[:, 0] ** 2) - explained[0], 0.0)
+    return best, np.sqrt(left / weights.sum())
+
+
+def limit_tables(found, source, *, elements_min, x_high, tolerance):
+    """Tables with the columns of `COLUMNS` and `NEEDED`.
+
+    found : of viscorough_study.scaling_collapse.grids; elements_min, x_high : of the ranges, of which the first are
+        those of the fit itself; tolerance : of β
+    """
+    limits, needed = [], []
+    for hurst, of_hurst in found.items():
+        heights = list(HEIGHTS) if hurst > 0 else ["resolved"]
+        for quantity, height, law in product(QUANTITIES, heights, ("power", "corrected")):
+            about = {"source": source, "hurst": hurst, "quantity": quantity}
+            fits = [
+                (start, end, values, fit(*values, corrected=law == "corrected"))
+                for start, end in product(elements_min, x_high[law])
+                if (values := points(of_hurst, quantity, height, elements_min=start, x_high=end)) is not None
+            ]
+            if not fits:
+                continue
+            limits.append(about | {"height": height, "law": law} | _columns(fits, of_hurst, hurst, tolerance))
+            if law == "corrected" and height == heights[-1]:
+                needed += [about | row for row in _needed(fits[0][3][0], of_hurst, hurst)]
+    return pd.DataFrame(limits, columns=list(COLUMNS)), pd.DataFrame(needed, columns=list(NEEDED))
+
+
+def _interval(samples):
+    return np.nanquantile(samples, [0.025, 0.975])
+
+
+def _columns(fits, of_hurst, hurst, tolerance):
+    """Columns of one quantity, height and law; fits : of every range, that of the table first."""
+    start, end, _, (found, deviation) = fits[0]
+    lows, highs = zip(*(_interval(one[3][0][1:, 1]) for one in fits), strict=True)
+    expected = exponent_beta(hurst)
+    row = {"grids": len(of_hurst), "finest": of_hurst[-1].number, "elements_min": start, "x_high": end}
+    row |= {"expected": expected, "beta": found[0, 1], "beta_low": lows[0], "beta_high": highs[0]}
+    row |= {"ranges": len(fits), "ranges_low": min(lows), "ranges_high": max(highs), "deviation": deviation}
+    row |= {"amplitude": np.exp(found[0, 0])}
+    if found[0, 2]:
+        row |= {"correction": found[0, 2], "omega": found[0, 3]}
+        row["omega_low"], row["omega_high"] = _interval(found[1:, 3])
+    low, high = min(lows) - expected, max(highs) - expected
+    row["finding"] = FINDINGS[2]
+    if max(abs(low), abs(high)) <= tolerance:
+        row["finding"] = FINDINGS[0]
+    elif low > tolerance or high < -tolerance:
+        row["finding"] = FINDINGS[1]
+    return row
+
+
+def _needed(found, of_hurst, hurst):
+    """Rows of `NEEDED` without what they are about; found : (ln A, β, B, ω) of ensemble and resamples.
+
+    The first decade of the power law begins where elements_min elements are in contact, at X ∝ N^(−(1+H)). The exponent
+    there departs from β by B (X₂^ω − X₁^ω)/ln(X₂/X₁), X₂ = 10 X₁.
+    """
+    finest, rows = of_hurst[-1], []
+    start = np.exp(finest.log_x[0])
+    strength, omega = np.abs(found[:, 2]), found[:, 3]
+    for error in ERRORS:
+        with np.errstate(divide="ignore", over="ignore"):
+            begin = (error * np.log(10) / (strength * (10**omega - 1))) ** (1 / omega)
+            number = finest.number * (begin / start) ** (-1 / (1 + hurst))
+        low, high = _interval(number[1:])
+        values = {"error": error, "number": number[0], "number_low": low, "number_high": high}
+        rows.append(values | {"finest": finest.number, "extrapolated": int(number[0] > finest.number)})
+    return rows

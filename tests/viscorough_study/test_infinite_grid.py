@@ -1,0 +1,92 @@
+"""One law fitted to all grids: known exponents, corrections and ranges."""
+
+import numpy as np
+import pytest
+
+from viscorough_study.infinite_grid import COLUMNS, ERRORS, NEEDED, fit, limit_tables
+from viscorough_study.power_law import log_means
+from viscorough_study.scaling_collapse import Grid
+
+HURST, BETA, A, B, OMEGA = 0.6, 0.4, 1.3, -0.9, 0.5
+RANGES = {"elements_min": [10, 20], "x_high": {"power": [0.03], "corrected": [0.3, 0.1]}}
+
+
+def ensembles(*, scatter=0.1, punch=0.0, factor=np.exp, seed=1):
+    """vt/h = A X^β exp(B X^ω) (or with another factor) + punch X on four grids; scatter from one curve to another."""
+    generator, found = np.random.default_rng(seed), []
+    for number, realizations in ((65, 60), (257, 40), (1025, 30), (4097, 20)):
+        x = 10 ** np.arange(np.ceil(20 * np.log10(2 * number ** -(1 + HURST))) / 20, 0, 0.05)
+        law = A * x**BETA * factor(B * x**OMEGA)
+        tilt = generator.standard_normal((realizations, 2)) @ np.array([np.ones(x.size), 0.2 * np.log(x)])
+        velocity = law * np.exp(scatter * tilt) + punch * x
+        means = log_means(velocity, "geometric", 200, generator)
+        count = 10 * (x / x[0]) ** 0.9
+        found.append(Grid(number, realizations, np.log(x), means, count, 1 / punch if punch else np.inf, 1.0))
+    return {HURST: found}
+
+
+def row(tables, quantity, law, height="resolved"):
+    limits = tables[0]
+    (found,) = limits[(limits[["quantity", "law", "height"]] == [quantity, law, height]).all(axis=1)].itertuples()
+    return found
+
+
+def test_a_known_law_is_found_exactly():
+    log_x = np.log(np.geomspace(1e-5, 0.3, 80))
+    log_y = np.log(A) + BETA * log_x + B * np.exp(OMEGA * log_x)
+    found, deviation = fit(log_x, np.stack([log_y, log_y + 0.1]), np.ones(80), corrected=True)
+    np.testing.assert_allclose(found[0], [np.log(A), BETA, B, OMEGA], atol=1e-9)
+    np.testing.assert_allclose(found[1], [np.log(A) + 0.1, BETA, B, OMEGA], atol=1e-9)
+    assert deviation < 1e-7
+    plain, deviation = fit(log_x, log_y[None], np.ones(80), corrected=False)
+    assert plain[0, 2] == 0
+    assert deviation > 1e-2
+
+
+@pytest.mark.parametrize("factor", [np.exp, lambda z: 1 + 0.3 * z], ids=["exponential", "first order"])
+def test_joint_fit_returns_the_law_within_its_intervals(factor):
+    fits = [
+        row(limit_tables(ensembles(seed=seed, factor=factor), "discs", tolerance=0.03, **RANGES), "whole", "corrected")
+        for seed in range(8)
+    ]
+    assert sum(one.beta_low <= BETA <= one.beta_high for one in fits) >= 6
+    assert all(one.ranges_low <= BETA <= one.ranges_high for one in fits)
+    if factor is np.exp:
+        assert sum(one.omega_low <= OMEGA <= one.omega_high for one in fits) >= 6
+        assert np.median([one.correction for one in fits]) == pytest.approx(B, rel=0.2)
+        assert np.median([one.amplitude for one in fits]) == pytest.approx(A, rel=0.1)
+
+
+def test_the_interface_is_fitted_without_the_punch():
+    tables = limit_tables(ensembles(punch=1.0, scatter=0.02), "discs", tolerance=0.03, **RANGES)
+    interface, whole = (row(tables, quantity, "corrected") for quantity in ("interface", "whole"))
+    assert interface.beta_low - 1e-3 <= BETA <= interface.beta_high + 1e-3
+    assert interface.deviation < 0.02 < 0.05 + whole.deviation
+    assert row(tables, "whole", "power").beta > row(tables, "interface", "power").beta
+
+
+def test_columns_ranges_and_findings():
+    limits, needed = limit_tables(ensembles(scatter=0.02), "discs", tolerance=0.05, **RANGES)
+    assert (list(limits), list(needed)) == (list(COLUMNS), list(NEEDED))
+    assert set(limits["ranges"]) == {2, 4}
+    assert (limits["ranges_low"] <= limits["beta_low"]).all()
+    assert (limits["ranges_high"] >= limits["beta_high"]).all()
+    assert row((limits,), "whole", "corrected").finding == "agrees"  # 0.4 beside 0.375
+    strict, _ = limit_tables(ensembles(scatter=0.002), "discs", tolerance=0.01, **RANGES)
+    assert row((strict,), "whole", "corrected").finding == "departs"
+    noisy, _ = limit_tables(ensembles(scatter=0.5), "discs", tolerance=0.01, **RANGES)
+    assert row((noisy,), "whole", "corrected").finding == "undecided"
+
+
+def test_grids_needed_have_the_departure_that_is_wanted():
+    """The exponent in the first decade of each grid, by the law itself; finer grids than computed are extrapolated."""
+    needed = limit_tables(ensembles(scatter=1e-4), "discs", tolerance=0.05, **RANGES)[1]
+    needed = needed[needed["quantity"] == "whole"]
+    assert needed["error"].tolist() == list(ERRORS)
+    for one in needed.itertuples():
+        first = 2 * one.number ** -(1 + HURST)
+        slope = BETA + B * ((10 * first) ** OMEGA - first**OMEGA) / np.log(10)
+        assert abs(slope - BETA) == pytest.approx(one.error, rel=0.1)
+        assert one.number_low <= one.number <= one.number_high
+        assert one.extrapolated == (one.number > 4097)
+    assert needed["number"].is_monotonic_increasing

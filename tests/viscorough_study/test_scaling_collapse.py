@@ -1,0 +1,134 @@
+"""Collapse of curves that are known to follow one scaling law, or not."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from support.study import ELEMENTS
+from viscorough.reference import exponent_beta
+from viscorough_study import scaling_collapse
+from viscorough_study.power_law import log_means
+from viscorough_study.scaling_collapse import FINDINGS, Grid, collapse, collapse_table, grids, spread, variance_share
+
+HURST = 0.6
+BETA = exponent_beta(HURST)
+STEP = np.log(10) / 10
+SCATTER, LENGTH = 0.25, 1.0  # of ln(vt/h) between realizations, and its correlation length in ln X
+X_HIGH = 0.05
+
+
+def grid(number, realizations, generator, *, beta=BETA, share=1.0, punch=1.0, bent=0.0, resamples=200):
+    """An ensemble with vt/h = X^β (1 + bent X) in units of h over all waves; scatter is a function of X N^(1+H)."""
+    log_x = STEP * np.arange(np.ceil(np.log(2 * number ** -(1 + HURST)) / STEP), np.log(0.3) / STEP)
+    kept = np.exp(-STEP / LENGTH)
+    noise = SCATTER * generator.standard_normal((realizations, log_x.size))
+    for i in range(1, log_x.size):
+        noise[:, i] = kept * noise[:, i - 1] + np.sqrt(1 - kept**2) * noise[:, i]
+    shift = np.log(share) / 2
+    log_y = beta * (log_x + shift) + np.log1p(bent * np.exp(log_x)) - shift
+    velocity = np.exp(log_y + noise)
+    means = log_means(velocity, "geometric", resamples, generator)
+    return Grid(number, realizations, log_x, means, np.full(log_x.size, 100.0), punch, share)
+
+
+def ensembles(seed, realizations=(40, 30, 20, 10), **options):
+    generator = np.random.default_rng(seed)
+    numbers = (33, 129, 513, 2049)
+    return [grid(*one, generator, **options) for one in zip(numbers, realizations, strict=True)]
+
+
+def p_value(of_hurst, beta=BETA, height="resolved"):
+    return spread([(one, one.curve("whole", height, X_HIGH)) for one in of_hurst], beta)[2]
+
+
+@pytest.mark.parametrize("realizations", [(40, 30, 20, 10), (16, 12, 8, 4)], ids=["many", "few"])
+def test_one_law_is_accepted_in_95_percent(realizations):
+    accepted = np.mean([p_value(ensembles(seed, realizations)) >= 0.05 for seed in range(200)])
+    assert 0.91 <= accepted <= 0.99
+
+
+def test_another_exponent_is_not_accepted():
+    other = np.mean([p_value(ensembles(seed, beta=BETA + 0.06)) >= 0.05 for seed in range(50)])
+    assert other <= 0.1
+
+
+def test_exponents_with_which_curves_collapse_contain_their_own():
+    beta = BETA + 0.06
+    rows = [
+        collapse(ensembles(seed, beta=beta), HURST, "whole", "resolved", X_HIGH, tolerance=0.05) for seed in range(9)
+    ]
+    assert {row["finding"] for row in rows} == {"does not collapse"}
+    assert sum(row.get("beta_low", 1) <= beta <= row.get("beta_high", 0) for row in rows) >= 7
+    assert all(row["spread"] > row["spread_null"] for row in rows)
+    rows = [collapse(ensembles(seed), HURST, "whole", "resolved", X_HIGH, tolerance=0.05) for seed in range(9)]
+    assert sum(row["finding"] == "collapses" for row in rows) >= 7
+    assert {row["finding"] for row in rows} <= set(FINDINGS)
+
+
+def test_few_realizations_leave_it_undecided():
+    row = collapse(ensembles(1, (3, 3, 3, 3)), HURST, "whole", "resolved", X_HIGH, tolerance=0.01)
+    assert row["finding"] == "undecided"
+    assert collapse(ensembles(1)[:1], HURST, "whole", "resolved", X_HIGH, tolerance=0.01)["finding"] == "undecided"
+
+
+def test_the_height_over_all_waves_makes_one_law_of_many():
+    """Each grid has its share of the heights; at a large share of the scatter, only h of the spectrum collapses."""
+    generator = np.random.default_rng(3)
+    shares = {33: 0.5, 129: 0.65, 513: 0.8}
+    of_hurst = [grid(number, 60, generator, share=share) for number, share in shares.items()]
+    assert p_value(of_hurst) < 0.05
+    assert p_value(of_hurst, height="spectrum") >= 0.05
+
+
+def test_the_punch_is_taken_off():
+    one = grid(129, 20, np.random.default_rng(1), punch=0.9)
+    log_x, log_y = one.curve("interface", "resolved", 1e-2)
+    whole = one.curve("whole", "resolved", 1e-2)
+    np.testing.assert_allclose(np.exp(log_y), np.exp(whole[1][:, : log_x.size]) - np.exp(log_x) / 0.9)
+    assert one.curve("whole", "resolved", 1e-9) is None
+    late = Grid(129, 20, one.log_x, one.log_velocity, np.arange(one.log_x.size), 1.0, 1.0).beginning_at(4)
+    assert (late.log_x[0], late.count[0]) == (one.log_x[4], 4)
+
+
+@pytest.mark.parametrize("source", ["discs", "lines"])
+@pytest.mark.parametrize("hurst", [0.1, 0.6, 1.0])
+def test_share_of_the_variance(source, hurst):
+    """Against sums over many waves; it rises to 1, the rest as N^(−2H)."""
+    shares = [variance_share(hurst, number, source) for number in (33, 257, 2049, 16385)]
+    assert np.all(np.diff(shares) > 0)
+    rest = 1 - np.array(shares)
+    np.testing.assert_allclose(rest[1:-1] / rest[2:], 8 ** (2 * hurst), rtol=0.02)
+    k = np.arange(-800, 801)
+    square = (k[:, None] ** 2 + k**2 if source == "discs" else k[k > 0] ** 2).astype(float)
+    power = -1 - hurst if source == "discs" else -0.5 - hurst
+    weight = np.where((square > 0) & (square <= 800**2), np.maximum(square, 1) ** power, 0)
+    ratio = weight[square <= 16.5**2].sum() / weight[square <= 128.5**2].sum()
+    assert shares[0] / shares[1] == pytest.approx(ratio, rel=2e-3)
+
+
+def pool():
+    """Two grids of one Hurst exponent, one of which has too few realizations."""
+    x = 10 ** np.arange(-4, 0, 0.1)
+    parts = []
+    for elements, realizations in ((ELEMENTS, 4), (13049, 2)):
+        velocity = np.tile(x**0.4, (1, realizations, 1))
+        part = xr.Dataset({"stiffness": (("rms_convention", "realization", "abscissa"), x / velocity)})
+        part["contact_count"] = part["stiffness"] * 0 + 1000 * x / x[10] / 100
+        about = {"hurst": HURST, "elements": elements, "group": "sizes", "case": "sizes", "diameter": 1.0}
+        parts.append(
+            part.assign_coords({name: ("realization", [value] * realizations) for name, value in about.items()})
+        )
+    return xr.concat(parts, "realization").assign_coords(x=("abscissa", x), rms_convention=["disc"])
+
+
+def test_grids_of_a_pool():
+    how = {"average": "geometric", "rms_convention": "disc", "elements_min": 10, "fraction_min": 0.95}
+    found = grids(pool(), "discs", **how, resamples=20, seed=1)
+    (one,) = found[HURST]
+    assert (one.number, one.realizations, one.log_velocity.shape[0]) == (257, 4, 21)
+    assert one.punch == pytest.approx(0.99486, abs=1e-4)
+    assert one.log_x[0] == pytest.approx(np.log(1e-3))
+    np.testing.assert_allclose(one.log_velocity, np.tile(0.4 * one.log_x, (21, 1)))
+    table = collapse_table(found, "discs", x_high=[0.03], tolerance=0.03)
+    assert list(table) == list(scaling_collapse.COLUMNS)
+    assert table["finding"].tolist() == ["undecided"] * 4

@@ -203,12 +203,13 @@ def _binned_gaps(heights, bins_per_octave):
 @njit
 def _bin_gaps(heights, highest, shift, base, table):
     """Add the number and the sum of the gaps in every bin to table[bin, lane, :]."""
-    gaps, bins = np.empty(_BLOCK), np.empty(_BLOCK, np.int32)  # a loop of its own, which is vectorized
+    gaps, bins = np.empty(_BLOCK), np.empty(_BLOCK, np.uint32)
     for start in range(0, heights.size, _BLOCK):
         block = heights[start : start + _BLOCK]
-        for i in range(block.size):
+        for i in range(block.size):  # a loop of its own, which is vectorized
             gaps[i] = highest - np.float64(block[i])
             bins[i] = max(np.float64(gaps[i]).view(np.uint64) >> shift, base) - base
         for i in range(block.size):
-            table[bins[i], i % _LANES, 0] += 1
-            table[bins[i], i % _LANES, 1] += gaps[i]
+            bin_, lane = np.uint64(bins[i]), np.uint64(i % _LANES)  # unsigned: without a check for negative indices
+            table[bin_, lane, 0] += 1
+            table[bin_, lane, 1] += gaps[i]

@@ -38,6 +38,7 @@ wildcard_constraints:
 include: "workflow/rules/indentation.smk"
 include: "workflow/rules/pools.smk"
 include: "workflow/rules/scaling.smk"
+include: "workflow/rules/interface.smk"
 include: "workflow/rules/validation.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/mdr.smk"
@@ -87,6 +88,7 @@ rule figures:
         rules.plot_exponent.output,
         rules.plot_conventions.output,
         rules.plot_prefactors.output,
+        rules.plot_interface.output,
         rules.plot_reduction.output,
         rules.plot_mdr_lambda.output,
         rules.plot_direct.output,
@@ -106,6 +108,7 @@ rule tables:
         rules.judge_claims.output,
         rules.tabulate_calibration.output,
         rules.compare_prefactors.output,
+        rules.fit_interface.output,
         rules.compare_reduction.output,
         rules.match_lines.output,
         rules.compare_direct.output,

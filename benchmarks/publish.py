@@ -29,12 +29,12 @@ from viscorough_study.verdicts import markdown, overall
 ROOT = Path(__file__).resolve().parents[1]
 BEGIN, END = "<!-- {}: by benchmarks/publish.py -->\n", "<!-- end of {} -->\n"
 OTHER_SOLVERS = "resources/published/other_solvers.csv"  # with which runs are compared that do not measure them
-DEPTH_RATIOS = "src/viscorough/data/depth_ratio.csv"  # of the calibrated law, from the claims
 # {command of make: files in results/ that it makes and that are published in docs/results/}
 PUBLISHED = {
     "paper": (
         *("figures/fig1_surfaces.png", "figures/fig2_kinetics.png", "figures/fig3_master_curve.png"),
         *("figures/fig4_exponent.png", "figures/conventions.png", "figures/validation.png", "tables/scaling.csv"),
+        *("figures/interface.png", "tables/interface.csv", "tables/interface_slopes.csv"),
         *("tables/validation.csv", "tables/direct.csv", "tables/reduction.csv", "tables/rule_costs.csv"),
         *("figures/reduction.png", "figures/mdr_lambda.png", "tables/mdr_lambda.csv", "tables/mdr_summary.csv"),
         "tables/mdr_exponents.csv",
@@ -65,6 +65,7 @@ KEPT = {
     "paper": {
         "tables/claims.csv": "docs/claims.csv",
         "tables/calibration.csv": "src/viscorough/data/calibration.csv",
+        "tables/interface.csv": "src/viscorough/data/interface.csv",
     },
     "seeds": {"seeds.json": "docs/seeds.json", "seeds.csv": "docs/seeds.csv"},
 }
@@ -170,14 +171,6 @@ def copy_other_solvers(table, target, machine, date):
     times.to_csv(target, index=False, lineterminator="\n")
 
 
-def write_depth_ratios(claims, target):
-    """Write the depth over X^β/(ζβ) at the centre of region (b), the claim "depth", for the calibrated law."""
-    table = pd.read_csv(claims).query("claim == 'depth'")
-    hurst = table["case"].str.removeprefix("H = ").astype(float)
-    ratios = table[["value", "low", "high"]].rename(columns={"value": "ratio"})
-    ratios.assign(hurst=hurst)[["hurst", "ratio", "low", "high"]].to_csv(target, index=False, lineterminator="\n")
-
-
 def copy_picture(file, target):
     """Copy a PNG file with at most 128 colours, in a third of the bytes: git keeps every version."""
     with Image.open(file) as picture:
@@ -201,8 +194,6 @@ def copy_results(results, project, commands, commit):
     for command in commands:
         for name, target in KEPT.get(command, {}).items():
             shutil.copyfile(results / name, project / target)
-            if name == "tables/claims.csv":
-                write_depth_ratios(results / name, project / DEPTH_RATIOS)
         for file in (results / name for name in PUBLISHED[command]):
             (copy_picture if file.suffix == ".png" else shutil.copyfile)(file, folder / file.name)
             if file.name in PICTURES:

@@ -3,7 +3,7 @@
 A constant force F on a medium of creep compliance J(t) acts as the elastic force F/G = F·J(t) (viscous.correspondence).
 With X = F·J(t)/(4hL) the law gives
 
-    u = h·(u/h)(X),    v = h·(J'(t)/J(t))·X^β/ζ,    for a Newtonian medium J = t/η: v = (h/t)·X^β/ζ.
+    u = h·(u/h)(X),    v = h·(J'(t)/J(t))·(vt/h)(X),    for a Newtonian medium J = t/η: v = (h/t)·(vt/h)(X).
 """
 
 from dataclasses import dataclass
@@ -68,7 +68,7 @@ class Estimate:
 def estimate(hurst, rms, diameter, force, medium, times):
     """Depth and velocity of a self-affine indenter under a constant force, by the calibrated law, without a simulation.
 
-    hurst : Hurst exponent H, 0.1 to 0.9
+    hurst : Hurst exponent H, 0.1 to 1
     rms : rms height h; diameter : L, in the same unit [length]
     force : F > 0, constant from time 0 on
     medium : a viscosity, or one of viscorough.viscous.media; in units such that F·J is a length²

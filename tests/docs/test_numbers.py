@@ -132,8 +132,6 @@ def test_publishing(tmp_path):
             Image.fromarray(gradient).save(results / name)
         else:
             (results / name).write_text(name)
-    claims = "claim,case,value,low,high\ncollapse,all,1,1,1\ndepth,H = 0.4,0.9,0.8,1.0\n"
-    (results / "tables/claims.csv").write_text(claims)
     os.utime(results / "tables/rule_costs.csv", (86400 * 365.25 * 30,) * 2)
     publish.copy_results(results, project, ["paper"], "abc")
     publish.copy_results(results, project, ["large"], "def")
@@ -144,9 +142,9 @@ def test_publishing(tmp_path):
     for name, command, commit in (("large.csv", "make large", "def"), ("rule_costs.csv", "make paper", "abc")):
         assert records[name]["command"] == command
         assert records[name]["commit"] == commit
-    assert (project / "docs/claims.csv").read_text() == claims
-    assert (project / publish.DEPTH_RATIOS).read_text() == "hurst,ratio,low,high\n0.4,0.9,0.8,1.0\n"
-    assert (project / "src/viscorough/data/calibration.csv").read_text() == "tables/calibration.csv"
+    assert (project / "docs/claims.csv").read_text() == "tables/claims.csv"
+    for name in ("calibration", "interface"):
+        assert (project / f"src/viscorough/data/{name}.csv").read_text() == f"tables/{name}.csv"
     with Image.open(project / "docs/fig2_kinetics.png") as picture:
         np.testing.assert_array_equal(picture.convert("RGB"), gradient)
 

@@ -7,10 +7,12 @@ import pandas as pd
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from support.study import SHOWN, fit_row
+from viscorough.calibrated_law import interface_velocity
 from viscorough_study.conventions import of_source
 from viscorough_study.ensembles import abscissa
 from viscorough_study.figures.measured import plot_measured
 from viscorough_study.fit_table import COLUMNS as SCALING_COLUMNS
+from viscorough_study.interface import COLUMNS as INTERFACE
 from viscorough_study.performance import measurement
 from viscorough_study.scaling_collapse import QUANTITIES, Grid
 
@@ -251,3 +253,29 @@ def measured_figure(pooled, scaling):
     fits = scaling[(scaling["source"] == "discs") & (scaling["hurst"] == pooled[0]["hurst"].item())]
     fits = fits.assign(source="measured", case_group="polished")
     return plot_measured({"polished": pooled[0]}, pooled, fits, measured_kinetics(), SHOWN, fraction_min=0.95)
+
+
+def interface_tables_drawn():
+    """Tables of an interface in series with a punch, as viscorough_study.interface makes them; its law is 2 % above."""
+    x, rows, curves = np.geomspace(1e-3, 28, 60), [], []
+    ensembles = [("discs", "base", h, 257) for h in (0.4, 0.9)]
+    ensembles += [("discs", "sizes", h, n) for h in (0.4, 1.0) for n in (65, 257)]
+    ensembles += [("lines", "lines", 0.4, 4096), ("lines", "sizes", 0.4, 64)]
+    for source, group, hurst, across in ensembles:
+        for average in ("arithmetic", "geometric"):
+            about = {"source": source, "case_group": group, "hurst": hurst, "across": across, "average": average}
+            law = {"exponent": hurst / (1 + hurst), "peak": 0.5, "peak_x": 0.8}
+            interface = interface_velocity(x, *law.values())
+            plateau = {
+                "u0": 0.48 + across / 1e4,
+                "u0_low": 0.47,
+                "u0_high": 0.53,
+                "plateau_low": 0.4,
+                "plateau_high": 1.2,
+            }
+            rows.append(about | plateau | law | {"kappa_c": 1.0, "law_low": 1e-3, "law_high": 28.0})
+            velocity = x + interface
+            parts = {"x": x, "velocity": velocity, "interface": interface, "law": 1.02 * velocity}
+            parts |= {"interface_low": 0.9 * interface, "interface_high": 1.1 * interface}
+            curves.append(pd.DataFrame(parts).assign(**about))
+    return pd.DataFrame(rows).reindex(columns=list(INTERFACE)), pd.concat(curves, ignore_index=True)

@@ -11,24 +11,24 @@ RMS, DIAMETER = 2e-7, 3e-4
 PER_X = 4 * RMS * DIAMETER  # F·J at X = 1
 
 
-@pytest.mark.parametrize("hurst", [0.7, 0.9])
+@pytest.mark.parametrize("hurst", [0.7, 1.0])
 def test_estimate_is_the_mean_of_simulated_surfaces(hurst):
-    """Geometric mean over 24 discs of 129 elements across; single ones scatter by about 30 %."""
-    law = viscorough.penetration_law(hurst)
-    times = np.geomspace(3 * law.x_low, 0.9 * law.x_high, 5)  # force over viscosity is PER_X, so that X = t
+    """Geometric mean over 24 discs of 129 elements across; single ones scatter by about 30 % where few spots touch."""
+    times = np.geomspace(5e-3, 3, 6)  # force over viscosity is PER_X, so that X = t
     found = estimate(hurst, RMS, DIAMETER, PER_X, 1.0, times)
     motions = []
     for seed in range(24):
         disc = viscorough.self_affine_disc(hurst, 129, rms=RMS, diameter=DIAMETER, seed=seed)
-        curve = viscorough.indent(disc, until_force=1.1 * PER_X * law.x_high, tolerance=1e-2)
+        curve = viscorough.indent(disc, until_force=1.1 * PER_X * times[-1], tolerance=1e-2)
         motion = viscorough.kinetics(curve, PER_X, 1.0, times)
         motions.append([motion.velocity, motion.depth])
     velocity, depth = np.exp(np.log(motions).mean(axis=0))
     # Three standard errors of the mean.
     np.testing.assert_allclose(found.velocity, velocity, rtol=0.2)
+    np.testing.assert_allclose(found.velocity[times > 0.5], velocity[times > 0.5], rtol=0.05)
     np.testing.assert_allclose(found.depth, depth, rtol=0.2)
-    scatter = np.log(motions).std(axis=0)
-    assert (scatter > 0.15).all()
+    scatter = np.log(motions).std(axis=0)[0]
+    assert (scatter[times < 0.05] > 0.15).all()
     assert (scatter < 0.45).all()
 
 
@@ -52,7 +52,7 @@ def test_velocity_is_the_derivative_of_the_depth_in_any_medium(medium):
 
 
 def test_outside_of_its_range_the_law_gives_no_numbers():
-    found = estimate(0.6, RMS, DIAMETER, PER_X, 1.0, [1e-4, 0.02, 0.5])
+    found = estimate(0.6, RMS, DIAMETER, PER_X, 1.0, [1e-4, 0.02, 50])
     assert found.where.tolist() == ["below", "", "above"]
     for name in ("depth", "depth_low", "depth_high", "velocity", "velocity_low", "velocity_high"):
         assert np.isfinite(getattr(found, name)).tolist() == [False, True, False]
@@ -64,14 +64,14 @@ def test_outside_of_its_range_the_law_gives_no_numbers():
 @pytest.mark.parametrize(
     ("changes", "what"),
     [
-        ({"hurst": 0.95}, "hurst of the penetration law: must be from 0.1 to 0.9"),
+        ({"hurst": 1.05}, "hurst of the penetration law: must be from 0.1 to 1"),
         ({"rms": 0}, "rms: must be positive"),
         ({"diameter": -1}, "diameter: must be positive"),
         ({"force": np.inf}, "force: must be positive and finite"),
         ({"medium": 0}, "viscosity: 0; allowed: a finite number above 0"),
         ({"times": [2, 1]}, "times: allowed is one row"),
         ({"times": []}, "times: allowed is one row"),
-        ({"times": [1.0]}, "X = F·J(t)/(4hL) is 1; allowed: 0.00178 to 0.0794"),
+        ({"times": [50.0]}, "X = F·J(t)/(4hL) is 50; allowed: 0.001 to 30"),
         ({"force": 1e300, "rms": 1e-300}, "is inf; allowed"),
     ],
 )

@@ -11,8 +11,9 @@ from support.cf import violations
 from support.workflow import ROOT, TEST, load_script, plan, snakemake
 
 FIGURES = ("fig1_surfaces", "fig2_kinetics", "fig3_master_curve", "fig4_exponent", "conventions", "validation")
-FIGURES += ("prefactors", "direct", "reduction", "mdr_lambda", "speed", "failure_map", "level_placement")
+FIGURES += ("prefactors", "interface", "direct", "reduction", "mdr_lambda", "speed", "failure_map", "level_placement")
 TABLES = ("scaling", "validation", "claims", "calibration", "prefactors", "direct", "reduction")
+TABLES += ("interface", "interface_slopes")
 TABLES += ("mdr_lambda", "mdr_summary", "mdr_exponents")
 TABLES += ("methods", "failure_map", "level_placement", "rule_costs", "media")
 
@@ -35,7 +36,8 @@ def test_files_follow_the_cf_conventions(finished):
     """One of every kind: curves of discs and lines, pools, examples, tables."""
     files = [path for path in (finished / "results").rglob("*.nc") if "curves" not in path.parts]
     files += [finished / f"results/curves/{case}/0000-0001.nc" for case in ("discs/h04000_c1", "lines/h04000")]
-    assert len(files) == 2 + 1 + len(TABLES) + 2
+    curves_of_interface = 1
+    assert len(files) == 2 + 1 + len(TABLES) + curves_of_interface + 2
     for path in files:
         assert violations(path) == [], path
 

@@ -23,6 +23,7 @@ BOUNDARY_ELEMENTS = {"indent_discs", "compare_direct", "compare_reduction", "val
 BOUNDARY_ELEMENTS |= {"measure_methods", "map_failures", "compare_level_placement"}
 MEDIA = {"compute_media", "plot_media"}
 SIZES = {"fit_sizes", "plot_sizes", "fit_collapse", "plot_collapse"}
+INTERFACE = {"fit_interface", "plot_interface"}
 SPEED = {"measure_methods", "tabulate_methods", "plot_speed"}
 LAST = {"tabulate_rule_costs", "make_page"}  # made again with whatever is
 
@@ -78,18 +79,24 @@ def with_another_statement(text):
         ),
         (
             {"figures": {"average": "arithmetic"}},
-            (FITS_AND_FIGURES | SIZES) - {"fit_scaling", "compare_prefactors"},
+            (FITS_AND_FIGURES | SIZES) - {"fit_scaling", "compare_prefactors"} | {"plot_interface"},
         ),
-        ({"ensemble": {"per_decade": 25}}, FITS_AND_FIGURES | SIZES | {"pool_curves"}),
+        ({"ensemble": {"per_decade": 25}}, FITS_AND_FIGURES | SIZES | INTERFACE | {"pool_curves"}),
+        ({"interface": {"plateau": 0.1}}, INTERFACE),
         ({"validation": {"elements": [17, 31]}}, {"validate", "check_validation", "plot_validation", "judge_claims"}),
-        ({"lines": {"points": 2048}}, FITS_AND_FIGURES | {"indent_lines", "pool_curves"}),
+        ({"lines": {"points": 2048}}, FITS_AND_FIGURES | INTERFACE | {"indent_lines", "pool_curves"}),
         (
             {"indentation": {"tolerance": 2e-3}},
-            FITS_AND_FIGURES | MEDIA | SIZES | {"indent_discs", "pool_curves", "compare_reduction", "plot_reduction"},
+            FITS_AND_FIGURES
+            | INTERFACE
+            | MEDIA
+            | SIZES
+            | {"indent_discs", "pool_curves", "compare_reduction", "plot_reduction"},
         ),
         (
             {"surface": {"period": 1.5}},  # not of the variant that has its own period, nor of lines
             FITS_AND_FIGURES
+            | INTERFACE
             | MEDIA
             | SIZES
             | {"indent_discs", "pool_curves", "generate_example_discs", "plot_surfaces"},

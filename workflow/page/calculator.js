@@ -2,42 +2,47 @@
 /* The calculator of the page: the calibrated penetration law, as viscorough.estimates computes it for a Newtonian medium.
    Its numbers are in the element #law. Without a page, as in tests, it only defines functions. */
 
-/** Every number of the law for a Hurst exponent: linear in it, the ends of the range of X in their logarithm. */
+/** Every number of the law for a Hurst exponent: linear in it, places in X in their logarithm. */
 function penetrationLaw(table, hurst) {
   let place = 0;
   while (place < table.hurst.length - 2 && hurst >= table.hurst[place + 1]) place += 1;
   const share = (hurst - table.hurst[place]) / (table.hurst[place + 1] - table.hurst[place]);
-  const between = (values) => values[place] + share * (values[place + 1] - values[place]);
+  const linear = (low, high) => low + share * (high - low);
+  const geometric = (low, high) => low * (high / low) ** share;
   const law = {};
   for (const [name, values] of Object.entries(table)) {
-    law[name] = name.startsWith("x_") ? Math.exp(between(values.map(Math.log))) : between(values);
+    const between = ["x_low", "x_high", "peak_x"].includes(name) ? geometric : linear;
+    law[name] = between(values[place], values[place + 1]);
   }
   return law;
 }
 
-/** Value and interval of a function of the law's constants: all combinations of the ends of their intervals. */
-function withInterval(law, names, value) {
-  let ends = [{}];
-  for (const name of names) {
-    ends = ends.flatMap((end) => ["_low", "_high"].map((side) => ({ ...end, [name]: law[name + side] })));
+/** Lower incomplete gamma function γ(a, w), by its series w^a e^(−w) Σ wⁿ/(a(a + 1)…(a + n)). */
+function incompleteGamma(a, w) {
+  let term = 1 / a;
+  let sum = term;
+  for (let n = 1; term > 1e-17 * sum; n += 1) {
+    term *= w / (a + n);
+    sum += term;
   }
-  const values = ends.map(value);
-  return [value(law), Math.min(...values), Math.max(...values)];
+  return w ** a * Math.exp(-w) * sum;
 }
 
 /** Depth and velocity with their intervals, in the units of rms height and time; where: "", "below" or "above". */
 function estimate(law, { rms, diameter, force, viscosity, time }) {
   const x = (force * time) / viscosity / (4 * rms * diameter);
   const where = x < law.x_low ? "below" : x > law.x_high ? "above" : "";
-  const centre = Math.sqrt(law.x_low * law.x_high);
-  const depth = ({ beta, zeta, ratio }) =>
-    (rms * (x ** beta - (1 - ratio) * centre ** beta)) / (zeta * beta);
-  const velocity = ({ beta, zeta }) => ((rms / time) * x ** beta) / zeta;
+  const twice = 2 * law.exponent;
+  const root = Math.sqrt(x / law.peak_x);
+  const velocity = x + law.peak * root ** twice * Math.exp(twice * (1 - root));
+  const gained = x + 2 * law.peak * (Math.E / twice) ** twice * incompleteGamma(twice, twice * root);
+  const [low, high] = [1 - law.error, 1 + law.error];
+  const depths = [law.offset + gained, low * (law.offset_low + gained), high * (law.offset_high + gained)];
   return {
     x,
     where,
-    depth: withInterval(law, ["beta", "zeta", "ratio"], depth),
-    velocity: withInterval(law, ["beta", "zeta"], velocity),
+    depth: depths.map((depth) => rms * depth),
+    velocity: [velocity, low * velocity, high * velocity].map((rate) => (rms / time) * rate),
   };
 }
 

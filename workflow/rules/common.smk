@@ -154,6 +154,12 @@ def plateau_settings():
     }
 
 
+def interface_limits():
+    """Arguments of viscorough_study.interface.interface_tables: its settings, and those of the fits that it shares."""
+    shared = ("elements_min", "fraction_min", "resamples")
+    return config["interface"] | {name: config["scaling"][name] for name in shared} | {"seed": config["seed"]}
+
+
 def combinations():
     """{case: force [N], viscosity [Pa s], diameter [m], rms [m]} of the base cases."""
     return {name: case["combination"] for name, case in DISCS.items() if case["group"] == "base"}

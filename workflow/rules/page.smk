@@ -11,6 +11,7 @@ PAGE_FIGURES = {
     "level_placement": rules.plot_level_placement,
     "conventions": rules.plot_conventions,
     "prefactors": rules.plot_prefactors,
+    "interface": rules.plot_interface,
     "direct": rules.plot_direct,
     "reduction": rules.plot_reduction,
     "mdr_lambda": rules.plot_mdr_lambda,

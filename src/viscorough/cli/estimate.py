@@ -19,7 +19,7 @@ from viscorough.errors import AccuracyWarning
 
 
 @click.command(short_help="Depth and velocity of a self-affine surface by the calibrated law, without a simulation.")
-@click.option("--hurst", type=PositiveNumber(1), required=True, help="Hurst exponent H, from 0.1 to 0.9.")
+@click.option("--hurst", type=PositiveNumber(1), required=True, help="Hurst exponent H, from 0.1 to 1.")
 @click.option("--rms", type=Quantity("m"), required=True, help="Rms height h of the surface.")
 @click.option("--diameter", type=Quantity("m"), required=True, help="Diameter L of the indenter.")
 @click.option("--force", type=Quantity("N"), required=True, help="Constant force F, applied at time 0.")
@@ -30,11 +30,12 @@ from viscorough.errors import AccuracyWarning
 def estimate(hurst, rms, diameter, force, viscosity, medium, times, output):
     """Depth and velocity of a self-affine indenter without a simulation, from the calibrated penetration law.
 
-    The law, vt/h = X^beta/zeta with X = Ft/(4 viscosity h L), was calibrated with boundary elements on discs of 257
-    elements across. It gives the mean of many surfaces, with a 95 % interval of this mean; a single surface scatters
-    by about 30 %. In a medium with the creep compliance J(t), X is F J(t)/(4 h L). The law holds from the first few
-    contact spots until the contact is nearly complete; outside of that range no number is given, and the last column
-    says on which side the time is.
+    The law, vt/h = X + g(X) with X = Ft/(4 viscosity h L), was calibrated with boundary elements on discs of 257
+    elements across; where few spots touch, it is close to a power law, X^beta/zeta. It gives the mean of many
+    surfaces, with an interval of this mean; a single surface scatters by about 30 %. In a medium with the creep
+    compliance J(t), X is F J(t)/(4 h L). The law holds from the first few contact spots to X = 30, where the whole disc
+    sinks like a flat punch; outside of that range no number is given, and the last column says on which side the time
+    is.
 
     Plain numbers are in consistent units: m, N and Pa s, for example. If the lengths have units, as in --rms "2 um",
     force and viscosity may have, too; then results are in m and s, and plain numbers are in N, Pa s and s.
@@ -90,8 +91,9 @@ def _length_unit(rms, diameter, others):
 
 
 def _heading(law):
-    (low, high), (least, most) = law.beta_interval, law.zeta_interval
+    (low, high), (least, most), region = law.beta_interval, law.zeta_interval, law.region
     return (
-        f"vt/h = X^beta/zeta for H = {law.hurst:g}: beta {law.beta:.4g} [{low:.4g}, {high:.4g}], "
-        f"zeta {law.zeta:.4g} [{least:.4g}, {most:.4g}], X from {law.x_low:.3g} to {law.x_high:.3g}"
+        f"vt/h = X + g(X) for H = {law.hurst:g}, X from {law.x_low:.3g} to {law.x_high:.3g}; X^beta/zeta from "
+        f"{region[0]:.3g} to {region[1]:.3g}: beta {law.beta:.4g} [{low:.4g}, {high:.4g}], "
+        f"zeta {law.zeta:.4g} [{least:.4g}, {most:.4g}]"
     )

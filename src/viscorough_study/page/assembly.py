@@ -10,6 +10,7 @@ from viscorough_study.tables import read_recorded
 FURTHER = {
     "validation": "Every method against exact solutions",
     "conventions": "What the conventions change that the paper leaves open",
+    "interface": "Two springs in series: the rough interface and the punch behind it",
     "prefactors": "The prefactor under every combination of conventions",
     "direct": "Direct integration in time against both readings of the law",
     "reduction": "The reduction of dimensionality, surface by surface",

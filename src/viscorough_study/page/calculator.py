@@ -2,12 +2,15 @@
 
 import json
 
-import numpy as np
 from markupsafe import Markup
 
-from viscorough.calibrated_law import calibration, depth_ratios
+from viscorough.calibrated_law import X_HIGH, interface_calibration
 
-_COLUMNS = ("hurst", "beta", "beta_low", "beta_high", "zeta", "zeta_low", "zeta_high", "x_low", "x_high")
+# {number of the law in the script: column of the calibration}
+_COLUMNS = {
+    **{name: name for name in ("hurst", "exponent", "peak", "peak_x", "error")},
+    **{"offset": "depth_offset", "offset_low": "depth_low", "offset_high": "depth_high", "x_low": "law_low"},
+}
 
 
 def calculator(section, script):
@@ -20,9 +23,6 @@ def calculator(section, script):
 
 
 def law_table():
-    """{column of the calibration, or ratio of depths: its values over ascending H}."""
-    table, ratios = calibration(), depth_ratios()
-    of_depth = {"ratio": "ratio", "ratio_low": "low", "ratio_high": "high"}
-    return {name: table[name].tolist() for name in _COLUMNS} | {
-        name: np.interp(table["hurst"], ratios["hurst"], ratios[column]).tolist() for name, column in of_depth.items()
-    }
+    """{number of the law: its values over ascending H}."""
+    table = {name: interface_calibration()[column].tolist() for name, column in _COLUMNS.items()}
+    return table | {"x_high": [X_HIGH] * len(table["hurst"])}

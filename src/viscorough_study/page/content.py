@@ -25,6 +25,8 @@ ALTERNATIVE_TEXTS = {
     "level_placement": "Wall time of levels placed automatically, by hand and naively, for five scenes.",
     "conventions": "Exponent and prefactor under every convention that the paper leaves open.",
     "prefactors": "Prefactor zeta over the laws of the paper, under every combination of conventions.",
+    "interface": "Compliance of the rough interface alone over force: it rises as a power, is flat where all Hurst "
+    "exponents meet, and falls to nothing at complete contact; the law over the curves; the value on the plateau.",
     "direct": "Depth by direct integration in time over the elastic depth: 1, not the factor that Equation 8 predicts.",
     "reduction": "Stiffness, contact, mean gap and force of lines over those of discs with the same spectrum, surface "
     "by surface: stiffness and force are close to 1, contact is many times larger, and the gap smaller.",

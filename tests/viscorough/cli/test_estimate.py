@@ -25,7 +25,9 @@ def test_table_on_standard_output(here, capsys):
     captured = capsys.readouterr()
     assert captured.err == ""
     law, head, *rows = captured.out.splitlines()
-    assert law.startswith("vt/h = X^beta/zeta for H = 0.8: beta 0.4413 [")
+    assert law.startswith(
+        "vt/h = X + g(X) for H = 0.8, X from 0.001 to 30; X^beta/zeta from 0.000962 to 0.0794: beta 0.4413 ["
+    )
     assert head.split() == ["time", "X", "depth", "from", "to", "velocity", "from", "to"]
     numbers = np.array([[float(cell) for cell in row.split()] for row in rows])
     names = ("time", "x", "depth", "depth_low", "depth_high", "velocity", "velocity_low", "velocity_high")
@@ -77,7 +79,7 @@ def test_times_outside_of_the_range_are_marked_and_warned_about(here, capsys):
 @pytest.mark.parametrize(
     ("arguments", "what"),
     [
-        (["--hurst", "0.05"], "hurst of the penetration law: must be from 0.1 to 0.9"),
+        (["--hurst", "0.05"], "hurst of the penetration law: must be from 0.1 to 1"),
         (["--hurst", "2"], "--hurst"),
         (["--rms", "0"], "--rms"),
         (["--rms", "1 um"], "--rms 1 um, --diameter 0.01: one has a unit; both or none is allowed"),

@@ -25,6 +25,7 @@ from viscorough_study.figures.exponent import plot_exponent
 from viscorough_study.figures.failure_curves import plot_failure_curves
 from viscorough_study.figures.failure_map import LETTERS, plot_failure_map
 from viscorough_study.figures.growth import plot_growth
+from viscorough_study.figures.interface import plot_interface
 from viscorough_study.figures.kinetics import plot_kinetics
 from viscorough_study.figures.large import plot_large
 from viscorough_study.figures.level_placement import plot_level_placement
@@ -65,6 +66,7 @@ def drawn(discs, pooled, lines, scaling, combinations):
         "fig4_exponent": Drawn(plot_exponent(scaling, SHOWN, (0.4, 1.0))),
         "conventions": Drawn(plot_conventions(scaling, SHOWN), {"Hurst exponent": 2}),
         "prefactors": Drawn(plot_prefactors(prefactors(scaling, BASE_SURFACES), SHOWN)),
+        "interface": Drawn(plot_interface(*tables.interface_tables_drawn(), SHOWN)),
         "validation": Drawn(plot_validation(tables.validation_table()), {"quantity": 2}),
         "direct": Drawn(plot_direct_integration(tables.direct_table()), {"indenter": 2}),
         "reduction": Drawn(plot_mdr_comparison(tables.mdr_table())),

@@ -24,7 +24,7 @@ def random_cases(count):
     """Values in SI units, with X in the range of the law and beyond it."""
     random, cases = np.random.default_rng(1), []
     for _ in range(count):
-        hurst, exponents = random.uniform(0.1, 0.9), random.uniform(-1, 1, 4)
+        hurst, exponents = random.uniform(0.1, 1), random.uniform(-1, 1, 4)
         rms, diameter, force, viscosity = 10**exponents * [1e-6, 1e-2, 10, 1e8]
         law = penetration_law(hurst)
         x = np.exp(random.uniform(np.log(law.x_low / 1.5), np.log(law.x_high * 1.5)))
@@ -93,7 +93,7 @@ def test_page_shows_what_the_command_computes(tmp_path):
     ("entered", "text"),
     [
         ({"time": "1e6"}, "is above its range: no estimate. The law holds from "),
-        ({"hurst": "0.95"}, "The law was calibrated for H from 0.1 to 0.9."),
+        ({"hurst": "1.05"}, "The law was calibrated for H from 0.1 to 1."),
         ({"force": ""}, "force F (N): a number above 0 is needed."),
     ],
 )

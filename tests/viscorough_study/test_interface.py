@@ -1,0 +1,122 @@
+"""The interface and the punch in series, on curves whose interface is known."""
+
+import json
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from support.study import pool_of
+from viscorough.calibrated_law import LARGEST_DEVIATION, X_LOW, interface_depth, interface_velocity
+from viscorough_study.ensembles import abscissa, ensemble_dataset
+from viscorough_study.interface import (
+    COLUMNS,
+    CURVES,
+    SLOPES,
+    ensembles_of,
+    examine,
+    interface_tables,
+    punch_stiffness,
+)
+
+X = abscissa(1e-9, 30, 20)
+PUNCH = 0.98
+HOW = {"plateau": 0.05, "elements_min": 10, "fraction_min": 0.95, "resamples": 200, "seed": 1}
+LAW = (0.35, 0.5, 0.8)
+
+
+def ensemble(interface, *, scatter=0.05, realizations=40, punch=PUNCH, case="c", hurst=0.5):
+    """Discs of which the interface is a function of X, times a factor for each; one element touches below X = 1e-5."""
+    factor = np.exp(scatter * np.random.default_rng(3).standard_normal((realizations, 1)))
+    first = 1e-5
+    softness = np.where(
+        first > X, (first / punch + factor * interface(first)) / first, 1 / punch + factor * interface(X) / X
+    )
+    count = np.where(first > X, 1.0, 20.0 * np.ones_like(softness))
+    about = {"hurst": hurst, "case": case, "diameter": 1.0, "elements": 10**4}
+    return ensemble_dataset(["disc"], X, 1 / softness[None], count[None], about)
+
+
+def examined(interface, average="arithmetic", **changes):
+    how = HOW | {"average": average}
+    return examine(ensemble(interface, **changes).sel(rms_convention="disc"), PUNCH, **how)
+
+
+def test_plateau_is_given_back():
+    """A power law up to X = 0.1, and constant from there on."""
+    row, _, _ = examined(lambda x: np.minimum(0.51, 0.51 * (x / 0.1) ** 0.3))
+    assert row["u0_low"] < row["u0"] < row["u0_high"]
+    assert row["u0"] == pytest.approx(0.51, rel=0.02)
+    assert row["u0_high"] - row["u0_low"] == pytest.approx(2 * 1.96 * 0.51 * 0.05 / np.sqrt(40), rel=0.3)
+    assert row["plateau_low"] == pytest.approx(0.1 * 0.95 ** (1 / 0.3), rel=0.15)
+    assert row["plateau_high"] == pytest.approx(X[-1])
+
+
+@pytest.mark.parametrize("average", ["arithmetic", "geometric"])
+def test_law_is_given_back_with_its_depth(average):
+    row, _, curves = examined(lambda x: interface_velocity(x, *LAW), average, scatter=0.0)
+    assert [row[name] for name in ("exponent", "peak", "peak_x")] == pytest.approx(LAW, rel=1e-4)
+    assert row["kappa_c"] == PUNCH
+    assert (row["law_low"], row["law_high"]) == pytest.approx((X_LOW, X[-1]))
+    assert row["deviation"] < 1e-4
+    # Below X = 1e-5 the velocity is proportional to X, and not that of the law.
+    first = 1e-5 / PUNCH + interface_velocity(1e-5, *LAW)
+    offset = first - 1e-5 / PUNCH - interface_depth(1e-5, *LAW)
+    assert row["depth_offset"] == pytest.approx(offset, rel=0.02)
+    assert row["depth_deviation"] < 2e-3
+    np.testing.assert_allclose(curves["interface"] + curves["x"] / PUNCH, curves["velocity"])
+    np.testing.assert_allclose(curves["law"], curves["velocity"], rtol=1e-4)
+    assert curves["x"].min() > 1e-5
+
+
+def test_error_of_the_law_contains_the_interval_of_the_mean():
+    exact, scattered = (examined(lambda x: interface_velocity(x, *LAW), scatter=s)[0] for s in (0.0, 0.3))
+    assert exact["error"] < 1e-4
+    assert scattered["deviation"] < 0.05 < scattered["error"] < 0.3
+
+
+def test_law_has_no_range_where_it_does_not_fit():
+    row, _, _ = examined(lambda x: 0.5 * np.exp(-(np.log(x / 0.01) ** 2)))
+    assert "law_low" not in row or row["deviation"] <= LARGEST_DEVIATION
+    row, _, _ = examined(lambda x: 0.3 + 0.29 * np.sin(4 * np.log(x)))
+    assert "law_low" not in row or row["law_high"] / row["law_low"] < 1e3
+
+
+def test_slopes_with_and_without_the_punch():
+    """g is a power law: its slope is the exponent, whereas that of vt/h grows with X."""
+    _, slopes, _ = examined(lambda x: 0.9 * x**0.4)
+    assert [(row["x_low"], row["x_high"]) for row in slopes] == [(1e-3, 1e-2), (3e-3, 3e-2), (1e-2, 1e-1)]
+    for row in slopes:
+        assert row["interface"] == pytest.approx(0.4, abs=2e-3)
+        assert row["interface_low"] <= row["interface"] <= row["interface_high"]
+        assert row["punch"] == pytest.approx(row["raw"] - row["interface"])
+        assert row["punch_low"] < row["punch"] < row["punch_high"]
+        assert row["expected"] == pytest.approx(1 / 3)
+        x = np.sqrt(row["x_low"] * row["x_high"])
+        raw = (x / PUNCH + 0.4 * 0.9 * x**0.4) / (x / PUNCH + 0.9 * x**0.4)
+        assert row["raw"] == pytest.approx(raw, abs=0.01)
+    assert slopes[2]["punch"] > 2 * slopes[0]["punch"]
+
+
+def test_punch_of_a_grid():
+    assert punch_stiffness(65) == pytest.approx(0.9801, abs=1e-4)
+    assert punch_stiffness(33) < punch_stiffness(65) < 1
+
+
+def test_tables_of_every_grid_and_average():
+    members = [
+        ensemble(lambda x: interface_velocity(x, *LAW), punch=punch_stiffness(n), case=f"n{n}", hurst=h)
+        for n, h in ((33, 0.5), (33, 0.7), (65, 0.5))
+    ]
+    pool = pool_of(members).assign_attrs(settings=json.dumps({f"n{n}": {"elements": n} for n in (33, 65)}))
+    cases = ensembles_of(pool, "discs", "base")
+    assert [(about["across"], about["hurst"]) for about, _, _ in cases] == [(33, 0.5), (33, 0.7), (65, 0.5)]
+    assert len(ensembles_of(pool, "discs", "base", {0.7})) == 1
+    table, slopes, curves = interface_tables(cases, "disc", **HOW)
+    assert (list(table), list(slopes), list(curves)) == (list(COLUMNS), list(SLOPES), list(CURVES))
+    assert table["average"].tolist() == ["arithmetic", "geometric"] * 3
+    assert np.ptp(table["u0"]) < 0.01
+    assert table["kappa_c"].tolist() == [punch_stiffness(n) for n in (33, 33, 33, 33, 65, 65)]
+    assert len(slopes) == 3 * len(table)
+    assert len(curves.groupby(["across", "hurst", "average"])) == len(table)
+    assert isinstance(curves, pd.DataFrame)

@@ -1,0 +1,73 @@
+# Two springs in series: the rough interface and the flat punch behind it.
+
+
+rule fit_interface:
+    input:
+        discs="results/ensembles/discs.nc",
+        lines="results/ensembles/lines.nc",
+    output:
+        csv="results/tables/interface.csv",
+        html=report(
+            "results/tables/interface.html",
+            caption="../report/interface_table.rst",
+            category=chapter("beyond"),
+            labels={"result": "interface and punch in series", "kind": "table"},
+        ),
+        nc="results/tables/interface.nc",
+        slopes_csv="results/tables/interface_slopes.csv",
+        slopes_html=report(
+            "results/tables/interface_slopes.html",
+            caption="../report/interface_slopes.rst",
+            category=chapter("beyond"),
+            labels={"result": "what the slopes owe to the punch", "kind": "table"},
+        ),
+        slopes_nc="results/tables/interface_slopes.nc",
+        curves_csv="results/tables/interface_curves.csv",
+        curves_nc="results/tables/interface_curves.nc",
+    log:
+        "results/logs/fit_interface.log",
+    benchmark:
+        "results/benchmarks/fit_interface.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=4000,
+    params:
+        fit=interface_limits(),
+        rms_convention=config["figures"]["rms_convention"],
+    message:
+        "Interface and punch in series"
+    script:
+        "../scripts/fit_interface.py"
+
+
+rule plot_interface:
+    input:
+        table=rules.fit_interface.output.csv,
+        curves=rules.fit_interface.output.curves_csv,
+    output:
+        png=report(
+            "results/figures/interface.png",
+            caption="../report/interface.rst",
+            category=chapter("beyond"),
+            labels={"result": "interface and punch in series", "kind": "figure"},
+        ),
+        pdf="results/figures/interface.pdf",
+    log:
+        "results/logs/plot_interface.log",
+    benchmark:
+        "results/benchmarks/plot_interface.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+    params:
+        conventions=config["figures"],
+    message:
+        "Figure of the interface and the punch in series"
+    script:
+        "../scripts/plot_interface.py"

@@ -1,0 +1,30 @@
+"""Tables of the interface and the punch in series: plateau, law and slopes of every ensemble, and its curves."""
+
+from viscorough.io.datasets import read_dataset
+from viscorough_study.interface import COLUMNS, CURVES, SLOPES, ensembles_of, interface_tables
+from viscorough_study.job_log import log_to
+from viscorough_study.tables import recorded, write_table
+
+
+def main(
+    discs, lines, csv, html, nc, slopes_csv, slopes_html, slopes_nc, curves_csv, curves_nc, *, fit, rms_convention
+):
+    """Take discs and lines apart into interface and punch, lines at the Hurst exponents of the discs.
+
+    discs, lines : pools; fit : further arguments of interface_tables; rms_convention : of the discs
+    """
+    cases = ensembles_of(read_dataset(discs), "discs", "base")
+    hursts = {about["hurst"] for about, _, _ in cases}
+    cases += ensembles_of(read_dataset(lines), "lines", "lines", hursts)
+    table, slopes, curves = interface_tables(cases, rms_convention, **fit)
+    about = {"dimension": "ensemble", "title": "Interface and punch in series", "attributes": recorded(settings=fit)}
+    write_table(table, csv, nc, html, columns=COLUMNS, **about)
+    about = {"dimension": "window", "title": "Slopes of vt/h and of the interface alone in equal windows"}
+    write_table(slopes, slopes_csv, slopes_nc, slopes_html, columns=SLOPES, **about)
+    about = {"dimension": "abscissa", "title": "Curves of the interface alone"}
+    write_table(curves, curves_csv, curves_nc, columns=CURVES, **about)
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(**job.input, **job.output, **job.params)

@@ -1,0 +1,17 @@
+"""Figure of the interface and the punch in series."""
+
+import pandas as pd
+
+from viscorough_study.figures.interface import plot_interface
+from viscorough_study.figures.style import save_figure
+from viscorough_study.job_log import log_to
+
+
+def main(table, curves, png, pdf, *, conventions):
+    """Plot the tables. conventions : those of the figures, {column of the table: value}"""
+    save_figure(plot_interface(pd.read_csv(table), pd.read_csv(curves), conventions), png, pdf)
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(**job.input, **job.output, **job.params)

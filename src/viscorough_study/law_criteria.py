@@ -9,11 +9,13 @@ from itertools import product
 
 import numpy as np
 import pandas as pd
+from scipy import stats
 
 from viscorough import reference
 from viscorough_study.conventions import FITTED, NAMES, in_every_reading, left_open
 from viscorough_study.evidence import equivalence, hurst_name, judged, mean_with_interval
-from viscorough_study.power_law import fit_power_law
+from viscorough_study.power_law import fit_power_law, in_window
+from viscorough_study.region_criteria import excess_variance
 
 
 def law_cases(evidence, tolerance, *, source, column, law, relative=False, above=-1.0, **fixed):
@@ -104,6 +106,53 @@ def _differences(evidence, conventions):
     below = np.hypot(lines["beta"] - lines["beta_low"], discs["beta_high"] - discs["beta"])
     above = np.hypot(lines["beta_high"] - lines["beta"], discs["beta"] - discs["beta_low"])
     return pd.DataFrame({"value": difference, "low": difference - below, "high": difference + above})
+
+
+def hurst_only(evidence, tolerance):
+    """Standard deviation of β between combinations of force, viscosity, size and rms height, without sampling."""
+    cases = []
+    for hurst, ensembles in evidence.combinations.items():
+        window = evidence.regions[hurst]
+        if window is None:
+            cases.append(judged(hurst_name(hurst), (np.nan,) * 3, 0.0, None))
+            continue
+        *values, _ = np.sqrt(excess_variance([_slopes(ensemble, window) for ensemble in ensembles]))
+        cases.append(judged(hurst_name(hurst), values, 0.0, equivalence(values[1:], 0, tolerance)))
+    return cases
+
+
+def realizations(evidence, tolerance):
+    """Half the width of the 95 % interval of β that as many indentations give as the paper averages in Fig. 4.
+
+    The interval is that of the standard deviation of a normal distribution, by the distribution of χ².
+    """
+    number, cases = evidence.said("boundary_elements", "realizations_fig4"), []
+    for hurst, ensemble in evidence.pooled.items():
+        window = evidence.regions[hurst]
+        if window is None:
+            cases.append(judged(hurst_name(hurst), (np.nan,) * 3, np.nan, None))
+            continue
+        slopes = _slopes(ensemble, window)
+        freedom = slopes.size - 1
+        half_width = 1.96 * slopes.std(ddof=1) / np.sqrt(number)
+        ends = half_width * np.sqrt(freedom / stats.chi2.ppf([0.975, 0.025], freedom))
+        cases.append(judged(hurst_name(hurst), (half_width, *ends), np.nan, equivalence(ends, 0, tolerance)))
+    return cases
+
+
+def _slopes(ensemble, window):
+    """Slope of ln(vt/h) over ln X in a window, of each realization that is defined there."""
+    inside = in_window(ensemble["x"].values, window)
+    log_x, log_velocity = np.log(ensemble["x"].values[inside]), np.log(ensemble["velocity"].values[:, inside])
+    log_velocity = log_velocity[np.isfinite(log_velocity).all(axis=1)]
+    return np.polyfit(log_x, log_velocity.T, 1)[0]
+
+
+def alpha_limit(evidence, tolerance):
+    """β of lines at H = 1, where the paper calls the exponent exact."""
+    fits = evidence.fits("lines")
+    values = fits.loc[1.0, ["beta", "beta_low", "beta_high"]].tolist() if 1.0 in fits.index else (np.nan,) * 3
+    return [judged("H = 1, lines", values, 0.5, equivalence(values[1:], 0.5 - tolerance, 0.5 + tolerance))]
 
 
 # ---- prefactors
@@ -200,6 +249,9 @@ JUDGES = {
     "beta": beta,
     "beta_lines": beta_lines,
     "coincide": coincide,
+    "hurst_only": hurst_only,
+    "realizations": realizations,
+    "alpha_limit": alpha_limit,
     "depth": depth,
     "zeta_elastic": zeta_elastic,
     "zeta_viscous": zeta_viscous,

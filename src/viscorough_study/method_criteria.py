@@ -5,6 +5,8 @@ import numpy as np
 from viscorough.surfaces import cut_disc
 from viscorough_study.evidence import NO_INTERVAL, equivalence, judged, opposite
 
+WEEKS_IN_MINUTES = 7 * 24 * 60  # the unit of several weeks in that of a few minutes
+
 
 def gamma(evidence, tolerance):
     """Depth of direct integrations in time over the elastic depth, against the factor of Eq. 8."""
@@ -60,11 +62,35 @@ def elements(evidence, tolerance):
 
 
 def computing_time(evidence, tolerance):
-    """Contact events of one indentation to the end of its curve, each of them a contact problem for explicit steps."""
+    """Order of magnitude of the time of boundary elements over that of lines, at the numbers that the paper states.
+
+    Boundary elements: a contact problem for every contact event of every indentation, as explicit steps take them; the
+    reduction: every point of every line. The time of each is that of the table of methods, on a disc as large as the
+    paper's. Rounded to a power of ten, which the machine does not change.
+    """
+    numbers = {name: evidence.said("boundary_elements", name) for name in ("combinations", "realizations_min")}
     counts = [ensemble["contact_count"].max("abscissa").values for ensemble in evidence.pooled.values()]
-    counts = np.concatenate(counts)
-    values, extremes = (np.median(counts), *NO_INTERVAL), (counts.min(), counts.max())
-    return [judged("events of an indentation", values, np.nan, None, extremes=extremes)]
+    problems = np.prod(list(numbers.values())) * np.median(np.concatenate(counts))
+    names = "hurst_count", "realizations", "points"
+    points = np.prod([float(evidence.said("reduction", name)) for name in names])
+    methods = evidence.tables["methods"]
+    methods = methods[
+        methods["hurst"].notna() & (methods["elements"] == evidence.said("boundary_elements", "elements_across"))
+    ]
+    times = [_time_of_one(methods, name) for name in ("explicit, logarithmic steps", "MDR")]
+    ratio = problems * times[0] / (points * times[1])
+    value = 10.0 ** np.round(np.log10(ratio)) if np.isfinite(ratio) else np.nan
+    met = bool(1 / tolerance <= value / WEEKS_IN_MINUTES <= tolerance)
+    return [judged("power of ten of the ratio", (value, *NO_INTERVAL), WEEKS_IN_MINUTES, met)]
+
+
+def _time_of_one(methods, name):
+    """Time of one step or point of a method [s], where it took most of them; nan if it was not measured."""
+    rows = methods[methods["method"] == name]
+    if rows.empty:
+        return np.nan
+    most = rows.loc[rows["value"].idxmax()]
+    return most["wall_s"] / most["value"]
 
 
 JUDGES = {

@@ -1,12 +1,18 @@
 """Criteria of claims on the form of the curves: their collapse, and the regions (a), (b) and (c)."""
 
+from itertools import pairwise
+
 import numpy as np
 from scipy import stats
 
 from viscorough import reference
 from viscorough_study.evidence import NO_INTERVAL, UNDEFINED, equivalence, hurst_name, judged, mean_with_interval
+from viscorough_study.plateau import local_slopes
+from viscorough_study.power_law import percentile_interval
 
 ROUNDING = 1e-9  # relative difference up to which numbers of decades count as equal
+LEFT_REGION = 2.0  # κ over that of one element, at which a curve has left region (a)
+SLOPE_OF_LINE = 0.05  # deviation of a slope from 1 that no eye sees in Fig. 2
 POWER_LAWS_LOST_MAX = 0.05  # share of synthetic power laws that may fail the test for one
 ONE_ELEMENT = 1 + 1e-9  # elements in contact, interpolated in the logarithm, up to which a single one touches
 
@@ -101,7 +107,55 @@ def power_law(evidence, tolerance):
     return cases
 
 
+def separation(evidence, tolerance):
+    """X at which curves leave region (a) for one Hurst exponent over that of the next larger one; above 1 if later.
+
+    They have left it where the geometric mean of κ is `LEFT_REGION` times that of one element.
+    """
+    ends = {hurst: _end_of_first_region(evidence, ensemble) for hurst, ensemble in evidence.pooled.items()}
+    cases = []
+    for lower, higher in pairwise(ends):
+        ratios = np.exp(ends[lower] - ends[higher])
+        realizations = min(evidence.pooled[hurst].sizes["realization"] for hurst in (lower, higher))
+        values = ratios[0], *percentile_interval(ratios[1:], realizations)
+        cases.append(judged(f"H = {lower:g} over H = {higher:g}", values, np.nan, equivalence(values[1:], 1, np.inf)))
+    return cases
+
+
+def _end_of_first_region(evidence, ensemble):
+    """ln X at the end of region (a): of the ensemble, then of each bootstrap sample; nan where it is not reached."""
+    x, stiffness = ensemble["x"].values, np.log(ensemble["stiffness"].values)
+    stiffness = stiffness[:, np.isfinite(stiffness).all(axis=0)]
+    number, random = len(stiffness), np.random.default_rng(evidence.seed)
+    weights = random.multinomial(number, np.full(number, 1 / number), size=evidence.resamples) / number
+    means = np.vstack([stiffness.mean(axis=0), weights @ stiffness])
+    level = np.log(LEFT_REGION * reference.one_element_stiffness(evidence.across))
+    log_x = np.log(x[: means.shape[1]])
+    return np.array([np.interp(level, mean, log_x, left=np.nan, right=np.nan) for mean in means])
+
+
+def complete_contact(evidence, tolerance):
+    """Share of the elements in contact at the X from which on the local slope is 1 within `SLOPE_OF_LINE`."""
+    cases = []
+    for hurst, ensemble in evidence.pooled.items():
+        defined = ensemble["fraction_defined"].values == 1
+        log_x, mean = np.log(ensemble["x"].values[defined]), np.log(ensemble["velocity_geometric"].values[defined])
+        inner, (slopes,) = local_slopes(log_x, mean[None], evidence.limits["slope_half_width"] * np.log(10))
+        below = np.flatnonzero(slopes < 1 - SLOPE_OF_LINE)
+        if not below.size or below[-1] + 1 == slopes.size:
+            cases.append(judged(hurst_name(hurst), UNDEFINED, 1.0, None))
+            continue
+        first = int(np.argmin(np.abs(np.log(ensemble["x"].values) - inner[below[-1] + 1])))
+        fractions = ensemble["contact_count"].values[:, first] / ensemble["elements"].item()
+        values, extremes = mean_with_interval(fractions), (fractions.min(), fractions.max())
+        name = f"{hurst_name(hurst)}, from X = {ensemble['x'].values[first]:.3g} on"
+        cases.append(judged(name, values, 1.0, equivalence(values[1:], 1 - tolerance, np.inf), extremes=extremes))
+    return cases
+
+
 JUDGES = {
+    "separation": separation,
+    "complete_contact": complete_contact,
     "collapse": collapse,
     "first_region": first_region,
     "last_region": last_region,

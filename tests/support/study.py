@@ -30,6 +30,13 @@ LIMITS = {
 }
 BASE_SURFACES = {"base": {"period": 1.0, "corners": False, "amplitudes": "random"}}
 RULES = {"decades_min": 2.0, "end_decades": 0.25}
+METHODS = [  # 1 ms for a step, 1 ns for a point
+    ("explicit, logarithmic steps", 0.8, 257, 16, 1.0),
+    ("explicit, logarithmic steps", 0.8, 257, 256, 0.256),
+    ("MDR", 0.8, 257, 1e6, 1e-3),
+    ("MDR", np.nan, 257, 1e7, 1.0),
+    ("MDR", 0.8, 65, 1e7, 1.0),
+]
 BOOTSTRAP = {"resamples": 50, "seed": 1}
 X = abscissa(1e-7, 30.0, 20)
 HURST = (0.4, 0.6, 0.9)
@@ -86,6 +93,7 @@ def evidence(zeta=reference.zeta_elastic, **options):
             "validation": validation,
             "direct": compare_direct(HURST, 17, 25, 1),
             **mdr_tables(),
+            "methods": pd.DataFrame(METHODS, columns=["method", "hurst", "elements", "value", "wall_s"]),
             "plateaus": pd.DataFrame(
                 plateaus, columns=["case_group", "hurst", "decades", "decades_low", "decades_high", "power_law_fails"]
             ),

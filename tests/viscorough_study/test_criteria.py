@@ -1,16 +1,28 @@
 """Criteria: their statistics against known distributions, and their limits."""
 
 import dataclasses
+from itertools import pairwise
 
 import numpy as np
 import pandas as pd
 import pytest
+import xarray as xr
 from scipy import stats
 
-from support.study import evidence
+from support.study import ACROSS, CLAIMS, HURST, evidence
+from viscorough.reference import one_element_stiffness, zeta_elastic
+from viscorough_study.criteria import JUDGES
 from viscorough_study.evidence import equivalence, judged, mean_with_interval, opposite
-from viscorough_study.method_criteria import bodies_of_revolution, elements
-from viscorough_study.region_criteria import excess_variance, last_region, power_law
+from viscorough_study.form_criteria import _case as form_case
+from viscorough_study.law_criteria import alpha_limit, hurst_only, realizations
+from viscorough_study.method_criteria import bodies_of_revolution, computing_time, elements
+from viscorough_study.region_criteria import (
+    complete_contact,
+    excess_variance,
+    last_region,
+    power_law,
+    separation,
+)
 
 
 def test_variance_between_groups_is_covered_at_the_stated_rate():
@@ -121,6 +133,85 @@ def test_settings_decide_how_long_a_power_law_must_be():
         assert {case.verdict for case in power_law(changed, 0.05)} == {verdict}
     changed.tables["plateaus"]["power_law_fails"] = 0.1
     assert {case.verdict for case in power_law(changed, 0.05)} == {"undecided"}, "the test loses power laws"
+
+
+def test_identities_hold_exactly_and_would_fail():
+    """On a small disc: no element differs, curves agree to rounding; and one element more fails."""
+    found = evidence()
+    for name in ("history", "depth_over_rms", "one_surface"):
+        tolerance = CLAIMS[name]["tolerance"]
+        cases = JUDGES[name](found, tolerance)
+        assert {case.verdict for case in cases} == {"reproduced"}
+        assert all(case.value <= tolerance for case in cases)
+    assert form_case("a", [0, 1], 0).verdict == "not reproduced"
+    assert (form_case("a", [0, 1], 0).least, form_case("a", [0, 1], 0).largest) == (0, 1)
+
+
+def test_curves_that_leave_the_first_region_sooner_separate_first():
+    """κ = ζ X^α is twice π/(K₀₀ n) at X = (2π/(K₀₀ n ζ))^(1/α)."""
+    found = evidence()
+    end = {}
+    for hurst in HURST:
+        level = 2 * one_element_stiffness(ACROSS) / zeta_elastic(hurst)
+        end[hurst] = level ** (1 + hurst)
+    cases = separation(found, 0.0)
+    for case, (lower, higher) in zip(cases, pairwise(HURST), strict=True):
+        assert case.value == pytest.approx(end[lower] / end[higher], rel=0.1)
+        assert case.low < case.value < case.high
+        assert case.verdict == "reproduced"
+    swapped = evidence(lambda hurst: zeta_elastic(1.3 - hurst) * (0.2 if hurst == 0.9 else 1))
+    assert separation(swapped, 0.0)[1].verdict == "not reproduced"
+
+
+def test_contact_is_complete_only_where_most_elements_touch():
+    """These discs have κ² of their elements in contact, and all of them where κ is 1."""
+    found = evidence()
+    assert {case.verdict for case in complete_contact(found, 0.1)} == {"reproduced"}
+    found.discs["contact_count"] = found.discs["contact_count"] / 2
+    cases = complete_contact(dataclasses.replace(found), 0.1)
+    assert {case.verdict for case in cases} == {"not reproduced"}
+    assert all(case.value == pytest.approx(0.5, abs=0.01) for case in cases)
+
+
+def test_exponents_of_combinations_are_compared():
+    found = evidence(scatter=0.02)
+    assert {case.verdict for case in hurst_only(found, 0.03)} == {"reproduced"}
+    first = found.discs["case"] == "c0"
+    found.discs["stiffness"] = found.discs["stiffness"] * xr.where(first, found.discs["x"] ** 0.2, 1)
+    assert {case.verdict for case in hurst_only(dataclasses.replace(found), 0.03)} == {"not reproduced"}
+
+
+def test_interval_of_the_exponent_that_250_indentations_give():
+    found = evidence(scatter=0.0)
+    random = np.random.default_rng(5).standard_normal(found.discs.sizes["realization"])
+    exponent = xr.DataArray(0.1 * random, dims="realization")
+    found.discs["stiffness"] = found.discs["stiffness"] * found.discs["x"] ** exponent
+    for case in realizations(found, 0.03):
+        assert case.low < 1.96 * 0.1 / np.sqrt(250) < case.high
+        assert case.verdict == "reproduced"
+    assert {case.verdict for case in realizations(found, 0.001)} == {"not reproduced"}
+
+
+def test_limit_of_the_exponent_needs_lines_of_that_exponent():
+    found = evidence()
+    assert alpha_limit(found, 0.015)[0].verdict == "undecided"
+    scaling = found.tables["scaling"]
+    rows = scaling[(scaling["source"] == "lines") & (scaling["hurst"] == 0.9)].assign(hurst=1.0, beta=0.5)
+    for half_width, verdict in ((0.01, "reproduced"), (0.02, "undecided")):
+        more = rows.assign(beta_low=0.5 - half_width, beta_high=0.5 + half_width)
+        found.tables["scaling"] = pd.concat([scaling, more], ignore_index=True)
+        assert alpha_limit(found, 0.015)[0].verdict == verdict
+
+
+def test_time_is_compared_at_the_numbers_of_the_paper():
+    """2880 indentations of 51433 events at 1 ms, over 101 · 500 · 4e6 points at 1 ns: 733, in powers of ten 1000."""
+    found = evidence()
+    (case,) = computing_time(found, 10)
+    assert case.value == 1000
+    assert case.verdict == "not reproduced"
+    assert computing_time(found, 11)[0].verdict == "reproduced"
+    found.tables["methods"] = found.tables["methods"].query("method == 'MDR'")
+    assert computing_time(found, 10)[0].verdict == "undecided"
 
 
 def test_slope_of_the_last_region_is_over_the_end_of_the_curves():

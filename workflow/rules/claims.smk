@@ -98,6 +98,7 @@ rule judge_claims:
         mdr_summary=rules.match_lines.output.summary_csv,
         mdr_exponents=rules.match_lines.output.exponents_csv,
         plateaus=rules.measure_plateaus.output.csv,
+        methods="results/tables/methods.csv",
     output:
         csv="results/tables/claims.csv",
         html=report(

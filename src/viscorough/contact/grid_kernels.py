@@ -107,10 +107,14 @@ def energies(
 
 
 @njit(nogil=True)
-def predict(predicted, predicted_change, depth_step, pressure, tangent, gap_change, tangent_gap):
-    """Store P + Δu q in `predicted` and e − g + Δu e_q in `predicted_change`."""
+def predict(predicted, predicted_change, inside, depth_step, pressure, tangent, gap_change, tangent_gap):
+    """Store P + Δu q in `predicted`, whether it is not zero in `inside`, and e − g + Δu e_q in `predicted_change`.
+
+    Elements under tension are inside, too; they leave later.
+    """
     for i in range(pressure.size):
         predicted[i] = pressure[i] + depth_step * tangent[i]
+        inside[i] = predicted[i] != 0
         predicted_change[i] = gap_change[i] + depth_step * tangent_gap[i]
 
 
@@ -131,6 +135,15 @@ def combine(
         )
         deflection = pressure_weight * gap_change[i] + last_pressure_weight * last_gap_change[i]
         tangent_gap[i] = deflection + tangent_weight * last_tangent_gap[i] + shift
+
+
+@njit(nogil=True)
+def any_left(before, after):
+    """Whether any place of a set is not in another one."""
+    left = 0
+    for i in range(before.size):
+        left += before[i] & ~after[i]
+    return left > 0
 
 
 @njit(fastmath=True, nogil=True)

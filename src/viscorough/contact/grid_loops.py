@@ -76,9 +76,10 @@ class GridLoops:
     def largest_overlap(self, gap_change, initial_gap):
         return max(self._over(gap_change, lambda i, j: kernels.largest_overlap(gap_change[i:j], initial_gap[i:j])))
 
-    def predict(self, predicted, predicted_change, depth_step, *fields):
+    def predict(self, predicted, predicted_change, inside, depth_step, *fields):
         def predict(i, j):
-            kernels.predict(predicted[i:j], predicted_change[i:j], depth_step, *(field[i:j] for field in fields))
+            stored = predicted[i:j], predicted_change[i:j], inside[i:j]
+            kernels.predict(*stored, depth_step, *(field[i:j] for field in fields))
 
         self._over(predicted, predict)
 
@@ -87,6 +88,9 @@ class GridLoops:
             kernels.combine(tangent[i:j], tangent_gap[i:j], weights, shift, *(field[i:j] for field in fields))
 
         self._over(tangent, combine)
+
+    def any_left(self, before, after):
+        return any(self._over(before, lambda i, j: kernels.any_left(before[i:j], after[i:j])))
 
     def update_gap(self, length, deflection, gap):
         rows, columns = deflection.shape

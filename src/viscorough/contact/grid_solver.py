@@ -100,8 +100,7 @@ class GridSolver:
         """GridFields of a contact from elsewhere on this grid; costs two applications of the operator."""
         loads = contact.member_loads()
         place = self.place[loads.members]
-        inside = np.zeros(self.initial_gap.size, dtype=bool)
-        pressure, tangent = np.zeros_like(self.initial_gap), np.zeros_like(self.initial_gap)
+        inside, pressure, tangent = self._zeros(bool), self._zeros(), self._zeros()
         inside[place], pressure[place], tangent[place] = True, loads.pressure, loads.tangent
         change, tangent_gap = self._gap_change(pressure, contact.reduced_depth), self._tangent_gap(tangent)
         return GridFields(inside, pressure, change, tangent, tangent_gap, self.initial_gap, self.place)
@@ -113,12 +112,12 @@ class GridSolver:
         """
         before, last_depth = self._start_fields(contact), contact.reduced_depth
         depth_step = depth - last_depth
-        pressure, change = np.zeros_like(self.initial_gap), np.zeros_like(self.initial_gap)
+        pressure, change, inside = self._zeros(), self._zeros(), self._zeros(bool)
         fields = before.pressure, before.tangent, before.gap_change.values, before.tangent_gap.values
         step = self._precision(depth_step)
-        self._loops.predict(self._inner_rows(pressure), self._inner_rows(change), step, *map(self._inner_rows, fields))
+        self._loops.predict(*map(self._inner_rows, (pressure, change, inside)), step, *map(self._inner_rows, fields))
         rounding = before.gap_change.rounding + depth_step * before.tangent_gap.rounding + self._field_rounding * depth
-        change, inside = BoundedField(change, rounding), pressure != 0  # elements under tension leave later
+        change = BoundedField(change, rounding)
         self._add_penetrating_elements(change, inside, 0.0)
         contact_set = self._solve_pressure(pressure, change, inside, depth)
         now, last = Loads(pressure, change, depth), Loads(before.pressure, before.gap_change, last_depth)
@@ -271,7 +270,7 @@ class GridSolver:
 
     def _deflection(self, pressure):
         """K P on the flat grid, in double precision where the tolerance needs it; its border is zero."""
-        deflection, columns = np.zeros_like(pressure), self._width - 2 * REACH
+        deflection, columns = self._zeros(), self._width - 2 * REACH
         if not pressure.any():
             return deflection
         self._exact.load[:] = 0
@@ -283,6 +282,10 @@ class GridSolver:
         return self._loops.add_penetrating_elements(
             *map(self._inner_rows, (change.values, self.initial_gap, inside)), limit
         )  # fmt: skip
+
+    def _zeros(self, dtype=None):
+        """A flat field of zeros, whose memory is taken by whatever loop fills it, on the threads of that loop."""
+        return np.zeros(self.initial_gap.size, dtype or self._precision)
 
     def _inner_rows(self, field):
         """View of a flat field without the rows of its border, which are most of the field of a strip."""

@@ -265,7 +265,11 @@ class SparseFactor:
 
     def update(self, inside):
         """Change to another contact set, whether an element is in it, flat field; returns how many joined or left."""
-        changed = np.flatnonzero(inside != self._inside)
+
+        def changes(i, j):
+            return i + np.flatnonzero(inside[i:j] != self._inside[i:j])
+
+        changed = np.concatenate(run_blocks(changes, inside.size, self._threads))
         if changed.size:
             if changed.size * _COST_OF_CHANGE > inside.size:
                 members = inside.view(np.uint8)  # whose bits are shifted

@@ -30,7 +30,7 @@ def initial_tangent(now, last, before, contact_set, inner, loops):
     weights = _weights(now, last, before, contact_set, loops)
     pressure_weight, last_pressure_weight, tangent_weight = weights
     shift = pressure_weight * now.depth + last_pressure_weight * last.depth + tangent_weight - 1
-    tangent, tangent_gap = np.zeros_like(now.pressure), np.zeros_like(now.pressure)
+    tangent, tangent_gap = (np.zeros(now.pressure.size, now.pressure.dtype) for _ in range(2))
     fields = (
         now.pressure, now.gap_change.values, last.pressure, last.gap_change.values,
         before.tangent, before.tangent_gap.values,
@@ -45,7 +45,7 @@ def _weights(now, last, before, contact_set, loops):
         (now.depth, last.depth), now.pressure, now.gap_change.values, last.pressure, last.gap_change.values,
         before.tangent, before.tangent_gap.values, places=contact_set.places,
     )  # fmt: skip
-    if np.any(before.inside & ~contact_set.inside):
+    if loops.any_left(before.inside, contact_set.inside):
         # An element left the contact, within the tolerance: fields that load it cannot be part of q.
         energy, sums = energy[:1, :1], sums[:1]
     scale = 1 / np.sqrt(np.maximum(np.diag(energy), np.finfo(float).tiny))

@@ -46,8 +46,9 @@ def trends(table, conventions, tolerance):
     tolerance : of β, that of the claims on β in resources/paper/claims.yaml
 
     The trend is a line by least squares, weighted by the intervals of β, and its own interval is widened where β
-    scatters more than its intervals allow. Where β departs by more than the tolerance on the finest grid, the grid is
-    the cause if the whole interval of the slope leads towards the expected exponent.
+    scatters more than its intervals allow. On the finest grid β agrees where its whole interval lies within the
+    tolerance of the expected exponent, departs where it lies outside, and is undetermined otherwise. A departure becomes
+    less on finer grids if the whole interval of the slope leads towards the expected exponent.
     Returns a pandas.DataFrame with the columns of `COLUMNS`.
     """
     rows = []
@@ -61,8 +62,9 @@ def trends(table, conventions, tolerance):
 
 
 def fixed_rules(table):
-    """Names of the fixed windows in a table of fits, in its order."""
-    return [rule for rule in dict.fromkeys(table["window_rule"]) if rule not in FITTED["window_rule"]]
+    """Names of the windows of fixed X in a table of fits, from small X to large."""
+    fixed = table[~table["window_rule"].isin(FITTED["window_rule"])]
+    return list(dict.fromkeys(fixed.sort_values("x_low", kind="stable")["window_rule"]))
 
 
 def fixed_window_rows(ensemble, windows, about, *, average, rms_convention, elements_min, fraction_min, **bootstrap):
@@ -111,9 +113,10 @@ def _slope(elements, beta, low, high):
 
 def _finding(departure, slope, tolerance):
     """One of `FINDINGS`; departure, slope : value, low, high."""
-    if departure[1] <= tolerance and departure[2] >= -tolerance:
+    if departure[1] >= -tolerance and departure[2] <= tolerance:
         return FINDINGS[0]
-    if not np.isfinite(slope[0]):
+    outside = departure[1] > tolerance or departure[2] < -tolerance
+    if not outside or not np.isfinite(slope[0]):
         return FINDINGS[3]
     towards_expected = slope[2] < 0 if departure[0] > 0 else slope[1] > 0
     return FINDINGS[1] if towards_expected else FINDINGS[2]

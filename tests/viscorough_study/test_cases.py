@@ -15,12 +15,12 @@ def test_spawn_keys_do_not_depend_on_order(settings):
     discs, lines = cases.disc_cases(settings), cases.line_cases(settings)
     all_cases = [*discs.values(), *lines.values()]
     keys = [one["spawn_key"] for case in all_cases for one in case.get("ensembles", [case])]
-    assert len(set(keys)) == len(keys) == 4 * 13 + 21 + 5 * (4 + 5) + 4
+    assert len(set(keys)) == len(keys) == 4 * 13 + 21 + 5 * (4 + 3) + 4
     assert discs["h01000_c3"]["spawn_key"] == (1, 100000, 3)
     assert lines["h01000"]["spawn_key"] == (3, 100000)
     assert discs["sizes"]["ensembles"][3]["spawn_key"] == (8, 100000, 257)
     assert discs["controls"]["ensembles"][0]["spawn_key"] == (13, 700000, 33)
-    assert lines["sizes"]["ensembles"][2]["spawn_key"] == (9, 100000, 4096)
+    assert lines["sizes"]["ensembles"][1]["spawn_key"] == (9, 100000, 8192)
     settings["discs"]["hurst"].reverse()
     settings["discs"]["combinations"].reverse()
     settings["variants"]["cases"] = settings["variants"]["cases"][::-1]
@@ -33,7 +33,7 @@ def test_every_case_is_in_one_pool(settings):
         pooled = [case for pool in pools for case, _ in cases.pool_batches(table, pool)]
         assert set(pooled) == set(table)
     assert len(cases.pool_batches(discs, "discs")) == 52
-    assert cases.pool_batches(lines, "size_lines") == [("sizes", "0000-0599")]
+    assert cases.pool_batches(lines, "size_lines") == [("sizes", "0000-0239")]
 
 
 def test_a_batch_of_several_ensembles_holds_each_realization_once(settings):

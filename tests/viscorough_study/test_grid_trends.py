@@ -7,7 +7,7 @@ import pytest
 from support.study import BOOTSTRAP, SHOWN, ensemble, fit_row
 from viscorough.reference import exponent_beta
 from viscorough_study.fit_table import COLUMNS as SCALING
-from viscorough_study.grid_trends import COLUMNS, FINDINGS, fixed_window_rows, trends
+from viscorough_study.grid_trends import COLUMNS, FINDINGS, fixed_rules, fixed_window_rows, trends
 
 TOLERANCE = 0.03
 ELEMENTS = np.array([1e3, 1e4, 1e5, 1e6])
@@ -32,6 +32,8 @@ def table(departure, *, hurst=0.1, source="discs", case_group="sizes", half_widt
         ([0.15, 0.2, 0.25, 0.3], 0.01, "departs on every grid"),
         ([0.3, 0.25, 0.2, 0.15], 0.115, "departs on every grid"),
         ([np.nan, np.nan, 0.2, 0.15], 0.01, "undetermined"),
+        ([0.1, 0.07, 0.04, 0.01], 0.03, "undetermined"),
+        ([0.1, 0.07, 0.04, 0.04], 0.02, "undetermined"),
     ],
 )
 @pytest.mark.parametrize("group", [("discs", "sizes"), ("discs", "controls"), ("lines", "sizes")])
@@ -60,6 +62,11 @@ def test_fixed_windows_beside_the_moving_one():
     found = trends(pd.concat([table(np.array([0.3, 0.25, 0.2, 0.15])), fixed]), SHOWN, TOLERANCE)
     assert found["window_rule"].tolist() == ["default", "X = 0.01 to 0.1"]
     assert found["finding"].tolist() == ["departs, and less on finer grids", "departs on every grid"]
+
+
+def test_fixed_windows_are_in_the_order_of_x():
+    found = pd.DataFrame({"window_rule": ["default", "b", "a", "b"], "x_low": [1e-4, 1e-2, 1e-3, 1e-2]})
+    assert fixed_rules(found) == ["a", "b"]
 
 
 def test_fits_in_windows_of_fixed_x():

@@ -35,7 +35,7 @@ def plot_sizes(table, conventions):
     require_rows("plot_sizes", table)
     rules = [conventions["window_rule"], *fixed_rules(table)[-1:]]
     figure = Figure(figsize=(WIDE, (25 + 60 * len(rules)) * MM))
-    panels = figure.subplots(len(rules), 2, sharey=True, squeeze=False)
+    panels = figure.subplots(len(rules), 2, sharex="col", sharey=True, squeeze=False)
     looks = hurst_looks(table.loc[table["case_group"] == "sizes", "hurst"])
     letters = iter("abcd")
     for row, rule in zip(panels, rules, strict=True):

@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 
-from viscorough import contact_at
+from viscorough.contact.one_contact import contact_at
 from viscorough.indenter import Indenter
 from viscorough.surfaces import cut_disc, square_of_disc
 

@@ -47,8 +47,8 @@ def trends(table, conventions, tolerance):
 
     The trend is a line by least squares, weighted by the intervals of β, and its own interval is widened where β
     scatters more than its intervals allow. On the finest grid β agrees where its whole interval lies within the
-    tolerance of the expected exponent, departs where it lies outside, and is undetermined otherwise. A departure becomes
-    less on finer grids if the whole interval of the slope leads towards the expected exponent.
+    tolerance of the expected exponent, departs where it lies outside, and is undetermined otherwise. A departure
+    becomes less on finer grids if the whole interval of the slope leads towards the expected exponent.
     Returns a pandas.DataFrame with the columns of `COLUMNS`.
     """
     rows = []

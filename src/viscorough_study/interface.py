@@ -8,20 +8,15 @@ interface alone. Where F is exponential in the mean separation, F ∝ exp(−s/u
 there over ln X. Lines of the reduction of dimensionality have κ_c = 1.
 """
 
-import json
-from functools import cache
-
 import numpy as np
 import pandas as pd
 from scipy.optimize import least_squares
 
 from viscorough.calibrated_law import LARGEST_DEVIATION, X_LOW, interface_depth, interface_velocity
-from viscorough.contact.one_contact import contact_at
-from viscorough.indenter import Indenter
 from viscorough.reference import COMPLETE_CONTACT_STIFFNESS, exponent_beta
-from viscorough.surfaces import cut_disc
 from viscorough_study.conventions import FITTED
-from viscorough_study.pool import ensembles, select
+from viscorough_study.discs import elements_across, punch_stiffness
+from viscorough_study.pool import ensembles_on_grids, select
 from viscorough_study.power_law import in_window, log_means, percentile_interval
 
 WINDOWS = ((1e-3, 1e-2), (3e-3, 3e-2), (1e-2, 1e-1))  # in X, in which slopes are compared
@@ -80,27 +75,18 @@ CURVES = {
 }
 
 
-@cache
-def punch_stiffness(elements_across):
-    """κ of a flat disc of so many elements across, by boundary elements; 1 for ever finer grids."""
-    disc = cut_disc(np.zeros((elements_across, elements_across)), elements_across)
-    return contact_at(Indenter(disc, 1 / elements_across), depth=1.0, tolerance=1e-5).stiffness / 4
-
-
 def ensembles_of(pool, source, case_group, hursts=None):
     """List of (columns of `ENSEMBLE` but the average, ensemble, κ_c), one for each Hurst exponent and grid of a group.
 
     pool : of viscorough_study.pool; hursts : only these Hurst exponents
     """
-    settings = {case: about.get("points") or about["elements"] for case, about in json.loads(pool.settings).items()}
-    pool, found = select(pool, group=case_group), []
-    across = np.array([settings[case] for case in pool["case"].values])
-    for number in dict.fromkeys(across.tolist()):
-        punch = COMPLETE_CONTACT_STIFFNESS if source == "lines" else punch_stiffness(number)
-        for hurst, ensemble in ensembles(pool.isel(realization=across == number), "hurst").items():
-            if hursts is None or hurst in hursts:
-                about = {"source": source, "case_group": case_group, "hurst": hurst, "across": number}
-                found.append((about, ensemble, punch))
+    found = []
+    for (hurst, elements), ensemble in ensembles_on_grids(select(pool, group=case_group)).items():
+        if hursts is None or hurst in hursts:
+            number = elements if source == "lines" else elements_across(elements)
+            punch = COMPLETE_CONTACT_STIFFNESS if source == "lines" else punch_stiffness(number)
+            about = {"source": source, "case_group": case_group, "hurst": hurst, "across": number}
+            found.append((about, ensemble, punch))
     return found
 
 

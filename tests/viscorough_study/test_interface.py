@@ -1,13 +1,12 @@
 """The interface and the punch in series, on curves whose interface is known."""
 
-import json
-
 import numpy as np
 import pandas as pd
 import pytest
 
 from support.study import pool_of
 from viscorough.calibrated_law import LARGEST_DEVIATION, X_LOW, interface_depth, interface_velocity
+from viscorough_study.discs import punch_stiffness
 from viscorough_study.ensembles import abscissa, ensemble_dataset
 from viscorough_study.interface import (
     COLUMNS,
@@ -16,7 +15,6 @@ from viscorough_study.interface import (
     ensembles_of,
     examine,
     interface_tables,
-    punch_stiffness,
 )
 
 X = abscissa(1e-9, 30, 20)
@@ -25,7 +23,7 @@ HOW = {"plateau": 0.05, "elements_min": 10, "fraction_min": 0.95, "resamples": 2
 LAW = (0.35, 0.5, 0.8)
 
 
-def ensemble(interface, *, scatter=0.05, realizations=40, punch=PUNCH, case="c", hurst=0.5):
+def ensemble(interface, *, scatter=0.05, realizations=40, punch=PUNCH, elements=10**4, hurst=0.5):
     """Discs of which the interface is a function of X, times a factor for each; one element touches below X = 1e-5."""
     factor = np.exp(scatter * np.random.default_rng(3).standard_normal((realizations, 1)))
     first = 1e-5
@@ -33,7 +31,7 @@ def ensemble(interface, *, scatter=0.05, realizations=40, punch=PUNCH, case="c",
         first > X, (first / punch + factor * interface(first)) / first, 1 / punch + factor * interface(X) / X
     )
     count = np.where(first > X, 1.0, 20.0 * np.ones_like(softness))
-    about = {"hurst": hurst, "case": case, "diameter": 1.0, "elements": 10**4}
+    about = {"hurst": hurst, "case": "c", "diameter": 1.0, "elements": elements}
     return ensemble_dataset(["disc"], X, 1 / softness[None], count[None], about)
 
 
@@ -105,10 +103,10 @@ def test_punch_of_a_grid():
 
 def test_tables_of_every_grid_and_average():
     members = [
-        ensemble(lambda x: interface_velocity(x, *LAW), punch=punch_stiffness(n), case=f"n{n}", hurst=h)
-        for n, h in ((33, 0.5), (33, 0.7), (65, 0.5))
+        ensemble(lambda x: interface_velocity(x, *LAW), punch=punch_stiffness(n), elements=elements, hurst=h)
+        for n, elements, h in ((33, 797, 0.5), (33, 797, 0.7), (65, 3209, 0.5))
     ]
-    pool = pool_of(members).assign_attrs(settings=json.dumps({f"n{n}": {"elements": n} for n in (33, 65)}))
+    pool = pool_of(members)
     cases = ensembles_of(pool, "discs", "base")
     assert [(about["across"], about["hurst"]) for about, _, _ in cases] == [(33, 0.5), (33, 0.7), (65, 0.5)]
     assert len(ensembles_of(pool, "discs", "base", {0.7})) == 1

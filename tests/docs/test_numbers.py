@@ -70,6 +70,17 @@ def test_lines_that_stand_for_discs():
     assert f"{gap.min():.2f} to {gap.max():.2f} of that of the discs" in text
 
 
+def test_power_law_and_complete_contact():
+    decades, text = of_claim("power_law"), " ".join(read(VERDICTS).split())
+    assert (decades["low"].drop("H = 0.1, decades") >= 2).all()
+    value, low, high = (f"{decades[name]['H = 0.1, decades']:.3g}" for name in ("value", "low", "high"))
+    assert f"over {value} decades, {low} to {high}" in text
+    fractions = of_claim("complete_contact")["value"]
+    assert f"only {100 * fractions.min():.0f} to {100 * fractions.max():.0f} % of the elements touch" in text
+    assert of_claim("computing_time")["value"].tolist() == [100]
+    assert of_claim("zeta_better")["verdict"].tolist() == ["reproduced under a stated convention"]
+
+
 def test_exponents():
     law = pd.read_csv(ROOT / "src/viscorough/data/calibration.csv").query("source == 'discs'").set_index("hurst")
     above = [f"{law['beta'][hurst] - exponent_beta(hurst):.2f}" for hurst in (0.1, 0.4)]

@@ -71,7 +71,8 @@ def with_another_statement(text):
             {"scaling": {"stiffness_max": 0.25}},
             FITS_AND_FIGURES | SIZES | SPEED,
         ),  # errors in region (b) are tabulated, too
-        ({"methods": {"levels": 3}}, SPEED),
+        ({"methods": {"levels": 3}}, SPEED | {"judge_claims"}),
+        ({"verdicts": {"draws": 3}}, {"measure_plateaus", "judge_claims"}),
         ({"media": {"force": 2e-4}}, MEDIA),
         (
             {"stability": {"across": 11}, "methods": {"scenes": {"elements": 31}}},
@@ -81,7 +82,7 @@ def with_another_statement(text):
             {"figures": {"average": "arithmetic"}},
             (FITS_AND_FIGURES | SIZES) - {"fit_scaling", "compare_prefactors"} | {"plot_interface"},
         ),
-        ({"ensemble": {"per_decade": 25}}, FITS_AND_FIGURES | SIZES | INTERFACE | {"pool_curves"}),
+        ({"ensemble": {"per_decade": 25}}, FITS_AND_FIGURES | SIZES | INTERFACE | {"pool_curves", "measure_plateaus"}),
         ({"interface": {"plateau": 0.1}}, INTERFACE),
         ({"validation": {"elements": [17, 31]}}, {"validate", "check_validation", "plot_validation", "judge_claims"}),
         ({"lines": {"points": 2048}}, FITS_AND_FIGURES | INTERFACE | {"indent_lines", "pool_curves"}),
@@ -91,7 +92,7 @@ def with_another_statement(text):
             | INTERFACE
             | MEDIA
             | SIZES
-            | {"indent_discs", "pool_curves", "compare_reduction", "plot_reduction"},
+            | {"indent_discs", "pool_curves", "measure_plateaus", "compare_reduction", "plot_reduction"},
         ),
         (
             {"surface": {"period": 1.5}},  # not of the variant that has its own period, nor of lines
@@ -99,7 +100,7 @@ def with_another_statement(text):
             | INTERFACE
             | MEDIA
             | SIZES
-            | {"indent_discs", "pool_curves", "generate_example_discs", "plot_surfaces"},
+            | {"indent_discs", "pool_curves", "measure_plateaus", "generate_example_discs", "plot_surfaces"},
         ),
         ({"sizes": {"until_x": 2.0}}, SIZES | {"indent_discs", "indent_lines", "pool_curves"}),
         (
@@ -147,7 +148,7 @@ def test_reworded_docstrings_and_comments_rerun_nothing(editable):
 def test_a_changed_line_of_the_column_convolution_reruns_what_uses_boundary_elements(editable):
     """And what depends on it, but neither lines nor example discs."""
     edit(editable / "src/viscorough/contact/column_fft.py", with_another_statement)
-    after = {"pool_curves", "plot_direct", "plot_reduction", "check_validation", "plot_validation"}
+    after = {"pool_curves", "measure_plateaus", "plot_direct", "plot_reduction", "check_validation", "plot_validation"}
     after |= {"plot_failure_map", "plot_level_placement", *SPEED, *MEDIA, *LAST}
     assert set(plan(editable, *TEST)) == BOUNDARY_ELEMENTS | FITS_AND_FIGURES | SIZES | after
 
@@ -159,6 +160,7 @@ def test_a_changed_line_of_the_column_convolution_reruns_what_uses_boundary_elem
             "viscorough_study/power_law.py",
             {
                 "fit_scaling",
+                "measure_plateaus",
                 "fit_sizes",
                 "fit_collapse",
                 "plot_collapse",

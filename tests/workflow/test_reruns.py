@@ -169,7 +169,7 @@ def test_a_changed_line_of_the_column_convolution_reruns_what_uses_boundary_elem
                 "judge_claims",
                 "make_page",
             }
-            | {"match_lines", "plot_mdr_lambda"},
+            | {"match_lines", "fit_interface"},
         ),
         ("viscorough_study/validate_solvers.py", {"validate", "check_validation"}),
         (

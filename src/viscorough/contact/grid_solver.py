@@ -2,8 +2,9 @@
 
 The initial set is the last contact set and every element that overlaps the surface after the predictor P + Δu q. It
 contains the set of the solution: between the two depths the contact grows, so that the surface outside it deflects
-further than predicted. Elements that come under tension leave the set. The operator gives the deflection K d of a
-search direction d on the whole grid, and thus the gap everywhere at no further cost.
+further than predicted. From the unloaded state it is a smaller set, which others join. Elements that come under tension
+leave the set. The operator gives the deflection K d of a search direction d on the whole grid, and thus the gap
+everywhere at no further cost.
 
 While elements leave, the length of a step is fixed in units of the preconditioned residual, so that one application of
 the operator serves both the step and the removal of these elements; afterwards steps are those of conjugate gradients.
@@ -29,6 +30,9 @@ from viscorough.contact.state import BoundedField, ContactSet, ContactState, Gri
 from viscorough.contact.tangent_start import Loads, initial_tangent
 from viscorough.errors import ConvergenceError
 
+# From the unloaded state, elements are in the first set whose overlap with the undeformed surface exceeds this share of
+# the depth: the surface will sink by about as much below the others, which join during the iterations if it does not.
+_FIRST_OVERLAP = 0.5
 # The release step is halved after every so many of them: a safeguard against cycles where the preconditioner is poor.
 _HALVE_STEP_EVERY = 20
 # Largest relative error of q in the energy norm; its square is the relative error of the stiffness.
@@ -118,7 +122,7 @@ class GridSolver:
         self._loops.predict(*map(self._inner_rows, (pressure, change, inside)), step, *map(self._inner_rows, fields))
         rounding = before.gap_change.rounding + depth_step * before.tangent_gap.rounding + self._field_rounding * depth
         change = BoundedField(change, rounding)
-        self._add_penetrating_elements(change, inside, 0.0)
+        self._add_penetrating_elements(change, inside, 0.0 if contact.count else _FIRST_OVERLAP * depth)
         contact_set = self._solve_pressure(pressure, change, inside, depth)
         now, last = Loads(pressure, change, depth), Loads(before.pressure, before.gap_change, last_depth)
         tangent, tangent_gap = initial_tangent(now, last, before, contact_set, self._inner, self._loops)

@@ -97,6 +97,7 @@ rule figures:
         rules.plot_failure_map.output,
         rules.plot_level_placement.output,
         rules.plot_media.output,
+        rules.plot_media_exponents.output,
         rules.plot_sizes.output,
         rules.plot_collapse.output,
 

@@ -226,7 +226,13 @@ def media_table():
     time = np.geomspace(1e-3, 1e3, 13)
     parts = [
         pd.DataFrame({"time": time, "x": 1e-2 * time, "depth": time**hurst, "velocity": time**hurst}).assign(
-            medium=medium, hurst=hurst, velocity_error=0.1, exponent=hurst, realizations=6
+            medium=medium,
+            hurst=hurst,
+            velocity_error=0.1,
+            exponent=hurst,
+            creep_exponent=1.0,
+            expected=0.5,
+            realizations=6,
         )
         for medium in ("newtonian", "standard_linear_solid")
         for hurst in HURST

@@ -17,6 +17,7 @@ PAGE_FIGURES = {
     "mdr_lambda": rules.plot_mdr_lambda,
     "validation": rules.plot_validation,
     "media": rules.plot_media,
+    "media_exponents": rules.plot_media_exponents,
     "sizes": rules.plot_sizes,
     "collapse": rules.plot_collapse,
 } | ({"measured": rules.plot_measured} if MEASURED else {})

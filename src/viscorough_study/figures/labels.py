@@ -1,4 +1,4 @@
-"""Labels of the conventions that the paper leaves open, {column of the scaling table: {value: label}}."""
+"""Labels of the conventions that the paper leaves open, {column of the scaling table: {value: label}}, and of media."""
 
 CONVENTION_LABELS = {
     "average": {"arithmetic": "arithmetic mean", "geometric": "geometric mean"},
@@ -17,3 +17,8 @@ CONVENTION_LABELS = {
     "gamma": {"without": "law without Γ", "with": "law with Γ (Eq. 9)"},
     "diameter_convention": {"diameter": "$L$ the diameter", "radius": "$L$ the radius\n(contradicts the paper)"},
 }
+
+
+def medium_label(name):
+    """Name of a medium of the settings as text: "Standard linear solid"."""
+    return name.replace("_", " ").capitalize().replace("Kelvin voigt", "Kelvin-Voigt")

@@ -6,6 +6,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from viscorough.reference import exponent_beta
+from viscorough_study.figures.labels import medium_label
 from viscorough_study.figures.style import (
     GREY,
     MM,
@@ -38,7 +39,7 @@ def plot_media(table):
     panels = figure.subplots(rows, 2, squeeze=False).ravel()
     for axes, name in zip(panels, names, strict=False):
         _plot_velocity(axes, table[table["medium"] == name], looks)
-        axes.set_title(_in_words(name))
+        axes.set_title(medium_label(name))
     collapsed, markers = panels[len(names)], dict(zip(names, SERIES_MARKERS, strict=False))
     for (name, hurst), part in table.groupby(["medium", "hurst"], sort=False):
         look = {"color": looks[hurst]["color"], "linestyle": "", "marker": markers[name], "markersize": 3}
@@ -47,7 +48,7 @@ def plot_media(table):
     collapsed.set(xscale="log", yscale="log", xlabel="$FJ/(4hL)$", ylabel="depth $u/h$", title="all media")
     handles = [
         Line2D([], [], color=GREY, linestyle="", marker=marker, markersize=3, markerfacecolor="none", label=label)
-        for label, marker in ((_in_words(name), marker) for name, marker in markers.items())
+        for label, marker in ((medium_label(name), marker) for name, marker in markers.items())
     ]
     collapsed.legend(handles=handles, loc="upper left")
     for axes in panels[len(names) + 1 :]:
@@ -60,11 +61,6 @@ def plot_media(table):
     handles = [*hurst_handles(looks, marker=""), *handles]
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), title=title, title_fontsize=SMALL)
     return figure
-
-
-def _in_words(name):
-    """Name of a medium as text: "Standard linear solid"."""
-    return name.replace("_", " ").capitalize()
 
 
 def _plot_velocity(axes, table, looks):

@@ -37,6 +37,8 @@ ALTERNATIVE_TEXTS = {
     "sizes": "Exponent beta over the number of elements, of discs, of lines and of a control without a power law.",
     "collapse": "Scaled curves of grids from coarse to fine, which fall on one another for each Hurst exponent, and "
     "the exponents less H/(1 + H) that this allows.",
+    "media_exponents": "Exponent of the velocity in time, over time, in several media: it follows the paper's power "
+    "law where the creep compliance is a power of time.",
     "measured": "Velocity of the measured surfaces over dimensionless force beside that of generated discs, and their "
     "depth over time under the forces of the settings.",
     "validation": "Errors against exact solutions over the number of elements across, falling as expected.",

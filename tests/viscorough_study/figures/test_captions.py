@@ -33,6 +33,7 @@ from viscorough_study.figures.master_curve import plot_master_curve
 from viscorough_study.figures.mdr_comparison import plot_mdr_comparison
 from viscorough_study.figures.mdr_lambda import plot_mdr_lambda
 from viscorough_study.figures.media import plot_media
+from viscorough_study.figures.media_exponents import plot_media_exponents
 from viscorough_study.figures.other_solvers import plot_other_solvers
 from viscorough_study.figures.prefactors import plot_prefactors
 from viscorough_study.figures.sizes import plot_sizes
@@ -72,6 +73,7 @@ def drawn(discs, pooled, lines, scaling, combinations):
         "reduction": Drawn(plot_mdr_comparison(tables.mdr_table())),
         "mdr_lambda": Drawn(plot_mdr_lambda(*tables.mdr_lambda_tables())),
         "media": Drawn(plot_media(tables.media_table()), {"medium": 2}),
+        "media_exponents": Drawn(plot_media_exponents(tables.media_table()), {"medium": 2}),
         "measured": Drawn(tables.measured_figure(pooled, scaling)),
         "sizes": Drawn(plot_sizes(tables.sizes_table(), SHOWN)),
         "collapse": Drawn(plot_collapse(tables.grids_of_sizes(), *tables.collapse_tables())),

@@ -33,8 +33,8 @@ rule compute_media:
         mem_mb=1000,
     params:
         **config["media"],
-        rms_convention=config["figures"]["rms_convention"],
         **{name: config["scaling"][name] for name in ("stiffness_range", "resamples")},
+        rms_convention=config["figures"]["rms_convention"],
         seed=config["seed"],
     message:
         "Kinetics in other media"

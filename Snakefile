@@ -109,6 +109,7 @@ rule tables:
         rules.judge_claims.output,
         rules.tabulate_calibration.output,
         rules.compare_prefactors.output,
+        rules.compare_zeta_laws.output,
         rules.fit_interface.output,
         rules.compare_reduction.output,
         rules.match_lines.output,

@@ -8,8 +8,14 @@ interval, the claim is reproduced only if the whole interval lies within what th
 only if it lies wholly outside; otherwise it is undecided (viscorough_study.evidence.equivalence).
 """
 
-from viscorough_study import form_criteria, law_criteria, mdr_criteria, method_criteria, region_criteria
-
-JUDGES = (
-    form_criteria.JUDGES | region_criteria.JUDGES | law_criteria.JUDGES | method_criteria.JUDGES | mdr_criteria.JUDGES
+from viscorough_study import (
+    form_criteria,
+    law_criteria,
+    mdr_criteria,
+    method_criteria,
+    region_criteria,
+    zeta_criteria,
 )
+
+MODULES = form_criteria, region_criteria, law_criteria, zeta_criteria, method_criteria, mdr_criteria
+JUDGES = {claim: criterion for module in MODULES for claim, criterion in module.JUDGES.items()}

@@ -1,4 +1,4 @@
-"""Criteria of claims that fitted exponents and prefactors follow a law of the paper.
+"""Criteria of claims that fitted exponents and curves follow a law of the paper.
 
 Where a claim fails in the conventions of the figures but holds in others that the paper leaves open, the verdict says
 so, and names the conventions with the smallest deviation.
@@ -18,33 +18,32 @@ from viscorough_study.power_law import fit_power_law, in_window
 from viscorough_study.region_criteria import excess_variance
 
 
-def law_cases(evidence, tolerance, *, source, column, law, relative=False, above=-1.0, **fixed):
+def law_cases(evidence, tolerance, *, source, column, law, above=-1.0, **fixed):
     """Cases of a fitted quantity against a law, one for each Hurst exponent above the given one.
 
     source : "discs" or "lines"; column : of the table of fits; law : function of H
-    tolerance : of the deviation, relative to the law or absolute; fixed : conventions that the claim itself fixes
+    tolerance : of the deviation; fixed : conventions that the claim itself fixes
     """
     fits = evidence.fits(source, **fixed)
     fits = fits[fits.index > above]
-    deviation = partial(_largest_deviation, column=column, law=law, relative=relative, hursts=fits.index)
+    deviation = partial(_largest_deviation, column=column, law=law, hursts=fits.index)
     convention = _nearest_convention(evidence.tables["scaling"], source, fixed, deviation, tolerance)
     cases = []
     for hurst, fit in fits.iterrows():
         values = fit[[column, f"{column}_low", f"{column}_high"]].tolist()
-        margin = tolerance * (law(hurst) if relative else 1)
-        met = equivalence(values[1:], law(hurst) - margin, law(hurst) + margin)
+        met = equivalence(values[1:], law(hurst) - tolerance, law(hurst) + tolerance)
         cases.append(judged(hurst_name(hurst), values, law(hurst), met, convention))
     return cases
 
 
-def _largest_deviation(fits, *, column, law, relative, hursts):
-    """Largest deviation from the law of an end of an interval, absolute or over the law; inf if one is undefined."""
+def _largest_deviation(fits, *, column, law, hursts):
+    """Largest deviation from the law of an end of an interval; inf if one is undefined."""
     if fits["hurst"].isin(hursts).sum() != len(hursts):
         return np.inf
     fits = fits.set_index("hurst").loc[hursts]
     expected = law(fits.index.to_numpy())
     ends = fits[[f"{column}_low", f"{column}_high"]].to_numpy()
-    deviations = np.abs(ends - expected[:, None]) / (expected[:, None] if relative else 1)
+    deviations = np.abs(ends - expected[:, None])
     return deviations.max() if np.isfinite(deviations).all() else np.inf
 
 
@@ -155,51 +154,7 @@ def alpha_limit(evidence, tolerance):
     return [judged("H = 1, lines", values, 0.5, equivalence(values[1:], 0.5 - tolerance, 0.5 + tolerance))]
 
 
-# ---- prefactors
-
-
-def zeta_better(evidence, tolerance):
-    """Rms over H of ln(ζ/law) by Eq. 4 less that by Eq. 11, both with the factor of Eq. 9; better if positive.
-
-    The interval is that of 10 000 draws of ln ζ, independent for each H and normal with the width of its interval. As
-    conventions, those in which the whole interval is farthest above the tolerance.
-    """
-    nearest, largest = "", tolerance
-    for values in product(*(evidence.tables["scaling"][name].unique() for name in FITTED)):
-        conventions = dict(zip(FITTED, values, strict=True))
-        low = _advantage(evidence, conventions)[1]
-        if low > largest:
-            nearest, largest = _in_words(conventions | {"gamma": "with"}), low
-    values = _advantage(evidence, {})
-    return [judged("all H", values, np.nan, equivalence(values[1:], tolerance, np.inf), nearest)]
-
-
-def _advantage(evidence, conventions):
-    """Value, low and high of the rms of ln(ζ/Eq. 4) less that of ln(ζ/Eq. 11) over the Hurst exponents."""
-    fits = evidence.fits("discs", **conventions | {"gamma": "with"})
-    logarithms = np.log(fits[["zeta", "zeta_low", "zeta_high"]].to_numpy())
-    if fits.empty or not np.isfinite(logarithms).all():
-        return np.full(3, np.nan)
-    spread = (logarithms[:, 2] - logarithms[:, 1]) / (2 * 1.96)
-    draws = logarithms[:, 0] + spread * np.random.default_rng(evidence.seed).standard_normal((10_000, len(fits)))
-    draws = np.vstack([logarithms[:, 0], draws])
-    laws = (reference.zeta_elastic(fits.index.to_numpy()), reference.zeta_viscous(fits.index.to_numpy()))
-    first, second = (np.sqrt(np.mean((draws - np.log(law)) ** 2, axis=1)) for law in laws)
-    return np.append((first - second)[0], np.quantile((first - second)[1:], [0.025, 0.975]))
-
-
-def zeta_elastic(evidence, tolerance):
-    """ζ against Eq. 4, which is a law of the elastic contact, without the factor."""
-    return _zeta(evidence, tolerance, law=reference.zeta_elastic, gamma="without")
-
-
-def zeta_viscous(evidence, tolerance):
-    """ζ against Eq. 11, which the paper fitted with Eq. 9, which has the factor."""
-    return _zeta(evidence, tolerance, law=reference.zeta_viscous, gamma="with")
-
-
-def _zeta(evidence, tolerance, *, law, gamma):
-    return law_cases(evidence, tolerance, source="discs", column="zeta", law=law, relative=True, gamma=gamma)
+# ---- curves
 
 
 def depth(evidence, tolerance):
@@ -253,8 +208,5 @@ JUDGES = {
     "realizations": realizations,
     "alpha_limit": alpha_limit,
     "depth": depth,
-    "zeta_elastic": zeta_elastic,
-    "zeta_viscous": zeta_viscous,
-    "zeta_better": zeta_better,
     "master_curve": master_curve,
 }

@@ -1,5 +1,6 @@
 """Ensembles of known curves, and the evidence and conventions by which claims are judged."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +17,8 @@ from viscorough_study.gamma_factor import compare_direct
 from viscorough_study.mdr_equivalence import WINDOWS
 from viscorough_study.paper_data import read_paper
 from viscorough_study.pool import OF_REALIZATIONS, VARIABLES, ensembles
+from viscorough_study.prefactors import prefactors
+from viscorough_study.zeta_laws import zeta_laws
 
 ROOT = Path(__file__).resolve().parents[2]
 CLAIMS, NUMBERS = (read_paper(ROOT / "resources/paper", name) for name in ("claims", "numbers"))
@@ -86,10 +89,12 @@ def evidence(zeta=reference.zeta_elastic, **options):
         [("sphere_reduction", "depth", n, 1 / n**2) for n in (65, 129)],
         columns=["case", "quantity", "elements", "error"],
     )
-    return Evidence(
+    scaling = pd.DataFrame(rows, columns=list(COLUMNS))
+    found = Evidence(
         discs=discs,
         tables={
-            "scaling": pd.DataFrame(rows, columns=list(COLUMNS)),
+            "scaling": scaling,
+            "prefactors": prefactors(scaling, BASE_SURFACES),
             "validation": validation,
             "direct": compare_direct(HURST, 17, 25, 1),
             **mdr_tables(),
@@ -105,6 +110,8 @@ def evidence(zeta=reference.zeta_elastic, **options):
         rules=RULES,
         **BOOTSTRAP,
     )
+    laws = zeta_laws(found.pooled, found.regions, (0.0, 0.6), average="geometric", **BOOTSTRAP)
+    return replace(found, tables=found.tables | {"zeta_laws": laws})  # which has not pooled the discs yet
 
 
 def mdr_tables(drift=1.0, ratio=1.0):

@@ -8,13 +8,14 @@ import pytest
 import xarray as xr
 from scipy.special import gamma as gamma_function
 
-from support.study import CLAIMS, LIMITS, ROOT, evidence
+from support.study import BASE_SURFACES, CLAIMS, LIMITS, ROOT, evidence
 from viscorough import reference
 from viscorough_study.criteria import JUDGES
 from viscorough_study.evidence import VERDICTS
+from viscorough_study.prefactors import prefactors
 from viscorough_study.verdicts import KINDS, judge, markdown, overall, undecided_cases
 
-LAWS = "zeta_viscous", "zeta_elastic", "zeta_better", "master_curve"
+LAWS = "zeta_viscous", "zeta_elastic", "zeta_better", "master_curve", "zeta_viscous_shape", "master_curve_shape"
 
 
 @pytest.fixture(scope="module")
@@ -56,6 +57,8 @@ def test_factor_of_equation_9_belongs_to_equation_11():
         "zeta_elastic": "not reproduced",
         "zeta_better": "reproduced",
         "master_curve": "reproduced",
+        "zeta_viscous_shape": "reproduced",
+        "master_curve_shape": "reproduced",
     }
 
 
@@ -69,6 +72,38 @@ def test_convention_is_named_under_which_a_claim_holds():
     rows = judge({"zeta_elastic": CLAIMS["zeta_elastic"]}, found)
     assert overall(rows) == {"zeta_elastic": "reproduced under a stated convention"}
     assert rows["convention"].str.startswith("rms_convention square").all()
+    assert rows["convention"].str.endswith("surfaces base").all()
+
+
+def test_surfaces_are_among_the_conventions_under_which_a_claim_holds():
+    found = evidence(lambda hurst: 1.3 * reference.zeta_elastic(hurst))
+    scaling = found.tables["scaling"]
+    longer = scaling[scaling["source"] == "discs"].assign(case_group="longer_period")
+    longer[["zeta", "zeta_low", "zeta_high"]] /= 1.3
+    surfaces = BASE_SURFACES | {"longer_period": BASE_SURFACES["base"] | {"period": 2.0}}
+    found.tables["prefactors"] = prefactors(pd.concat([scaling, longer], ignore_index=True), surfaces)
+    rows = judge({"zeta_elastic": CLAIMS["zeta_elastic"]}, found)
+    assert overall(rows) == {"zeta_elastic": "reproduced under a stated convention"}
+    assert rows["convention"].str.endswith("surfaces longer_period").all()
+
+
+def test_no_claim_holds_because_the_diameter_is_taken_for_the_radius():
+    """ζ so small that only the radius, which makes it 2^β as large, gives Eq. 4."""
+    found = evidence(lambda hurst: reference.zeta_elastic(hurst) / 2 ** reference.exponent_beta(hurst))
+    rows = judge({"zeta_elastic": CLAIMS["zeta_elastic"]}, found)
+    assert overall(rows) == {"zeta_elastic": "not reproduced"}
+    table = found.tables["prefactors"]
+    assert table.loc[table["diameter_convention"] == "radius", "worst_eq4"].min() < 0.05
+
+
+def test_laws_up_to_a_common_factor():
+    """1.4 times Eq. 4: its shape holds, its value does not; a ζ that does not depend on H has another shape."""
+    names = "zeta_elastic", "zeta_elastic_shape", "zeta_viscous_shape"
+    claims = {name: CLAIMS[name] for name in names}
+    scaled = judge(claims, evidence(lambda hurst: 1.4 * reference.zeta_elastic(hurst)))
+    assert overall(scaled) == dict(zip(names, ("not reproduced", "reproduced", "reproduced"), strict=True))
+    constant = judge(claims, evidence(lambda hurst: 1.0 + 0 * hurst))
+    assert overall(constant) == dict.fromkeys(names, "not reproduced")
 
 
 def test_scatter_of_combinations_is_seen():

@@ -9,7 +9,7 @@ import pytest
 from support.workflow import SCRIPTS, TEST, copy_sources, jobs, plan, settings_file, snakemake
 from viscorough_study.source_digest import SourceDigests
 
-FITS = {"match_lines", "fit_scaling", "judge_claims", "compare_prefactors", "tabulate_calibration"}
+FITS = {"match_lines", "fit_scaling", "judge_claims", "compare_prefactors", "compare_zeta_laws", "tabulate_calibration"}
 AFTER_FITS = {
     "plot_mdr_lambda",
     "plot_kinetics",
@@ -85,7 +85,10 @@ def with_another_statement(text):
         ({"ensemble": {"per_decade": 25}}, FITS_AND_FIGURES | SIZES | INTERFACE | {"pool_curves", "measure_plateaus"}),
         ({"interface": {"plateau": 0.1}}, INTERFACE),
         ({"validation": {"elements": [17, 31]}}, {"validate", "check_validation", "plot_validation", "judge_claims"}),
-        ({"lines": {"points": 2048}}, FITS_AND_FIGURES | INTERFACE | {"indent_lines", "pool_curves"}),
+        (
+            {"lines": {"points": 2048}},
+            (FITS_AND_FIGURES | INTERFACE | {"indent_lines", "pool_curves"}) - {"compare_zeta_laws"},
+        ),
         (
             {"indentation": {"tolerance": 2e-3}},
             FITS_AND_FIGURES

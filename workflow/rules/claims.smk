@@ -88,6 +88,70 @@ rule measure_plateaus:
         "../scripts/measure_plateaus.py"
 
 
+rule compare_prefactors:
+    input:
+        scaling=rules.fit_scaling.output.csv,
+    output:
+        csv="results/tables/prefactors.csv",
+        html=report(
+            "results/tables/prefactors.html",
+            caption="../report/prefactors_table.rst",
+            category=chapter("verdicts"),
+            labels={"result": "zeta under every convention", "kind": "table"},
+        ),
+        nc="results/tables/prefactors.nc",
+    log:
+        "results/logs/compare_prefactors.log",
+    benchmark:
+        "results/benchmarks/compare_prefactors.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+    params:
+        surfaces=cases.surface_conventions(config),
+    message:
+        "Prefactor under every convention"
+    script:
+        "../scripts/compare_prefactors.py"
+
+
+rule compare_zeta_laws:
+    input:
+        discs="results/ensembles/discs.nc",
+    output:
+        csv="results/tables/zeta_laws.csv",
+        html=report(
+            "results/tables/zeta_laws.html",
+            caption="../report/zeta_laws.rst",
+            category=chapter("verdicts"),
+            labels={"result": "laws of the prefactor", "kind": "table"},
+        ),
+        nc="results/tables/zeta_laws.nc",
+    log:
+        "results/logs/compare_zeta_laws.log",
+    benchmark:
+        "results/benchmarks/compare_zeta_laws.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    threads: 1
+    resources:
+        mem_mb=2000,
+    params:
+        conventions={name: config["figures"][name] for name in ("average", "rms_convention")},
+        hurst_mins=[0.0, number(paper("numbers"), "agreement", "beta_hurst_min")],
+        fit={name: value for name, value in config["scaling"].items() if name != "resamples"},
+        resamples=config["scaling"]["resamples"],
+        seed=config["seed"],
+    message:
+        "Laws of the prefactor by one measure"
+    script:
+        "../scripts/compare_zeta_laws.py"
+
+
 rule judge_claims:
     input:
         discs="results/ensembles/discs.nc",
@@ -98,6 +162,8 @@ rule judge_claims:
         mdr_summary=rules.match_lines.output.summary_csv,
         mdr_exponents=rules.match_lines.output.exponents_csv,
         plateaus=rules.measure_plateaus.output.csv,
+        prefactors=rules.compare_prefactors.output.csv,
+        zeta_laws=rules.compare_zeta_laws.output.csv,
         methods="results/tables/methods.csv",
     output:
         csv="results/tables/claims.csv",
@@ -132,36 +198,6 @@ rule judge_claims:
         "Verdicts on the claims of the paper"
     script:
         "../scripts/judge_claims.py"
-
-
-rule compare_prefactors:
-    input:
-        scaling=rules.fit_scaling.output.csv,
-    output:
-        csv="results/tables/prefactors.csv",
-        html=report(
-            "results/tables/prefactors.html",
-            caption="../report/prefactors_table.rst",
-            category=chapter("verdicts"),
-            labels={"result": "zeta under every convention", "kind": "table"},
-        ),
-        nc="results/tables/prefactors.nc",
-    log:
-        "results/logs/compare_prefactors.log",
-    benchmark:
-        "results/benchmarks/compare_prefactors.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-    params:
-        surfaces=cases.surface_conventions(config),
-    message:
-        "Prefactor under every convention"
-    script:
-        "../scripts/compare_prefactors.py"
 
 
 rule plot_prefactors:

@@ -19,7 +19,7 @@ def test_conventions_has_a_row_for_each_change(scaling):
     labels = [text.get_text() for text in grid[0, 0].get_yticklabels()]
     assert labels[0] == "as in other figures"
     assert labels[1:5] == ["arithmetic mean", "$h$ of the square", "lower half of window", "upper half of window"]
-    radius = "$L$ the radius\n(contradicts the paper)"
+    radius = "radius: contradicts the paper"
     assert labels[5:] == ["window of given κ", "law with Γ (Eq. 9)", radius, "roll-off (control)"]
     changes = [{}, {"average": "arithmetic"}, {"rms_convention": "square"}]
     changes += [{"window_rule": rule} for rule in ("lower_half", "upper_half", "kappa")]

@@ -1,0 +1,97 @@
+"""Criteria of claims about the prefactor ζ: absolute, up to a factor common to all H, and law against law.
+
+The tables `prefactors` and `zeta_laws` (viscorough_study.prefactors and viscorough_study.zeta_laws) have the numbers.
+Where an absolute claim fails in the conventions of the figures but holds in others that the paper leaves open, the
+surfaces included, the verdict names those with the smallest deviation.
+"""
+
+import numpy as np
+
+from viscorough_study.conventions import NAMES, left_open
+from viscorough_study.evidence import equivalence, hurst_name, judged
+from viscorough_study.prefactors import COMBINED, LAWS
+from viscorough_study.zeta_laws import difference, value_of
+
+
+def zeta_elastic(evidence, tolerance):
+    """ζ against Eq. 4, which is a law of the elastic contact, without the factor."""
+    return _absolute(evidence, tolerance, "eq4", "without")
+
+
+def zeta_viscous(evidence, tolerance):
+    """ζ against Eq. 11, which the paper fitted with Eq. 9, which has the factor."""
+    return _absolute(evidence, tolerance, "eq11", "with")
+
+
+def _absolute(evidence, tolerance, name, gamma):
+    """Cases of ζ against a law of viscorough_study.prefactors, one for each Hurst exponent."""
+    law, convention = LAWS[name][1], _nearest_convention(evidence.tables["prefactors"], name, gamma, tolerance)
+    cases = []
+    for hurst, fit in evidence.fits("discs", gamma=gamma).iterrows():
+        values = fit[["zeta", "zeta_low", "zeta_high"]].tolist()
+        met = equivalence(values[1:], law(hurst) * (1 - tolerance), law(hurst) * (1 + tolerance))
+        cases.append(judged(hurst_name(hurst), values, law(hurst), met, convention))
+    return cases
+
+
+def _nearest_convention(table, name, gamma, tolerance):
+    """Conventions in words, left open by the paper, in which every interval lies within the tolerance; "" if none."""
+    table = left_open(table[table["gamma"] == gamma])
+    law = LAWS[name][1](table["hurst"])
+    ends = np.maximum(np.abs(table["zeta_low"] / law - 1), np.abs(table["zeta_high"] / law - 1))
+    largest = ends.fillna(np.inf).groupby([table[column] for column in COMBINED], sort=False).max()
+    if largest.empty or largest.min() > tolerance:
+        return ""
+    nearest = dict(zip(COMBINED, largest.idxmin(), strict=True))
+    words = [f"{name} {nearest[name]}" for name in NAMES]
+    return ", ".join([*words, f"surfaces {nearest['case_group']}"])
+
+
+def zeta_elastic_shape(evidence, tolerance):
+    """Spread between Hurst exponents of ζ over Eq. 4, without the factor, once a common factor is taken out."""
+    return _spreads(evidence, tolerance, "zeta", "Eq. 4, without Γ")
+
+
+def zeta_viscous_shape(evidence, tolerance):
+    """The same for Eq. 11, with the factor."""
+    return _spreads(evidence, tolerance, "zeta", "Eq. 11, with Γ")
+
+
+def master_curve_shape(evidence, tolerance):
+    """Spread between Hurst exponents, at the same X, of vt/h over the right side of Eq. 12."""
+    return _spreads(evidence, tolerance, "curve", "Eq. 11, with Γ")
+
+
+def _spreads(evidence, tolerance, quantity, law):
+    """Cases of the spread, which is 0 where a law holds up to a factor: for all Hurst exponents and from 0.4 on."""
+    table, cases = evidence.tables["zeta_laws"], []
+    for least in table["hurst_min"].unique():
+        values = value_of(table, quantity, law, "spread", least)
+        cases.append(judged(_which(least), values, 0.0, equivalence(values[1:], 0.0, tolerance)))
+    return cases
+
+
+def zeta_better(evidence, tolerance):
+    """Deviation from Eq. 4 less that from Eq. 11 of vt/h with the exponent H/(1 + H); positive if Eq. 11 is better.
+
+    Both with the factor 1/Γ(2 − α), as in the paper, and each in its own reading, Eq. 4 without the factor.
+    """
+    table, cases = evidence.tables["zeta_laws"], []
+    for law, reading in (("Eq. 4, with Γ", "both with Γ"), ("Eq. 4, without Γ", "Eq. 4 without Γ")):
+        values = value_of(table, "curve", difference(law), "deviation")
+        cases.append(judged(f"all H, {reading}", values, np.nan, equivalence(values[1:], tolerance, np.inf)))
+    return cases
+
+
+def _which(least):
+    return f"H from {least:g} on" if least > 0 else "all H"
+
+
+JUDGES = {
+    "zeta_elastic": zeta_elastic,
+    "zeta_elastic_shape": zeta_elastic_shape,
+    "zeta_viscous": zeta_viscous,
+    "zeta_viscous_shape": zeta_viscous_shape,
+    "zeta_better": zeta_better,
+    "master_curve_shape": master_curve_shape,
+}

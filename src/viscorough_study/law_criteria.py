@@ -120,6 +120,18 @@ def hurst_only(evidence, tolerance):
     return cases
 
 
+def no_grid(evidence, tolerance):
+    """Change of β in windows of fixed X for a tenfold number of elements, from grids from coarse to fine."""
+    trends = evidence.tables["sizes_trends"]
+    trends = trends[(trends["source"] == "discs") & ~trends["window_rule"].isin(FITTED["window_rule"])]
+    cases = []
+    for row in trends.dropna(subset="slope").sort_values("hurst", kind="stable").itertuples():
+        values = row.slope, row.slope_low, row.slope_high
+        met = equivalence(values[1:], -tolerance, tolerance)
+        cases.append(judged(f"{hurst_name(row.hurst)}, {row.window_rule}", values, 0.0, met))
+    return cases or [judged("all H", (np.nan,) * 3, 0.0, None)]
+
+
 def realizations(evidence, tolerance):
     """Half the width of the 95 % interval of β that as many indentations give as the paper averages in Fig. 4.
 
@@ -205,6 +217,7 @@ JUDGES = {
     "beta_lines": beta_lines,
     "coincide": coincide,
     "hurst_only": hurst_only,
+    "no_grid": no_grid,
     "realizations": realizations,
     "alpha_limit": alpha_limit,
     "depth": depth,

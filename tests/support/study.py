@@ -33,6 +33,14 @@ LIMITS = {
 }
 BASE_SURFACES = {"base": {"period": 1.0, "corners": False, "amplitudes": "random"}}
 RULES = {"decades_min": 2.0, "end_decades": 0.25}
+SLOPES = "slope", "slope_low", "slope_high"
+TRENDS = [
+    ("discs", "X = 0.01 to 0.1", 0.4, 0.0, -0.02, 0.02),
+    ("discs", "X = 0.01 to 0.1", 0.6, 0.02, 0.0, 0.04),
+    ("discs", "X = 0.01 to 0.1", 0.9, 0.1, 0.08, 0.12),
+    ("discs", "default", 0.9, 0.0, -0.01, 0.01),
+    ("lines", "X = 0.01 to 0.1", 0.9, 0.0, -0.01, 0.01),
+]
 METHODS = [  # 1 ms for a step, 1 ns for a point
     ("explicit, logarithmic steps", 0.8, 257, 16, 1.0),
     ("explicit, logarithmic steps", 0.8, 257, 256, 0.256),
@@ -99,6 +107,7 @@ def evidence(zeta=reference.zeta_elastic, **options):
             "direct": compare_direct(HURST, 17, 25, 1),
             **mdr_tables(),
             "methods": pd.DataFrame(METHODS, columns=["method", "hurst", "elements", "value", "wall_s"]),
+            "sizes_trends": pd.DataFrame(TRENDS, columns=["source", "window_rule", "hurst", *SLOPES]),
             "plateaus": pd.DataFrame(
                 plateaus, columns=["case_group", "hurst", "decades", "decades_low", "decades_high", "power_law_fails"]
             ),

@@ -14,7 +14,7 @@ from viscorough.reference import one_element_stiffness, zeta_elastic
 from viscorough_study.criteria import JUDGES
 from viscorough_study.evidence import equivalence, judged, mean_with_interval, opposite
 from viscorough_study.form_criteria import _case as form_case
-from viscorough_study.law_criteria import alpha_limit, hurst_only, realizations
+from viscorough_study.law_criteria import alpha_limit, hurst_only, no_grid, realizations
 from viscorough_study.method_criteria import bodies_of_revolution, computing_time, elements
 from viscorough_study.region_criteria import (
     complete_contact,
@@ -179,6 +179,18 @@ def test_exponents_of_combinations_are_compared():
     first = found.discs["case"] == "c0"
     found.discs["stiffness"] = found.discs["stiffness"] * xr.where(first, found.discs["x"] ** 0.2, 1)
     assert {case.verdict for case in hurst_only(dataclasses.replace(found), 0.03)} == {"not reproduced"}
+
+
+def test_change_of_exponents_with_the_grid_is_judged_in_windows_of_fixed_x():
+    found = evidence()
+    verdicts = {case.name: case.verdict for case in no_grid(found, 0.03)}
+    assert verdicts == {
+        "H = 0.4, X = 0.01 to 0.1": "reproduced",
+        "H = 0.6, X = 0.01 to 0.1": "undecided",
+        "H = 0.9, X = 0.01 to 0.1": "not reproduced",
+    }
+    found.tables["sizes_trends"] = found.tables["sizes_trends"].query("source == 'lines'")
+    assert [case.verdict for case in no_grid(found, 0.03)] == ["undecided"]
 
 
 def test_interval_of_the_exponent_that_250_indentations_give():

@@ -14,6 +14,7 @@ FURTHER = {
     "prefactors": "The prefactor under every combination of conventions",
     "direct": "Direct integration in time against both readings of the law",
     "reduction": "The reduction of dimensionality, surface by surface",
+    "mdr_lambda": "The line that stands for a surface: λ, and exponents in equal windows",
     "sizes": "Exponents on grids from coarse to fine",
     "collapse": "The curves of all grids as one scaling law",
 }

@@ -4,15 +4,18 @@ import numpy as np
 
 from viscorough import memory
 from viscorough.contact.halfspace import convolution_lengths
+from viscorough.contact.parallel import BLOCK
 from viscorough.contact.preconditioner import REACH
 
 # Bytes of the rank, place, gap and temporary arrays of an element; of a map's entry, while its elements are found.
 _PER_ELEMENT, _PER_HEIGHT = 60, 10
 # Flat fields: those of the contacts that a loading path holds (four each; at small tolerances, of more contacts, which
-# are solved ahead), and others, of the grid solver and temporary ones; bytes of other arrays of a place of the grid.
-_FIELDS_OF_CONTACTS, _FIELDS_OF_CONTACTS_IF_EXACT, _OTHER_FIELDS, _PER_PLACE = 16, 24, 4, 20
-# Arrays of the size of the spectrum of the half-space: in a cache and while the operator is prepared.
-_SPECTRA = 4
+# are solved ahead), and others, of the grid solver and temporary ones.
+_FIELDS_OF_CONTACTS, _FIELDS_OF_CONTACTS_IF_EXACT, _OTHER_FIELDS = 16, 24, 4
+# Bytes of other arrays of a place of the grid: contact sets, and the preconditioner with its fourteen entries.
+_PER_PLACE = 12 + 25
+# Arrays in double precision of the size of the spectrum of the half-space: kept, and while the operator is prepared.
+_SPECTRA = 2
 # Whatever the size: tables, and dense solutions of hundreds of elements.
 _CONSTANT = 6e6
 
@@ -41,7 +44,8 @@ def _of_grid(rows, columns, *, exact):
     flat = (rows + 2 * REACH) * (columns + 2 * REACH)
     operators = 8 * _SPECTRA * spectrum
     for bytes_of_number in (4, 8) if exact else (4,):
-        # Load, deflection and transformed rows; the spectrum at all frequencies along the columns.
-        operators += bytes_of_number * (4 * rows * along_rows + 2.3 * spectrum)
+        # Load and deflection, padded on small grids only, and transformed rows; the spectrum by blocks of columns.
+        width = along_rows if rows * columns <= BLOCK else columns
+        operators += bytes_of_number * (rows * (2 * width + along_rows) + 1.2 * spectrum)
     fields = 8 * (_OTHER_FIELDS + _FIELDS_OF_CONTACTS_IF_EXACT) if exact else 4 * (_OTHER_FIELDS + _FIELDS_OF_CONTACTS)
     return 8 * rows * columns + operators + (fields + _PER_PLACE) * flat + _CONSTANT

@@ -1,4 +1,4 @@
-"""Measure what a large measured-like map costs: its loading curve, and the contact at one force, on one thread.
+"""Measure what a large measured-like map costs on one thread and on several: its curve, and the contact at a force.
 
     python benchmarks/large_map.py --output results/large_map.json
 
@@ -30,9 +30,9 @@ FORCE = 9.0
 UNTIL_FRACTION = 0.5
 
 
-def curve(surface):
+def curve(surface, threads):
     """The loading curve to the contact fraction."""
-    result = indent(surface, tolerance=TOLERANCE, until_fraction=UNTIL_FRACTION)
+    result = indent(surface, tolerance=TOLERANCE, until_fraction=UNTIL_FRACTION, threads=threads)
     return {
         "levels": len(result.depth),
         "operator_applications": result.operator_applications,
@@ -40,9 +40,9 @@ def curve(surface):
     }
 
 
-def contact(surface):
+def contact(surface, threads):
     """The contact at the force."""
-    result = contact_at(surface, force=FORCE, tolerance=TOLERANCE)
+    result = contact_at(surface, force=FORCE, tolerance=TOLERANCE, threads=threads)
     balance = np.nansum(result.pressure) * result.spacing * result.row_spacing / result.force - 1
     return {
         "contact_fraction": result.contact_fraction,
@@ -55,40 +55,39 @@ def contact(surface):
 QUESTIONS = {"curve": curve, "contact": contact}
 
 
-def measure(question, heights):
+def measure(question, heights, threads):
     """Print the cost of one question as JSON; in a separate process."""
-    QUESTIONS[question](self_affine_disc(HURST, 129, seed=SEED))
+    QUESTIONS[question](self_affine_disc(HURST, 129, seed=SEED), threads)
     surface = np.load(heights)
     surface = Indenter(surface, 1 / len(surface))
-    result, wall, processor = timing.timed(lambda: QUESTIONS[question](surface))
+    result, wall, processor = timing.timed(lambda: QUESTIONS[question](surface, threads))
     peak = 1024 * int(re.search(r"VmHWM:\s*(\d+) kB", Path("/proc/self/status").read_text())[1])
     print(json.dumps({"wall_s": wall, "processor_s": processor, "peak_bytes": peak, **result}))
 
 
 @click.command()
 @click.option("--points", type=click.IntRange(9), default=2049, show_default=True, help="Points across the map.")
+@click.option("--threads", type=click.IntRange(2), default=2, show_default=True, help="Compared with one thread.")
 @click.option("--output", required=True, help="File to write, JSON.")
-def main(points, output):
+def main(points, threads, output):
     """Measure what a large measured-like map costs."""
-    rows = {"machine": timing.machine(), "points": points, "tolerance": TOLERANCE}
-    threads = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
+    rows = {"machine": timing.machine(), "points": points, "tolerance": TOLERANCE, "threads": threads}
+    limits = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
     with tempfile.TemporaryDirectory() as folder:
         heights = Path(folder) / "heights.npy"
         np.save(heights, self_affine_square(HURST, points, seed=SEED))
-        for question in QUESTIONS:
-            code = f"import large_map; large_map.measure({question!r}, {str(heights)!r})"
-            environment = os.environ | threads | {"PYTHONPATH": str(Path(__file__).parent)}
+        for question, number in [(question, number) for question in QUESTIONS for number in (1, threads)]:
+            code = f"import large_map; large_map.measure({question!r}, {str(heights)!r}, {number})"
+            environment = os.environ | limits | {"PYTHONPATH": str(Path(__file__).parent)}
             done = subprocess.run(
                 [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False
             )
             if done.returncode:
                 raise click.ClickException(f"{question}: {done.stderr.strip()}")
-            rows[question] = json.loads(done.stdout)
-            click.echo(
-                "{question}: {wall_s:.1f} s, {processor_s:.1f} s of processor time, {peak:.2f} GB".format(
-                    question=question, peak=rows[question]["peak_bytes"] / 1e9, **rows[question]
-                )
-            )
+            row = json.loads(done.stdout)
+            rows[question if number == 1 else f"{question}_threads"] = row
+            text = "{wall_s:.1f} s, {processor_s:.1f} s of processor time".format(**row)
+            click.echo(f"{question}, threads {number}: {text}, {row['peak_bytes'] / 1e9:.2f} GB")
     write_json(rows, output)
 
 

@@ -20,3 +20,6 @@ def test_file_has_the_cost_of_both_questions(tmp_path):
     for question in large_map.QUESTIONS:
         assert rows[question]["processor_s"] > 0
         assert 5e7 < rows[question]["peak_bytes"] < 5e8
+    for name in ("contact_fraction", "levels", "operator_applications"):
+        assert rows["curve_threads"][name] == rows["curve"][name]
+    assert rows["contact_threads"]["contact_fraction"] == rows["contact"]["contact_fraction"]

@@ -110,6 +110,7 @@ rule tables:
         rules.tabulate_calibration.output,
         rules.compare_prefactors.output,
         rules.compare_zeta_laws.output,
+        rules.tabulate_literature.output,
         rules.fit_interface.output,
         rules.compare_reduction.output,
         rules.match_lines.output,

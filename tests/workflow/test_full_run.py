@@ -13,7 +13,17 @@ from support.workflow import ROOT, TEST, load_script, plan, snakemake
 FIGURES = ("fig1_surfaces", "fig2_kinetics", "fig3_master_curve", "fig4_exponent", "conventions", "validation")
 FIGURES += ("prefactors", "interface", "direct", "reduction", "mdr_lambda", "speed", "failure_map", "level_placement")
 FIGURES += ("media_exponents",)
-TABLES = ("scaling", "validation", "claims", "calibration", "prefactors", "zeta_laws", "direct", "reduction")
+TABLES = (
+    "scaling",
+    "validation",
+    "claims",
+    "calibration",
+    "prefactors",
+    "zeta_laws",
+    "literature",
+    "direct",
+    "reduction",
+)
 TABLES += ("interface", "interface_slopes")
 TABLES += ("mdr_lambda", "mdr_summary", "mdr_exponents")
 TABLES += ("methods", "failure_map", "level_placement", "rule_costs", "media", "media_exponents")

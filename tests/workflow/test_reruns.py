@@ -10,6 +10,7 @@ from support.workflow import SCRIPTS, TEST, copy_sources, jobs, plan, settings_f
 from viscorough_study.source_digest import SourceDigests
 
 FITS = {"match_lines", "fit_scaling", "judge_claims", "compare_prefactors", "compare_zeta_laws", "tabulate_calibration"}
+FITS |= {"tabulate_literature"}
 AFTER_FITS = {
     "plot_mdr_lambda",
     "plot_kinetics",
@@ -83,7 +84,7 @@ def with_another_statement(text):
             (FITS_AND_FIGURES | SIZES) - {"fit_scaling", "compare_prefactors"} | {"plot_interface"},
         ),
         ({"ensemble": {"per_decade": 25}}, FITS_AND_FIGURES | SIZES | INTERFACE | {"pool_curves", "measure_plateaus"}),
-        ({"interface": {"plateau": 0.1}}, INTERFACE),
+        ({"interface": {"plateau": 0.1}}, INTERFACE | {"tabulate_literature"}),
         ({"validation": {"elements": [17, 31]}}, {"validate", "check_validation", "plot_validation", "judge_claims"}),
         (
             {"lines": {"points": 2048}},

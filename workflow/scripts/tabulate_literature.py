@@ -1,0 +1,18 @@
+"""Table of what others found, with the numbers of this study beside it."""
+
+import pandas as pd
+
+from viscorough_study.job_log import log_to
+from viscorough_study.literature import COLUMNS, literature
+from viscorough_study.tables import write_table
+
+
+def main(scaling, interface, csv, html, nc, *, entries, conventions):
+    """Put values of the scaling and interface tables, in these conventions, beside the entries."""
+    table = literature(entries, pd.read_csv(scaling), pd.read_csv(interface), conventions)
+    write_table(table, csv, nc, html, columns=COLUMNS, dimension="comparison", title="What others found")
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(**job.input, **job.output, **job.params)

@@ -12,6 +12,7 @@ import pandas as pd
 
 from viscorough.calibrated_law import COLUMNS as CALIBRATION
 from viscorough_study.conventions import FITTED, fits, interval_columns, of_source, readings
+from viscorough_study.discs import elements_across
 from viscorough_study.mdr_lambda import match_lambda
 from viscorough_study.power_law import fit_power_law, named_windows
 
@@ -92,7 +93,14 @@ def _fit(ensemble, lines, window, **how):
     return columns
 
 
-def calibrated(table, conventions):
-    """Fits of base discs and of lines in these conventions, with the columns of viscorough.calibrated_law."""
+def calibrated(table, sizes, conventions, across):
+    """Fits of base discs and of lines in these conventions, with the columns of viscorough.calibrated_law.
+
+    sizes : table of discs on grids from coarse to fine, with `elements`; those with as many elements across as the base
+        discs are taken for Hurst exponents that these do not have
+    """
     rows = [fits(table, conventions | of_source(source), case_group="base") for source in ("discs", "lines")]
+    further = fits(sizes, conventions | of_source("discs"), case_group="sizes")
+    same_grid = further["elements"].map(elements_across) == across
+    rows.append(further[same_grid & ~further["hurst"].isin(rows[0]["hurst"])])
     return pd.concat(rows)[list(CALIBRATION)].sort_values(["source", "hurst"], ignore_index=True)

@@ -106,7 +106,10 @@ def with_another_statement(text):
             | SIZES
             | {"indent_discs", "pool_curves", "measure_plateaus", "generate_example_discs", "plot_surfaces"},
         ),
-        ({"sizes": {"until_x": 2.0}}, SIZES | {"judge_claims", "indent_discs", "indent_lines", "pool_curves"}),
+        (
+            {"sizes": {"until_x": 2.0}},
+            SIZES | INTERFACE | {"tabulate_calibration", "judge_claims", "indent_discs", "indent_lines", "pool_curves"},
+        ),
         (
             {"direct": {"elements": 31}, "reduction": {"per_decade": 5}},
             {"compare_direct", "plot_direct", "judge_claims", "compare_reduction", "plot_reduction"},

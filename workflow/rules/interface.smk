@@ -3,8 +3,7 @@
 
 rule fit_interface:
     input:
-        discs="results/ensembles/discs.nc",
-        lines="results/ensembles/lines.nc",
+        pools=expand("results/ensembles/{pool}.nc", pool=("discs", "lines", "size_discs", "size_lines")),
     output:
         csv="results/tables/interface.csv",
         html=report(

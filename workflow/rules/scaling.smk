@@ -36,6 +36,7 @@ rule fit_scaling:
 rule tabulate_calibration:
     input:
         scaling=rules.fit_scaling.output.csv,
+        sizes="results/tables/sizes.csv",
     output:
         csv="results/tables/calibration.csv",
         html=report(
@@ -57,6 +58,7 @@ rule tabulate_calibration:
         mem_mb=1000,
     params:
         conventions=config["figures"],
+        across=config["discs"]["elements"],
     message:
         "Calibrated exponents and prefactors"
     script:

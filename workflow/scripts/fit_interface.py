@@ -6,16 +6,16 @@ from viscorough_study.job_log import log_to
 from viscorough_study.tables import recorded, write_table
 
 
-def main(
-    discs, lines, csv, html, nc, slopes_csv, slopes_html, slopes_nc, curves_csv, curves_nc, *, fit, rms_convention
-):
+def main(pools, csv, html, nc, slopes_csv, slopes_html, slopes_nc, curves_csv, curves_nc, *, fit, rms_convention):
     """Take discs and lines apart into interface and punch, lines at the Hurst exponents of the discs.
 
-    discs, lines : pools; fit : further arguments of interface_tables; rms_convention : of the discs
+    pools : discs, lines, and discs and lines on grids from coarse to fine
+    fit : further arguments of interface_tables; rms_convention : of the discs
     """
-    cases = ensembles_of(read_dataset(discs), "discs", "base")
+    discs, lines, size_discs, size_lines = map(read_dataset, pools)
+    cases = ensembles_of(discs, "discs", "base") + ensembles_of(size_discs, "discs", "sizes")
     hursts = {about["hurst"] for about, _, _ in cases}
-    cases += ensembles_of(read_dataset(lines), "lines", "lines", hursts)
+    cases += ensembles_of(lines, "lines", "lines", hursts) + ensembles_of(size_lines, "lines", "sizes")
     table, slopes, curves = interface_tables(cases, rms_convention, **fit)
     about = {"dimension": "ensemble", "title": "Interface and punch in series", "attributes": recorded(settings=fit)}
     write_table(table, csv, nc, html, columns=COLUMNS, **about)

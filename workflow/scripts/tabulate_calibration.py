@@ -8,9 +8,12 @@ from viscorough_study.job_log import log_to
 from viscorough_study.tables import write_table
 
 
-def main(scaling, csv, html, nc, *, conventions):
-    """Take the rows in these conventions, {convention: value}, from the scaling table."""
-    table = calibrated(pd.read_csv(scaling), conventions)
+def main(scaling, sizes, csv, html, nc, *, conventions, across):
+    """Take the rows in these conventions, {convention: value}, from the table scaling, and from sizes what it lacks.
+
+    across : elements across the discs of scaling
+    """
+    table = calibrated(pd.read_csv(scaling), pd.read_csv(sizes), conventions, across)
     write_table(table, csv, nc, html, columns=COLUMNS, dimension="fit", title="Calibrated exponents and prefactors")
 
 

@@ -1,9 +1,10 @@
-"""Discs of an ensemble: one realization and its rms heights by every convention, number of elements, flat disc."""
+"""Discs of an ensemble: one realization with its rms heights by every convention, its curve, and the flat disc."""
 
 from functools import cache
 
 import numpy as np
 
+from viscorough.contact.loading_path import indent
 from viscorough.contact.one_contact import contact_at
 from viscorough.indenter import Indenter
 from viscorough.surfaces import cut_disc, square_of_disc
@@ -29,16 +30,17 @@ def ensemble_disc(elements, surface, seed):
     return indenter, {name: float(height * factor) for name, height in rms.items()}
 
 
+def indent_disc(disc, rms, diameter, *, tolerance, until_fraction, until_x):
+    """LoadingCurve of a disc until a contact fraction or X = F/(4GhL) is reached.
+
+    disc, rms : of `ensemble_disc`; diameter : L [m]; h in X is the larger of the rms heights over disc and square
+    """
+    until_force = 4 * max(rms["disc"], rms["square"]) * diameter * until_x
+    return indent(disc, tolerance=tolerance, until_fraction=until_fraction, until_force=until_force)
+
+
 @cache
 def punch_stiffness(elements_across):
     """κ_c of a flat disc of so many elements across, by boundary elements; 1 for ever finer grids."""
     disc = cut_disc(np.zeros((elements_across, elements_across)), elements_across)
     return contact_at(Indenter(disc, 1 / elements_across), depth=1.0, tolerance=1e-5).stiffness / 4
-
-
-def elements_across(elements):
-    """Elements across the disc that has so many elements.
-
-    With n across, the disc holds those whose centres lie within (n − 1)/2 of its centre, about π (n − 1)²/4 of them.
-    """
-    return round(1 + np.sqrt(4 * elements / np.pi))

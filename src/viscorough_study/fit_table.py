@@ -12,8 +12,8 @@ import pandas as pd
 
 from viscorough.calibrated_law import COLUMNS as CALIBRATION
 from viscorough_study.conventions import FITTED, fits, interval_columns, of_source, readings
-from viscorough_study.discs import elements_across
 from viscorough_study.mdr_lambda import match_lambda
+from viscorough_study.pool import elements_across
 from viscorough_study.power_law import fit_power_law, named_windows
 
 

@@ -15,8 +15,8 @@ from scipy.optimize import least_squares
 from viscorough.calibrated_law import LARGEST_DEVIATION, X_LOW, interface_depth, interface_velocity
 from viscorough.reference import COMPLETE_CONTACT_STIFFNESS, exponent_beta
 from viscorough_study.conventions import FITTED
-from viscorough_study.discs import elements_across, punch_stiffness
-from viscorough_study.pool import ensembles_on_grids, select
+from viscorough_study.discs import punch_stiffness
+from viscorough_study.pool import elements_across, ensembles_on_grids, select
 from viscorough_study.power_law import in_window, log_means, percentile_interval
 
 WINDOWS = ((1e-3, 1e-2), (3e-3, 3e-2), (1e-2, 1e-1))  # in X, in which slopes are compared

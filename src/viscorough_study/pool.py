@@ -97,3 +97,11 @@ def _ensemble(part, about):
         coords[name] = values[0] if same else ("realization", values)
     arrays = (part[name].values for name in ("x", *VARIABLES))
     return ensemble_dataset(part["rms_convention"].values.tolist(), *arrays, coords)
+
+
+def elements_across(elements):
+    """Elements across the disc that has so many elements.
+
+    With n across, the disc holds those whose centres lie within (n − 1)/2 of its centre, about π (n − 1)²/4 of them.
+    """
+    return round(1 + np.sqrt(4 * elements / np.pi))

@@ -14,14 +14,15 @@ which the former approaches for N → ∞.
 """
 
 from dataclasses import dataclass, replace
+from itertools import product
 
 import numpy as np
 import pandas as pd
 from scipy.special import zeta
 
 from viscorough.reference import COMPLETE_CONTACT_STIFFNESS, exponent_beta
-from viscorough_study.discs import elements_across, punch_stiffness
-from viscorough_study.pool import ensembles_on_grids, select
+from viscorough_study.discs import punch_stiffness
+from viscorough_study.pool import elements_across, ensembles_on_grids, select
 from viscorough_study.power_law import log_means
 
 QUANTITIES = {"whole": "vt/h", "interface": "vt/h less X/κ_c of the punch"}
@@ -48,6 +49,14 @@ COLUMNS = {
     "beta_low": ("lowest exponent with which the curves collapse at 5 %; empty if there is none", "1"),
     "beta_high": ("highest exponent with which the curves collapse at 5 %", "1"),
     "finding": ("one of: " + "; ".join(FINDINGS), ""),
+}
+
+CURVES = {
+    "hurst": ("Hurst exponent", "1"),
+    "number": ("elements across discs", "1"),
+    "quantity": COLUMNS["quantity"],
+    "x": ("X = F/(4GhL), with h over all waves of the spectrum; of H = 0 over those of the grid", "1"),
+    "velocity": ("the quantity at X, mean over the realizations", "1"),
 }
 
 
@@ -86,6 +95,18 @@ class Grid:
         if kept.sum() < FEWEST["abscissae"]:
             return None
         return log_x[kept] + shift, values[:, kept] + shift
+
+
+def curve_table(found, x_high):
+    """Curves of all grids up to x_high, with the columns of `CURVES`; found : as of `grids`."""
+    parts = []
+    for hurst, of_hurst in found.items():
+        for one, quantity in product(of_hurst, QUANTITIES):
+            curve = one.curve(quantity, "spectrum" if hurst > 0 else "resolved", x_high)
+            if curve is not None:
+                values = {"x": np.exp(curve[0]), "velocity": np.exp(curve[1][0])}
+                parts.append(pd.DataFrame({"hurst": hurst, "number": one.number, "quantity": quantity, **values}))
+    return pd.concat(parts, ignore_index=True) if parts else pd.DataFrame(columns=list(CURVES))
 
 
 def variance_share(hurst, number, source):

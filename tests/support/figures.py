@@ -14,7 +14,7 @@ from viscorough_study.figures.measured import plot_measured
 from viscorough_study.fit_table import COLUMNS as SCALING_COLUMNS
 from viscorough_study.interface import COLUMNS as INTERFACE
 from viscorough_study.performance import measurement
-from viscorough_study.scaling_collapse import QUANTITIES, Grid
+from viscorough_study.scaling_collapse import QUANTITIES, Grid, curve_table
 
 HURST = (0.4, 0.9)
 COMBINATIONS = {
@@ -171,16 +171,17 @@ def sizes_table():
     return pd.DataFrame([*rows, rows[2] | {"case_group": "controls", "beta": 0.01}])
 
 
-def grids_of_sizes():
-    """{H: grids} whose curves are X^(H/(1+H)) for two Hurst exponents on two grids, without resamples."""
+def curves_of_sizes():
+    """Curves X^(H/(1+H)) for two Hurst exponents on two grids, and less X for the interface."""
     log_x = np.log(10.0) * np.arange(-4, 0.1, 0.1)
-    return {
+    found = {
         hurst: [
             Grid(number, 4, log_x, (hurst / (1 + hurst) * log_x + 0.5)[None], np.full(log_x.size, 20.0), 1.0, 1.0)
             for number in (33, 129)
         ]
         for hurst in (0.4, 0.9)
     }
+    return curve_table(found, 1.0)
 
 
 def collapse_tables():

@@ -7,7 +7,8 @@ from support.workflow import load_script, read_settings
 from viscorough.io import netcdf
 from viscorough.surfaces import cut_disc, self_affine_square
 from viscorough_study import cases
-from viscorough_study.discs import elements_across, ensemble_disc, punch_stiffness
+from viscorough_study.discs import ensemble_disc, punch_stiffness
+from viscorough_study.pool import elements_across
 from viscorough_study.seeds import realization_seed
 
 

@@ -102,6 +102,8 @@ rule fit_collapse:
             labels={"result": "grids needed for an exponent", "kind": "table"},
         ),
         needed_nc="results/tables/needed_grids.nc",
+        curves_csv="results/tables/collapse_curves.csv",
+        curves_nc="results/tables/collapse_curves.nc",
     log:
         "results/logs/fit_collapse.log",
     benchmark:
@@ -126,7 +128,7 @@ rule fit_collapse:
 
 rule plot_collapse:
     input:
-        discs="results/ensembles/size_discs.nc",
+        curves=rules.fit_collapse.output.curves_csv,
         collapse=rules.fit_collapse.output.collapse_csv,
         infinite=rules.fit_collapse.output.infinite_csv,
     output:
@@ -147,10 +149,6 @@ rule plot_collapse:
     threads: 1
     resources:
         mem_mb=1000,
-    params:
-        ranges=config["collapse"],
-        conventions=config["figures"],
-        fraction_min=config["scaling"]["fraction_min"],
     message:
         "Figure of the collapse of the curves of all grids"
     script:

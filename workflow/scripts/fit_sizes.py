@@ -21,8 +21,7 @@ def main(
     """
     fixed = {name: fit[name] for name in ("elements_min", "fraction_min", "resamples")} | {"seed": seed}
     fixed |= {name: conventions[name] for name in ("average", "rms_convention")}
-    discs, lines = read_dataset(discs), read_dataset(lines)
-    rows = []
+    discs, lines, rows = read_dataset(discs), read_dataset(lines), []
     for source, group, pool in (("discs", "sizes", discs), ("discs", "controls", discs), ("lines", "sizes", lines)):
         about, grids = {"source": source, "case_group": group}, ensembles_on_grids(select(pool, group=group)).values()
         for ensemble in progress(grids, len(grids), f"{source}, {group}"):

@@ -2,21 +2,16 @@
 
 import pandas as pd
 
-from viscorough.io.datasets import read_dataset
 from viscorough_study.figures.collapse import plot_collapse
 from viscorough_study.figures.style import save_figure
 from viscorough_study.job_log import log_to
-from viscorough_study.scaling_collapse import grids
 
 
-def main(discs, collapse, infinite, png, pdf, *, ranges, conventions, fraction_min):
-    """Plot. discs : pool; ranges : setting `collapse`; conventions : those of the figures"""
-    how = {name: conventions[name] for name in ("average", "rms_convention")}
-    how |= {"elements_min": min(ranges["elements_min"]), "fraction_min": fraction_min, "resamples": 0, "seed": 0}
-    found = grids(read_dataset(discs), "discs", **how)
-    save_figure(plot_collapse(found, pd.read_csv(collapse), pd.read_csv(infinite)), png, pdf)
+def main(curves, collapse, infinite, png, pdf):
+    """Plot the tables of fit_collapse."""
+    save_figure(plot_collapse(pd.read_csv(curves), pd.read_csv(collapse), pd.read_csv(infinite)), png, pdf)
 
 
 if job := globals().get("snakemake"):
     log_to(job.log[0])
-    main(**job.input, **job.output, **job.params)
+    main(**job.input, **job.output)

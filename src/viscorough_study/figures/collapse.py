@@ -19,29 +19,26 @@ from viscorough_study.figures.style import (
     mark_with_interval,
     require_rows,
 )
-from viscorough_study.scaling_collapse import QUANTITIES
 
-WHOLE_RANGE = 1.0  # X up to which curves are drawn
 LIGHTEST = 0.35  # opacity of the coarsest grid
 SHIFT = 3.0  # factor between curves of different H
 
 
 @rc_context(STYLE)
-def plot_collapse(found, collapse, infinite):
+def plot_collapse(curves, collapse, infinite):
     """vt/h (a) and that of the interface (b) of all grids over the law, (c) the exponents allowed.
 
-    found : grids of viscorough_study.scaling_collapse; collapse, infinite : tables of the rule fit_collapse
-
-    Raises ValueError for a table without rows.
+    curves, collapse, infinite : tables of the rule fit_collapse. Raises ValueError for a table without rows.
     """
     require_rows("plot_collapse", collapse)
     figure = Figure(figsize=(WIDE, 130 * MM))
     places = figure.subplot_mosaic([["whole", "interface"], ["exponents", "exponents"]])
     whole, interface, exponents = places.values()
-    looks = hurst_looks(found)
-    for axes, quantity, letter in zip((whole, interface), QUANTITIES, "ab", strict=True):
-        _curves(axes, found, looks, quantity)
-        axes.set_title(f"({letter}) {'vt/h' if quantity == 'whole' else 'interface, vt/h − X/κ' + '$_c$'}")
+    looks = hurst_looks(curves["hurst"])
+    titles = {"whole": "(a) $vt/h$", "interface": r"(b) interface, $vt/h - X/\kappa_c$"}
+    for axes, (quantity, title) in zip((whole, interface), titles.items(), strict=True):
+        _curves(axes, curves[curves["quantity"] == quantity], looks)
+        axes.set_title(title)
     _exponents(exponents, collapse, infinite)
     logarithmic_ticks(whole, interface)
     handles = hurst_handles(looks, marker="", linestyle="-")
@@ -49,20 +46,15 @@ def plot_collapse(found, collapse, infinite):
     return figure
 
 
-def _curves(axes, found, looks, quantity):
+def _curves(axes, curves, looks):
     """Every grid's curve over the law through it, (vt/h)/X^(H/(1+H)) up to a factor for each H, which are shifted."""
-    for rank, (hurst, of_hurst) in enumerate(found.items()):
-        beta, height = exponent_beta(hurst), "spectrum" if hurst > 0 else "resolved"
-        for place, one in enumerate(of_hurst):
-            curve = one.curve(quantity, height, WHOLE_RANGE)
-            if curve is None:
-                continue
-            log_x, log_y = curve
-            opacity = LIGHTEST + (1 - LIGHTEST) * place / max(len(of_hurst) - 1, 1)
-            scaled = np.exp(log_x + (1 + hurst) * np.log(one.number))
-            axes.plot(
-                scaled, np.exp(log_y[0] - beta * log_x) * SHIFT**-rank, color=looks[hurst]["color"], alpha=opacity
-            )
+    for rank, (hurst, look) in enumerate(looks.items()):
+        of_hurst = curves[curves["hurst"] == hurst]
+        numbers = sorted(of_hurst["number"].unique())
+        for opacity, number in zip(np.linspace(LIGHTEST, 1, len(numbers)), numbers, strict=True):
+            curve = of_hurst[of_hurst["number"] == number]
+            over_law = curve["velocity"] / curve["x"] ** exponent_beta(hurst) * SHIFT**-rank
+            axes.plot(curve["x"] * number ** (1 + hurst), over_law, color=look["color"], alpha=opacity)
     axes.set(xscale="log", yscale="log", xlabel="scaled force", ylabel="velocity over the law, shifted")
 
 

@@ -76,7 +76,7 @@ def drawn(discs, pooled, lines, scaling, combinations):
         "media_exponents": Drawn(plot_media_exponents(tables.media_table()), {"medium": 2}),
         "measured": Drawn(tables.measured_figure(pooled, scaling)),
         "sizes": Drawn(plot_sizes(tables.sizes_table(), SHOWN)),
-        "collapse": Drawn(plot_collapse(tables.grids_of_sizes(), *tables.collapse_tables())),
+        "collapse": Drawn(plot_collapse(tables.curves_of_sizes(), *tables.collapse_tables())),
         "large": Drawn(plot_large(tables.large_table())),
         "speed": Drawn(plot_speed(tables.methods_table())),
         "all_methods": Drawn(plot_all_methods(tables.methods_table()), {"indenter": 2}),
@@ -265,5 +265,6 @@ def test_texts_of_the_report_are_used_and_can_be_filled_in(path):
     assert rule or f'report: "workflow/report/{path.name}"' in (ROOT / "Snakefile").read_text(encoding="utf-8")
     settings = read_settings("config")
     params = dict.fromkeys(re.findall(r'(\w+)=config\["figures"\]', rule), settings["figures"])
+    params |= {name: [0.0, 0.4] for name in re.findall(r"(\w+)=\[", rule)}
     template = jinja2.Environment(undefined=jinja2.StrictUndefined).from_string(path.read_text(encoding="utf-8"))
     assert "{" not in template.render(snakemake={"config": settings, "params": params})

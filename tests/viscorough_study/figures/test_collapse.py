@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from support.figures import collapse_tables, grids_of_sizes, whole_on_page
+from support.figures import collapse_tables, curves_of_sizes, whole_on_page
 from viscorough_study.figures.collapse import SHIFT, plot_collapse
 
 
 def test_curves_of_a_law_are_horizontal_and_exponents_have_their_intervals():
-    found, (collapse, infinite) = grids_of_sizes(), collapse_tables()
-    figure = plot_collapse(found, collapse, infinite)
+    curves, (collapse, infinite) = curves_of_sizes(), collapse_tables()
+    figure = plot_collapse(curves, collapse, infinite)
     whole, interface, exponents = figure.axes
     assert whole_on_page(figure)
     for rank in range(2):
@@ -22,4 +22,4 @@ def test_curves_of_a_law_are_horizontal_and_exponents_have_their_intervals():
     markers = [line for line in exponents.lines if line.get_marker() in "os" and len(line.get_xdata()) == 1]
     assert [line.get_ydata()[0] for line in markers] == pytest.approx([0.03] * 8)
     with pytest.raises(ValueError, match="plot_collapse: the table has no rows"):
-        plot_collapse(found, collapse[:0], infinite)
+        plot_collapse(curves, collapse[:0], infinite)

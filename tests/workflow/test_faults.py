@@ -2,6 +2,7 @@
 
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -85,11 +86,14 @@ def test_second_run_in_a_folder_ends_and_the_first_is_not_disturbed(lines):
             while not list((lines / ".snakemake/locks").glob("*")):
                 assert time.monotonic() < deadline
                 time.sleep(0.01)
+            first.send_signal(signal.SIGSTOP)  # it holds its lock while the second run starts, however long that takes
             shown = failure(lines, "--forceall", "--", TARGET)
+            first.send_signal(signal.SIGCONT)
             assert first.poll() is None, "else it had not been a second run"
             finished, _ = first.communicate(timeout=120)
         finally:
             first.terminate()
+            first.send_signal(signal.SIGCONT)
     assert "Error: Directory cannot be locked." in shown
     assert "Traceback" not in shown
     assert first.returncode == 0, finished

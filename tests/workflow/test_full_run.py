@@ -12,7 +12,7 @@ from support.workflow import ROOT, TEST, load_script, plan, snakemake
 
 FIGURES = ("fig1_surfaces", "fig2_kinetics", "fig3_master_curve", "fig4_exponent", "conventions", "validation")
 FIGURES += ("prefactors", "interface", "direct", "reduction", "mdr_lambda", "speed", "failure_map", "level_placement")
-FIGURES += ("media_exponents",)
+FIGURES += ("media_exponents", "sizes", "collapse")
 TABLES = (
     "scaling",
     "validation",
@@ -24,7 +24,8 @@ TABLES = (
     "direct",
     "reduction",
 )
-TABLES += ("interface", "interface_slopes")
+TABLES += ("plateaus", "interface", "interface_slopes")
+TABLES += ("sizes", "sizes_trends", "collapse", "infinite_grid", "needed_grids")
 TABLES += ("mdr_lambda", "mdr_summary", "mdr_exponents")
 TABLES += ("methods", "failure_map", "level_placement", "rule_costs", "media", "media_exponents")
 
@@ -47,8 +48,8 @@ def test_files_follow_the_cf_conventions(finished):
     """One of every kind: curves of discs and lines, pools, examples, tables."""
     files = [path for path in (finished / "results").rglob("*.nc") if "curves" not in path.parts]
     files += [finished / f"results/curves/{case}/0000-0001.nc" for case in ("discs/h04000_c1", "lines/h04000")]
-    curves_of_interface = 1
-    assert len(files) == 2 + 1 + len(TABLES) + curves_of_interface + 2
+    without_html = ("interface_curves", "collapse_curves")
+    assert len(files) == 4 + 1 + len(TABLES) + len(without_html) + 2
     for path in files:
         assert violations(path) == [], path
 
@@ -75,12 +76,12 @@ def test_every_job_has_a_log_and_a_benchmark(finished, tmp_path):
 
     logs = stems("results/logs", ".log")
     assert logs == stems("results/benchmarks", ".tsv")
-    assert len(logs) == 42
+    assert len(logs) == 62
     files = {kind: tmp_path / f"costs.{kind}" for kind in ("csv", "html", "nc")}
     load_script("tabulate_rule_costs").main(**files, benchmarks=finished / "results/benchmarks")
     table = pd.read_csv(files["csv"]).set_index("rule")
-    assert table["jobs"].sum() == 42
-    assert table.loc["indent_discs", "jobs"] == 6
+    assert table["jobs"].sum() == 62
+    assert table.loc["indent_discs", "jobs"] == 14
     assert (table["longest_s"] <= table["seconds"]).all()
     assert table["seconds"].is_monotonic_decreasing
 

@@ -12,7 +12,7 @@ from support.page import BROWSER, Page, number_in
 from support.workflow import ROOT
 from viscorough_study.verdicts import overall
 
-IMAGES = 13
+IMAGES = 18
 LARGEST = 6e6  # bytes
 
 

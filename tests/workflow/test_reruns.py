@@ -170,7 +170,6 @@ def test_a_changed_line_of_the_column_convolution_reruns_what_uses_boundary_elem
                 "measure_plateaus",
                 "fit_sizes",
                 "fit_collapse",
-                "plot_collapse",
                 "compute_media",
                 "evaluate_measured",
                 "judge_claims",

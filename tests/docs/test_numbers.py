@@ -54,6 +54,22 @@ def test_prefactors():
     assert f"*ζ* as defined here is {low} to {high} % above Eq. 4" in read(VERDICTS)
 
 
+def test_answers_of_readme():
+    text = " ".join(read(README).split())
+    fits = pd.read_csv(ROOT / "docs/results/scaling.csv").query(
+        "source == 'discs' and case_group == 'base' and rms_convention == 'disc' and average == 'geometric'"
+        " and window_rule == 'default'"
+    )
+    above = (fits.set_index("hurst")["beta"] - [exponent_beta(hurst) for hurst in fits["hurst"]]).to_dict()
+    assert f"at H = 0.4 and 0.1 it is {above[0.4]:.2f} and {above[0.1]:.2f} larger" in text
+    error = of_claim("exact_correspondence")["value"].abs()
+    inside = error[error.index.str.endswith("region (b)")]
+    assert f"in region (b) to {round(100 * inside.max())} %" in text
+    law = pd.read_csv(ROOT / "src/viscorough/data/interface.csv").query("source == 'discs'")
+    assert f"F/({law['u0'].mean():.2f} h)" in text
+    assert law["deviation"].max() <= 0.05
+
+
 def test_lines_that_stand_for_discs():
     text = " ".join(read(ROOT / "docs/verification.md").split())
     drift, error = of_claim("lambda_constant")["value"], of_claim("exact_correspondence")["value"].abs()

@@ -20,7 +20,7 @@ help:
 	@echo "make speed       speed against accuracy of every method, in results/figures/speed.png; 80 minutes"
 	@echo "make stability   where each method fails, and random small indenters against dense solutions"
 	@echo "make sizes       exponents on grids from 33 to 2049 elements across and on lines, and their collapse"
-	@echo "make large       time and memory of a disc of up to 4097 elements across, 13 million in all"
+	@echo "make large       time and memory of a disc of up to 8193 elements across, 53 million in all"
 	@echo "make fuzz        10000 random files and options, most of them bad, through the command line; ten minutes"
 	@echo "make faults      faults planted in copies of the project, one at a time: how many do the tests catch?"
 	@echo "make seeds       the reproduction with three root seeds: does any verdict change?"
@@ -95,6 +95,7 @@ bench: environment
 
 speed stability: SETTINGS = config/methods.yaml
 sizes: SETTINGS = config/sizes.yaml
+large: SETTINGS = config/large.yaml
 
 speed: settings
 	$(SNAKEMAKE) -- speed

@@ -236,7 +236,7 @@ def example_memory(settings):
 
 def large_memory(elements):
     """One disc and the fields of the solver on its grid."""
-    return round(BASE_MEMORY + 500 * elements**2 / 1e6)
+    return round(BASE_MEMORY + 240 * elements**2 / 1e6)
 
 
 def measured_memory(case):

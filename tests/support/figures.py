@@ -202,7 +202,7 @@ def large_table():
     """Costs of four sizes: time with a constant part, memory in proportion to the elements."""
     elements = np.array([1e3, 1e4, 1e5, 1e6])
     table = pd.DataFrame({"across": [36, 113, 357, 1128], "elements": elements})
-    return table.assign(processor=1.0 + 1e-6 * elements**1.2, memory=400 * elements)
+    return table.assign(processor=1.0 + 1e-6 * elements**1.2, memory=400 * elements, threads=2, wall_threads=0.6)
 
 
 def failure_table(verdicts):

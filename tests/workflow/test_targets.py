@@ -77,6 +77,8 @@ def test_sizes_and_large_discs(fresh, default_plan):
     assert sorted(set(sizes.loc[sizes["source"] == "lines", "elements"])) == [64, 1024]
     costs = pd.read_csv(fresh / "results/tables/large.csv")
     assert costs["across"].tolist() == [17, 33]
+    assert costs["threads"].tolist() == [2, 2]
+    assert (costs[["wall", "wall_threads"]] > 0).all(axis=None)
     assert (costs["memory"] > 1e7).all()
     assert drawn(fresh, "sizes", "large")
 

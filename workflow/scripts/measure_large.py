@@ -12,10 +12,10 @@ from viscorough_study.performance.large_discs import measure_disc
 from viscorough_study.seeds import large_disc_key, realization_seed
 
 
-def main(csv, curve, *, elements, seed, hurst, tolerance, until_fraction, warm_up):
+def main(csv, curve, *, elements, threads, seed, hurst, tolerance, until_fraction, warm_up):
     """Measure a disc of so many elements across; the other parameters are those of measure_disc."""
     key = large_disc_key(elements)
-    how = {"tolerance": tolerance, "until_fraction": until_fraction, "warm_up": warm_up}
+    how = {"tolerance": tolerance, "until_fraction": until_fraction, "warm_up": warm_up, "threads": threads}
     loading_curve, cost = measure_disc(hurst, elements, realization_seed(seed, *key), **how)
     settings = {"seed": seed, "spawn_key": key, "hurst": hurst, "until_fraction": until_fraction}
     about = {"title": "A disc on a fine grid", "settings": json.dumps(settings)}
@@ -26,4 +26,4 @@ def main(csv, curve, *, elements, seed, hurst, tolerance, until_fraction, warm_u
 
 if job := globals().get("snakemake"):
     log_to(job.log[0])
-    main(**job.output, elements=int(job.wildcards.elements), **job.params)
+    main(**job.output, elements=int(job.wildcards.elements), threads=job.threads, **job.params)

@@ -13,6 +13,7 @@ def test_exponents_of_the_cost_are_those_of_the_larger_half():
     slope = np.log(table["processor"].iloc[3] / table["processor"].iloc[2]) / np.log(10)
     assert labels == [
         "measured (elements across)",
+        "wall time on 2 threads",
         f"exponent {slope:.2f}",
         "measured (elements across)",
         "exponent 1.00",

@@ -70,7 +70,7 @@ def with_another_statement(text):
     [
         (
             {"scaling": {"stiffness_max": 0.25}},
-            FITS_AND_FIGURES | SIZES | SPEED,
+            FITS_AND_FIGURES | {"fit_sizes", "plot_sizes"} | SPEED,
         ),  # errors in region (b) are tabulated, too
         ({"methods": {"levels": 3}}, SPEED | {"judge_claims"}),
         ({"verdicts": {"draws": 3}}, {"measure_plateaus", "judge_claims"}),
@@ -108,7 +108,10 @@ def with_another_statement(text):
         ),
         (
             {"sizes": {"until_x": 2.0}},
-            SIZES | INTERFACE | {"tabulate_calibration", "judge_claims", "indent_discs", "indent_lines", "pool_curves"},
+            SIZES
+            | INTERFACE
+            | {"tabulate_calibration", "tabulate_literature", "judge_claims"}
+            | {"indent_discs", "indent_lines", "pool_curves"},
         ),
         (
             {"direct": {"elements": 31}, "reduction": {"per_decade": 5}},
@@ -156,7 +159,7 @@ def test_a_changed_line_of_the_column_convolution_reruns_what_uses_boundary_elem
     """And what depends on it, but neither lines nor example discs."""
     edit(editable / "src/viscorough/contact/column_fft.py", with_another_statement)
     after = {"pool_curves", "measure_plateaus", "plot_direct", "plot_reduction", "check_validation", "plot_validation"}
-    after |= {"plot_failure_map", "plot_level_placement", *SPEED, *MEDIA, *LAST}
+    after |= {"plot_failure_map", "plot_level_placement", *SPEED, *MEDIA, *INTERFACE, *LAST}
     assert set(plan(editable, *TEST)) == BOUNDARY_ELEMENTS | FITS_AND_FIGURES | SIZES | after
 
 
@@ -175,7 +178,7 @@ def test_a_changed_line_of_the_column_convolution_reruns_what_uses_boundary_elem
                 "judge_claims",
                 "make_page",
             }
-            | {"match_lines", "fit_interface"},
+            | {"match_lines", "fit_interface", "compare_zeta_laws"},
         ),
         ("viscorough_study/validate_solvers.py", {"validate", "check_validation"}),
         (

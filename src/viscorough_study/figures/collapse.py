@@ -73,7 +73,7 @@ def _exponents(axes, collapse, infinite):
             for row in _of_spectrum(limits[limits["law"] == law]).itertuples():
                 ends = np.array([row.beta_low, row.beta_high]) - row.expected
                 mark_with_interval(axes, row.hurst + offset + shift, row.beta - row.expected, ends, shown)
-    axes.set(xlabel="Hurst exponent $H$", ylabel=r"$\beta$ less $H/(1+H)$", ylim=(-0.2, 0.35))
+    axes.set(xlabel="Hurst exponent $H$", ylabel=r"$\beta$ less $H/(1+H)$", ylim=(-0.2, 0.5))
     axes.set_title("(c) exponents of all grids together")
     handles = []
     for quantity, look in looks.items():

@@ -27,7 +27,7 @@ TABLES = (
 TABLES += ("plateaus", "interface", "interface_slopes")
 TABLES += ("sizes", "sizes_trends", "collapse", "infinite_grid", "needed_grids")
 TABLES += ("mdr_lambda", "mdr_summary", "mdr_exponents")
-TABLES += ("methods", "failure_map", "level_placement", "rule_costs", "media", "media_exponents")
+TABLES += ("methods", "equal_error", "failure_map", "level_placement", "rule_costs", "media", "media_exponents")
 
 
 def test_every_figure_and_table_is_made(finished):

@@ -47,6 +47,14 @@ rule tabulate_methods:
             labels={"result": "speed and accuracy", "kind": "table"},
         ),
         nc="results/tables/methods.nc",
+        equal_csv="results/tables/equal_error.csv",
+        equal_html=report(
+            "results/tables/equal_error.html",
+            caption="../report/equal_error.rst",
+            category=chapter("speed"),
+            labels={"result": "cost at the same error", "kind": "table"},
+        ),
+        equal_nc="results/tables/equal_error.nc",
     log:
         "results/logs/tabulate_methods.log",
     benchmark:

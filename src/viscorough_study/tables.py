@@ -25,8 +25,11 @@ def write_table(table, csv_path, nc_path, html_path=None, *, columns, dimension,
     ds = xr.Dataset(attrs={"title": title} | (attributes or {}))
     for name, (long_name, units) in columns.items():
         values, attributes = table[name].to_numpy(), {"long_name": long_name, "units": units}
+        if not values.size:  # a table without rows does not tell what its columns hold
+            values = values.astype(float if units else str)
         if values.dtype.kind not in "biuf":
-            values, attributes = values.astype(str).astype(object), {"long_name": long_name}
+            values, attributes = values.astype(str), {"long_name": long_name}
+            values = values.astype(object) if values.size else values  # empty objects would be stored as numbers
         ds[name] = (dimension, values, attributes)
     write_dataset(ds, nc_path)
     with atomic_write(csv_path) as temporary:

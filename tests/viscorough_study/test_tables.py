@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from support.cf import violations
 from viscorough.io.datasets import read_dataset
 from viscorough_study.tables import write_table
 
@@ -37,3 +38,10 @@ def test_table_survives_both_files_exactly(tmp_path):
     with pytest.raises(ValueError, match="beta"):
         write_table(table, tmp_path / "b.csv", tmp_path / "b.nc", columns=columns, dimension="fit", title="")
     assert sorted(os.listdir(tmp_path)) == ["fits.csv", "fits.html", "fits.nc"]
+
+
+def test_table_without_rows_keeps_what_its_columns_hold(tmp_path):
+    columns = {"source": ("origin of the curves", ""), "beta": ("exponent", "1")}
+    files = [tmp_path / f"fits.{kind}" for kind in ("csv", "nc", "html")]
+    write_table(pd.DataFrame(columns=list(columns)), *files, columns=columns, dimension="fit", title="Fits")
+    assert violations(files[1]) == []

@@ -206,7 +206,7 @@ def _bin_gaps(heights, highest, shift, base, table):
     gaps, bins = np.empty(_BLOCK), np.empty(_BLOCK, np.uint32)
     for start in range(0, heights.size, _BLOCK):
         block = heights[start : start + _BLOCK]
-        for i in range(block.size):  # a loop of its own, which is vectorized
+        for i in range(block.size):  # a separate loop, which is vectorized
             gaps[i] = highest - np.float64(block[i])
             bins[i] = max(np.float64(gaps[i]).view(np.uint64) >> shift, base) - base
         for i in range(block.size):

@@ -5,7 +5,7 @@
 To first order the correction is the factor 1 + B X^ω of the theory of corrections to scaling; as an exponential it
 leaves ln(vt/h) linear in ln A, β and B for a given ω, so that all resamples are fitted at once. What a fit depends on
 beside the realizations is the range: the elements in contact at which it begins and the X at which it ends. The range
-has an interval of its own, from the lowest to the highest end of the intervals of all ranges.
+has a separate interval, from the lowest to the highest end of the intervals of all ranges.
 """
 
 from itertools import product
@@ -14,6 +14,7 @@ import numpy as np
 import pandas as pd
 
 from viscorough.reference import exponent_beta
+from viscorough_study.scaling_collapse import COLUMNS as OF_COLLAPSE
 from viscorough_study.scaling_collapse import HEIGHTS, QUANTITIES
 
 OMEGA = np.round(np.arange(0.2, 1.51, 0.1), 1)  # exponents of the correction that are tried
@@ -21,9 +22,7 @@ ERRORS = (0.05, 0.02, 0.01)  # of β, for which the grid needed is estimated
 FINDINGS = ("agrees", "departs", "undecided")
 COLUMNS = {
     "source": ("discs by boundary elements, lines by the MDR", ""),
-    "hurst": ("Hurst exponent", "1"),
-    "quantity": ("; ".join(f"{name}: {text}" for name, text in QUANTITIES.items()), ""),
-    "height": ("; ".join(f"{name}: {text}" for name, text in HEIGHTS.items()), ""),
+    **{name: OF_COLLAPSE[name] for name in ("hurst", "quantity", "height")},
     "law": ("power: A X^β; corrected: A X^β exp(B X^ω)", ""),
     "grids": ("grids fitted together", "1"),
     "finest": ("elements across discs, or points of lines, of the finest of them", "1"),

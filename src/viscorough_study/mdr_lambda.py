@@ -2,7 +2,7 @@
 
 A line of the same L and s times the rms height, h1D = s h2D, has X1 = X/s and vt/h2D = s vt/h1D. The mean curves y3 of
 discs and y1 of lines match at X where y3(X) = s y1(X/s), that is y3(X)/X = y1(X1)/X1, the mean of 1/κ. C1D = π q C2D
-has equal rms heights, C1D = λ q C2D has (h1D/h2D)² = λ/π, so λ = π s². Every X has an s of its own: the correspondence
+has equal rms heights, C1D = λ q C2D has (h1D/h2D)² = λ/π, so λ = π s². s differs from X to X: the correspondence
 by a λ of the Hurst exponent alone is exact only if they are all equal.
 """
 

@@ -22,7 +22,7 @@ def line_spectrum(evidence, tolerance):
     """λ at the largest Hurst exponent over λ at the smallest, with the smallest and the largest λ/π of all.
 
     Where λ depends on H by more than the tolerance, no constant serves, and π neither. The two λ are independent, and
-    the logarithm of each has an interval of its own; that of the difference is their root of the sum of squares.
+    the logarithm of each has its interval; that of the difference is their root of the sum of squares.
     """
     fits = evidence.fits("discs")[["lambda", "lambda_low", "lambda_high"]].dropna()
     if len(fits) < 2:

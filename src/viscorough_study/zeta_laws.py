@@ -2,7 +2,7 @@
 
 Each law is compared in two ways, with the logarithm r of a ratio for each Hurst exponent:
 
-- ζ, of a fit of region (b) with an exponent of its own, over the law;
+- ζ, of a fit of region (b) with a fitted exponent, over the law;
 - the curve: vt/h over X^(H/(1+H))/ζ, with ζ by the law, at the abscissae that lie in the regions (b) of all Hurst
   exponents. With Eq. 11 and the factor 1/Γ(2 − α) this is the ratio of both sides of Eq. 12, as in Fig. 3.
 

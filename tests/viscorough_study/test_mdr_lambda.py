@@ -13,7 +13,7 @@ GEOMETRIC = BOOTSTRAP | {"average": "geometric"}
 
 
 def scattered(beta, realizations, seed):
-    """vt/h = X^β, each with a factor of its own."""
+    """vt/h = X^β, each with a different factor."""
     factors = np.exp(0.3 * np.random.default_rng(seed).normal(size=(realizations, 1)))
     return factors * x**beta
 

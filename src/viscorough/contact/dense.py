@@ -131,7 +131,7 @@ def follow_events(elements, contact, most, pressure_sum):
 
 
 def _last_contact(elements, units, events, members, factor):
-    """The ContactState at the last event, solved anew, from the members and their Cholesky factor."""
+    """The ContactState at the last event, solved again from the members and their Cholesky factor."""
     count, depth = events.count[-1], events.depth[-1]
     members, factor = members[:count], factor[:count, :count]
     right = np.stack([depth - elements.initial_gap[members], np.ones(count)], axis=1)

@@ -38,7 +38,7 @@ _BEFORE_BLOCK = [(-1, -1), (-1, 0), (-1, 1), (0, -1)]
 # Elements across a block of square elements, blocks across a block of the next grid level, and blocks across a grid
 # level that is inverted densely. The number of iterations depends weakly on all three.
 _SIDE, _RATIO, _DENSE = 8, 4, 9
-# Share of the elements that may join or leave the set before the coarse levels are prepared anew.
+# Share of the elements that may join or leave the set before the coarse levels are prepared again.
 _OUTDATED = 0.02
 _TINY = np.finfo(float).tiny
 # K of a block on itself, times its side: less than 2.97, the mean over a uniformly loaded square, because G already

@@ -7,10 +7,8 @@ rows are tabulated.
 Entries are stored for the whole grid, one neighbour after the other for every row of it, and are zero where there is no
 contact: loops over a row of the grid then read consecutive numbers and process as many elements at once as a register
 of the processor holds. In single precision an entry is rounded to a whole number of one byte, so that they fit into the
-cache.
-Rounding changes G, and with it the preconditioner, by a few percent, but not the symmetry of Gᵀ … G.
-
-Blocks without contact are skipped. Compiled functions take plain arrays, hence many arguments.
+cache. Rounding changes G, and with it the preconditioner, by a few percent, but not the symmetry of Gᵀ … G. Blocks
+without contact are skipped. Compiled functions take plain arrays, hence many arguments.
 """
 
 from functools import lru_cache

@@ -43,7 +43,7 @@ def test_loops_within_loops_end():
     assert run_blocks(inner, 40, 2, block=10) == [40] * 4
 
 
-def test_a_forked_process_has_threads_of_its_own():
+def test_a_forked_process_starts_other_threads():
     run_blocks(lambda start, stop: None, 20, 2, block=10)
     child = os.fork()
     if child == 0:

@@ -99,16 +99,16 @@ def test_the_sparse_part_follows_the_set(share, precision):
     former = np.pad(np.hypot(row - 33, column - 35) < 30, REACH) & np.pad(random[0] < 0.8, REACH)
     inside = former ^ np.pad(random[1] < share, REACH)
     assert 0 < np.count_nonzero(inside != former) < inside.size
-    followed, anew = (SparseFactor(*inside.shape, (8, 8), 1.0, precision) for _ in range(2))
+    followed, renewed = (SparseFactor(*inside.shape, (8, 8), 1.0, precision) for _ in range(2))
     followed.update(former.ravel())
     assert followed.update(inside.ravel()) == np.count_nonzero(inside != former)
-    anew.update(inside.ravel())
+    renewed.update(inside.ravel())
     residual = np.random.default_rng(4).random(inside.size).astype(precision)
-    np.testing.assert_array_equal(followed.restrict(residual), anew.restrict(residual))
-    np.testing.assert_array_equal(followed.squares, anew.squares)
+    np.testing.assert_array_equal(followed.restrict(residual), renewed.restrict(residual))
+    np.testing.assert_array_equal(followed.squares, renewed.squares)
     loads = np.random.default_rng(5).random(followed.squares.shape)
     on_set = inside.ravel()
-    np.testing.assert_array_equal(followed.prolong(loads)[on_set], anew.prolong(loads)[on_set])
+    np.testing.assert_array_equal(followed.prolong(loads)[on_set], renewed.prolong(loads)[on_set])
 
 
 def test_threads_do_not_change_a_bit():
@@ -127,7 +127,7 @@ def test_threads_do_not_change_a_bit():
 
 @pytest.mark.parametrize("name", ["hills", "square", "scattered", "cross"])
 def test_coarse_levels_of_a_slightly_other_set_serve(name):
-    """Up to a share of the elements may join or leave before the coarse levels are prepared anew."""
+    """Up to a share of the elements may join or leave before the coarse levels are prepared again."""
     inside = np.pad(dict(sets())[name], REACH)
     generator = np.random.default_rng(6)
     members = np.flatnonzero(inside)

@@ -17,7 +17,8 @@ from viscorough_study.figures.style import (
     require_rows,
 )
 
-TICKS = [0.05, 0.1, 0.2, 0.5, 1, 1.5, 2, 3, 5, 10, 20, 50, 100, 200, 500, 1000]
+TICKS = [0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000]
+NEAR_ONE = [0.2, 0.3, 0.5, 0.8, 1, 1.2, 1.5, 2, 3, 5]
 
 
 @rc_context(STYLE)
@@ -56,7 +57,7 @@ def plot_mdr_comparison(table):
         axes.axhline(0 if axes is correlation else 1, color=GREY, linewidth=0.6)
     for axes in (stiffness, scatter, area, gap, force):
         axes.set_yscale("log")
-        plain_ticks(axes.yaxis, TICKS if axes is not area else [tick for tick in TICKS if tick not in (1.5, 3)])
+        plain_ticks(axes.yaxis, TICKS if axes in (area, gap) else NEAR_ONE)
     for axes in (correlation, force):
         axes.set_xlabel("$X=F/(4GhL)$")
     correlation.set_ylim(-1, 1)

@@ -40,7 +40,7 @@ def measure(problem, repeats, methods=METHODS, report=lambda text: None, *, long
 
     repeats : number of interleaved repeats after the first run, which gives errors and memory, and the time of whatever
         takes longer than MAX_REPEATED
-    longest : seconds; a method that has taken longer is not repeated either, and not tried at finer values
+    longest : seconds; a method that has taken as long is not repeated either, and not tried at finer values
     report : called with a line of text before each first run
 
     Returns a pandas.DataFrame with the columns of `COLUMNS`, a row per method and value.
@@ -59,7 +59,7 @@ def measure(problem, repeats, methods=METHODS, report=lambda text: None, *, long
             rows[key] |= dict(zip(TIMES, seconds, strict=True))
             if seconds[0] < min(longest, MAX_REPEATED):
                 functions[key] = function
-            if seconds[0] > longest:
+            if seconds[0] >= longest:  # what was stopped took just as long
                 break
     report(f"{problem.name}: {repeats} repeats")
     for key, seconds in timing.interleaved(functions, repeats).items():

@@ -20,7 +20,8 @@ from viscorough_study.performance import other_solvers, timing
 # own way. The search for the loosest that will do begins in the middle of them.
 TOLERANCE_RATIOS = (30, 10, 3, 1, 1 / 3, 1 / 10, 1 / 30, 1 / 100)
 FIRST_RATIO = 3
-HOPELESS = 4  # times as long as another solver: more than a looser tolerance can gain
+# Times as long as the fastest other solver: more than a looser tolerance can gain, and more than machines are noisy.
+HOPELESS = 4
 MAX_REPEATED = 20.0  # seconds; what takes longer is not repeated
 REFERENCE_TOLERANCE = 1e-10  # of the forces that all are compared with
 COLUMNS = {
@@ -71,7 +72,8 @@ def disc_task(name, hurst, elements, fractions, residual, *, seed, threads=(1,))
 def compare_solvers(task, solvers, *, pairs, time_limit, report=lambda text: None):
     """Time and residual of the path and of other solvers on one task, each with the loosest tolerance that will do.
 
-    pairs : number of pairs of runs, of the path and of another solver on as many threads, in alternating order
+    pairs : number of pairs of runs, of the path and of another solver on as many threads, in alternating order; a
+        solver that takes longer than MAX_REPEATED, or HOPELESS times as long as the fastest, runs in one pair only
     time_limit : seconds after which a run of another solver is abandoned
     report : called with a line of text before each solver and round of pairs
 
@@ -98,10 +100,11 @@ def compare_solvers(task, solvers, *, pairs, time_limit, report=lambda text: Non
             if met:
                 known = (solution.wall_s, solution.processor_s) if threads == 1 else None
                 races.append(_Race(path, partial(ask, [tolerance], threads=threads), known, rows[-1]))
+    longest = min(MAX_REPEATED, HOPELESS * fastest)
     for number in range(pairs):
         report(f"{task.name}, H = {task.hurst:g}: pair {number + 1} of {pairs}")
         for race in races:
-            race.run_pair(path_first=number % 2 == 0)
+            race.run_pair(path_first=number % 2 == 0, longest=longest)
     for race in races:
         race.record()
     for row, path in zip(rows, paths.values(), strict=False):
@@ -126,12 +129,12 @@ class _Race:
     row: dict
     seconds: list = field(default_factory=list)
 
-    def run_pair(self, *, path_first):
-        """One more pair; only one where a run of the other solver takes longer than MAX_REPEATED."""
-        if self.seconds and not self.known[0] < MAX_REPEATED:
+    def run_pair(self, *, path_first, longest):
+        """One more pair; only one where a run of the other solver takes longer than `longest` seconds."""
+        if self.seconds and not self.known[0] < longest:
             return
         own = timing.timed(self.path)[1:] if path_first else None
-        if self.known is None or self.known[0] < MAX_REPEATED:
+        if self.known is None or self.known[0] < longest:
             (solution,) = self.other()
             self.known = (solution.wall_s, solution.processor_s) if solution else (np.nan, np.nan)
         self.seconds.append((own or timing.timed(self.path)[1:], self.known))

@@ -92,14 +92,15 @@ def test_only_methods_that_apply_and_end_in_time_are_measured():
     assert measurement.measure(sphere, 1, [small, rough, kept])["method"].tolist() == ["kept"]
 
 
-def test_what_takes_longer_than_allowed_is_not_tried_at_finer_values():
+@pytest.mark.parametrize("longest", [0.5, 0.6])
+def test_what_takes_as_long_as_allowed_is_not_tried_at_finer_values(longest):
     def run(problem, seconds):
         calls.append(seconds)
         return methods.Answer(problem.velocity, seconds=(seconds, seconds))
 
     calls, sphere = [], problems.named_problem("sphere", 17, 3)
     slow = replace(methods.METHODS[1], values=(0.0, 0.6, 0.7), run=run)
-    table = measurement.measure(sphere, 1, [slow], longest=0.5)
+    table = measurement.measure(sphere, 1, [slow], longest=longest)
     assert table["value"].tolist() == [0.0, 0.6]
     assert calls == [0.0, 0.6, 0.0]  # the slow one is not repeated either
 

@@ -21,7 +21,7 @@ pressures = np.load({pressures!r})
 tolerances, levels = request["tolerances"], request["depths"].size
 assert request["padding"] == 24 and np.isfinite(request["gap"]).any()
 assert (request["repeats"], request["maximum_seconds"]) == (1, 20)
-wall = np.full((len(tolerances), 1), 0.5 * int(request["threads"]))
+wall = np.full((len(tolerances), 1), {seconds} * int(request["threads"]))
 wall[tolerances > {too_slow}] = np.nan
 np.savez(
     sys.argv[2],
@@ -54,9 +54,11 @@ def stand_in(tmp_path, disc, exact):
     pressures = [dense_contact.pressure_at_depth(gap, depth / disc.spacing, 4.0) for depth in exact.depth]
     np.save(tmp_path / "pressures.npy", pressures)
 
-    def make(iterations=7, too_slow=np.inf):
-        adapter = tmp_path / "adapter.py"
-        text = ADAPTER.format(pressures=str(tmp_path / "pressures.npy"), iterations=iterations, too_slow=too_slow)
+    def make(iterations=7, too_slow=np.inf, seconds=0.5):
+        adapter = tmp_path / f"adapter_{seconds}.py"
+        text = ADAPTER.format(
+            pressures=str(tmp_path / "pressures.npy"), iterations=iterations, too_slow=too_slow, seconds=seconds
+        )
         adapter.write_text(text.replace("> inf", "> np.inf"))
         return other_solvers.OtherSolver("stand-in", Path(sys.executable), adapter)
 
@@ -125,6 +127,15 @@ def test_comparison_uses_the_loosest_tolerance_that_meets_the_residual(disc, exa
     assert (table["ratio_low"] <= table["ratio"]).all()
     assert (table["ratio"] <= table["ratio_high"]).all()
     assert (table["ratio_low"] < table["ratio_high"])[2:].all()
+
+
+def test_far_slower_solvers_are_not_repeated(disc, exact, stand_in):
+    task = solver_comparison.Task("three levels", 0.7, disc, exact.depth, 1e-4)
+    solvers = [stand_in(seconds=seconds) for seconds in (0.5, 1.9, 2.1)]
+    table = solver_comparison.compare_solvers(task, solvers, pairs=2, time_limit=20)
+    assert table["wall_s"].tolist()[1:] == [0.5, 1.9, 2.1]
+    assert table["ratio_low"].isna().tolist() == [False, False, False, True]
+    assert table["ratio"].notna().all()
 
 
 def test_a_residual_out_of_reach_is_not_met(disc, exact, stand_in):

@@ -16,9 +16,10 @@ from ducc0 import fft
 from viscorough import line_waves, memory, spectrum
 from viscorough.indenter import positive
 
+_ROOM = 1000  # between the rms height and the limits of the floating-point type
 _BLOCK = 16384  # waves computed at a time in double precision
 # Memory that must be available, in multiples of the heights of a line, since the Fourier transform copies them. If the
-# number n of points has prime factors above 11, more is needed, and still more in proportion to p/n for the largest
+# number n of points has prime factors above 5, more is needed, and still more in proportion to p/n for the largest
 # factor p (tests/viscorough/test_memory.py).
 _COPIES, _COPIES_OF_OTHER, _MORE_PER_SHARE, _MOST_COPIES = 2.6, 3.3, 28, 17
 
@@ -52,6 +53,9 @@ class SelfAffineLines:
         self._dtype = np.dtype(dtype)
         if self._dtype not in (np.float32, np.float64):
             raise ValueError(f"dtype: must be float32 or float64, not {self._dtype}")
+        low, high = _ROOM * np.finfo(self._dtype).tiny, np.finfo(self._dtype).max / _ROOM
+        if not low <= self._rms <= high:
+            raise ValueError(f"rms: must be from {low:.2g} to {high:.2g} for {self._dtype}, not {self._rms:g}")
         memory.require(_copies(points) * self._dtype.itemsize * points, f"a line of {points} points")
         if points // 2 > line_waves.MOST_WAVES:
             raise ValueError(f"points: must be at most {2 * line_waves.MOST_WAVES + 1}, not {points}")

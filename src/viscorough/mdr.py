@@ -56,9 +56,11 @@ def reduce(line, *, until_fraction=1.0, until_force=None, bins_per_octave=64):
 def reduce_heights(heights, spacing, *, until_fraction=1.0, until_force=None, bins_per_octave=64, length_unit="1"):
     """As `reduce`, for heights in any order: springs are independent, so that the order does not matter.
 
-    heights : shape (points,), in single or double precision and finite, which is not checked [length]
+    heights : shape (points,), in single or double precision [length]
     spacing : distance between neighbouring points [length]
     length_unit : of both, as in Indenter
+
+    Raises ValueError as `reduce`, and for heights that are not finite.
     """
     if not 0 < until_fraction <= 1:
         raise ValueError(f"reduce: until_fraction must lie in (0, 1], not {until_fraction!r}")
@@ -189,9 +191,12 @@ def _binned_gaps(heights, bins_per_octave):
     Bin r holds edges[r] <= g < edges[r + 1], bin 0 all g < edges[1]. The leading bits of a floating-point number
     (exponent and first bits of the mantissa) are the number of its bin, so that bins divide every octave evenly.
     """
-    highest = np.float64(heights.max()) + 0.0  # turns -0.0 into 0.0; else gaps could have their sign bit set
+    highest, lowest = np.float64(heights.max()), np.float64(heights.min())
+    if not np.isfinite([highest, lowest]).all():  # their bins would lie outside of the table
+        raise ValueError("reduce: heights must be finite")
+    highest += 0.0  # turns -0.0 into 0.0; else gaps could have their sign bit set
     shift = np.uint64(52 - (bins_per_octave.bit_length() - 1))
-    top = int((highest - heights.min()).view(np.uint64) >> shift)
+    top = int((highest - lowest).view(np.uint64) >> shift)
     base = max(0, top - _OCTAVES * bins_per_octave)
     table = np.zeros((top - base + 1, _LANES, 2))
     _bin_gaps(heights, highest, shift, np.uint64(base), table)

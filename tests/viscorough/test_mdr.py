@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from viscorough.indenter import Indenter
-from viscorough.mdr import _OCTAVES, _bin_gaps, _binned_gaps, line_of_map, line_of_surface, reduce
+from viscorough.mdr import _OCTAVES, _bin_gaps, _binned_gaps, line_of_map, line_of_surface, reduce, reduce_heights
 from viscorough.surfaces import cut_disc, self_affine_line, self_affine_square
 
 
@@ -214,6 +214,15 @@ def test_bad_options(options, message):
     with pytest.raises(ValueError, match=message) as error:
         reduce(self_affine_line(0.5, 10, seed=1), **options)
     assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize("place", [0, 500, -1])
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+def test_heights_without_bins_are_refused(value, place):
+    heights = np.random.default_rng(1).random(1000, np.float32)
+    heights[place] = value
+    with pytest.raises(ValueError, match="reduce: heights must be finite"):
+        reduce_heights(heights, 1.0)
 
 
 def test_maps_are_refused():

@@ -361,6 +361,9 @@ def test_bad_lines():
         ({"points": 1}, "points: must be a whole number of at least 2"),
         ({"length": 0}, "length: must be positive"),
         ({"dtype": np.float16}, "dtype: must be float32 or float64"),
+        ({"rms": 1e36}, "rms: must be from 1.2e-35 to 3.4e.35 for float32, not 1e.36"),
+        ({"rms": 1e-36}, "rms: must be from 1.2e-35 to 3.4e.35 for float32, not 1e-36"),
+        ({"rms": 1e306, "dtype": float}, "rms: must be from 2.2e-305 to 1.8e.305 for float64, not 1e.306"),
     ):
         with pytest.raises(ValueError, match=message):
             self_affine_line(0.5, **{"points": 9, "seed": 1} | options)

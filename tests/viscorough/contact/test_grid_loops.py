@@ -1,0 +1,166 @@
+"""Loops over fields and contact sets of more than one block, against numpy."""
+
+import numpy as np
+import pytest
+
+from viscorough.contact.grid_loops import GridLoops
+from viscorough.contact.parallel import BLOCK
+from viscorough.contact.preconditioner import REACH, load_redistribution_stencil
+
+ROWS, COLUMNS, STRIDE = 400, 700, 716
+WIDTH = COLUMNS + 2 * REACH
+SIZE = (ROWS + 2 * REACH) * WIDTH
+INNER = np.s_[REACH:-REACH, REACH:-REACH]
+
+
+@pytest.fixture(params=[1, 3])
+def loops(request):
+    return GridLoops(request.param)
+
+
+@pytest.fixture
+def random():
+    return np.random.default_rng(1)
+
+
+@pytest.fixture
+def inside(random):
+    """A set of more places than those of a block, flat field."""
+    members = np.pad(random.random((ROWS, COLUMNS)) < 0.7, REACH).ravel()
+    assert np.count_nonzero(members) > BLOCK + 1000
+    return members
+
+
+@pytest.fixture
+def places(inside):
+    return np.flatnonzero(inside).astype(np.int32)
+
+
+@pytest.fixture
+def slots(places):
+    """Of the places in a load array of ROWS x STRIDE."""
+    row, column = np.divmod(places, WIDTH)
+    return (row - REACH) * STRIDE + column - REACH
+
+
+@pytest.fixture
+def field(random):
+    """Function that returns a new flat field of normal numbers."""
+    return lambda size=SIZE: random.standard_normal(size)
+
+
+def test_places_of_a_set(loops, inside, places, slots):
+    for found, expected in zip(loops.contact_places(inside, WIDTH, STRIDE), (places, slots), strict=True):
+        np.testing.assert_array_equal(found, expected)
+        assert found.dtype == np.int32
+
+
+def test_indices_beyond_32_bits_are_64_bits_wide(loops):
+    inside = np.zeros(20 * 5, dtype=bool)
+    inside[[42, 77]] = True
+    places, slots = loops.contact_places(inside, 5, 2**31 // 20 + 1)
+    np.testing.assert_array_equal(places, [42, 77])
+    np.testing.assert_array_equal(slots, [6 * (2**31 // 20 + 1), 13 * (2**31 // 20 + 1)])
+
+
+def test_sums_over_a_set(loops, field, places, slots):
+    pressure, left, right = field(), field(ROWS * STRIDE), field(ROWS * STRIDE)
+    assert loops.total(pressure, places) == pytest.approx(pressure[places].sum(), rel=1e-9)
+    assert loops.inner_product(left, right, slots) == pytest.approx(left[slots] @ right[slots], rel=1e-9)
+
+
+def test_energies(loops, field, places):
+    fields, depths = [field() for _ in range(6)], (0.3, 0.2)
+    pressure, change, last, last_change, tangent, tangent_gap = (values[places] for values in fields)
+    loads = np.array([pressure, last, tangent])
+    deflections = np.array([change + depths[0], last_change + depths[1], tangent_gap + 1])
+    energy, sums = loops.energies(depths, *fields, places=places)
+    np.testing.assert_allclose(energy, loads @ deflections.T, rtol=1e-9)
+    np.testing.assert_allclose(sums, loads.sum(axis=1), rtol=1e-9)
+
+
+@pytest.mark.parametrize("which", [0, -1])
+def test_extremes_are_found_in_every_block(loops, field, places, slots, which):
+    change, initial_gap, gap = field(), field(), np.zeros(SIZE)
+    change[places[which]] = -100.0
+    assert loops.gap_on_set(change, initial_gap, places, gap) == abs(-100.0 + initial_gap[places[which]])
+    np.testing.assert_array_equal(gap[places], (change + initial_gap)[places])
+    assert loops.largest_on_set(change, places) == 100.0
+    assert loops.largest_overlap(change, initial_gap) == 100.0 - initial_gap[places[which]]
+
+    pressure, direction = abs(field()), np.zeros(ROWS * STRIDE)
+    assert not loops.has_tension(pressure, places)
+    assert not loops.step_causes_tension(0.5, direction, pressure, places, slots)
+    assert not loops.update_pressure(0.5, direction, pressure, places, slots)
+    direction[slots[which]] = -100.0
+    assert loops.step_causes_tension(0.5, direction, pressure, places, slots)
+    assert loops.update_pressure(0.5, direction, pressure, places, slots)
+    assert loops.has_tension(pressure, places)
+
+
+@pytest.mark.parametrize("which", [0, -1])
+def test_elements_that_left_are_found_in_every_block(loops, inside, places, which):
+    after = inside.copy()
+    assert not loops.any_left(inside, after)
+    after[places[which]] = False
+    assert loops.any_left(inside, after)
+    assert not loops.any_left(after, inside)
+
+
+def test_steps_on_a_set(loops, field, places, slots):
+    direction, preconditioned, pressure = field(ROWS * STRIDE), field(), field()
+    expected = direction.copy()
+    expected[slots] = 0.3 * direction[slots] - preconditioned[places]
+    loops.update_search_direction(direction, preconditioned, 0.3, places, slots)
+    np.testing.assert_allclose(direction, expected, rtol=1e-14, atol=1e-15)
+
+    expected = pressure.copy()
+    expected[places] += 0.7 * direction[slots]
+    loops.update_pressure(0.7, direction, pressure, places, slots)
+    np.testing.assert_allclose(pressure, expected, rtol=1e-14, atol=1e-15)
+
+
+def test_fields(loops, field):
+    pressure, tangent, change, tangent_gap, last, last_change = (field() for _ in range(6))
+    pressure[::7] = tangent[::7] = 0
+    predicted, predicted_change, inside = np.zeros(SIZE), np.zeros(SIZE), np.zeros(SIZE, bool)
+    loops.predict(predicted, predicted_change, inside, 0.2, pressure, tangent, change, tangent_gap)
+    np.testing.assert_allclose(predicted, pressure + 0.2 * tangent, rtol=1e-14, atol=1e-15)
+    np.testing.assert_allclose(predicted_change, change + 0.2 * tangent_gap, rtol=1e-14, atol=1e-15)
+    np.testing.assert_array_equal(inside, np.arange(SIZE) % 7 > 0)
+
+    initial_gap, before = field(), inside.copy()
+    joining = (change + initial_gap < -0.5) & ~before
+    assert loops.add_penetrating_elements(change, initial_gap, inside, 0.5) == np.count_nonzero(joining)
+    np.testing.assert_array_equal(inside, before | joining)
+
+    combined, combined_gap = np.zeros(SIZE), np.zeros(SIZE)
+    fields = pressure, change, last, last_change, tangent, tangent_gap
+    loops.combine(combined, combined_gap, (0.1, 0.2, 0.3), 0.4, *fields)
+    np.testing.assert_allclose(combined, 0.1 * pressure + 0.2 * last + 0.3 * tangent, atol=1e-14)
+    np.testing.assert_allclose(combined_gap, 0.1 * change + 0.2 * last_change + 0.3 * tangent_gap + 0.4, atol=1e-14)
+
+
+def test_gap_after_a_step(loops, field):
+    gap, deflection = field(), field(ROWS * STRIDE).reshape(ROWS, STRIDE)[:, :COLUMNS]
+    expected = gap.copy()
+    expected.reshape(-1, WIDTH)[INNER] += 0.3 * deflection
+    loops.update_gap(0.3, deflection, gap)
+    np.testing.assert_allclose(gap, expected, rtol=1e-14, atol=1e-15)
+
+
+def test_elements_under_tension_leave_and_the_direction_is_the_change_of_pressure(loops, field, inside, places, slots):
+    pressure, direction = np.where(inside, abs(field()), 0.0), np.zeros(ROWS * STRIDE)
+    direction[slots] = field(slots.size)
+    leaving = pressure[places] + 0.5 * direction[slots] < 0
+    assert leaving[:BLOCK].any()
+    assert leaving[BLOCK:].any()
+    last_pressure = pressure.copy()
+    loops.step_and_release(
+        0.5, direction, pressure, inside, places, slots, load_redistribution_stencil(1.0), WIDTH, STRIDE
+    )
+    np.testing.assert_array_equal(inside[places], ~leaving)
+    np.testing.assert_array_equal(pressure[places[leaving]], 0)
+    assert np.all(pressure[places] >= 0)
+    np.testing.assert_allclose(direction[slots], (pressure - last_pressure)[places], atol=1e-13)
+    assert np.count_nonzero(pressure) == np.count_nonzero(~leaving)

@@ -5,7 +5,8 @@ returns the cases of the claim (`judged`). Every module of criteria has a mappin
 
 With other random surfaces the numbers differ, and a verdict must not depend on them: where a quantity has a 95 %
 interval, the claim is reproduced only if the whole interval lies within what the tolerance allows, and not reproduced
-only if it lies wholly outside; otherwise it is undecided (viscorough_study.evidence.equivalence).
+only if it lies wholly outside; otherwise it is undecided. How the number of cases and that of realizations enter is
+said at viscorough_study.evidence.Evidence.within.
 """
 
 from viscorough_study import (

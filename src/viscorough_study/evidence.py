@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 from scipy import stats
+from scipy.special import ndtri
 
 from viscorough_study import pool
 from viscorough_study.conventions import of_source, select
@@ -16,6 +17,8 @@ from viscorough_study.power_law import find_region
 # From the best to the worst: the verdict on a claim is the worst of its cases.
 VERDICTS = ("reproduced", "reproduced under a stated convention", "undecided", "not reproduced")
 UNDEFINED = (np.nan, np.nan, np.nan)  # value and interval of a quantity that cannot be computed
+CONFIDENCE_TAIL = 0.025  # on either side of an interval
+FEW_WIDENED = 20.0  # by what factor intervals of few realizations must be able to widen without deciding otherwise
 NO_INTERVAL = (np.nan, np.nan)  # of a quantity without statistical scatter, and of one without a range
 
 
@@ -80,6 +83,29 @@ class Evidence:
         """A number that the paper states (resources/paper/numbers.yaml)."""
         return number(self.numbers, section, name)
 
+    def are_few(self, realizations):
+        """Whether these are fewer realizations than the paper averages for a curve."""
+        return realizations < self.said("boundary_elements", "realizations_min")
+
+    def within(self, values, low, high, *, realizations, cases=1):
+        """Whether a quantity lies in the range from low to high, as far as so many realizations tell (`equivalence`).
+
+        values : value and 95 % interval; realizations : behind them; cases : of the claim, which decide together
+
+        All cases of a claim must lie within, for which their own intervals are right (intersection-union test: Berger,
+        Technometrics 24, 295 (1982)). One case outside refutes it, and the more cases, the likelier one is so by
+        chance: to be outside, intervals are widened to 95 % for all cases together, by Bonferroni.
+        Fewer realizations than the paper averages decide only what intervals `FEW_WIDENED` times as wide decide: by
+        Chebyshev's inequality a quantity lies beyond those in less than 0.07 % of all draws, whatever its distribution,
+        so that of all cases of all claims none does in 19 of 20 draws. A reduced scale then decides only what any
+        surfaces would, and leaves the rest undecided.
+        """
+        factor = FEW_WIDENED if self.are_few(realizations) else 1.0
+        if equivalence(widened(values, factor), low, high):
+            return True
+        together = ndtri(1 - CONFIDENCE_TAIL / cases) / ndtri(1 - CONFIDENCE_TAIL)
+        return False if equivalence(widened(values, factor * together), low, high) is False else None
+
 
 def equivalence(interval, low, high):
     """Whether a quantity with this 95 % interval lies in the range from low to high.
@@ -93,6 +119,12 @@ def equivalence(interval, low, high):
     if low <= interval[0] and interval[1] <= high:
         return True
     return False if interval[1] < low or interval[0] > high else None
+
+
+def widened(values, factor):
+    """Ends of an interval whose distances from the value are multiplied by a factor; values : value, low, high."""
+    value, low, high = values
+    return value - factor * (value - low), value + factor * (high - value)
 
 
 def mean_with_interval(samples):
@@ -137,7 +169,7 @@ def judged(name, values, expected, met, convention="", *, extremes=NO_INTERVAL):
     """Case with its verdict.
 
     values : value, low, high; extremes : least, largest
-    met : whether the criterion is met, None where the data do not decide (`equivalence`); a value that could not be
+    met : whether the criterion is met, None where the data do not decide (`Evidence.within`); a value that could not be
         computed is never decided
     convention : in which it is met where it is not in those of the figures, if any
     """

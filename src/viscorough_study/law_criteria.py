@@ -13,9 +13,9 @@ from scipy import stats
 
 from viscorough import reference
 from viscorough_study.conventions import FITTED, NAMES, in_every_reading, left_open
-from viscorough_study.evidence import equivalence, hurst_name, judged, mean_with_interval
+from viscorough_study.evidence import UNDEFINED, hurst_name, judged, mean_with_interval
 from viscorough_study.power_law import fit_power_law, in_window
-from viscorough_study.region_criteria import excess_variance
+from viscorough_study.region_criteria import combinations_case
 
 
 def law_cases(evidence, tolerance, *, source, column, law, above=-1.0, **fixed):
@@ -31,8 +31,10 @@ def law_cases(evidence, tolerance, *, source, column, law, above=-1.0, **fixed):
     cases = []
     for hurst, fit in fits.iterrows():
         values = fit[[column, f"{column}_low", f"{column}_high"]].tolist()
-        met = equivalence(values[1:], law(hurst) - tolerance, law(hurst) + tolerance)
-        cases.append(judged(hurst_name(hurst), values, law(hurst), met, convention))
+        ends, number = (law(hurst) - tolerance, law(hurst) + tolerance), fit["realizations"]
+        met = evidence.within(values, *ends, realizations=number, cases=len(fits))
+        other = "" if evidence.are_few(number) else convention
+        cases.append(judged(hurst_name(hurst), values, law(hurst), met, other))
     return cases
 
 
@@ -89,47 +91,48 @@ def coincide(evidence, tolerance):
         ends = np.abs(_differences(evidence, conventions)[["low", "high"]].to_numpy())
         if ends.size and np.isfinite(ends).all() and ends.max() <= smallest:
             nearest, smallest = _in_words(conventions), ends.max()
-    cases = []
-    for hurst, values in _differences(evidence, {}).iterrows():
-        values = values.tolist()
-        met = equivalence(values[1:], -tolerance, tolerance)
-        cases.append(judged(hurst_name(hurst), values, 0.0, met, nearest))
+    cases, differences = [], _differences(evidence, {})
+    for hurst, row in differences.iterrows():
+        *values, number = row.tolist()
+        met = evidence.within(values, -tolerance, tolerance, realizations=number, cases=len(differences))
+        cases.append(judged(hurst_name(hurst), values, 0.0, met, "" if evidence.are_few(number) else nearest))
     return cases
 
 
 def _differences(evidence, conventions):
-    """β of lines minus β of discs with its 95 % interval: value, low and high by H."""
+    """β of lines minus β of discs with its 95 % interval: value, low, high and realizations by H."""
     discs, lines = (evidence.fits(source, **conventions) for source in ("discs", "lines"))
     lines = lines.reindex(discs.index)
     difference = lines["beta"] - discs["beta"]
     below = np.hypot(lines["beta"] - lines["beta_low"], discs["beta_high"] - discs["beta"])
     above = np.hypot(lines["beta_high"] - lines["beta"], discs["beta"] - discs["beta_low"])
-    return pd.DataFrame({"value": difference, "low": difference - below, "high": difference + above})
+    number = np.minimum(lines["realizations"], discs["realizations"])
+    columns = {"value": difference, "low": difference - below, "high": difference + above, "realizations": number}
+    return pd.DataFrame(columns)
 
 
 def hurst_only(evidence, tolerance):
     """Standard deviation of β between combinations of force, viscosity, size and rms height, without sampling."""
-    cases = []
-    for hurst, ensembles in evidence.combinations.items():
-        window = evidence.regions[hurst]
-        if window is None:
-            cases.append(judged(hurst_name(hurst), (np.nan,) * 3, 0.0, None))
-            continue
-        *values, _ = np.sqrt(excess_variance([_slopes(ensemble, window) for ensemble in ensembles]))
-        cases.append(judged(hurst_name(hurst), values, 0.0, equivalence(values[1:], 0, tolerance)))
-    return cases
+    if None in evidence.regions.values():
+        return [judged("all H", UNDEFINED, 0.0, None)]
+    windows, combinations = evidence.regions, evidence.combinations.items()
+    slopes = [[_slopes(one, windows[hurst]) for one in ensembles] for hurst, ensembles in combinations]
+    return [combinations_case(evidence, slopes, 0.0, tolerance)]
 
 
 def no_grid(evidence, tolerance):
-    """Change of β in windows of fixed X for a tenfold number of elements, from grids from coarse to fine."""
+    """Change of β in windows of fixed X for a tenfold number of elements, from grids from coarse to fine.
+
+    How many realizations a grid has enters by the interval of the trend, which is over grids.
+    """
     trends = evidence.tables["sizes_trends"]
     trends = trends[(trends["source"] == "discs") & ~trends["window_rule"].isin(FITTED["window_rule"])]
-    cases = []
-    for row in trends.dropna(subset="slope").sort_values("hurst", kind="stable").itertuples():
+    trends, cases = trends.dropna(subset="slope"), []
+    for row in trends.sort_values("hurst", kind="stable").itertuples():
         values = row.slope, row.slope_low, row.slope_high
-        met = equivalence(values[1:], -tolerance, tolerance)
+        met = evidence.within(values, -tolerance, tolerance, realizations=np.inf, cases=len(trends))
         cases.append(judged(f"{hurst_name(row.hurst)}, {row.window_rule}", values, 0.0, met))
-    return cases or [judged("all H", (np.nan,) * 3, 0.0, None)]
+    return cases or [judged("all H", UNDEFINED, 0.0, None)]
 
 
 def realizations(evidence, tolerance):
@@ -141,13 +144,14 @@ def realizations(evidence, tolerance):
     for hurst, ensemble in evidence.pooled.items():
         window = evidence.regions[hurst]
         if window is None:
-            cases.append(judged(hurst_name(hurst), (np.nan,) * 3, np.nan, None))
+            cases.append(judged(hurst_name(hurst), UNDEFINED, np.nan, None))
             continue
         slopes = _slopes(ensemble, window)
         freedom = slopes.size - 1
         half_width = 1.96 * slopes.std(ddof=1) / np.sqrt(number)
-        ends = half_width * np.sqrt(freedom / stats.chi2.ppf([0.975, 0.025], freedom))
-        cases.append(judged(hurst_name(hurst), (half_width, *ends), np.nan, equivalence(ends, 0, tolerance)))
+        values = half_width, *(half_width * np.sqrt(freedom / stats.chi2.ppf([0.975, 0.025], freedom)))
+        of_all = {"realizations": slopes.size, "cases": len(evidence.pooled)}
+        cases.append(judged(hurst_name(hurst), values, np.nan, evidence.within(values, -np.inf, tolerance, **of_all)))
     return cases
 
 
@@ -162,8 +166,11 @@ def _slopes(ensemble, window):
 def alpha_limit(evidence, tolerance):
     """β of lines at H = 1, where the paper calls the exponent exact."""
     fits = evidence.fits("lines")
-    values = fits.loc[1.0, ["beta", "beta_low", "beta_high"]].tolist() if 1.0 in fits.index else (np.nan,) * 3
-    return [judged("H = 1, lines", values, 0.5, equivalence(values[1:], 0.5 - tolerance, 0.5 + tolerance))]
+    if 1.0 not in fits.index:
+        return [judged("H = 1, lines", UNDEFINED, 0.5, None)]
+    *values, number = fits.loc[1.0, ["beta", "beta_low", "beta_high", "realizations"]].tolist()
+    met = evidence.within(values, 0.5 - tolerance, 0.5 + tolerance, realizations=number)
+    return [judged("H = 1, lines", values, 0.5, met)]
 
 
 # ---- curves
@@ -203,11 +210,12 @@ def _cases_at_centre(evidence, tolerance, ratio):
     for hurst, ensemble in evidence.pooled.items():
         window = evidence.regions[hurst]
         if window is None:
-            cases.append(judged(hurst_name(hurst), (np.nan,) * 3, 1.0, None))
+            cases.append(judged(hurst_name(hurst), UNDEFINED, 1.0, None))
             continue
         fit = fit_power_law(ensemble["x"].values, ensemble["velocity"].values, window, **bootstrap)
         values = ratio(hurst, ensemble, fit, np.sqrt(np.prod(window)))
-        met = equivalence(values[1:], 1 - tolerance, 1 + tolerance)
+        of_all = {"realizations": fit.realizations, "cases": len(evidence.pooled)}
+        met = evidence.within(values, 1 - tolerance, 1 + tolerance, **of_all)
         cases.append(judged(hurst_name(hurst), values, 1.0, met))
     return cases
 

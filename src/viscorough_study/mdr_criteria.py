@@ -8,28 +8,28 @@ Letters 52, 223 (2013)) find that it reproduces neither contact area nor separat
 import numpy as np
 from scipy import stats
 
-from viscorough_study.evidence import NO_INTERVAL, equivalence, hurst_name, judged
+from viscorough_study.evidence import NO_INTERVAL, hurst_name, judged
 
 EQUAL_WINDOWS = ("same X", "same κ")
 
 
 def lambda_constant(evidence, tolerance):
     """λ at the upper end of region (b) over λ at the lower end."""
-    cases = []
-    for row in evidence.tables["mdr_summary"].to_dict("records"):
-        values = _values(row, "drift")
-        met = equivalence(values[1:], 1 / (1 + tolerance), 1 + tolerance)
+    table, cases = evidence.tables["mdr_summary"], []
+    for row in table.to_dict("records"):
+        values, of_all = _values(row, "drift"), {"realizations": _fewest(row), "cases": len(table)}
+        met = evidence.within(values, 1 / (1 + tolerance), 1 + tolerance, **of_all)
         cases.append(judged(hurst_name(row["hurst"]), values, 1.0, met))
     return cases
 
 
 def exact_correspondence(evidence, tolerance):
     """Error of ln(vt/h) with the best single λ: at the upper end of region (b), and the largest of the whole curve."""
-    cases = []
-    for row in evidence.tables["mdr_summary"].to_dict("records"):
+    table, cases = evidence.tables["mdr_summary"], []
+    for row in table.to_dict("records"):
         for name, column in (("region (b)", "error_trend"), ("to complete contact", "error_whole")):
-            values = _values(row, column)
-            met = equivalence(values[1:], -tolerance, tolerance)
+            values, of_all = _values(row, column), {"realizations": _fewest(row), "cases": 2 * len(table)}
+            met = evidence.within(values, -tolerance, tolerance, **of_all)
             cases.append(judged(f"{hurst_name(row['hurst'])}, {name}", values, 0.0, met))
     return cases
 
@@ -37,9 +37,11 @@ def exact_correspondence(evidence, tolerance):
 def coincide_equal_windows(evidence, tolerance):
     """β of lines minus β of discs, both fitted in the same range of X, and both in the same range of κ."""
     table, cases = evidence.tables["mdr_exponents"], []
-    for row in table[table["window"].isin(EQUAL_WINDOWS)].to_dict("records"):
-        values = _values(row, "difference")
-        met = equivalence(values[1:], -tolerance, tolerance)
+    table = table[table["window"].isin(EQUAL_WINDOWS)]
+    number = {row["hurst"]: _fewest(row) for row in evidence.tables["mdr_summary"].to_dict("records")}
+    for row in table.to_dict("records"):
+        values, of_all = _values(row, "difference"), {"realizations": number[row["hurst"]], "cases": len(table)}
+        met = evidence.within(values, -tolerance, tolerance, **of_all)
         cases.append(judged(f"{hurst_name(row['hurst'])}, {row['window']}", values, 0.0, met))
     return cases
 
@@ -68,7 +70,8 @@ def single_surface(evidence, tolerance):
         freedom, scatter = row["realizations"] - 1, row["stiffness_scatter"]
         ends = scatter * np.sqrt(freedom / stats.chi2.ppf([0.975, 0.025], freedom)) if freedom else NO_INTERVAL
         values = tuple(np.exp([scatter, *ends]))
-        met, every = equivalence(values[1:], 1.0, 1 + tolerance), np.exp(rows["stiffness_scatter"])
+        of_all = {"realizations": row["realizations"], "cases": len(evidence.regions)}
+        met, every = evidence.within(values, -np.inf, 1 + tolerance, **of_all), np.exp(rows["stiffness_scatter"])
         cases.append(judged(hurst_name(hurst), values, 1.0, met, extremes=(every.min(), every.max())))
     return cases
 
@@ -80,8 +83,9 @@ def _ratios(evidence, column, tolerance):
         if rows is None:
             cases.append(judged(hurst_name(hurst), (np.nan,) * 3, 1.0, None))
             continue
-        values = _values(_at_centre(rows), column)
-        met = equivalence(values[1:], 1 / (1 + tolerance), 1 + tolerance)
+        row = _at_centre(rows)
+        values, of_all = _values(row, column), {"realizations": row["realizations"], "cases": len(evidence.regions)}
+        met = evidence.within(values, 1 / (1 + tolerance), 1 + tolerance, **of_all)
         extremes = rows[column].min(), rows[column].max()
         cases.append(judged(hurst_name(hurst), values, 1.0, met, extremes=extremes))
     return cases
@@ -101,6 +105,11 @@ def _at_centre(rows):
     """The row in the middle of the rows in ln X."""
     offset = np.log(rows["x"]) - np.log(rows["x"].iloc[[0, -1]]).mean()
     return rows.loc[offset.abs().idxmin()]
+
+
+def _fewest(row):
+    """Realizations of a row of the summary: discs or lines, whichever are fewer."""
+    return min(row["discs"], row["lines"])
 
 
 def _values(row, column):

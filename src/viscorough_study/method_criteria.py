@@ -3,7 +3,7 @@
 import numpy as np
 
 from viscorough.surfaces import cut_disc
-from viscorough_study.evidence import NO_INTERVAL, equivalence, judged, opposite
+from viscorough_study.evidence import NO_INTERVAL, judged, opposite
 
 WEEKS_IN_MINUTES = 7 * 24 * 60  # the unit of several weeks in that of a few minutes
 
@@ -24,18 +24,19 @@ def line_spectrum(evidence, tolerance):
     Where λ depends on H by more than the tolerance, no constant serves, and π neither. The two λ are independent, and
     the logarithm of each has its interval; that of the difference is their root of the sum of squares.
     """
-    fits = evidence.fits("discs")[["lambda", "lambda_low", "lambda_high"]].dropna()
+    fits = evidence.fits("discs")[["lambda", "lambda_low", "lambda_high", "realizations"]].dropna()
     if len(fits) < 2:
         return [judged("λ over H", (np.nan,) * 3, np.nan, None)]
-    logarithms = np.log(fits.to_numpy())
+    logarithms = np.log(fits.drop(columns="realizations").to_numpy())
     (first, first_low, first_high), (last, last_low, last_high) = logarithms[0], logarithms[-1]
     ratio = last - first
     below, above = np.hypot(last - last_low, first_high - first), np.hypot(last_high - last, first - first_low)
-    values = np.exp([ratio, ratio - below, ratio + above])
-    met = opposite(equivalence(values[1:], 1 / (1 + tolerance), 1 + tolerance))
+    logarithmic, widest = (ratio, ratio - below, ratio + above), np.log1p(tolerance)
+    number = min(fits["realizations"].min(), evidence.fits("lines")["realizations"].min())
+    met = opposite(evidence.within(logarithmic, -widest, widest, realizations=number))
     name = f"λ at H = {fits.index[-1]:g} over λ at H = {fits.index[0]:g}; least and largest λ/π"
     extremes = fits["lambda"].min() / np.pi, fits["lambda"].max() / np.pi
-    return [judged(name, values, np.nan, met, extremes=extremes)]
+    return [judged(name, np.exp(logarithmic), np.nan, met, extremes=extremes)]
 
 
 def bodies_of_revolution(evidence, tolerance):

@@ -6,7 +6,7 @@ import numpy as np
 from scipy import stats
 
 from viscorough import reference
-from viscorough_study.evidence import NO_INTERVAL, UNDEFINED, equivalence, hurst_name, judged, mean_with_interval
+from viscorough_study.evidence import NO_INTERVAL, UNDEFINED, hurst_name, judged, mean_with_interval
 from viscorough_study.plateau import local_slopes
 from viscorough_study.power_law import percentile_interval
 
@@ -21,44 +21,61 @@ def collapse(evidence, tolerance):
     """Scatter of ln(vt/h) over combinations, over that between Hurst exponents, at one X in all regions (b).
 
     The scatter of combinations is the component of variance between them (`excess_variance`), without the scatter that
-    the means of their few realizations would have anyway.
+    the means of their few realizations would have anyway, over all Hurst exponents: nine combinations of one alone
+    leave its upper end at twice the value that 36 of four do.
     """
     windows = [window for window in evidence.regions.values() if window is not None]
     if len(windows) < 2 or len(windows) < len(evidence.regions):
-        return [judged(hurst_name(hurst), UNDEFINED, np.nan, None) for hurst in evidence.regions]
+        return [judged("all H", UNDEFINED, np.nan, None)]
     x = next(iter(evidence.pooled.values()))["x"].values
     at = int(np.argmin(np.abs(np.log(x) - np.mean(np.log(windows)))))
-    logarithms = {
-        hurst: [np.log(ensemble["velocity"].values[:, at]) for ensemble in ensembles]
-        for hurst, ensembles in evidence.combinations.items()
-    }
-    between_hursts = np.std([np.mean(np.concatenate(groups)) for groups in logarithms.values()], ddof=1)
-    cases = []
-    for hurst, groups in logarithms.items():
-        *values, _ = np.sqrt(excess_variance(groups)) / between_hursts
-        cases.append(judged(hurst_name(hurst), values, np.nan, equivalence(values[1:], 0, tolerance)))
-    return cases
+    logarithms = [
+        [np.log(ensemble["velocity"].values[:, at]) for ensemble in ensembles]
+        for ensembles in evidence.combinations.values()
+    ]
+    between_hursts = np.std([np.mean(np.concatenate(groups)) for groups in logarithms], ddof=1)
+    return [combinations_case(evidence, logarithms, np.nan, tolerance, unit=between_hursts)]
 
 
-def excess_variance(groups):
+def combinations_case(evidence, sets, expected, tolerance, unit=1.0):
+    """Case of the standard deviation between the combinations of one Hurst exponent, over all Hurst exponents.
+
+    sets : of every Hurst exponent the samples of its combinations, as in `excess_variance`; unit : of the result
+    Least and largest are those of single Hurst exponents, whose few combinations tell little each.
+    """
+    *values, _ = np.sqrt(excess_variance(sets)) / unit
+    single = [np.sqrt(excess_variance([groups])[0]) / unit for groups in sets]
+    number = min(sum(np.isfinite(group).sum() for group in groups) for groups in sets)
+    met = evidence.within(values, -np.inf, tolerance, realizations=number)
+    return judged("all H", values, expected, met, extremes=(min(single), max(single)))
+
+
+def excess_variance(sets):
     """Component of variance between groups, from a one-way analysis of variance with random effects.
 
-    groups : samples of each group, shape (realizations,), nan where undefined
+    sets : of each set of groups the samples of its groups, shape (realizations,), nan where undefined. Variances are
+        those within sets, whose means may differ
 
     With n realizations per group, MS_between/MS_within over 1 + n σ_b²/σ_w² has the F distribution, so that
     σ_b² = (MS_between/MS_within/F_p − 1) σ_w²/n at its quantiles F_p, or 0 where that is negative. With MS_within for
-    σ_w² the interval is exact for the ratio of the two variances.
+    σ_w² the interval is exact for the ratio of the two variances. Its upper end is never below that of groups which
+    scatter just as much as their samples make them, MS_between = MS_within: means that happen to lie closer together
+    than so few realizations allow are no evidence of a smaller component (power-constrained limit: Cowan, Cranmer,
+    Gross & Vitells, arXiv:1105.3166).
     Returns the median, the two ends of the 95 % interval, and σ_w²/n, the variance that the means of the groups have by
     the scatter within them; nan for too few groups or realizations.
     """
-    groups = [group[np.isfinite(group)] for group in groups]
-    size = np.mean([group.size for group in groups])
-    freedom = len(groups) - 1, sum(group.size - 1 for group in groups)
+    sets = [[group[np.isfinite(group)] for group in groups] for groups in sets]
+    every = [group for groups in sets for group in groups]
+    size = np.mean([group.size for group in every])
+    freedom = len(every) - len(sets), sum(group.size - 1 for group in every)
     if min(freedom) < 1:
         return np.full(4, np.nan)
-    within = sum(group.size * group.var() for group in groups) / freedom[1]
-    ratio = size * np.var([group.mean() for group in groups], ddof=1) / within
-    excess = np.maximum(ratio / stats.f.ppf([0.5, 0.975, 0.025], *freedom) - 1, 0.0)
+    within = sum(group.size * group.var() for group in every) / freedom[1]
+    between = sum(len(groups) * np.var([group.mean() for group in groups]) for groups in sets) / freedom[0]
+    ratio = size * between / within
+    ratios = np.array([ratio, ratio, max(ratio, 1.0)])
+    excess = np.maximum(ratios / stats.f.ppf([0.5, 0.975, 0.025], *freedom) - 1, 0.0)
     return np.append(excess, 1.0) * within / size
 
 
@@ -88,7 +105,8 @@ def last_region(evidence, tolerance):
         complete = reference.COMPLETE_CONTACT_STIFFNESS
         for name, samples, said in (("prefactor", stiffness[:, last], complete), ("slope", slopes, slope_said)):
             values, extremes = mean_with_interval(samples), (samples.min(), samples.max())
-            met = equivalence(values[1:], said - tolerance, said + tolerance)
+            of_all = {"realizations": samples.size, "cases": 2 * len(evidence.pooled)}
+            met = evidence.within(values, said - tolerance, said + tolerance, **of_all)
             cases.append(judged(f"{hurst_name(hurst)}, {name}", values, said, met, extremes=extremes))
     return cases
 
@@ -99,9 +117,10 @@ def power_law(evidence, tolerance):
     Scatter shortens plateaus, so a curve fails only where power laws with that scatter do not.
     """
     plateaus, cases = evidence.tables["plateaus"], []
-    for row in plateaus[plateaus["case_group"] == "base"].itertuples():
+    plateaus, needed = plateaus[plateaus["case_group"] == "base"], evidence.rules["decades_min"] * (1 - ROUNDING)
+    for row in plateaus.itertuples():
         values = row.decades, row.decades_low, row.decades_high
-        met = equivalence(values[1:], evidence.rules["decades_min"] * (1 - ROUNDING), np.inf)
+        met = evidence.within(values, needed, np.inf, realizations=row.realizations, cases=len(plateaus))
         met = None if met is False and row.power_law_fails > POWER_LAWS_LOST_MAX else met
         cases.append(judged(f"{hurst_name(row.hurst)}, decades", values, np.nan, met))
     return cases
@@ -118,7 +137,8 @@ def separation(evidence, tolerance):
         ratios = np.exp(ends[lower] - ends[higher])
         realizations = min(evidence.pooled[hurst].sizes["realization"] for hurst in (lower, higher))
         values = ratios[0], *percentile_interval(ratios[1:], realizations)
-        cases.append(judged(f"H = {lower:g} over H = {higher:g}", values, np.nan, equivalence(values[1:], 1, np.inf)))
+        met = evidence.within(values, 1, np.inf, realizations=realizations, cases=len(ends) - 1)
+        cases.append(judged(f"H = {lower:g} over H = {higher:g}", values, np.nan, met))
     return cases
 
 
@@ -149,7 +169,9 @@ def complete_contact(evidence, tolerance):
         fractions = ensemble["contact_count"].values[:, first] / ensemble["elements"].item()
         values, extremes = mean_with_interval(fractions), (fractions.min(), fractions.max())
         name = f"{hurst_name(hurst)}, from X = {ensemble['x'].values[first]:.3g} on"
-        cases.append(judged(name, values, 1.0, equivalence(values[1:], 1 - tolerance, np.inf), extremes=extremes))
+        of_all = {"realizations": fractions.size, "cases": len(evidence.pooled)}
+        met = evidence.within(values, 1 - tolerance, np.inf, **of_all)
+        cases.append(judged(name, values, 1.0, met, extremes=extremes))
     return cases
 
 

@@ -8,7 +8,7 @@ surfaces included, the verdict names those with the smallest deviation.
 import numpy as np
 
 from viscorough_study.conventions import NAMES, left_open
-from viscorough_study.evidence import equivalence, hurst_name, judged
+from viscorough_study.evidence import hurst_name, judged
 from viscorough_study.prefactors import COMBINED, LAWS
 from viscorough_study.zeta_laws import difference, value_of
 
@@ -26,11 +26,13 @@ def zeta_viscous(evidence, tolerance):
 def _absolute(evidence, tolerance, name, gamma):
     """Cases of ζ against a law of viscorough_study.prefactors, one for each Hurst exponent."""
     law, convention = LAWS[name][1], _nearest_convention(evidence.tables["prefactors"], name, gamma, tolerance)
-    cases = []
-    for hurst, fit in evidence.fits("discs", gamma=gamma).iterrows():
+    cases, fits = [], evidence.fits("discs", gamma=gamma)
+    for hurst, fit in fits.iterrows():
         values = fit[["zeta", "zeta_low", "zeta_high"]].tolist()
-        met = equivalence(values[1:], law(hurst) * (1 - tolerance), law(hurst) * (1 + tolerance))
-        cases.append(judged(hurst_name(hurst), values, law(hurst), met, convention))
+        ends, number = (law(hurst) * (1 - tolerance), law(hurst) * (1 + tolerance)), fit["realizations"]
+        met = evidence.within(values, *ends, realizations=number, cases=len(fits))
+        other = "" if evidence.are_few(number) else convention
+        cases.append(judged(hurst_name(hurst), values, law(hurst), met, other))
     return cases
 
 
@@ -65,9 +67,10 @@ def master_curve_shape(evidence, tolerance):
 def _spreads(evidence, tolerance, quantity, law):
     """Cases of the spread, which is 0 where a law holds up to a factor: for all Hurst exponents and from 0.4 on."""
     table, cases = evidence.tables["zeta_laws"], []
+    of_all = {"realizations": table["realizations"].min(), "cases": table["hurst_min"].nunique()}
     for least in table["hurst_min"].unique():
         values = value_of(table, quantity, law, "spread", least)
-        cases.append(judged(_which(least), values, 0.0, equivalence(values[1:], 0.0, tolerance)))
+        cases.append(judged(_which(least), values, 0.0, evidence.within(values, -np.inf, tolerance, **of_all)))
     return cases
 
 
@@ -77,9 +80,11 @@ def zeta_better(evidence, tolerance):
     Both with the factor 1/Γ(2 − α), as in the paper, and each in its own reading, Eq. 4 without the factor.
     """
     table, cases = evidence.tables["zeta_laws"], []
-    for law, reading in (("Eq. 4, with Γ", "both with Γ"), ("Eq. 4, without Γ", "Eq. 4 without Γ")):
+    readings = {"Eq. 4, with Γ": "both with Γ", "Eq. 4, without Γ": "Eq. 4 without Γ"}
+    of_all = {"realizations": table["realizations"].min(), "cases": len(readings)}
+    for law, reading in readings.items():
         values = value_of(table, "curve", difference(law), "deviation")
-        cases.append(judged(f"all H, {reading}", values, np.nan, equivalence(values[1:], tolerance, np.inf)))
+        cases.append(judged(f"all H, {reading}", values, np.nan, evidence.within(values, tolerance, np.inf, **of_all)))
     return cases
 
 

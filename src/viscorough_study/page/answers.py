@@ -37,7 +37,7 @@ def answers(results):
 
     differences = claims[claims["claim"] == "coincide"]["value"].abs().dropna()
     return {
-        "collapse": extremes("collapse", "value"),
+        "collapse": cases("collapse")[0],
         "decades": extremes("power_law", "value"),
         "beta": cases("beta"),
         "coincide": _case(results, differences.idxmax() if len(differences) else None),

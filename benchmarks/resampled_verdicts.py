@@ -1,0 +1,78 @@
+"""Draw the surfaces of a finished run anew and report which verdicts on the paper's claims change.
+
+    python benchmarks/resampled_verdicts.py results --settings config/paper.yaml --draws 20 --output /tmp/drawn.csv
+
+Every draw takes as many discs and lines of each Hurst exponent as there are, with replacement, and every table of fits
+and verdicts is made of them by the workflow's own rules. Results that are no means over these ensembles stay: direct
+integration, validation, comparison surface by surface, grids from coarse to fine, and times.
+
+Discs are drawn over all combinations of a Hurst exponent, whose surfaces have the same distribution: force, viscosity,
+diameter and rms height are units of X and vt/h (claim one_surface). Drawn within the combinations, their means would
+scatter twice as much as their realizations allow, and the scatter between them would be that of the bootstrap.
+"""
+
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import click
+import numpy as np
+import pandas as pd
+
+from viscorough.io.datasets import read_dataset, write_dataset
+from viscorough_study.verdicts import overall
+
+ROOT = Path(__file__).resolve().parents[1]
+RULES = "fit_scaling", "match_lines", "measure_plateaus", "compare_prefactors", "compare_zeta_laws", "judge_claims"
+
+
+def drawn(pool, random):
+    """A pool whose curves are drawn with replacement among those of the same group and Hurst exponent."""
+    chosen = np.arange(pool.sizes["realization"])
+    strata = pd.DataFrame({name: pool[name].values for name in ("group", "hurst")}).groupby(["group", "hurst"])
+    for members in strata.indices.values():
+        chosen[members] = random.choice(members, members.size)
+    about = {name: values for name, values in pool.coords.items() if "realization" in values.dims}
+    return pool.isel(realization=chosen).assign_coords(about)
+
+
+def claims(results, folder, settings, cores, random):
+    """Table of claims of a draw, made in a folder."""
+    shutil.copytree(results / "tables", folder / "results/tables")
+    (folder / "results/ensembles").mkdir()
+    for name in ("discs.nc", "lines.nc"):
+        write_dataset(drawn(read_dataset(results / "ensembles" / name), random), folder / "results/ensembles" / name)
+    command = [sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile"), "--directory", str(folder)]
+    command += ["--configfile", str(settings)] if settings else []
+    command += ["--cores", str(cores), "--quiet", "all", "--allowed-rules", *RULES, "--forcerun", *RULES]
+    subprocess.run([*command, "--", "results/tables/claims.csv"], check=True)
+    return pd.read_csv(folder / "results/tables/claims.csv", keep_default_na=False, na_values=[""])
+
+
+@click.command(help=__doc__.splitlines()[0])
+@click.argument("results", type=click.Path(exists=True, file_okay=False, path_type=Path))
+@click.option("--settings", type=click.Path(exists=True, path_type=Path), help="Settings with which it was made.")
+@click.option("--draws", type=click.IntRange(1), default=3, show_default=True)
+@click.option("--seed", type=click.IntRange(0), default=1, show_default=True, help="Of the draws.")
+@click.option("--cores", type=click.IntRange(1), default=2, show_default=True)
+@click.option("--output", type=click.Path(path_type=Path), required=True, help="Tables of claims of all draws, CSV.")
+def main(results, settings, draws, seed, cores, output):
+    random, tables = np.random.default_rng(seed), {}
+    for draw in range(1, draws + 1):
+        with tempfile.TemporaryDirectory() as folder:
+            tables[draw] = claims(results, Path(folder), settings and settings.resolve(), cores, random)
+        click.echo(f"draw {draw} of {draws}")
+    output.parent.mkdir(parents=True, exist_ok=True)
+    pd.concat(tables, names=["draw"]).droplevel(1).to_csv(output)
+    verdicts = pd.DataFrame({draw: overall(table) for draw, table in tables.items()})
+    moved = verdicts[verdicts.nunique(axis=1) > 1]
+    for claim, row in moved.iterrows():
+        numbers = row.value_counts().items()
+        click.echo(f"{claim}: {', '.join(f'{verdict} in {number}' for verdict, number in numbers)}")
+    click.echo(f"{len(moved)} of {len(verdicts)} verdicts change with the draw; written to {output}")
+
+
+if __name__ == "__main__":
+    main()

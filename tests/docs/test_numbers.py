@@ -14,6 +14,7 @@ from support.benchmarks import load_benchmark
 from support.documentation import README, ROOT, read
 from support.study import CLAIMS
 from viscorough.reference import exponent_beta
+from viscorough_study.performance.cost_growth import fit_cost, median_costs
 from viscorough_study.verdicts import markdown
 
 VERDICTS = ROOT / "docs/verdicts.md"
@@ -123,6 +124,75 @@ def test_other_solvers():
     times = pd.read_csv(ROOT / publish.OTHER_SOLVERS)["ratio"]
     in_words = f"take {times.min():.0f} to {10 * round(times.max() / 10)} times as long"
     assert in_words in " ".join(read(README).split())
+
+
+def published(name):
+    """A table of docs/results."""
+    path = ROOT / "docs/results" / name
+    if not path.exists():
+        pytest.skip(f"{name} is not published yet")
+    return pd.read_csv(path)
+
+
+def words(page):
+    return " ".join(read(ROOT / page).split())
+
+
+def test_large_discs():
+    table = published("large.csv").set_index("across")
+    largest, half = table.loc[4097], table.loc[2049]
+    time, memory = f"{largest['wall']:.0f} s", f"{largest['memory'] / 1e9:.1f} GB"
+    assert f"4097 elements across takes {time} up to 50 % contact and {memory}, on one" in words("docs/performance.md")
+    assert f"4097 elements across takes {time} and {memory}" in words("docs/questions.md")
+    scaling = words("docs/scaling.md")
+    applications, levels = (f"{largest[name]:.0f}" for name in ("operator_applications", "levels"))
+    assert f"| {time}, {applications} operator applications, {levels} levels |" in scaling
+    assert f"from {table.loc[257, 'operator_applications']:.0f} at 257 elements across to {applications} at" in scaling
+    growth = fit_cost(np.array([half["elements"], largest["elements"]]), [half["memory"], largest["memory"]])[0]
+    assert f"| {memory}; between 2049 and 4097 it grows as the number of elements to the power {growth:.2f}" in scaling
+    sizes = table.loc[[257, 4097]]
+    assert f"elements to the power {fit_cost(sizes['elements'], sizes['wall'])[0]:.1f}, to which" in scaling
+    assert largest["memory"] / 4097**2 < 300
+
+
+def test_growth_and_placement_of_levels():
+    methods, text = published("methods.csv"), words("docs/performance.md")
+    growth = {}
+    for hurst in (0.4, 0.8):
+        costs = median_costs(methods[methods["hurst"] == hurst], "path, automatic levels", 1e-3)
+        growth[hurst] = f"{fit_cost(costs['number'], costs['wall_s'])[0]:.2f}"
+    assert f"to the power {growth[0.4]} (H = 0.4) and {growth[0.8]} (H = 0.8)" in text
+    placed = (
+        published("level_placement.csv").query("reached == 1").pivot(index="scene", columns="choice", values="ratio")
+    )
+    assert f"at most {1 / placed['best by hand'].min():.3g} times the time of the best levels placed by hand" in text
+    assert f"at least {placed['naive'].min():.2g} times the time of the automatic ones" in text
+
+
+def test_times_of_the_whole_paper():
+    """The README states what docs/ state, and shares and cost of lines are those of the published run."""
+    costs = published("rule_costs.csv").set_index("rule")
+    text, pages = (
+        words("docs/performance.md"),
+        {name: words(f"docs/{name}.md") for name in ("reproduce", "performance")},
+    )
+    shares = costs["seconds"] / costs["seconds"].sum()
+    assert f"lines took {100 * shares['indent_lines']:.0f} % and discs {100 * shares['indent_discs']:.0f} %" in text
+    assert f"the largest job took {costs['memory_mb'].max() / 1000:.0f} GB" in text
+    minutes = re.search(r"by `make paper`, in (\d+) minutes", words("README.md"))[1]
+    assert f"50 500 lines: {minutes} minutes" in pages["reproduce"]
+    assert f"Of {minutes} min" in pages["performance"]
+    short = re.search(r"takes ([\d.]+) minutes on two cores \(`make bench`\)", words("README.md"))[1]
+    assert f"at a reduced scale; {short} minutes" in pages["reproduce"]
+    assert f"It takes {short} minutes" in words("docs/getting_started.md")
+    figures, further = re.search(r"(\d+) discs for the figures, (\d+) for variants", pages["reproduce"]).groups()
+    line, disc = (
+        costs["seconds"]["indent_lines"] / 50500,
+        costs["seconds"]["indent_discs"] / (int(figures) + int(further)),
+    )
+    assert 0.07 < line / disc < 0.15
+    for page in ("README.md", "docs/questions.md"):
+        assert "at about a tenth of the cost" in words(page)
 
 
 def test_times_of_other_solvers_are_kept_with_their_origin(tmp_path):

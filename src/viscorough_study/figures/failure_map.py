@@ -6,6 +6,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
+from matplotlib.transforms import ScaledTranslation
 
 from viscorough_study.figures.style import BLACK, MM, PALE, SMALL, STYLE, WIDE, require_rows
 
@@ -46,6 +47,7 @@ GROUP_NAMES = {"ties": "equal\nheights", "Hurst exponent": "Hurst\nexponent", "f
 FLOOR = 1e-16  # smaller errors are drawn here
 NORM = LogNorm(FLOOR, 10)
 TEXT = {"fontsize": SMALL, "va": "center"}
+HEADER = 68  # points above the cells, for the names of the methods, written upwards
 
 
 @rc_context(STYLE)
@@ -59,7 +61,7 @@ def plot_failure_map(table):
     require_rows("plot_failure_map", table)
     methods = sorted(dict.fromkeys(table["method"]), key=lambda name: [*KINDS, OTHER_KIND].index(_kind(name)))
     rows = list(dict.fromkeys(zip(table["group"], table["case"], strict=True)))
-    figure = Figure(figsize=(WIDE, (3.7 * len(rows) + 42) * MM))
+    figure = Figure(figsize=(WIDE, (3.7 * len(rows) + 58) * MM))
     axes = figure.subplots()
     errors = np.full((len(rows), len(methods)), np.nan)
     for cell in table.itertuples():
@@ -74,7 +76,7 @@ def plot_failure_map(table):
             color = "white" if NORM(errors[i, j]) < 0.55 else "black"
         axes.text(j, i, _cell_text(cell), ha="center", color=color, **TEXT)
     image = axes.imshow(errors, cmap=colormaps["cividis"], norm=NORM, aspect="auto")
-    axes.set_xticks(range(len(methods)), [_header(name) for name in methods])
+    axes.set_xticks(range(len(methods)), [_header(name) for name in methods], rotation=90)
     axes.set_yticks(range(len(rows)), [name for _, name in rows])
     axes.tick_params(which="both", length=0, top=False, labeltop=True, labelbottom=False, right=False)
     axes.minorticks_off()
@@ -100,9 +102,8 @@ def _concerns(cell):
 
 
 def _header(method):
-    """Name of a method above its column: without its kind, a word or two in a line."""
-    name = method.removeprefix("path, ")
-    return name.replace(", ", ",\n").replace(" with ", "\nwith ").replace(" steps", "\nsteps")
+    """Name of a method above its column, without its kind."""
+    return method.removeprefix("path, ").removeprefix("media, ")
 
 
 def _cell_text(cell):
@@ -114,15 +115,15 @@ def _cell_text(cell):
 
 
 def _name_kinds(axes, kinds):
-    """Names of the kinds of methods above their columns, over a line, and white lines between the kinds."""
-    above = {"transform": axes.get_xaxis_transform(), "clip_on": False}
-    top = 1 + 30 / 72 / (axes.get_figure().get_figheight() * 0.85)  # above two lines of headers
+    """Names of the kinds of methods above their columns, over a line, and white lines, thick between the kinds."""
+    upwards = ScaledTranslation(0, HEADER / 72, axes.get_figure().dpi_scale_trans)
+    above = {"transform": axes.get_xaxis_transform() + upwards, "clip_on": False}
+    for column in range(1, len(kinds)):
+        axes.axvline(column - 0.5, color="white", linewidth=0.6 if kinds[column] == kinds[column - 1] else 2)
     for kind in dict.fromkeys(kinds):
         first, last = kinds.index(kind), kinds.index(kind) + kinds.count(kind) - 1
-        if first:
-            axes.axvline(first - 0.5, color="white", linewidth=1.5)
-        axes.plot([first - 0.4, last + 0.4], [top, top], color=BLACK, linewidth=0.6, **above)
-        axes.text((first + last) / 2, top, kind, ha="center", va="bottom", fontsize=SMALL, **above)
+        axes.plot([first - 0.4, last + 0.4], [1, 1], color=BLACK, linewidth=0.6, **above)
+        axes.text((first + last) / 2, 1, kind, ha="center", va="bottom", fontsize=SMALL, **above)
 
 
 def _name_groups(axes, groups, x):

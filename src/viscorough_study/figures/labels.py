@@ -1,4 +1,4 @@
-"""Labels of the conventions that the paper leaves open, {column of the scaling table: {value: label}}, and of media."""
+"""Labels of the conventions that the paper leaves open, {column of the scaling table: {value: label}}."""
 
 CONVENTION_LABELS = {
     "average": {"arithmetic": "arithmetic mean", "geometric": "geometric mean"},
@@ -17,8 +17,3 @@ CONVENTION_LABELS = {
     "gamma": {"without": "law without Γ", "with": "law with Γ (Eq. 9)"},
     "diameter_convention": {"diameter": "$L$ the diameter", "radius": "radius: contradicts the paper"},
 }
-
-
-def medium_label(name):
-    """Name of a medium of the settings as text: "Standard linear solid"."""
-    return name.replace("_", " ").capitalize().replace("Kelvin voigt", "Kelvin-Voigt")

@@ -31,7 +31,7 @@ def plot_large(table):
         axes.set(title=title, xlabel="elements of the disc", ylabel=label)
         for across, *at in zip(table["across"], table["elements"], values, strict=True):
             axes.annotate(f"{across}", at, (-5, 3), textcoords="offset points", fontsize=SMALL, ha="right")
-        axes.margins(0.12)
+        axes.margins(x=0.2, y=0.12)  # room for the number at the first marker
         logarithmic_ticks(axes)
         axes.legend(loc="upper left", bbox_to_anchor=(0, 0.95))
     return figure

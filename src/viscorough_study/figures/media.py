@@ -6,7 +6,6 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from viscorough.reference import exponent_beta
-from viscorough_study.figures.labels import medium_label
 from viscorough_study.figures.style import (
     GREY,
     MM,
@@ -20,6 +19,7 @@ from viscorough_study.figures.style import (
     logarithmic_ticks,
     require_rows,
 )
+from viscorough_study.medium_names import medium_label
 
 _DECADES = 1e-6  # of the largest velocity, down to which it is drawn: that of a solid falls exponentially
 

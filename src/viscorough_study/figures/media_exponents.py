@@ -5,7 +5,6 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator
 
-from viscorough_study.figures.labels import medium_label
 from viscorough_study.figures.style import (
     GREY,
     MM,
@@ -18,6 +17,7 @@ from viscorough_study.figures.style import (
     logarithmic_ticks,
     require_rows,
 )
+from viscorough_study.medium_names import medium_label
 
 _RANGE = (-0.6, 1.2)  # of the exponents drawn: that of a solid falls without limit
 

@@ -4,12 +4,14 @@ The colour, marker and line style of a Hurst exponent depend on its value alone,
 Units stand in parentheses behind the symbol; dimensionless quantities have none. No text is smaller than `SMALL`.
 """
 
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
 from matplotlib import colormaps, rc_context
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullFormatter
+from PIL import Image  # which matplotlib needs
 
 from viscorough.io.atomic import atomic_write
 
@@ -77,7 +79,19 @@ def save_figure(figure, *paths):
     for path in paths:
         kind = Path(path).suffix[1:]
         with atomic_write(path) as temporary:
-            figure.savefig(temporary, format=kind, metadata={"CreationDate": None} if kind == "pdf" else None)
+            if kind == "png":
+                _save_picture(figure, temporary)
+            else:
+                figure.savefig(temporary, format=kind, metadata={"CreationDate": None} if kind == "pdf" else None)
+
+
+def _save_picture(figure, path):
+    """Write a PNG file of at most 256 colours: all figures are part of one page, a third as large for that."""
+    drawn = BytesIO()
+    figure.savefig(drawn, format="png", pil_kwargs={"compress_level": 1})
+    with Image.open(drawn) as picture:
+        colours = picture.convert("RGB").quantize(256, dither=Image.Dither.NONE)
+        colours.save(path, format="png", dpi=picture.info["dpi"], optimize=True)
 
 
 def require_rows(function, table):

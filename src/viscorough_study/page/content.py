@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 
 from viscorough.io.netcdf import opened
+from viscorough_study.medium_names import medium_label
 from viscorough_study.scale import is_trial
 from viscorough_study.verdicts import KINDS, cases_shown, overall, undecided_cases
 
@@ -122,7 +123,7 @@ def media(results):
         middle = np.log(part["x"] / 0.01).abs().idxmin()
         places = {"first": part.index[0], "middle": middle, "last": part.index[-1]}
         exponents = {when: results.number("media", row, "exponent") for when, row in places.items()}
-        rows.append({"medium": name.replace("_", " "), "hurst": hurst} | exponents)
+        rows.append({"medium": medium_label(name), "hurst": hurst} | exponents)
     return rows
 
 

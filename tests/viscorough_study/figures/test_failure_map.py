@@ -1,11 +1,14 @@
 """Figures of where methods fail."""
 
 import warnings
+from itertools import combinations, pairwise
 
 import pandas as pd
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.transforms import Bbox
 
-from support.figures import coordinates, failure_curves_table, failure_table
+from support.figures import coordinates, failure_curves_table, failure_table, whole_on_page
 from viscorough.contact.loading_path import indent
 from viscorough.errors import AccuracyWarning
 from viscorough.surfaces import self_affine_disc
@@ -33,9 +36,31 @@ def test_methods_stand_side_by_side_by_their_kind():
     table = failure_table(VERDICTS)
     names = ["MDR", "explicit steps", "path, dense", "path, interpolated"]
     axes = plot_failure_map(pd.concat([table.assign(method=name) for name in names])).axes[0]
-    assert [text.get_text() for text in axes.get_xticklabels()] == ["dense", "interpolated", "explicit\nsteps", "MDR"]
+    assert [text.get_text() for text in axes.get_xticklabels()] == ["dense", "interpolated", "explicit steps", "MDR"]
     kinds = [text.get_text() for text in axes.texts if text.get_text() in KINDS]
     assert kinds == ["elastic path", "direct integration", "models"]
+
+
+def test_names_above_the_columns_do_not_meet():
+    names = (
+        "path, dense",
+        "path, grid, double",
+        "path, grid, single",
+        "path, interpolated",
+        "events",
+        "explicit steps",
+    )
+    names += ("media, correspondence", "media, steps", "MDR", "power law", "power law with Γ")
+    rows = [("shape", f"case {rank}", name, 1e-9, "holds") for rank in range(20) for name in names]
+    figure = plot_failure_map(pd.DataFrame(rows, columns=["group", "case", "method", "error", "verdict"]))
+    assert whole_on_page(figure)
+    axes, renderer = figure.axes[0], FigureCanvasAgg(figure).get_renderer()
+    headers = [*axes.get_xticklabels(), *(text for text in axes.texts if text.get_text() in KINDS)]
+    boxes = [text.get_window_extent(renderer) for text in headers]
+    assert len(boxes) == len(names) + len(KINDS)
+    assert not any(Bbox.intersection(one, other) for one, other in combinations(boxes, 2))
+    cells = [text.get_window_extent(renderer) for text in axes.texts[: len(names)]]
+    assert not any(Bbox.intersection(one, other) for one, other in pairwise(cells))
 
 
 def test_cells_are_blank_where_a_difficulty_cannot_matter():

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from support.figures import coordinates, legend_texts, media_table, whole_on_page
-from viscorough_study.figures.labels import medium_label
 from viscorough_study.figures.media import plot_media
 from viscorough_study.figures.media_exponents import plot_media_exponents
+from viscorough_study.medium_names import medium_label
 
 
 def test_velocity_in_every_medium_and_depth_in_all():

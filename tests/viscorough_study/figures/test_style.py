@@ -2,12 +2,14 @@
 
 import numpy as np
 import pytest
+from matplotlib import rc_context
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
+from PIL import Image
 
 from support.study import SHOWN
 from viscorough_study.figures.exponent import plot_exponent
-from viscorough_study.figures.style import hurst_looks, logarithmic_ticks, number_text, save_figure, series_looks
+from viscorough_study.figures.style import STYLE, hurst_looks, logarithmic_ticks, number_text, save_figure, series_looks
 
 pytestmark = pytest.mark.filterwarnings("error")
 
@@ -68,6 +70,21 @@ def test_logarithmic_axes_of_any_range_have_labels(ends, labels):
     logarithmic_ticks(axes)
     axes.figure.draw_without_rendering()
     assert labels <= {text.get_text() for text in axes.get_xticklabels()}
+
+
+def test_pictures_have_few_colours_and_the_size_on_paper(scaling, tmp_path):
+    """All are part of one page of results, which must stay small."""
+    figure = plot_exponent(scaling, SHOWN, (0.4, 1.0))
+    save_figure(figure, tmp_path / "a.png")
+    with rc_context(STYLE):
+        figure.savefig(tmp_path / "all_colours.png")
+    with Image.open(tmp_path / "a.png") as saved, Image.open(tmp_path / "all_colours.png") as drawn:
+        assert saved.mode == "P"
+        np.testing.assert_allclose(saved.info["dpi"], 200, rtol=1e-3)
+        assert saved.size == drawn.size
+        changes = np.abs(np.subtract(saved.convert("RGB"), drawn.convert("RGB"), dtype=float))
+        assert changes.mean() < 0.2  # of 255
+    assert (tmp_path / "a.png").stat().st_size < 0.5 * (tmp_path / "all_colours.png").stat().st_size
 
 
 @pytest.mark.parametrize("suffix", ["png", "pdf"])

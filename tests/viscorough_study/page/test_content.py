@@ -9,7 +9,7 @@ import xarray as xr
 
 from support.study import NUMBERS, ROOT
 from viscorough_study.page.answers import fastest_methods, method_row, verdict_counts
-from viscorough_study.page.content import other_solvers, scale
+from viscorough_study.page.content import media, other_solvers, scale
 from viscorough_study.page.results import Results
 
 
@@ -96,3 +96,12 @@ def test_measured_ratios_of_other_solvers_are_not_called_published(tmp_path):
     found = other_solvers(tmp_path / "other_solvers.csv")
     assert found["published"] is None
     assert found["rows"] == [{"task": "few", "hurst": 0.4, "elements": 33, "levels": 8, "ratios": {"Tamaas": 140.0}}]
+
+
+def test_media_are_named_and_their_exponents_taken_at_both_ends_and_near_x_of_one_hundredth():
+    table = pd.DataFrame(
+        {"medium": "kelvin_voigt", "hurst": 0.4, "x": [1e-4, 2e-2, 1e-2, 1.0], "exponent": [1.0, 0.5, 0.4, -9]}
+    )
+    (row,) = media(Results({"media": table}, {}, {}))
+    assert (row["medium"], row["hurst"]) == ("Kelvin-Voigt", 0.4)
+    assert [row[name].value for name in ("first", "middle", "last")] == [1.0, 0.4, -9]

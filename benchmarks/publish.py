@@ -104,11 +104,13 @@ def other_seeds(published, seeds):
     runs = json.loads(seeds.read_text(encoding="utf-8"))["verdicts"]
     outcomes = {claim: {run[claim] for run in runs.values()} for claim in published}
     change = "; ".join(f"{claim} ({', '.join(sorted(words))})" for claim, words in outcomes.items() if len(words) > 1)
-    same = {claim: min(words) for claim, words in outcomes.items() if len(words) == 1}
-    differ = "; ".join(f"{claim} ({word})" for claim, word in same.items() if word != published[claim])
-    text = f"At the default scale with {len(runs)} root seeds (`make seeds`, [seeds.csv](seeds.csv)), verdicts"
-    text += (
-        f" that change with the seed: {change or 'none'}; verdicts that differ from those above: {differ or 'none'}."
+    same = {claim: min(words) for claim, words in outcomes.items() if len(words) == 1 and words != {published[claim]}}
+    differ = "; ".join(f"{claim} ({word})" for claim, word in same.items() if word != "undecided")
+    undecided = list(same.values()).count("undecided")
+    text = (
+        f"At the default scale with {len(runs)} root seeds (`make seeds`, [seeds.csv](seeds.csv)), verdicts that change "
+        f"with the seed: {change or 'none'}; verdicts that contradict those above: {differ or 'none'}. That scale leaves "
+        f"{undecided} of the {len(published)} claims undecided that are decided above."
     )
     return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False) + "\n"
 

@@ -108,9 +108,9 @@ def other_seeds(published, seeds):
     differ = "; ".join(f"{claim} ({word})" for claim, word in same.items() if word != "undecided")
     undecided = list(same.values()).count("undecided")
     text = (
-        f"At the default scale with {len(runs)} root seeds (`make seeds`, [seeds.csv](seeds.csv)), verdicts that change "
-        f"with the seed: {change or 'none'}; verdicts that contradict those above: {differ or 'none'}. That scale leaves "
-        f"{undecided} of the {len(published)} claims undecided that are decided above."
+        f"At the default scale with {len(runs)} root seeds (`make seeds`, [seeds.csv](seeds.csv)), verdicts that "
+        f"change with the seed: {change or 'none'}; verdicts that contradict those above: {differ or 'none'}. That "
+        f"scale leaves {undecided} of the {len(published)} claims undecided that are decided above."
     )
     return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False) + "\n"
 

@@ -225,9 +225,10 @@ def _holes(heights):
     labels, count = _enclosed(heights)
     if count:
         points = int(np.count_nonzero(labels))
+        regions, share = f"{count} enclosed region{'' if count == 1 else 's'}", 100 * points / heights.size
         yield (
-            f"{count} enclosed regions without heights ({points} points, {100 * points / heights.size:.2g} %) are "
-            "holes that never touch; --fill harmonic closes them"
+            f"{regions} without heights ({points} points, {share:.2g} %) are holes that never touch; "
+            "--fill harmonic closes them"
         )
 
 

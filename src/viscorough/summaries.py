@@ -9,9 +9,9 @@ def span(values, unit="1"):
     return f"{first} to {last}{'' if unit == '1' else f' {unit}'}" if len(values) > 1 else with_unit(values[0], unit)
 
 
-def with_unit(value, unit="1"):
-    """A number of four digits, with its unit unless that is "1"."""
-    return f"{float(value):.4g}{'' if unit == '1' else f' {unit}'}"
+def with_unit(value, unit="1", digits=4):
+    """A number of so many digits, with its unit unless that is "1"."""
+    return f"{float(value):.{digits}g}{'' if unit == '1' else f' {unit}'}"
 
 
 def unit_power(unit, exponent):

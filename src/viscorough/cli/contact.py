@@ -12,6 +12,7 @@ from viscorough.cli.options import (
 )
 from viscorough.cli.progress import progress_bar, progress_option
 from viscorough.cli.surface_options import heights_input, read_indenter
+from viscorough.summaries import unit_power, with_unit
 
 
 @click.command(short_help="Pressure, gap and contact at a given force or depth.")
@@ -58,6 +59,8 @@ def contact(surface, output, *, force, depth, shear_modulus, young, poisson, tol
     content = contacts_to_content(contacts, indenter.heights)
     write_output(content, output, **surface.attributes(indenter), **medium.attributes)
     last, patches = contacts[-1], int(content.variables["patches"].values.flat[-1])
-    text = f"depth {last.depth:.6g}, F/G {last.force:.6g}, contact fraction {last.contact_fraction:.4g}, "
+    unit = last.length_unit
+    depth, force = with_unit(last.depth, unit, 6), with_unit(last.force, unit_power(unit, 2), 6)
+    text = f"depth {depth}, F/G {force}, contact fraction {last.contact_fraction:.4g}, "
     text += f"{patches} patch{'' if patches == 1 else 'es'}"
     announce(output, text if len(contacts) == 1 else f"{len(contacts)} levels, the last at {text}")

@@ -13,6 +13,7 @@ from viscorough.cli.options import (
 )
 from viscorough.cli.progress import progress_bar, progress_option
 from viscorough.cli.surface_options import heights_input, read_indenter
+from viscorough.summaries import with_unit
 
 
 @click.command(short_help="Loading curve of an indenter on an elastic half-space.")
@@ -92,5 +93,6 @@ def indent(
     with progress_bar("viscorough indent", progress) as report:
         curve = indent(indenter, tolerance=tolerance, progress=report, threads=threads, **given)
     write_output(curve_to_content(curve), output, **surface.attributes(indenter), **medium.attributes)
+    depth = with_unit(curve.depth[-1], curve.length_unit, 6)
     count = f"{curve.contact_count[-1]} of {curve.elements} elements in contact"
-    announce(output, f"{curve.depth.size} levels, the last at depth {curve.depth[-1]:.6g} with {count}")
+    announce(output, f"{curve.depth.size} levels, the last at depth {depth} with {count}")

@@ -18,6 +18,7 @@ from viscorough.cli.options import (
     write_output,
 )
 from viscorough.errors import AccuracyWarning
+from viscorough.summaries import with_unit
 
 _EXACT = "exact for every topography, without 1/Gamma(2 - alpha)"
 
@@ -90,7 +91,8 @@ def kinetics(curve, force, force_history, viscosity, medium, times, output):
     content, title = _content(content, motion, history, loading, times is None and viscosity is not None)
     write_output(content, output, title=title, **about)
     points = "levels" if times is None and force is not None else "times"
-    announce(output, f"{motion.time.size} {points}, depth {motion.depth[-1]:.6g} at time {motion.time[-1]:.6g}")
+    depth = with_unit(motion.depth[-1], loading.length_unit, 6)
+    announce(output, f"{motion.time.size} {points}, depth {depth} at time {motion.time[-1]:.6g}")
 
 
 def _medium(viscosity, medium, length_unit):

@@ -15,6 +15,7 @@ from viscorough.cli.options import (
     write_output,
 )
 from viscorough.cli.surface_options import heights_input, read_indenter
+from viscorough.summaries import with_unit
 
 METHODS = ("events", "explicit", "heun", "implicit", "second_order")
 _OF_MEDIA = ("events", "implicit", "second_order")  # methods that integrate viscoelastic media
@@ -85,9 +86,10 @@ def march(surface, output, *, method, force, viscosity, medium, times, force_his
         about = {"viscosity": number}
     about["force"] = printable_name(force_history) if force_history else force
     write_output(content, output, method=method, **about, **surface.attributes(indenter))
-    time, depth, count = (content.variables[name].values for name in ("time", "depth", "contact_count"))
+    time, depths, count = (content.variables[name].values for name in ("time", "depth", "contact_count"))
+    depth = with_unit(depths[-1], indenter.length_unit, 6)
     contact = f"{count[-1]} of {indenter.elements} elements in contact"
-    announce(output, f"{time.size} levels, depth {depth[-1]:.6g} at time {time[-1]:.6g} with {contact}")
+    announce(output, f"{time.size} levels, depth {depth} at time {time[-1]:.6g} with {contact}")
 
 
 def _check_options_of_method(method, has_medium, has_history, times, overlap, until_fraction):

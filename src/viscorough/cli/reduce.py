@@ -16,6 +16,7 @@ from viscorough.cli.options import (
 from viscorough.cli.progress import progress_bar, progress_option
 from viscorough.cli.surface_options import heights_input, read_indenter
 from viscorough.errors import AccuracyWarning
+from viscorough.summaries import with_unit
 
 _OF_A_MAP = (
     "lines with a map's spectrum give the mean stiffness of many such surfaces, to about 20 %, not the curve of this "
@@ -83,5 +84,6 @@ def reduce(surface, until_fraction, realizations, seed, output, progress):
     write_output(content, output, **about)
     first = curves[0]
     what = f"{len(curves)} curves, the first with " if len(curves) > 1 else ""
+    depth = with_unit(first.depth[-1], first.length_unit, 6)
     count = f"{first.contact_count[-1]} of {first.elements} points in contact"
-    announce(output, f"{what}{first.depth.size} levels, the last at depth {first.depth[-1]:.6g} with {count}")
+    announce(output, f"{what}{first.depth.size} levels, the last at depth {depth} with {count}")

@@ -33,7 +33,8 @@ def creep_response(medium, history):
     if np.isfinite(time):
         raise ValueError(
             f"force: from time {time:.6g} on the contact would recede, since the creep ∫J dF decreases; allowed: "
-            "forces under which it grows (march_medium, direct integration with internal variables, goes on there)"
+            "forces under which it grows; direct integration with internal variables goes on there (march_medium, on "
+            "the command line viscorough march --medium --method second_order)"
         )
     return response.creep, response.rate
 

@@ -1,5 +1,7 @@
 """`viscorough contact`, and the options for forces and elastic constants of `viscorough indent`, through real files."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -82,6 +84,21 @@ def test_closing_line_says_what_was_found(here, capsys):
     assert out.startswith("out.nc: depth 0.5, F/G ")
     assert "contact fraction 0." in out
     assert out.rstrip().endswith("patches")
+
+
+def test_closing_lines_state_the_unit_that_is_known(here, capsys):
+    contact("--depth", "0.5", "--unit", "um")
+    out = capsys.readouterr().out
+    assert out.startswith("out.nc: depth 0.5 um, F/G ")
+    assert " um2, contact fraction " in out
+    sphere, curve = ["heights.npy", "--spacing", "1", "--unit", "um"], "curve.nc"
+    for command in (
+        ["indent", *sphere, "--depths", "0.5", "-o", curve],
+        ["kinetics", curve, "--force", "1", "--viscosity", "1", "-o", "motion.nc"],
+        ["march", *sphere, "--method", "events", "--until-fraction", "0.1", "-o", "events.nc"],
+    ):
+        assert main(command) == 0
+        assert re.search(r" depth [\d.]+ um ", capsys.readouterr().out)
 
 
 def test_a_depth_of_the_curve_has_its_force(here):

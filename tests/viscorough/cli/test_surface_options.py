@@ -130,7 +130,7 @@ def test_marks_of_missing_points_are_told_and_removed(here, capsys):
     assert cli.main(["indent", *arguments, "-o", "curve.nc"]) == 0
     err = capsys.readouterr().err
     assert "3 points (1 %) have the value -9999, far from all others" in err
-    assert "1 enclosed regions without heights" in err
+    assert "1 enclosed region without heights" in err
     curve, attributes = curve_of(capsys, *arguments, "--nodata", "-9999", "--fill", "harmonic")
     filled = ROUGH.copy()
     filled[0, :3] = np.nan

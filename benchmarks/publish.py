@@ -127,6 +127,17 @@ def other_solver_times():
     return "\n".join(lines) + "\n"
 
 
+def speed_chart(project=ROOT):
+    """The chart of speed against accuracy with its caption, in Markdown; nothing before it is published."""
+    if not (project / "docs/speed.png").is_file():
+        return ""
+    caption = (
+        "*Error of the velocity over wall time, of a rough disc and of a sphere, by the elastic path of this package, "
+    )
+    caption = textwrap.fill(caption + "by time steps and by the MDR (`make speed`).*", 120)
+    return f"![Speed against accuracy of the main methods](docs/speed.png)\n\n{caption}\n"
+
+
 def published_results(records):
     """What lies in docs/results/, in Markdown: for every command its origin, its figures, and links to its tables.
 
@@ -153,6 +164,7 @@ def write_tables():
     """Write what is between the marks of a table: in README.md and in pages of docs/."""
     tables = {("README.md", "verdicts"): verdict_lines(), ("docs/verdicts.md", "verdicts"): verdicts()}
     tables["docs/performance.md", "other solvers"] = other_solver_times()
+    tables["README.md", "speed chart"] = speed_chart()
     records = ROOT / "docs/results/published.json"
     known = json.loads(records.read_text(encoding="utf-8")) if records.is_file() else {}
     tables["docs/published.md", "results"] = published_results(known)

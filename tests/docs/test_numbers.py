@@ -247,6 +247,19 @@ def test_publishing(tmp_path):
         np.testing.assert_array_equal(picture.convert("RGB"), gradient)
 
 
+def test_readme_shows_the_published_chart_of_speed(tmp_path):
+    publish = load_benchmark("publish")
+    assert between_marks(README, "speed chart") == publish.speed_chart()
+    (tmp_path / "docs").mkdir()
+    assert publish.speed_chart(tmp_path) == ""
+    (tmp_path / "docs/speed.png").touch()
+    chart = publish.speed_chart(tmp_path)
+    assert chart.startswith("![Speed against accuracy of the main methods](docs/speed.png)\n\n*")
+    assert max(map(len, chart.splitlines())) <= 120
+    others = read(README).replace(between_marks(README, "speed chart"), "")
+    assert len((others + chart).split()) <= 1000
+
+
 def test_nothing_is_published_of_an_incomplete_run(tmp_path):
     """As the charts of a small scale would be, of a folder in which `make speed` was not run."""
     publish = load_benchmark("publish")

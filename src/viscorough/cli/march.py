@@ -14,6 +14,7 @@ from viscorough.cli.options import (
     printable_name,
     write_output,
 )
+from viscorough.cli.progress import progress_bar, progress_option
 from viscorough.cli.surface_options import heights_input, read_indenter
 from viscorough.summaries import with_unit
 
@@ -47,14 +48,17 @@ _OF_MEDIA = ("events", "implicit", "second_order")  # methods that integrate vis
     help="Largest overlap allowed, relative to the depth; explicit and heun divide their steps to keep to it.",
 )
 @click.option("--until-fraction", type=PositiveNumber(1), help="Contact fraction at which events stop  [default: 1]")
-def march(surface, output, *, method, force, viscosity, medium, times, force_history, overlap, until_fraction):
+@progress_option
+def march(
+    surface, output, *, method, force, viscosity, medium, times, force_history, overlap, until_fraction, progress
+):
     """Integrate the viscous or viscoelastic problem directly in time, without its correspondence with the elastic one.
 
     HEIGHTS and units are as for indent and kinetics. KIN.nc has the dimension "level" (contact events or ends of steps)
     and the variables time, depth, velocity, contact_count and overlap (of the indenter with the surface, relative to
     the depth; only explicit and heun allow it). Under a force history a level is one of its times. This is slow and
     serves to check the other commands: the events of 3000 elements take seconds, and memory grows with the square of
-    their number.
+    their number. Without --medium, events show no progress.
 
     With --medium, springs and dashpots are integrated with internal variables, for small maps. The steps of implicit
     and second_order go on where the force falls and the contact recedes, for which kinetics has no answer. KIN.nc then
@@ -77,13 +81,15 @@ def march(surface, output, *, method, force, viscosity, medium, times, force_his
             check_not_an_input(output, file, kind)
     indenter = read_indenter(surface, output)
     force = 1.0 if force is None else number_in("N", force, indenter.length_unit, "--force")
-    if medium:
-        content, about = _in_medium(indenter, method, medium, force, times, force_history, until_fraction)
-    else:
-        number, viscosity = _viscosity(viscosity, indenter.length_unit)
-        options = {"overlap": overlap, "until_fraction": until_fraction}
-        content = _in_viscous_medium(indenter, method, viscosity, force, times, force_history, **options)
-        about = {"viscosity": number}
+    with progress_bar("viscorough march", progress) as report:
+        options = {"until_fraction": until_fraction, "progress": report}
+        if medium:
+            content, about = _in_medium(indenter, method, medium, force, times, force_history, **options)
+        else:
+            number, viscosity = _viscosity(viscosity, indenter.length_unit)
+            options["overlap"] = overlap
+            content = _in_viscous_medium(indenter, method, viscosity, force, times, force_history, **options)
+            about = {"viscosity": number}
     about["force"] = printable_name(force_history) if force_history else force
     write_output(content, output, method=method, **about, **surface.attributes(indenter))
     time, depths, count = (content.variables[name].values for name in ("time", "depth", "contact_count"))
@@ -131,7 +137,7 @@ def _in_viscous_medium(indenter, method, viscosity, force, times, force_history,
     return motion.integration_to_content(integrated, per_time)
 
 
-def _in_medium(indenter, method, medium, force, times, force_history, until_fraction):
+def _in_medium(indenter, method, medium, force, times, force_history, *, until_fraction, progress):
     """Content of the output for a viscoelastic medium, and attributes that describe it."""
     from viscorough.io import motion
     from viscorough.io.media import read_medium
@@ -145,10 +151,11 @@ def _in_medium(indenter, method, medium, force, times, force_history, until_frac
     else:
         times, forces = [0.0, *times], [force] * (1 + len(times))
     if method == "events":
-        moved = march_medium_events(indenter, law, times, force=forces, until_fraction=until_fraction or 1.0)
+        options = {"until_fraction": until_fraction or 1.0, "progress": progress}
+        moved = march_medium_events(indenter, law, times, force=forces, **options)
     else:
         scheme = "backward_euler" if method == "implicit" else method
-        moved = march_medium(indenter, law, times, force=forces, scheme=scheme)
+        moved = march_medium(indenter, law, times, force=forces, scheme=scheme, progress=progress)
     return motion.medium_motion_to_content(moved), {"medium": printable_name(medium)}
 
 
@@ -167,7 +174,7 @@ def _read_history(path):
     return history
 
 
-def _integrate(indenter, method, steps, *, overlap, until_fraction):
+def _integrate(indenter, method, steps, *, overlap, until_fraction, progress):
     """Events or Steps of a direct integration.
 
     steps : impulse/viscosity at the ends of the steps [length²]; not used by the method events
@@ -178,4 +185,4 @@ def _integrate(indenter, method, steps, *, overlap, until_fraction):
     if method == "events":
         return march_events(indenter, until_fraction=until_fraction or 1.0)
     options = {} if overlap is None else {"overlap": overlap}
-    return march_steps(indenter, steps, scheme=method, **options)
+    return march_steps(indenter, steps, scheme=method, progress=progress, **options)

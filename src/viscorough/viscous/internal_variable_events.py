@@ -50,10 +50,10 @@ class MediumEvents:
         keep_read_only(self)
 
 
-def march_medium_events(indenter, medium, times, *, force=None, depth=None, until_fraction=1.0):
+def march_medium_events(indenter, medium, times, *, force=None, depth=None, until_fraction=1.0, progress=None):
     """Motion of a rigid indenter on a viscoelastic half-space while the contact grows, exact between contact events.
 
-    indenter, medium, times, force, depth : as of march_medium
+    indenter, medium, times, force, depth, progress : as of march_medium
     until_fraction : contact fraction up to which there is room for elements, in (0, 1]
 
     Returns MediumEvents. Raises ValueError for arguments out of range, and with the time from which on the contact
@@ -76,6 +76,8 @@ def march_medium_events(indenter, medium, times, *, force=None, depth=None, unti
             _advance(contact, law, times[k - 1], times[k] - times[k - 1], (load[k - 1], load[k]))
         force_now = load[k] if depth is None else elements.scale * contact.pressure.sum()
         rows.append((contact.depth, force_now, contact.count))
+        if progress:
+            progress(len(rows) / times.size)
     depths, forces, counts = np.array(rows).T
     event_time, event_depth = np.array(contact.events).reshape(-1, 2).T
     pressure = elements.pressure_map(contact.pressure)

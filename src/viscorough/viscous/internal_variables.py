@@ -49,7 +49,7 @@ class MediumMotion:
         keep_read_only(self)
 
 
-def march_medium(indenter, medium, times, *, force=None, depth=None, scheme="second_order"):
+def march_medium(indenter, medium, times, *, force=None, depth=None, scheme="second_order", progress=None):
     """Motion of a rigid indenter on a viscoelastic half-space, one contact problem per step in time.
 
     "backward_euler" is of first order in the steps. "second_order" integrates the branches exactly for surfaces that
@@ -61,6 +61,7 @@ def march_medium(indenter, medium, times, *, force=None, depth=None, scheme="sec
     times : ends of the steps, increasing; a time given twice is a step of the load
     force, depth : one of them, a load at these times, of shape (times,), F ≥ 0 and linear in between; before times[0]
         there is none, so that its first value is a step. A force may decrease, and so may a depth: the contact recedes
+    progress : function that is called at each of the times with the share of them that is done
 
     Returns MediumMotion. Raises ValueError for arguments out of range, ConvergenceError if a contact problem is not
     solved, MemoryError if the elements in contact are too many for the memory.
@@ -88,6 +89,8 @@ def march_medium(indenter, medium, times, *, force=None, depth=None, scheme="sec
                 f"march_medium: depth steps at time {times[k]:g}, which takes an infinite force; allowed: ramps"
             )
         rows.append((state.depth, elements.scale * state.pressure.sum(), contact.members.size))
+        if progress:
+            progress(len(rows) / times.size)
     depths, forces, counts = np.array(rows).T
     if not by_depth:
         forces = load

@@ -52,7 +52,7 @@ class Steps:
         keep_read_only(self)
 
 
-def march_steps(indenter, impulses, *, scheme="explicit", overlap=np.inf, tolerance=1e-6):
+def march_steps(indenter, impulses, *, scheme="explicit", overlap=np.inf, tolerance=1e-6, progress=None):
     """Penetration of a rigid indenter into a linearly viscous half-space by steps of impulse.
 
     "explicit" (forward Euler) advances with u' = 1/(4π d Σq) and w' = u' K q, where K q = 1 on the elements that touch
@@ -69,6 +69,7 @@ def march_steps(indenter, impulses, *, scheme="explicit", overlap=np.inf, tolera
     overlap : explicit steps are divided so that no element is predicted to overlap the surface by more than this share
         of the depth
     tolerance : residual of the contact problems, as in indent
+    progress : function that is called at each of the impulses with the share of them that is done
 
     Returns Steps. Warns (AccuracyWarning) where the indenter overlaps the surface by more than 1 % of the depth.
     Raises ValueError for arguments out of range, ConvergenceError if a contact problem is not solved.
@@ -92,6 +93,8 @@ def march_steps(indenter, impulses, *, scheme="explicit", overlap=np.inf, tolera
             integrator.step(step)
             remaining -= step
         rows.append((integrator.depth, integrator.resistance, integrator.count, integrator.overlap))
+        if progress:
+            progress(len(rows) / impulses.size)
     depth, resistance, count, overlaps = np.array(rows).T
     if overlaps.max() > _WARN_OVERLAP:
         warnings.warn(

@@ -1,5 +1,8 @@
 """`viscorough march` in viscoelastic media, and in the units that files state."""
 
+import importlib
+from contextlib import nullcontext
+
 import numpy as np
 import pytest
 
@@ -38,6 +41,16 @@ def test_marching_in_a_medium_agrees_with_kinetics(method, tolerance):
     np.testing.assert_allclose(marched["depth"][1:], expected["depth"], rtol=tolerance)
     assert marched["time"][0] == 0
     assert set(marched) == {"time", "depth", "force", "contact_count"}
+
+
+@pytest.mark.parametrize("medium", [["--medium", "medium.yaml"], []], ids=["medium", "viscosity"])
+@pytest.mark.usefixtures("here")
+def test_steps_show_their_progress(monkeypatch, medium):
+    shares = []
+    module = importlib.import_module("viscorough.cli.march")
+    monkeypatch.setattr(module, "progress_bar", lambda label, wanted: nullcontext(shares.append))
+    assert main(["march", *HEIGHTS, "--method", "implicit", "--times", "1,2", "-o", "march.nc", *medium]) == 0
+    assert shares[-2:] == pytest.approx([1 - 1 / len(shares), 1])
 
 
 def test_marching_goes_on_where_contact_recedes(here, capsys):

@@ -143,6 +143,13 @@ def test_relaxation_at_given_depth(disc, curve, name):
     np.testing.assert_allclose(result.force, relaxed, rtol=1e-10)
 
 
+@pytest.mark.parametrize("function", [march_medium, march_medium_events])
+def test_progress_is_the_share_of_the_times(function):
+    shares = []
+    function(Indenter(np.eye(3), 1.0), Maxwell(1.0, 1.0), np.arange(4.0), force=np.ones(4), progress=shares.append)
+    assert shares == [0.25, 0.5, 0.75, 1]
+
+
 def test_unloading_recedes_and_recovers():
     """A solid that is unloaded: fewer elements in contact, none under tension, a surface that comes back in time."""
     disc = self_affine_disc(0.7, 17, seed=1)

@@ -19,6 +19,7 @@ from viscorough_study.discs import punch_stiffness
 from viscorough_study.pool import elements_across, ensembles_on_grids, select
 from viscorough_study.power_law import in_window, log_means, percentile_interval
 
+LAW_ELEMENTS_MIN = 5  # median of the elements in contact from which on the law is fitted; with one, the slope is 1
 WINDOWS = ((1e-3, 1e-2), (3e-3, 3e-2), (1e-2, 1e-1))  # in X, in which slopes are compared
 ENSEMBLE = {
     "source": ("discs (boundary elements) or lines (reduction of dimensionality)", ""),
@@ -111,14 +112,14 @@ def interface_tables(cases, rms_convention, **how):
     )
 
 
-def examine(ensemble, punch, *, plateau, elements_min, fraction_min, average, resamples, seed):
+def examine(ensemble, punch, *, plateau, fraction_min, average, resamples, seed):
     """The interface of one ensemble of one rms convention: columns of `COLUMNS`, rows of `SLOPES`, table of `CURVES`.
 
     punch : κ_c; plateau : share by which g is below its maximum at the ends of the plateau
-    elements_min : median of the elements in contact from which on the law is fitted
     fraction_min : share of the realizations that must be defined for a mean
     average, resamples, seed : of the mean and its bootstrap, as in viscorough_study.power_law.fit_power_law
-    Abscissae at which one element touches, region (a), are left out.
+    Abscissae at which one element touches, region (a), are left out. The law describes these curves, the onset of
+    contact on their grid included: it is fitted from X_LOW on, where `LAW_ELEMENTS_MIN` elements touch at least.
     """
     x, count = ensemble["x"].values, ensemble["contact_count_median"].values
     shown = (ensemble["fraction_defined"].values >= fraction_min) & (count > 1)
@@ -130,7 +131,7 @@ def examine(ensemble, punch, *, plateau, elements_min, fraction_min, average, re
     x, count, size = x[shown], count[shown], len(velocity)
     interface, interval = samples - x / punch, percentile_interval(samples[1:], size)
     row = {"realizations": size, "kappa_c": punch} | _plateau(x, interface, plateau, size)
-    law = fit_law(x, samples[0], punch, (count >= elements_min) & (x >= X_LOW))
+    law = fit_law(x, samples[0], punch, (count >= LAW_ELEMENTS_MIN) & (x >= X_LOW))
     row |= _law_columns(x, samples[0], interval, punch, law, depths, size)
     curves = {"x": x, "velocity": samples[0], "interface": interface[0]}
     curves |= {f"interface_{end}": values - x / punch for end, values in zip(("low", "high"), interval, strict=True)}

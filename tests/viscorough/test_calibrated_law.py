@@ -73,10 +73,14 @@ def test_law_holds_where_it_must_to_what_it_must():
     table = pd.read_csv(ROOT / "src/viscorough/data/interface.csv")
     assert set(table) <= set(interface.COLUMNS)
     discs = table.query("source == 'discs' and across == 257")
+    # Every ensemble has a law of its own, which holds to 5 % in its range: those of 120 discs from X = 0.001 on, too.
+    assert (discs["deviation"] <= LARGEST_DEVIATION).all()
+    assert (discs.query("hurst >= 0.4")["law_low"] <= X_LOW * (1 + 1e-9)).all()
     discs = discs[(discs["case_group"] == "base") | ~discs["hurst"].isin(discs.query("case_group == 'base'")["hurst"])]
     assert set(discs["hurst"]) == set(HURST)
-    assert (discs["deviation"] <= LARGEST_DEVIATION).all()
-    assert (discs["law_low"] <= np.where(discs["hurst"] < 0.4, 3e-3, X_LOW * (1 + 1e-9))).all()
+    assert (discs["law_low"] <= np.where(discs["hurst"] < 0.4, 2e-3, X_LOW * (1 + 1e-9))).all()
+    # Means of 720 discs leave room for the scatter of smaller ensembles.
+    assert (discs.query("case_group == 'base' and hurst >= 0.4")["deviation"] < 0.03).all()
     # Those of H = 1 are from the grids from coarse to fine, whose curves end sooner.
     assert (discs["law_high"] > np.where(discs["case_group"] == "base", 25, 2.5)).all()
     geometric = discs.query("average == 'geometric'")

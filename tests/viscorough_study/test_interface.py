@@ -3,6 +3,7 @@
 import numpy as np
 import pandas as pd
 import pytest
+import xarray as xr
 
 from support.study import pool_of
 from viscorough.calibrated_law import LARGEST_DEVIATION, X_LOW, interface_depth, interface_velocity
@@ -19,7 +20,7 @@ from viscorough_study.interface import (
 
 X = abscissa(1e-9, 30, 20)
 PUNCH = 0.98
-HOW = {"plateau": 0.05, "elements_min": 10, "fraction_min": 0.95, "resamples": 200, "seed": 1}
+HOW = {"plateau": 0.05, "fraction_min": 0.95, "resamples": 200, "seed": 1}
 LAW = (0.35, 0.5, 0.8)
 
 
@@ -65,6 +66,20 @@ def test_law_is_given_back_with_its_depth(average):
     np.testing.assert_allclose(curves["interface"] + curves["x"] / PUNCH, curves["velocity"])
     np.testing.assert_allclose(curves["law"], curves["velocity"], rtol=1e-4)
     assert curves["x"].min() > 1e-5
+
+
+def test_law_is_fitted_from_five_elements_in_contact_on():
+    """Half the velocity where four elements touch does not bend it; the same where five touch does."""
+    known = ensemble(lambda x: interface_velocity(x, *LAW), scatter=0.0).sel(rms_convention="disc")
+    halved = known["velocity"] * np.where(X < 3e-3, 0.5, 1.0)
+    laws = {}
+    for touching in (4, 5):
+        count = xr.DataArray(np.where(X < 1e-5, 1, np.where(X < 3e-3, touching, 20)), dims="abscissa")
+        changed = known.assign(velocity=halved, contact_count_median=count)
+        laws[touching] = examine(changed, PUNCH, **HOW, average="geometric")[0]
+    assert [laws[4][name] for name in ("exponent", "peak", "peak_x")] == pytest.approx(LAW, rel=1e-4)
+    assert laws[4]["law_low"] == pytest.approx(X[X >= 3e-3 * (1 - 1e-9)][0])
+    assert laws[5]["exponent"] > 1.1 * LAW[0]
 
 
 def test_error_of_the_law_contains_the_interval_of_the_mean():

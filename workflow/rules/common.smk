@@ -156,7 +156,7 @@ def plateau_settings():
 
 def interface_limits():
     """Arguments of viscorough_study.interface.interface_tables: its settings, and those of the fits that it shares."""
-    shared = ("elements_min", "fraction_min", "resamples")
+    shared = ("fraction_min", "resamples")
     return config["interface"] | {name: config["scaling"][name] for name in shared} | {"seed": config["seed"]}
 
 

@@ -13,8 +13,8 @@ from scipy import stats
 
 from viscorough import reference
 from viscorough_study.conventions import FITTED, NAMES, in_every_reading, left_open
-from viscorough_study.evidence import UNDEFINED, hurst_name, judged, mean_with_interval
-from viscorough_study.power_law import fit_power_law, in_window
+from viscorough_study.evidence import UNDEFINED, hurst_name, judged
+from viscorough_study.power_law import fit_power_law, in_window, log_means, percentile_interval
 from viscorough_study.region_criteria import combinations_case
 
 
@@ -179,12 +179,15 @@ def alpha_limit(evidence, tolerance):
 def depth(evidence, tolerance):
     """(1 − α)κu/(hX) at the centre, where u/h = ∫dX/κ, with κ constant below the first abscissa."""
 
-    def ratio(hurst, ensemble, fit, centre):
+    def ratio(hurst, ensemble, fit, centre, bootstrap):
         x, softness = ensemble["x"].values, 1 / ensemble["stiffness"].values
         end = int(np.argmin(np.abs(np.log(x / centre)))) + 1
         depths = x[0] * softness[:, 0] + np.trapezoid(softness[:, :end], x[:end], axis=1)
-        ratios = fit.beta * depths / (x[end - 1] * softness[:, end - 1])
-        return mean_with_interval(ratios)
+        ratios = (depths / (x[end - 1] * softness[:, end - 1]))[:, None]
+        # The seed of the fit draws the same realizations, so the interval contains the scatter of both factors.
+        random = np.random.default_rng(bootstrap["seed"])
+        means = np.exp(log_means(ratios, "arithmetic", bootstrap["resamples"], random))[:, 0]
+        return fit.beta * means[0], fit.beta_samples * means[1:]
 
     return _cases_at_centre(evidence, tolerance, ratio)
 
@@ -192,10 +195,9 @@ def depth(evidence, tolerance):
 def master_curve(evidence, tolerance):
     """vt/h over the right side of Eq. 12 as printed."""
 
-    def ratio(hurst, ensemble, fit, centre):
+    def ratio(hurst, ensemble, fit, centre, bootstrap):
         law = reference.rate_law(centre, hurst, gamma=True)
-        samples = fit.prefactor_samples * centre**fit.beta_samples / law
-        return fit.prefactor * centre**fit.beta / law, *np.quantile(samples, [0.025, 0.975])
+        return fit.prefactor * centre**fit.beta / law, fit.prefactor_samples * centre**fit.beta_samples / law
 
     return _cases_at_centre(evidence, tolerance, ratio)
 
@@ -203,7 +205,7 @@ def master_curve(evidence, tolerance):
 def _cases_at_centre(evidence, tolerance, ratio):
     """Cases of a ratio that should be 1 at the geometric centre of region (b); undecided without a region.
 
-    ratio : function of H, ensemble, fit of region (b) and centre; returns the value and its 95 % interval
+    ratio : function of H, ensemble, fit of region (b), centre and bootstrap; returns the value and its samples
     """
     bootstrap = {"average": evidence.conventions["average"], "resamples": evidence.resamples, "seed": evidence.seed}
     cases = []
@@ -213,7 +215,8 @@ def _cases_at_centre(evidence, tolerance, ratio):
             cases.append(judged(hurst_name(hurst), UNDEFINED, 1.0, None))
             continue
         fit = fit_power_law(ensemble["x"].values, ensemble["velocity"].values, window, **bootstrap)
-        values = ratio(hurst, ensemble, fit, np.sqrt(np.prod(window)))
+        value, samples = ratio(hurst, ensemble, fit, np.sqrt(np.prod(window)), bootstrap)
+        values = value, *percentile_interval(samples, fit.realizations)
         of_all = {"realizations": fit.realizations, "cases": len(evidence.pooled)}
         met = evidence.within(values, 1 - tolerance, 1 + tolerance, **of_all)
         cases.append(judged(hurst_name(hurst), values, 1.0, met))

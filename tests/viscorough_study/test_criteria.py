@@ -9,12 +9,13 @@ import pytest
 import xarray as xr
 from scipy import stats
 
-from support.study import ACROSS, CLAIMS, HURST, evidence
+from support.study import ACROSS, CLAIMS, HURST, X, evidence, pool_of
 from viscorough.reference import one_element_stiffness, zeta_elastic
 from viscorough_study.criteria import JUDGES
+from viscorough_study.ensembles import ensemble_dataset
 from viscorough_study.evidence import equivalence, judged, mean_with_interval, opposite
 from viscorough_study.form_criteria import _case as form_case
-from viscorough_study.law_criteria import alpha_limit, hurst_only, no_grid, realizations
+from viscorough_study.law_criteria import alpha_limit, depth, hurst_only, no_grid, realizations
 from viscorough_study.method_criteria import bodies_of_revolution, computing_time, elements
 from viscorough_study.region_criteria import (
     complete_contact,
@@ -297,3 +298,19 @@ def test_slope_of_the_last_region_is_over_the_end_of_the_curves():
     for decades, verdict in ((0.25, "reproduced"), (3.0, "not reproduced")):
         changed = dataclasses.replace(found, rules=found.rules | {"end_decades": decades})
         assert {case.verdict for case in last_region(changed, 0.05) if "slope" in case.name} == {verdict}
+
+
+def test_interval_of_the_depth_contains_the_scatter_of_the_exponent():
+    """Of power laws of exponents β_i the ratio is ⟨β⟩⟨1/β⟩ on these discs: far more certain than ⟨1/β⟩ for a given ⟨β⟩.
+
+    It is close to 1 for every draw of discs, so an interval that left the exponent fixed would be several times wider.
+    """
+    exponents = 0.4 * np.exp(0.2 * np.random.default_rng(4).standard_normal((60, 1)))
+    stiffness = 0.5 * X ** (1 - exponents)
+    count = np.where(X < 1e-3, 2, 20) * np.ones_like(stiffness)  # region (b) far from the first abscissa
+    about = {"hurst": 0.6, "case": "c", "diameter": 1.0, "elements": 51433}
+    discs = pool_of([ensemble_dataset(["disc"], X, stiffness[None], count[None], about)])
+    (case,) = depth(dataclasses.replace(evidence(), discs=discs), 0.1)
+    assert case.value == pytest.approx(exponents.mean() * (1 / exponents).mean(), rel=0.015)
+    with_fixed_exponent = 2 * 1.96 * 0.2 / np.sqrt(60)
+    assert 0 < case.high - case.low < with_fixed_exponent / 2

@@ -131,7 +131,10 @@ def separation(evidence, tolerance):
 
     They have left it where the geometric mean of κ is `LEFT_REGION` times that of one element.
     """
-    ends = {hurst: _end_of_first_region(evidence, ensemble) for hurst, ensemble in evidence.pooled.items()}
+    ends = {
+        hurst: _end_of_first_region(evidence, ensemble, [evidence.seed, i])
+        for i, (hurst, ensemble) in enumerate(evidence.pooled.items())
+    }
     cases = []
     for lower, higher in pairwise(ends):
         ratios = np.exp(ends[lower] - ends[higher])
@@ -142,11 +145,14 @@ def separation(evidence, tolerance):
     return cases
 
 
-def _end_of_first_region(evidence, ensemble):
-    """ln X at the end of region (a): of the ensemble, then of each bootstrap sample; nan where it is not reached."""
+def _end_of_first_region(evidence, ensemble, seed):
+    """ln X at the end of region (a): of the ensemble, then of each bootstrap sample; nan where it is not reached.
+
+    seed : of the bootstrap, another one for each ensemble, so that the samples are independent
+    """
     x, stiffness = ensemble["x"].values, np.log(ensemble["stiffness"].values)
     stiffness = stiffness[:, np.isfinite(stiffness).all(axis=0)]
-    number, random = len(stiffness), np.random.default_rng(evidence.seed)
+    number, random = len(stiffness), np.random.default_rng(seed)
     weights = random.multinomial(number, np.full(number, 1 / number), size=evidence.resamples) / number
     means = np.vstack([stiffness.mean(axis=0), weights @ stiffness])
     level = np.log(LEFT_REGION * reference.one_element_stiffness(evidence.across))

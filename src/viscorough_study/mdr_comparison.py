@@ -4,7 +4,9 @@ The line that stands for a surface has the spectrum C1D = π q C2D (Eq. 13): her
 surface, ring by ring of the wave vectors, with independent random phases, which the method does not specify.
 
 Contact area and separation are where the literature finds the method to fail (Lyashenko, Pastewka & Persson, Tribology
-Letters 52, 223 (2013)). The mean gap of a disc takes its deflections, so it is computed only at whole powers of ten.
+Letters 52, 223 (2013)). The contact fraction of a line is its κ on every grid, whereas that of a disc falls as finer
+waves are resolved: the ratio of the two is that of the grid. The mean gap of a disc takes its deflections, so it is
+computed only at whole powers of ten.
 """
 
 import numpy as np

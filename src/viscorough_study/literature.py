@@ -5,6 +5,7 @@ import pandas as pd
 
 from viscorough import reference
 from viscorough_study.conventions import fits
+from viscorough_study.persson_law import persson_u0
 
 COLUMNS = {
     "year": ("year of publication", "1"),
@@ -12,49 +13,107 @@ COLUMNS = {
     "place": ("journal, volume and page", ""),
     "when": ("before or after the paper", ""),
     "statement": ("what was found, in our words", ""),
-    "sure": ("how the statement is known: abstract, the paper, which quotes it, or memory", ""),
-    "quantity": ("quantity of this study beside it: alpha (1 − β of discs), u0 (u₀/h of the interface), or none", ""),
+    "sure": ("how it is known: abstract, the paper, quoted by others, or not verified", ""),
+    "read": ("where it was read", ""),
+    "quantity": (
+        "ours beside it: alpha (1 − β of discs), u0 (u₀/h of the interface), gamma (u₀/h over that of Persson's law "
+        "without a factor), area and gap (contact and mean gap of a line over those of its disc at X = 0.01), or none",
+        "",
+    ),
     "hurst": ("Hurst exponent H of the values", "1"),
-    "theirs_low": ("lower end of the stated range, or the law at this H", "1"),
-    "theirs_high": ("upper end of the stated range, or the law at this H", "1"),
+    "theirs_low": ("lower end of the stated range, or of the law at this H", "1"),
+    "theirs_high": ("upper end of the stated range, or of the law at this H", "1"),
     "value": ("value of this study", "1"),
     "low": ("lower end of its 95 % interval", "1"),
     "high": ("upper end of its 95 % interval", "1"),
 }
-NONE = [(np.nan, np.nan, np.nan, np.nan)]  # H, value, low and high where nothing of this study stands beside it
+KNOWN = ("year", "source", "place", "when", "statement", "sure", "read")
+OURS = ["hurst", "value", "low", "high", "across"]  # across: elements across the discs, where the quantity needs it
+NONE = pd.DataFrame([dict.fromkeys(OURS, np.nan)])
+X_COMPARED = 0.01  # at which lines are compared with their discs, in region (b)
 
 
-def literature(entries, scaling, interface, conventions):
-    """A row for every source and Hurst exponent; a pandas.DataFrame with the columns of `COLUMNS`, by year.
+def literature(entries, scaling, interface, reduction, conventions):
+    """A row for every source, quantity and Hurst exponent; a pandas.DataFrame with the columns of `COLUMNS`, by year.
 
-    entries : content of resources/literature/stiffness.yaml; scaling, interface : the tables of these names
-    conventions : those of the figures
+    entries : content of resources/literature/stiffness.yaml
+    scaling, interface, reduction : the tables of these names; conventions : those of the figures
     """
+    u0 = _u0(interface, conventions["average"])
     ours = {
-        "alpha": _alpha(fits(scaling, conventions, source="discs", case_group="base")),
-        "u0": _u0(interface, conventions["average"]),
         "none": NONE,
+        "alpha": _alpha(fits(scaling, conventions, source="discs", case_group="base")),
+        "u0": u0,
+        "gamma": _gamma(u0),
+        "area": _ratio(reduction, "area"),
+        "gap": _ratio(reduction, "gap"),
     }
     rows = []
     for entry in sorted(entries, key=lambda entry: entry["year"]):
-        known = {name: entry[name] for name in ("year", "source", "place", "when", "statement", "sure")}
-        for hurst, value, low, high in ours[entry["ours"]]:
-            theirs = entry.get("theirs", {"low": np.nan, "high": np.nan})
-            if "law" in entry:
-                theirs = dict.fromkeys(("low", "high"), getattr(reference, entry["law"])(hurst))
-            values = {"hurst": hurst, "value": value, "low": low, "high": high}
-            values |= {f"theirs_{end}": theirs[end] for end in ("low", "high")}
-            rows.append(known | {"quantity": entry["ours"]} | values)
-    return pd.DataFrame(rows, columns=list(COLUMNS))
+        known = {name: entry[name] for name in KNOWN}
+        for quantity in entry["ours"] or ["none"]:
+            for row in ours[quantity].to_dict("records"):
+                theirs = dict(zip(("theirs_low", "theirs_high"), _theirs(entry, row), strict=True))
+                rows.append(known | {"quantity": quantity} | theirs | row)
+    return pd.DataFrame(rows)[list(COLUMNS)]
+
+
+def cited(source, year):
+    """A source as it is cited in a text: up to three surnames, or the first and "et al.", and the year."""
+    names = source.replace(" and ", ", ").split(", ")
+    return f"{source if len(names) < 4 else names[0] + ' et al.'} {year}"
+
+
+def _theirs(entry, row):
+    """Lower and upper end of what the source has for the Hurst exponent and the discs of a row of ours."""
+    theirs = entry.get("theirs") or entry.get("factor") or {"low": 1.0, "high": 1.0}
+    if entry.get("law") == "exponent_alpha":
+        scale = reference.exponent_alpha(row["hurst"])
+    elif entry.get("law") == "persson_u0":
+        scale = _persson(row)
+    else:
+        scale = 1.0 if "theirs" in entry else np.nan
+    return scale * theirs["low"], scale * theirs["high"]
+
+
+def _persson(row):
+    """u₀/h of Persson's law, without a factor, for waves from the diameter down to two elements."""
+    return persson_u0(row["hurst"], row["across"] / 2) if np.isfinite(row["hurst"]) else np.nan
 
 
 def _alpha(rows):
-    """H, 1 − β and its interval of every fit."""
-    return [(row.hurst, 1 - row.beta, 1 - row.beta_high, 1 - row.beta_low) for row in rows.itertuples()] or NONE
+    """1 − β and its interval of every fit."""
+    columns = {
+        "hurst": rows["hurst"],
+        "value": 1 - rows["beta"],
+        "low": 1 - rows["beta_high"],
+        "high": 1 - rows["beta_low"],
+    }
+    return _or_none(pd.DataFrame(columns))
 
 
 def _u0(interface, average):
-    """H, u₀/h and its interval of the base discs."""
+    """u₀/h and its interval of the base discs."""
     rows = interface[(interface["source"] == "discs") & (interface["case_group"] == "base")]
-    rows = rows[rows["average"] == average].sort_values("hurst")
-    return rows[["hurst", "u0", "u0_low", "u0_high"]].to_numpy().tolist() or NONE
+    rows = rows[rows["average"] == average]
+    return _or_none(rows.rename(columns={"u0": "value", "u0_low": "low", "u0_high": "high"}))
+
+
+def _gamma(u0):
+    """The factor with which Persson's law gives these u₀/h."""
+    without = u0.apply(_persson, axis=1)
+    return u0.assign(**{name: u0[name] / without for name in ("value", "low", "high")})
+
+
+def _ratio(reduction, name):
+    """Ratio of lines to discs, and its interval, at X_COMPARED."""
+    rows = reduction.assign(distance=np.log(reduction["x"] / X_COMPARED).abs()).sort_values("distance")
+    rows = rows[rows["distance"] < 1e-6].rename(
+        columns={f"{name}_ratio": "value", f"{name}_ratio_low": "low", f"{name}_ratio_high": "high"}
+    )
+    return _or_none(rows)
+
+
+def _or_none(rows):
+    """The columns of OURS by ascending H, one row of nan if there is none."""
+    return NONE if rows.empty else rows.reindex(columns=OURS).sort_values("hurst")

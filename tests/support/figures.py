@@ -13,6 +13,7 @@ from viscorough_study.ensembles import abscissa
 from viscorough_study.figures.measured import plot_measured
 from viscorough_study.fit_table import COLUMNS as SCALING_COLUMNS
 from viscorough_study.interface import COLUMNS as INTERFACE
+from viscorough_study.literature import COLUMNS as LITERATURE
 from viscorough_study.performance import measurement
 from viscorough_study.scaling_collapse import QUANTITIES, Grid, curve_table
 
@@ -260,6 +261,15 @@ def measured_figure(pooled, scaling):
     fits = scaling[(scaling["source"] == "discs") & (scaling["hurst"] == pooled[0]["hurst"].item())]
     fits = fits.assign(source="measured", case_group="polished")
     return plot_measured({"polished": pooled[0]}, pooled, fits, measured_kinetics(), SHOWN, fraction_min=0.95)
+
+
+def literature_table():
+    """Table of what others found on u₀/h: a law in H, one value for all H, and no value."""
+    rows = [("One", 2007, 0.4, 0.5, 0.56), ("One", 2007, 0.9, 0.41, 0.46)]
+    rows += [("One, Two, Three and Four", 2013, hurst, 0.4, 0.4) for hurst in (0.4, 0.9)]
+    rows += [("Five", 2011, hurst, np.nan, np.nan) for hurst in (0.4, 0.9)]
+    table = pd.DataFrame(rows, columns=["source", "year", "hurst", "theirs_low", "theirs_high"]).assign(quantity="u0")
+    return table.assign(value=0.5, low=0.49, high=0.51).reindex(columns=list(LITERATURE))
 
 
 def interface_tables_drawn():

@@ -7,47 +7,96 @@ import yaml
 
 from support.study import HURST, ROOT, SHOWN, evidence
 from viscorough import reference
-from viscorough_study.literature import COLUMNS, literature
+from viscorough_study.literature import COLUMNS, cited, literature
+from viscorough_study.page.discussion import KNOWN, QUANTITIES
+from viscorough_study.persson_law import persson_u0
 
 ENTRIES = yaml.safe_load((ROOT / "resources/literature/stiffness.yaml").read_text(encoding="utf-8"))
 INTERFACE = pd.DataFrame(
     [
-        (source, group, hurst, average, u0, u0 - 0.1, u0 + 0.1)
+        (source, group, hurst, 257, average, u0, u0 - 0.1, u0 + 0.1)
         for source, group, u0 in (("discs", "base", 0.5), ("discs", "sizes", 0.6), ("lines", "lines", 0.7))
         for hurst in HURST
         for average in ("arithmetic", "geometric")
     ],
-    columns=["source", "case_group", "hurst", "average", "u0", "u0_low", "u0_high"],
+    columns=["source", "case_group", "hurst", "across", "average", "u0", "u0_low", "u0_high"],
 )
 
 
-def test_numbers_of_this_study_stand_beside_those_of_others():
+REDUCTION = pd.DataFrame(
+    [(hurst, x, *(x * hurst + end for end in (0, -0.001, 0.001) * 2)) for hurst in HURST for x in (1e-3, 1e-2, 0.1)],
+    columns=["hurst", "x", *(f"{name}_ratio{end}" for name in ("area", "gap") for end in ("", "_low", "_high"))],
+)
+
+
+@pytest.fixture
+def table():
     scaling = evidence().tables["scaling"].assign(beta_low=0.1, beta_high=0.7)
-    table = literature(ENTRIES, scaling, INTERFACE, SHOWN).round({"low": 9, "high": 9})
+    return literature(ENTRIES, scaling, INTERFACE, REDUCTION, SHOWN).round({"low": 9, "high": 9})
+
+
+def of(table, quantity, place=""):
+    return table[(table["quantity"] == quantity) & table["place"].str.contains(place)]
+
+
+def test_exponents_stand_beside_those_of_others(table):
     assert list(table) == list(COLUMNS)
     assert table["year"].is_monotonic_increasing
-    alpha, u0 = (table[table["quantity"] == name] for name in ("alpha", "u0"))
-    assert set(alpha["hurst"]) == set(u0["hurst"]) == set(HURST)
+    alpha = of(table, "alpha")
+    assert set(alpha["hurst"]) == set(HURST)
     np.testing.assert_allclose(alpha["value"], reference.exponent_alpha(alpha["hurst"]), atol=0.02)
     assert (alpha["low"] == 0.3).all()  # 1 less the upper end of β
     assert (alpha["high"] == 0.9).all()
-    law = alpha[alpha["place"].str.contains("86, 026710")]
+    law, stated = of(table, "alpha", "86, 026710"), of(table, "alpha", "108, 104301")
     np.testing.assert_allclose(law["theirs_low"], 1 / (1 + law["hurst"]))
-    stated = alpha[alpha["place"].str.contains("108, 104301")]
     assert set(zip(stated["theirs_low"], stated["theirs_high"], strict=True)) == {(0.51, 0.77)}
+
+
+def test_u0_stands_beside_that_of_others_and_persson_s_law(table):
+    u0, gamma = of(table, "u0"), of(table, "gamma")
     assert set(zip(u0["value"], u0["low"], u0["high"], strict=True)) == {(0.5, 0.4, 0.6)}
-    assert table.loc[table["quantity"] == "none", ["hurst", "value", "theirs_low"]].isna().all(axis=None)
+    law, stated = of(table, "u0", "99, 125502"), of(table, "u0", "87, 062809")
+    without = [persson_u0(hurst, 257 / 2) for hurst in law["hurst"]]
+    np.testing.assert_allclose(law["theirs_low"], 0.4 * np.array(without))
+    np.testing.assert_allclose(law["theirs_high"], 0.45 * np.array(without))
+    assert set(zip(stated["theirs_low"], stated["theirs_high"], strict=True)) == {(0.4, 0.4)}
+    np.testing.assert_allclose(gamma["value"] * without, 0.5)
+    np.testing.assert_allclose(gamma["low"] * without, 0.4, rtol=1e-6)
+    assert of(table, "u0", "0810.0950")["theirs_low"].isna().all()  # of the order of h is no number
+
+
+def test_lines_are_compared_with_discs_at_one_force(table):
+    for name in ("area", "gap"):
+        rows = of(table, name, "Tribol. Lett.")
+        np.testing.assert_allclose(rows["value"], 0.01 * rows["hurst"])
+        np.testing.assert_allclose(rows["high"] - rows["low"], 0.002)
 
 
 def test_sources_stay_without_numbers_of_this_study():
     scaling = evidence().tables["scaling"]
-    table = literature(ENTRIES, scaling.iloc[:0], INTERFACE.iloc[:0], SHOWN)
-    assert len(table) == len(ENTRIES)
+    table = literature(ENTRIES, scaling.iloc[:0], INTERFACE.iloc[:0], REDUCTION.iloc[:0], SHOWN)
+    assert len(table) == sum(max(len(entry["ours"]), 1) for entry in ENTRIES)
     assert table["value"].isna().all()
+    assert of(table, "none")[["hurst", "value", "theirs_low"]].isna().all(axis=None)
 
 
-@pytest.mark.parametrize("entry", ENTRIES, ids=lambda entry: entry["source"])
-def test_no_number_is_taken_from_memory(entry):
+@pytest.mark.parametrize("entry", ENTRIES, ids=lambda entry: f"{entry['source']} {entry['year']}")
+def test_no_number_is_without_a_place_where_it_was_read(entry):
     assert entry["when"] == ("before" if entry["year"] < 2013 else "after")
-    assert entry["sure"] in {"abstract", "the paper", "memory"}
-    assert entry["sure"] != "memory" or not {"theirs", "law"} & set(entry)
+    assert entry["sure"] in KNOWN
+    assert bool(entry["read"]) == (entry["sure"] != "not verified")
+    assert entry["sure"] != "not verified" or not {"theirs", "law"} & set(entry)
+    assert set(entry["ours"]) <= set(QUANTITIES)
+
+
+@pytest.mark.parametrize(
+    ("source", "text"),
+    [
+        ("A", "A 2007"),
+        ("A, B and C", "A, B and C 2007"),
+        ("A and B", "A and B 2007"),
+        ("A, B, C and D", "A et al. 2007"),
+    ],
+)
+def test_sources_are_cited_by_surnames_and_year(source, text):
+    assert cited(source, 2007) == text

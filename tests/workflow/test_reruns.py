@@ -18,6 +18,7 @@ AFTER_FITS = {
     "plot_exponent",
     "plot_conventions",
     "plot_prefactors",
+    "plot_interface",  # with the values of others, which stand beside the exponents in one table
 }
 FITS_AND_FIGURES = FITS | AFTER_FITS
 BOUNDARY_ELEMENTS = {"indent_discs", "compare_direct", "compare_reduction", "validate"}
@@ -81,7 +82,7 @@ def with_another_statement(text):
         ),
         (
             {"figures": {"average": "arithmetic"}},
-            (FITS_AND_FIGURES | SIZES) - {"fit_scaling", "compare_prefactors"} | {"plot_interface"},
+            (FITS_AND_FIGURES | SIZES) - {"fit_scaling", "compare_prefactors"},
         ),
         ({"ensemble": {"per_decade": 25}}, FITS_AND_FIGURES | SIZES | INTERFACE | {"pool_curves", "measure_plateaus"}),
         ({"interface": {"plateau": 0.1}}, INTERFACE | {"tabulate_literature"}),
@@ -115,7 +116,8 @@ def with_another_statement(text):
         ),
         (
             {"direct": {"elements": 31}, "reduction": {"per_decade": 5}},
-            {"compare_direct", "plot_direct", "judge_claims", "compare_reduction", "plot_reduction"},
+            {"compare_direct", "plot_direct", "judge_claims", "compare_reduction", "plot_reduction"}
+            | {"tabulate_literature", "plot_interface"},
         ),
     ],
     ids=lambda value: next(iter(value)) if isinstance(value, dict) else "",

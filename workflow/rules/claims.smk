@@ -228,35 +228,3 @@ rule plot_prefactors:
         "Figure of the prefactor under every convention"
     script:
         "../scripts/plot_prefactors.py"
-
-
-rule tabulate_literature:
-    input:
-        scaling=rules.fit_scaling.output.csv,
-        interface="results/tables/interface.csv",
-    output:
-        csv="results/tables/literature.csv",
-        html=report(
-            "results/tables/literature.html",
-            caption="../report/literature.rst",
-            category=chapter("beyond"),
-            labels={"result": "what others found", "kind": "table"},
-        ),
-        nc="results/tables/literature.nc",
-    log:
-        "results/logs/tabulate_literature.log",
-    benchmark:
-        "results/benchmarks/tabulate_literature.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-    params:
-        entries=read_yaml("resources/literature/stiffness.yaml"),
-        conventions=config["figures"],
-    message:
-        "What others found"
-    script:
-        "../scripts/tabulate_literature.py"

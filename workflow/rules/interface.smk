@@ -40,33 +40,3 @@ rule fit_interface:
         "Interface and punch in series"
     script:
         "../scripts/fit_interface.py"
-
-
-rule plot_interface:
-    input:
-        table=rules.fit_interface.output.csv,
-        curves=rules.fit_interface.output.curves_csv,
-    output:
-        png=report(
-            "results/figures/interface.png",
-            caption="../report/interface.rst",
-            category=chapter("beyond"),
-            labels={"result": "interface and punch in series", "kind": "figure"},
-        ),
-        pdf="results/figures/interface.pdf",
-    log:
-        "results/logs/plot_interface.log",
-    benchmark:
-        "results/benchmarks/plot_interface.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-    params:
-        conventions=config["figures"],
-    message:
-        "Figure of the interface and the punch in series"
-    script:
-        "../scripts/plot_interface.py"

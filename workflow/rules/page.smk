@@ -36,6 +36,7 @@ rule make_page:
             rules.compare_level_placement.output.csv,
             rules.tabulate_rule_costs.output.csv,
             rules.compute_media.output.csv,
+            rules.tabulate_literature.output.csv,
         ]
         + ([rules.evaluate_measured.output[name][0] for name in ("scans", "fits")] if MEASURED else []),
         figures=[rule.output.png for rule in PAGE_FIGURES.values()],

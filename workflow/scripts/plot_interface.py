@@ -7,9 +7,10 @@ from viscorough_study.figures.style import save_figure
 from viscorough_study.job_log import log_to
 
 
-def main(table, curves, png, pdf, *, conventions):
+def main(table, curves, literature, png, pdf, *, conventions):
     """Plot the tables. conventions : those of the figures, {column of the table: value}"""
-    save_figure(plot_interface(pd.read_csv(table), pd.read_csv(curves), conventions), png, pdf)
+    tables = [pd.read_csv(path) for path in (table, curves, literature)]
+    save_figure(plot_interface(*tables, conventions), png, pdf)
 
 
 if job := globals().get("snakemake"):

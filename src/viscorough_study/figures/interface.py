@@ -7,9 +7,12 @@ from matplotlib.lines import Line2D
 from viscorough.calibrated_law import LARGEST_DEVIATION
 from viscorough_study.figures.style import (
     BLACK,
+    BLUE,
     GREY,
     MM,
     SERIES_MARKERS,
+    SKY_BLUE,
+    SMALL,
     STYLE,
     WIDE,
     hurst_handles,
@@ -18,16 +21,19 @@ from viscorough_study.figures.style import (
     mark_with_interval,
     require_rows,
 )
+from viscorough_study.literature import cited
 
 SHIFT = 0.008  # in H, between grids and methods
 X_SHOWN = (1e-4, 30.0)
+LABEL = {"textcoords": "offset points", "fontsize": SMALL}
 
 
 @rc_context(STYLE)
-def plot_interface(table, curves, conventions):
+def plot_interface(table, curves, literature, conventions):
     """g of discs (a) and lines (b), the law's vt/h over that of discs (c), and u₀/h of every grid and method (d).
 
-    table, curves : of viscorough_study.interface; conventions : those of the figures, {column: value}
+    table, curves : of viscorough_study.interface; literature : of viscorough_study.literature, for u₀/h in (d)
+    conventions : those of the figures, {column: value}
     Where ensembles on grids from coarse to fine are in the tables, (a) to (c) show those of one more Hurst exponent
     only on the grid of the base. Raises ValueError for a table without rows.
     """
@@ -44,6 +50,7 @@ def plot_interface(table, curves, conventions):
         curve = _curve(curves, row)
         look = looks[row.hurst] | {"marker": ""}
         panels[1, 0].plot(curve["x"], curve["law"] / curve["velocity"], **look)
+    _draw_literature(panels[1, 1], literature)
     _draw_plateaus(panels[1, 1], table, looks)
     _label(panels)
     marks = [*hurst_handles({h: looks[h] for h in sorted({*discs["hurst"], *lines["hurst"]})}, marker="")]
@@ -83,6 +90,21 @@ def _draw_interface(axes, row, curve, look):
     axes.plot(plateau["x"], plateau["interface"], color=look["color"], linewidth=3, alpha=0.6, solid_capstyle="butt")
 
 
+def _draw_literature(axes, literature):
+    """u₀/h of others with direct labels: a line for one that is the same for every H, a band for one that is not."""
+    stated = literature[literature["quantity"] == "u0"].dropna(subset=["hurst", "theirs_low"])
+    for (source, year), rows in stated.groupby(["source", "year"], sort=False):
+        same = rows["theirs_low"].nunique() == 1
+        name = f"{cited(source, year)}{'' if same else ', γ of later fits'}"
+        low, high = rows["theirs_low"], rows["theirs_high"]
+        if same:
+            axes.axhline(low.iloc[0], color=BLUE, linestyle="--")
+            axes.annotate(name, (rows["hurst"].iloc[0], low.iloc[0]), (0, -3), **LABEL, color=BLUE, va="top")
+        else:
+            axes.fill_between(rows["hurst"], low, high, color=SKY_BLUE, alpha=0.35, linewidth=0)
+            axes.annotate(name, (rows["hurst"].iloc[0], high.iloc[0]), (0, 3), **LABEL, color=BLUE)
+
+
 def _draw_plateaus(axes, table, looks):
     """u₀/h over H: discs by their grid, hollow except for the base, and lines as crosses."""
     grids = sorted(table.loc[table["source"] == "discs", "across"].unique())
@@ -100,7 +122,7 @@ def _draw_plateaus(axes, table, looks):
         for i, n in enumerate(grids)
     ]
     marks.append(Line2D([], [], color=GREY, marker="x", linestyle="", label="lines (MDR)"))
-    axes.legend(handles=marks, ncols=2, loc="lower center")
+    axes.legend(handles=marks, ncols=3, loc="lower center", columnspacing=1)
 
 
 def _label(panels):
@@ -113,4 +135,4 @@ def _label(panels):
     ratio.set(xscale="log", title="(c) the law over boundary elements", ylim=(0.8, 1.2), xlim=X_SHOWN)
     ratio.set(xlabel=r"$X = Ft/(4\eta hL)$", ylabel="$vt/h$ of the law over the mean")
     logarithmic_ticks(*panels[0], ratio)
-    panels[1, 1].set(title="(d) plateau of $g$", xlabel="Hurst exponent $H$", ylabel="$u$₀$/h$", ylim=(0.3, 0.6))
+    panels[1, 1].set(title="(d) plateau of $g$", xlabel="Hurst exponent $H$", ylabel="$u$₀$/h$", ylim=(0.2, 0.7))

@@ -2,6 +2,7 @@
 
 from viscorough_study.page import answers, content
 from viscorough_study.page.calculator import calculator as with_law
+from viscorough_study.page.discussion import QUANTITIES, discussion
 from viscorough_study.page.render import render
 from viscorough_study.page.results import read_results, readable
 from viscorough_study.robustness.failure_map import VERDICTS as OUTCOMES
@@ -60,6 +61,8 @@ def page(template, style, discs, lines, other_solvers, tables, figures, captions
         other=content.other_solvers(other_solvers),
         scenes=content.scenes(results),
         media=content.media(results),
+        literature=discussion(results),
+        quantities=QUANTITIES,
         measured=content.measured(results, results.settings["claims"]["conventions"]),
         choices=("automatic", "best by hand", "naive"),
         further=FURTHER,

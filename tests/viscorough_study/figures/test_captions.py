@@ -67,7 +67,7 @@ def drawn(discs, pooled, lines, scaling, combinations):
         "fig4_exponent": Drawn(plot_exponent(scaling, SHOWN, (0.4, 1.0))),
         "conventions": Drawn(plot_conventions(scaling, SHOWN), {"Hurst exponent": 2}),
         "prefactors": Drawn(plot_prefactors(prefactors(scaling, BASE_SURFACES), SHOWN)),
-        "interface": Drawn(plot_interface(*tables.interface_tables_drawn(), SHOWN)),
+        "interface": Drawn(plot_interface(*tables.interface_tables_drawn(), tables.literature_table(), SHOWN)),
         "validation": Drawn(plot_validation(tables.validation_table()), {"quantity": 2}),
         "direct": Drawn(plot_direct_integration(tables.direct_table()), {"indenter": 2}),
         "reduction": Drawn(plot_mdr_comparison(tables.mdr_table())),

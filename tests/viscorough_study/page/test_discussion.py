@@ -1,0 +1,37 @@
+"""What others found, as the page shows it."""
+
+from support.figures import literature_table
+from viscorough_study.page.discussion import KNOWN, discussion
+from viscorough_study.page.results import Number, Results
+
+
+def shown(**changes):
+    table = literature_table().assign(place="here", when="before", statement="it is so", sure="abstract", read="there")
+    return discussion(Results({"literature": table.assign(**changes)}, {}, {}))
+
+
+def test_numbers_of_others_stand_beside_ours():
+    rows = shown()["quantities"]["u0"]
+    assert [row["hurst"] for row in rows] == [0.4, 0.9]
+    assert rows[1]["value"] == Number(0.5, "literature", 1, "value")
+    law, same = rows[1]["theirs"]
+    assert law == ("One 2007", *(Number(value, "literature", 1, f"theirs_{end}") for end, value in ENDS.items()))
+    assert same[0] == "One et al. 2013"
+    assert same[1] == Number(0.4, "literature", 3, "theirs_low")
+
+
+def test_who_only_quotes_a_number_is_said():
+    assert shown(sure="quoted")["quantities"]["u0"][0]["theirs"][0][0] == "One 2007, as quoted"
+
+
+def test_every_source_is_listed_once_with_how_it_is_known():
+    sources = shown()["sources"]
+    assert [one["cited"] for one in sources] == ["One 2007", "One et al. 2013", "Five 2011"]
+    assert {one["known"] for one in sources} == {KNOWN["abstract"]}
+
+
+def test_quantities_without_values_are_left_out():
+    assert shown(hurst=float("nan"))["quantities"] == {}
+
+
+ENDS = {"low": 0.41, "high": 0.46}  # of the law at H = 0.9

@@ -39,7 +39,7 @@ def plot_sizes(table, conventions):
     looks = hurst_looks(table.loc[table["case_group"] == "sizes", "hurst"])
     letters = iter("abcd")
     for row, rule in zip(panels, rules, strict=True):
-        window = "region (b)" if rule == conventions["window_rule"] else rule
+        window = "region (b)" if rule == conventions["window_rule"] else rule.replace("X =", "$X$ =")
         for axes, source, name in zip(row, ("discs", "lines"), ("boundary elements", "MDR"), strict=True):
             _panel(axes, table, conventions | {"window_rule": rule}, source, looks)
             axes.set_title(f"({next(letters)}) {name}, {_realizations(table, source)}, {window}")

@@ -20,7 +20,7 @@ def test_a_marker_for_every_ensemble_with_a_fit():
     expected = [[0.01, *moving], moving, [0.35] * 6, [0.35] * 6]
     assert [shown(axes) for axes in figure.axes] == expected
     assert "4 to 8 discs" in figure.axes[0].get_title()
-    assert "X = 0.01 to 0.1" in figure.axes[3].get_title()
+    assert "$X$ = 0.01 to 0.1" in figure.axes[3].get_title()
     assert len(plot_sizes(table[table["window_rule"] == "default"], SHOWN).axes) == 2
     with pytest.raises(ValueError, match="plot_sizes: the table has no rows"):
         plot_sizes(table[:0], SHOWN)

@@ -55,7 +55,7 @@ NEEDED = {
     "number_low": ("lower end of its 95 % interval over realizations", "1"),
     "number_high": ("upper end of its 95 % interval over realizations", "1"),
     "finest": COLUMNS["finest"],
-    "extrapolated": ("1 if that is finer than all grids computed", "1"),
+    "extrapolated": ("1 if that is finer or coarser than all grids computed", "1"),
 }
 
 
@@ -159,5 +159,6 @@ def _needed(found, of_hurst, hurst):
             number = finest.number * (begin / start) ** (-1 / (1 + hurst))
         low, high = _interval(number[1:])
         values = {"error": error, "number": number[0], "number_low": low, "number_high": high}
-        rows.append(values | {"finest": finest.number, "extrapolated": int(number[0] > finest.number)})
+        inside = of_hurst[0].number <= number[0] <= finest.number
+        rows.append(values | {"finest": finest.number, "extrapolated": int(not inside)})
     return rows

@@ -60,8 +60,9 @@ def gap_on_set(gap_change, initial_gap, places, gap):
     largest = 0.0
     for t in range(places.size):
         i = places[t]
-        gap[i] = gap_change[i] + initial_gap[i]
-        largest = max(largest, abs(gap[i]))
+        value = gap_change[i] + initial_gap[i]
+        gap[i] = value
+        largest = max(largest, abs(value))
     return largest
 
 
@@ -75,10 +76,11 @@ def largest_overlap(gap_change, initial_gap):
 
 
 @njit(nogil=True)
-def largest_on_set(field, places):
-    """Largest magnitude of a field on the set."""
+def gather_on_set(field, places, gathered):
+    """Store a field on the set in the flat field `gathered`; returns its largest magnitude there."""
     largest = 0.0
     for t in range(places.size):
+        gathered[places[t]] = field[places[t]]
         largest = max(largest, abs(field[places[t]]))
     return largest
 
@@ -107,14 +109,19 @@ def energies(
 
 
 @njit(nogil=True)
-def predict(predicted, predicted_change, inside, depth_step, pressure, tangent, gap_change, tangent_gap):
-    """Store P + Δu q in `predicted`, whether it is not zero in `inside`, and e − g + Δu e_q in `predicted_change`.
+def predict(
+    predicted, predicted_change, inside, depth_step, early_step, pressure, tangent, gap_change, tangent_gap, initial_gap
+):  # fmt: skip
+    """Store P + Δu q in `predicted`, e − g + Δu e_q in `predicted_change`, and the first contact set in `inside`.
+
+    early_step : step of the depth within which elements that are in the first set touch
 
     Elements under tension are inside, too; they leave later.
     """
     for i in range(pressure.size):
         predicted[i] = pressure[i] + depth_step * tangent[i]
-        inside[i] = predicted[i] != 0
+        touches = gap_change[i] + early_step * tangent_gap[i] + initial_gap[i] < 0
+        inside[i] = touches | (predicted[i] != 0)
         predicted_change[i] = gap_change[i] + depth_step * tangent_gap[i]
 
 
@@ -200,18 +207,15 @@ def step_and_find_tension(length, direction, pressure, inside, places, slots, fi
 
     Returns the indices in the set of the elements under tension.
     """
-    count = 0
+    released, count = np.empty(places.size, np.int64), 0
     for t in range(places.size):
-        direction[slots[t]] *= length
-        pressure[places[t]] += direction[slots[t]]
-        inside[places[t]] = pressure[places[t]] >= 0
-        count += not inside[places[t]]
-    released = np.empty(count, np.int64)
-    for t in range(places.size - 1, -1, -1):
-        if not inside[places[t]]:
-            count -= 1
-            released[count] = first + t
-    return released
+        i, change = places[t], direction[slots[t]] * length
+        direction[slots[t]] = change
+        pressure[i] += change
+        inside[i] = pressure[i] >= 0
+        released[count] = first + t  # overwritten unless under tension, which takes less time than a branch
+        count += not inside[i]
+    return released[:count]
 
 
 @njit(nogil=True)

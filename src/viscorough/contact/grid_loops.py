@@ -26,8 +26,8 @@ class GridLoops:
     def gap_on_set(self, gap_change, initial_gap, places, gap):
         return max(self._over(places, lambda i, j: kernels.gap_on_set(gap_change, initial_gap, places[i:j], gap)))
 
-    def largest_on_set(self, field, places):
-        return max(self._over(places, lambda i, j: kernels.largest_on_set(field, places[i:j])))
+    def gather_on_set(self, field, places, gathered):
+        return max(self._over(places, lambda i, j: kernels.gather_on_set(field, places[i:j], gathered)))
 
     def has_tension(self, pressure, places):
         return any(self._over(places, lambda i, j: kernels.has_tension(pressure, places[i:j])))
@@ -76,10 +76,10 @@ class GridLoops:
     def largest_overlap(self, gap_change, initial_gap):
         return max(self._over(gap_change, lambda i, j: kernels.largest_overlap(gap_change[i:j], initial_gap[i:j])))
 
-    def predict(self, predicted, predicted_change, inside, depth_step, *fields):
+    def predict(self, predicted, predicted_change, inside, depth_step, early_step, *fields):
         def predict(i, j):
             stored = predicted[i:j], predicted_change[i:j], inside[i:j]
-            kernels.predict(*stored, depth_step, *(field[i:j] for field in fields))
+            kernels.predict(*stored, depth_step, early_step, *(field[i:j] for field in fields))
 
         self._over(predicted, predict)
 

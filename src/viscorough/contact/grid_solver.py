@@ -1,10 +1,10 @@
 """Contact on the grid: preconditioned conjugate gradients on a contact set that shrinks to that of the solution.
 
-The initial set is the last contact set and every element that overlaps the surface after the predictor P + Δu q. It
-contains the set of the solution: between the two depths the contact grows, so that the surface outside it deflects
-further than predicted. From the unloaded state it is a smaller set, which others join. Elements that come under tension
-leave the set. The operator gives the deflection K d of a search direction d on the whole grid, and thus the gap
-everywhere at no further cost.
+The initial set is the last contact set and the elements that overlap the surface after the predictor P + Δu q, except
+those that would touch late in the step. With these it would contain the set of the solution: between the two depths the
+contact grows, so that the surface outside it deflects further than predicted. Elements under tension leave the set, and
+elements that overlap the surface join it. The operator gives the deflection K d of a search direction d on the whole
+grid, and thus the gap everywhere at no further cost.
 
 While elements leave, the length of a step is fixed in units of the preconditioned residual, so that one application of
 the operator serves both the step and the removal of these elements; afterwards steps are those of conjugate gradients.
@@ -30,9 +30,9 @@ from viscorough.contact.state import BoundedField, ContactSet, ContactState, Gri
 from viscorough.contact.tangent_start import Loads, initial_tangent
 from viscorough.errors import ConvergenceError
 
-# From the unloaded state, elements are in the first set whose overlap with the undeformed surface exceeds this share of
-# the depth: the surface will sink by about as much below the others, which join during the iterations if it does not.
-_FIRST_OVERLAP = 0.5
+# Elements are not in the first set that would touch in the last part of the step, since the load of those that join
+# before bends the surface away from them: this share of a step from the unloaded state, and less of smaller steps.
+_LATE = 0.5
 # The release step is halved after every so many of them: a safeguard against cycles where the preconditioner is poor.
 _HALVE_STEP_EVERY = 20
 # Largest relative error of q in the energy norm; its square is the relative error of the stiffness.
@@ -91,7 +91,7 @@ class GridSolver:
         self.place = np.where(in_box, place, whole_number(0))
         self.initial_gap = np.full((rows + 2 * REACH) * self._width, _OUTSIDE, dtype=self._precision)
         self.initial_gap[self.place[in_box]] = initial_gap[in_box]
-        self._gap = np.zeros_like(self.initial_gap)  # e on the contact set, as last computed
+        self._residual = np.zeros(self.initial_gap.size, dtype=np.float32)  # e or e_q on the set, as last computed
         of_grid = {"aspect": aspect, "precision": np.float32, "threads": threads}
         self._preconditioner = Preconditioner(rows + 2 * REACH, self._width, options.preconditioner, **of_grid)
 
@@ -117,19 +117,17 @@ class GridSolver:
         before, last_depth = self._start_fields(contact), contact.reduced_depth
         depth_step = depth - last_depth
         pressure, change, inside = self._zeros(), self._zeros(), self._zeros(bool)
-        fields = before.pressure, before.tangent, before.gap_change.values, before.tangent_gap.values
-        step = self._precision(depth_step)
-        self._loops.predict(*map(self._inner_rows, (pressure, change, inside)), step, *map(self._inner_rows, fields))
+        steps = [self._precision(step) for step in (depth_step, depth_step * (1 - _LATE * depth_step / depth))]
+        fields = before.pressure, before.tangent, before.gap_change.values, before.tangent_gap.values, self.initial_gap
+        self._loops.predict(*map(self._inner_rows, (pressure, change, inside)), *steps, *map(self._inner_rows, fields))
         rounding = before.gap_change.rounding + depth_step * before.tangent_gap.rounding + self._field_rounding * depth
         change = BoundedField(change, rounding)
-        self._add_penetrating_elements(change, inside, 0.0 if contact.count else _FIRST_OVERLAP * depth)
         contact_set = self._solve_pressure(pressure, change, inside, depth)
         now, last = Loads(pressure, change, depth), Loads(before.pressure, before.gap_change, last_depth)
         tangent, tangent_gap = initial_tangent(now, last, before, contact_set, self._inner, self._loops)
         self._solve_tangent(contact_set, tangent, tangent_gap)
-        fields = GridFields(
-            contact_set.inside, pressure, change, tangent, tangent_gap, self.initial_gap, self.place
-        )  # fmt: skip
+        solution = contact_set.inside, pressure, change, tangent, tangent_gap
+        fields = GridFields(*solution, self.initial_gap, self.place)
         return self._state(contact.units, depth, fields, contact_set)
 
     def settled(self, contact, depth, pressure_sum):
@@ -166,9 +164,9 @@ class GridSolver:
     def _state(self, units, depth, fields, contact_set):
         """The ContactState of GridFields at a reduced depth."""
         places, change, tangent = contact_set.places, fields.gap_change, fields.tangent
-        largest = self._loops.gap_on_set(change.values, self.initial_gap, places, self._gap)
+        largest = self._loops.gap_on_set(change.values, self.initial_gap, places, self._residual)
         overlap = self._loops.largest_overlap(self._inner_rows(change.values), self._inner_rows(self.initial_gap))
-        correction = self._loops.inner_product(tangent, self._gap, places)
+        correction = self._loops.inner_product(tangent, self._residual, places)
         tangent_correction = self._loops.inner_product(tangent, fields.tangent_gap.values, places)
         return ContactState(
             units=units,
@@ -201,11 +199,14 @@ class GridSolver:
             if changed:
                 contact_set = self._contact_set(inside)
                 tension = self._loops.has_tension(pressure, contact_set.places)
-            largest = self._loops.gap_on_set(change.values, self.initial_gap, contact_set.places, self._gap)
+            largest = self._loops.gap_on_set(change.values, self.initial_gap, contact_set.places, self._residual)
             # Residual and rounding error together must not exceed the limit. Where the rounding error takes most of it,
             # the gap is recomputed as soon as it is no larger than its rounding error.
             close_enough = max(limit - change.rounding, change.rounding)
             if largest <= close_enough and not tension:
+                changed = self._add_penetrating_elements(change, inside, close_enough) > 0
+                if changed:
+                    continue
                 if change.rounding <= 0.5 * limit:
                     return contact_set
                 exact = self._gap_change(pressure, depth)
@@ -215,7 +216,7 @@ class GridSolver:
                 continue
             if changed:
                 search = ConjugateGradients(self._halfspace, self._preconditioner, contact_set, self._loops)
-            search.precondition(self._gap)
+            search.precondition(self._residual)
             search.update_direction()
             change.rounding += self._rounding * largest + self._field_rounding * depth
             release_step = self._options.release_step * 0.5 ** (releases // _HALVE_STEP_EVERY)
@@ -234,7 +235,8 @@ class GridSolver:
         accepted = max(_TANGENT_ROUNDING * self._tolerance, self._exact_rounding + self._field_rounding)
         search = ConjugateGradients(self._halfspace, self._preconditioner, contact_set, self._loops)
         for _ in range(self._options.max_iterations):
-            norm = search.precondition(tangent_gap.values)
+            largest = self._loops.gather_on_set(tangent_gap.values, contact_set.places, self._residual)
+            norm = search.precondition(self._residual)
             # The error of Σq is e_qᵀ K⁻¹ e_q, which is at most e_qᵀ M e_q / LEAST_EIGENVALUE.
             total = self._loops.total(tangent, contact_set.places)
             error = np.sqrt(norm / (LEAST_EIGENVALUE * total)) if total > 0 else np.inf
@@ -246,7 +248,6 @@ class GridSolver:
                 search = ConjugateGradients(self._halfspace, self._preconditioner, contact_set, self._loops)
                 continue
             search.update_direction()
-            largest = self._loops.largest_on_set(tangent_gap.values, contact_set.places)
             tangent_gap.rounding += self._rounding * largest + self._field_rounding
             search.step(tangent, tangent_gap.values)
         raise self._not_converged(contact_set, error, tolerance)
@@ -283,9 +284,8 @@ class GridSolver:
         return deflection
 
     def _add_penetrating_elements(self, change, inside, limit):
-        return self._loops.add_penetrating_elements(
-            *map(self._inner_rows, (change.values, self.initial_gap, inside)), limit
-        )  # fmt: skip
+        fields = map(self._inner_rows, (change.values, self.initial_gap, inside))
+        return self._loops.add_penetrating_elements(*fields, limit)
 
     def _zeros(self, dtype=None):
         """A flat field of zeros, whose memory is taken by whatever loop fills it, on the threads of that loop."""

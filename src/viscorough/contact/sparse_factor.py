@@ -135,7 +135,7 @@ def _next_run(active, first):
 def _sum_squares(first_row, last_row, factor, unit, height, sides, squares):
     """Store Σ of the squares of the row sums of G in every block, for some rows of blocks."""
     for block_row in range(first_row, last_row):
-        total = np.zeros(factor.shape[2])
+        total = np.full(factor.shape[2], 0 * unit)
         for row in range(block_row * sides[0], min((block_row + 1) * sides[0], height)):
             sums = factor[row + REACH, -1]
             for j in range(sums.size):

@@ -85,7 +85,8 @@ def test_extremes_are_found_in_every_block(loops, field, places, slots, which):
     change[places[which]] = -100.0
     assert loops.gap_on_set(change, initial_gap, places, gap) == abs(-100.0 + initial_gap[places[which]])
     np.testing.assert_array_equal(gap[places], (change + initial_gap)[places])
-    assert loops.largest_on_set(change, places) == 100.0
+    assert loops.gather_on_set(change, places, gap) == 100.0
+    np.testing.assert_array_equal(gap[places], change[places])
     assert loops.largest_overlap(change, initial_gap) == 100.0 - initial_gap[places[which]]
 
     pressure, direction = abs(field()), np.zeros(ROWS * STRIDE)
@@ -124,12 +125,16 @@ def test_fields(loops, field):
     pressure, tangent, change, tangent_gap, last, last_change = (field() for _ in range(6))
     pressure[::7] = tangent[::7] = 0
     predicted, predicted_change, inside = np.zeros(SIZE), np.zeros(SIZE), np.zeros(SIZE, bool)
-    loops.predict(predicted, predicted_change, inside, 0.2, pressure, tangent, change, tangent_gap)
+    initial_gap = field()
+    steps, fields = (0.2, 0.1), (pressure, tangent, change, tangent_gap, initial_gap)
+    loops.predict(predicted, predicted_change, inside, *steps, *fields)
     np.testing.assert_allclose(predicted, pressure + 0.2 * tangent, rtol=1e-14, atol=1e-15)
     np.testing.assert_allclose(predicted_change, change + 0.2 * tangent_gap, rtol=1e-14, atol=1e-15)
-    np.testing.assert_array_equal(inside, np.arange(SIZE) % 7 > 0)
+    touching = change + 0.1 * tangent_gap + initial_gap < 0
+    assert touching[::7].any()
+    np.testing.assert_array_equal(inside, touching | (np.arange(SIZE) % 7 > 0))
 
-    initial_gap, before = field(), inside.copy()
+    before = inside.copy()
     joining = (change + initial_gap < -0.5) & ~before
     assert loops.add_penetrating_elements(change, initial_gap, inside, 0.5) == np.count_nonzero(joining)
     np.testing.assert_array_equal(inside, before | joining)

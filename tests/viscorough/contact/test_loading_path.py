@@ -7,6 +7,7 @@ from scipy.optimize import nnls
 from viscorough import reference
 from viscorough.contact.halfspace import influence_coefficient
 from viscorough.contact.loading_path import indent
+from viscorough.contact.one_contact import contact_at
 from viscorough.contact.options import SolverOptions
 from viscorough.contact.solver import ContactSolver
 from viscorough.errors import ConvergenceError
@@ -359,3 +360,15 @@ def test_elements_of_one_height_give_a_straight_curve_from_the_origin(depths):
     depth, stiffness = curve.at_force(curve.force[0] * np.array([0.01, 0.5]))
     np.testing.assert_allclose(depth, curve.depth[0] * np.array([0.01, 0.5]), rtol=1e-12)
     np.testing.assert_array_equal(stiffness, curve.stiffness[0])
+
+
+def test_an_element_that_touches_late_in_a_step_joins_even_where_nothing_else_is_left_to_do():
+    heights = np.zeros((9, 9))
+    heights[4, 4] = -1.0  # until this pit touches, the tangent leads to the solution
+    pit = Indenter(heights, 1.0)
+    gap_rate = (contact_at(pit, depth=0.1, tolerance=1e-6).gap[4, 4] - 1.0) / 0.1
+    touch = -1.0 / gap_rate
+    on_grid = SolverOptions(dense_contacts=0, dense_interactions=0)
+    curve = indent(pit, depths=[0.5 * touch, 1.05 * touch], options=on_grid)
+    np.testing.assert_array_equal(curve.contact_count, [80, 81])
+    assert curve.residual[-1] <= 1e-3

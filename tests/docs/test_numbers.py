@@ -15,7 +15,7 @@ from support.documentation import README, ROOT, read
 from support.study import CLAIMS
 from viscorough.reference import exponent_beta
 from viscorough_study.performance.cost_growth import fit_cost, median_costs
-from viscorough_study.verdicts import markdown
+from viscorough_study.verdicts import markdown, overall
 
 VERDICTS = ROOT / "docs/verdicts.md"
 TABLE = pd.read_csv(ROOT / "docs/claims.csv")
@@ -280,3 +280,13 @@ def test_every_published_file_is_made_by_a_rule_or_a_benchmark():
         assert re.search(rf"^{command}:", read(ROOT / "Makefile"), re.MULTILINE)
         for name in names:
             assert f"results/{name}" in made, name
+
+
+def test_verdicts_under_several_root_seeds():
+    """The file of verdicts belongs to the tables beside it, and no verdict changes with the seed."""
+    seeds = json.loads(read(ROOT / "docs/seeds.json"))
+    tables = pd.read_csv(ROOT / "docs/seeds.csv", keep_default_na=False, na_values=[""]).groupby("seed")
+    assert {str(seed): overall(table) for seed, table in tables} == seeds["verdicts"]
+    assert len(seeds["verdicts"]) == 3
+    assert seeds["moved"] == {}
+    assert all(list(verdicts) == list(CLAIMS) for verdicts in seeds["verdicts"].values())

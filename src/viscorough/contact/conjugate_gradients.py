@@ -15,8 +15,8 @@ class ConjugateGradients:
     def __init__(self, halfspace, preconditioner, contact_set, loops):
         self._halfspace, self._preconditioner, self._set, self._loops = halfspace, preconditioner, contact_set, loops
         preconditioner.prepare(contact_set.inside, contact_set.places.size)
-        halfspace.load[:] = 0
         self._direction = halfspace.load.ravel()  # a view: the direction is the operator's load
+        loops.clear(self._direction)
         self._norm, self._last_norm = np.nan, np.inf
 
     def precondition(self, gap):

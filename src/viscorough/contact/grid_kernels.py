@@ -144,15 +144,6 @@ def combine(
         tangent_gap[i] = deflection + tangent_weight * last_tangent_gap[i] + shift
 
 
-@njit(nogil=True)
-def any_left(before, after):
-    """Whether any place of a set is not in another one."""
-    left = 0
-    for i in range(before.size):
-        left += before[i] & ~after[i]
-    return left > 0
-
-
 @njit(fastmath=True, nogil=True)
 def update_gap(length, deflection, gap):
     """e − g, or e_q, += α K d everywhere, in place."""

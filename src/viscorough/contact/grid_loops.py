@@ -63,12 +63,12 @@ class GridLoops:
     def contact_places(self, inside, width, stride):
         """Places in contact, and their indices in the load array, as int32, or int64 where these are too large."""
         whole_number = np.int32 if inside.size // width * max(width, stride) < 2**31 else np.int64
-        ends = np.cumsum(self._over(inside, lambda i, j: np.count_nonzero(inside[i:j])))
-        places, slots = np.empty((2, ends[-1]), whole_number)
+        stops, counts = zip(*self._over(inside, lambda i, j: (j, np.count_nonzero(inside[i:j]))), strict=True)
+        ends = dict(zip(stops, np.cumsum(counts), strict=True))
+        places, slots = np.empty((2, ends[inside.size]), whole_number)
 
         def store(i, j):
-            end = ends[i // BLOCK] if inside.size > BLOCK else ends[0]
-            kernels.contact_places(inside, i, j, width, stride, end, places, slots)
+            kernels.contact_places(inside, i, j, width, stride, ends[j], places, slots)
 
         self._over(inside, store)
         return places, slots
@@ -89,8 +89,17 @@ class GridLoops:
 
         self._over(tangent, combine)
 
-    def any_left(self, before, after):
-        return any(self._over(before, lambda i, j: kernels.any_left(before[i:j], after[i:j])))
+    def difference(self, inside, other):
+        """Places of a set that are not in another one."""
+        return np.concatenate(self._over(inside, lambda i, j: i + np.flatnonzero(inside[i:j] > other[i:j])))
+
+    def lowest(self, field):
+        """Lowest value of a field."""
+        return min(self._over(field, lambda i, j: field[i:j].min()))
+
+    def clear(self, field):
+        """Set a field to zero, in place."""
+        self._over(field, lambda i, j: field[i:j].fill(0))
 
     def update_gap(self, length, deflection, gap):
         rows, columns = deflection.shape

@@ -125,7 +125,8 @@ def _spectrum(rows, columns, aspect, padding, threads):
         part /= np.prod(lengths)
 
     for transform, size, other in ((transform_columns, column.size, row.size), (transform_rows, row.size, column.size)):
-        run_blocks(transform, size, threads, max(BLOCK // other // _ROWS_AT_ONCE, 1) * _ROWS_AT_ONCE)
+        block = max(BLOCK // other // _ROWS_AT_ONCE, 1) * _ROWS_AT_ONCE
+        run_blocks(transform, size, threads, block, _ROWS_AT_ONCE)
     return lengths, spectrum
 
 
@@ -169,7 +170,7 @@ class _RowTransforms:
                 padded[: stop - start, : self._columns] = data[start:stop, : self._columns]
                 ducc0.fft.r2c(self._fold(padded[: stop - start]), axes=[1], out=out[start:stop])
 
-        run_blocks(transform, len(data), self._threads, self._block)
+        run_blocks(transform, len(data), self._threads, self._block, _ROWS_AT_ONCE)
 
     def backward(self, data, out):
         """The inverse of `forward`, which overwrites `data`; the columns of `out` beyond the grid are undefined."""
@@ -185,7 +186,7 @@ class _RowTransforms:
                 self._inverse(data[start:stop], rows[: stop - start])
                 out[start:stop, : self._columns] = rows[: stop - start, : self._columns]
 
-        run_blocks(transform, len(data), self._threads, self._block)
+        run_blocks(transform, len(data), self._threads, self._block, _ROWS_AT_ONCE)
 
     def _inverse(self, data, out):
         ducc0.fft.c2r(data, axes=[1], forward=False, lastsize=self._shape[0], out=self._fold(out))

@@ -24,14 +24,18 @@ def require_threads(name, threads):
         raise ValueError(f"{name}: threads must be a whole number from 1 to {MOST_THREADS}, not {threads!r}")
 
 
-def run_blocks(function, size, threads, block=BLOCK):
+def run_blocks(function, size, threads, block=BLOCK, multiple=1):
     """Call function(start, stop) for every block of range(size), on so many threads; returns its results in order.
 
     function : releases the interpreter's lock while it computes, and writes to no entry that another block reads
-    block : entries of a block, the last of which may have fewer
+    block : largest number of entries of a block, itself a multiple of `multiple`
+    multiple : of which the numbers of entries of all blocks but the last one are multiples
     """
     if size <= block:
         return [function(0, size)]
+    # An even number of blocks of equal size: two threads take the same time even where there are few.
+    count = -(-size // (2 * block)) * 2
+    block = -(-size // (count * multiple)) * multiple
     starts = range(0, size, block)
     results, remaining = [None] * len(starts), iter(enumerate(starts))
 

@@ -28,6 +28,7 @@ import scipy.linalg
 
 from viscorough.compilation import njit
 from viscorough.contact.halfspace import influence_coefficient
+from viscorough.contact.parallel import run_blocks
 from viscorough.contact.sparse_factor import BEFORE, NEIGHBOURS, REACH, SparseFactor
 
 # Lower bound of the eigenvalues of M K (tests/viscorough/contact/test_preconditioner.py).
@@ -40,6 +41,8 @@ _BEFORE_BLOCK = [(-1, -1), (-1, 0), (-1, 1), (0, -1)]
 _SIDE, _RATIO, _DENSE = 8, 4, 9
 # Share of the elements that may join or leave the set before the coarse levels are prepared again.
 _OUTDATED = 0.02
+# Blocks that are factorised at a time by one thread.
+_FACTORISED_AT_ONCE = 1 << 13
 _TINY = np.finfo(float).tiny
 # K of a block on itself, times its side: less than 2.97, the mean over a uniformly loaded square, because G already
 # accounts for near neighbours.
@@ -63,7 +66,7 @@ def _rows(field, place, width):
     return field[place - 2 * width - REACH :], field[place - width - REACH :], field[place - REACH :]
 
 
-@njit
+@njit(nogil=True)
 def _factorise(amplitude, places, before, slots, kernel, rows, weights):
     """Store the rows of G for the matrix 1 + a K a between blocks in `rows`, zero on entry, and G a in `weights`.
 
@@ -153,7 +156,8 @@ class Preconditioner:
         sides = round(_SIDE / aspect**0.5), round(_SIDE * aspect**0.5)  # blocks about as long as wide
         self._factor = SparseFactor(height, width, sides, aspect, precision, threads)
         blocks = [n + 2 * REACH for n in self._factor.squares.shape]
-        self._coarser = _coarse_level(sides, aspect, *blocks) if kind == "multilevel" else _NoCorrection(*blocks)
+        grid = sides, aspect, *blocks, threads
+        self._coarser = _coarse_level(*grid) if kind == "multilevel" else _NoCorrection(*blocks)
         self._changed, self._scale = 0, np.zeros(blocks)
         self._squares, self._loads = np.zeros((2, *blocks))
 
@@ -194,20 +198,26 @@ class Preconditioner:
 class _ManyBlocks:
     """The approximate inverse of 1 + a K a on blocks; `squares`, those of a, must be set before `prepare`."""
 
-    def __init__(self, sides, aspect, height, width):
-        self._width = width
+    def __init__(self, sides, aspect, height, width, threads):
+        self._width, self._threads = width, threads
         self.squares, self._work = np.zeros((2, height * width))
         self._before = np.array(_BEFORE_BLOCK) @ [self._width, 1]
         self._slots = np.array([*map(BEFORE.index, _BEFORE_BLOCK), NEIGHBOURS])
         self._kernel = _coupling(sides, aspect, *np.transpose([*_BEFORE_BLOCK, (0, 0)]))
         self._blocks, blocks = _block_of_places(height, width, (_RATIO, _RATIO))
-        self._coarser = _coarse_level((_RATIO * sides[0], _RATIO * sides[1]), aspect, *blocks)
+        self._coarser = _coarse_level((_RATIO * sides[0], _RATIO * sides[1]), aspect, *blocks, threads)
         self.places = np.empty(0, dtype=int)
 
     def prepare(self):
         places = self.places = np.flatnonzero(self.squares)
         rows, weights, blocks = np.zeros((places.size, NEIGHBOURS + 1)), np.empty(places.size), self._blocks[places]
-        _factorise(np.sqrt(self.squares), places, self._before, self._slots, self._kernel, rows, weights)
+        amplitude = np.sqrt(self.squares)
+
+        def factorise(i, j):
+            of_grid = self._before, self._slots, self._kernel
+            _factorise(amplitude, places[i:j], *of_grid, rows[i:j], weights[i:j])
+
+        run_blocks(factorise, places.size, self._threads, _FACTORISED_AT_ONCE)
         _normalise(weights, blocks, self._coarser.squares)
         self._coarser.prepare()
         self._factor = places, rows, self._width, weights, blocks
@@ -252,10 +262,11 @@ class _NoCorrection:
         return residual[self.places]
 
 
-def _coarse_level(sides, aspect, height, width):
+def _coarse_level(sides, aspect, height, width, threads):
     """The grid level of blocks of sides[0] rows and sides[1] columns, on a flat grid of given height and width."""
     few = max(height, width) - 2 * REACH <= _DENSE
-    return _FewBlocks(sides, aspect, height, width) if few else _ManyBlocks(sides, aspect, height, width)
+    grid = sides, aspect, height, width
+    return _FewBlocks(*grid) if few else _ManyBlocks(*grid, threads)
 
 
 def _block_of_places(height, width, sides):

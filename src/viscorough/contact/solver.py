@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from viscorough.contact import dense
+from viscorough.contact.grid_loops import GridLoops
 from viscorough.contact.grid_solver import GridSolver
 from viscorough.contact.memory_demand import require_for_contact
 from viscorough.contact.options import DEFAULT
@@ -62,8 +63,8 @@ class ContactSolver:
 
     def __init__(self, indenter, tolerance, options=DEFAULT, threads=1):
         require_for_contact(indenter.heights, exact=tolerance < options.exact_gap_below)
-        self.elements, self.units = elements_of(indenter)
-        self.tolerance, self.options, self._threads = tolerance, options, threads
+        self.elements, self.units = elements_of(indenter, threads)
+        self.tolerance, self.options, self._threads, self._loops = tolerance, options, threads, GridLoops(threads)
         self._grid, self._reach, self._former_applications = None, 0, 0
 
     @property
@@ -169,7 +170,7 @@ class ContactSolver:
     def _checked(self, before, after):
         """The contact after a step, if it has no tension, a residual within the tolerance, and has only grown."""
         pressure = after.fields.pressure if after.fields else after.loads.pressure
-        if after.residual > self.tolerance or pressure.min() < 0:
+        if after.residual > self.tolerance or self._loops.lowest(pressure) < 0:
             raise ConvergenceError(
                 f"contact at depth {after.depth:g}: residual {after.residual:.1e} of the depth is above "
                 f"the tolerance {self.tolerance:g}; choose a larger tolerance"
@@ -188,7 +189,7 @@ class ContactSolver:
     def _lost_contact(self, before, after):
         """Number of elements that left the contact in a step, and the largest gap there, reduced."""
         if after.fields and before.fields and before.fields.place is after.fields.place:
-            lost = np.flatnonzero(before.fields.inside & ~after.fields.inside)
+            lost = self._loops.difference(before.fields.inside, after.fields.inside)
             return lost.size, after.fields.gap(lost).max(initial=0)
         kept = np.zeros(self.elements.count, dtype=bool)
         kept[after.members] = True

@@ -67,9 +67,9 @@ def _entries(aspect, precision):
     return entries, precision(unit)
 
 
-@njit
-def _renew(inside, changed, offsets, patterns, entries, factor):
-    """Renew the patterns and the rows of G where elements joined or left the set.
+@njit(nogil=True)
+def _renew(start, stop, inside, changed, offsets, patterns, entries, factor):
+    """Renew the patterns and the rows of G from place `start` to `stop` where elements joined or left the set.
 
     inside : the new contact set, flat field; changed : places of elements that joined or left
     offsets : from a place to its neighbours
@@ -80,6 +80,9 @@ def _renew(inside, changed, offsets, patterns, entries, factor):
             i = k
             if s < offsets.size:
                 i -= offsets[s]
+            if not start <= i < stop:
+                continue
+            if s < offsets.size:
                 patterns[i] ^= 1 << s
             if (i == k or inside[i]) and not patterns[i] & _RENEWED:
                 patterns[i] |= _RENEWED
@@ -265,18 +268,30 @@ class SparseFactor:
         """Change to another contact set, whether an element is in it, flat field; returns how many joined or left."""
 
         def changes(i, j):
-            return i + np.flatnonzero(inside[i:j] != self._inside[i:j])
+            changed = i + np.flatnonzero(inside[i:j] != self._inside[i:j])
+            self._inside[i:j] = inside[i:j]
+            return changed
 
         changed = np.concatenate(run_blocks(changes, inside.size, self._threads))
         if changed.size:
-            if changed.size * _COST_OF_CHANGE > inside.size:
-                members = inside.view(np.uint8)  # whose bits are shifted
-                self._over_rows(_renew_all, self._sides[0], members, self._patterns, self._entries, self._factor)
-            else:
-                _renew(inside, changed, self._offsets, self._patterns, self._entries, self._factor)
-            self._inside[:] = inside
-            self._over_rows(_sum_squares, self._factor, self._unit, self._height, self._sides, self.squares)
+            self._over_rows(self._renew, changed)
         return changed.size
+
+    def _renew(self, first_row, last_row, changed):
+        """Renew what depends on elements that joined or left the set, of some rows of blocks."""
+        width, side = self._factor.shape[2], self._sides[0]
+        start, stop = ((row * side + REACH) * width for row in (first_row, last_row))
+        # Rows of G depend on elements up to two rows of the grid above.
+        first, last = np.searchsorted(changed, (start - REACH * width - REACH, stop))
+        if first == last:
+            return
+        if (last - first) * _COST_OF_CHANGE > stop - start:
+            members = self._inside.view(np.uint8)  # whose bits are shifted
+            _renew_all(first_row, last_row, side, members, self._patterns, self._entries, self._factor)
+        else:
+            of_rows = changed[first:last], self._offsets, self._patterns, self._entries, self._factor
+            _renew(start, stop, self._inside, *of_rows)
+        _sum_squares(first_row, last_row, self._factor, self._unit, self._height, self._sides, self.squares)
 
     def restrict(self, residual):
         """Compute G r, which is kept, from a flat field r; returns Wᵀ G r by rows and columns of blocks.

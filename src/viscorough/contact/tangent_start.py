@@ -45,7 +45,7 @@ def _weights(now, last, before, contact_set, loops):
         (now.depth, last.depth), now.pressure, now.gap_change.values, last.pressure, last.gap_change.values,
         before.tangent, before.tangent_gap.values, places=contact_set.places,
     )  # fmt: skip
-    if loops.any_left(before.inside, contact_set.inside):
+    if loops.difference(before.inside, contact_set.inside).size:
         # An element left the contact, within the tolerance: fields that load it cannot be part of q.
         energy, sums = energy[:1, :1], sums[:1]
     scale = 1 / np.sqrt(np.maximum(np.diag(energy), np.finfo(float).tiny))

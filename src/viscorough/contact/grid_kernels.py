@@ -11,6 +11,7 @@ from viscorough.contact.preconditioner import REACH
 
 # Places of a field that are searched for those in contact at a time.
 _PLACES_AT_ONCE = 1024
+_TINY = 1e-30
 
 
 @njit(fastmath=True, nogil=True)
@@ -173,21 +174,13 @@ def update_search_direction(direction, preconditioned, factor, places, slots):
 
 
 @njit(nogil=True)
-def has_tension(pressure, places):
-    """Whether any pressure on the set is negative."""
-    lowest = 0.0
-    for t in range(places.size):
-        lowest = min(lowest, pressure[places[t]])
-    return lowest < 0
-
-
-@njit(nogil=True)
 def step_causes_tension(length, direction, pressure, places, slots):
     """Whether a step of that length would put any element under tension."""
-    lowest = 0.0
     for t in range(places.size):
-        lowest = min(lowest, pressure[places[t]] + length * direction[slots[t]])
-    return lowest < 0
+        stepped = pressure[places[t]] + length * direction[slots[t]]
+        if stepped < 0:
+            return True
+    return False
 
 
 @njit(nogil=True)
@@ -244,3 +237,30 @@ def add_penetrating_elements(gap_change, initial_gap, inside, limit):
             inside[i] = True
             joined += 1
     return joined
+
+
+@njit(nogil=True)
+def touch_sums(gap_change, initial_gap, tangent_gap, places, pressure, tangent, width, share):
+    """Sums over elements that join the contact in a step of the depth, of functions of where in it they touch.
+
+    An element touches at t = max(−e/e_q, Δu − P/q)/Δu, but from 0 to 1: e and e_q before the step, P and q after it.
+
+    gap_change, initial_gap, tangent_gap : flat fields before the step; places : of the elements in them
+    pressure, tangent : of the elements after the step
+    width : Δu
+    share : shares s of the step
+
+    Returns Σe_q², Σe_q² (1 − t) and, for every s, Σe_q² max(s − t, 0).
+    """
+    sums = np.zeros(2 + share.size)
+    for n in range(places.size):
+        i = places[n]
+        slope = min(np.float64(tangent_gap[i]), -_TINY)
+        gap = max(gap_change[i] + initial_gap[i], 0.0)
+        touch = max(-gap / slope, width - pressure[n] / max(tangent[n], _TINY)) / width
+        touch = min(max(touch, 0.0), 1.0)
+        sums[0] += slope * slope
+        sums[1] += slope * slope * (1.0 - touch)
+        for k in range(share.size):
+            sums[2 + k] += slope * slope * max(share[k] - touch, 0.0)
+    return sums

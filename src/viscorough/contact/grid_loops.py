@@ -29,9 +29,6 @@ class GridLoops:
     def gather_on_set(self, field, places, gathered):
         return max(self._over(places, lambda i, j: kernels.gather_on_set(field, places[i:j], gathered)))
 
-    def has_tension(self, pressure, places):
-        return any(self._over(places, lambda i, j: kernels.has_tension(pressure, places[i:j])))
-
     def step_causes_tension(self, length, direction, pressure, places, slots):
         step = length, direction, pressure
         return any(self._over(places, lambda i, j: kernels.step_causes_tension(*step, places[i:j], slots[i:j])))
@@ -57,6 +54,13 @@ class GridLoops:
     def energies(self, depths, *fields, places):
         parts = self._over(places, lambda i, j: kernels.energies(depths, *fields, places[i:j]))
         return [sum(part) for part in zip(*parts, strict=True)]
+
+    def touch_sums(self, gap_change, initial_gap, tangent_gap, places, pressure, tangent, width, share):
+        def sums(i, j):
+            of_elements = places[i:j], pressure[i:j], tangent[i:j]
+            return kernels.touch_sums(gap_change, initial_gap, tangent_gap, *of_elements, width, share)
+
+        return sum(self._over(places, sums))
 
     # Over flat fields.
 

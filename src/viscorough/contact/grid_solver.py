@@ -194,11 +194,10 @@ class GridSolver:
         Changes pressure, e − g and set in place. Returns the contact set.
         """
         limit = _SEARCH_SHARE * self._tolerance * depth
-        changed, releases = True, 0
+        changed, releases, tension = True, 0, self._loops.lowest(pressure) < 0
         for _ in range(self._options.max_iterations):
             if changed:
                 contact_set = self._contact_set(inside)
-                tension = self._loops.has_tension(pressure, contact_set.places)
             largest = self._loops.gap_on_set(change.values, self.initial_gap, contact_set.places, self._residual)
             # Residual and rounding error together must not exceed the limit. Where the rounding error takes most of it,
             # the gap is recomputed as soon as it is no larger than its rounding error.
@@ -223,7 +222,7 @@ class GridSolver:
             changed = search.step_causes_tension(release_step, pressure)
             if changed:
                 search.step_and_release(release_step, pressure, change.values, self._width)
-                releases += 1
+                releases, tension = releases + 1, False
             else:
                 tension = search.step(pressure, change.values)
             changed = self._add_penetrating_elements(change, inside, close_enough) > 0 or changed

@@ -125,7 +125,8 @@ class _LoadingPath:
     """The path from first contact to the contact fraction or force at which to stop; works in reduced units."""
 
     def __init__(self, solver, until_fraction, until_force, progress):
-        self._solver, self._control, self._progress = solver, StepControl(solver.tolerance), progress
+        self._solver, self._progress = solver, progress
+        self._control = StepControl(solver.tolerance, solver.threads)
         self._until_count = until_fraction * solver.elements.count
         # A little more, so that rounding does not leave the last level below the force.
         self._until_pressure_sum = (1 + ROUNDING) * until_force / solver.units.force

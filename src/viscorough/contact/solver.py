@@ -64,7 +64,7 @@ class ContactSolver:
     def __init__(self, indenter, tolerance, options=DEFAULT, threads=1):
         require_for_contact(indenter.heights, exact=tolerance < options.exact_gap_below)
         self.elements, self.units = elements_of(indenter, threads)
-        self.tolerance, self.options, self._threads, self._loops = tolerance, options, threads, GridLoops(threads)
+        self.tolerance, self.options, self.threads, self._loops = tolerance, options, threads, GridLoops(threads)
         self._grid, self._reach, self._former_applications = None, 0, 0
 
     @property
@@ -161,7 +161,7 @@ class ContactSolver:
                 reach, box = self.elements.count, (0, 0, rows, columns)
             self._former_applications, self._reach = self.operator_applications, reach
             self._grid = None  # its memory is free for the larger one
-            how = {"aspect": self.elements.aspect, "threads": self._threads}
+            how = {"aspect": self.elements.aspect, "threads": self.threads}
             if reach == self.elements.count:
                 self.elements.free_influence()  # contacts on the whole grid need no dense solutions
             self._grid = GridSolver(box, row, column, gap, self.tolerance, self.options, **how)

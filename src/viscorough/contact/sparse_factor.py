@@ -72,22 +72,18 @@ def _renew(start, stop, inside, changed, offsets, patterns, entries, factor):
     """Renew the patterns and the rows of G from place `start` to `stop` where elements joined or left the set.
 
     inside : the new contact set, flat field; changed : places of elements that joined or left
-    offsets : from a place to its neighbours
+    offsets : from a place to its neighbours, and to itself
     """
-    rows, count = np.empty(changed.size * (offsets.size + 1), changed.dtype), 0
+    rows, count = np.empty(changed.size * offsets.size, changed.dtype), 0
     for k in changed:
-        for s in range(offsets.size + 1):
-            i = k
-            if s < offsets.size:
-                i -= offsets[s]
-            if not start <= i < stop:
-                continue
-            if s < offsets.size:
-                patterns[i] ^= 1 << s
-            if (i == k or inside[i]) and not patterns[i] & _RENEWED:
-                patterns[i] |= _RENEWED
-                rows[count] = i
-                count += 1
+        for s in range(offsets.size):
+            i = k - offsets[s]
+            if start <= i < stop:
+                patterns[i] ^= (1 << s) & ~_RENEWED
+                if (i == k or inside[i]) and not patterns[i] & _RENEWED:
+                    patterns[i] |= _RENEWED
+                    rows[count] = i
+                    count += 1
     for i in rows[:count]:
         patterns[i] &= ~_RENEWED
         pattern = patterns[i]
@@ -256,7 +252,7 @@ class SparseFactor:
         self._height, self._sides = height - 2 * REACH, sides
         self._threads, self._rows_at_once = threads, -(-BLOCK // (sides[0] * width))
         self._entries, self._unit = _entries(aspect, precision)
-        self._offsets = np.array(BEFORE) @ [width, 1]
+        self._offsets = np.array([*BEFORE, (0, 0)]) @ [width, 1]
         self._inside = np.zeros(height * width, dtype=bool)
         self._patterns = np.zeros(height * width, dtype=np.uint16)
         self._factor = np.zeros((height, NEIGHBOURS + 2, width), dtype=self._entries.dtype)
@@ -274,23 +270,23 @@ class SparseFactor:
 
         changed = np.concatenate(run_blocks(changes, inside.size, self._threads))
         if changed.size:
-            self._over_rows(self._renew, changed)
+            self._over_rows(self._renew_rows, changed)
         return changed.size
 
-    def _renew(self, first_row, last_row, changed):
+    def _renew_rows(self, first_row, last_row, changed):
         """Renew what depends on elements that joined or left the set, of some rows of blocks."""
         width, side = self._factor.shape[2], self._sides[0]
         start, stop = ((row * side + REACH) * width for row in (first_row, last_row))
-        # Rows of G depend on elements up to two rows of the grid above.
-        first, last = np.searchsorted(changed, (start - REACH * width - REACH, stop))
+        # Rows of G depend on elements up to two rows of the grid before.
+        first, last = np.searchsorted(changed, (start - REACH * (width + 1), stop))
         if first == last:
             return
+        stored = self._patterns, self._entries, self._factor
         if (last - first) * _COST_OF_CHANGE > stop - start:
             members = self._inside.view(np.uint8)  # whose bits are shifted
-            _renew_all(first_row, last_row, side, members, self._patterns, self._entries, self._factor)
+            _renew_all(first_row, last_row, side, members, *stored)
         else:
-            of_rows = changed[first:last], self._offsets, self._patterns, self._entries, self._factor
-            _renew(start, stop, self._inside, *of_rows)
+            _renew(start, stop, self._inside, changed[first:last], self._offsets, *stored)
         _sum_squares(first_row, last_row, self._factor, self._unit, self._height, self._sides, self.squares)
 
     def restrict(self, residual):

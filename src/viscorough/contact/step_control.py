@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from viscorough.contact.grid_loops import GridLoops
 from viscorough.loading_curve import interpolate_levels
 
 # Smallest accuracy of interpolation that is offered: a smaller one would require every contact event as a level, as in
@@ -57,13 +58,14 @@ class StepControl:
     """Decides on the depths of successive levels for a given relative error of the interpolated depth.
 
     tolerance : the error allowed, not below FINEST_ACCURACY
+    threads : on which it computes
 
     min_ratio : smallest ratio of the depths of successive levels; a triangle of this width is flatter than the accuracy
     events : contact count up to which every contact event is a level
     """
 
-    def __init__(self, tolerance):
-        self._accuracy = max(tolerance, FINEST_ACCURACY)
+    def __init__(self, tolerance, threads=1):
+        self._threads, self._accuracy = threads, max(tolerance, FINEST_ACCURACY)
         self.min_ratio = 1 + self._accuracy
         self.events = int(min(_EVENTS_PER_ACCURACY / self._accuracy, _MAX_EVENTS))
 
@@ -83,7 +85,7 @@ class StepControl:
         bound = interpolation_bound(Level.of(before), Level.of(after)) / self._accuracy
         if not _NEGLIGIBLE_BOUND < bound < _RELAXED_BOUND:
             return bound  # the step is to be divided, or the next one much longer, in any case
-        is_smooth = _predicted_error(before, after) <= _PREDICTED_ERROR * self._accuracy
+        is_smooth = _predicted_error(before, after, self._threads) <= _PREDICTED_ERROR * self._accuracy
         return bound / _RELAXED_BOUND if is_smooth else bound
 
     def is_too_long(self, ratio, excess):
@@ -141,56 +143,56 @@ def interpolate(before, after, force):
     return interpolate_levels(*ends, force)[0]
 
 
-def _predicted_error(before, after):
+def _predicted_error(before, after, threads):
     """Relative error of interpolation between two contacts, predicted from the depths at which elements touch.
 
     Returns infinity where it cannot be predicted. The stiffness that an element adds is taken as proportional to e_q²,
     as for the first element to join, and their sum as the difference of the two tangent sums.
     """
-    touch, weight = _predicted_touches(before, after)
-    if touch.size < _PREDICTED_COUNT:
+    share = _POINTS[1::2]
+    count, weight, rise_by_weight, above_tangent = _predicted_touches(before, after, share, threads)
+    if count < _PREDICTED_COUNT:
         return np.inf
     width = after.reduced_depth - before.reduced_depth
-    added = after.tangent_sum - before.tangent_sum
+    added = (after.tangent_sum - before.tangent_sum) / weight
     rise = (after.pressure_sum - before.pressure_sum) / width - before.tangent_sum
-    predicted_rise = added * (weight @ (1 - touch))
+    predicted_rise = added * rise_by_weight
     if not 0 < _AGREEMENT[0] * predicted_rise <= rise <= _AGREEMENT[1] * predicted_rise:
         return np.inf
-    share = _POINTS[1::2]
-    above_tangent = added * (np.maximum(share[:, None] - touch, 0) @ weight) * rise / predicted_rise
+    above_tangent = added * above_tangent * rise / predicted_rise
     force = before.pressure_sum + width * (share * before.tangent_sum + above_tangent)
     depth = before.reduced_depth + width * share
     interpolated = interpolate(Level.of(before), Level.of(after), np.minimum(force, after.pressure_sum))
     return np.abs(interpolated / depth - 1).max()
 
 
-def _predicted_touches(before, after):
-    """Where in the interval between two contacts the elements that join touch, from 0 to 1, and weights of sum 1.
+def _predicted_touches(before, after, share, threads):
+    """Sums over the elements that join between two contacts, of functions of where they touch, from 0 to 1.
 
     The gap e of an element outside the contact is convex in the depth: it touches no earlier than at u₀ − e/e_q, with
     the gap and the tangent gap before. Its pressure is concave: it touches no earlier than at u₁ − P/q, with those
-    after. The later of the two predicts its touch closely. The weights are proportional to e_q².
+    after. The later of the two predicts its touch closely. The weights w are e_q².
+
+    share : shares s of the interval
+
+    Returns the number of elements, 0 where touches cannot be predicted, Σw, Σw (1 − touch) and Σw max(s − touch, 0).
     """
-    nothing = np.empty(0), np.empty(0)
     if before.fields is None:
-        return nothing
-    place, pressure, tangent = _new_elements(before.fields, after)
+        return 0, 0.0, 0.0, np.zeros(share.size)
+    place, pressure, tangent = _new_elements(before.fields, after, threads)
     if not place.all():  # place 0 is outside the grid of the contact before
-        return nothing
-    tangent_gap = np.minimum(before.fields.tangent_gap.values[place].astype(float), -_TINY)
-    gap = np.maximum(before.fields.gap(place).astype(float), 0)
+        return 0, 0.0, 0.0, np.zeros(share.size)
+    fields = before.fields.gap_change.values, before.fields.initial_gap, before.fields.tangent_gap.values
     width = after.reduced_depth - before.reduced_depth
-    from_before = -gap / tangent_gap / width
-    from_after = 1 - pressure / np.maximum(tangent, _TINY) / width
-    weight = tangent_gap**2
-    return np.clip(np.maximum(from_before, from_after), 0, 1), weight / weight.sum()
+    weight, rise, *above_tangent = GridLoops(threads).touch_sums(*fields, place, pressure, tangent, width, share)
+    return place.size, weight, rise, np.array(above_tangent)
 
 
-def _new_elements(before, after):
+def _new_elements(before, after, threads):
     """Elements that join a contact: their places on the grid of the GridFields before, and P and q after."""
     fields = after.fields
     if fields is not None and fields.place is before.place:
-        place = np.flatnonzero(fields.inside & ~before.inside)
+        place = GridLoops(threads).difference(fields.inside, before.inside)
         return place, fields.pressure[place].astype(float), fields.tangent[place].astype(float)
     loads = after.member_loads()
     place = before.place[loads.members]

@@ -79,6 +79,17 @@ def test_energies(loops, field, places):
     np.testing.assert_allclose(sums, loads.sum(axis=1), rtol=1e-9)
 
 
+def test_sums_over_elements_that_join(loops, field, places):
+    change, initial_gap, tangent_gap = field(), field(), field()
+    pressure, tangent, share = abs(field(places.size)), abs(field(places.size)), np.array([0.2, 0.7])
+    slope, gap = np.minimum(tangent_gap, -1e-30)[places], np.maximum(change + initial_gap, 0)[places]
+    touch = np.clip(np.maximum(-gap / slope / 0.4, 1 - pressure / tangent / 0.4), 0, 1)
+    assert np.mean((touch > 0) & (touch < 1)) > 0.05
+    expected = [slope @ slope, slope**2 @ (1 - touch), *(slope**2 @ np.maximum(s - touch, 0) for s in share)]
+    sums = loops.touch_sums(change, initial_gap, tangent_gap, places, pressure, tangent, 0.4, share)
+    np.testing.assert_allclose(sums, expected, rtol=1e-9)
+
+
 @pytest.mark.parametrize("which", [0, -1])
 def test_extremes_are_found_in_every_block(loops, field, places, slots, which):
     change, initial_gap, gap = field(), field(), np.zeros(SIZE)
@@ -90,22 +101,22 @@ def test_extremes_are_found_in_every_block(loops, field, places, slots, which):
     assert loops.largest_overlap(change, initial_gap) == 100.0 - initial_gap[places[which]]
 
     pressure, direction = abs(field()), np.zeros(ROWS * STRIDE)
-    assert not loops.has_tension(pressure, places)
+    assert loops.lowest(pressure) >= 0
     assert not loops.step_causes_tension(0.5, direction, pressure, places, slots)
     assert not loops.update_pressure(0.5, direction, pressure, places, slots)
     direction[slots[which]] = -100.0
     assert loops.step_causes_tension(0.5, direction, pressure, places, slots)
     assert loops.update_pressure(0.5, direction, pressure, places, slots)
-    assert loops.has_tension(pressure, places)
+    assert loops.lowest(pressure) == pressure[places[which]] < 0
 
 
 @pytest.mark.parametrize("which", [0, -1])
 def test_elements_that_left_are_found_in_every_block(loops, inside, places, which):
     after = inside.copy()
-    assert not loops.any_left(inside, after)
+    assert loops.difference(inside, after).size == 0
     after[places[which]] = False
-    assert loops.any_left(inside, after)
-    assert not loops.any_left(after, inside)
+    assert loops.difference(inside, after) == places[which]
+    assert loops.difference(after, inside).size == 0
 
 
 def test_steps_on_a_set(loops, field, places, slots):
@@ -119,6 +130,12 @@ def test_steps_on_a_set(loops, field, places, slots):
     expected[places] += 0.7 * direction[slots]
     loops.update_pressure(0.7, direction, pressure, places, slots)
     np.testing.assert_allclose(pressure, expected, rtol=1e-14, atol=1e-15)
+
+
+def test_a_field_is_cleared(loops, field):
+    cleared = field()
+    loops.clear(cleared)
+    assert not cleared.any()
 
 
 def test_fields(loops, field):

@@ -11,6 +11,7 @@ from viscorough.contact.halfspace import Halfspace
 from viscorough.contact.loading_path import indent
 from viscorough.contact.one_contact import contact_at
 from viscorough.contact.parallel import Buffers, run_blocks
+from viscorough.contact.state import elements_of
 from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
 
@@ -23,6 +24,18 @@ def test_blocks_cover_the_range_and_results_are_in_order(size, threads):
     blocks = run_blocks(lambda start, stop: (start, stop), size, threads, block=10)
     assert [i for start, stop in blocks for i in range(start, stop)] == list(range(size))
     assert all(stop - start <= 10 for start, stop in blocks)
+
+
+@pytest.mark.parametrize("size", [11, 25, 31, 95])
+def test_blocks_are_an_even_number_of_about_one_size(size):
+    sizes = run_blocks(lambda start, stop: stop - start, size, 1, block=10)
+    assert len(sizes) % 2 == 0
+    assert max(sizes) - min(sizes) < len(sizes)
+
+
+def test_blocks_are_multiples_but_for_the_last_one():
+    *sizes, _ = run_blocks(lambda start, stop: stop - start, 95, 2, block=12, multiple=4)
+    assert set(sizes) == {12}
 
 
 def test_blocks_run_at_the_same_time():
@@ -76,6 +89,16 @@ def test_the_half_space_is_the_same(shape, precision):
         results.append(halfspace.apply()[:, : shape[1]].copy())
     for result in results[1:]:
         np.testing.assert_array_equal(result, results[0])
+
+
+@pytest.mark.parametrize("digits", [2, 17])
+def test_elements_have_the_same_ranks(digits):
+    heights = np.random.default_rng(1).random((400, 400)).round(digits)  # where some are equal, and where none are
+    one, *others = (elements_of(Indenter(heights, 1.0), threads)[0] for threads in (*THREADS, 100))
+    assert np.all(np.diff(one.initial_gap) >= 0)
+    for other in others:
+        for name in ("row", "column", "initial_gap"):
+            np.testing.assert_array_equal(getattr(other, name), getattr(one, name))
 
 
 @pytest.fixture(scope="module")

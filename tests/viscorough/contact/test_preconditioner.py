@@ -111,6 +111,21 @@ def test_the_sparse_part_follows_the_set(share, precision):
     np.testing.assert_array_equal(followed.prolong(loads)[on_set], renewed.prolong(loads)[on_set])
 
 
+def test_threads_follow_the_set_in_their_parts_of_the_grid():
+    """Between parts, elements that join change rows of G of the next part; in the first part all rows are renewed."""
+    row = np.arange(600)[:, None]
+    random = np.random.default_rng(9).random((600, 600))
+    former = np.pad(random < 0.6, REACH)
+    inside = former ^ np.pad((random < 0.001) | (row < 250) & (random > 0.8), REACH)
+    followed, renewed = (SparseFactor(*inside.shape, (8, 8), 1.0, np.float32, threads) for threads in (3, 1))
+    followed.update(former.ravel())
+    followed.update(inside.ravel())
+    renewed.update(inside.ravel())
+    residual = np.random.default_rng(4).random(inside.size).astype(np.float32)
+    np.testing.assert_array_equal(followed.restrict(residual), renewed.restrict(residual))
+    np.testing.assert_array_equal(followed.squares, renewed.squares)
+
+
 def test_threads_do_not_change_a_bit():
     row, column = np.mgrid[:600, :600]
     inside = np.pad(

@@ -12,10 +12,12 @@ import pandas as pd
 from scipy import stats
 
 from viscorough import reference
-from viscorough_study.conventions import FITTED, NAMES, in_every_reading, left_open
+from viscorough_study.conventions import FITTED, NAMES, in_every_reading, left_open, of_source, select
 from viscorough_study.evidence import UNDEFINED, hurst_name, judged
 from viscorough_study.power_law import fit_power_law, in_window, log_means, percentile_interval
 from viscorough_study.region_criteria import combinations_case
+
+SHARE_OF_SQUARE = 0.75  # of its square, that a disc has at least on every grid
 
 
 def law_cases(evidence, tolerance, *, source, column, law, above=-1.0, **fixed):
@@ -164,13 +166,19 @@ def _slopes(ensemble, window):
 
 
 def alpha_limit(evidence, tolerance):
-    """β of lines at H = 1, where the paper calls the exponent exact."""
-    fits = evidence.fits("lines")
-    if 1.0 not in fits.index:
-        return [judged("H = 1, lines", UNDEFINED, 0.5, None)]
-    *values, number = fits.loc[1.0, ["beta", "beta_low", "beta_high", "realizations"]].tolist()
-    met = evidence.within(values, 0.5 - tolerance, 0.5 + tolerance, realizations=number)
-    return [judged("H = 1, lines", values, 0.5, met)]
+    """β at H = 1, where the paper calls the exponent exact: of lines, and of discs on the paper's grid."""
+    wanted = evidence.conventions | of_source("discs") | {"case_group": "sizes"}
+    discs = select(evidence.tables["sizes"], wanted).set_index("hurst")
+    discs = discs[discs["elements"] >= SHARE_OF_SQUARE * evidence.across**2].sort_values("elements", kind="stable")
+    cases = []
+    for source, fits in (("lines", evidence.fits("lines")), ("discs", discs)):
+        fit = fits[fits.index == 1.0].head(1)
+        *values, number = (
+            fit[["beta", "beta_low", "beta_high", "realizations"]].iloc[0] if len(fit) else (*UNDEFINED, 0)
+        )
+        met = evidence.within(values, 0.5 - tolerance, 0.5 + tolerance, realizations=number, cases=2)
+        cases.append(judged(f"H = 1, {source}", tuple(map(float, values)), 0.5, met))
+    return cases
 
 
 # ---- curves

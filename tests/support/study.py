@@ -110,6 +110,7 @@ def evidence(zeta=reference.zeta_elastic, **options):
             **mdr_tables(),
             "methods": pd.DataFrame(METHODS, columns=["method", "hurst", "elements", "value", "wall_s"]),
             "sizes_trends": pd.DataFrame(TRENDS, columns=["source", "window_rule", "hurst", *SLOPES]),
+            "sizes": scaling.query("source == 'discs'").assign(case_group="sizes", elements=round(0.778 * ACROSS**2)),
             "plateaus": pd.DataFrame(plateaus, columns=of_plateaus),
         },
         numbers=NUMBERS,

@@ -270,15 +270,20 @@ def test_interval_of_the_exponent_that_250_indentations_give():
     assert {case.verdict for case in realizations(found, 0.001)} == {"not reproduced"}
 
 
-def test_limit_of_the_exponent_needs_lines_of_that_exponent():
+def test_limit_of_the_exponent_needs_lines_and_discs_of_that_exponent():
     found = evidence()
-    assert alpha_limit(found, 0.015)[0].verdict == "undecided"
-    scaling = found.tables["scaling"]
-    rows = scaling[(scaling["source"] == "lines") & (scaling["hurst"] == 0.9)].assign(hurst=1.0, beta=0.5)
-    for half_width, verdict in ((0.01, "reproduced"), (0.02, "undecided")):
-        more = rows.assign(beta_low=0.5 - half_width, beta_high=0.5 + half_width)
-        found.tables["scaling"] = pd.concat([scaling, more], ignore_index=True)
-        assert alpha_limit(found, 0.015)[0].verdict == verdict
+    assert [case.verdict for case in alpha_limit(found, 0.015)] == ["undecided", "undecided"]
+    for number, (table, source) in enumerate((("scaling", "lines"), ("sizes", "discs"))):
+        known = found.tables[table]
+        rows = known[(known["source"] == source) & (known["hurst"] == 0.9)].assign(hurst=1.0, beta=0.5)
+        for half_width, verdict in ((0.01, "reproduced"), (0.02, "undecided")):
+            more = rows.assign(beta_low=0.5 - half_width, beta_high=0.5 + half_width)
+            found.tables[table] = pd.concat([known, more], ignore_index=True)
+            assert alpha_limit(found, 0.015)[number].verdict == verdict
+    coarse = more.assign(elements=more["elements"] / 4, beta=0.1, beta_low=0.1, beta_high=0.1)
+    finer = more.assign(elements=more["elements"] * 4, beta=0.1, beta_low=0.1, beta_high=0.1)
+    found.tables["sizes"] = pd.concat([coarse, finer, more], ignore_index=True)
+    assert alpha_limit(found, 0.015)[1].value == 0.5
 
 
 def test_time_is_compared_at_the_numbers_of_the_paper():

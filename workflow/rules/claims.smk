@@ -165,6 +165,7 @@ rule judge_claims:
         prefactors=rules.compare_prefactors.output.csv,
         zeta_laws=rules.compare_zeta_laws.output.csv,
         methods="results/tables/methods.csv",
+        sizes="results/tables/sizes.csv",
         sizes_trends="results/tables/sizes_trends.csv",
     output:
         csv="results/tables/claims.csv",

@@ -37,8 +37,7 @@ PUBLISHED = {
         *("figures/interface.png", "tables/interface.csv", "tables/interface_slopes.csv"),
         *("tables/validation.csv", "tables/direct.csv", "tables/reduction.csv", "tables/rule_costs.csv"),
         *("figures/reduction.png", "figures/mdr_lambda.png", "tables/mdr_lambda.csv", "tables/mdr_summary.csv"),
-        "tables/mdr_exponents.csv",
-        "tables/plateaus.csv",
+        *("tables/mdr_exponents.csv", "tables/plateaus.csv", "tables/literature.csv"),
     ),
     "speed": (
         *("figures/speed.png", "figures/all_methods.png", "figures/growth.png", "figures/other_solvers.png"),

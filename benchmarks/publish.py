@@ -68,6 +68,7 @@ KEPT = {
     },
     "seeds": {"seeds.json": "docs/seeds.json", "seeds.csv": "docs/seeds.csv"},
 }
+INTERFACE_QUANTITIES = {"whole": "*vt*/*h*", "interface": "*g*"}
 PICTURES = ("fig2_kinetics.png", "speed.png")  # which README.md shows: also in docs/
 
 
@@ -137,6 +138,26 @@ def speed_chart(project=ROOT):
     return f"![Speed against accuracy of the main methods](docs/speed.png)\n\n{caption}\n"
 
 
+def infinite_grid():
+    """Exponents of infinitely fine grids of docs/results/infinite_grid.csv, as a table in Markdown.
+
+    By Hurst exponent, with the correction to scaling, h over all waves of the spectrum; in brackets the least and the
+    largest end of the 95 % intervals in all ranges of X.
+    """
+    file = ROOT / "docs/results/infinite_grid.csv"
+    if not file.is_file():
+        return "Not published yet.\n"
+    table = pd.read_csv(file).query("law == 'corrected' and height == 'spectrum'")
+    columns = list(table.groupby(["source", "quantity"], sort=False))
+    names = [f"{source}, {INTERFACE_QUANTITIES[quantity]}" for (source, quantity), _ in columns]
+    lines = [f"| *H* | *H*/(1 + *H*) | {' | '.join(names)} |", "|---" * (2 + len(names)) + "|"]
+    for hurst, expected in table.drop_duplicates("hurst")[["hurst", "expected"]].itertuples(index=False):
+        fits = [rows.set_index("hurst").loc[hurst] for _, rows in columns]
+        cells = [f"{fit['beta']:.3f} [{fit['ranges_low']:.3f}, {fit['ranges_high']:.3f}]" for fit in fits]
+        lines.append(f"| {hurst:g} | {expected:.3f} | {' | '.join(cells)} |")
+    return "\n".join(lines) + "\n"
+
+
 def published_results(records):
     """What lies in docs/results/, in Markdown: for every command its origin, its figures, and links to its tables.
 
@@ -163,6 +184,7 @@ def write_tables():
     """Write what is between the marks of a table: in README.md and in pages of docs/."""
     tables = {("README.md", "verdicts"): verdict_lines(), ("docs/verdicts.md", "verdicts"): verdicts()}
     tables["docs/performance.md", "other solvers"] = other_solver_times()
+    tables["docs/scaling.md", "infinite grid"] = infinite_grid()
     tables["README.md", "speed chart"] = speed_chart()
     records = ROOT / "docs/results/published.json"
     known = json.loads(records.read_text(encoding="utf-8")) if records.is_file() else {}

@@ -112,6 +112,23 @@ def test_exponents():
     assert f"by {apart['H = 0.1']:.2f} and {apart['H = 0.4']:.2f}" in read(ROOT / "docs/verification.md")
 
 
+def test_grids_from_coarse_to_fine():
+    publish = load_benchmark("publish")
+    assert between_marks(ROOT / "docs/scaling.md", "infinite grid") == publish.infinite_grid()
+    limits = pd.read_csv(ROOT / "docs/results/infinite_grid.csv").query("law == 'corrected' and height == 'spectrum'")
+    discs, lines = (limits[limits["source"] == source] for source in ("discs", "lines"))
+    assert discs["expected"].between(discs["ranges_low"], discs["ranges_high"]).all()
+    of_velocity = lines[lines["quantity"] == "whole"]
+    assert (of_velocity["beta"] - of_velocity["expected"]).abs().max() < 0.01
+    trends = pd.read_csv(ROOT / "docs/results/sizes_trends.csv").query("source != 'controls'")
+    text = " ".join(read(ROOT / "docs/verification.md").split())
+    fixed = trends[trends["window_rule"] == "X = 0.01 to 0.1"]["slope"].abs()
+    assert f"as many elements change it by at most {fixed.max():.3f}, at any" in text
+    early = trends.query("source == 'lines' and hurst == 0.1 and window_rule.str.match('X = 0.00')", engine="python")
+    assert (early["slope_high"] < 0).all()
+    assert f"by {early['slope'].abs().min():.3f} to {early['slope'].abs().max():.3f}" in text
+
+
 def test_gamma_factor():
     expected = of_claim("gamma")["expected"]
     text = " ".join(read(ROOT / "docs/verification.md").split())

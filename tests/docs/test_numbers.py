@@ -214,6 +214,13 @@ def test_times_of_the_whole_paper():
         assert "at about a tenth of the cost" in words(page)
 
 
+def test_other_solvers_on_two_threads():
+    two = published("other_solvers.csv").query("solver != 'viscorough' and threads == 2")
+    fastest = two.groupby(["task", "hurst"])["ratio"].min()
+    in_words = f"takes {fastest.min():.2g} to {fastest.max():.2g} times as long for the single levels"
+    assert in_words in words("docs/performance.md")
+
+
 def test_times_of_other_solvers_are_kept_with_their_origin(tmp_path):
     publish = load_benchmark("publish")
     published = pd.read_csv(ROOT / publish.OTHER_SOLVERS)

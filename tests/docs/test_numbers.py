@@ -184,7 +184,9 @@ def test_growth_and_placement_of_levels():
     placed = (
         published("level_placement.csv").query("reached == 1").pivot(index="scene", columns="choice", values="ratio")
     )
-    assert f"at most {1 / placed['best by hand'].min():.3g} times the time of the best levels placed by hand" in text
+    worst, second = sorted(1 / placed["best by hand"], reverse=True)[:2]
+    assert f"at most {worst:.3g} times the time of the best levels placed by hand" in text
+    assert f"at most {second:.3g} times in the others" in text
     assert f"at least {placed['naive'].min():.2g} times the time of the automatic ones" in text
 
 

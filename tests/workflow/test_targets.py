@@ -33,7 +33,7 @@ def drawn(folder, *figures):
 
 @pytest.mark.parametrize(
     ("name", "indent_discs", "indent_lines"),
-    [("config", 4 * (9 + 4) + 2, 22), ("paper", 4 * (9 * 2 + 8) + 9, 102), ("test", 2 * (2 + 1) + 4, 2 * 2 + 2)],
+    [("config", 4 * (9 + 4) + 2, 22), ("paper", 4 * (9 * 2 + 8) + 4, 102), ("test", 2 * (2 + 1) + 4, 2 * 2 + 2)],
 )
 def test_plans_of_every_scale(unmade, name, indent_discs, indent_lines):
     planned = plan(unmade, "--configfile", f"config/{name}.yaml")

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from viscorough import reference
 from viscorough.contact.loading_path import indent
 from viscorough.errors import AccuracyWarning
 from viscorough.indenter import Indenter
@@ -39,6 +40,14 @@ def test_implicit_steps_are_exact_whatever_their_size(disc, events, steps):
     assert result.overlap.max() < 1e-7
     touching = np.searchsorted(events.impulse, impulses, side="right")
     np.testing.assert_allclose(result.contact_count, touching, atol=2)
+
+
+def test_implicit_steps_find_depths_where_loose_contacts_make_the_force_jump():
+    """Contacts of this sphere at a tolerance of 1e-2 differ by a ring of elements from one depth to the next."""
+    sphere = reference.sphere(1.0)
+    forces = sphere.force(sphere.mdr_profile(np.geomspace(0.1, 0.45, 12)))
+    steps = march_steps(sphere.indenter(257), forces, scheme="implicit", tolerance=1e-2)
+    np.testing.assert_allclose(steps.depth[-1], sphere.mdr_profile(0.45), rtol=1e-2)
 
 
 def test_explicit_steps_are_of_first_order_in_the_overlap_they_allow(disc, events):

@@ -81,7 +81,7 @@ def test_a_claim_counts_once_with_the_worst_of_its_verdicts():
 def test_published_ratios_of_other_solvers_say_when_and_where_they_were_measured():
     found = other_solvers(ROOT / "resources/published/other_solvers.csv")
     assert set(found["published"]) == {"measured", "machine"}
-    assert all(set(row["ratios"]) == set(found["solvers"]) for row in found["rows"])
+    assert all({"ASPHER", "ASPHER nested"} <= set(row["ratios"]) <= set(found["solvers"]) for row in found["rows"])
     assert min(min(row["ratios"].values()) for row in found["rows"]) > 1
 
 

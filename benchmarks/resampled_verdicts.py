@@ -1,4 +1,4 @@
-"""Draw the surfaces of a finished run anew and report which verdicts on the paper's claims change.
+"""Draw the surfaces of a finished run again and report which verdicts on the paper's claims change.
 
     python benchmarks/resampled_verdicts.py results --settings config/paper.yaml --draws 20 --output /tmp/drawn.csv
 

@@ -1,4 +1,4 @@
-"""Surfaces of a finished run drawn anew: each among those of its own kind."""
+"""Surfaces of a finished run drawn again: each among those of its own kind."""
 
 import numpy as np
 import xarray as xr

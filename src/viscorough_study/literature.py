@@ -59,7 +59,7 @@ def literature(entries, scaling, interface, reduction, conventions):
 
 
 def cited(source, year):
-    """A source as it is cited in a text: up to three surnames, or the first and "et al.", and the year."""
+    """A source as cited in a text: up to three surnames, or the first and "et al.", and the year."""
     names = source.replace(" and ", ", ").split(", ")
     return f"{source if len(names) < 4 else names[0] + ' et al.'} {year}"
 

@@ -72,7 +72,7 @@ def test_law_holds_where_it_must_to_what_it_must():
     table = pd.read_csv(ROOT / "src/viscorough/data/interface.csv")
     assert set(table) <= set(interface.COLUMNS)
     discs = table.query("source == 'discs' and across == 257")
-    # Every ensemble has a law of its own, whose range is where it holds to 5 %: of 120 discs from X = 0.001 on, too.
+    # Each ensemble has its own law, whose range is where it holds to 5 %: of 120 discs from X = 0.001 on, too.
     assert (discs.query("hurst >= 0.4")["law_low"] <= X_LOW * (1 + 1e-9)).all()
     discs = discs[(discs["case_group"] == "base") | ~discs["hurst"].isin(discs.query("case_group == 'base'")["hurst"])]
     assert set(discs["hurst"]) == set(HURST)

@@ -19,7 +19,7 @@ help:
 	@echo "make bench       cost and errors of curves and lines, and cost of the reproduction, in results/benchmarks.json"
 	@echo "make speed       speed against accuracy of every method, in results/figures/speed.png; 90 minutes"
 	@echo "make stability   where each method fails, and random small indenters against dense solutions"
-	@echo "make sizes       exponents on grids from 33 to 2049 elements across and on lines, and their collapse"
+	@echo "make sizes       exponents on grids from 33 to 4097 elements across and on lines, and their collapse"
 	@echo "make large       time and memory of a disc of up to 8193 elements across, 53 million in all"
 	@echo "make fuzz        10000 random files and options, most of them bad, through the command line; ten minutes"
 	@echo "make faults      faults planted in copies of the project, one at a time: how many do the tests catch?"

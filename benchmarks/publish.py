@@ -21,6 +21,7 @@ import pandas as pd
 from PIL import Image  # which matplotlib needs
 
 from viscorough_study.evidence import VERDICTS
+from viscorough_study.infinite_grid import OMEGA, PLACES, place_of
 from viscorough_study.paper_data import read_paper
 from viscorough_study.performance import timing
 from viscorough_study.tables import write_json
@@ -155,6 +156,41 @@ def infinite_grid():
         fits = [rows.set_index("hurst").loc[hurst] for _, rows in columns]
         cells = [f"{fit['beta']:.3f} [{fit['ranges_low']:.3f}, {fit['ranges_high']:.3f}]" for fit in fits]
         lines.append(f"| {hurst:g} | {expected:.3f} | {' | '.join(cells)} |")
+    return "\n".join(lines) + "\n\n" + correction_exponents(table)
+
+
+def correction_exponents(table):
+    """Sentences on corrected fits of the table of infinite grids whose ω the data do not tell; rows with that law."""
+    omega = table[["omega", "omega_low", "omega_high"]].itertuples(index=False)
+    places = pd.Series([place_of(*values) for values in omega], index=table.index)
+    of_place = {}
+    for place in PLACES[1:]:
+        rows = table[places == place].groupby(["source", "quantity"], sort=False)["hurst"]
+        of_place[place] = "; ".join(
+            f"{source}, {INTERFACE_QUANTITIES[quantity]}, at *H* = {', '.join(f'{hurst:g}' for hurst in hursts)}"
+            for (source, quantity), hursts in rows
+        )
+    text = (
+        f"*ω* itself is at an end of the range tried, {OMEGA[0]:g} to {OMEGA[-1]:g}, in {(places == PLACES[2]).sum()} "
+        f"of these {len(table)} fits ({of_place[PLACES[2]] or 'none'}), and its interval reaches an end in "
+        f"{(places == PLACES[1]).sum()} others ({of_place[PLACES[1]] or 'none'})."
+    )
+    return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False) + "\n"
+
+
+def interface_law():
+    """u₀/h and the law of two springs for each Hurst exponent, of data/interface.csv, as a table in Markdown.
+
+    Of discs on the paper's grid, geometric means, those of the base ensembles where there are any.
+    """
+    table = pd.read_csv(ROOT / KEPT["paper"]["tables/interface.csv"]).query("source == 'discs' and across == 257")
+    table = table[table["average"] == "geometric"].drop_duplicates("hurst")
+    head = ("*H*", "discs", "*u*₀/*h*", "*b*", "*g*_m", "*X*_m", "law holds for *X*", "largest deviation there")
+    lines = [f"| {' | '.join(head)} |", "|---" * len(head) + "|"]
+    for row in table.itertuples():
+        u0 = f"{row.u0:.3f} [{row.u0_low:.3f}, {row.u0_high:.3f}]"
+        law = f"{row.exponent:.3f} | {row.peak:.3f} | {row.peak_x:.2f} | {row.law_low:.2g} to {row.law_high:.3g}"
+        lines.append(f"| {row.hurst:g} | {row.realizations} | {u0} | {law} | {100 * row.deviation:.1f} % |")
     return "\n".join(lines) + "\n"
 
 
@@ -185,6 +221,7 @@ def write_tables():
     tables = {("README.md", "verdicts"): verdict_lines(), ("docs/verdicts.md", "verdicts"): verdicts()}
     tables["docs/performance.md", "other solvers"] = other_solver_times()
     tables["docs/scaling.md", "infinite grid"] = infinite_grid()
+    tables["docs/theory.md", "interface law"] = interface_law()
     tables["README.md", "speed chart"] = speed_chart()
     records = ROOT / "docs/results/published.json"
     known = json.loads(records.read_text(encoding="utf-8")) if records.is_file() else {}

@@ -20,6 +20,7 @@ from viscorough_study.scaling_collapse import HEIGHTS, QUANTITIES
 OMEGA = np.round(np.arange(0.2, 1.51, 0.1), 1)  # exponents of the correction that are tried
 ERRORS = (0.05, 0.02, 0.01)  # of β, for which the grid needed is estimated
 FINDINGS = ("agrees", "departs", "undecided")
+PLACES = ("inside the range tried", "interval reaches an end", "at an end")  # of ω among those of OMEGA
 COLUMNS = {
     "source": ("discs by boundary elements, lines by the MDR", ""),
     **{name: OF_COLLAPSE[name] for name in ("hurst", "quantity", "height")},
@@ -56,7 +57,20 @@ NEEDED = {
     "number_high": ("upper end of its 95 % interval over realizations", "1"),
     "finest": COLUMNS["finest"],
     "extrapolated": ("1 if that is finer or coarser than all grids computed", "1"),
+    **{name: COLUMNS[name] for name in ("omega", "omega_low", "omega_high")},
+    "omega_place": (
+        "one of: " + "; ".join(PLACES) + "; where ω is at an end, the data do not tell it, and the numbers are guesses",
+        "",
+    ),
 }
+
+
+def place_of(omega, low, high):
+    """One of `PLACES`: where the exponent of the correction and its interval lie in the range that is tried."""
+    ends = OMEGA[[0, -1]]
+    if np.isclose(omega, ends).any():
+        return PLACES[2]
+    return PLACES[1] if low <= ends[0] or high >= ends[1] else PLACES[0]
 
 
 def points(of_hurst, quantity, height, *, elements_min, x_high):
@@ -153,6 +167,9 @@ def _needed(found, of_hurst, hurst):
     finest, rows = of_hurst[-1], []
     start = np.exp(finest.log_x[0])
     strength, omega = np.abs(found[:, 2]), found[:, 3]
+    low, high = _interval(omega[1:])
+    correction = {"omega": omega[0], "omega_low": low, "omega_high": high}
+    correction["omega_place"] = place_of(omega[0], low, high)
     for error in ERRORS:
         with np.errstate(divide="ignore", over="ignore"):
             begin = (error * np.log(10) / (strength * (10**omega - 1))) ** (1 / omega)
@@ -160,5 +177,5 @@ def _needed(found, of_hurst, hurst):
         low, high = _interval(number[1:])
         values = {"error": error, "number": number[0], "number_low": low, "number_high": high}
         inside = of_hurst[0].number <= number[0] <= finest.number
-        rows.append(values | {"finest": finest.number, "extrapolated": int(not inside)})
+        rows.append(values | {"finest": finest.number, "extrapolated": int(not inside)} | correction)
     return rows

@@ -129,6 +129,32 @@ def test_grids_from_coarse_to_fine():
     assert f"by {early['slope'].abs().min():.3f} to {early['slope'].abs().max():.3f}" in text
 
 
+def test_two_springs_in_series():
+    """u₀/h to ± 0.02 at every H, and the law within 5 % from X = 0.001, at H = 0.1 from 0.002."""
+    assert between_marks(ROOT / "docs/theory.md", "interface law") == load_benchmark("publish").interface_law()
+    text = " ".join(read(ROOT / "docs/theory.md").split())
+    table = pd.read_csv(ROOT / "src/viscorough/data/interface.csv").query("source == 'discs' and across == 257")
+    table = table[table["average"] == "geometric"].drop_duplicates("hurst").set_index("hurst")
+    assert set(table.index) == {0.1, 0.4, 0.6, 0.9, 1.0}
+    assert "*u*₀/*h* is known to ±0.02 at every *H*" in text
+    assert np.maximum(table["u0_high"] - table["u0"], table["u0"] - table["u0_low"]).max() <= 0.02
+    assert "within 5 % of the mean curve of each of these ensembles from *X* = 0.001, at *H* = 0.1 from 0.002" in text
+    assert table["deviation"].max() <= 0.05
+    assert (table["law_low"].round(6) == [0.001995, 0.001, 0.001, 0.001, 0.001]).all()
+
+
+def test_control_has_no_power_law():
+    """Of discs with a roll-off none has the decades that are required, while synthetic power laws pass."""
+    plateaus = published("plateaus.csv")
+    control = plateaus[plateaus["case_group"] == "roll_off"]
+    assert set(control["hurst"]) == {0.1, 0.4, 0.6, 0.9}
+    assert "The control falls short of two decades at every *H*" in words("docs/verdicts.md")
+    assert control["decades_high"].max() < 2
+    assert (plateaus["draws"] == 200).all()
+    assert plateaus[plateaus["case_group"] == "base"]["power_law_passes"].min() >= 0.95
+    assert plateaus["control_passes"].max() == 0
+
+
 def test_gamma_factor():
     expected = of_claim("gamma")["expected"]
     text = " ".join(read(ROOT / "docs/verification.md").split())

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from viscorough_study.infinite_grid import COLUMNS, ERRORS, NEEDED, fit, limit_tables
+from viscorough_study.infinite_grid import COLUMNS, ERRORS, NEEDED, PLACES, fit, limit_tables, place_of
 from viscorough_study.power_law import log_means
 from viscorough_study.scaling_collapse import Grid
 
@@ -11,12 +11,12 @@ HURST, BETA, A, B, OMEGA = 0.6, 0.4, 1.3, -0.9, 0.5
 RANGES = {"elements_min": [10, 20], "x_high": {"power": [0.03], "corrected": [0.3, 0.1]}}
 
 
-def ensembles(*, scatter=0.1, punch=0.0, factor=np.exp, seed=1):
+def ensembles(*, scatter=0.1, punch=0.0, factor=np.exp, omega=OMEGA, seed=1):
     """vt/h = A X^β exp(B X^ω) (or with another factor) + punch X on four grids; scatter from one curve to another."""
     generator, found = np.random.default_rng(seed), []
     for number, realizations in ((65, 60), (257, 40), (1025, 30), (4097, 20)):
         x = 10 ** np.arange(np.ceil(20 * np.log10(2 * number ** -(1 + HURST))) / 20, 0, 0.05)
-        law = A * x**BETA * factor(B * x**OMEGA)
+        law = A * x**BETA * factor(B * x**omega)
         tilt = generator.standard_normal((realizations, 2)) @ np.array([np.ones(x.size), 0.2 * np.log(x)])
         velocity = law * np.exp(scatter * tilt) + punch * x
         means = log_means(velocity, "geometric", 200, generator)
@@ -93,3 +93,25 @@ def test_grids_needed_have_the_departure_that_is_wanted(number):
         assert one.extrapolated == (not grids[0].number <= one.number <= grids[-1].number)
     assert needed["number"].is_monotonic_increasing
     assert set(needed["extrapolated"]) == {0, 1}
+
+
+@pytest.mark.parametrize(
+    ("omega", "low", "high", "place"),
+    [(0.5, 0.3, 0.9, 0), (0.5, 0.2, 0.9, 1), (0.5, 0.3, 1.5, 1), (0.2, 0.2, 0.4, 2), (1.5, 1.4, 1.5, 2)],
+)
+def test_place_of_the_exponent_of_the_correction(omega, low, high, place):
+    assert place_of(omega, low, high) == PLACES[place]
+
+
+@pytest.mark.parametrize(("omega", "place"), [(OMEGA, PLACES[0]), (0.05, PLACES[2]), (2.5, PLACES[2])])
+def test_needed_grids_say_whether_the_data_tell_the_correction(omega, place):
+    """A correction with an exponent outside of the range tried ends at an end of it, and every row says so."""
+    grids = ensembles(scatter=1e-4, omega=omega)
+    limits, needed = limit_tables(grids, "discs", tolerance=0.05, **RANGES)
+    fitted = row((limits,), "whole", "corrected")
+    rows = needed[needed["quantity"] == "whole"]
+    assert set(rows["omega_place"]) == {place}
+    np.testing.assert_array_equal(
+        rows[["omega", "omega_low", "omega_high"]].drop_duplicates(),
+        [[fitted.omega, fitted.omega_low, fitted.omega_high]],
+    )

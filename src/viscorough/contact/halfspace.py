@@ -1,90 +1,24 @@
-"""Elastic half-space under uniform pressure on rectangular elements: influence coefficients and their operator."""
+"""The elastic half-space under uniform pressure on rectangular elements: the operator of influence coefficients."""
 
 from functools import lru_cache
 
 import ducc0
 import numpy as np
 
-from viscorough.compilation import njit, vectorize
 from viscorough.contact.column_fft import ColumnConvolution, good_length
+from viscorough.contact.influence import influence_table
 from viscorough.contact.parallel import BLOCK, Buffers, run_blocks
 
-# Beyond this distance (in sides of an element or of its parts) the series below is more accurate than the difference
-# of logarithms.
-_FAR = 30
 # Rows that lie a power of two apart in memory compete for the same cache lines; this many extra numbers per row prevent
 # that.
 _ROW_PADDING = 16
 # Fewer rows than this are folded before they are transformed.
 _FOLDED_BELOW = 4
-# Elements up to which the spectrum of a grid is kept for further ones of that shape.
+# Elements up to which the spectrum of a grid is kept for further ones with transforms of the same lengths: the boxes
+# of an ensemble of indenters have few of these.
 _KEPT = 1 << 20
 # The number of rows in a block is a multiple of this: the library transforms so many at once.
 _ROWS_AT_ONCE = 16
-
-
-def influence_coefficient(row, column, aspect=1.0):
-    """K: displacement at a distance in rows and columns, of a rectangular element under uniform pressure.
-
-    Love's solution, w = p d/(πE*) K = p d/(4πG) K, for an element with sides dx along the rows and dy along the columns
-    and d = √(dx dy) (Love 1929). Near the element K is the closed form, the sum over the four corners of
-    ±(a ln(b + ρ) + b ln(a + ρ)); far from it, where that loses digits to cancellation, the moment expansion of ∫∫ dA/r
-    to fourth order. Accurate to 1e-11 relative. K(0, 0) = 4 (a asinh(b/a) + b asinh(a/b)) with the half sides a and b
-    in units of d, 4 ln(1 + √2) = 3.5254943481 for squares.
-
-    row, column : distances in rows and columns, broadcast
-    aspect : dy/dx
-
-    Returns K [1] of the broadcast shape.
-    """
-    height, width = np.sqrt(aspect), np.sqrt(1 / aspect)  # dy and dx in units of d
-    # From far, a long rectangle is the sum of parts that are at most twice as long as wide.
-    parts = np.ceil(max(aspect / 2, 1.0)), np.ceil(max(1 / aspect / 2, 1.0))
-    return _potential(row * height, column * width, height / parts[0], width / parts[1], *parts)
-
-
-@vectorize("float64(float64, float64, float64, float64, float64, float64)")
-def _potential(x, y, part_length, part_width, parts_x, parts_y):
-    """∫∫ dA/r at (x, y) from the centre of a rectangle of area 1.
-
-    part_length, part_width : sides along x and y of the equal parts into which it is divided from far
-    parts_x, parts_y : number of parts along x and y
-    """
-    x, y = abs(x), abs(y)
-    if max(x, y) > _FAR * max(part_length, part_width):
-        mean = 0.0
-        for i in range(parts_x):
-            for j in range(parts_y):
-                x_i, y_j = x + (i - 0.5 * (parts_x - 1)) * part_length, y + (j - 0.5 * (parts_y - 1)) * part_width
-                mean += _mean_inverse_distance(x_i, y_j, part_length, part_width)
-        return mean / (parts_x * parts_y)
-    total, half_length, half_width = 0.0, 0.5 * parts_x * part_length, 0.5 * parts_y * part_width
-    for sign_x in (-1, 1):
-        for sign_y in (-1, 1):
-            a, b = x + sign_x * half_length, y + sign_y * half_width
-            rho = np.sqrt(a * a + b * b)
-            # ln(b + ρ) = ln(a²/(ρ - b)) keeps its digits where b < 0; the constant parts cancel in the sum.
-            log_b = np.log(b + rho) if b > 0 else 2 * np.log(abs(a)) - np.log(rho - b)
-            log_a = np.log(a + rho) if a > 0 else 2 * np.log(abs(b)) - np.log(rho - a)
-            total += sign_x * sign_y * (a * log_b + b * log_a)
-    return total
-
-
-@njit
-def _mean_inverse_distance(x, y, length, width):
-    """Mean of 1/r over a rectangle as seen from far: its moment expansion to fourth order."""
-    x2, y2 = x * x, y * y
-    r2 = x2 + y2
-    r = np.sqrt(r2)
-    r9 = r2 * r2 * r2 * r2 * r
-    length2, width2 = length * length, width * width
-    # Mean and half the difference of the second and fourth powers of the sides: 1 and 0 for a square of side 1.
-    second, second_difference = 0.5 * (length2 + width2), 0.5 * (length2 - width2)
-    fourth, fourth_difference = 0.5 * (length2**2 + width2**2), 0.5 * (length2**2 - width2**2)
-    of_second = second / (24 * r2 * r) + second_difference * (x2 - y2) / (8 * r2 * r2 * r)
-    of_fourth = fourth * (33 * (x2 * x2 + y2 * y2) - 144 * x2 * y2) + fourth_difference * 15 * (x2 * x2 - y2 * y2)
-    mixed = (81 * x2 * y2 - 12 * (x2 * x2 + y2 * y2)) / r9
-    return 1 / r + of_second + of_fourth / r9 / 1920 + length2 * width2 * mixed / 576
 
 
 def convolution_lengths(rows, columns):
@@ -95,28 +29,30 @@ def convolution_lengths(rows, columns):
     return good_length(2 * (rows - 1)) if rows > 1 else 1, 2 * ducc0.fft.good_size(max(columns - 1, 1), True)
 
 
-@lru_cache(maxsize=2)
-def _kept_spectrum(*grid):
-    """The same as `_spectrum`, kept for the next grid of that shape."""
-    return _spectrum(*grid, threads=1)
+@lru_cache(maxsize=6)
+def _kept_spectrum(lengths, period, aspect):
+    """The same as `_spectrum`, kept for further grids with these lengths."""
+    return _spectrum(lengths, period, aspect, threads=1)
 
 
-def _spectrum(rows, columns, aspect, padding, threads):
-    """Lengths of the periodic convolution along both axes, and the real spectrum of K, divided by their product.
+def _spectrum(lengths, period, aspect, threads):
+    """Real spectrum of K on a periodic grid of these lengths, divided by their product.
 
     K and its spectrum are even, so that a cosine transform over distances up to half the lengths gives the spectrum at
-    all frequencies. Without padding, the distance is that to the nearest periodic image.
+    all frequencies.
+
+    period : rows and columns after which a grid without padding repeats: there the distance is that to the nearest
+        image; None with padding
     """
-    lengths = convolution_lengths(rows, columns)
     row, column = (np.arange(m // 2 + 1.0) for m in lengths)
-    if not padding:
-        row, column = (np.minimum(d, abs(n - d)) for d, n in ((row, rows), (column, columns)))
+    if period:
+        row, column = (np.minimum(d, abs(n - d)) for d, n in zip((row, column), period, strict=True))
     spectrum = np.empty((row.size, column.size))
 
     def transform_columns(start, stop):
         part = spectrum[:, start:stop]
-        part[:] = influence_coefficient(row[:, None], column[start:stop], aspect)
-        if rows > 1:
+        part[:] = influence_table(row, column[start:stop], aspect)
+        if row.size > 1:
             ducc0.fft.dct(part, axes=[0], type=1, out=part)
 
     def transform_rows(start, stop):
@@ -127,7 +63,7 @@ def _spectrum(rows, columns, aspect, padding, threads):
     for transform, size, other in ((transform_columns, column.size, row.size), (transform_rows, row.size, column.size)):
         block = max(BLOCK // other // _ROWS_AT_ONCE, 1) * _ROWS_AT_ONCE
         run_blocks(transform, size, threads, block, _ROWS_AT_ONCE)
-    return lengths, spectrum
+    return spectrum
 
 
 class _RowTransforms:
@@ -222,9 +158,9 @@ class Halfspace:
 
     def __init__(self, rows, columns, precision=np.float64, *, aspect=1.0, padding=True, threads=1):
         self.shape = (rows, columns)
-        grid = rows, columns, aspect, padding
-        is_kept = rows * columns <= _KEPT
-        (_, length), spectrum = _kept_spectrum(*grid) if is_kept else _spectrum(*grid, threads)
+        of_grid = convolution_lengths(rows, columns), None if padding else (rows, columns), aspect
+        spectrum = _kept_spectrum(*of_grid) if rows * columns <= _KEPT else _spectrum(*of_grid, threads)
+        length = of_grid[0][1]
         self._rows = _RowTransforms(rows, columns, length, precision, threads)
         frequency = self._rows.frequency
         if frequency.shape[1] > 1:

@@ -27,7 +27,7 @@ import numpy as np
 import scipy.linalg
 
 from viscorough.compilation import njit
-from viscorough.contact.halfspace import influence_coefficient
+from viscorough.contact.influence import influence_coefficient
 from viscorough.contact.parallel import run_blocks
 from viscorough.contact.sparse_factor import BEFORE, NEIGHBOURS, REACH, SparseFactor
 

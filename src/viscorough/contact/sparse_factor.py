@@ -16,7 +16,7 @@ from functools import lru_cache
 import numpy as np
 
 from viscorough.compilation import njit
-from viscorough.contact.halfspace import influence_coefficient
+from viscorough.contact.influence import influence_coefficient
 from viscorough.contact.parallel import BLOCK, run_blocks
 
 # Largest distance of a neighbour, in rows or columns: the width of the border that fields need.

@@ -19,7 +19,7 @@ from functools import cached_property
 
 import numpy as np
 
-from viscorough.contact.halfspace import influence_coefficient
+from viscorough.contact.influence import influence_table
 from viscorough.contact.parallel import BLOCK, run_blocks
 
 # Values from which the ranges that threads sort are chosen, and the largest number of ranges.
@@ -75,7 +75,7 @@ class Elements:
     def influence(self):
         """Influence coefficients K by distance in rows and columns, of the shape of the grid, for dense solutions."""
         distance = [np.arange(n, dtype=float) for n in self.shape]
-        return influence_coefficient(distance[0][:, None], distance[1][None, :], self.aspect)
+        return influence_table(*distance, self.aspect)
 
     def free_influence(self):
         """Free the memory of `influence` until it is next used."""

@@ -3,7 +3,8 @@
 import numpy as np
 
 from viscorough import memory
-from viscorough.contact.halfspace import Halfspace, influence_coefficient
+from viscorough.contact.halfspace import Halfspace
+from viscorough.contact.influence import influence_table
 
 
 class Elements:
@@ -22,7 +23,7 @@ class Elements:
         self.row, self.column = np.nonzero(np.isfinite(indenter.heights))
         self.initial_gap = indenter.initial_gap[self.row, self.column].astype(float)
         distance = [np.arange(n, dtype=float) for n in indenter.heights.shape]
-        self.influence = influence_coefficient(distance[0][:, None], distance[1][None, :], indenter.aspect)
+        self.influence = influence_table(*distance, indenter.aspect)
         self.scale = 4 * np.pi * indenter.element_side
         self.count, self.shape = self.initial_gap.size, indenter.heights.shape
         self._side, self._operator = indenter.element_side, Halfspace(*self.shape, aspect=indenter.aspect)

@@ -14,7 +14,7 @@ from viscorough import memory
 from viscorough.arrays import keep_read_only
 from viscorough.compilation import njit
 from viscorough.contact.growing_cholesky import append_element, solve_flat_punch
-from viscorough.contact.halfspace import influence_coefficient
+from viscorough.contact.influence import influence_table
 from viscorough.errors import ConvergenceError
 from viscorough.interrupts import uninterrupted
 
@@ -73,7 +73,7 @@ def march_events(indenter, *, until_fraction=1.0):
     gap = indenter.initial_gap[row, column].astype(float)
     order = np.argsort(gap, kind="stable")
     distance = [np.arange(n, dtype=float) for n in indenter.heights.shape]
-    influence = influence_coefficient(distance[0][:, None], distance[1][None, :], indenter.aspect)
+    influence = influence_table(*distance, indenter.aspect)
     most = max(1, int(np.ceil(until_fraction * gap.size)))
     memory.require(8 * most**2, f"march_events: the factor for {most} elements in contact")
     with uninterrupted():

@@ -7,7 +7,7 @@ import pytest
 
 from support.command_line import sphere_heights
 from viscorough.cli import main
-from viscorough.contact.halfspace import influence_coefficient
+from viscorough.contact.influence import influence_coefficient
 from viscorough.io import netcdf
 from viscorough.surfaces import self_affine_disc
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from viscorough.contact.grid_solver import GridSolver
-from viscorough.contact.halfspace import influence_coefficient
+from viscorough.contact.influence import influence_coefficient
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.preconditioner import REACH
 from viscorough.contact.solver import ContactSolver

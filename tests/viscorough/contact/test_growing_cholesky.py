@@ -3,7 +3,7 @@
 import numpy as np
 
 from viscorough.contact.growing_cholesky import append_element, solve_flat_punch
-from viscorough.contact.halfspace import influence_coefficient
+from viscorough.contact.influence import influence_coefficient
 
 
 def test_factor_and_flat_punch_are_those_of_the_full_matrix():

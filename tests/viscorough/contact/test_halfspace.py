@@ -6,7 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import dblquad
 
-from viscorough.contact.halfspace import Halfspace, influence_coefficient
+from viscorough.contact.halfspace import Halfspace
+from viscorough.contact.influence import influence_coefficient, influence_table
 from viscorough.contact.options import SolverOptions
 
 
@@ -54,6 +55,14 @@ def test_coefficients_are_even_and_the_two_formulas_agree_where_they_meet():
     # K r = 1 + 1/(24 r²) + ...: the remainder must fall smoothly through the distance where the series takes over.
     beyond = (values * distance - 1) * distance**2
     assert np.all(np.abs(np.diff(beyond, 2)) < 2e-7)
+
+
+@pytest.mark.parametrize("aspect", [0.2, 1.0, 1.3, 5.0])
+def test_table_of_coefficients(aspect):
+    """Also of distances to periodic images, which do not increase."""
+    row, column = np.minimum(np.arange(90.0), abs(np.arange(90.0) - 60)), np.arange(-3.0, 150)
+    expected = influence_coefficient(row[:, None], column, aspect)
+    np.testing.assert_allclose(influence_table(row, column, aspect), expected, rtol=1e-14)
 
 
 # One row and few rows, of lengths that can be folded and that cannot, and many rows.

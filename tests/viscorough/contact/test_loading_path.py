@@ -5,7 +5,7 @@ import pytest
 from scipy.optimize import nnls
 
 from viscorough import reference
-from viscorough.contact.halfspace import influence_coefficient
+from viscorough.contact.influence import influence_coefficient
 from viscorough.contact.loading_path import indent
 from viscorough.contact.one_contact import contact_at
 from viscorough.contact.options import SolverOptions

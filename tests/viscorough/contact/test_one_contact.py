@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from viscorough.contact.halfspace import influence_coefficient
+from viscorough.contact.influence import influence_coefficient
 from viscorough.contact.loading_path import indent
 from viscorough.contact.one_contact import contact_at
 from viscorough.contact.options import SolverOptions

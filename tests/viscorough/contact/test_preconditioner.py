@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import scipy.linalg
 
-from viscorough.contact.halfspace import influence_coefficient
+from viscorough.contact.influence import influence_coefficient
 from viscorough.contact.preconditioner import LEAST_EIGENVALUE, REACH, Preconditioner, load_redistribution_stencil
 from viscorough.contact.sparse_factor import SparseFactor
 

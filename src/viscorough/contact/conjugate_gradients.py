@@ -16,7 +16,7 @@ class ConjugateGradients:
         self._halfspace, self._preconditioner, self._set, self._loops = halfspace, preconditioner, contact_set, loops
         preconditioner.prepare(contact_set.inside, contact_set.places.size)
         self._direction = halfspace.load.ravel()  # a view: the direction is the operator's load
-        loops.clear(self._direction)
+        loops.fill(self._direction, 0)
         self._norm, self._last_norm = np.nan, np.inf
 
     def precondition(self, gap):

@@ -62,6 +62,48 @@ class GridLoops:
 
         return sum(self._over(places, sums))
 
+    # Over the elements, by rank.
+
+    def place_elements(self, box, row, column, initial_gap, field):
+        """Indices of the elements in a flat field for the elements in a box, where their initial gaps are stored.
+
+        box : (first row, first column, rows, columns)
+
+        Elements that are not in the box have the index 0, the entry of which is kept.
+        """
+        top, left, rows, columns = box
+        width, kept = columns + 2 * kernels.REACH, field[0]
+        place = np.empty(row.size, np.int32 if field.size < 2**31 else np.int64)
+
+        def store(i, j):
+            in_rows, in_columns = row[i:j].astype(place.dtype) - top, column[i:j] - left
+            inside = (in_rows >= 0) & (in_rows < rows) & (in_columns >= 0) & (in_columns < columns)
+            place[i:j] = inside * ((in_rows + kernels.REACH) * width + in_columns + kernels.REACH)
+            field[place[i:j]] = initial_gap[i:j]
+
+        self._over(row, store)
+        field[0] = kept
+        return place
+
+    def transfer(self, fields, place, inside, pressure, tangent):
+        """Store the members, P and q of GridFields in flat fields of another grid, with the elements at `place`."""
+
+        def store(i, j):
+            source = fields.place[i:j]
+            members = np.flatnonzero(fields.inside[source])
+            source, target = source[members], place[i:j][members]
+            inside[target], pressure[target], tangent[target] = True, fields.pressure[source], fields.tangent[source]
+
+        self._over(place, store)
+
+    def new_members(self, after, before):
+        """Ranks of the elements in contact in GridFields, but not in other ones, which may be of another grid."""
+
+        def new(i, j):
+            return i + np.flatnonzero(after.inside[after.place[i:j]] > before.inside[before.place[i:j]])
+
+        return np.concatenate(self._over(after.place, new))
+
     # Over flat fields.
 
     def contact_places(self, inside, width, stride):
@@ -101,9 +143,19 @@ class GridLoops:
         """Lowest value of a field."""
         return min(self._over(field, lambda i, j: field[i:j].min()))
 
-    def clear(self, field):
-        """Set a field to zero, in place."""
-        self._over(field, lambda i, j: field[i:j].fill(0))
+    def fill(self, field, value):
+        """Set a field to a value everywhere, in place."""
+        self._over(field, lambda i, j: field[i:j].fill(value))
+
+    def shifted(self, field, shift, out):
+        """Store a field minus a number; both fields in rows and columns."""
+        rows, columns = field.shape
+        shift = out.dtype.type(shift)
+
+        def subtract(i, j):
+            np.subtract(field[i:j], shift, out=out[i:j])
+
+        run_blocks(subtract, rows, self._threads, -(-BLOCK // columns))
 
     def update_gap(self, length, deflection, gap):
         rows, columns = deflection.shape

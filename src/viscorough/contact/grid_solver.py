@@ -85,12 +85,9 @@ class GridSolver:
         self._field_rounding = min(options.operator_rounding, 1.0) * np.finfo(self._precision).eps
         self._width = columns + 2 * REACH
         self._inner = slice(REACH * self._width, -REACH * self._width)
-        in_box = (row >= top) & (row < top + rows) & (column >= left) & (column < left + columns)
-        whole_number = np.int32 if (rows + 2 * REACH) * self._width < 2**31 else np.int64
-        place = (row.astype(whole_number) - (top - REACH)) * self._width + (column - (left - REACH))
-        self.place = np.where(in_box, place, whole_number(0))
-        self.initial_gap = np.full((rows + 2 * REACH) * self._width, _OUTSIDE, dtype=self._precision)
-        self.initial_gap[self.place[in_box]] = initial_gap[in_box]
+        self.initial_gap = np.empty((rows + 2 * REACH) * self._width, dtype=self._precision)
+        self._loops.fill(self.initial_gap, _OUTSIDE)
+        self.place = self._loops.place_elements((top, left, rows, columns), row, column, initial_gap, self.initial_gap)
         self._residual = np.zeros(self.initial_gap.size, dtype=np.float32)  # e or e_q on the set, as last computed
         of_grid = {"aspect": aspect, "precision": np.float32, "threads": threads}
         self._preconditioner = Preconditioner(rows + 2 * REACH, self._width, options.preconditioner, **of_grid)
@@ -102,10 +99,12 @@ class GridSolver:
 
     def fields(self, contact):
         """GridFields of a contact from elsewhere on this grid; costs two applications of the operator."""
-        loads = contact.member_loads()
-        place = self.place[loads.members]
         inside, pressure, tangent = self._zeros(bool), self._zeros(), self._zeros()
-        inside[place], pressure[place], tangent[place] = True, loads.pressure, loads.tangent
+        if contact.fields:
+            self._loops.transfer(contact.fields, self.place, inside, pressure, tangent)
+        else:
+            place = self.place[contact.loads.members]
+            inside[place], pressure[place], tangent[place] = True, contact.loads.pressure, contact.loads.tangent
         change, tangent_gap = self._gap_change(pressure, contact.reduced_depth), self._tangent_gap(tangent)
         return GridFields(inside, pressure, change, tangent, tangent_gap, self.initial_gap, self.place)
 
@@ -262,25 +261,22 @@ class GridSolver:
 
     def _gap_change(self, pressure, depth):
         """e − g = K P − u of a pressure as a BoundedField."""
-        change = self._deflection(pressure)
-        change -= self._precision(depth)
+        change = self._deflection(pressure, depth)
         return BoundedField(change, (self._exact_rounding + self._field_rounding) * depth)
 
     def _tangent_gap(self, tangent):
         """e_q = K q − 1 of a tangent as a BoundedField."""
-        tangent_gap = self._deflection(tangent)
-        tangent_gap -= self._precision(1)
-        return BoundedField(tangent_gap, self._exact_rounding + self._field_rounding)
+        return BoundedField(self._deflection(tangent, 1), self._exact_rounding + self._field_rounding)
 
-    def _deflection(self, pressure):
-        """K P on the flat grid, in double precision where the tolerance needs it; its border is zero."""
-        deflection, columns = self._zeros(), self._width - 2 * REACH
-        if not pressure.any():
-            return deflection
-        self._exact.load[:] = 0
-        self._exact.load[:, :columns] = self._interior(pressure)
-        self._interior(deflection)[:] = self._exact.apply()[:, :columns]
-        return deflection
+    def _deflection(self, pressure, shift):
+        """K P − shift on the flat grid, in double precision where the tolerance needs it; its border is zero."""
+        result, load = self._zeros(), self._exact.load[:, : self._width - 2 * REACH]
+        deflection = np.zeros_like(load)
+        if pressure.any():
+            self._loops.shifted(self._interior(pressure), 0, load)
+            deflection = self._exact.apply()[:, : load.shape[1]]
+        self._loops.shifted(deflection, shift, self._interior(result))
+        return result
 
     def _add_penetrating_elements(self, change, inside, limit):
         fields = map(self._inner_rows, (change.values, self.initial_gap, inside))

@@ -191,10 +191,10 @@ class ContactSolver:
         if after.fields and before.fields and before.fields.place is after.fields.place:
             lost = self._loops.difference(before.fields.inside, after.fields.inside)
             return lost.size, after.fields.gap(lost).max(initial=0)
-        kept = np.zeros(self.elements.count, dtype=bool)
-        kept[after.members] = True
-        members = before.members
-        lost = members[~kept[members]]
+        if after.fields and before.fields:
+            lost = self._loops.new_members(before.fields, after.fields)
+        else:
+            lost = np.setdiff1d(before.members, after.members, assume_unique=True)
         if lost.size == 0:
             return 0, 0.0
         return lost.size, after.fields.gap_at(lost).max() if after.fields else np.inf

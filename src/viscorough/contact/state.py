@@ -94,26 +94,45 @@ class Elements:
 
 def elements_of(indenter, threads=1):
     """The Elements of an indenter, and the Units in which their initial gaps are expressed."""
-    rows, columns = np.nonzero(np.isfinite(indenter.heights))
-    gap = indenter.initial_gap[rows, columns].astype(float)
+    inside = np.isfinite(indenter.heights)
+    columns = inside.shape[1]
+    origin = tuple(int(inside.any(axis=axis).argmax()) for axis in (1, 0))
+    place = np.flatnonzero(inside)
+    gap = indenter.initial_gap.ravel()[place]
+    units = Units(float(gap.max()) or indenter.element_side, indenter.element_side)
     order = _increasing_order(gap, threads)
-    units = Units(gap.max() or indenter.element_side, indenter.element_side)
-    origin = int(rows.min()), int(columns.min())
-    row, column = (
-        (position[order] - first).astype(np.int32) for position, first in zip((rows, columns), origin, strict=True)
-    )
+    row, column, in_order = (np.empty(gap.size, dtype) for dtype in (np.int32, np.int32, float))
+
+    def arrange(i, j):
+        row[i:j], column[i:j] = np.divmod(place[order[i:j]], columns)
+        row[i:j] -= origin[0]
+        column[i:j] -= origin[1]
+        np.divide(gap[order[i:j]], units.length, out=in_order[i:j])
+
+    run_blocks(arrange, gap.size, threads)
     shape = int(row.max()) + 1, int(column.max()) + 1
-    return Elements(row, column, gap[order] / units.length, origin, shape, indenter.aspect), units
+    return Elements(row, column, in_order, origin, shape, indenter.aspect), units
 
 
 def _increasing_order(gap, threads):
     """Indices that sort an array, equal values in the order in which they stand, so that ranks are the same everywhere.
 
-    Sorting is several times as fast where that order need not be kept, which makes no difference if no two are equal.
+    Sorting is several times as fast where that order need not be kept; indices of equal values are sorted afterwards.
     """
     order = np.argsort(gap) if threads == 1 or gap.size <= BLOCK else _order_by_ranges(gap, min(threads, _MOST_RANGES))
-    in_order = gap[order]
-    return np.argsort(gap, kind="stable") if np.any(in_order[1:] == in_order[:-1]) else order
+    is_equal = np.zeros(gap.size, dtype=bool)  # to the value before
+
+    def compare(i, j):
+        in_order = gap[order[max(i - 1, 0) : j]]
+        is_equal[max(i, 1) : j] = in_order[1:] == in_order[:-1]
+
+    run_blocks(compare, gap.size, threads)
+    if is_equal.any():
+        members = np.flatnonzero(is_equal | np.append(is_equal[1:], False))
+        # Numbers that order the members by groups of equal values, and by their indices within a group.
+        group = np.cumsum(~is_equal[members]) * gap.size
+        order[members] = np.sort(group + order[members]) - group
+    return order
 
 
 def _order_by_ranges(gap, ranges):

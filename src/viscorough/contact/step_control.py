@@ -190,11 +190,10 @@ def _predicted_touches(before, after, share, threads):
 
 def _new_elements(before, after, threads):
     """Elements that join a contact: their places on the grid of the GridFields before, and P and q after."""
-    fields = after.fields
-    if fields is not None and fields.place is before.place:
-        place = GridLoops(threads).difference(fields.inside, before.inside)
-        return place, fields.pressure[place].astype(float), fields.tangent[place].astype(float)
-    loads = after.member_loads()
-    place = before.place[loads.members]
-    is_new = ~before.inside[place]
-    return place[is_new], loads.pressure[is_new], loads.tangent[is_new]
+    fields, loops = after.fields, GridLoops(threads)
+    if fields.place is before.place:
+        place = places_before = loops.difference(fields.inside, before.inside)
+    else:
+        members = loops.new_members(fields, before)
+        place, places_before = fields.place[members], before.place[members]
+    return places_before, fields.pressure[place].astype(float), fields.tangent[place].astype(float)

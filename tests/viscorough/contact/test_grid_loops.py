@@ -1,5 +1,7 @@
 """Loops over fields and contact sets of more than one block, against numpy."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -132,10 +134,64 @@ def test_steps_on_a_set(loops, field, places, slots):
     np.testing.assert_allclose(pressure, expected, rtol=1e-14, atol=1e-15)
 
 
-def test_a_field_is_cleared(loops, field):
-    cleared = field()
-    loops.clear(cleared)
-    assert not cleared.any()
+def test_a_field_is_filled(loops, field):
+    filled = field()
+    loops.fill(filled, 3.0)
+    assert np.all(filled == 3.0)
+
+
+def test_a_field_is_shifted(loops, field):
+    grid = field(ROWS * STRIDE).reshape(ROWS, STRIDE)[:, :COLUMNS]
+    shifted = np.zeros(SIZE)
+    loops.shifted(grid, 0.3, shifted.reshape(-1, WIDTH)[INNER])
+    np.testing.assert_array_equal(shifted, np.pad(grid - 0.3, REACH).ravel())
+
+
+@pytest.fixture
+def elements(random):
+    """Rows and columns of all places of the grid, in any order, and their initial gaps."""
+    row, column = np.divmod(random.permutation(ROWS * COLUMNS).astype(np.int32), COLUMNS)
+    return row, column, random.random(row.size)
+
+
+def grid_of(loops, box, elements):
+    """Indices of the elements on the grid of a box, and the flat field of their initial gaps."""
+    field = np.full((box[2] + 2 * REACH) * (box[3] + 2 * REACH), 9.0)
+    return loops.place_elements(box, *elements, field), field
+
+
+def test_elements_are_placed_in_a_box(loops, elements):
+    row, column, initial_gap = elements
+    box = top, left, rows, columns = 30, 50, 350, 500
+    place, field = grid_of(loops, box, elements)
+    gap_map = np.empty((ROWS, COLUMNS))
+    gap_map[row, column] = initial_gap
+    in_box = gap_map[top : top + rows, left : left + columns]
+    np.testing.assert_array_equal(field, np.pad(in_box, REACH, constant_values=9.0).ravel())
+    found = place > 0
+    np.testing.assert_array_equal(np.sort(initial_gap[found]), np.sort(in_box, axis=None))
+    np.testing.assert_array_equal(field[place[found]], initial_gap[found])
+
+
+def test_a_contact_is_transferred_to_a_larger_grid(loops, elements, random):
+    small, large = (grid_of(loops, box, elements)[0] for box in ((30, 50, 350, 500), (0, 0, ROWS, COLUMNS)))
+    sizes = small.max() + 1, large.max() + 1
+    source, target = ([np.zeros(size, bool), np.zeros(size), np.zeros(size)] for size in sizes)
+    members = np.flatnonzero((small > 0) & (random.random(small.size) < 0.5))
+    source[0][small[members]] = True
+    for values in source[1:]:
+        values[small[members]] = random.random(members.size)
+    before = SimpleNamespace(place=small, inside=source[0], pressure=source[1], tangent=source[2])
+    loops.transfer(before, large, *target)
+    for stored, values in zip(target, source, strict=True):
+        np.testing.assert_array_equal(stored[large[members]], values[small[members]])
+        assert np.count_nonzero(stored) == members.size
+
+    after = SimpleNamespace(place=large, inside=target[0].copy())
+    joined = np.sort(random.choice(np.setdiff1d(np.arange(large.size), members), 100, replace=False))
+    after.inside[large[joined]] = True
+    np.testing.assert_array_equal(loops.new_members(after, before), joined)
+    assert loops.new_members(before, after).size == 0
 
 
 def test_fields(loops, field):

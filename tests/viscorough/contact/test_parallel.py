@@ -60,9 +60,13 @@ def test_a_forked_process_starts_other_threads():
     run_blocks(lambda start, stop: None, 20, 2, block=10)
     child = os.fork()
     if child == 0:
-        barrier = threading.Barrier(2)
-        run_blocks(lambda start, stop: barrier.wait(timeout=10), 2, 2, block=1)
-        os._exit(0)
+        failed = 1
+        try:
+            barrier = threading.Barrier(2)
+            run_blocks(lambda start, stop: barrier.wait(timeout=10), 2, 2, block=1)
+            failed = 0
+        finally:
+            os._exit(failed)  # in any case: the child must not run the tests that follow
     deadline = time.monotonic() + 30
     while (done := os.waitpid(child, os.WNOHANG)) == (0, 0):
         assert time.monotonic() < deadline

@@ -31,6 +31,8 @@ HISTORIES = {  # times and forces over IMPULSE; linear between, and a time given
 SCALES = (1e-3, 0.2, 7.0)  # factors of heights and depth
 UNITS = ((7.0, 1.0), (1e-3, 3.0), (0.2, 1e-2))  # factors of heights and of lengths in the plane
 FORCES = np.geomspace(1e-3, 1, 31)  # X at which curves are compared
+DRIVES = ((1.0, 1.0), (1.0, 5.0), (1e-2, 1.0), (30.0, 0.2))  # forces over hL and viscosities of one indentation
+STEPS = 10  # of equal impulse, in which it is integrated
 
 
 def _disc(evidence, hurst):
@@ -82,7 +84,11 @@ def depth_over_rms(evidence, tolerance):
 
 
 def one_surface(evidence, tolerance):
-    """Relative differences of κ(X) between one surface and the same surface with other heights and another diameter."""
+    """Relative differences between one surface and the same surface in other units.
+
+    κ(X) with other heights and another diameter, for every Hurst exponent, and F/(ηvL) of direct integrations with
+    other forces and viscosities, at the same Ft/η and so the same contact, for the smallest.
+    """
     cases = []
     for hurst in evidence.pooled:
         disc = _disc(evidence, hurst)
@@ -92,7 +98,19 @@ def one_surface(evidence, tolerance):
             scaled = Indenter(heights * disc.heights, lengths * disc.spacing)
             deviations.append(np.max(np.abs(_stiffness(scaled, heights, lengths) / curve - 1)))
         cases.append(_case(f"H = {hurst:g}", deviations, tolerance))
-    return cases
+    disc = _disc(evidence, min(evidence.pooled))
+    first, *others = (_resistance(disc, *drive) for drive in DRIVES)
+    return [
+        *cases,
+        _case("other forces and viscosities", [np.max(np.abs(one / first - 1)) for one in others], tolerance),
+    ]
+
+
+def _resistance(disc, force, viscosity):
+    """F/(ηvL) over steps of equal impulse Ft/η in a direct integration; v : velocity over a step."""
+    times = np.linspace(0.0, IMPULSE * viscosity / force, STEPS + 1)
+    depth = march_medium(disc, Newtonian(viscosity), times, force=np.full(times.size, force)).depth
+    return force / (viscosity * np.diff(depth) / np.diff(times))
 
 
 def _stiffness(indenter, rms, diameter):

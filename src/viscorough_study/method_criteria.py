@@ -6,6 +6,7 @@ from viscorough.surfaces import cut_disc
 from viscorough_study.evidence import NO_INTERVAL, judged, opposite
 
 WEEKS_IN_MINUTES = 7 * 24 * 60  # the unit of several weeks in that of a few minutes
+SMALL_ERROR = 0.01  # of the velocity, with which a contact problem for every change of the contact is compared
 
 
 def gamma(evidence, tolerance):
@@ -62,6 +63,20 @@ def elements(evidence, tolerance):
     return [judged(f"{across} across", (count, *NO_INTERVAL), said, met, extremes=extremes)]
 
 
+def contact_problems(evidence, tolerance):
+    """Contact problems that give the velocity with a small error, over the elements, each of which is a change.
+
+    The problems are the levels of the elastic loading path, for the loosest tolerance with which its error is below
+    `SMALL_ERROR`, on a disc as large as the paper's; of several Hurst exponents the most.
+    """
+    levels = _rough_discs(evidence).query("method == 'path, automatic levels' and error <= @SMALL_ERROR")
+    ratios = levels.groupby("hurst")["steps"].min().to_numpy() / evidence.said("boundary_elements", "elements")
+    if not ratios.size:
+        return [judged("of a disc", (np.nan,) * 3, 1.0, None)]
+    met = bool((np.abs(np.log(ratios)) <= np.log(tolerance)).all())
+    return [judged("of a disc", (ratios.max(), *NO_INTERVAL), 1.0, met, extremes=(ratios.min(), ratios.max()))]
+
+
 def computing_time(evidence, tolerance):
     """Order of magnitude of the time of boundary elements over that of lines, at the numbers that the paper states.
 
@@ -74,15 +89,18 @@ def computing_time(evidence, tolerance):
     problems = np.prod(list(numbers.values())) * np.median(np.concatenate(counts))
     names = "hurst_count", "realizations", "points"
     points = np.prod([float(evidence.said("reduction", name)) for name in names])
-    methods = evidence.tables["methods"]
-    methods = methods[
-        methods["hurst"].notna() & (methods["elements"] == evidence.said("boundary_elements", "elements_across"))
-    ]
+    methods = _rough_discs(evidence)
     times = [_time_of_one(methods, name) for name in ("explicit, logarithmic steps", "MDR")]
     ratio = problems * times[0] / (points * times[1])
     value = 10.0 ** np.round(np.log10(ratio)) if np.isfinite(ratio) else np.nan
     met = bool(1 / tolerance <= value / WEEKS_IN_MINUTES <= tolerance)
     return [judged("power of ten of the ratio", (value, *NO_INTERVAL), WEEKS_IN_MINUTES, met)]
+
+
+def _rough_discs(evidence):
+    """Rows of the table of methods on rough discs as large as the paper's."""
+    methods, across = evidence.tables["methods"], evidence.said("boundary_elements", "elements_across")
+    return methods[methods["hurst"].notna() & (methods["elements"] == across)]
 
 
 def _time_of_one(methods, name):
@@ -99,5 +117,6 @@ JUDGES = {
     "line_spectrum": line_spectrum,
     "bodies_of_revolution": bodies_of_revolution,
     "elements": elements,
+    "contact_problems": contact_problems,
     "computing_time": computing_time,
 }

@@ -97,6 +97,7 @@ def test_power_law_and_complete_contact():
     fractions = of_claim("complete_contact")["value"]
     assert f"only {100 * fractions.min():.0f} to {100 * fractions.max():.0f} % of the elements touch" in text
     assert of_claim("computing_time")["value"].tolist() == [100]
+    assert f"with about {51432 * of_claim('contact_problems')['value'].iloc[0]:.0f} contact problems" in text
     assert set(of_claim("zeta_better")["verdict"]) == {"reproduced"}
     assert "not reproduced" in set(of_claim("master_curve_shape")["verdict"])
 

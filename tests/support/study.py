@@ -42,11 +42,16 @@ TRENDS = [
     ("lines", "X = 0.01 to 0.1", 0.9, 0.0, -0.01, 0.01),
 ]
 METHODS = [  # 1 ms for a step, 1 ns for a point
-    ("explicit, logarithmic steps", 0.8, 257, 16, 1.0),
-    ("explicit, logarithmic steps", 0.8, 257, 256, 0.256),
-    ("MDR", 0.8, 257, 1e6, 1e-3),
-    ("MDR", np.nan, 257, 1e7, 1.0),
-    ("MDR", 0.8, 65, 1e7, 1.0),
+    ("explicit, logarithmic steps", 0.8, 257, 16, 1.0, 0.1, 16),
+    ("explicit, logarithmic steps", 0.8, 257, 256, 0.256, 0.005, 256),
+    ("path, automatic levels", 0.8, 257, 0.1, 0.02, 0.03, 15),
+    ("path, automatic levels", 0.8, 257, 0.01, 0.04, 0.005, 58),
+    ("path, automatic levels", 0.4, 257, 0.01, 0.05, 0.004, 51),
+    ("path, automatic levels", 0.4, 257, 0.001, 0.08, 0.0005, 413),
+    ("path, automatic levels", 0.4, 65, 0.001, 0.08, 0.0005, 7),
+    ("MDR", 0.8, 257, 1e6, 1e-3, 0.2, 1e6),
+    ("MDR", np.nan, 257, 1e7, 1.0, 0.2, 1e7),
+    ("MDR", 0.8, 65, 1e7, 1.0, 0.2, 1e7),
 ]
 BOOTSTRAP = {"resamples": 50, "seed": 1}
 X = abscissa(1e-7, 30.0, 20)
@@ -108,7 +113,9 @@ def evidence(zeta=reference.zeta_elastic, **options):
             "validation": validation,
             "direct": compare_direct(HURST, 17, 25, 1),
             **mdr_tables(),
-            "methods": pd.DataFrame(METHODS, columns=["method", "hurst", "elements", "value", "wall_s"]),
+            "methods": pd.DataFrame(
+                METHODS, columns=["method", "hurst", "elements", "value", "wall_s", "error", "steps"]
+            ),
             "sizes_trends": pd.DataFrame(TRENDS, columns=["source", "window_rule", "hurst", *SLOPES]),
             "sizes": scaling.query("source == 'discs'").assign(case_group="sizes", elements=round(0.778 * ACROSS**2)),
             "plateaus": pd.DataFrame(plateaus, columns=of_plateaus),

@@ -78,7 +78,7 @@ def indent(
         forces = increasing("indent: forces", forces)
     progress = progress or (lambda done: None)
     if depths is not None:
-        solver = ContactSolver(indenter, tolerance, options, threads)
+        solver = ContactSolver(indenter, tolerance, options, threads, largest_depth=depths[-1])
         levels = _levels_at_depths(solver, depths, progress)
     elif forces is not None:
         solver = ContactSolver(

@@ -19,9 +19,10 @@ from viscorough.contact.parallel import require_threads
 from viscorough.contact.state import ContactState, MemberLoads, elements_of
 from viscorough.errors import ConvergenceError
 
-# Depth that the box of a grid allows for, over the requested depth; a box that would cover more than this share of the
-# whole grid is replaced by the whole grid.
-_BOX_DEPTH_MARGIN, _LARGEST_BOX = 1.3, 0.8
+# Depth that the box of a grid allows for, over the requested depth: less makes boxes smaller, but there are more of
+# them, each of which takes two applications of the operator. A box that would cover more than this share of the whole
+# grid is replaced by the whole grid.
+_BOX_DEPTH_MARGIN, _LARGEST_BOX = 2.0, 0.8
 # Contact only grows with depth. Within the accuracy of the solution an element may leave it, with a gap up to this
 # multiple of the tolerance times the depth; a larger gap is an error.
 _LOST_CONTACT = 3
@@ -55,17 +56,19 @@ class ContactSolver:
     tolerance : largest |e| in contact or overlap outside it, over the depth
     options : SolverOptions
     threads : on which contacts on the grid are computed
+    largest_depth : the largest depth that will be requested, where it is known: no grid allows for more [length]
 
     elements, units : state.Elements and state.Units of the indenter
 
     Raises MemoryError if the available memory does not suffice for the map.
     """
 
-    def __init__(self, indenter, tolerance, options=DEFAULT, threads=1):
+    def __init__(self, indenter, tolerance, options=DEFAULT, threads=1, *, largest_depth=np.inf):
         require_for_contact(indenter.heights, exact=tolerance < options.exact_gap_below)
         self.elements, self.units = elements_of(indenter, threads)
         self.tolerance, self.options, self.threads, self._loops = tolerance, options, threads, GridLoops(threads)
         self._grid, self._reach, self._former_applications = None, 0, 0
+        self._largest_depth = largest_depth / self.units.length
 
     @property
     def operator_applications(self):
@@ -153,7 +156,8 @@ class ContactSolver:
         if self._grid is None or rank > self._reach:
             # The box allows for larger depths to come, or is the whole grid where it would save little.
             gap, row, column = self.elements.initial_gap, self.elements.row, self.elements.column
-            reach = max(rank, int(np.searchsorted(gap, _BOX_DEPTH_MARGIN * gap[rank - 1])))
+            deepest = min(_BOX_DEPTH_MARGIN * gap[rank - 1], self._largest_depth)
+            reach = max(rank, int(np.searchsorted(gap, deepest)))
             first, last = ([pick(place[:reach]) for place in (row, column)] for pick in (np.min, np.max))
             box = [int(n) for n in (*first, *np.subtract(last, first) + 1)]
             rows, columns = self.elements.shape

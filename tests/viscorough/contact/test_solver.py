@@ -117,3 +117,20 @@ def test_events_end_at_the_force_and_ties_are_one_event():
 def test_invalid_options_are_refused(wrong, message):
     with pytest.raises(ValueError, match=message):
         SolverOptions(**wrong)
+
+
+def test_a_known_largest_depth_makes_grids_smaller_and_limits_nothing():
+    disc = self_affine_disc(0.8, 65, seed=1)
+    depths = np.nanmax(disc.initial_gap) * np.array([0.1, 0.15, 0.2])
+    solutions = []
+    for largest_depth in (np.inf, depths[1]):
+        solver = ContactSolver(disc, 1e-6, ROUTES["grid"], largest_depth=largest_depth)
+        contacts = [solver.unloaded_state()]
+        for depth in depths:  # the last one is larger
+            contacts.append(solver.advance(contacts[-1], depth))
+        solutions.append(contacts[1:])
+    sizes = [[contact.fields.pressure.size for contact in contacts] for contacts in solutions]
+    assert sizes[1][1] < sizes[0][1]
+    for one, other in zip(*solutions, strict=True):
+        assert one.count == other.count
+        assert one.force == pytest.approx(other.force, rel=1e-6)

@@ -1,6 +1,9 @@
-"""Preconditioned conjugate gradients on one contact set of a grid."""
+"""Preconditioned conjugate gradients on the contact sets of a grid, one after the other."""
 
 import numpy as np
+
+# Largest share of the last change of pressure in the next direction: a safeguard where many elements left the set.
+_LARGEST_SHARE = 1.0
 
 
 class ConjugateGradients:
@@ -13,25 +16,39 @@ class ConjugateGradients:
     """
 
     def __init__(self, halfspace, preconditioner, contact_set, loops):
-        self._halfspace, self._preconditioner, self._set, self._loops = halfspace, preconditioner, contact_set, loops
-        preconditioner.prepare(contact_set.inside, contact_set.places.size)
+        self._halfspace, self._preconditioner, self._loops = halfspace, preconditioner, loops
         self._direction = halfspace.load.ravel()  # a view: the direction is the operator's load
         loops.fill(self._direction, 0)
-        self._norm, self._last_norm = np.nan, np.inf
+        self._deflection, self._limit, self._released = None, np.inf, np.empty(0, dtype=int)
+        self.change_set(contact_set)
+
+    def change_set(self, contact_set):
+        """Go on with another contact set, where the direction is zero on elements that have joined or left."""
+        self._direction[self._released] = 0
+        self._set, self._released = contact_set, self._released[:0]
+        self._preconditioner.prepare(contact_set.inside, contact_set.places.size)
 
     def precondition(self, gap):
-        """Compute the preconditioned gap z = M e on the set; returns zᵀe."""
-        self._preconditioned = self._preconditioner.apply(gap)
-        # Both factors have the opposite sign: the residual is −e.
-        self._norm = self._loops.inner_product(self._preconditioned, gap, self._set.places)
-        return self._norm
+        """Compute the preconditioned gap z = M e on the set."""
+        self._preconditioned, self._gap = self._preconditioner.apply(gap), gap
+
+    def norm(self):
+        """zᵀe, the square of the norm of the residual."""
+        return self._loops.inner_product(self._preconditioned, self._gap, self._set.places)
 
     def update_direction(self):
-        """Update the search direction: conjugate to the last one, from the preconditioned residual."""
-        factor = self._norm / self._last_norm
+        """Update the search direction: conjugate to the last one, from the preconditioned residual.
+
+        If the last step had not the length that minimises the energy along it, because elements left the set, what is
+        missing is added; the coming step is taken to have a length of one.
+        """
+        factor = 0.0
+        if self._deflection is not None:
+            of_preconditioned, of_gap, of_direction = self._sums()
+            if of_direction > 0:
+                factor = np.clip((of_preconditioned - of_gap) / of_direction, -self._limit, self._limit)
         of_set = self._set.places, self._set.slots
         self._loops.update_search_direction(self._direction, self._preconditioned, factor, *of_set)
-        self._last_norm = self._norm
 
     def step(self, pressure, gap):
         """Take a step of conjugate gradients, which changes pressure and gap in place.
@@ -40,25 +57,48 @@ class ConjugateGradients:
 
         Returns whether any pressure is negative.
         """
-        deflection, (_, columns) = self._halfspace.apply(), self._halfspace.shape
-        length = self._norm / self._loops.inner_product(self._direction, deflection.ravel(), self._set.slots)
-        length = gap.dtype.type(length)  # in the precision of the fields, which the compiled loops then keep to
-        self._loops.update_gap(length, deflection[:, :columns], gap)
+        deflection = self._deflect()
+        _, of_gap, of_direction = self._sums()
+        length = gap.dtype.type(-of_gap / of_direction)  # in the precision of the fields, which the loops then keep to
+        self._loops.update_gap(length, deflection, gap)
+        self._limit = np.inf
         return self._loops.update_pressure(length, self._direction, pressure, self._set.places, self._set.slots)
+
+    def unloaded_under_tension(self, pressure):
+        """Places of elements without pressure that a step along the direction would put under tension."""
+        of_set = self._set.places, self._set.slots
+        return self._loops.unloaded_under_tension(self._direction, pressure, *of_set)
 
     def step_causes_tension(self, length, pressure):
         """Whether a step of that length along the direction puts any element under tension."""
         return self._loops.step_causes_tension(length, self._direction, pressure, self._set.places, self._set.slots)
 
-    def step_and_release(self, length, pressure, gap, width):
-        """Take a step of given length, after which elements under tension leave the set; all in place.
+    def step_and_release(self, length, pressure, width):
+        """Take a step of given length, after which elements under tension leave the set; changes both in place.
 
-        gap : e − g, flat field
         width : of a row of flat fields
+
+        The direction becomes the change of pressure; the gap is changed by `update_gap`, or computed from the pressure.
         """
         contact_set, stencil = self._set, self._preconditioner.stencil
-        self._loops.step_and_release(
+        released = self._loops.step_and_release(
             length, self._direction, pressure, contact_set.inside, contact_set.places, contact_set.slots,
             stencil, width, self._halfspace.load.shape[1],
         )  # fmt: skip
-        self._loops.update_gap(gap.dtype.type(1), self._halfspace.apply()[:, : self._halfspace.shape[1]], gap)
+        self._released = contact_set.slots[released]
+        self._deflection, self._limit = None, _LARGEST_SHARE
+
+    def update_gap(self, gap):
+        """Change the gap, e − g, by the deflection of the direction, in place."""
+        self._loops.update_gap(gap.dtype.type(1), self._deflect(), gap)
+
+    def _deflect(self):
+        """K d in rows and columns; kept until the next call."""
+        deflection = self._halfspace.apply()
+        self._deflection = deflection.ravel()
+        return deflection[:, : self._halfspace.shape[1]]
+
+    def _sums(self):
+        """z·Kd, d·e and d·Kd over the set."""
+        fields = self._direction, self._deflection, self._preconditioned, self._gap
+        return self._loops.direction_sums(*fields, self._set.places, self._set.slots)

@@ -173,6 +173,28 @@ def update_search_direction(direction, preconditioned, factor, places, slots):
         direction[slots[t]] = factor * direction[slots[t]] - preconditioned[places[t]]
 
 
+@njit(fastmath=True, nogil=True)
+def direction_sums(direction, deflection, preconditioned, gap, places, slots):
+    """z·Kd, d·e and d·Kd over the set, with d and K d laid out as the operator's load; z and e are flat fields."""
+    of_preconditioned = of_gap = of_direction = 0.0
+    for t in range(slots.size):
+        change, by_change = np.float64(direction[slots[t]]), np.float64(deflection[slots[t]])
+        of_preconditioned += preconditioned[places[t]] * by_change
+        of_gap += change * gap[places[t]]
+        of_direction += change * by_change
+    return np.array([of_preconditioned, of_gap, of_direction])
+
+
+@njit(nogil=True)
+def unloaded_under_tension(direction, pressure, places, slots):
+    """Places of elements without pressure that a step along the direction would put under tension."""
+    found, count = np.empty(places.size, places.dtype), 0
+    for t in range(places.size):
+        found[count] = places[t]  # overwritten unless it is one, which takes less time than a branch
+        count += (pressure[places[t]] == 0) & (direction[slots[t]] < 0)
+    return found[:count]
+
+
 @njit(nogil=True)
 def step_causes_tension(length, direction, pressure, places, slots):
     """Whether a step of that length would put any element under tension."""

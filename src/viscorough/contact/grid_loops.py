@@ -29,6 +29,16 @@ class GridLoops:
     def gather_on_set(self, field, places, gathered):
         return max(self._over(places, lambda i, j: kernels.gather_on_set(field, places[i:j], gathered)))
 
+    def direction_sums(self, direction, deflection, preconditioned, gap, places, slots):
+        fields = direction, deflection, preconditioned, gap
+        return sum(self._over(slots, lambda i, j: kernels.direction_sums(*fields, places[i:j], slots[i:j])))
+
+    def unloaded_under_tension(self, direction, pressure, places, slots):
+        def find(i, j):
+            return kernels.unloaded_under_tension(direction, pressure, places[i:j], slots[i:j])
+
+        return np.concatenate(self._over(places, find))
+
     def step_causes_tension(self, length, direction, pressure, places, slots):
         step = length, direction, pressure
         return any(self._over(places, lambda i, j: kernels.step_causes_tension(*step, places[i:j], slots[i:j])))
@@ -50,6 +60,7 @@ class GridLoops:
         # Elements leave one after the other, since neighbours share the load of both.
         released = np.concatenate(self._over(places, step))
         kernels.release(direction, pressure, inside, places, slots, released, stencil, width, stride)
+        return released
 
     def energies(self, depths, *fields, places):
         parts = self._over(places, lambda i, j: kernels.energies(depths, *fields, places[i:j]))

@@ -8,6 +8,7 @@ grid, and thus the gap everywhere at no further cost.
 
 While elements leave, the length of a step is fixed in units of the preconditioned residual, so that one application of
 the operator serves both the step and the removal of these elements; afterwards steps are those of conjugate gradients.
+Directions are conjugate to the last change of pressure throughout.
 
 Symbols and reduced units are those of contact.state. Fields are flat arrays with a border as wide as the preconditioner
 reaches, so that elements at the edge need no special treatment.
@@ -15,7 +16,8 @@ reaches, so that elements at the edge need no special treatment.
 The iterations run in single precision by default, and fields are kept in it unless the tolerance is so small that the
 gap must be known in double precision. The iterations compute corrections that become ever smaller, so that the rounding
 error is small; a bound on it is tracked with every field, and the gap is recomputed from the pressure, in double
-precision where the tolerance needs it, when the bound nears the tolerance.
+precision where the tolerance needs it, when the bound nears the tolerance: if possible in a step of fixed length, for
+which the operator is applied anyway.
 """
 
 from dataclasses import replace
@@ -33,7 +35,14 @@ from viscorough.errors import ConvergenceError
 # Elements are not in the first set that would touch in the last part of the step, since the load of those that join
 # before bends the surface away from them: this share of a step from the unloaded state, and less of smaller steps.
 _LATE = 0.5
-# The release step is halved after every so many of them: a safeguard against cycles where the preconditioner is poor.
+# Elements without pressure that the first step would put under tension leave the first set before it if they are more
+# than this share of it: the preconditioned residual of a set far too large is of little use.
+_EXCLUDED = 0.05
+# The gap is recomputed in a step, whose length is then fixed, if the bound on its rounding error exceeds this share of
+# the limit and what the coming steps add stays below it: this saves the application of the operator for the step.
+_INEXACT = 0.25
+# The release step is halved after every so many of them, and each of them begins a new search: a safeguard against
+# cycles where the preconditioner is poor.
 _HALVE_STEP_EVERY = 20
 # Largest relative error of q in the energy norm; its square is the relative error of the stiffness.
 _TANGENT_TOLERANCE = 1e-2
@@ -193,8 +202,8 @@ class GridSolver:
         Changes pressure, e − g and set in place. Returns the contact set.
         """
         limit = _SEARCH_SHARE * self._tolerance * depth
-        changed, releases, tension = True, 0, self._loops.lowest(pressure) < 0
-        for _ in range(self._options.max_iterations):
+        changed, releases, tension, search = True, 0, self._loops.lowest(pressure) < 0, None
+        for iteration in range(self._options.max_iterations):
             if changed:
                 contact_set = self._contact_set(inside)
             largest = self._loops.gap_on_set(change.values, self.initial_gap, contact_set.places, self._residual)
@@ -207,43 +216,75 @@ class GridSolver:
                     continue
                 if change.rounding <= 0.5 * limit:
                     return contact_set
-                exact = self._gap_change(pressure, depth)
-                change.values, change.rounding = exact.values, exact.rounding
+                self._recompute_gap(pressure, change, depth)
                 self._add_penetrating_elements(change, inside, limit)
-                changed = True
+                changed, search = True, None  # the load array holds another load now
                 continue
             if changed:
-                search = ConjugateGradients(self._halfspace, self._preconditioner, contact_set, self._loops)
+                search = self._search(contact_set, search if 0 < releases < _HALVE_STEP_EVERY else None)
             search.precondition(self._residual)
             search.update_direction()
-            change.rounding += self._rounding * largest + self._field_rounding * depth
             release_step = self._options.release_step * 0.5 ** (releases // _HALVE_STEP_EVERY)
+            if iteration == 0 and release_step > 0:
+                changed = self._exclude(search.unloaded_under_tension(pressure), contact_set)
+                if changed:
+                    continue
             changed = search.step_causes_tension(release_step, pressure)
-            if changed:
-                search.step_and_release(release_step, pressure, change.values, self._width)
+            recomputes = release_step > 0 and self._must_recompute(change, largest, limit, depth)
+            change.rounding += self._rounding * largest + self._field_rounding * depth
+            if changed or recomputes:
+                search.step_and_release(release_step, pressure, self._width)
                 releases, tension = releases + 1, False
+                if recomputes:
+                    self._recompute_gap(pressure, change, depth)
+                else:
+                    search.update_gap(change.values)
             else:
                 tension = search.step(pressure, change.values)
             changed = self._add_penetrating_elements(change, inside, close_enough) > 0 or changed
         raise self._not_converged(contact_set, largest, limit)
 
+    def _search(self, contact_set, last=None):
+        """Conjugate gradients on a set: the last search goes on, unless there is none or steps have no fixed length."""
+        if last is None or self._options.release_step == 0:
+            return ConjugateGradients(self._halfspace, self._preconditioner, contact_set, self._loops)
+        last.change_set(contact_set)
+        return last
+
+    def _exclude(self, places, contact_set):
+        """Take elements out of the set if they are a large share of it; returns whether they are."""
+        is_large = places.size > _EXCLUDED * contact_set.places.size
+        if is_large:
+            contact_set.inside[places] = False
+        return is_large
+
+    def _must_recompute(self, change, largest, limit, depth):
+        """Whether the rounding error is too large, and recomputing the gap reduces it for the rest of this level."""
+        too_large = max(_INEXACT * limit, 2 * (self._exact_rounding + self._field_rounding) * depth)
+        return change.rounding > too_large and self._rounding * largest < _INEXACT * limit
+
+    def _recompute_gap(self, pressure, change, depth):
+        """Compute e − g anew from the pressure; changes it in place."""
+        exact = self._gap_change(pressure, depth)
+        change.values, change.rounding = exact.values, exact.rounding
+
     def _solve_tangent(self, contact_set, tangent, tangent_gap):
         """Solve K q = 1 on a set by conjugate gradients; changes q and e_q, with its rounding bound, in place."""
         tolerance = min(_TANGENT_TOLERANCE, np.sqrt(self._tolerance))
         accepted = max(_TANGENT_ROUNDING * self._tolerance, self._exact_rounding + self._field_rounding)
-        search = ConjugateGradients(self._halfspace, self._preconditioner, contact_set, self._loops)
+        search = self._search(contact_set)
         for _ in range(self._options.max_iterations):
             largest = self._loops.gather_on_set(tangent_gap.values, contact_set.places, self._residual)
-            norm = search.precondition(self._residual)
+            search.precondition(self._residual)
             # The error of Σq is e_qᵀ K⁻¹ e_q, which is at most e_qᵀ M e_q / LEAST_EIGENVALUE.
             total = self._loops.total(tangent, contact_set.places)
-            error = np.sqrt(norm / (LEAST_EIGENVALUE * total)) if total > 0 else np.inf
+            error = np.sqrt(search.norm() / (LEAST_EIGENVALUE * total)) if total > 0 else np.inf
             if error <= tolerance:
                 if tangent_gap.rounding <= accepted:
                     return
                 exact = self._tangent_gap(tangent)
                 tangent_gap.values[:], tangent_gap.rounding = exact.values, exact.rounding
-                search = ConjugateGradients(self._halfspace, self._preconditioner, contact_set, self._loops)
+                search = self._search(contact_set)
                 continue
             search.update_direction()
             tangent_gap.rounding += self._rounding * largest + self._field_rounding

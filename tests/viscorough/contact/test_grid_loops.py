@@ -134,6 +134,21 @@ def test_steps_on_a_set(loops, field, places, slots):
     np.testing.assert_allclose(pressure, expected, rtol=1e-14, atol=1e-15)
 
 
+def test_sums_of_a_direction(loops, field, places, slots):
+    direction, deflection, preconditioned, gap = field(ROWS * STRIDE), field(ROWS * STRIDE), field(), field()
+    d, by_d = direction[slots], deflection[slots]
+    sums = loops.direction_sums(direction, deflection, preconditioned, gap, places, slots)
+    np.testing.assert_allclose(sums, [preconditioned[places] @ by_d, d @ gap[places], d @ by_d], rtol=1e-9)
+
+
+def test_unloaded_elements_under_tension_are_found_in_every_block(loops, field, places, slots):
+    direction, pressure = field(ROWS * STRIDE), field()
+    pressure[::3] = 0
+    found = loops.unloaded_under_tension(direction, pressure, places, slots)
+    np.testing.assert_array_equal(found, places[(pressure[places] == 0) & (direction[slots] < 0)])
+    assert 0 < found.size < places.size
+
+
 def test_a_field_is_filled(loops, field):
     filled = field()
     loops.fill(filled, 3.0)

@@ -7,6 +7,7 @@ import pytest
 
 from viscorough.contact.grid_solver import GridSolver
 from viscorough.contact.influence import influence_coefficient
+from viscorough.contact.loading_path import indent
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.preconditioner import REACH
 from viscorough.contact.solver import ContactSolver
@@ -145,3 +146,14 @@ def test_options_do_not_change_the_solution(options):
     levels = [grid.solve(contact_on(grid, disc, 0.5), 0.6) for grid in grids]
     assert levels[0].pressure_sum == pytest.approx(levels[1].pressure_sum, rel=1e-7)
     assert levels[0].tangent_sum == pytest.approx(levels[1].tangent_sum, rel=1e-4)
+
+
+def test_levels_far_apart_need_few_applications_of_the_operator():
+    """It was 140 with the predicted sets, no conjugacy while elements leave, and recomputations apart from steps."""
+    applications = 0
+    for hurst in (0.4, 0.8):
+        for seed in (1, 2):
+            disc = self_affine_disc(hurst, 129, seed=seed)
+            depths = np.quantile(disc.initial_gap[np.isfinite(disc.heights)], [0.1, 0.3, 0.6])
+            applications += indent(disc, tolerance=1e-6, depths=depths).operator_applications
+    assert applications <= 132

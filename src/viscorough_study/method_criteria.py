@@ -78,11 +78,12 @@ def contact_problems(evidence, tolerance):
 
 
 def computing_time(evidence, tolerance):
-    """Order of magnitude of the time of boundary elements over that of lines, at the numbers that the paper states.
+    """Time of boundary elements over that of lines, at the numbers that the paper states.
 
     Boundary elements: a contact problem for every contact event of every indentation, as explicit steps take them; the
     reduction: every point of every line. The time of each is that of the table of methods, on a disc as large as the
-    paper's. Rounded to a power of ten, which the machine does not change.
+    paper's. The ratio depends on the machine and on what else runs there; rounded to a power of ten it would jump from
+    one run to the next.
     """
     numbers = {name: evidence.said("boundary_elements", name) for name in ("combinations", "realizations_min")}
     counts = [ensemble["contact_count"].max("abscissa").values for ensemble in evidence.pooled.values()]
@@ -92,9 +93,8 @@ def computing_time(evidence, tolerance):
     methods = _rough_discs(evidence)
     times = [_time_of_one(methods, name) for name in ("explicit, logarithmic steps", "MDR")]
     ratio = problems * times[0] / (points * times[1])
-    value = 10.0 ** np.round(np.log10(ratio)) if np.isfinite(ratio) else np.nan
-    met = bool(1 / tolerance <= value / WEEKS_IN_MINUTES <= tolerance)
-    return [judged("power of ten of the ratio", (value, *NO_INTERVAL), WEEKS_IN_MINUTES, met)]
+    met = bool(1 / tolerance <= ratio / WEEKS_IN_MINUTES <= tolerance)
+    return [judged("ratio of the times", (ratio, *NO_INTERVAL), WEEKS_IN_MINUTES, met)]
 
 
 def _rough_discs(evidence):

@@ -96,7 +96,8 @@ def test_power_law_and_complete_contact():
     assert f"over {value} decades, {low} to {high}" in text
     fractions = of_claim("complete_contact")["value"]
     assert f"only {100 * fractions.min():.0f} to {100 * fractions.max():.0f} % of the elements touch" in text
-    assert of_claim("computing_time")["value"].tolist() == [100]
+    assert "take some hundred times as long as the lines" in text
+    assert 50 < of_claim("computing_time")["value"].iloc[0] < 1000
     assert f"with about {51432 * of_claim('contact_problems')['value'].iloc[0]:.0f} contact problems" in text
     assert set(of_claim("zeta_better")["verdict"]) == {"reproduced"}
     assert "not reproduced" in set(of_claim("master_curve_shape")["verdict"])

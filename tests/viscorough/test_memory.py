@@ -78,6 +78,16 @@ def test_memory_required_for_a_contact_follows_what_its_arrays_take(present, tol
     assert peak < demand(press, monkeypatch) < 2.2 * peak + CONSTANT
 
 
+def test_memory_required_for_a_contact_has_buffers_for_every_thread(monkeypatch):
+    """Blocks of columns, twice 64 complex numbers of single precision by the padded length, and of padded rows."""
+    indenter = Indenter(np.zeros((1024, 1024)), 1.0)
+    one, many = (demand(partial(indent, indenter, threads=threads), monkeypatch) for threads in (1, 9))
+    columns, rows = 2 * 64 * 8 * 2048, 2 * 128 * 4 * 2048
+    assert 8 * (columns + rows) < many - one < 1.3 * 8 * (columns + rows)
+    # No more of them than there are blocks.
+    assert demand(partial(indent, indenter, threads=1024), monkeypatch) < 2 * many
+
+
 @pytest.mark.skipif(not Path("/proc/self/clear_refs").exists(), reason="the peak of a process is read from /proc")
 @pytest.mark.parametrize("points", [2**20, 1_000_003, 2 * 500_009, 3 * 333_337, 11 * 90_911, 101 * 9901])
 @pytest.mark.parametrize("dtype", [np.float64, np.float32])

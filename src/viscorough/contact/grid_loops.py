@@ -3,10 +3,22 @@
 Methods have the arguments and results of the kernels of the same name, which document them.
 """
 
+from functools import partial
+
 import numpy as np
 
 from viscorough.contact import grid_kernels as kernels
 from viscorough.contact.parallel import BLOCK, run_blocks
+
+
+def field_to_fill(size, dtype, inner):
+    """A flat field that a loop fills, on its threads, but for the rows of its border, which are zero.
+
+    inner : slice of the field without these rows
+    """
+    field = np.empty(size, dtype)
+    field[: inner.start] = field[inner.stop :] = 0
+    return field
 
 
 class GridLoops:
@@ -57,9 +69,19 @@ class GridLoops:
         def step(i, j):
             return kernels.step_and_find_tension(length, direction, pressure, inside, places[i:j], slots[i:j], i)
 
-        # Elements leave one after the other, since neighbours share the load of both.
         released = np.concatenate(self._over(places, step))
-        kernels.release(direction, pressure, inside, places, slots, released, stencil, width, stride)
+        # Elements of a band of rows leave one after the other, since neighbours share the load of both. Bands have at
+        # least two rows, so that every other one can be processed at the same time.
+        band = max(BLOCK // width, 2) * width
+        ends = np.searchsorted(places[released], np.arange(band, pressure.size, band))
+        bands = np.split(released, ends)
+
+        def release(of_bands, first, last):
+            for of_band in of_bands[first:last]:
+                kernels.release(direction, pressure, inside, places, slots, of_band, stencil, width, stride)
+
+        for of_bands in (bands[::2], bands[1::2]):
+            run_blocks(partial(release, of_bands), len(of_bands), self._threads, 1)
         return released
 
     def energies(self, depths, *fields, places):

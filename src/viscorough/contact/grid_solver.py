@@ -25,7 +25,7 @@ from dataclasses import replace
 import numpy as np
 
 from viscorough.contact.conjugate_gradients import ConjugateGradients
-from viscorough.contact.grid_loops import GridLoops
+from viscorough.contact.grid_loops import GridLoops, field_to_fill
 from viscorough.contact.halfspace import Halfspace
 from viscorough.contact.preconditioner import LEAST_EIGENVALUE, REACH, Preconditioner
 from viscorough.contact.state import BoundedField, ContactSet, ContactState, GridFields
@@ -124,7 +124,8 @@ class GridSolver:
         """
         before, last_depth = self._start_fields(contact), contact.reduced_depth
         depth_step = depth - last_depth
-        pressure, change, inside = self._zeros(), self._zeros(), self._zeros(bool)
+        types = self._precision, self._precision, bool
+        pressure, change, inside = (field_to_fill(self.initial_gap.size, dtype, self._inner) for dtype in types)
         steps = [self._precision(step) for step in (depth_step, depth_step * (1 - _LATE * depth_step / depth))]
         fields = before.pressure, before.tangent, before.gap_change.values, before.tangent_gap.values, self.initial_gap
         self._loops.predict(*map(self._inner_rows, (pressure, change, inside)), *steps, *map(self._inner_rows, fields))
@@ -312,7 +313,7 @@ class GridSolver:
     def _deflection(self, pressure, shift):
         """K P − shift on the flat grid, in double precision where the tolerance needs it; its border is zero."""
         result, load = self._zeros(), self._exact.load[:, : self._width - 2 * REACH]
-        deflection = np.zeros_like(load)
+        deflection = np.broadcast_to(self._precision(0), load.shape)
         if pressure.any():
             self._loops.shifted(self._interior(pressure), 0, load)
             deflection = self._exact.apply()[:, : load.shape[1]]

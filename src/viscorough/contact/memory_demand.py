@@ -16,15 +16,18 @@ _FIELDS_OF_CONTACTS, _FIELDS_OF_CONTACTS_IF_EXACT, _OTHER_FIELDS = 16, 24, 4
 _PER_PLACE = 12 + 25
 # Arrays in double precision of the size of the spectrum of the half-space: kept, and while the operator is prepared.
 _SPECTRA = 2
+# Numbers of a row of the two blocks of columns that a thread convolves, and columns of a block.
+_BLOCK_OF_COLUMNS, _COLUMNS_OF_BLOCK = 2 * 152, 64
 # Whatever the size: tables, and dense solutions of hundreds of elements.
 _CONSTANT = 6e6
 
 
-def require_for_contact(heights, *, exact):
+def require_for_contact(heights, *, exact, threads=1):
     """Raise MemoryError, which names the bytes needed and available, unless the contact of a map fits into memory.
 
     heights : a map, nan outside the indenter
     exact : whether gaps are also computed in double precision
+    threads : on which the contact is computed; each has buffers of its own
 
     The need follows the allocation: it is proportional to the number of points of the padded grid around all elements,
     of its border included, which for narrow strips are several times as many as the elements. It lies above what is
@@ -32,20 +35,25 @@ def require_for_contact(heights, *, exact):
     """
     inside = np.isfinite(heights)
     rows, columns = (np.ptp(np.flatnonzero(inside.any(axis=axis))) + 1 for axis in (1, 0))
-    needed = _PER_HEIGHT * heights.size + _PER_ELEMENT * np.count_nonzero(inside) + _of_grid(rows, columns, exact=exact)
+    needed = _PER_HEIGHT * heights.size + _PER_ELEMENT * np.count_nonzero(inside)
+    needed += _of_grid(rows, columns, exact=exact, threads=threads)
     memory.require(needed, f"contact of a map of {heights.shape} heights")
 
 
-def _of_grid(rows, columns, *, exact):
+def _of_grid(rows, columns, *, exact, threads):
     """Bytes of a grid solver, its operators, and the contacts on its grid."""
     rows, columns = sorted((int(rows), int(columns)))
     along_columns, along_rows = convolution_lengths(rows, columns)
     spectrum = (along_columns // 2 + 1) * (along_rows // 2 + 1)
     flat = (rows + 2 * REACH) * (columns + 2 * REACH)
     operators = 8 * _SPECTRA * spectrum
+    buffers = min(threads, -(-along_rows // (2 * _COLUMNS_OF_BLOCK))) * _BLOCK_OF_COLUMNS * along_columns
+    if rows * columns > BLOCK:
+        # Two blocks of rows, which have a multiple of 16 of them.
+        buffers += min(threads, -(-rows // 16)) * 2 * along_rows * (BLOCK // columns + 16)
     for bytes_of_number in (4, 8) if exact else (4,):
         # Load and deflection, padded on small grids only, and transformed rows; the spectrum by blocks of columns.
         width = along_rows if rows * columns <= BLOCK else columns
-        operators += bytes_of_number * (rows * (2 * width + along_rows) + 1.2 * spectrum)
+        operators += bytes_of_number * (rows * (2 * width + along_rows) + 1.2 * spectrum + buffers)
     fields = 8 * (_OTHER_FIELDS + _FIELDS_OF_CONTACTS_IF_EXACT) if exact else 4 * (_OTHER_FIELDS + _FIELDS_OF_CONTACTS)
     return 8 * rows * columns + operators + (fields + _PER_PLACE) * flat + _CONSTANT

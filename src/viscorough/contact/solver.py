@@ -64,7 +64,7 @@ class ContactSolver:
     """
 
     def __init__(self, indenter, tolerance, options=DEFAULT, threads=1, *, largest_depth=np.inf):
-        require_for_contact(indenter.heights, exact=tolerance < options.exact_gap_below)
+        require_for_contact(indenter.heights, exact=tolerance < options.exact_gap_below, threads=threads)
         self.elements, self.units = elements_of(indenter, threads)
         self.tolerance, self.options, self.threads, self._loops = tolerance, options, threads, GridLoops(threads)
         self._grid, self._reach, self._former_applications = None, 0, 0

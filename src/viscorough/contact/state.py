@@ -94,11 +94,17 @@ class Elements:
 
 def elements_of(indenter, threads=1):
     """The Elements of an indenter, and the Units in which their initial gaps are expressed."""
-    inside = np.isfinite(indenter.heights)
+    heights = indenter.heights.ravel()
+    inside, highest = np.isfinite(indenter.heights), np.fmax.reduce(heights)
     columns = inside.shape[1]
     origin = tuple(int(inside.any(axis=axis).argmax()) for axis in (1, 0))
     place = np.flatnonzero(inside)
-    gap = indenter.initial_gap.ravel()[place]
+    gap = np.empty(place.size)
+
+    def subtract(i, j):
+        np.subtract(highest, heights[place[i:j]], out=gap[i:j], dtype=float)
+
+    run_blocks(subtract, gap.size, threads)
     units = Units(float(gap.max()) or indenter.element_side, indenter.element_side)
     order = _increasing_order(gap, threads)
     row, column, in_order = (np.empty(gap.size, dtype) for dtype in (np.int32, np.int32, float))

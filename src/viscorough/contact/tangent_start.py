@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from viscorough.contact.grid_loops import field_to_fill
 from viscorough.contact.state import BoundedField
 
 
@@ -30,7 +31,7 @@ def initial_tangent(now, last, before, contact_set, inner, loops):
     weights = _weights(now, last, before, contact_set, loops)
     pressure_weight, last_pressure_weight, tangent_weight = weights
     shift = pressure_weight * now.depth + last_pressure_weight * last.depth + tangent_weight - 1
-    tangent, tangent_gap = (np.zeros(now.pressure.size, now.pressure.dtype) for _ in range(2))
+    tangent, tangent_gap = (field_to_fill(now.pressure.size, now.pressure.dtype, inner) for _ in range(2))
     fields = (
         now.pressure, now.gap_change.values, last.pressure, last.gap_change.values,
         before.tangent, before.tangent_gap.values,

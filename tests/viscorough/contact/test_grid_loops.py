@@ -257,3 +257,25 @@ def test_elements_under_tension_leave_and_the_direction_is_the_change_of_pressur
     assert np.all(pressure[places] >= 0)
     np.testing.assert_allclose(direction[slots], (pressure - last_pressure)[places], atol=1e-13)
     assert np.count_nonzero(pressure) == np.count_nonzero(~leaving)
+
+
+def test_neighbours_of_an_element_that_leaves_share_its_load_also_across_bands(inside, places, slots):
+    """Bands of rows are processed on several threads: elements around their edges must not be forgotten or doubled."""
+    results = []
+    for threads in (1, 3):
+        members, pressure = inside.copy(), np.where(inside, 1.0, 0.0)
+        pressure[places[::5]] = -0.1
+        last_pressure, direction = pressure.copy(), np.zeros(ROWS * STRIDE)
+        stencil = load_redistribution_stencil(1.0)
+        GridLoops(threads).step_and_release(0.0, direction, pressure, members, places, slots, stencil, WIDTH, STRIDE)
+        shares = np.where(last_pressure < 0, last_pressure, 0.0).reshape(-1, WIDTH)
+        change = sum(
+            stencil[row + 1, column + 1] * np.roll(shares, (row, column), axis=(0, 1))
+            for row in (-1, 0, 1)
+            for column in (-1, 0, 1)
+        ).ravel()
+        expected = np.where(members, last_pressure + change, 0.0)
+        np.testing.assert_allclose(pressure, expected, atol=1e-13)
+        np.testing.assert_allclose(direction[slots], (pressure - last_pressure)[places], atol=1e-13)
+        results.append(pressure)
+    np.testing.assert_array_equal(*results)

@@ -41,6 +41,9 @@ _EXCLUDED = 0.05
 # The gap is recomputed in a step, whose length is then fixed, if the bound on its rounding error exceeds this share of
 # the limit and what the coming steps add stays below it: this saves the application of the operator for the step.
 _INEXACT = 0.25
+# Release steps after the first one of a level are longer by this factor, about the inverse of the mean eigenvalue of
+# M K. In the first one the set is too large, so that the residual overestimates the change.
+_LATER_STEPS = 1.1
 # The release step is halved after every so many of them, and each of them begins a new search: a safeguard against
 # cycles where the preconditioner is poor.
 _HALVE_STEP_EVERY = 20
@@ -225,7 +228,7 @@ class GridSolver:
                 search = self._search(contact_set, search if 0 < releases < _HALVE_STEP_EVERY else None)
             search.precondition(self._residual)
             search.update_direction()
-            release_step = self._options.release_step * 0.5 ** (releases // _HALVE_STEP_EVERY)
+            release_step = self._release_step(releases)
             if iteration == 0 and release_step > 0:
                 changed = self._exclude(search.unloaded_under_tension(pressure), contact_set)
                 if changed:
@@ -244,6 +247,10 @@ class GridSolver:
                 tension = search.step(pressure, change.values)
             changed = self._add_penetrating_elements(change, inside, close_enough) > 0 or changed
         raise self._not_converged(contact_set, largest, limit)
+
+    def _release_step(self, releases):
+        later = _LATER_STEPS if releases else 1.0
+        return self._options.release_step * later * 0.5 ** (releases // _HALVE_STEP_EVERY)
 
     def _search(self, contact_set, last=None):
         """Conjugate gradients on a set: the last search goes on, unless there is none or steps have no fixed length."""

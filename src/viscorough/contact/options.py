@@ -19,9 +19,9 @@ class SolverOptions:
         deflection and the machine precision; 0: rounding is ignored
     preconditioner : "multilevel": sparse approximate inverse with a multilevel coarse correction; "sparse": without the
         correction; "none"
-    release_step : length of the steps in which elements leave the contact, in units of the preconditioned residual;
-        0 for the weaker preconditioners, for which no fixed length is suitable: elements then leave at steps of
-        conjugate gradients
+    release_step : length of the first step of a level in which elements leave the contact, in units of the
+        preconditioned residual; later ones are a tenth longer. 0 for the weaker preconditioners, for which no fixed
+        length is suitable: elements then leave at steps of conjugate gradients
     warm_start : "tangent": the iterations of a level start from P + Δu q of the level before; "pressure": from its P
     max_iterations : iterations of one level after which ConvergenceError is raised
     dense_contacts : elements in contact up to which a level is solved densely

@@ -156,4 +156,4 @@ def test_levels_far_apart_need_few_applications_of_the_operator():
             disc = self_affine_disc(hurst, 129, seed=seed)
             depths = np.quantile(disc.initial_gap[np.isfinite(disc.heights)], [0.1, 0.3, 0.6])
             applications += indent(disc, tolerance=1e-6, depths=depths).operator_applications
-    assert applications <= 132
+    assert applications <= 126

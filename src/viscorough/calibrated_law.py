@@ -13,8 +13,8 @@ region (b) are those of data/calibration.csv, a copy of results/tables/calibrati
 
 Conventions: geometric mean at fixed X, h the rms height of the disc, L its diameter, no factor Γ; the power law is
 fitted over the whole region (b). Grids: 257 elements across; at small X the law contains their finest waves, and b is
-the exponent of these curves, not of an infinitely fine grid. The curves of H = 1 end at X = 2.8; beyond, the form of
-the law is all that is known there, and that vt/h = X at complete contact.
+the exponent of these curves, not of an infinitely fine grid. Where the curves end before X = 30, the form of the law is
+all that is known beyond, and that vt/h = X at complete contact.
 """
 
 import csv

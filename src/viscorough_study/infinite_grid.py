@@ -43,7 +43,8 @@ COLUMNS = {
     "omega_high": ("upper end of its 95 % interval", "1"),
     "deviation": ("rms deviation of ln(vt/h) from the law, weighted", "1"),
     "finding": (
-        "agrees: the intervals in all ranges lie within the tolerance of H/(1 + H), departs: outside, else undecided",
+        "agrees: the intervals in all ranges lie within the tolerance of H/(1 + H), departs: outside, else undecided; "
+        "undecided, too, where ω is at an end of the range tried, so that the data do not tell the correction",
         "",
     ),
 }
@@ -151,6 +152,8 @@ def _columns(fits, of_hurst, hurst, tolerance):
         row["omega_low"], row["omega_high"] = _interval(found[1:, 3])
     low, high = min(lows) - expected, max(highs) - expected
     row["finding"] = FINDINGS[2]
+    if found[0, 2] and place_of(row["omega"], row["omega_low"], row["omega_high"]) == PLACES[2]:
+        return row
     if max(abs(low), abs(high)) <= tolerance:
         row["finding"] = FINDINGS[0]
     elif low > tolerance or high < -tolerance:

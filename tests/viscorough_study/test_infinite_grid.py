@@ -109,6 +109,7 @@ def test_needed_grids_say_whether_the_data_tell_the_correction(omega, place):
     grids = ensembles(scatter=1e-4, omega=omega)
     limits, needed = limit_tables(grids, "discs", tolerance=0.05, **RANGES)
     fitted = row((limits,), "whole", "corrected")
+    assert (fitted.finding == "undecided") == (place == PLACES[2])
     rows = needed[needed["quantity"] == "whole"]
     assert set(rows["omega_place"]) == {place}
     np.testing.assert_array_equal(

@@ -13,7 +13,8 @@ from PIL import Image
 from support.benchmarks import load_benchmark
 from support.documentation import README, ROOT, read
 from support.study import CLAIMS
-from viscorough.reference import exponent_beta
+from viscorough.reference import exponent_beta, zeta_elastic
+from viscorough_study.discs import punch_stiffness
 from viscorough_study.performance.cost_growth import fit_cost, median_costs
 from viscorough_study.verdicts import markdown, overall
 
@@ -53,6 +54,10 @@ def test_prefactors():
     assert f"ζ is {low} to {high} % above" in read(README)
     assert f"{least} to {most} % below the second" in read(README)
     assert f"*ζ* as defined here is {low} to {high} % above Eq. 4" in read(VERDICTS)
+    fits = published("scaling.csv").query("source == 'discs' and case_group == 'base' and window_rule == 'kappa'")
+    fits = fits.query("rms_convention == 'disc' and average == 'geometric'")
+    low, high = percent(fits["zeta"] / fits["hurst"].map(zeta_elastic))
+    assert f"at equal contact stiffness {low} to {high} %" in words("docs/verdicts.md")
 
 
 def test_answers_of_readme():
@@ -87,6 +92,20 @@ def test_lines_that_stand_for_discs():
     area, gap = (of_claim(f"line_{name}")["value"] for name in ("area", "gap"))
     assert f"{area.min():.0f} to {area.max():.0f} times too large" in text
     assert f"{gap.min():.2f} to {gap.max():.2f} of that of the discs" in text
+
+
+def test_stiffness_of_lines_beside_their_discs():
+    text, table = words("docs/verification.md"), published("reduction.csv")
+    fits = published("scaling.csv").query("source == 'discs' and case_group == 'base' and window_rule == 'default'")
+    fits = fits.query("rms_convention == 'disc' and average == 'geometric'").set_index("hurst")
+    low, high = (table["hurst"].map(fits[name]) for name in ("x_low", "x_high"))
+    inside = table[table["x"].between(low, high)]
+    assert "in region (b) to 20 %, beyond it to 25 %" in text
+    for rows, most in ((inside, 0.2), (table, 0.25)):
+        assert (rows["stiffness_ratio"] - 1).abs().max() < most
+    factors = np.exp(inside["stiffness_scatter"])
+    assert f"to a factor of {factors.min():.1f} to {factors.max():.1f} in region (b)" in text
+    assert f"up to {np.exp(table['stiffness_scatter']).max():.0f} below it" in text
 
 
 def test_power_law_and_complete_contact():
@@ -142,6 +161,8 @@ def test_two_springs_in_series():
     assert np.maximum(table["u0_high"] - table["u0"], table["u0"] - table["u0_low"]).max() <= 0.02
     assert "within 5 % of the mean curve of each of these ensembles from *X* = 0.001, at *H* = 0.1 from 0.002" in text
     assert table["deviation"].max() <= 0.05
+    assert "softer by about 1.3/*n*" in text
+    assert all(abs(number * (1 - punch_stiffness(number)) - 1.3) < 0.06 for number in (33, 257, 1025))
     assert (table["law_low"].round(6) == [0.001995, 0.001, 0.001, 0.001, 0.001]).all()
 
 
@@ -153,6 +174,10 @@ def test_control_has_no_power_law():
     assert "The control falls short of two decades at every *H*" in words("docs/verdicts.md")
     assert control["decades_high"].max() < 2
     assert (plateaus["draws"] == 200).all()
+    text, least = words("docs/verdicts.md"), plateaus.query("case_group == 'base'")["decades_low"].min()
+    assert "with 1.5 decades *H* = 0.1 would pass, and the control would be undecided" in text
+    assert control["decades_high"].max() >= 1.5 > control["decades_low"].max()
+    assert least >= 1.5
     assert plateaus[plateaus["case_group"] == "base"]["power_law_passes"].min() >= 0.95
     assert plateaus["control_passes"].max() == 0
 

@@ -128,6 +128,9 @@ def test_exponents():
     for page in ("verdicts", "verification"):
         text = " ".join(read(ROOT / f"docs/{page}.md").split())
         assert f"above *H*/(1 + *H*), by {above[0]} and {above[1]}" in text
+    limit = of_claim("alpha_limit").loc["H = 1, discs"]
+    assert "discs have {:.3f}, {:.3f} to {:.3f}".format(*limit[["value", "low", "high"]]) in words("docs/verdicts.md")
+    assert limit["verdict"] == "undecided"
     apart = of_claim("coincide")["value"].abs()
     assert apart[["H = 0.6", "H = 0.9"]].max() < 0.02
     assert f"by {apart['H = 0.1']:.2f} and {apart['H = 0.4']:.2f}" in read(ROOT / "docs/verification.md")

@@ -27,9 +27,10 @@ import numpy as np
 import scipy.linalg
 
 from viscorough.compilation import njit
+from viscorough.contact.factor_entries import BEFORE, NEIGHBOURS, REACH
 from viscorough.contact.influence import influence_coefficient
 from viscorough.contact.parallel import run_blocks
-from viscorough.contact.sparse_factor import BEFORE, NEIGHBOURS, REACH, SparseFactor
+from viscorough.contact.sparse_factor import SparseFactor
 
 # Lower bound of the eigenvalues of M K (tests/viscorough/contact/test_preconditioner.py).
 LEAST_EIGENVALUE = 0.35

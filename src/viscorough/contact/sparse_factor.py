@@ -1,8 +1,7 @@
 """The sparse factor G of the preconditioner, and its products, on the grid of the elements.
 
 Row i of G (in this module not the shear modulus) holds entries for element i and for those of the twelve nearest
-elements before it that are in contact. It depends only on which of the twelve are in contact, so that all 4096 possible
-rows are tabulated.
+elements before it that are in contact, from a table of all possible rows (contact.factor_entries).
 
 Entries are stored for the whole grid, one neighbour after the other for every row of it, and are zero where there is no
 contact: loops over a row of the grid then read consecutive numbers and process as many elements at once as a register
@@ -11,60 +10,18 @@ cache. Rounding changes G, and with it the preconditioner, by a few percent, but
 without contact are skipped. Compiled functions take plain arrays, hence many arguments.
 """
 
-from functools import lru_cache
-
 import numpy as np
 
 from viscorough.compilation import njit
-from viscorough.contact.influence import influence_coefficient
+from viscorough.contact.factor_entries import BEFORE, NEIGHBOURS, REACH, factor_entries
 from viscorough.contact.parallel import BLOCK, run_blocks
 
-# Largest distance of a neighbour, in rows or columns: the width of the border that fields need.
-REACH = 2
-# Relative positions (row, column) of the neighbours.
-BEFORE = [(r, c) for r in range(-REACH, 1) for c in range(-REACH, REACH + 1) if (r, c) < (0, 0)]
-NEIGHBOURS = len(BEFORE)
 # Blocks side by side that are processed together if any of them has elements in contact: wide enough for registers.
 _TOGETHER = 4
-# Largest entry as a whole number; the sum of a row, which is rounded up at most thirteen times, fits into a byte, too.
-_LARGEST_ENTRY = 120
 # An element that joins or leaves the set costs as much time as this number of elements where all rows of G are renewed.
 _COST_OF_CHANGE = 20
 # Bit of a pattern that marks rows of G to be renewed.
 _RENEWED = 1 << NEIGHBOURS
-
-
-@lru_cache(maxsize=4)
-def factor_rows(aspect):
-    """Rows of G by pattern, the last entry for the element, for elements of an aspect dy/dx; shape (4096, 13).
-
-    Bit s of a pattern is set if neighbour s is in contact. With A the influence matrix of the neighbours in contact and
-    the element, the row is A⁻¹ b / (bᵀ A⁻¹ b)^½, b the unit vector of the element. Entries are zero where there is no
-    contact.
-    """
-    places = np.array([*BEFORE, (0, 0)], dtype=float)
-    patterns, (row, column) = np.arange(1 << NEIGHBOURS), np.moveaxis(places[:, None] - places, -1, 0)
-    present = np.ones((patterns.size, NEIGHBOURS + 1), dtype=bool)
-    present[:, :-1] = patterns[:, None] >> np.arange(NEIGHBOURS) & 1
-    # Absent neighbours are replaced by identity rows.
-    both = present[:, :, None] & present[:, None, :]
-    matrices = np.where(both, influence_coefficient(row, column, aspect), np.eye(NEIGHBOURS + 1))
-    own = np.zeros((patterns.size, NEIGHBOURS + 1, 1))
-    own[:, -1] = 1
-    rows = np.linalg.solve(matrices, own)[..., 0]
-    return rows / np.sqrt(rows[:, -1:])
-
-
-@lru_cache(maxsize=4)
-def _entries(aspect, precision):
-    """Entries of G by neighbour and pattern, the last ones their sums, and the unit in which they are stored."""
-    rows, unit = factor_rows(aspect), 1.0
-    if precision == np.float32:
-        unit = rows.max() / _LARGEST_ENTRY
-        rows = np.round(rows / unit)
-    entries = np.column_stack([rows, rows.sum(axis=1)])
-    entries = np.ascontiguousarray(entries.T, np.int8 if precision == np.float32 else precision)
-    return entries, precision(unit)
 
 
 @njit(nogil=True)
@@ -251,7 +208,7 @@ class SparseFactor:
     def __init__(self, height, width, sides, aspect, precision, threads=1):
         self._height, self._sides = height - 2 * REACH, sides
         self._threads, self._rows_at_once = threads, -(-BLOCK // (sides[0] * width))
-        self._entries, self._unit = _entries(aspect, precision)
+        self._entries, self._unit = factor_entries(aspect, precision)
         self._offsets = np.array([*BEFORE, (0, 0)]) @ [width, 1]
         self._inside = np.zeros(height * width, dtype=bool)
         self._patterns = np.zeros(height * width, dtype=np.uint16)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.linalg
+from scipy.linalg.lapack import dposv
 
 from viscorough.compilation import njit
 from viscorough.contact.growing_cholesky import append_element, solve_flat_punch
@@ -18,6 +19,9 @@ from viscorough.interrupts import uninterrupted
 # Rounding error allowed for in a gap over the depth, in a pressure over the largest one, and in the depth of an event.
 ROUNDING = 1e-12
 _MAX_ITERATIONS = 100
+# The first set is without elements that touch in this last part of a step from the unloaded state, and less of smaller
+# steps: the load of those that touch before bends the surface away from them.
+_LATE = 0.5
 # A depth beyond all measure, finite because compiled loops may assume that numbers are.
 _NEVER = 1e300
 
@@ -38,65 +42,65 @@ class ContactEvents:
 
 @njit
 def _influence_matrix(influence, row, column, members):
-    """Influence matrix K of the members, shape (count, count)."""
+    """Lower triangle of the influence matrix K of the members, shape (count, count)."""
     n = members.size
     matrix = np.empty((n, n))
     for a in range(n):
+        r, c = row[members[a]], column[members[a]]
         for b in range(a + 1):
-            value = influence[abs(row[members[a]] - row[members[b]]), abs(column[members[a]] - column[members[b]])]
-            matrix[a, b] = value
-            matrix[b, a] = value
+            matrix[a, b] = influence[abs(r - row[members[b]]), abs(c - column[members[b]])]
     return matrix
 
 
 @njit(fastmath=True)
-def _deflection(influence, row, column, members, load, stop):
-    """Σ_j K_ij load_j at the elements of rank i < stop."""
-    result = np.zeros(stop)
+def _deflections(influence, row, column, members, pressure, tangent, targets):
+    """Σ_j K_ij P_j and Σ_j K_ij q_j of the members' loads at the elements i of `targets`."""
+    of_pressure, of_tangent = np.zeros(targets.size), np.zeros(targets.size)
+    target_row, target_column = row[targets], column[targets]
     for b in range(members.size):
         r, c = row[members[b]], column[members[b]]
-        for i in range(stop):
-            result[i] += load[b] * influence[abs(row[i] - r), abs(column[i] - c)]
-    return result
+        for t in range(targets.size):
+            value = influence[abs(target_row[t] - r), abs(target_column[t] - c)]
+            of_pressure[t] += value * pressure[b]
+            of_tangent[t] += value * tangent[b]
+    return of_pressure, of_tangent
 
 
 def gap_at_all(elements, contact):
     """Reduced gap e between the deformed surfaces at every element, by rank."""
-    of_elements = elements.influence, elements.row, elements.column
-    deflection = _deflection(*of_elements, contact.members, contact.reduced_pressure, elements.count)
+    deflection, _ = _deflections_at(elements, *_loads(contact), np.arange(elements.count))
     return deflection - contact.reduced_depth + elements.initial_gap
 
 
 def solve(elements, contact, depth, candidates, max_count):
     """The contact at a larger reduced depth by the primal-dual active set method; None beyond `max_count` members.
 
-    Only the `candidates` elements of lowest rank have an initial gap below the depth and can be in contact. The first
-    set is that of the given contact, with the pressure P + Δu q, or all candidates if the given contact has no members.
+    Only the `candidates` elements of lowest rank have an initial gap below the depth. As gaps are convex functions of
+    the depth, only those of them can join the contact that overlap the surface after the step P + Δu q. The first set
+    consists of the last one and of those that do not touch late in the step (grid_solver).
     Raises ConvergenceError if the set still changes after the largest number of iterations.
     """
-    if contact.count >= max_count and candidates > max_count:
+    if candidates > max_count and not 0 < contact.count < max_count:
         return None  # the contact only grows
-    if contact.count:
-        members, tangent = contact.members, contact.tangent
-        pressure = contact.reduced_pressure + (depth - contact.reduced_depth) * tangent
-    elif candidates > max_count:
-        return None
-    else:
-        members = np.arange(candidates)
-        pressure, tangent = _pressure_and_tangent(elements, members, depth)
-    of_elements = elements.influence, elements.row, elements.column
+    depth_step, others = depth - contact.reduced_depth, _without(np.arange(candidates), contact.members)
+    deflection, rate = _deflections_at(elements, *_loads(contact), others)
+    gap = deflection - contact.reduced_depth + elements.initial_gap[others]
+    # Rounding must not decide: an element whose gap or pressure is zero to rounding keeps its state.
+    overlap = -ROUNDING * depth
+    is_early = gap + depth_step * (1 - _LATE * depth_step / depth) * (rate - 1) < overlap
+    members = np.sort(np.append(contact.members, others[is_early]))
+    possible = np.append(contact.members, others[gap + depth_step * (rate - 1) < overlap])
     for _ in range(_MAX_ITERATIONS):
-        deflection = _deflection(*of_elements, members, pressure, candidates)
-        # Rounding must not decide: an element whose gap or pressure is zero to rounding keeps its state.
-        in_contact = deflection - depth + elements.initial_gap[:candidates] < -ROUNDING * depth
-        in_contact[members] = pressure >= -ROUNDING * pressure.max()
-        next_members = np.flatnonzero(in_contact)
-        if np.array_equal(next_members, members):
-            return _exact_contact(contact.units, depth, members, pressure, tangent)
-        if next_members.size > max_count:
+        if members.size > max_count:
             return None
-        members = next_members
         pressure, tangent = _pressure_and_tangent(elements, members, depth)
+        others = _without(possible, members)
+        deflection, _ = _deflections_at(elements, members, pressure, tangent, others)
+        joining = others[deflection - depth + elements.initial_gap[others] < overlap]
+        staying = members[pressure >= -ROUNDING * pressure.max()]
+        if joining.size == 0 and staying.size == members.size:
+            return _exact_contact(contact.units, depth, members, pressure, tangent)
+        members = np.sort(np.append(staying, joining))
     raise ConvergenceError(
         f"contact at depth {depth * contact.units.length:g}: the contact set of {members.size} elements does not settle"
     )
@@ -140,12 +144,30 @@ def _last_contact(elements, units, events, members, factor):
     return _exact_contact(units, depth, members[order], *solution[order].T)
 
 
+def _deflections_at(elements, *loads_and_targets):
+    """`_deflections` of the elements."""
+    return _deflections(elements.influence, elements.row, elements.column, *loads_and_targets)
+
+
+def _loads(contact):
+    """Members of a contact, their P and their q."""
+    loads = contact.member_loads()
+    return loads.members, loads.pressure, loads.tangent
+
+
+def _without(elements, members):
+    """Those of the elements that are not among the members."""
+    return np.setdiff1d(elements, members, assume_unique=True)
+
+
 def _pressure_and_tangent(elements, members, depth):
     """P and q of a contact set at a depth, each of shape (count,)."""
     matrix = _influence_matrix(elements.influence, elements.row, elements.column, members)
-    right = np.stack([depth - elements.initial_gap[members], np.ones(members.size)], axis=1)
-    factor = scipy.linalg.cho_factor(matrix, overwrite_a=True, check_finite=False)
-    solution = scipy.linalg.cho_solve(factor, right, overwrite_b=True, check_finite=False)
+    right = np.stack([depth - elements.initial_gap[members], np.ones(members.size)])
+    # LAPACK stores matrices by columns, so that the lower triangle is the upper one there.
+    _, solution, failed = dposv(matrix.T, right.T, lower=False, overwrite_a=True, overwrite_b=True)
+    if failed:
+        raise ConvergenceError(f"contact of {members.size} elements: their influence matrix is not positive definite")
     return solution[:, 0], solution[:, 1]
 
 

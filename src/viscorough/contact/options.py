@@ -40,7 +40,7 @@ class SolverOptions:
     warm_start: str = "tangent"
     max_iterations: int = 2000
     dense_contacts: int = 400
-    dense_interactions: int = 2_000_000
+    dense_interactions: int = 1_000_000
     padding: bool = True
 
     def __post_init__(self):

@@ -46,7 +46,7 @@ class ConjugateGradients:
         if self._deflection is not None:
             of_preconditioned, of_gap, of_direction = self._sums()
             if of_direction > 0:
-                factor = np.clip((of_preconditioned - of_gap) / of_direction, -self._limit, self._limit)
+                factor = max(-self._limit, min((of_preconditioned - of_gap) / of_direction, self._limit))
         of_set = self._set.places, self._set.slots
         self._loops.update_search_direction(self._direction, self._preconditioned, factor, *of_set)
 

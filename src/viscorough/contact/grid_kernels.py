@@ -9,8 +9,6 @@ import numpy as np
 from viscorough.compilation import njit
 from viscorough.contact.preconditioner import REACH
 
-# Places of a field that are searched for those in contact at a time.
-_PLACES_AT_ONCE = 1024
 _TINY = 1e-30
 
 
@@ -31,18 +29,25 @@ def contact_places(inside, start, stop, width, stride, end, places, slots):
     stride : length of a row of the load array
     end : of their entries in `places` and `slots`
     """
-    found = np.empty(_PLACES_AT_ONCE, places.dtype)
-    for last in range(stop, start, -_PLACES_AT_ONCE):
-        first, count = max(last - _PLACES_AT_ONCE, start), 0
-        for i in range(first, last):
+    words = inside[: inside.size // 8 * 8].view(np.uint64)  # eight flags at once: most have no contact
+    found = np.empty(width + 1, places.dtype)
+    for row in range((stop - 1) // width, start // width - 1, -1):
+        first, last = max(row * width, start), min((row + 1) * width, stop)
+        first_word, last_word, count = min(-(-first // 8), last // 8), last // 8, 0
+        for i in range(first, min(8 * first_word, last)):
             found[count] = i  # overwritten unless in contact, which takes less time than a branch
             count += inside[i]
+        for word in range(first_word, last_word):
+            if words[word]:
+                for i in range(8 * word, 8 * word + 8):
+                    found[count] = i
+                    count += inside[i]
+        for i in range(max(8 * last_word, first), last):
+            found[count] = i
+            count += inside[i]
         end -= count
-        row, column = divmod(first, width)
-        next_row, shift = first - column + width, (row - REACH) * stride - REACH - (first - column)
+        shift = (row - REACH) * stride - REACH - row * width
         for t in range(count):
-            while found[t] >= next_row:
-                next_row, shift = next_row + width, shift + stride - width
             places[end + t], slots[end + t] = found[t], found[t] + shift
 
 

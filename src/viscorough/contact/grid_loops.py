@@ -21,6 +21,11 @@ def field_to_fill(size, dtype, inner):
     return field
 
 
+def _joined(parts):
+    """Arrays of all blocks one after the other."""
+    return parts[0] if len(parts) == 1 else np.concatenate(parts)
+
+
 class GridLoops:
     """Loops over the fields of a grid and its contact sets on so many threads."""
 
@@ -49,7 +54,7 @@ class GridLoops:
         def find(i, j):
             return kernels.unloaded_under_tension(direction, pressure, places[i:j], slots[i:j])
 
-        return np.concatenate(self._over(places, find))
+        return _joined(self._over(places, find))
 
     def step_causes_tension(self, length, direction, pressure, places, slots):
         step = length, direction, pressure
@@ -69,18 +74,19 @@ class GridLoops:
         def step(i, j):
             return kernels.step_and_find_tension(length, direction, pressure, inside, places[i:j], slots[i:j], i)
 
-        released = np.concatenate(self._over(places, step))
+        released = _joined(self._over(places, step))
         # Elements of a band of rows leave one after the other, since neighbours share the load of both. Bands have at
         # least two rows, so that every other one can be processed at the same time.
         band = max(BLOCK // width, 2) * width
-        ends = np.searchsorted(places[released], np.arange(band, pressure.size, band))
-        bands = np.split(released, ends)
+        bands = [released]
+        if pressure.size > band:
+            bands = np.split(released, np.searchsorted(places[released], np.arange(band, pressure.size, band)))
 
         def release(of_bands, first, last):
             for of_band in of_bands[first:last]:
                 kernels.release(direction, pressure, inside, places, slots, of_band, stencil, width, stride)
 
-        for of_bands in (bands[::2], bands[1::2]):
+        for of_bands in filter(None, (bands[::2], bands[1::2])):
             run_blocks(partial(release, of_bands), len(of_bands), self._threads, 1)
         return released
 
@@ -135,7 +141,7 @@ class GridLoops:
         def new(i, j):
             return i + np.flatnonzero(after.inside[after.place[i:j]] > before.inside[before.place[i:j]])
 
-        return np.concatenate(self._over(after.place, new))
+        return _joined(self._over(after.place, new))
 
     # Over flat fields.
 
@@ -170,7 +176,7 @@ class GridLoops:
 
     def difference(self, inside, other):
         """Places of a set that are not in another one."""
-        return np.concatenate(self._over(inside, lambda i, j: i + np.flatnonzero(inside[i:j] > other[i:j])))
+        return _joined(self._over(inside, lambda i, j: i + np.flatnonzero(inside[i:j] > other[i:j])))
 
     def lowest(self, field):
         """Lowest value of a field."""

@@ -238,12 +238,15 @@ class _FewBlocks:
     def __init__(self, sides, aspect, height, width):
         self.squares, self.places = np.zeros(height * width), np.empty(0, dtype=int)
         self._kernel = _dense_coupling(sides, aspect, height, width)
+        self._coupling = np.empty((0, 0))  # between the places
 
     def prepare(self):
-        self.places = np.flatnonzero(self.squares)
-        amplitude = np.sqrt(self.squares[self.places])
-        matrix = self._kernel[np.ix_(self.places, self.places)] * amplitude * amplitude[:, None]
-        matrix.flat[:: self.places.size + 1] += 1
+        places = np.flatnonzero(self.squares)
+        if not np.array_equal(places, self.places):  # mostly all blocks have contact already
+            self.places, self._coupling = places, self._kernel[np.ix_(places, places)]
+        amplitude = np.sqrt(self.squares[places])
+        matrix = self._coupling * amplitude * amplitude[:, None]
+        matrix.flat[:: places.size + 1] += 1
         self._factor, _ = scipy.linalg.lapack.dpotrf(matrix.T, overwrite_a=True)
 
     def apply(self, residual):

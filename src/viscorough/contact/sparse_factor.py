@@ -25,11 +25,12 @@ _RENEWED = 1 << NEIGHBOURS
 
 
 @njit(nogil=True)
-def _renew(start, stop, inside, changed, offsets, patterns, entries, factor):
+def _renew(start, stop, inside, changed, offsets, patterns, rows_of_pattern, factor):
     """Renew the patterns and the rows of G from place `start` to `stop` where elements joined or left the set.
 
     inside : the new contact set, flat field; changed : places of elements that joined or left
     offsets : from a place to its neighbours, and to itself
+    rows_of_pattern : rows of G by pattern and neighbour
     """
     rows, count = np.empty(changed.size * offsets.size, changed.dtype), 0
     for k in changed:
@@ -43,10 +44,14 @@ def _renew(start, stop, inside, changed, offsets, patterns, entries, factor):
                     count += 1
     for i in rows[:count]:
         patterns[i] &= ~_RENEWED
-        pattern = patterns[i]
         row, column = divmod(i, factor.shape[2])
-        for s in range(factor.shape[1]):
-            factor[row, s, column] = entries[s, pattern] if inside[i] else 0
+        if inside[i]:
+            entries = rows_of_pattern[patterns[i]]
+            for s in range(factor.shape[1]):
+                factor[row, s, column] = entries[s]
+        else:
+            for s in range(factor.shape[1]):
+                factor[row, s, column] = 0
 
 
 @njit(nogil=True)
@@ -209,6 +214,7 @@ class SparseFactor:
         self._height, self._sides = height - 2 * REACH, sides
         self._threads, self._rows_at_once = threads, -(-BLOCK // (sides[0] * width))
         self._entries, self._unit = factor_entries(aspect, precision)
+        self._rows_of_pattern = np.ascontiguousarray(self._entries.T)
         self._offsets = np.array([*BEFORE, (0, 0)]) @ [width, 1]
         self._inside = np.zeros(height * width, dtype=bool)
         self._patterns = np.zeros(height * width, dtype=np.uint16)
@@ -238,11 +244,11 @@ class SparseFactor:
         first, last = np.searchsorted(changed, (start - REACH * (width + 1), stop))
         if first == last:
             return
-        stored = self._patterns, self._entries, self._factor
         if (last - first) * _COST_OF_CHANGE > stop - start:
             members = self._inside.view(np.uint8)  # whose bits are shifted
-            _renew_all(first_row, last_row, side, members, *stored)
+            _renew_all(first_row, last_row, side, members, self._patterns, self._entries, self._factor)
         else:
+            stored = self._patterns, self._rows_of_pattern, self._factor
             _renew(start, stop, self._inside, changed[first:last], self._offsets, *stored)
         _sum_squares(first_row, last_row, self._factor, self._unit, self._height, self._sides, self.squares)
 

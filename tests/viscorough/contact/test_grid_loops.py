@@ -1,10 +1,12 @@
 """Loops over fields and contact sets of more than one block, against numpy."""
 
+from itertools import pairwise
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from viscorough.contact import grid_kernels as kernels
 from viscorough.contact.grid_loops import GridLoops
 from viscorough.contact.parallel import BLOCK
 from viscorough.contact.preconditioner import REACH, load_redistribution_stencil
@@ -55,6 +57,20 @@ def test_places_of_a_set(loops, inside, places, slots):
     for found, expected in zip(loops.contact_places(inside, WIDTH, STRIDE), (places, slots), strict=True):
         np.testing.assert_array_equal(found, expected)
         assert found.dtype == np.int32
+
+
+@pytest.mark.parametrize("share", [0.02, 0.6])
+@pytest.mark.parametrize("columns", [1, 4, 60])
+def test_places_of_a_set_wherever_rows_and_blocks_end(columns, share, random):
+    """Flags are read eight at a time, and neither rows nor blocks end at multiples of eight."""
+    width, stride = columns + 2 * REACH, columns + 3
+    inside = np.pad(random.random((41, columns)) < share, REACH).ravel()
+    expected = np.flatnonzero(inside)
+    places, slots = np.full((2, expected.size), -1, dtype=np.int32)
+    for start, stop in pairwise([0, 3, 50, 51, 133, inside.size]):
+        kernels.contact_places(inside, start, stop, width, stride, np.count_nonzero(inside[:stop]), places, slots)
+    np.testing.assert_array_equal(places, expected)
+    np.testing.assert_array_equal(slots, (expected // width - REACH) * stride + expected % width - REACH)
 
 
 def test_indices_beyond_32_bits_are_64_bits_wide(loops):

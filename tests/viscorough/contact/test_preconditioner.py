@@ -140,6 +140,14 @@ def test_threads_do_not_change_a_bit():
     np.testing.assert_array_equal(*results)
 
 
+def test_coarse_levels_follow_the_set_to_as_many_other_blocks():
+    left = np.zeros((68, 68), dtype=bool)
+    left[REACH:-REACH, REACH : REACH + 30] = True
+    right = left[:, ::-1]
+    followed, new = (approximate_inverse(right, before=before)[1] for before in ([left], []))
+    np.testing.assert_array_equal(followed, new)
+
+
 @pytest.mark.parametrize("name", ["hills", "square", "scattered", "cross"])
 def test_coarse_levels_of_a_slightly_other_set_serve(name):
     """Up to a share of the elements may join or leave before the coarse levels are prepared again."""

@@ -1,65 +1,28 @@
-"""Contact on the grid: preconditioned conjugate gradients on a contact set that shrinks to that of the solution.
+"""Contact on the grid: a contact from one at a smaller depth.
 
-The initial set is the last contact set and the elements that overlap the surface after the predictor P + Δu q, except
-those that would touch late in the step. With these it would contain the set of the solution: between the two depths the
-contact grows, so that the surface outside it deflects further than predicted. Elements under tension leave the set, and
-elements that overlap the surface join it. The operator gives the deflection K d of a search direction d on the whole
-grid, and thus the gap everywhere at no further cost.
+The pressure starts from the predictor P + Δu q, and the contact set from the last one and the elements that overlap the
+surface after it, except those that would touch late in the step. With these it would contain the set of the solution:
+between the two depths the contact grows, so that the surface outside it deflects further than predicted. From there
+contact.contact_search iterates for the pressure, and for the tangent from the start of contact.tangent_start.
 
-While elements leave, the length of a step is fixed in units of the preconditioned residual, so that one application of
-the operator serves both the step and the removal of these elements; afterwards steps are those of conjugate gradients.
-Directions are conjugate to the last change of pressure throughout.
-
-Symbols and reduced units are those of contact.state. Fields are flat arrays with a border as wide as the preconditioner
-reaches, so that elements at the edge need no special treatment.
-
-The iterations run in single precision by default, and fields are kept in it unless the tolerance is so small that the
-gap must be known in double precision. The iterations compute corrections that become ever smaller, so that the rounding
-error is small; a bound on it is tracked with every field, and the gap is recomputed from the pressure, in double
-precision where the tolerance needs it, when the bound nears the tolerance: if possible in a step of fixed length, for
-which the operator is applied anyway.
+Symbols and reduced units are those of contact.state.
 """
 
 from dataclasses import replace
 
 import numpy as np
 
-from viscorough.contact.conjugate_gradients import ConjugateGradients
+from viscorough.contact.contact_search import ContactSearch
 from viscorough.contact.grid_loops import GridLoops, field_to_fill
-from viscorough.contact.halfspace import Halfspace
-from viscorough.contact.preconditioner import LEAST_EIGENVALUE, REACH, Preconditioner
-from viscorough.contact.state import BoundedField, ContactSet, ContactState, GridFields
+from viscorough.contact.state import BoundedField, ContactState, GridFields
 from viscorough.contact.tangent_start import Loads, initial_tangent
-from viscorough.errors import ConvergenceError
 
 # Elements are not in the first set that would touch in the last part of the step, since the load of those that join
 # before bends the surface away from them: this share of a step from the unloaded state, and less of smaller steps.
 _LATE = 0.5
-# Elements without pressure that the first step would put under tension leave the first set before it if they are more
-# than this share of it: the preconditioned residual of a set far too large is of little use.
-_EXCLUDED = 0.05
-# The gap is recomputed in a step, whose length is then fixed, if the bound on its rounding error exceeds this share of
-# the limit and what the coming steps add stays below it: this saves the application of the operator for the step.
-_INEXACT = 0.25
-# Release steps after the first one of a level are longer by this factor, about the inverse of the mean eigenvalue of
-# M K. In the first one the set is too large, so that the residual overestimates the change.
-_LATER_STEPS = 1.1
-# The release step is halved after every so many of them, and each of them begins a new search: a safeguard against
-# cycles where the preconditioner is poor.
-_HALVE_STEP_EVERY = 20
-# Largest relative error of q in the energy norm; its square is the relative error of the stiffness.
-_TANGENT_TOLERANCE = 1e-2
-# Rounding error of e_q = K q − 1 that is accepted, over the tolerance. The stiffness depends on its mean over the set,
-# not on its largest value, and therefore stays within the tolerance (tests/viscorough/contact/test_loading_path.py).
-_TANGENT_ROUNDING = 5.0
-# Share of the tolerance that the search may use, so that residual and rounding together are within the tolerance.
-_SEARCH_SHARE = 0.999
 # A box with more than this many times as many rows as columns is transposed: the operator works on blocks of columns,
 # which few columns do not fill.
 _TALL = 4
-# Initial gap where there is no element, far beyond the largest depth.
-_OUTSIDE = 1e30
-_PRECISIONS = {"single": np.float32, "double": np.float64}
 
 
 class GridSolver:
@@ -82,42 +45,26 @@ class GridSolver:
         if rows > _TALL * columns:
             row, column, top, left, rows, columns = column, row, left, top, columns, rows
             aspect = 1 / aspect
-        self._tolerance, self._options, self._loops = tolerance, options, GridLoops(threads)
-        of_grid = {"aspect": aspect, "padding": options.padding, "threads": threads}
-        self._halfspace = Halfspace(rows, columns, _PRECISIONS[options.precision], **of_grid)
-        exact = tolerance < options.exact_gap_below
-        self._exact = Halfspace(rows, columns, **of_grid) if exact else self._halfspace
-        self._rounding, self._exact_rounding = (
-            options.operator_rounding * np.finfo(halfspace.load.dtype).eps
-            for halfspace in (self._halfspace, self._exact)
-        )
-        self._precision = self._exact.load.dtype.type
-        # A step rounds e − g, which does not exceed the depth, and the pressure, whose deflection does not either.
-        # Where rounding is to be ignored, this is ignored, too.
-        self._field_rounding = min(options.operator_rounding, 1.0) * np.finfo(self._precision).eps
-        self._width = columns + 2 * REACH
-        self._inner = slice(REACH * self._width, -REACH * self._width)
-        self.initial_gap = np.empty((rows + 2 * REACH) * self._width, dtype=self._precision)
-        self._loops.fill(self.initial_gap, _OUTSIDE)
-        self.place = self._loops.place_elements((top, left, rows, columns), row, column, initial_gap, self.initial_gap)
-        self._residual = np.zeros(self.initial_gap.size, dtype=np.float32)  # e or e_q on the set, as last computed
-        of_grid = {"aspect": aspect, "precision": np.float32, "threads": threads}
-        self._preconditioner = Preconditioner(rows + 2 * REACH, self._width, options.preconditioner, **of_grid)
+        self._options, self._loops = options, GridLoops(threads)
+        self._search = ContactSearch(rows, columns, tolerance, options, aspect=aspect, threads=threads)
+        self.initial_gap, box = self._search.initial_gap, (top, left, rows, columns)
+        self.place = self._loops.place_elements(box, row, column, initial_gap, self.initial_gap)
 
     @property
     def operator_applications(self):
         """Applications of the half-space operator so far."""
-        return sum(halfspace.count for halfspace in {self._halfspace, self._exact})
+        return self._search.operator_applications
 
     def fields(self, contact):
         """GridFields of a contact from elsewhere on this grid; costs two applications of the operator."""
-        inside, pressure, tangent = self._zeros(bool), self._zeros(), self._zeros()
+        search = self._search
+        inside, pressure, tangent = search.zeros(bool), search.zeros(), search.zeros()
         if contact.fields:
             self._loops.transfer(contact.fields, self.place, inside, pressure, tangent)
         else:
             place = self.place[contact.loads.members]
             inside[place], pressure[place], tangent[place] = True, contact.loads.pressure, contact.loads.tangent
-        change, tangent_gap = self._gap_change(pressure, contact.reduced_depth), self._tangent_gap(tangent)
+        change, tangent_gap = search.gap_change(pressure, contact.reduced_depth), search.tangent_gap(tangent)
         return GridFields(inside, pressure, change, tangent, tangent_gap, self.initial_gap, self.place)
 
     def solve(self, contact, depth):
@@ -125,22 +72,26 @@ class GridSolver:
 
         Raises ConvergenceError if the tolerance is not reached in max_iterations.
         """
-        before, last_depth = self._start_fields(contact), contact.reduced_depth
-        depth_step = depth - last_depth
-        types = self._precision, self._precision, bool
-        pressure, change, inside = (field_to_fill(self.initial_gap.size, dtype, self._inner) for dtype in types)
-        steps = [self._precision(step) for step in (depth_step, depth_step * (1 - _LATE * depth_step / depth))]
-        fields = before.pressure, before.tangent, before.gap_change.values, before.tangent_gap.values, self.initial_gap
-        self._loops.predict(*map(self._inner_rows, (pressure, change, inside)), *steps, *map(self._inner_rows, fields))
-        rounding = before.gap_change.rounding + depth_step * before.tangent_gap.rounding + self._field_rounding * depth
-        change = BoundedField(change, rounding)
-        contact_set = self._solve_pressure(pressure, change, inside, depth)
+        search, before, last_depth = self._search, self._start_fields(contact), contact.reduced_depth
+        pressure, change, inside = self._predicted(before, last_depth, depth)
+        contact_set = search.solve_pressure(pressure, change, inside, depth)
         now, last = Loads(pressure, change, depth), Loads(before.pressure, before.gap_change, last_depth)
-        tangent, tangent_gap = initial_tangent(now, last, before, contact_set, self._inner, self._loops)
-        self._solve_tangent(contact_set, tangent, tangent_gap)
+        tangent, tangent_gap = initial_tangent(now, last, before, contact_set, search.inner, self._loops)
+        search.solve_tangent(contact_set, tangent, tangent_gap)
         solution = contact_set.inside, pressure, change, tangent, tangent_gap
         fields = GridFields(*solution, self.initial_gap, self.place)
         return self._state(contact.units, depth, fields, contact_set)
+
+    def _predicted(self, before, last_depth, depth):
+        """Pressure, e − g and contact set at a depth as predicted from GridFields at the last depth."""
+        inner, precision, depth_step = self._search.inner, self._search.precision, depth - last_depth
+        predicted = [field_to_fill(self.initial_gap.size, dtype, inner) for dtype in (precision, precision, bool)]
+        steps = [precision(step) for step in (depth_step, depth_step * (1 - _LATE * depth_step / depth))]
+        fields = before.pressure, before.tangent, before.gap_change.values, before.tangent_gap.values, self.initial_gap
+        self._loops.predict(*(field[inner] for field in predicted), *steps, *(field[inner] for field in fields))
+        rounding = before.gap_change.rounding + depth_step * before.tangent_gap.rounding
+        pressure, change, inside = predicted
+        return pressure, BoundedField(change, rounding + self._search.field_rounding * depth), inside
 
     def settled(self, contact, depth, pressure_sum):
         """The contact at a depth so near that its tangent leads there, with pressures of exactly the given sum.
@@ -148,14 +99,14 @@ class GridSolver:
         Changing the pressures by a multiple of q shifts the gap in contact by that multiple: the residual grows by no
         more than the mean gap left in contact, weighted with q, and the distance of the depths. The gap is recomputed.
         """
-        fields = contact.fields
+        fields, search, precision = contact.fields, self._search, self._search.precision
         places = np.flatnonzero(fields.inside)
         share = (pressure_sum - self._loops.total(fields.pressure, places)) / self._loops.total(fields.tangent, places)
-        pressure = np.maximum(fields.pressure + self._precision(share) * fields.tangent, self._precision(0))
-        pressure *= self._precision(pressure_sum / self._loops.total(pressure, places))
-        change, inside = self._gap_change(pressure, depth), pressure > 0
+        pressure = np.maximum(fields.pressure + precision(share) * fields.tangent, precision(0))
+        pressure *= precision(pressure_sum / self._loops.total(pressure, places))
+        change, inside = search.gap_change(pressure, depth), pressure > 0
         fields = replace(fields, inside=inside, pressure=pressure, gap_change=change)
-        settled = self._state(contact.units, depth, fields, self._contact_set(inside))
+        settled = self._state(contact.units, depth, fields, search.contact_set(inside))
         return replace(settled, pressure_sum=pressure_sum, tangent_sum=contact.tangent_sum)
 
     def solve_flat_punch(self, inside, tangent, tangent_gap):
@@ -167,18 +118,19 @@ class GridSolver:
         Returns Σq, whose relative error is the square of that of q in the energy norm.
         Raises ConvergenceError if the tolerance is not reached in max_iterations.
         """
-        contact_set = self._contact_set(inside)
+        contact_set = self._search.contact_set(inside)
         # The caller passes the tangent gap on from set to set, so that no bound on its rounding error is known.
-        self._solve_tangent(contact_set, tangent, BoundedField(tangent_gap, np.inf))
+        self._search.solve_tangent(contact_set, tangent, BoundedField(tangent_gap, np.inf))
         places = contact_set.places
         return self._loops.total(tangent, places) - self._loops.inner_product(tangent, tangent_gap, places)
 
     def _state(self, units, depth, fields, contact_set):
         """The ContactState of GridFields at a reduced depth."""
         places, change, tangent = contact_set.places, fields.gap_change, fields.tangent
-        largest = self._loops.gap_on_set(change.values, self.initial_gap, places, self._residual)
-        overlap = self._loops.largest_overlap(self._inner_rows(change.values), self._inner_rows(self.initial_gap))
-        correction = self._loops.inner_product(tangent, self._residual, places)
+        inner, residual = self._search.inner, self._search.residual
+        largest = self._loops.gap_on_set(change.values, self.initial_gap, places, residual)
+        overlap = self._loops.largest_overlap(change.values[inner], self.initial_gap[inner])
+        correction = self._loops.inner_product(tangent, residual, places)
         tangent_correction = self._loops.inner_product(tangent, fields.tangent_gap.values, places)
         return ContactState(
             units=units,
@@ -197,148 +149,3 @@ class GridSolver:
             return fields
         no_tangent_gap = BoundedField(np.full_like(fields.pressure, -1.0), fields.tangent_gap.rounding)
         return replace(fields, tangent=np.zeros_like(fields.tangent), tangent_gap=no_tangent_gap)
-
-    def _solve_pressure(self, pressure, change, inside, depth):
-        """Pressure P ≥ 0 with |e| on the set below the limit and no overlap beyond it elsewhere.
-
-        change : BoundedField of e − g
-
-        Changes pressure, e − g and set in place. Returns the contact set.
-        """
-        limit = _SEARCH_SHARE * self._tolerance * depth
-        changed, releases, tension, search = True, 0, self._loops.lowest(pressure) < 0, None
-        for iteration in range(self._options.max_iterations):
-            if changed:
-                contact_set = self._contact_set(inside)
-            largest = self._loops.gap_on_set(change.values, self.initial_gap, contact_set.places, self._residual)
-            # Residual and rounding error together must not exceed the limit. Where the rounding error takes most of it,
-            # the gap is recomputed as soon as it is no larger than its rounding error.
-            close_enough = max(limit - change.rounding, change.rounding)
-            if largest <= close_enough and not tension:
-                changed = self._add_penetrating_elements(change, inside, close_enough) > 0
-                if changed:
-                    continue
-                if change.rounding <= 0.5 * limit:
-                    return contact_set
-                self._recompute_gap(pressure, change, depth)
-                self._add_penetrating_elements(change, inside, limit)
-                changed, search = True, None  # the load array holds another load now
-                continue
-            if changed:
-                search = self._search(contact_set, search if 0 < releases < _HALVE_STEP_EVERY else None)
-            search.precondition(self._residual)
-            search.update_direction()
-            release_step = self._release_step(releases)
-            if iteration == 0 and release_step > 0:
-                changed = self._exclude(search.unloaded_under_tension(pressure), contact_set)
-                if changed:
-                    continue
-            changed = search.step_causes_tension(release_step, pressure)
-            recomputes = release_step > 0 and self._must_recompute(change, largest, limit, depth)
-            change.rounding += self._rounding * largest + self._field_rounding * depth
-            if changed or recomputes:
-                search.step_and_release(release_step, pressure, self._width)
-                releases, tension = releases + 1, False
-                if recomputes:
-                    self._recompute_gap(pressure, change, depth)
-                else:
-                    search.update_gap(change.values)
-            else:
-                tension = search.step(pressure, change.values)
-            changed = self._add_penetrating_elements(change, inside, close_enough) > 0 or changed
-        raise self._not_converged(contact_set, largest, limit)
-
-    def _release_step(self, releases):
-        later = _LATER_STEPS if releases else 1.0
-        return self._options.release_step * later * 0.5 ** (releases // _HALVE_STEP_EVERY)
-
-    def _search(self, contact_set, last=None):
-        """Conjugate gradients on a set: the last search goes on, unless there is none or steps have no fixed length."""
-        if last is None or self._options.release_step == 0:
-            return ConjugateGradients(self._halfspace, self._preconditioner, contact_set, self._loops)
-        last.change_set(contact_set)
-        return last
-
-    def _exclude(self, places, contact_set):
-        """Take elements out of the set if they are a large share of it; returns whether they are."""
-        is_large = places.size > _EXCLUDED * contact_set.places.size
-        if is_large:
-            contact_set.inside[places] = False
-        return is_large
-
-    def _must_recompute(self, change, largest, limit, depth):
-        """Whether the rounding error is too large, and recomputing the gap reduces it for the rest of this level."""
-        too_large = max(_INEXACT * limit, 2 * (self._exact_rounding + self._field_rounding) * depth)
-        return change.rounding > too_large and self._rounding * largest < _INEXACT * limit
-
-    def _recompute_gap(self, pressure, change, depth):
-        """Compute e − g anew from the pressure; changes it in place."""
-        exact = self._gap_change(pressure, depth)
-        change.values, change.rounding = exact.values, exact.rounding
-
-    def _solve_tangent(self, contact_set, tangent, tangent_gap):
-        """Solve K q = 1 on a set by conjugate gradients; changes q and e_q, with its rounding bound, in place."""
-        tolerance = min(_TANGENT_TOLERANCE, np.sqrt(self._tolerance))
-        accepted = max(_TANGENT_ROUNDING * self._tolerance, self._exact_rounding + self._field_rounding)
-        search = self._search(contact_set)
-        for _ in range(self._options.max_iterations):
-            largest = self._loops.gather_on_set(tangent_gap.values, contact_set.places, self._residual)
-            search.precondition(self._residual)
-            # The error of Σq is e_qᵀ K⁻¹ e_q, which is at most e_qᵀ M e_q / LEAST_EIGENVALUE.
-            total = self._loops.total(tangent, contact_set.places)
-            error = np.sqrt(search.norm() / (LEAST_EIGENVALUE * total)) if total > 0 else np.inf
-            if error <= tolerance:
-                if tangent_gap.rounding <= accepted:
-                    return
-                exact = self._tangent_gap(tangent)
-                tangent_gap.values[:], tangent_gap.rounding = exact.values, exact.rounding
-                search = self._search(contact_set)
-                continue
-            search.update_direction()
-            tangent_gap.rounding += self._rounding * largest + self._field_rounding
-            search.step(tangent, tangent_gap.values)
-        raise self._not_converged(contact_set, error, tolerance)
-
-    def _not_converged(self, contact_set, residual, limit):
-        return ConvergenceError(
-            f"contact of {contact_set.places.size} elements: the residual {residual:.1e} does not fall below "
-            f"{limit:.1e} in {self._options.max_iterations} steps; choose a larger tolerance"
-        )
-
-    def _contact_set(self, inside):
-        return ContactSet(inside, *self._loops.contact_places(inside, self._width, self._halfspace.load.shape[1]))
-
-    def _gap_change(self, pressure, depth):
-        """e − g = K P − u of a pressure as a BoundedField."""
-        change = self._deflection(pressure, depth)
-        return BoundedField(change, (self._exact_rounding + self._field_rounding) * depth)
-
-    def _tangent_gap(self, tangent):
-        """e_q = K q − 1 of a tangent as a BoundedField."""
-        return BoundedField(self._deflection(tangent, 1), self._exact_rounding + self._field_rounding)
-
-    def _deflection(self, pressure, shift):
-        """K P − shift on the flat grid, in double precision where the tolerance needs it; its border is zero."""
-        result, load = self._zeros(), self._exact.load[:, : self._width - 2 * REACH]
-        deflection = np.broadcast_to(self._precision(0), load.shape)
-        if pressure.any():
-            self._loops.shifted(self._interior(pressure), 0, load)
-            deflection = self._exact.apply()[:, : load.shape[1]]
-        self._loops.shifted(deflection, shift, self._interior(result))
-        return result
-
-    def _add_penetrating_elements(self, change, inside, limit):
-        fields = map(self._inner_rows, (change.values, self.initial_gap, inside))
-        return self._loops.add_penetrating_elements(*fields, limit)
-
-    def _zeros(self, dtype=None):
-        """A flat field of zeros, whose memory is taken by whatever loop fills it, on the threads of that loop."""
-        return np.zeros(self.initial_gap.size, dtype or self._precision)
-
-    def _inner_rows(self, field):
-        """View of a flat field without the rows of its border, which are most of the field of a strip."""
-        return field[self._inner]
-
-    def _interior(self, field):
-        """View of a flat field without its border, in rows and columns."""
-        return field.reshape(-1, self._width)[REACH:-REACH, REACH:-REACH]

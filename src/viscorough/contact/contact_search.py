@@ -1,0 +1,233 @@
+"""Iterations for the contact on a grid: preconditioned conjugate gradients, on a contact set that shrinks.
+
+Elements under tension leave the set, and elements that overlap the surface join it. The operator gives the deflection
+K d of a search direction d on the whole grid, and thus the gap everywhere at no further cost.
+
+While elements leave, the length of a step is fixed in units of the preconditioned residual, so that one application of
+the operator serves both the step and the removal of these elements; afterwards steps are those of conjugate gradients.
+Directions are conjugate to the last change of pressure throughout.
+
+Symbols and reduced units are those of contact.state. Fields are flat arrays with a border as wide as the preconditioner
+reaches, so that elements at the edge need no special treatment.
+
+The iterations run in single precision by default, and fields are kept in it unless the tolerance is so small that the
+gap must be known in double precision. The iterations compute corrections that become ever smaller, so that the rounding
+error is small; a bound on it is tracked with every field, and the gap is recomputed from the pressure, in double
+precision where the tolerance needs it, when the bound nears the tolerance: if possible in a step of fixed length, for
+which the operator is applied anyway.
+"""
+
+import numpy as np
+
+from viscorough.contact.conjugate_gradients import ConjugateGradients
+from viscorough.contact.grid_loops import GridLoops
+from viscorough.contact.halfspace import Halfspace
+from viscorough.contact.preconditioner import LEAST_EIGENVALUE, REACH, Preconditioner
+from viscorough.contact.state import BoundedField, ContactSet
+from viscorough.errors import ConvergenceError
+
+# Elements without pressure that the first step would put under tension leave the first set before it if they are more
+# than this share of it: the preconditioned residual of a set far too large is of little use.
+_EXCLUDED = 0.05
+# The gap is recomputed in a step, whose length is then fixed, if the bound on its rounding error exceeds this share of
+# the limit and what the coming steps add stays below it: this saves the application of the operator for the step.
+_INEXACT = 0.25
+# Release steps after the first one of a level are longer by this factor, about the inverse of the mean eigenvalue of
+# M K. In the first one the set is too large, so that the residual overestimates the change.
+_LATER_STEPS = 1.1
+# The release step is halved after every so many of them, and each of them begins a new search: a safeguard against
+# cycles where the preconditioner is poor.
+_HALVE_STEP_EVERY = 20
+# Largest relative error of q in the energy norm; its square is the relative error of the stiffness.
+_TANGENT_TOLERANCE = 1e-2
+# Rounding error of e_q = K q − 1 that is accepted, over the tolerance. The stiffness depends on its mean over the set,
+# not on its largest value, and therefore stays within the tolerance (tests/viscorough/contact/test_loading_path.py).
+_TANGENT_ROUNDING = 5.0
+# Share of the tolerance that the search may use, so that residual and rounding together are within the tolerance.
+_SEARCH_SHARE = 0.999
+# Initial gap where there is no element, far beyond the largest depth.
+_OUTSIDE = 1e30
+_PRECISIONS = {"single": np.float32, "double": np.float64}
+
+
+class ContactSearch:
+    """The iterations for P and q on a grid of so many rows and columns, and the operator that they apply.
+
+    tolerance : largest |e| in contact or overlap outside it, over the depth
+    options : SolverOptions
+    aspect : dy/dx of the elements
+    threads : on which it computes
+
+    initial_gap : flat field, to be set where there are elements
+    residual : e or e_q on the set, as last computed, flat field
+    precision : floating-point type of the other fields
+    field_rounding : rounding error of a step in the fields, over the depth
+    inner : slice of flat fields without the first and last rows of their border, which are most of those of a strip
+    """
+
+    def __init__(self, rows, columns, tolerance, options, *, aspect=1.0, threads=1):
+        self._tolerance, self._options, self._loops = tolerance, options, GridLoops(threads)
+        of_grid = {"aspect": aspect, "padding": options.padding, "threads": threads}
+        self._halfspace = Halfspace(rows, columns, _PRECISIONS[options.precision], **of_grid)
+        exact = tolerance < options.exact_gap_below
+        self._exact = Halfspace(rows, columns, **of_grid) if exact else self._halfspace
+        self._rounding, self._exact_rounding = (
+            options.operator_rounding * np.finfo(halfspace.load.dtype).eps
+            for halfspace in (self._halfspace, self._exact)
+        )
+        self.precision = self._exact.load.dtype.type
+        # A step rounds e − g, which does not exceed the depth, and the pressure, whose deflection does not either.
+        # Where rounding is to be ignored, this is ignored, too.
+        self.field_rounding = min(options.operator_rounding, 1.0) * np.finfo(self.precision).eps
+        self._width = columns + 2 * REACH
+        self.inner = slice(REACH * self._width, -REACH * self._width)
+        self.initial_gap = np.empty((rows + 2 * REACH) * self._width, dtype=self.precision)
+        self._loops.fill(self.initial_gap, _OUTSIDE)
+        self.residual = np.zeros(self.initial_gap.size, dtype=np.float32)
+        of_grid = {"aspect": aspect, "precision": np.float32, "threads": threads}
+        self._preconditioner = Preconditioner(rows + 2 * REACH, self._width, options.preconditioner, **of_grid)
+
+    @property
+    def operator_applications(self):
+        """Applications of the half-space operator so far."""
+        return sum(halfspace.count for halfspace in {self._halfspace, self._exact})
+
+    def solve_pressure(self, pressure, change, inside, depth):
+        """Pressure P ≥ 0 with |e| on the set below the limit and no overlap beyond it elsewhere.
+
+        change : BoundedField of e − g
+
+        Changes pressure, e − g and set in place. Returns the contact set.
+        """
+        limit = _SEARCH_SHARE * self._tolerance * depth
+        changed, releases, tension, search = True, 0, self._loops.lowest(pressure) < 0, None
+        for iteration in range(self._options.max_iterations):
+            if changed:
+                contact_set = self.contact_set(inside)
+            largest = self._loops.gap_on_set(change.values, self.initial_gap, contact_set.places, self.residual)
+            # Residual and rounding error together must not exceed the limit. Where the rounding error takes most of it,
+            # the gap is recomputed as soon as it is no larger than its rounding error.
+            close_enough = max(limit - change.rounding, change.rounding)
+            if largest <= close_enough and not tension:
+                changed = self._add_penetrating_elements(change, inside, close_enough) > 0
+                if not changed:
+                    if change.rounding <= 0.5 * limit:
+                        return contact_set
+                    self._recompute_gap(pressure, change, depth)
+                    self._add_penetrating_elements(change, inside, limit)
+                    changed, search = True, None  # the load array holds another load now
+                continue
+            if changed:
+                search = self._search(contact_set, search if 0 < releases < _HALVE_STEP_EVERY else None)
+            search.precondition(self.residual)
+            search.update_direction()
+            release_step = self._release_step(releases)
+            if iteration == 0 and release_step > 0 and self._exclude(search, pressure, contact_set):
+                continue
+            changed = search.step_causes_tension(release_step, pressure)
+            recomputes = release_step > 0 and self._must_recompute(change, largest, limit, depth)
+            change.rounding += self._rounding * largest + self.field_rounding * depth
+            if changed or recomputes:
+                search.step_and_release(release_step, pressure, self._width)
+                releases, tension = releases + 1, False
+                if recomputes:
+                    self._recompute_gap(pressure, change, depth)
+                else:
+                    search.update_gap(change.values)
+            else:
+                tension = search.step(pressure, change.values)
+            changed = self._add_penetrating_elements(change, inside, close_enough) > 0 or changed
+        raise self._not_converged(contact_set, largest, limit)
+
+    def solve_tangent(self, contact_set, tangent, tangent_gap):
+        """Solve K q = 1 on a set by conjugate gradients; changes q and e_q, with its rounding bound, in place."""
+        tolerance = min(_TANGENT_TOLERANCE, np.sqrt(self._tolerance))
+        accepted = max(_TANGENT_ROUNDING * self._tolerance, self._exact_rounding + self.field_rounding)
+        search = self._search(contact_set)
+        for _ in range(self._options.max_iterations):
+            largest = self._loops.gather_on_set(tangent_gap.values, contact_set.places, self.residual)
+            search.precondition(self.residual)
+            # The error of Σq is e_qᵀ K⁻¹ e_q, which is at most e_qᵀ M e_q / LEAST_EIGENVALUE.
+            total = self._loops.total(tangent, contact_set.places)
+            error = np.sqrt(search.norm() / (LEAST_EIGENVALUE * total)) if total > 0 else np.inf
+            if error <= tolerance:
+                if tangent_gap.rounding <= accepted:
+                    return
+                exact = self.tangent_gap(tangent)
+                tangent_gap.values[:], tangent_gap.rounding = exact.values, exact.rounding
+                search = self._search(contact_set)
+                continue
+            search.update_direction()
+            tangent_gap.rounding += self._rounding * largest + self.field_rounding
+            search.step(tangent, tangent_gap.values)
+        raise self._not_converged(contact_set, error, tolerance)
+
+    def contact_set(self, inside):
+        """The ContactSet of a flat field that says whether an element is in it."""
+        return ContactSet(inside, *self._loops.contact_places(inside, self._width, self._halfspace.load.shape[1]))
+
+    def gap_change(self, pressure, depth):
+        """e − g = K P − u of a pressure as a BoundedField."""
+        change = self._deflection(pressure, depth)
+        return BoundedField(change, (self._exact_rounding + self.field_rounding) * depth)
+
+    def tangent_gap(self, tangent):
+        """e_q = K q − 1 of a tangent as a BoundedField."""
+        return BoundedField(self._deflection(tangent, 1), self._exact_rounding + self.field_rounding)
+
+    def zeros(self, dtype=None):
+        """A flat field of zeros, whose memory is taken by whatever loop fills it, on the threads of that loop."""
+        return np.zeros(self.initial_gap.size, dtype or self.precision)
+
+    def _release_step(self, releases):
+        later = _LATER_STEPS if releases else 1.0
+        return self._options.release_step * later * 0.5 ** (releases // _HALVE_STEP_EVERY)
+
+    def _search(self, contact_set, last=None):
+        """Conjugate gradients on a set: the last search goes on, unless there is none or steps have no fixed length."""
+        if last is None or self._options.release_step == 0:
+            return ConjugateGradients(self._halfspace, self._preconditioner, contact_set, self._loops)
+        last.change_set(contact_set)
+        return last
+
+    def _exclude(self, search, pressure, contact_set):
+        """Take unloaded elements under tension out of the set if they are a large share; returns whether they are."""
+        places = search.unloaded_under_tension(pressure)
+        is_large = places.size > _EXCLUDED * contact_set.places.size
+        if is_large:
+            contact_set.inside[places] = False
+        return is_large
+
+    def _must_recompute(self, change, largest, limit, depth):
+        """Whether the rounding error is too large, and recomputing the gap reduces it for the rest of this level."""
+        too_large = max(_INEXACT * limit, 2 * (self._exact_rounding + self.field_rounding) * depth)
+        return change.rounding > too_large and self._rounding * largest < _INEXACT * limit
+
+    def _recompute_gap(self, pressure, change, depth):
+        """Compute e − g anew from the pressure; changes it in place."""
+        exact = self.gap_change(pressure, depth)
+        change.values, change.rounding = exact.values, exact.rounding
+
+    def _not_converged(self, contact_set, residual, limit):
+        return ConvergenceError(
+            f"contact of {contact_set.places.size} elements: the residual {residual:.1e} does not fall below "
+            f"{limit:.1e} in {self._options.max_iterations} steps; choose a larger tolerance"
+        )
+
+    def _deflection(self, pressure, shift):
+        """K P − shift on the flat grid, in double precision where the tolerance needs it; its border is zero."""
+        result, load = self.zeros(), self._exact.load[:, : self._width - 2 * REACH]
+        deflection = np.broadcast_to(self.precision(0), load.shape)
+        if pressure.any():
+            self._loops.shifted(self._interior(pressure), 0, load)
+            deflection = self._exact.apply()[:, : load.shape[1]]
+        self._loops.shifted(deflection, shift, self._interior(result))
+        return result
+
+    def _add_penetrating_elements(self, change, inside, limit):
+        fields = (field[self.inner] for field in (change.values, self.initial_gap, inside))
+        return self._loops.add_penetrating_elements(*fields, limit)
+
+    def _interior(self, field):
+        """View of a flat field without its border, in rows and columns."""
+        return field.reshape(-1, self._width)[REACH:-REACH, REACH:-REACH]

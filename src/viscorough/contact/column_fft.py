@@ -10,7 +10,7 @@ so that every operation below acts on as many columns at once as a register of t
 import numpy as np
 
 from viscorough.compilation import njit
-from viscorough.contact.parallel import Buffers, run_blocks
+from viscorough.contact.parallel import Buffers, aligned_zeros, run_blocks
 
 # Columns of a block, which is small enough for the cache, and how many more columns the last block may have.
 _BLOCK, _REST = 64, 8
@@ -28,11 +28,11 @@ def good_length(least):
 
 
 def _radices(length):
-    """Factors 8, 4 and 3 of a length, large ones first."""
+    """Factors 3, 4 and 8 of a length, small ones first: the last stage is one of four or eight."""
     twos = (length & -length).bit_length() - 1
     threes = round(np.log(length >> twos) / np.log(3))
     fours = -twos % 3
-    return [8] * ((twos - 2 * fours) // 3) + [4] * fours + [3] * threes
+    return [3] * threes + [4] * fours + [8] * ((twos - 2 * fours) // 3)
 
 
 @njit
@@ -49,6 +49,13 @@ def _put(y, group, member, j, value):
 
 
 @njit
+def _put_exchanged(y, group, member, j, value, factor):
+    """Store a complex number times a real factor, with real and imaginary parts exchanged."""
+    y[group, member * _ROW + j] = value.imag * factor
+    y[group, member * _ROW + _PARTS + j] = value.real * factor
+
+
+@njit
 def _times_minus_i(z):
     """−i z."""
     return complex(z.imag, -z.real)
@@ -59,6 +66,15 @@ def _transform_of_four(a, b, c, d):
     """Transform of four numbers."""
     even, odd, even_rotated, odd_rotated = a + c, b + d, a - c, _times_minus_i(b - d)
     return even + odd, even_rotated + odd_rotated, even - odd, even_rotated - odd_rotated
+
+
+@njit(fastmath=True)
+def _transform_of_eight(z0, z1, z2, z3, z4, z5, z6, z7, root):
+    """Transform of eight numbers; root = √½."""
+    a, b, c, d = _transform_of_four(z0, z2, z4, z6)
+    e, f, g, h = _transform_of_four(z1, z3, z5, z7)
+    f, g, h = (f + _times_minus_i(f)) * root, _times_minus_i(g), (_times_minus_i(h) - h) * root
+    return a + e, b + f, c + g, d + h, a - e, b - f, c - g, d - h
 
 
 @njit(fastmath=True)
@@ -105,22 +121,65 @@ def _stage_of_eight(x, source, y, before, factors, width):
         w = factors[p // before]
         w1, w2, w3, w4, w5, w6, w7 = w[1], w[2], w[3], w[4], w[5], w[6], w[7]
         for j in range(width):
-            a, b, c, d = _transform_of_four(_at(x, i0, j), _at(x, i2, j), _at(x, i4, j), _at(x, i6, j))
-            e, f, g, h = _transform_of_four(_at(x, i1, j), _at(x, i3, j), _at(x, i5, j), _at(x, i7, j))
-            f, g, h = (f + _times_minus_i(f)) * root, _times_minus_i(g), (_times_minus_i(h) - h) * root
-            _put(out, p, 0, j, a + e)
-            _put(out, p, 1, j, (b + f) * w1)
-            _put(out, p, 2, j, (c + g) * w2)
-            _put(out, p, 3, j, (d + h) * w3)
-            _put(out, p, 4, j, (a - e) * w4)
-            _put(out, p, 5, j, (b - f) * w5)
-            _put(out, p, 6, j, (c - g) * w6)
-            _put(out, p, 7, j, (d - h) * w7)
+            z0, z1, z2, z3 = _at(x, i0, j), _at(x, i1, j), _at(x, i2, j), _at(x, i3, j)
+            z4, z5, z6, z7 = _at(x, i4, j), _at(x, i5, j), _at(x, i6, j), _at(x, i7, j)
+            a, b, c, d, e, f, g, h = _transform_of_eight(z0, z1, z2, z3, z4, z5, z6, z7, root)
+            _put(out, p, 0, j, a)
+            _put(out, p, 1, j, b * w1)
+            _put(out, p, 2, j, c * w2)
+            _put(out, p, 3, j, d * w3)
+            _put(out, p, 4, j, e * w4)
+            _put(out, p, 5, j, f * w5)
+            _put(out, p, 6, j, g * w6)
+            _put(out, p, 7, j, h * w7)
+
+
+@njit(fastmath=True)
+def _last_stage_of_four(x, source, y, spectrum, frequency, width):
+    """The last stage, without twiddle factors, times the rows of the spectrum at these frequencies."""
+    quarter = source.size // 4
+    out = y.reshape(quarter, 4 * _ROW)
+    for p in range(quarter):
+        i, k, m, n = source[p], source[p + quarter], source[p + 2 * quarter], source[p + 3 * quarter]
+        s0, s1 = spectrum[frequency[4 * p]], spectrum[frequency[4 * p + 1]]
+        s2, s3 = spectrum[frequency[4 * p + 2]], spectrum[frequency[4 * p + 3]]
+        for j in range(width):
+            a, b, c, d = _transform_of_four(_at(x, i, j), _at(x, k, j), _at(x, m, j), _at(x, n, j))
+            _put_exchanged(out, p, 0, j, a, s0[j])
+            _put_exchanged(out, p, 1, j, b, s1[j])
+            _put_exchanged(out, p, 2, j, c, s2[j])
+            _put_exchanged(out, p, 3, j, d, s3[j])
+
+
+@njit(fastmath=True)
+def _last_stage_of_eight(x, source, y, spectrum, frequency, width):
+    """The same for eight rows."""
+    eighth = source.size // 8
+    out = y.reshape(eighth, 8 * _ROW)
+    root = x.dtype.type(np.sqrt(0.5))
+    for p in range(eighth):
+        i0, i1, i2, i3 = source[p], source[p + eighth], source[p + 2 * eighth], source[p + 3 * eighth]
+        i4, i5, i6, i7 = source[p + 4 * eighth], source[p + 5 * eighth], source[p + 6 * eighth], source[p + 7 * eighth]
+        n = frequency[8 * p : 8 * p + 8]
+        s0, s1, s2, s3 = spectrum[n[0]], spectrum[n[1]], spectrum[n[2]], spectrum[n[3]]
+        s4, s5, s6, s7 = spectrum[n[4]], spectrum[n[5]], spectrum[n[6]], spectrum[n[7]]
+        for j in range(width):
+            z0, z1, z2, z3 = _at(x, i0, j), _at(x, i1, j), _at(x, i2, j), _at(x, i3, j)
+            z4, z5, z6, z7 = _at(x, i4, j), _at(x, i5, j), _at(x, i6, j), _at(x, i7, j)
+            a, b, c, d, e, f, g, h = _transform_of_eight(z0, z1, z2, z3, z4, z5, z6, z7, root)
+            _put_exchanged(out, p, 0, j, a, s0[j])
+            _put_exchanged(out, p, 1, j, b, s1[j])
+            _put_exchanged(out, p, 2, j, c, s2[j])
+            _put_exchanged(out, p, 3, j, d, s3[j])
+            _put_exchanged(out, p, 4, j, e, s4[j])
+            _put_exchanged(out, p, 5, j, f, s5[j])
+            _put_exchanged(out, p, 6, j, g, s6[j])
+            _put_exchanged(out, p, 7, j, h, s7[j])
 
 
 @njit
-def _transform(x, y, source, same, radices, factors, width):
-    """Transform of the rows source[0], source[1], … of x; returns the array that holds it, x or y, and the other one.
+def _stages(x, y, source, same, radices, factors, width):
+    """Stages of the transform of the rows source[0], source[1], … of x; returns the array that holds it and the other.
 
     Every stage reads rows n/r apart and writes r rows side by side, of which the first holds frequencies that are 0
     modulo r, the next those that are 1, and so on (decimation in frequency with constant geometry; Pease 1968).
@@ -148,6 +207,21 @@ def _transform(x, y, source, same, radices, factors, width):
 
 
 @njit
+def _product(x, y, source, same, radices, factors, spectrum, frequency, width):
+    """Product of the transform with the spectrum, real and imaginary parts exchanged; returns the same as `_stages`.
+
+    With the parts exchanged, the next transform is an inverse one.
+    """
+    x, y = _stages(x, y, source, same, radices[:-1], factors, width)
+    last_source = same if radices.size > 1 else source
+    if radices[-1] == 8:
+        _last_stage_of_eight(x, last_source, y, spectrum, frequency, width)
+    else:
+        _last_stage_of_four(x, last_source, y, spectrum, frequency, width)
+    return y, x
+
+
+@njit
 def _load(data, first, x, width):
     """Copy columns from the first one on into the block x, and set the row after the last one to zero."""
     for i in range(data.shape[0]):
@@ -155,17 +229,6 @@ def _load(data, first, x, width):
         for j in range(width):
             x[i, j], x[i, _PARTS + j] = row[j].real, row[j].imag
     x[data.shape[0]] = 0
-
-
-@njit
-def _multiply(x, spectrum, frequency, y, width):
-    """Product with the spectrum, real and imaginary parts exchanged, so that the next transform is an inverse one."""
-    for i in range(frequency.size):
-        factor = spectrum[frequency[i]]
-        for j in range(width):
-            real = factor[j] * x[i, j]
-            y[i, j] = factor[j] * x[i, _PARTS + j]
-            y[i, _PARTS + j] = real
 
 
 @njit
@@ -183,9 +246,8 @@ def _convolve(start, stop, data, edges, spectra, frequency, radices, factors, pa
     for block in range(start, stop):
         first, width = edges[block], edges[block + 1] - edges[block]
         _load(data, first, x, width)
-        frequencies, other = _transform(x, y, padded, same, radices, factors, width)
-        _multiply(frequencies, spectra[block], frequency, other, width)
-        convolved, _ = _transform(other, frequencies, place, same, radices, factors, width)
+        product, other = _product(x, y, padded, same, radices, factors, spectra[block], frequency, width)
+        convolved, _ = _stages(product, other, place, same, radices, factors, width)
         _store(convolved, place, data, first, width)
 
 
@@ -208,7 +270,7 @@ class ColumnConvolution:
             frequency = np.add.outer(frequency, length // rest * np.arange(radix)).ravel()
             rest //= radix
         edges = np.array([*range(0, max(columns - _REST, 1), _BLOCK), columns])
-        spectra = np.zeros((edges.size - 1, length // 2 + 1, _PARTS), dtype=precision)
+        spectra = aligned_zeros((edges.size - 1, length // 2 + 1, _PARTS), precision)
         for block, of_block in enumerate(np.split(spectrum, edges[1:-1], axis=1)):
             spectra[block, :, : of_block.shape[1]] = of_block
         spectral = np.result_type(precision, np.complex64)

@@ -10,7 +10,7 @@ import pytest
 from viscorough.contact.halfspace import Halfspace
 from viscorough.contact.loading_path import indent
 from viscorough.contact.one_contact import contact_at
-from viscorough.contact.parallel import Buffers, run_blocks
+from viscorough.contact.parallel import Buffers, aligned_zeros, run_blocks
 from viscorough.contact.state import elements_of
 from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
@@ -31,6 +31,16 @@ def test_blocks_are_an_even_number_of_about_one_size(size):
     sizes = run_blocks(lambda start, stop: stop - start, size, 1, block=10)
     assert len(sizes) % 2 == 0
     assert max(sizes) - min(sizes) < len(sizes)
+
+
+@pytest.mark.parametrize("shape", [(5,), (3, 7), (2, 40, 33)])
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_aligned_zeros_start_a_line_of_the_cache(shape, dtype):
+    for _ in range(5):
+        zeros = aligned_zeros(shape, dtype)
+        assert (zeros.shape, zeros.dtype) == (shape, dtype)
+        assert zeros.ctypes.data % 64 == 0
+        assert not zeros.any()
 
 
 def test_blocks_are_multiples_but_for_the_last_one():

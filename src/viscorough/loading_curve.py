@@ -124,24 +124,31 @@ def interpolate_levels(depth, force, stiffness, contact_count, wanted):
     wanted : forces, shape (n,). Returns (depth, stiffness) of that shape.
     """
     j = np.searchsorted(force, wanted, side="left")
-    f0, f1 = force[j - 1], force[j]
-    u0, u1 = depth[j - 1], depth[j]
-    k0, k1 = stiffness[j - 1], stiffness[j]
+    forces, depths, stiffnesses = ((values[j - 1], values[j]) for values in (force, depth, stiffness))
+    return interpolate_between(forces, depths, stiffnesses, contact_count[j] - contact_count[j - 1], wanted)
 
+
+def interpolate_between(forces, depths, stiffnesses, joined, wanted):
+    """Depth and tangent stiffness at forces between two levels; see LoadingCurve.at_force.
+
+    forces, depths, stiffnesses : pairs of those at the level before and at the level after: numbers, or arrays (n,)
+    joined : number of elements that join the contact from one level to the other, likewise
+    wanted : forces, shape (n,). Returns (depth, stiffness) of that shape.
+    """
+    (f0, f1), (u0, u1), (k0, k1) = forces, depths, stiffnesses
     left, right = u0 + (wanted - f0) / k0, u1 - (f1 - wanted) / k1
     tangents = np.minimum(left, right)
     chord = u0 + (u1 - u0) * (wanted - f0) / (f1 - f0)
-    cubic, cubic_stiffness = _hermite_in_logarithms(wanted, (f0, f1), (u0, u1), (k0, k1))
+    cubic, cubic_stiffness = _hermite_in_logarithms(wanted, forces, depths, stiffnesses)
     tangent_stiffness = np.where(left <= right, k0, k1)
 
     # Tangents where at most one element joined; elsewhere the cubic, or the side of the triangle that it crosses.
-    joined = contact_count[j] - contact_count[j - 1]
     on_tangents = ((joined >= 0) & (joined <= 1)) | (cubic > tangents * (1 + 1e-12))
-    on_chord = ~on_tangents & (cubic < chord * (1 - 1e-12))
-    where = [on_tangents, on_chord]
+    on_chord = cubic < chord * (1 - 1e-12)
+    chord_or_cubic = np.where(on_chord, chord, cubic), np.where(on_chord, (f1 - f0) / (u1 - u0), cubic_stiffness)
     return (
-        np.select(where, [tangents, chord], cubic),
-        np.select(where, [tangent_stiffness, (f1 - f0) / (u1 - u0)], cubic_stiffness),
+        np.where(on_tangents, tangents, chord_or_cubic[0]),
+        np.where(on_tangents, tangent_stiffness, chord_or_cubic[1]),
     )
 
 
@@ -157,4 +164,4 @@ def _hermite_in_logarithms(force, forces, depths, stiffnesses):
     cubic = u0 * np.exp(x * (span * slope0 + x * (c2 + x * c3)))
     local_slope = slope0 + x * (2 * c2 + 3 * x * c3) / span
     with np.errstate(divide="ignore", invalid="ignore"):
-        return cubic, np.clip(force / (cubic * local_slope), k0, k1)
+        return cubic, np.minimum(np.maximum(force / (cubic * local_slope), k0), k1)

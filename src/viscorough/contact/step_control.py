@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscorough.contact.grid_loops import GridLoops
-from viscorough.loading_curve import interpolate_levels
+from viscorough.loading_curve import interpolate_between
 
 # Smallest accuracy of interpolation that is offered: a smaller one would require every contact event as a level, as in
 # direct integration.
@@ -110,7 +110,7 @@ def interpolation_bound(before, after):
         return 0.0  # the two tangents are the curve
     rise = after.pressure_sum - before.pressure_sum
     at_meeting = before.tangent_sum * _meeting(before, after) * (after.depth - before.depth) / rise
-    share = np.append(_POINTS, np.clip(at_meeting, _SMALLEST_SHARE, 1))
+    share = np.append(_POINTS, min(max(at_meeting, _SMALLEST_SHARE), 1.0))
     force = np.minimum(before.pressure_sum + share * rise, after.pressure_sum)
     depth = interpolate(before, after, force)
     chord = before.depth + share * (after.depth - before.depth)
@@ -139,8 +139,9 @@ def _meeting(before, after):
 
 def interpolate(before, after, force):
     """Depths interpolated between two Levels at reduced forces ΣP, as LoadingCurve.at_force does."""
-    ends = np.array([[level.depth, level.pressure_sum, level.tangent_sum, level.count] for level in (before, after)]).T
-    return interpolate_levels(*ends, force)[0]
+    forces, depths = (before.pressure_sum, after.pressure_sum), (before.depth, after.depth)
+    stiffnesses = before.tangent_sum, after.tangent_sum
+    return interpolate_between(forces, depths, stiffnesses, after.count - before.count, force)[0]
 
 
 def _predicted_error(before, after, threads):

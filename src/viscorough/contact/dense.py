@@ -55,14 +55,16 @@ def _influence_matrix(influence, row, column, members):
 @njit(fastmath=True)
 def _deflections(influence, row, column, members, pressure, tangent, targets):
     """Σ_j K_ij P_j and Σ_j K_ij q_j of the members' loads at the elements i of `targets`."""
-    of_pressure, of_tangent = np.zeros(targets.size), np.zeros(targets.size)
-    target_row, target_column = row[targets], column[targets]
-    for b in range(members.size):
-        r, c = row[members[b]], column[members[b]]
-        for t in range(targets.size):
-            value = influence[abs(target_row[t] - r), abs(target_column[t] - c)]
-            of_pressure[t] += value * pressure[b]
-            of_tangent[t] += value * tangent[b]
+    of_pressure, of_tangent = np.empty(targets.size), np.empty(targets.size)
+    member_row, member_column = row[members], column[members]
+    for i in range(targets.size):
+        r, c = row[targets[i]], column[targets[i]]
+        by_pressure, by_tangent = 0.0, 0.0
+        for j in range(members.size):
+            value = influence[abs(member_row[j] - r), abs(member_column[j] - c)]
+            by_pressure += value * pressure[j]
+            by_tangent += value * tangent[j]
+        of_pressure[i], of_tangent[i] = by_pressure, by_tangent
     return of_pressure, of_tangent
 
 
@@ -225,6 +227,7 @@ def _next_touch(influence, row, column, initial_gap, depth, members, load, tange
     guess : element to evaluate first; the nearer its touch, the fewer others have to be evaluated
     """
     depth_step, element, following, first_later = _NEVER, -1, 0, _NEVER
+    member_row, member_column = row[members], column[members]
     for position in range(-1, initial_gap.size):
         i = guess if position < 0 else position
         # By rank: an element touches no earlier than at a depth of its initial gap.
@@ -233,7 +236,7 @@ def _next_touch(influence, row, column, initial_gap, depth, members, load, tange
         if earliest[i] - depth < depth_step:
             deflection, deflection_per_depth = 0.0, 0.0
             for t in range(members.size):
-                value = influence[abs(row[members[t]] - row[i]), abs(column[members[t]] - column[i])]
+                value = influence[abs(member_row[t] - row[i]), abs(member_column[t] - column[i])]
                 deflection += value * load[t]
                 deflection_per_depth += value * tangent[t]
             touch = max(deflection - depth + initial_gap[i], 0.0) / max(1.0 - deflection_per_depth, 1e-300)

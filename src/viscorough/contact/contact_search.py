@@ -113,7 +113,7 @@ class ContactSearch:
                 if not changed:
                     if change.rounding <= 0.5 * limit:
                         return contact_set
-                    self._recompute_gap(pressure, change, depth)
+                    self._deflect(pressure, depth, change)
                     self._add_penetrating_elements(change, inside, limit)
                     changed, search = True, None  # the load array holds another load now
                 continue
@@ -131,7 +131,7 @@ class ContactSearch:
                 search.step_and_release(release_step, pressure, self._width)
                 releases, tension = releases + 1, False
                 if recomputes:
-                    self._recompute_gap(pressure, change, depth)
+                    self._deflect(pressure, depth, change)
                 else:
                     search.update_gap(change.values)
             else:
@@ -153,8 +153,7 @@ class ContactSearch:
             if error <= tolerance:
                 if tangent_gap.rounding <= accepted:
                     return
-                exact = self.tangent_gap(tangent)
-                tangent_gap.values[:], tangent_gap.rounding = exact.values, exact.rounding
+                self._deflect(tangent, 1, tangent_gap)
                 search = self._search(contact_set)
                 continue
             search.update_direction()
@@ -168,12 +167,16 @@ class ContactSearch:
 
     def gap_change(self, pressure, depth):
         """e − g = K P − u of a pressure as a BoundedField."""
-        change = self._deflection(pressure, depth)
-        return BoundedField(change, (self._exact_rounding + self.field_rounding) * depth)
+        change = BoundedField(self.zeros(), self.field_rounding * depth)
+        if pressure.any():
+            self._deflect(pressure, depth, change)
+        else:
+            self._loops.fill(change.values, -depth)
+        return change
 
     def tangent_gap(self, tangent):
         """e_q = K q − 1 of a tangent as a BoundedField."""
-        return BoundedField(self._deflection(tangent, 1), self._exact_rounding + self.field_rounding)
+        return self.gap_change(tangent, 1)
 
     def zeros(self, dtype=None):
         """A flat field of zeros, whose memory is taken by whatever loop fills it, on the threads of that loop."""
@@ -203,26 +206,22 @@ class ContactSearch:
         too_large = max(_INEXACT * limit, 2 * (self._exact_rounding + self.field_rounding) * depth)
         return change.rounding > too_large and self._rounding * largest < _INEXACT * limit
 
-    def _recompute_gap(self, pressure, change, depth):
-        """Compute e − g anew from the pressure; changes it in place."""
-        exact = self.gap_change(pressure, depth)
-        change.values, change.rounding = exact.values, exact.rounding
-
     def _not_converged(self, contact_set, residual, limit):
         return ConvergenceError(
             f"contact of {contact_set.places.size} elements: the residual {residual:.1e} does not fall below "
             f"{limit:.1e} in {self._options.max_iterations} steps; choose a larger tolerance"
         )
 
-    def _deflection(self, pressure, shift):
-        """K P − shift on the flat grid, in double precision where the tolerance needs it; its border is zero."""
-        result, load = self.zeros(), self._exact.load[:, : self._width - 2 * REACH]
-        deflection = np.broadcast_to(self.precision(0), load.shape)
-        if pressure.any():
-            self._loops.shifted(self._interior(pressure), 0, load)
-            deflection = self._exact.apply()[:, : load.shape[1]]
-        self._loops.shifted(deflection, shift, self._interior(result))
-        return result
+    def _deflect(self, pressure, depth, change):
+        """Compute e − g = K P − u from a pressure, in double precision where the tolerance needs it; in place.
+
+        change : BoundedField of e − g, whose border is kept
+        """
+        load = self._exact.load[:, : self._width - 2 * REACH]
+        self._loops.shifted(self._interior(pressure), 0, load)
+        deflection = self._exact.apply()[:, : load.shape[1]]
+        self._loops.shifted(deflection, depth, self._interior(change.values))
+        change.rounding = (self._exact_rounding + self.field_rounding) * depth
 
     def _add_penetrating_elements(self, change, inside, limit):
         fields = (field[self.inner] for field in (change.values, self.initial_gap, inside))

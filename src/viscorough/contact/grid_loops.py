@@ -4,6 +4,7 @@ Methods have the arguments and results of the kernels of the same name, which do
 """
 
 from functools import partial
+from itertools import accumulate
 
 import numpy as np
 
@@ -149,7 +150,7 @@ class GridLoops:
         """Places in contact, and their indices in the load array, as int32, or int64 where these are too large."""
         whole_number = np.int32 if inside.size // width * max(width, stride) < 2**31 else np.int64
         stops, counts = zip(*self._over(inside, lambda i, j: (j, np.count_nonzero(inside[i:j]))), strict=True)
-        ends = dict(zip(stops, np.cumsum(counts), strict=True))
+        ends = dict(zip(stops, accumulate(counts), strict=True))
         places, slots = np.empty((2, ends[inside.size]), whole_number)
 
         def store(i, j):

@@ -147,8 +147,11 @@ class GridLoops:
     # Over flat fields.
 
     def contact_places(self, inside, width, stride):
-        """Places in contact, and their indices in the load array, as int32, or int64 where these are too large."""
-        whole_number = np.int32 if inside.size // width * max(width, stride) < 2**31 else np.int64
+        """Places in contact, and their indices in the load array, as uint32, or int64 where these are too large.
+
+        Loops take less time where an index cannot be negative, which would count from the end of an array.
+        """
+        whole_number = np.uint32 if inside.size // width * max(width, stride) < 2**32 else np.int64
         stops, counts = zip(*self._over(inside, lambda i, j: (j, np.count_nonzero(inside[i:j]))), strict=True)
         ends = dict(zip(stops, accumulate(counts), strict=True))
         places, slots = np.empty((2, ends[inside.size]), whole_number)

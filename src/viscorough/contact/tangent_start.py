@@ -7,6 +7,7 @@ combination of them.
 from typing import NamedTuple
 
 import numpy as np
+import scipy.linalg
 
 from viscorough.contact.grid_loops import field_to_fill
 from viscorough.contact.state import BoundedField
@@ -50,7 +51,9 @@ def _weights(now, last, before, contact_set, loops):
         # An element left the contact, within the tolerance: fields that load it cannot be part of q.
         energy, sums = energy[:1, :1], sums[:1]
     scale = 1 / np.sqrt(np.maximum(np.diag(energy), np.finfo(float).tiny))
-    weights = scale * np.linalg.lstsq(scale[:, None] * energy * scale, scale * sums, rcond=1e-10)[0]
+    # Least squares, since the loads may be multiples of each other.
+    _, weights, *_ = scipy.linalg.lapack.dgelss(scale[:, None] * energy * scale, scale * sums, cond=1e-10)
+    weights *= scale
     return *weights, *[0.0] * (3 - weights.size)
 
 

@@ -37,14 +37,14 @@ def inside(random):
 
 @pytest.fixture
 def places(inside):
-    return np.flatnonzero(inside).astype(np.int32)
+    return np.flatnonzero(inside).astype(np.uint32)
 
 
 @pytest.fixture
 def slots(places):
     """Of the places in a load array of ROWS x STRIDE."""
-    row, column = np.divmod(places, WIDTH)
-    return (row - REACH) * STRIDE + column - REACH
+    row, column = np.divmod(places.astype(int), WIDTH)
+    return ((row - REACH) * STRIDE + column - REACH).astype(np.uint32)
 
 
 @pytest.fixture
@@ -56,7 +56,7 @@ def field(random):
 def test_places_of_a_set(loops, inside, places, slots):
     for found, expected in zip(loops.contact_places(inside, WIDTH, STRIDE), (places, slots), strict=True):
         np.testing.assert_array_equal(found, expected)
-        assert found.dtype == np.int32
+        assert found.dtype == np.uint32
 
 
 @pytest.mark.parametrize("share", [0.02, 0.6])
@@ -66,7 +66,7 @@ def test_places_of_a_set_wherever_rows_and_blocks_end(columns, share, random):
     width, stride = columns + 2 * REACH, columns + 3
     inside = np.pad(random.random((41, columns)) < share, REACH).ravel()
     expected = np.flatnonzero(inside)
-    places, slots = np.full((2, expected.size), -1, dtype=np.int32)
+    places, slots = np.zeros((2, expected.size), dtype=np.uint32)
     for start, stop in pairwise([0, 3, 50, 51, 133, inside.size]):
         kernels.contact_places(inside, start, stop, width, stride, np.count_nonzero(inside[:stop]), places, slots)
     np.testing.assert_array_equal(places, expected)
@@ -76,9 +76,9 @@ def test_places_of_a_set_wherever_rows_and_blocks_end(columns, share, random):
 def test_indices_beyond_32_bits_are_64_bits_wide(loops):
     inside = np.zeros(20 * 5, dtype=bool)
     inside[[42, 77]] = True
-    places, slots = loops.contact_places(inside, 5, 2**31 // 20 + 1)
+    places, slots = loops.contact_places(inside, 5, 2**32 // 20 + 1)
     np.testing.assert_array_equal(places, [42, 77])
-    np.testing.assert_array_equal(slots, [6 * (2**31 // 20 + 1), 13 * (2**31 // 20 + 1)])
+    np.testing.assert_array_equal(slots, [6 * (2**32 // 20 + 1), 13 * (2**32 // 20 + 1)])
 
 
 def test_sums_over_a_set(loops, field, places, slots):

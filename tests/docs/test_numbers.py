@@ -140,9 +140,14 @@ def test_grids_from_coarse_to_fine():
     publish = load_benchmark("publish")
     assert between_marks(ROOT / "docs/scaling.md", "infinite grid") == publish.infinite_grid()
     limits = pd.read_csv(ROOT / "docs/results/infinite_grid.csv").query("law == 'corrected' and height == 'spectrum'")
-    discs, lines = (limits[limits["source"] == source] for source in ("discs", "lines"))
-    assert discs["expected"].between(discs["ranges_low"], discs["ranges_high"]).all()
-    of_velocity = lines[lines["quantity"] == "whole"]
+    outside = limits[~limits["expected"].between(limits["ranges_low"], limits["ranges_high"])].set_index("source")
+    assert set(outside["quantity"]) == {"interface"}
+    assert set(outside["hurst"]) == {0.1}
+    lowest = outside["ranges_low"]
+    assert f"at {lowest['discs']:.3f} for discs and {lowest['lines']:.3f} for lines" in words("docs/scaling.md")
+    assert (outside["omega_high"] == 1.5).all()
+    assert set(limits.loc[limits["source"] == "discs", "finding"]) == {"undecided"}
+    of_velocity = limits.query("source == 'lines' and quantity == 'whole'")
     assert (of_velocity["beta"] - of_velocity["expected"]).abs().max() < 0.01
     trends = pd.read_csv(ROOT / "docs/results/sizes_trends.csv").query("source != 'controls'")
     text = " ".join(read(ROOT / "docs/verification.md").split())

@@ -14,17 +14,16 @@ from scipy.special import erf
 import viscorough
 
 surface = viscorough.self_affine_disc(0.8, 257, rms=1e-7, diameter=1e-4, roll_off_wavelength=0.1, seed=1)
-curve = viscorough.indent(surface, until_fraction=0.9, start_fraction=0.005, tolerance=1e-4)
-
 area = surface.elements * surface.spacing**2
-pressure = curve.force / (4 * area) / surface.rms_slope  # p/(E* h')
+pressure = np.geomspace(2e-3, 1.5, 30)  # p/(E* h')
+curve = viscorough.indent(surface, forces=4 * area * surface.rms_slope * pressure, tolerance=1e-4)
+
 smooth = np.geomspace(2e-3, pressure[-1], 200)
-shown = curve.contact_fraction > 0.005
 ratio = np.interp(0.05, pressure, curve.contact_fraction) / erf(np.sqrt(2) * 0.05)
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(7, 2.8), layout="constrained")
 for axes in (left, right):
-    axes.plot(pressure[shown], curve.contact_fraction[shown], "C0.-", label="boundary elements")
+    axes.plot(pressure, curve.contact_fraction, "C0.-", label="boundary elements")
     axes.plot(smooth, erf(np.sqrt(2) * smooth), "C1--", label="Persson")
     axes.set(xlabel="$p/(E^* h')$", ylabel="contact fraction $A/A_0$")
 right.set(xscale="log", yscale="log")

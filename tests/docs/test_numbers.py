@@ -232,7 +232,27 @@ def test_large_discs():
     assert f"| {memory}; between 2049 and 4097 it grows as the number of elements to the power {growth:.2f}" in scaling
     sizes = table.loc[[257, 4097]]
     assert f"elements to the power {fit_cost(sizes['elements'], sizes['wall'])[0]:.1f}, to which" in scaling
-    assert largest["memory"] / 4097**2 < 300
+    large = table.loc[[4097, 8193]]
+    assert (large["memory"] / large["elements"]).max() < 200
+    steeper = fit_cost(large["elements"], large["memory"])[0]
+    assert f"between 4097 and 8193 to the power {steeper:.2f}; at most 200 bytes" in scaling
+
+
+def test_records_and_threads():
+    """8193 elements across, what 16 385 would take, and two threads beside one."""
+    table, text = published("large.csv").set_index("across"), words("docs/performance.md")
+    record, before = table.loc[8193], table.loc[4097]
+    assert f"on one thread, {before['wall_threads']:.0f} s on two" in text
+    minutes, gigabytes = f"{record['wall'] / 60:.0f} minutes", record["memory"] / 1e9
+    assert f"{minutes} and {gigabytes:.1f} GB, on two threads {record['wall_threads'] / 60:.1f} minutes" in text
+    next_wall, next_memory = (record[name] * (record[name] / before[name]) for name in ("wall", "memory"))
+    assert next_wall / 60 == pytest.approx(90, rel=0.05)
+    assert f"would take about 90 minutes and {next_memory / 1e9:.0f} GB on one thread" in text
+    ratio = table.loc[2049, "wall"] / table.loc[2049, "wall_threads"]
+    assert f"On a disc of 2049 two threads are {ratio:.2f} times as fast as one" in text
+    sizes = table.loc[129:4097]
+    growth = fit_cost(sizes["elements"], sizes["wall"])[0]
+    assert f"to the power {growth:.2f} from 129 to 4097 (`make large`)" in text
 
 
 def test_growth_and_placement_of_levels():

@@ -100,6 +100,11 @@ def read_claims():
     return read_paper(ROOT / "resources/paper", "claims")
 
 
+def paragraph(text):
+    """A paragraph in lines of at most 120 characters."""
+    return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False) + "\n"
+
+
 def other_seeds(published, seeds):
     """Sentence on a file seeds.json: the verdicts that change with the seed, and those that are not as published."""
     runs = json.loads(seeds.read_text(encoding="utf-8"))["verdicts"]
@@ -113,7 +118,7 @@ def other_seeds(published, seeds):
         f"change with the seed: {change or 'none'}; verdicts that contradict those above: {differ or 'none'}. That "
         f"scale leaves {undecided} of the {len(published)} claims undecided that are decided above."
     )
-    return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False) + "\n"
+    return paragraph(text)
 
 
 def other_solver_times():
@@ -175,7 +180,7 @@ def correction_exponents(table):
         f"of these {len(table)} fits ({of_place[PLACES[2]] or 'none'}), and its interval reaches an end in "
         f"{(places == PLACES[1]).sum()} others ({of_place[PLACES[1]] or 'none'})."
     )
-    return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False) + "\n"
+    return paragraph(text)
 
 
 def interface_law():

@@ -117,7 +117,7 @@ DTYPES, SIZES = ["float64", "float32"], [2**20, 1_000_003, 2 * 500_009, 3 * 333_
 
 @pytest.fixture(scope="module")
 def peaks_of_lines():
-    """Peaks by data type and points, from a process of its own: what other tests freed would be used again in this one.
+    """Peaks by data type and points, from a separate process: what other tests freed would be used again in this one.
 
     The C library returns arrays above a size to the system as soon as they are freed, if that size is given.
     """

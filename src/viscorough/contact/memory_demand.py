@@ -27,7 +27,7 @@ def require_for_contact(heights, *, exact, threads=1):
 
     heights : a map, nan outside the indenter
     exact : whether gaps are also computed in double precision
-    threads : on which the contact is computed; each has buffers of its own
+    threads : on which the contact is computed; each has its own buffers
 
     The need follows the allocation: it is proportional to the number of points of the padded grid around all elements,
     of its border included, which for narrow strips are several times as many as the elements. It lies above what is

@@ -4,9 +4,9 @@
 
 Every command (`make paper`, `make speed`, ...) has its own figures and tables, which are copied into docs/results/ with
 their origin. Name the commands whose results are in the folder: some of the files also exist at a smaller scale. Those
-of paper include the verdicts and the calibrated law, those of seeds the dependence of the verdicts on the seed. Without
-results (`--pages-only`) only the tables in README.md and docs/ are written, from what was published before and from the
-statements in resources/paper/claims.yaml. The workflow writes only into results/.
+of paper include the verdicts and the calibrated law; seeds and resampled have how the verdicts depend on the seed, and
+on the surfaces drawn. Without results (`--pages-only`) only the tables in README.md and docs/ are written, from what
+was published before and from the statements in resources/paper/claims.yaml. The workflow writes only into results/.
 """
 
 import json
@@ -59,6 +59,7 @@ PUBLISHED = {
     ),
     "large": ("figures/large.png", "tables/large.csv"),
     "seeds": (),
+    "resampled": (),
 }
 # {command: {file in results/ that other parts of the project read: where they find it}}
 KEPT = {
@@ -68,16 +69,20 @@ KEPT = {
         "tables/interface.csv": "src/viscorough/data/interface.csv",
     },
     "seeds": {"seeds.json": "docs/seeds.json", "seeds.csv": "docs/seeds.csv"},
+    "resampled": {"resampled.json": "docs/resampled.json"},
 }
 INTERFACE_QUANTITIES = {"whole": "*vt*/*h*", "interface": "*g*"}
 PICTURES = ("fig2_kinetics.png", "speed.png")  # which README.md shows: also in docs/
 
 
 def verdicts():
-    """The verdicts of docs/claims.csv with all numbers, as a table in Markdown, and how they depend on the seed."""
-    table, seeds = published_claims(), ROOT / "docs/seeds.json"
+    """The verdicts of docs/claims.csv with all numbers, as a table in Markdown, and on what they depend."""
+    table = published_claims()
     text = markdown(table, read_claims())
-    return text + "\n" + other_seeds(overall(table), seeds) if seeds.is_file() else text
+    for name, sentence in (("resampled", other_surfaces), ("seeds", other_seeds)):
+        if (file := ROOT / f"docs/{name}.json").is_file():
+            text += "\n" + sentence(overall(table), json.loads(file.read_text(encoding="utf-8"))["verdicts"])
+    return text
 
 
 def verdict_lines():
@@ -105,9 +110,21 @@ def paragraph(text):
     return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False) + "\n"
 
 
-def other_seeds(published, seeds):
-    """Sentence on a file seeds.json: the verdicts that change with the seed, and those that are not as published."""
-    runs = json.loads(seeds.read_text(encoding="utf-8"))["verdicts"]
+def other_surfaces(published, draws):
+    """Sentence on the verdicts of other draws of the surfaces, {draw: {claim: verdict}}, that are not as published."""
+    differ = []
+    for claim, verdict in published.items():
+        others = [of_draw[claim] for of_draw in draws.values() if of_draw[claim] != verdict]
+        counts = "; ".join(f"{other} in {others.count(other)}" for other in sorted(set(others)))
+        differ += [f"{claim} ({counts})"] if counts else []
+    return paragraph(
+        f"Of {len(draws)} draws of the same surfaces with replacement (`make resampled`, "
+        f"[resampled.json](resampled.json)), verdicts that differ from those above: {', '.join(differ) or 'none'}."
+    )
+
+
+def other_seeds(published, runs):
+    """Sentence on the verdicts of other seeds, {seed: {claim: verdict}}: those that change, and that contradict."""
     outcomes = {claim: {run[claim] for run in runs.values()} for claim in published}
     change = "; ".join(f"{claim} ({', '.join(sorted(words))})" for claim, words in outcomes.items() if len(words) > 1)
     same = {claim: min(words) for claim, words in outcomes.items() if len(words) == 1 and words != {published[claim]}}

@@ -1,10 +1,11 @@
 """Draw the surfaces of a finished run again and report which verdicts on the paper's claims change.
 
-    python benchmarks/resampled_verdicts.py results --settings config/paper.yaml --draws 20 --output /tmp/drawn.csv
+    python benchmarks/resampled_verdicts.py results --settings config/paper.yaml --output results/resampled.json
 
 Every draw takes as many discs and lines of each Hurst exponent as there are, with replacement, and every table of fits
 and verdicts is made of them by the workflow's own rules. Results that are no means over these ensembles stay: direct
-integration, validation, comparison surface by surface, grids from coarse to fine, and times.
+integration, validation, comparison surface by surface, grids from coarse to fine, and times. The tables of claims of
+all draws are written beside the output, as CSV.
 
 Discs are drawn over all combinations of a Hurst exponent, whose surfaces have the same distribution: force, viscosity,
 diameter and rms height are units of X and vt/h (claim one_surface). Drawn within the combinations, their means would
@@ -22,6 +23,7 @@ import numpy as np
 import pandas as pd
 
 from viscorough.io.datasets import read_dataset, write_dataset
+from viscorough_study.tables import write_json
 from viscorough_study.verdicts import overall
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -54,19 +56,23 @@ def claims(results, folder, settings, cores, random):
 @click.command(help=__doc__.splitlines()[0])
 @click.argument("results", type=click.Path(exists=True, file_okay=False, path_type=Path))
 @click.option("--settings", type=click.Path(exists=True, path_type=Path), help="Settings with which it was made.")
-@click.option("--draws", type=click.IntRange(1), default=3, show_default=True)
+@click.option("--draws", type=click.IntRange(1), default=8, show_default=True)
 @click.option("--seed", type=click.IntRange(0), default=1, show_default=True, help="Of the draws.")
 @click.option("--cores", type=click.IntRange(1), default=2, show_default=True)
-@click.option("--output", type=click.Path(path_type=Path), required=True, help="Tables of claims of all draws, CSV.")
+@click.option("--output", type=click.Path(path_type=Path), required=True, help="File to write, JSON.")
 def main(results, settings, draws, seed, cores, output):
+    if not (results / "tables/claims.csv").is_file():
+        raise click.ClickException(f"{results}: no tables/claims.csv there; make paper makes it")
     random, tables = np.random.default_rng(seed), {}
     for draw in range(1, draws + 1):
         with tempfile.TemporaryDirectory() as folder:
             tables[draw] = claims(results, Path(folder), settings and settings.resolve(), cores, random)
         click.echo(f"draw {draw} of {draws}")
     output.parent.mkdir(parents=True, exist_ok=True)
-    pd.concat(tables, names=["draw"]).droplevel(1).to_csv(output)
-    verdicts = pd.DataFrame({draw: overall(table) for draw, table in tables.items()})
+    pd.concat(tables, names=["draw"]).droplevel(1).to_csv(output.with_suffix(".csv"))
+    verdicts = {draw: overall(table) for draw, table in tables.items()}
+    write_json({"verdicts": verdicts}, output)
+    verdicts = pd.DataFrame(verdicts)
     moved = verdicts[verdicts.nunique(axis=1) > 1]
     for claim, row in moved.iterrows():
         numbers = row.value_counts().items()

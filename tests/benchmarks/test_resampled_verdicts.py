@@ -2,6 +2,7 @@
 
 import numpy as np
 import xarray as xr
+from click.testing import CliRunner
 
 
 def test_curves_are_drawn_among_those_of_the_same_surfaces(script):
@@ -18,3 +19,12 @@ def test_curves_are_drawn_among_those_of_the_same_surfaces(script):
     assert (hurst[came_from] == hurst).all()
     assert (about["case"][came_from] != about["case"]).any()
     assert 60 < np.unique(came_from).size < 90, "about 63 % of them, with replacement"
+
+
+def test_results_are_needed(script, tmp_path):
+    outcome = CliRunner().invoke(
+        script("resampled_verdicts").main, [str(tmp_path), "--output", str(tmp_path / "x.json")]
+    )
+    assert outcome.exit_code == 1
+    assert outcome.output == f"Error: {tmp_path}: no tables/claims.csv there; make paper makes it\n"
+    assert not (tmp_path / "x.json").exists()

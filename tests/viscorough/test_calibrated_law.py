@@ -77,8 +77,8 @@ def test_law_holds_where_it_must_to_what_it_must():
     discs = discs[(discs["case_group"] == "base") | ~discs["hurst"].isin(discs.query("case_group == 'base'")["hurst"])]
     assert set(discs["hurst"]) == set(HURST)
     assert (discs["law_low"] <= np.where(discs["hurst"] < 0.4, 2e-3, X_LOW * (1 + 1e-9))).all()
-    # Means of 720 discs leave room for the scatter of smaller ensembles.
-    assert (discs.query("case_group == 'base' and hurst >= 0.4")["deviation"] < 0.03).all()
+    # Means of 1440 discs have intervals of ±2 % at X = 0.001, where the deviation is largest.
+    assert (discs.query("case_group == 'base' and hurst >= 0.4")["deviation"] < 0.04).all()
     # Those of H = 1 are from the grids from coarse to fine, whose curves end sooner.
     assert (discs["law_high"] > np.where(discs["case_group"] == "base", 25, 2.5)).all()
     geometric = discs.query("average == 'geometric'")
@@ -117,12 +117,12 @@ def test_values_outside_the_calibrated_range_are_refused():
 
 
 def test_depth_is_the_published_one():
-    """In region (b), depth over X^β/(ζβ) is the claim `depth`, which is measured without the law."""
+    """In region (b), β u/h over vt/h is the claim `depth`, which is measured without the law."""
     claims = pd.read_csv(ROOT / "docs/claims.csv").query("claim == 'depth'")
     for row in claims.itertuples():
         law = viscorough.penetration_law(float(row.case.removeprefix("H = ")))
         centre = np.sqrt(np.prod(law.region))
-        assert law.depth(centre) * law.zeta * law.beta / centre**law.beta == pytest.approx(row.value, rel=0.05)
+        assert law.depth(centre) * law.beta / law.velocity(centre) == pytest.approx(row.value, rel=0.045)
     assert len(claims) == 4
 
 

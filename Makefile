@@ -17,7 +17,7 @@ help:
 	@echo "make test        format, lint, documentation and every test"
 	@echo "make docs        the documentation as a site, in build/docs/index.html"
 	@echo "make bench       cost and errors of curves and lines, and cost of the reproduction, in results/benchmarks.json"
-	@echo "make speed       speed against accuracy of every method, in results/figures/speed.png; 90 minutes"
+	@echo "make speed       speed against accuracy of every method, in results/figures/speed.png; 80 minutes"
 	@echo "make stability   where each method fails, and random small indenters against dense solutions"
 	@echo "make sizes       exponents on grids from 33 to 4097 elements across and on lines, and their collapse"
 	@echo "make large       time and memory of a disc of up to 8193 elements across, 53 million in all"

@@ -178,7 +178,7 @@ def _predicted_touches(before, after, share, threads):
 
     Returns the number of elements, 0 where touches cannot be predicted, Σw, Σw (1 − touch) and Σw max(s − touch, 0).
     """
-    if before.fields is None:
+    if before.fields is None or after.fields is None:  # the one after may have been solved from an earlier contact
         return 0, 0.0, 0.0, np.zeros(share.size)
     place, pressure, tangent = _new_elements(before.fields, after, threads)
     if not place.all():  # place 0 is outside the grid of the contact before

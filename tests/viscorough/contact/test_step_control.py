@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from viscorough.contact.loading_path import indent
+from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.solver import ContactSolver
 from viscorough.contact.step_control import Level, StepControl, division, interpolation_bound
 from viscorough.indenter import Indenter
@@ -78,3 +79,21 @@ def test_the_bound_is_relaxed_only_where_a_small_error_is_predicted(indenter, de
     bound = interpolation_bound(Level.of(before), Level.of(after)) / tolerance
     assert 0.5 < bound < 3
     assert control.excess(before, after) == pytest.approx(bound / 3.3 if relaxed else bound)
+
+
+def test_touches_before_a_dense_solution_are_not_predicted():
+    """Contacts are solved ahead, so that one on the grid may come before a dense one: the bound alone decides."""
+    indenter, depths, options = (
+        self_affine_disc(0.5, 33, seed=1),
+        (0.3, 0.35),
+        (SolverOptions(dense_contacts=0), DEFAULT),
+    )
+    solvers = (ContactSolver(indenter, 1e-6, of_solver) for of_solver in options)
+    before, after = (
+        solver.advance_reduced(solver.unloaded_state(), depth) for solver, depth in zip(solvers, depths, strict=True)
+    )
+    assert before.fields is not None
+    assert after.fields is None
+    bound = interpolation_bound(Level.of(before), Level.of(after)) / 1e-3
+    assert 1 < bound < 3
+    assert StepControl(1e-3).excess(before, after) == pytest.approx(bound)

@@ -12,6 +12,7 @@ HALO = {"path_effects": [withStroke(linewidth=2, foreground="white")]}
 DARKER = 0.75  # light colours of lines are hard to read as colours of text
 NEAR, MISLEADING = 5, 1000  # points from what another label names, and how bad that is, in points of curves
 POINTS_OF_CURVE = 400  # at which a curve is looked for under a label
+WEIGHT_OF_MARKER = 40  # of a marker on its own, in points of curves
 
 
 def place_labels(axes, labels, **look):
@@ -79,5 +80,5 @@ def _points_of_curves(axes):
             at = np.linspace(0, along[-1], POINTS_OF_CURVE)
             points.append(np.column_stack([np.interp(at, along, path[:, i]) for i in (0, 1)]))
         else:
-            points.append(path)
+            points.append(np.repeat(path, WEIGHT_OF_MARKER, axis=0))
     return np.concatenate(points)

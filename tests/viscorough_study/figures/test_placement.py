@@ -46,3 +46,17 @@ def test_a_label_is_not_next_to_what_another_one_names():
     axes, boxes = placed([("first", 5, 5), ("second", 5.3, 5)], ([0, 1], [0, 0]))
     second = axes.transData.transform((5.3, 5))
     assert not boxes[0].padded(3).contains(*second)
+
+
+def test_a_label_rather_hides_a_piece_of_a_curve_than_a_marker():
+    figure = Figure(layout="constrained")
+    axes = figure.subplots()
+    for x in np.arange(0, 5.1, 0.5):  # curves beneath all places but those on the right, where there are markers
+        axes.plot([x, x], [0.5, 9.5])
+    markers = [(x, y) for x in np.arange(5.3, 8, 0.3) for y in np.linspace(3, 7, 17)]
+    for marker in markers:
+        axes.plot(*marker, "o")
+    axes.set(xlim=(0, 10), ylim=(0, 10))
+    place_labels(axes, [("a label", 5, 5, "red")])
+    box = axes.texts[0].get_window_extent(FigureCanvasAgg(figure).get_renderer())
+    assert not box.count_contains(axes.transData.transform(markers))

@@ -26,7 +26,7 @@ def test_table_on_standard_output(here, capsys):
     assert captured.err == ""
     law, head, *rows = captured.out.splitlines()
     assert law.startswith(
-        "vt/h = X + g(X) for H = 0.8, X from 0.001 to 30; X^beta/zeta from 0.000962 to 0.0794: beta 0.4413 ["
+        "vt/h = X + g(X) for H = 0.8, X from 0.001 to 30; X^beta/zeta from 0.000962 to 0.0736: beta 0.4418 ["
     )
     assert head.split() == ["time", "X", "depth", "from", "to", "velocity", "from", "to"]
     numbers = np.array([[float(cell) for cell in row.split()] for row in rows])

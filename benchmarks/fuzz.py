@@ -106,7 +106,8 @@ def breach(arguments, result, before, after):
         if len(lines) != 1 or not err.endswith("\n") or not lines[0].startswith("viscorough") or out:
             return f"exit code {code} with {len(lines)} lines on stderr: {err[:300]!r}, stdout {out[:100]!r}"
         return ""
-    if not all(line.startswith(f"viscorough {arguments[0]}: warning: ") for line in lines):
+    command = next((argument for argument in arguments if argument != "--"), "")
+    if not all(line.startswith(f"viscorough {command}: warning: ") for line in lines):
         return f"success with other than warnings on stderr: {err[:300]!r}"
     if not changed and out.startswith(("Usage: viscorough", f"viscorough {version('viscorough')}", "vt/h = ")):
         return ""  # help, the version, or the table of an estimate

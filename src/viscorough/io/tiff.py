@@ -1,5 +1,7 @@
 """Maps of heights in TIFF files: of one channel, with the spacing that GeoTIFF or ImageJ tags state."""
 
+import logging
+
 import numpy as np
 
 from viscorough.io.atomic import reason
@@ -8,6 +10,8 @@ from viscorough.io.scan import Scan
 _PARK_SYSTEMS = 50432  # tag of the atomic force microscopes whose heights are not in the picture
 _LINEAR_UNITS = {9001: "m", 9002: "foot", 9003: "US_survey_foot", 9036: "km"}
 _GEOGRAPHIC = 2
+# What tifffile logs about a damaged file is not printed: the error says it in one line.
+logging.getLogger("tifffile").addHandler(logging.NullHandler())
 
 
 def read_tiff(path, channel=None):
@@ -41,6 +45,8 @@ def read_tiff(path, channel=None):
 def _page(file, channel):
     """The page that holds the heights."""
     pages = [page for page in file.pages if page.imagewidth and not page.is_reduced]
+    if not pages:
+        raise ValueError("it has no picture")
     if channel is None and len(pages) > 1 and _PARK_SYSTEMS not in pages[0].tags:
         raise ValueError(f"it has {len(pages)} pages; --channel 0 to {len(pages) - 1} chooses one")
     if channel is None or _PARK_SYSTEMS in pages[0].tags:

@@ -1,5 +1,7 @@
 """Maps of heights in TIFF files, with the tags that GeoTIFF, GDAL and ImageJ define."""
 
+import logging
+
 import numpy as np
 import pytest
 import tifffile
@@ -101,3 +103,11 @@ def test_bad_files_are_one_line(tmp_path):
         with pytest.raises(ValueError, match=what) as error:
             read_heights(tmp_path / name, 1)
         assert one_line(error).count(name) == 1
+
+
+def test_what_the_library_logs_is_not_printed_beside_the_error(tmp_path, monkeypatch, capsys):
+    (tmp_path / "empty.tif").write_bytes(b"II*\x00\x00\x00\x00\x00")
+    monkeypatch.setattr(logging.getLogger(), "handlers", [])  # those of the tests
+    with pytest.raises(ValueError, match=r"empty\.tif: not readable \(it has no picture\)"):
+        read_heights(tmp_path / "empty.tif", 1)
+    assert capsys.readouterr().err == ""

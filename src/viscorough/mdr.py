@@ -142,9 +142,10 @@ def line_of_map(surface, seed):
     if surface.heights.ndim != 2:
         raise ValueError("line_of_map: the indenter's heights must be two-dimensional")
     heights = surface.heights.astype(float)
-    (rows, columns), (dx, dy) = heights.shape, (surface.spacing, surface.row_spacing)
-    length, spacing = max(rows * dy, columns * dx), max(dx, dy)
-    points = round(length / spacing)
+    (rows, columns), spacing = heights.shape, max(surface.spacing, surface.row_spacing)
+    dx, dy = surface.spacing / spacing, surface.row_spacing / spacing  # as is the length: nothing overflows
+    length = max(rows * dy, columns * dx)
+    points = round(length)
     y, x = ((np.arange(n) - (n - 1) / 2) / (n / 2) for n in heights.shape)
     window = np.cos(np.pi / 2 * np.minimum(np.hypot(y[:, None], x), 1)) ** 2
     window[np.isnan(heights)] = 0

@@ -262,6 +262,13 @@ def test_line_of_a_map_has_its_rms_height_unit_and_length():
     assert line.heights.shape == (46,)  # 46 rows 1 apart are longer than 70 columns 0.5 apart
 
 
+@pytest.mark.parametrize("scale", [1e-300, 1.7e308])
+def test_heights_of_the_line_do_not_depend_on_the_scale_of_the_spacing(scale):
+    map_ = self_affine_square(0.7, 16, seed=1)
+    lines = [line_of_map(Indenter(map_, spacing, row_spacing=spacing / 2), 3).heights for spacing in (1.0, scale)]
+    np.testing.assert_array_equal(*lines)
+
+
 def test_lines_of_maps_follow_the_seed():
     map_ = Indenter(self_affine_square(0.7, 32, seed=1), 1.0)
     first, again, other = (line_of_map(map_, seed).heights for seed in ([0, 5], [0, 5], [0, 6]))

@@ -68,6 +68,7 @@ def kinetics(curve, force, force_history, viscosity, medium, times, output):
     from viscorough.io.atomic import check_output
     from viscorough.io.curves import curve_from_content
     from viscorough.viscous import correspondence
+    from viscorough.viscous.media import Newtonian
 
     check_output(output)
     for file, kind in ((force_history, "force history"), (medium, "medium")):
@@ -86,8 +87,9 @@ def kinetics(curve, force, force_history, viscosity, medium, times, output):
     else:
         history = about["force"] = number_in("N", force, loading.length_unit, "--force")
     motion = correspondence.kinetics(loading, history, law, times)
-    if force is not None and viscosity is not None and times is None:
-        _check_that_levels_follow_each_other(motion, force, viscosity)
+    if force is not None and times is None and isinstance(law, Newtonian):
+        of_medium = f"--medium {printable_name(medium)}" if medium else f"--viscosity {viscosity}"
+        _check_that_levels_follow_each_other(motion, f"--force {force}, {of_medium}")
     content, title = _content(content, motion, history, loading, times is None and viscosity is not None)
     write_output(content, output, title=title, **about)
     points = "levels" if times is None and force is not None else "times"
@@ -131,11 +133,12 @@ def _history(path):
         raise ValueError(f"{path}: {error}") from error
 
 
-def _check_that_levels_follow_each_other(motion, force, viscosity):
+def _check_that_levels_follow_each_other(motion, options):
     import numpy as np
 
-    if not (np.diff(motion.time, prepend=0) > 0).all() or not (motion.velocity > 0).all():
-        raise ValueError(f"--force {force}, --viscosity {viscosity}: times overflow; closer values are allowed")
+    known = np.isfinite(motion.time).all() and (np.diff(motion.time, prepend=0) > 0).all()
+    if not known or not (motion.velocity > 0).all():
+        raise ValueError(f"{options}: times overflow; closer values are allowed")
 
 
 def _content(content, motion, history, loading, of_levels):

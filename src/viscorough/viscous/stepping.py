@@ -22,7 +22,8 @@ SCHEMES = ("explicit", "heun", "implicit")
 # Overlap over the depth from which on a warning is given: the error of the depth is about as large
 # (measured: `make stability`, results/tables/failure_curves.csv).
 _WARN_OVERLAP = 0.01
-_FAR = 1e290  # gaps where there is no element are larger
+# Largest depth of explicit steps, over the largest number of the precision of their fields.
+_LARGEST_SHARE = 1e-8
 # Accuracy of the impulse of an implicit step, over the tolerance of its contact problem, which leaves the force that
 # uncertain itself, and most iterations for it.
 _IMPULSE_ACCURACY, _MAX_NEWTON_ITERATIONS = 0.1, 50
@@ -120,7 +121,9 @@ class _Explicit:
         box = (0, 0, *indenter.heights.shape)
         self._grid = GridSolver(box, row, column, gap, tolerance**2, DEFAULT, aspect=indenter.aspect)
         self._tolerance = tolerance
-        self._gap = self._grid.initial_gap.copy()
+        self._gap = np.full_like(self._grid.initial_gap, np.inf)  # where there is no element, at every depth
+        self._gap[self._grid.place] = gap
+        self._largest_depth = _LARGEST_SHARE * np.finfo(self._gap.dtype).max
         self._inside = self._gap <= 0
         self._tangent, self._tangent_gap = np.zeros_like(self._gap), np.full_like(self._gap, -1.0)
         self.depth, self.steps = 0.0, 0
@@ -132,7 +135,7 @@ class _Explicit:
             return np.inf
         # Beyond the step some element that is now outside the contact would overlap the surface by more than allowed.
         closing = -self._tangent_gap - overlap
-        ahead = (closing > 0) & ~self._inside & (self._gap < _FAR)
+        ahead = (closing > 0) & ~self._inside & np.isfinite(self._gap)
         if not ahead.any():
             return np.inf
         depth_step = (np.maximum(self._gap[ahead], 0) + overlap * self.depth) / closing[ahead]
@@ -142,6 +145,7 @@ class _Explicit:
     def step(self, impulse):
         """Advance by an impulse."""
         depth_step = impulse / self.resistance
+        self._check(self.depth + depth_step)
         self._gap += depth_step * self._tangent_gap
         self.depth += depth_step
         self.steps += 1
@@ -160,6 +164,13 @@ class _Explicit:
         """Largest overlap of indenter and surface, over the depth."""
         return max(-self._gap.min(), 0.0) / self.depth
 
+    def _check(self, depth):
+        if not depth <= self._largest_depth:
+            raise ValueError(
+                f"march_steps: depth {depth:g} is above {self._largest_depth:g}, the largest that is allowed; smaller "
+                "impulses are needed"
+            )
+
     def _solve_flat_punch(self):
         """q, K q − 1 and Σq of the contact set. Without adhesion no element may pull, and none of a flat punch does."""
         self.resistance = self._grid.solve_flat_punch(self._inside, self._tangent, self._tangent_gap)
@@ -172,6 +183,7 @@ class _Heun(_Explicit):
 
     def step(self, impulse):
         """Advance by an impulse."""
+        self._check(self.depth + impulse / self.resistance)
         start_velocity, start_gap = 1 / self.resistance, self._tangent_gap / self.resistance
         predicted = self._inside | (self._gap + impulse * start_gap <= 0)
         if np.array_equal(predicted, self._inside):

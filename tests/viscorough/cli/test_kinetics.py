@@ -54,6 +54,7 @@ def here(made, tmp_path, monkeypatch):
         (tmp_path / name).write_bytes((made / name).read_bytes())
     (tmp_path / "table.csv").write_text(TABLE)
     (tmp_path / "force.csv").write_text(HISTORY)
+    (tmp_path / "newtonian.yaml").write_text(MEDIA["newtonian"][0])
     return tmp_path
 
 
@@ -227,6 +228,11 @@ BAD_OPTIONS = {
     "two forces": (["--viscosity", "1", "--force", "1", "--force-history", "force.csv"], "one of --force"),
     "no medium": (["--force", "1"], "one of --viscosity and --medium is needed"),
     "two media": (["--force", "1", "--viscosity", "1", "--medium", "medium.yaml"], "one of --viscosity"),
+    "times overflow": (["--force", "1e-320", "--viscosity", "1"], "-321, --viscosity 1: times overflow"),
+    "times of a medium overflow": (
+        ["--force", "1e-320", "--medium", "newtonian.yaml"],
+        "-321, --medium newtonian.yaml: times overflow",
+    ),
     "missing medium": (["--force", "1", "--medium", "none.yaml"], "none.yaml: not readable (there is no such file)"),
     "a folder": (["--force", "1", "--medium", "."], "not readable (it is no file)"),
     "missing history": (["--force-history", "none.csv", "--viscosity", "1"], "none.csv: not readable"),

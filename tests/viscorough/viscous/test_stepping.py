@@ -112,3 +112,16 @@ def test_long_steps_warn():
     force = indent(disc, depths=[1.0]).force
     with pytest.warns(AccuracyWarning, match=r"overlaps the surface by up to 0\.\d+ of its depth"):
         march_steps(disc, force)
+
+
+@pytest.mark.parametrize("scheme", ["explicit", "heun"])
+@pytest.mark.parametrize("tolerance", [1e-6, 5e-2], ids=["double", "single"])
+def test_depths_beyond_measure(scheme, tolerance):
+    """There is no surface beyond the map that a deep indenter could touch, and what overflows is refused."""
+    indenter = Indenter(np.random.default_rng(0).random((3, 3)), 1.0)
+    with pytest.warns(AccuracyWarning):
+        steps = march_steps(indenter, [1.0, 1e31], scheme=scheme, tolerance=tolerance)
+    assert steps.contact_count[-1] == 9
+    assert steps.depth[-1] > 1e30
+    with pytest.raises(ValueError, match="the largest that is allowed"):
+        march_steps(indenter, [1.0, 1e305], scheme=scheme, tolerance=tolerance)

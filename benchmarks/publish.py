@@ -76,7 +76,7 @@ PICTURES = ("fig2_kinetics.png", "speed.png")  # which README.md shows: also in 
 
 
 def verdicts():
-    """The verdicts of docs/claims.csv with all numbers, as a table in Markdown, and on what they depend."""
+    """The verdicts of docs/claims.csv with all numbers, as a table in Markdown, and those that other draws change."""
     table = published_claims()
     text = markdown(table, read_claims())
     for name, sentence in (("resampled", other_surfaces), ("seeds", other_seeds)):

@@ -143,7 +143,7 @@ def line_of_map(surface, seed):
         raise ValueError("line_of_map: the indenter's heights must be two-dimensional")
     heights = surface.heights.astype(float)
     (rows, columns), spacing = heights.shape, max(surface.spacing, surface.row_spacing)
-    dx, dy = surface.spacing / spacing, surface.row_spacing / spacing  # as is the length: nothing overflows
+    dx, dy = surface.spacing / spacing, surface.row_spacing / spacing  # as the length, in units of the larger one
     length = max(rows * dy, columns * dx)
     points = round(length)
     y, x = ((np.arange(n) - (n - 1) / 2) / (n / 2) for n in heights.shape)

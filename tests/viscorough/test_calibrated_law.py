@@ -77,8 +77,9 @@ def test_law_holds_where_it_must_to_what_it_must():
     discs = discs[(discs["case_group"] == "base") | ~discs["hurst"].isin(discs.query("case_group == 'base'")["hurst"])]
     assert set(discs["hurst"]) == set(HURST)
     assert (discs["law_low"] <= np.where(discs["hurst"] < 0.4, 2e-3, X_LOW * (1 + 1e-9))).all()
-    # Means of 1440 discs have intervals of ±2 % at X = 0.001, where the deviation is largest.
-    assert (discs.query("case_group == 'base' and hurst >= 0.4")["deviation"] < 0.04).all()
+    # Largest at X = 0.001, where three or four elements touch at H = 0.4; there means of 1440 discs are known to 2 %.
+    base = discs.query("case_group == 'base' and hurst >= 0.4")
+    assert (base["deviation"] < np.where(base["hurst"] > 0.4, 0.02, 0.04)).all()
     # Those of H = 1 are from the grids from coarse to fine, whose curves end sooner.
     assert (discs["law_high"] > np.where(discs["case_group"] == "base", 25, 2.5)).all()
     geometric = discs.query("average == 'geometric'")

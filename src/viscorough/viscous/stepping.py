@@ -145,7 +145,7 @@ class _Explicit:
     def step(self, impulse):
         """Advance by an impulse."""
         depth_step = impulse / self.resistance
-        self._check(self.depth + depth_step)
+        self._check_depth(self.depth + depth_step)
         self._gap += depth_step * self._tangent_gap
         self.depth += depth_step
         self.steps += 1
@@ -164,7 +164,7 @@ class _Explicit:
         """Largest overlap of indenter and surface, over the depth."""
         return max(-self._gap.min(), 0.0) / self.depth
 
-    def _check(self, depth):
+    def _check_depth(self, depth):
         if not depth <= self._largest_depth:
             raise ValueError(
                 f"march_steps: depth {depth:g} is above {self._largest_depth:g}, the largest that is allowed; smaller "
@@ -183,7 +183,7 @@ class _Heun(_Explicit):
 
     def step(self, impulse):
         """Advance by an impulse."""
-        self._check(self.depth + impulse / self.resistance)
+        self._check_depth(self.depth + impulse / self.resistance)
         start_velocity, start_gap = 1 / self.resistance, self._tangent_gap / self.resistance
         predicted = self._inside | (self._gap + impulse * start_gap <= 0)
         if np.array_equal(predicted, self._inside):

@@ -228,10 +228,10 @@ BAD_OPTIONS = {
     "two forces": (["--viscosity", "1", "--force", "1", "--force-history", "force.csv"], "one of --force"),
     "no medium": (["--force", "1"], "one of --viscosity and --medium is needed"),
     "two media": (["--force", "1", "--viscosity", "1", "--medium", "medium.yaml"], "one of --viscosity"),
-    "times overflow": (["--force", "1e-320", "--viscosity", "1"], "-321, --viscosity 1: times overflow"),
+    "times overflow": (["--force", "1e-320", "--viscosity", "1"], ", --viscosity 1: times overflow"),
     "times of a medium overflow": (
         ["--force", "1e-320", "--medium", "newtonian.yaml"],
-        "-321, --medium newtonian.yaml: times overflow",
+        ", --medium newtonian.yaml: times overflow",
     ),
     "missing medium": (["--force", "1", "--medium", "none.yaml"], "none.yaml: not readable (there is no such file)"),
     "a folder": (["--force", "1", "--medium", "."], "not readable (it is no file)"),

@@ -18,6 +18,9 @@ _METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
 _ALLOWED = re.compile(r"[\w.()+\-*/^ µμÅ°\"'%]{1,60}")
 _POWER = re.compile(r"(?<![\w.])([^\W\d_]+|(?<=[(*/ ])[^\W\d_]+)([+-]?\d)(?![\w.])|\)([+-]?\d)(?![\w.])")
 _LONG_POWER = re.compile(r"(\*\*|\^)\s*(?![+-]?\d(?![\d.eE]|\s*(\*\*|\^)))")
+_POINTS = re.compile(r"(?:px|pix|pixels?|pts?|points?|dots?|samples?|punkte?|bildpunkte?)", re.IGNORECASE)
+# Lengths of printers that pint knows by names that elsewhere mean the points of a picture.
+_PRINTED = ("pixel", "point", "pica", "didot", "cicero")
 _QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.+?)\s*")
 
 
@@ -58,6 +61,11 @@ def factor(unit, to):
     if one.dimensionality != other.dimensionality:
         raise ValueError(f"unit {unit!r}: cannot be converted to {to}")
     return _rounded((one / other).to_base_units().magnitude)
+
+
+def counts_points(unit):
+    """Whether a unit counts the points of a map, as px does, so that it is no length."""
+    return bool(_POINTS.fullmatch(unit.strip()))
 
 
 def metres(unit):
@@ -118,4 +126,6 @@ def _parsed(text):
         raise ValueError(f"unit {text!r}: {wanted}") from error
     if not (math.isfinite(size) and size > 0):
         raise ValueError(f"unit {text!r}: {wanted}")
+    if any(name.endswith(_PRINTED) for name, _ in parsed.unit_items()):
+        raise ValueError(f"unit {text!r}: counts the points of a picture; {wanted}")
     return parsed

@@ -1,56 +1,74 @@
 """Maps of heights in text files: matrices, ESRI ASCII grids, and columns x, y, z of the points of a grid.
 
-Lines before the first row of numbers, and lines that start with #, %, // or ;, are comments. What they state about
-spacing and units is used: as Gwyddion ("Width: 12.34 µm"), optical profilers ("pixel size=3.7e-07 m") and tables of
-points ("x [µm]") write it.
+Lines before the first row of numbers, and lines that start with #, %, // or ;, are comments, but for those of a table
+that semicolons delimit. What they state about spacing and units is used (io.headers). A file is refused where its
+delimiter, its decimal mark or the number of its cells is not certain: every row has the same number of cells, and
+nothing is left out but comments.
 """
 
 import io
 import re
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
+from viscorough import units
 from viscorough.io.atomic import reason
 from viscorough.io.grids import gridded
+from viscorough.io.headers import read_header, states
 from viscorough.io.scan import Scan
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?"
-_MISSING = r"[+-]?(?:nan|inf|na|n/a|null|bad|void|no data|\*+|-{2,})"
-_FIELD = re.compile(rf"(?:{_NUMBER}|{_MISSING}|)", re.IGNORECASE)
-_GAPS = re.compile(r"(?<![^\s,;])(?:na|n/a|null|bad|void|no data|\*+|-{2,})(?![^\s,;])", re.IGNORECASE)
+_MISSING = (
+    r"[+-]?nan|n/?a|n\.a\.|#n/?a!?|#nv|none|null|bad|void|masked|missing|no ?data|[+-]?1\.#(?:qnan|ind)0*|\?+|\*+|[-–—]+"
+)
+_FIELD = re.compile(rf"{_NUMBER}|[+-]?inf(?:inity)?|{_MISSING}|", re.IGNORECASE)
+_MARK = re.compile(rf"(?<![^\s,;])(?:{_MISSING})(?![^\s,;])", re.IGNORECASE)
+_ALMOST_A_NUMBER = re.compile(rf"[^\w\s]?\s?\d.*|{_MISSING}", re.IGNORECASE)
 _UTF16 = (b"\xff\xfe", b"\xfe\xff")
-_COMMENT = ("#", "%", "//", ";")
-_REMARK = re.compile(r"\s[#%].*")
-_LENGTH = rf"({_NUMBER})[ \t]*([^\d\s,;)]*)"
-_WIDTH = re.compile(rf"\b(?:width|breite|scan ?size ?x|x[ _-]?size)\s*[:=]\s*{_LENGTH}", re.IGNORECASE)
-_HEIGHT = re.compile(rf"\b(?:height|höhe|scan ?size ?y|y[ _-]?size)\s*[:=]\s*{_LENGTH}", re.IGNORECASE)
-_PIXEL = re.compile(rf"\b(?:pixel ?size|(?:x[ _-]?)?spacing|dx)\s*[:=]\s*{_LENGTH}", re.IGNORECASE)
-_PIXEL_Y = re.compile(rf"\b(?:y[ _-]?spacing|dy)\s*[:=]\s*{_LENGTH}", re.IGNORECASE)
-_UNIT = re.compile(r"\b(?:value units?|werteinheit(?:en)?|z[ _-]?units?|units?)\s*[:=]\s*([^\s,;]+)", re.IGNORECASE)
-_FACTOR = re.compile(rf"height conversion factor \(-> (\w+)\)\s*=\s*({_NUMBER})", re.IGNORECASE)
-_COLUMN_UNIT = re.compile(r"\b([xyz])\b\w*\s*[\[(]\s*([^\])]+?)\s*[\])]", re.IGNORECASE)
-_ESRI = re.compile(rf"^\s*(ncols|nrows|cellsize|dx|dy|nodata_value)\s+({_NUMBER})\s*$", re.IGNORECASE | re.MULTILINE)
+_COMMENT = re.compile(r"[ \t]*(?:[%;!]|//|#(?!n/?a\b|nv\b|[^\W\d]+(?:/0)?[!?]))", re.IGNORECASE)
+_REMARK = re.compile(r"\s(?:#|%)(?:\s*[^\W\d].*|\s*$)")
+_PLAIN = b"0123456789.,;+-eE \t\n"  # a body of other characters holds marks of missing points
+_ESRI_KEY = re.compile(r"^\s*(ncols|nrows|cellsize|dx|dy|nodata_value|[xy]ll(?:corner|center))\s+(\S+)\s*$", re.IGNORECASE)
+_LEAST_LABELS = 6  # evenly spaced numbers that are taken for positions rather than heights
+
+
+class _Rows(NamedTuple):
+    """Rows of a table: the numbers of their lines in the file, and the lines without comments."""
+
+    numbers: list
+    lines: list
 
 
 def read_text(path):
-    """The Scan in a text file. Raises a one-line ValueError if it holds no map of heights."""
-    header, rows = _lines(_decoded(path))
-    if not rows:
-        raise ValueError(f"{path}: no row of numbers; a matrix of heights, or columns x, y, z, is needed")
-    table = _numbers(path, rows)
-    esri = {key.lower(): float(number.replace("D", "e")) for key, number in _ESRI.findall(header)}
+    """The Scan in a text file. Raises a one-line ValueError if it holds no map of heights, or none for certain."""
+    text = _decoded(path)
+    if text.startswith("Zygo XYZ Data File"):
+        from viscorough.io.zygo import zygo_scan
+
+        return zygo_scan(text.split("\n"))
+    lines = text.split("\n")
+    first = next((number for number, line in enumerate(lines) if _is_row(line)), None)
+    if first is None:
+        raise ValueError("no row of numbers; a matrix of heights, or columns x, y, z, is needed")
+    rows, comments, apart = _rows(lines, first)
+    delimiter, decimal = _punctuation(rows)
+    table = _table(rows, delimiter, decimal)
+    esri = _esri(lines[:first])
+    _check_above(lines[:first], delimiter, table.shape[1], esri)
     if {"ncols", "nrows"} <= set(esri):
-        return _esri_scan(path, table, esri)
-    spacing, spacing_unit = _header_spacing(header, table.shape)
-    columns = {name.lower(): unit for name, unit in _COLUMN_UNIT.findall(header)}
-    are_points = str(path).lower().endswith(".xyz") or (table.shape[1] == 3 and set(columns) == set("xyz"))
-    if are_points or (table.shape[1] == 3 and spacing is None):
-        grid = gridded(table, required=are_points)
-        if grid is not None:
-            return _xyz_scan(path, grid, columns, header)
-    unit, factor = _header_unit(header)
-    return Scan(table if factor == 1 else factor * table, unit, spacing, spacing_unit)
+        return _esri_scan(table, esri)
+    header = read_header([*lines[:first], *comments], table.shape, decimal)
+    grid = _grid(table, header, required=header.columns is not None or str(path).lower().endswith(".xyz"))
+    if grid is not None:
+        return _scan_of_points(grid, header)
+    if apart:
+        raise ValueError(f"line {apart} is empty, and more rows follow; one map is needed")
+    _check_labels(table)
+    heights = table if header.factor == 1 else header.factor * table
+    spacing_unit = header.spacing_unit if header.spacing else header.lateral_unit
+    return Scan(heights, header.unit, header.spacing, spacing_unit)
 
 
 def is_binary(path):
@@ -70,135 +88,232 @@ def _content(path, size=-1):
 
 
 def _decoded(path):
-    """The text of a file, in the encodings that instruments use."""
+    """The text of a file, in the encodings that instruments use, with \\n at the end of lines and ASCII minus signs."""
     content = _content(path)
     if content.startswith(_UTF16):
-        return content.decode("utf-16", errors="replace")
-    try:
-        return content.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        return content.decode("latin-1")
-
-
-def _lines(text):
-    """The header, with all comments, and the lines with rows of numbers.
-
-    Raises ValueError if the line before the first row starts like a row: a height must not be lost for a misprint.
-    """
-    lines = [line.strip(" ") for line in text.replace('"', "").splitlines()]
-    if "#" in text or "%" in text:
-        lines = [line if line.startswith(_COMMENT) else _REMARK.sub("", line) for line in lines]
-    first = next((number for number, line in enumerate(lines) if _is_row(line)), len(lines))
-    before = next((line for line in reversed(lines[:first]) if line.strip()), "")
-    if first < len(lines) and re.match(_NUMBER, before) and len(before.split()) == len(lines[first].split()):
-        raise ValueError(f"line {first} ({before[:40]!r}) is not a row of numbers; numbers or a comment are needed")
-    comments, rows = lines[:first], []
-    for line in lines[first:]:
-        if line.startswith(_COMMENT):
-            comments.append(line)
-        elif line.strip():
-            rows.append(line)
-    return "\n".join(comments), rows
+        text = content.decode("utf-16", errors="replace")
+    else:
+        try:
+            text = content.decode("utf-8-sig")
+        except UnicodeDecodeError:
+            text = content.decode("cp1252", errors="replace")
+    return text.replace("\r\n", "\n").replace("\r", "\n").replace("\N{MINUS SIGN}", "-")
 
 
 def _is_row(line):
-    """Whether a line holds numbers only; at least one of them, so that a line of marks is none."""
-    line = _GAPS.sub("nan", line)
-    if line.startswith(_COMMENT) or not re.search(r"\d|nan", line, re.IGNORECASE):
+    """Whether a line starts a table: numbers, marks of missing points and empty cells only, and at least one number."""
+    line = _REMARK.sub("", _MARK.sub("nan", line.replace('"', "").strip()))
+    if (_COMMENT.match(line) and not line.startswith(";")) or not re.search(r"\d|nan", line, re.IGNORECASE):
         return False
-    fields = re.split(r"[;\t]|,(?!\d)|(?<!\d),|\s+", line)
-    return all(_FIELD.fullmatch(part) for field in fields for part in field.split(","))
+    cells = re.split(r"[;\t]|,(?!\d)|(?<!\d),|\s+", line)
+    return all(_FIELD.fullmatch(part) for cell in cells for part in cell.split(","))
 
 
-def _numbers(path, rows):
-    """The rows as an array of two dimensions; missing values are nan."""
-    delimiter, decimal = _punctuation(rows[0])
-    if decimal == ",":
-        rows = [row.replace(",", ".") for row in rows]
-    text = "\n".join(rows)
-    if _GAPS.search(text):
-        text = _GAPS.sub("nan", text)
+def _rows(lines, first):
+    """(_Rows, comments beside and below them, number of the first empty line that parts them unevenly or 0).
+
+    Raises ValueError for a comment between rows that states something, as between two maps.
+    """
+    has_semicolons = lines[first].count(";") > 0
+    numbers, kept, comments, gaps, between = [], [], [], [], []
+    for number, line in enumerate(lines[first:], first + 1):
+        if not line.strip(" ") or (not line.strip() and "\t" not in lines[first].strip(" ")):
+            gaps.append(number)
+        elif _COMMENT.match(line) and not (has_semicolons and line.lstrip().startswith(";")):
+            comments.append(line)
+            between.append((number, len(numbers)))
+        else:
+            numbers.append(number)
+            kept.append(line)
+    kept = [_REMARK.sub("", line) if "#" in line or "%" in line else line for line in kept]
+    for (number, before), comment in zip(between, comments, strict=True):
+        if before < len(numbers) and states(comment):
+            raise ValueError(f"line {number} ({comment[:40]!r}) stands between rows; one map is needed")
+    parted = [number for number in gaps if numbers[0] < number < numbers[-1]]
+    places = set(np.searchsorted(numbers, parted).tolist())
+    apart = parted[0] if parted and len(places) < len(numbers) - 1 else 0
+    return _Rows(numbers, [line.strip(" ") for line in kept]), comments, apart
+
+
+def _punctuation(rows):
+    """(delimiter, decimal mark) of rows; the delimiter is None for white space. Raises ValueError if not certain."""
+    if any('"' in line for line in rows.lines):
+        rows.lines[:] = [_without_quotes(number, line) for number, line in zip(*rows, strict=True)]
+    body = "\n".join(rows.lines)
+    comma, point = "," in body, "." in body
+    delimiter = ";" if ";" in body else "\t" if "\t" in body else None
+    where = f"line {rows.numbers[0]} ({rows.lines[0][:40]!r})"
     if delimiter is not None:
-        if all(row.endswith(delimiter) for row in rows):
-            text = "\n".join(row[:-1] for row in text.split("\n"))
-        if all(row.startswith(delimiter) for row in rows):
-            text = "\n".join(row[1:] for row in text.split("\n"))
-        mark = re.escape(delimiter)
-        empty = re.compile(rf"(?:(?<={mark})|^)[ ]*(?={mark}|$)", re.MULTILINE)
-        if delimiter * 2 in text or re.search(rf"{mark}\s*{mark}|^{mark}|{mark}$", text, re.MULTILINE):
-            text = empty.sub("nan", text)
-    try:
-        with np.errstate(over="ignore"):
-            return np.loadtxt(io.StringIO(text), delimiter=delimiter, ndmin=2, comments=None)
-    except ValueError as error:
-        fault = re.sub(r";? ?use `usecols`.*", "", reason(error))
-        raise ValueError(f"{path}: not a matrix of numbers ({fault}); rows of equal length are needed") from error
-
-
-def _punctuation(row):
-    """(delimiter, decimal mark) of a row of numbers; the delimiter is None for white space."""
-    for delimiter in (";", "\t"):
-        if delimiter in row:
-            has_commas = "," in row and "." not in row
-            return (
-                delimiter if delimiter == ";" or "\t\t" in row or not has_commas else None,
-                "," if has_commas else ".",
-            )
-    if "," not in row:
+        if comma and point:
+            raise ValueError(f"{where}: decimal points and decimal commas; one of them is needed")
+        return delimiter, "," if comma else "."
+    if not comma:
         return None, "."
-    fields = row.split()
-    if len(fields) > 1 and all(re.fullmatch(r"[+-]?\d+,\d+(?:[eE][+-]?\d+)?", field) for field in fields):
+    if point:
+        return ",", "."
+    tight = re.search(r"\d,\d", body)
+    parted = re.search(r"[^,\s] +[^,\s]", body)
+    if tight and not parted and re.search(r", | ,", body):
+        raise ValueError(f"{where}: commas with and without spaces; decimal points, or semicolons, are needed")
+    if tight and parted:
         return None, ","
+    if tight and (re.search(r"(?<!\d)0\d|-0,", body) or all(line.count(",") == 1 for line in rows.lines)):
+        readings = "one column with decimal commas, or columns of whole numbers"
+        raise ValueError(f"{where}: {readings}; decimal points, or semicolons, are needed")
     return ",", "."
 
 
-def _header_spacing(header, shape):
-    """((dx, dy), unit) that a header states; (None, "1") for none."""
-    sizes = [pattern.search(header) for pattern in (_WIDTH, _HEIGHT)]
-    if all(sizes):
-        return _pair(*((match, count) for match, count in zip(sizes, shape[::-1], strict=True)))
-    if pixel := _PIXEL.search(header):
-        return _pair((pixel, 1), (_PIXEL_Y.search(header) or pixel, 1))
-    return None, "1"
+def _without_quotes(number, line):
+    """A row without quotation marks; commas inside them are decimal commas."""
+
+    def unquoted(match):
+        if "." in match[1] and "," in match[1]:
+            raise ValueError(f"line {number}: {match[0]} is not a number for certain; one decimal mark is needed")
+        return match[1].replace(",", ".")
+
+    return re.sub(r'"([^"]*)"', unquoted, line)
 
 
-def _pair(across, along):
-    """The lengths of two matches, each divided by a count, in the unit of the first."""
-    from viscorough import units
+def _table(rows, delimiter, decimal):
+    """The rows as an array of two dimensions; missing values are nan. Raises ValueError that names the line."""
+    text = "\n".join(rows.lines)
+    if decimal == ",":
+        text = text.replace(",", ".")
+    odd = text.encode(errors="replace").translate(None, _PLAIN)
+    if odd.strip(b"na") or any(f"-{end}" in text for end in (delimiter or " ", "\n")) or text.endswith("-"):
+        text = _MARK.sub("nan", text)
+        text = re.sub(r"(?<=[\d.])[dD](?=[+-]?\d)", "e", text)
+    if delimiter is not None:
+        text = _with_empty_cells(text, delimiter)
+    try:
+        if not text.isascii():
+            raise ValueError("other characters than those of numbers")
+        with np.errstate(over="ignore"):
+            return np.loadtxt(io.StringIO(text), delimiter=delimiter, ndmin=2, comments=None)
+    except ValueError as error:
+        raise ValueError(_fault(rows.numbers, text.split("\n"), delimiter) or reason(error)) from error
 
-    (dx, unit), (dy, other) = ((float(match[1]) / count, match[2] or "1") for match, count in (across, along))
-    if unit != other:
-        if "1" in (unit, other):
-            raise ValueError("the header states a unit for one direction only; one for both, or none, is needed")
-        dy *= units.metres(other) / units.metres(unit)
-    return (float(f"{dx:.14g}"), float(f"{dy:.14g}")), unit
+
+def _with_empty_cells(text, delimiter):
+    """A text with nan in empty cells; a delimiter that ends, or starts, every line is left out."""
+    if f"{delimiter} " in text:
+        text = re.sub(rf"{delimiter} +", delimiter, text)
+    lines = text.split("\n")
+    if all(line.endswith(delimiter) for line in lines):
+        lines = [line[:-1] for line in lines]
+    if all(line.startswith(delimiter) for line in lines):
+        lines = [line[1:] for line in lines]
+    text = "\n".join(lines)
+    if f"{delimiter}{delimiter}" in text or any(not line or delimiter in (line[0], line[-1]) for line in lines):
+        mark = re.escape(delimiter)
+        text = re.sub(rf"(?:(?<={mark})|^)(?={mark}|$)", "nan", text, flags=re.MULTILINE)
+    return text
 
 
-def _header_unit(header):
-    """(unit, factor) of the heights: the numbers in the file times the factor are in the unit."""
-    if conversion := _FACTOR.search(header):
-        return conversion[1], float(conversion[2])
-    unit = _UNIT.search(header)
-    return (unit[1] if unit else "1"), 1
+def _fault(numbers, lines, delimiter):
+    """Which line is not a row of as many numbers as the first, in words; "" for none."""
+    wanted = len(lines[0].split(delimiter))
+    for number, line in zip(numbers, lines, strict=False):
+        cells = line.split(delimiter)
+        if odd := next((cell for cell in cells if not _FIELD.fullmatch(cell.strip(" ")) or not cell.isascii()), ""):
+            return f"line {number}: {odd[:40]!r} is not a number; numbers, and nan for missing points, are needed"
+        if len(cells) != wanted:
+            return f"line {number}: {len(cells)} cells, {wanted} in line {numbers[0]}; rows of equal length are needed"
+    return ""
 
 
-def _esri_scan(path, table, esri):
-    """A grid with the keys ncols, nrows, cellsize (or dx, dy) and nodata_value."""
+def _check_above(lines, delimiter, columns, esri):
+    """Raise ValueError if a line above the first row may be a row itself: nothing of a map is left out for a misprint.
+
+    Such a line has as many cells as the table, and one of them is, or almost is, a number, or all are the same.
+    """
+    for number, line in enumerate(lines, 1):
+        if not line.strip() or _COMMENT.match(line) and not (delimiter == ";" and line.lstrip().startswith(";")):
+            continue
+        if re.search(r"[:=]", line) or (esri and _ESRI_KEY.match(line)):
+            continue
+        cells = [cell.strip(' "') for cell in _REMARK.sub("", line).strip(" ").split(delimiter)]
+        if delimiter is not None and len(cells) == columns + 1 and cells[-1] == "":
+            del cells[-1]
+        if len(cells) != columns:
+            continue
+        if any(_ALMOST_A_NUMBER.fullmatch(cell) for cell in cells) or (columns > 1 and len(set(cells)) == 1):
+            raise ValueError(f"line {number} ({line[:40]!r}) is not a row of numbers; numbers or a comment are needed")
+
+
+def _check_labels(table):
+    """Raise ValueError if the first column or row counts up evenly, unlike the others, so that it holds no heights."""
+    for name, first, others in (("column", table[:, 0], table[:, 1:].T), ("row", table[0], table[1:])):
+        if first.size >= _LEAST_LABELS and _is_even(first[1:] if np.isnan(first[0]) else first):
+            if len(others) and not any(_is_even(other) for other in others):
+                text = "counts up evenly, unlike the others: positions, not heights?"
+                raise ValueError(f"the first {name} {text} Heights alone, or columns x, y, z, are needed")
+
+
+def _is_even(values):
+    """Whether values rise, or fall, in equal steps."""
+    steps = np.diff(values)
+    return bool(np.isfinite(steps).all() and steps[0] != 0 and np.ptp(steps) <= 1e-6 * abs(steps[0]))
+
+
+def _grid(table, header, required):
+    """(heights, (dx, dy)) of a table with columns x, y, z; None for a matrix of heights.
+
+    Raises ValueError for points that form no grid, and for a table that may be either.
+    """
+    if header.columns is not None:
+        table = table[:, [header.columns.index(name) for name in "xyz"]]
+    grid = gridded(table, required=required) if required or table.shape[1] == 3 else None
+    if grid is None and 3 < table.shape[1] <= 6 and gridded(table[:, :3], required=False) is not None:
+        raise ValueError(f"{table.shape[1]} columns, of which two are positions; three, x, y and z, are needed")
+    if grid is None or header.spacing is None:
+        return grid
+    ratio = 1.0
+    if "1" not in (header.spacing_unit, header.lateral_unit):
+        ratio = units.metres(header.spacing_unit) / units.metres(header.lateral_unit)
+    differ = any(abs(ratio * a - b) > 1e-3 * b for a, b in zip(header.spacing, grid[1], strict=True) if a == a)
+    if differ and "1" in (header.spacing_unit, header.lateral_unit) and header.spacing_unit != header.lateral_unit:
+        differ = False  # not comparable
+    if differ:
+        a, b = header.spacing, grid[1]
+        text = f"({a[0]:g}, {a[1]:g}) in the header, ({b[0]:g}, {b[1]:g}) between points x, y, z"
+        raise ValueError(f"spacing {text}; statements that agree are needed")
+    return grid
+
+
+def _scan_of_points(grid, header):
+    """The Scan of a grid of points, with the units that the header states for them."""
+    heights, spacing = grid
+    lateral = header.lateral_unit if header.lateral_unit != "1" else header.spacing_unit
+    return Scan(heights if header.factor == 1 else header.factor * heights, header.unit, spacing, lateral)
+
+
+def _esri(lines):
+    """The keys of an ESRI grid in lines, and their numbers. Raises ValueError for one that is not a number, or twice."""
+    found = {}
+    for number, line in enumerate(lines, 1):
+        if match := _ESRI_KEY.match(line):
+            key, text = match[1].lower(), match[2].lower().replace(",", ".").replace("d", "e")
+            if not re.fullmatch(rf"{_NUMBER}|[+-]?nan", text):
+                raise ValueError(f"line {number}: {match[2][:40]!r} is not a number; one is needed for {match[1]}")
+            if found.setdefault(key, float(text)) != float(text) and float(text) == float(text):
+                raise ValueError(f"line {number}: {match[1]} is {found[key]:g} above; one number is needed")
+    return found if {"ncols", "nrows"} <= set(found) else {}
+
+
+def _esri_scan(table, esri):
+    """A grid with the keys ncols, nrows, cellsize (or dx, dy) and nodata_value.
+
+    A row of the grid may stand in several lines of the file, or all of them in one.
+    """
     columns, rows = esri["ncols"], esri["nrows"]
     if table.size != columns * rows or columns % 1 or rows % 1:
-        raise ValueError(f"{path}: {table.size} numbers; {columns:g} columns and {rows:g} rows are needed")
+        raise ValueError(f"{table.size} numbers; {columns:g} columns and {rows:g} rows are needed")
+    in_line = table.shape[1]
+    if in_line != columns and len(table) > 1 and (columns % in_line or table.shape == (columns, rows)):
+        text = f"{len(table)} lines of {in_line} numbers contradict {rows:g} rows and {columns:g} columns"
+        raise ValueError(f"{text}; a line for each row is needed")
     table = table.reshape(int(rows), int(columns))
-    mark = esri.get("nodata_value", -9999.0)
-    heights = np.where(table == mark, np.nan, table)
+    heights = np.where(table == esri.get("nodata_value", -9999.0), np.nan, table)
     sides = esri.get("dx", esri.get("cellsize")), esri.get("dy", esri.get("cellsize"))
     return Scan(heights, spacing=None if None in sides else sides)
-
-
-def _xyz_scan(path, grid, columns, header):
-    """A grid of points, with the units that the header states for its columns."""
-    heights, spacing = grid
-    lateral = [columns.get(name, "1") for name in "xy"]
-    if lateral[0] != lateral[1]:
-        raise ValueError(f"{path}: x is in {lateral[0]}, y in {lateral[1]}; one unit is needed")
-    stated, _ = _header_unit(header)
-    return Scan(heights, columns.get("z", stated), spacing, lateral[0])

@@ -198,7 +198,7 @@ BAD = [
     (["degrees.nc"], "degrees"),
     (["degrees.nc", "--spacing", "0.5,0.75"], "degrees"),
     (["scan.npy", "--spacing", "1e-3", "--detrend", "sphere"], "crop to a cap of it"),
-    (["ragged.txt", "--spacing", "1"], "number of columns changed"),
+    (["ragged.txt", "--spacing", "1"], "line 2: 1 cells, 2 in line 1"),
     (["words.csv", "--spacing", "1"], "no row of numbers"),
     (["scattered.xyz"], "form no grid"),
     (["noise.tif", "--spacing", "1"], "noise.tif: not readable"),

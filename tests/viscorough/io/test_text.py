@@ -119,8 +119,8 @@ def test_three_columns_are_a_matrix_unless_they_form_a_grid(tmp_path):
 BAD = {
     "empty": (b"", "no row of numbers"),
     "words": (b"abc\ndef\n", "no row of numbers"),
-    "ragged": (b"1 2\n3\n", "number of columns changed"),
-    "misprint": (b"1 2\n3 x\n", "could not convert"),
+    "ragged": (b"1 2\n3\n", "line 2: 1 cells, 2 in line 1"),
+    "misprint": (b"1 2\n3 x\n", "line 2: 'x' is not a number"),
     "misprint in the first row": (b"1 2_\n3 4\n", "line 1 .* is not a row of numbers"),
     "infinite": (b"# pixel size = 1\n1e999 2\n3 4\n", "finite"),
     "wrong count": (b"ncols 3\nnrows 2\ncellsize 1\n1 2\n3 4\n", "4 numbers; 3 columns and 2 rows"),

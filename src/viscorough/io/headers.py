@@ -1,0 +1,294 @@
+"""What the header of a text file states: the spacing of the points, units of lengths, names of columns.
+
+A statement is "key: value" or "key = value", several to a line if commas, semicolons or tabs part them; its unit stands
+behind the number or in brackets behind the key. Keys are compared without spaces, hyphens, underscores and case. A key
+that is not known states nothing, so that "Camera pixel size" is not taken for the distance of the points; but a unit of
+length whose meaning is not known is refused, and so is what can be read in two ways.
+"""
+
+import re
+from typing import NamedTuple
+
+from viscorough import units
+
+_AGREEMENT = 1e-3  # relative difference up to which statements of the same length agree
+_ROUNDING = 5e-3  # the same for a width and a distance of points, which are rounded to few digits
+
+# Atomic groups: a number or a unit is taken whole, or not at all.
+_NUMBER = r"(?>[+-]?(?:\d+(?:[.,]\d+|\.)?|[.,]\d+)(?:[eEdD][+-]?\d+)?)"
+_UNIT = r"(?>(?:(?!(?:x|by|and|und|et)(?:\b|\d))[^\W\d][^\s,;()\[\]{}×]*|[\"'°%])?)"
+_LENGTH = rf"({_NUMBER})[ \t]*[(\[]?({_UNIT})[)\]]?"
+_BETWEEN = r"\s*(?:x|×|\*|by|,|;)\s*"
+_END = r"(?!\s*[-+.,'’^*]?\d)"
+_ONE = re.compile(rf"[(\[]?\s*{_LENGTH}{_END}")
+_PAIR = re.compile(rf"([(\[]?)\s*{_LENGTH}({_BETWEEN}){_LENGTH}\s*({_UNIT}){_END}")
+_STATEMENT = re.compile(r"(?:^|[,;\t|])[\s#%/;!*\"'|]*([^\W\d_][^:=,;\t|()\[\]\"]*?)\s*(?:[(\[]([^)\]]*)[)\]])?\"?\s*[:=]\s*")
+_KEY_WITH_UNIT = re.compile(r"(.*\w)\s*(?:\s+in\s+|/\s*)(\S+)")
+_HEADING = re.compile(
+    r"(x|y|z|height|höhe|hauteur)(?:[-_ ]?(?:pos|position|coord|coordinate|axis|achse|koordinate|value|wert))?"
+    r"(?:[\[(](.*)[\])]|/(.+)|_(.+))?",
+    re.IGNORECASE,
+)
+_OTHER_LANGUAGE = re.compile(r"breite|höhe|kanal|einheit|größe|abstand|largeur|hauteur|canal|unité|taille", re.IGNORECASE)
+
+
+def _keys(template):
+    """The spellings of a key in a text, by axis: a before it or behind it, as in "x pixel size" and "pixel size x"."""
+    return {a: {f"{a}{key}" for key in template.split()} | {f"{key}{a}" for key in template.split()} for a in "xy"}
+
+
+_STEPS = "pixelsize pixelspacing pointspacing samplespacing spacing step stepsize pitch increment pixelgröße pixelabstand d"
+_EXTENTS = "size scansize scanrange range length extent"
+_STEP = "pixelsize pixelspacing pointspacing samplespacing gridspacing lateralspacing spacing pixelgröße pixelabstand"
+_ROLES = {
+    "step x": _keys(_STEPS)["x"] | {"deltax", "pixelwidth", "pixelbreite"},
+    "step y": _keys(_STEPS)["y"] | {"deltay", "pixelheight", "pixelhöhe"},
+    "step": set(_STEP.split()) | {"tailledepixel", "tailledupixel", "taillepixel", "cellsize"},
+    "extent x": _keys(_EXTENTS)["x"] | {"width", "breite", "largeur", "scanwidth", "imagewidth"},
+    "extent y": _keys(_EXTENTS)["y"] | {"height", "höhe", "hoehe", "hauteur", "scanheight", "imageheight"},
+    "unit z": {"zunit", "unitz", "valueunit", "heightunit", "dataunit", "werteinheit", "zeinheit", "einheitz"}
+    | {"höheneinheit", "unitédevaleur", "unitédesvaleurs", "unitéz", "unitédez", "unitédehauteur", "verticalunit"},
+    "unit x": {"xunit", "unitx", "xeinheit", "einheitx", "unitéx"},
+    "unit y": {"yunit", "unity", "yeinheit", "einheity", "unitéy"},
+    "unit xy": {"lateralunit", "xyunit", "x/yunit", "x,yunit", "horizontalunit", "lateraleeinheit", "lateraleinheit"}
+    | {"xyeinheit", "unitélatérale", "unitéxy"},
+    "unit": {"unit", "lengthunit", "unitoflength", "einheit", "längeneinheit", "unité"},
+    "factor": {"heightconversionfactor"},
+    "channel": {"channel", "kanal", "canal", "datachannel"},
+}
+_ROLE_OF = {key: role for role, keys in _ROLES.items() for key in keys}
+
+
+class Header(NamedTuple):
+    """What a header states.
+
+    spacing : (dx, dy), in the unit spacing_unit; None if it states none, nan for a direction of which it states none
+    spacing_unit, lateral_unit : of the spacing, and of positions x and y; "1" if it states none
+    unit, factor : heights are the numbers in the file times the factor, in this unit; "1" if it states none
+    columns : names of the columns of points in their order, such as ("x", "y", "z"); None if it states none
+    """
+
+    spacing: tuple | None
+    spacing_unit: str
+    lateral_unit: str
+    unit: str
+    factor: float
+    columns: tuple | None
+
+
+def states(line):
+    """Whether a line states a length, a unit or the name of a map."""
+    return any(role for role, *_ in _statements([line]))
+
+
+def read_header(lines, shape, decimal=","):
+    """The Header in lines of text above, below and beside a table of that shape.
+
+    decimal : the decimal mark of the table, which decides whether "1,234" is a thousand
+
+    Raises ValueError for statements that contradict each other or can be read in two ways.
+    """
+    statements = _statements(lines)
+    columns, units_of_columns = _headings(lines, shape[1])
+    comma = decimal == "," or any(_OTHER_LANGUAGE.search(line) for line in lines)
+    stated = {role: [] for role in _ROLES}
+    for role, line, unit, value in statements:
+        if role:
+            stated[role].append((line, unit, value))
+        elif unit_of_unknown_meaning(line, value):
+            raise ValueError(f"header {line!r}: whose unit it states is not known; 'x units', 'y units', 'z units' are")
+
+    def unit_among(*roles, more=()):
+        texts = [_unit_text(value) for role in roles for _, _, value in stated[role]]
+        return _agreed([text for text in [*texts, *more] if not units.counts_points(text)])
+
+    factor, unit = 1.0, ""
+    for _, bracket, value in stated["factor"]:
+        factor, unit = _number(value.split()[0], comma), bracket.replace("->", "").strip()
+    own = unit_among("unit z", more=[units_of_columns[name] for name in "z" if units_of_columns.get(name)])
+    if unit and own and units.metres(own) != units.metres(unit) * factor and units.metres(own) != units.metres(unit):
+        raise ValueError(f"header: heights are {factor:g} {unit}, and in {own}; statements that agree are needed")
+    general = unit_among("unit")
+    lateral = [
+        unit_among(f"unit {axis}", "unit xy", more=[text for text in [units_of_columns.get(axis)] if text])
+        for axis in "xy"
+    ]
+    spacing, spacing_unit = _spacing(stated, shape, lateral, comma)
+    if lateral[0] != lateral[1] and spacing is None:
+        if "" in lateral or units.metres(lateral[0]) != units.metres(lateral[1]):
+            raise ValueError(f"x is in {lateral[0] or 'no unit'}, y in {lateral[1] or 'no unit'}; one unit is needed")
+    return Header(spacing, spacing_unit, lateral[0] or "1", unit or own or general or "1", factor, columns)
+
+
+def unit_of_unknown_meaning(line, value):
+    """Whether a statement gives a unit of length to something unknown, such as "foo units: um"."""
+    key = re.split(r"[:=]", line)[0].lower()
+    if not re.search(r"(?:units?|einheit(?:en)?|unités?)\W*$", key):
+        return False
+    try:
+        return not units.counts_points(_unit_text(value)) and bool(units.length_unit(_unit_text(value)))
+    except ValueError:
+        return False
+
+
+def _statements(lines):
+    """The statements in lines: role or "", the text, the unit in brackets behind the key, and the value."""
+    found = []
+    for line in lines:
+        matches = list(_STATEMENT.finditer(line))
+        ends = [*(match.start() for match in matches[1:]), len(line)]
+        for match, end in zip(matches, ends, strict=False):
+            key, unit = match[1], match[2] or ""
+            if not _role(key) and (inner := _KEY_WITH_UNIT.fullmatch(key)):
+                key, unit = inner[1], unit or inner[2]
+            if unit.lower() in ("x", "y"):  # "pixel size (x)"
+                key, unit = key + unit, ""
+            value, text = line[match.end() : end].strip(" \t,;|\"'"), line[match.start() : end].strip(" \t,;|#%/")
+            found.append((_role(key), text[:80], unit, value))
+    return found
+
+
+def _role(key):
+    """What a key states; "" if it is not known."""
+    compact = re.sub(r"[\s_.-]+", "", key.lower())
+    return _ROLE_OF.get(re.sub(r"(unité?|einheit)(?:s|en)", r"\1", compact), "")
+
+
+def _unit_text(value):
+    """The unit at the start of a value: "nm" of "[nm] (height)", "1e-6 m" of "1e-6 m"."""
+    words = value.strip("[](){}\"' ").split()
+    if not words:
+        return "1"
+    several = re.fullmatch(_NUMBER, words[0]) and len(words) > 1
+    return " ".join(words[: 2 if several else 1]).strip("[](){}\"',;")
+
+
+def _agreed(texts):
+    """The unit in texts, which may spell it differently; "" for none. Raises ValueError if they are different units."""
+    different = list(dict.fromkeys(text for text in texts if text not in ("", "1")))
+    for other in different[1:]:
+        if units.metres(different[0]) != units.metres(other):
+            raise ValueError(f"header: units {different[0]} and {other} for the same lengths; one unit is needed")
+    return different[0] if different else ""
+
+
+def _number(text, comma):
+    """A number of a header. Raises ValueError if its comma may be a decimal mark or part thousands."""
+    if "," in text and not comma and re.fullmatch(r"[+-]?[1-9]\d{0,2},\d{3}", text):
+        raise ValueError(
+            f"header: {text} is {text.replace(',', '')} or {text.replace(',', '.')}; a decimal point is needed"
+        )
+    return float(text.replace(",", ".").replace("D", "e").replace("d", "e"))
+
+
+def _lengths(line, unit, value, comma):
+    """[(number, unit)] of a statement, one or two. Raises ValueError for what cannot be read for certain."""
+    if match := _PAIR.match(value):
+        _, first, unit_first, between, second, unit_second, behind = match.groups()
+        if "," in between and between.strip() == between and not match[1] and ("." in first) != ("." in second):
+            raise ValueError(f"header {line!r}: one number or two; a decimal point, or spaces, are needed")
+        unit_second = unit_second or behind or unit
+        return [(_number(first, comma), unit_first or unit_second), (_number(second, comma), unit_second or unit_first)]
+    match = _ONE.match(value)
+    if match is None:
+        raise ValueError(f"header {line!r}: not a length; a number, with or without a unit, is needed")
+    own = re.sub(r"/(?:px|pixel|point)$", "", match[2], flags=re.IGNORECASE)
+    if own and unit and unit != own:
+        raise ValueError(f"header {line!r}: units {unit} and {own}; one unit is needed")
+    return [(_number(match[1], comma), own or unit)]
+
+
+def _spacing(stated, shape, lateral, comma):
+    """((dx, dy), unit) that statements give; (None, "1") for none; nan for a direction without statement."""
+    steps, extents = ([], []), ([], [])
+    for role, axes in (("step x", (0,)), ("step y", (1,)), ("step", (0, 1)), ("extent x", (0,)), ("extent y", (1,))):
+        for line, bracket, value in stated[role]:
+            if bracket and not re.match(rf"\s*[(\[]?\s*{_NUMBER}", value):
+                continue  # "Height (nm):" heads numbers below
+            lengths = _lengths(line, bracket, value, comma)
+            if len(lengths) == 2 and len(axes) == 1:
+                raise ValueError(f"header {line!r}: two lengths for one direction; one is needed")
+            for place, axis in enumerate(axes):
+                number, unit = lengths[place % len(lengths)]
+                if units.counts_points(unit):
+                    if role.startswith("extent") and number != shape[1 - axis]:
+                        raise ValueError(f"header {line!r}: the table has {shape[1 - axis]} points there")
+                else:
+                    (extents if role.startswith("extent") else steps)[axis].append((number, unit or lateral[axis]))
+    if not (any(steps) or all(extents)):  # a height alone may be one of the heights
+        return None, "1"
+    unit = next((unit for axis in (0, 1) for _, unit in steps[axis] + extents[axis] if unit), "")
+    found = tuple(_agreed_step(axis, steps[axis], extents[axis], shape[1 - axis], unit) for axis in (0, 1))
+    return found, unit or "1"
+
+
+def _agreed_step(axis, steps, extents, count, unit):
+    """The distance of points along an axis, in a unit, from statements that must agree; nan for none."""
+
+    def converted(lengths):
+        for number, own in lengths:
+            if unit and not own:
+                raise ValueError("the header states a unit for one direction only; one for both, or none, is needed")
+            yield number * units.metres(own) / units.metres(unit) if unit and own != unit else number
+
+    name = "columns" if axis == 0 else "rows"
+    steps, extents = list(converted(steps)), list(converted(extents))
+    for a in steps:
+        if abs(a - steps[0]) > _AGREEMENT * abs(steps[0]):
+            raise ValueError(f"header: {name} are {steps[0]:g} or {a:g} {unit} apart; statements that agree are needed")
+    for extent in extents:
+        if not steps:
+            if abs(extent - extents[0]) > _AGREEMENT * abs(extents[0]):
+                raise ValueError(f"header: {name} extend over {extents[0]:g} or {extent:g} {unit}; one extent is needed")
+        elif min(abs(extent / n - steps[0]) for n in (count, max(count - 1, 1))) > _ROUNDING * abs(steps[0]):
+            text = f"{name} are {steps[0]:g} {unit} apart, {count} of them extend over {extent:g} {unit}"
+            raise ValueError(f"header: {text}; statements that agree are needed")
+    if not (steps or extents):
+        return float("nan")
+    return float(f"{steps[0] if steps else extents[0] / count:.14g}")
+
+
+def _headings(lines, columns):
+    """(names of the columns in their order or None, {name: unit}) of a line that heads columns x, y and z."""
+    names, found = None, {}
+    for number, line in enumerate(lines):
+        cells = _cells(line)
+        matches = [_HEADING.fullmatch(cell) for cell in cells]
+        if not cells or not all(matches):
+            continue
+        here = tuple(match[1].lower().replace("ö", "o")[0] for match in matches)
+        here = tuple("z" if name == "h" else name for name in here)
+        if len(set(here)) < len(here) or (len(here) == 3) != (columns == 3 and set(here) == set("xyz")):
+            continue
+        if here != ("z",) and len(here) != 3:
+            continue
+        texts = [next(filter(None, match.groups()[1:]), "") for match in matches]
+        texts = [text if match[4] is None or _is_unit(text) else "" for text, match in zip(texts, matches, strict=True)]
+        below = [cell.strip("[]()") for cell in _cells(lines[number + 1])] if number + 1 < len(lines) else []
+        if not any(texts) and len(below) == len(here) and all(map(_is_unit, below)):
+            texts = below
+        if here == ("z",) and not any(texts):
+            continue
+        if len(here) == 3:
+            if names not in (None, here):
+                raise ValueError(f"header: columns are {', '.join(names)} or {', '.join(here)}; one heading is needed")
+            names = here
+        for name, text in zip(here, texts, strict=True):
+            if text and found.setdefault(name, text) != text:
+                raise ValueError(f"header: {name} is in {found[name]} or {text}; one unit is needed")
+    return names, found
+
+
+def _cells(line):
+    """The headings in a line, each with its unit."""
+    line = re.sub(r"\s+(?=[\[(/])|(?<=/)\s+", "", line.strip().lstrip("#%/;! \t").replace('"', ""))
+    line = re.sub(r"(?<=\w)\s+in\s+(?=\w)", "/", line)
+    return [cell for cell in re.split(r"[\s,;]+", line) if cell]
+
+
+def _is_unit(text):
+    """Whether a text is a unit of length, or counts points."""
+    try:
+        return units.counts_points(text) or bool(units.length_unit(text))
+    except ValueError:
+        return False

@@ -24,11 +24,7 @@ _ONE = re.compile(rf"[(\[]?\s*{_LENGTH}{_END}")
 _PAIR = re.compile(rf"([(\[]?)\s*{_LENGTH}({_BETWEEN}){_LENGTH}\s*({_UNIT}){_END}")
 _STATEMENT = re.compile(r"(?:^|[,;\t|])[\s#%/;!*\"'|]*([^\W\d_][^:=,;\t|()\[\]\"]*?)\s*(?:[(\[]([^)\]]*)[)\]])?\"?\s*[:=]\s*")
 _KEY_WITH_UNIT = re.compile(r"(.*\w)\s*(?:\s+in\s+|/\s*)(\S+)")
-_HEADING = re.compile(
-    r"(x|y|z|height|höhe|hauteur)(?:[-_ ]?(?:pos|position|coord|coordinate|axis|achse|koordinate|value|wert))?"
-    r"(?:[\[(](.*)[\])]|/(.+)|_(.+))?",
-    re.IGNORECASE,
-)
+_AXIS = re.compile(r"([xyz])(?:pos|position|coord|coordinate|axis|achse|koordinate|value|wert)?|height|höhe|hauteur|elevation")
 _OTHER_LANGUAGE = re.compile(r"breite|höhe|kanal|einheit|größe|abstand|largeur|hauteur|canal|unité|taille", re.IGNORECASE)
 
 
@@ -63,7 +59,8 @@ class Header(NamedTuple):
     """What a header states.
 
     spacing : (dx, dy), in the unit spacing_unit; None if it states none, nan for a direction of which it states none
-    spacing_unit, lateral_unit : of the spacing, and of positions x and y; "1" if it states none
+    spacing_unit, lateral_unit : of the spacing, and of positions x and y; "1" if it states none, "px" for numbers of
+        points
     unit, factor : heights are the numbers in the file times the factor, in this unit; "1" if it states none
     columns : names of the columns of points in their order, such as ("x", "y", "z"); None if it states none
     """
@@ -81,15 +78,15 @@ def states(line):
     return any(role for role, *_ in _statements([line]))
 
 
-def read_header(lines, shape, decimal=","):
+def read_header(lines, shape, delimiter, decimal):
     """The Header in lines of text above, below and beside a table of that shape.
 
-    decimal : the decimal mark of the table, which decides whether "1,234" is a thousand
+    delimiter, decimal : of the table; a decimal comma there makes "1,234" a number below two
 
     Raises ValueError for statements that contradict each other or can be read in two ways.
     """
     statements = _statements(lines)
-    columns, units_of_columns = _headings(lines, shape[1])
+    columns, units_of_columns = _headings(lines, shape, delimiter)
     comma = decimal == "," or any(_OTHER_LANGUAGE.search(line) for line in lines)
     stated = {role: [] for role in _ROLES}
     for role, line, unit, value in statements:
@@ -106,9 +103,8 @@ def read_header(lines, shape, decimal=","):
     for _, bracket, value in stated["factor"]:
         factor, unit = _number(value.split()[0], comma), bracket.replace("->", "").strip()
     own = unit_among("unit z", more=[units_of_columns[name] for name in "z" if units_of_columns.get(name)])
-    if unit and own and units.metres(own) != units.metres(unit) * factor and units.metres(own) != units.metres(unit):
-        raise ValueError(f"header: heights are {factor:g} {unit}, and in {own}; statements that agree are needed")
     general = unit_among("unit")
+    in_points = [units.counts_points(units_of_columns.get(axis, "")) for axis in "xy"]
     lateral = [
         unit_among(f"unit {axis}", "unit xy", more=[text for text in [units_of_columns.get(axis)] if text])
         for axis in "xy"
@@ -117,7 +113,8 @@ def read_header(lines, shape, decimal=","):
     if lateral[0] != lateral[1] and spacing is None:
         if "" in lateral or units.metres(lateral[0]) != units.metres(lateral[1]):
             raise ValueError(f"x is in {lateral[0] or 'no unit'}, y in {lateral[1] or 'no unit'}; one unit is needed")
-    return Header(spacing, spacing_unit, lateral[0] or "1", unit or own or general or "1", factor, columns)
+    lateral_unit = "px" if any(in_points) else lateral[0] or "1"
+    return Header(spacing, spacing_unit, lateral_unit, unit or own or general or "1", factor, columns)
 
 
 def unit_of_unknown_meaning(line, value):
@@ -248,42 +245,64 @@ def _agreed_step(axis, steps, extents, count, unit):
     return float(f"{steps[0] if steps else extents[0] / count:.14g}")
 
 
-def _headings(lines, columns):
-    """(names of the columns in their order or None, {name: unit}) of a line that heads columns x, y and z."""
+def _headings(lines, shape, delimiter):
+    """(names of the columns in their order or None, {name: unit}) of a line that heads columns x, y and z, or heights.
+
+    Raises ValueError for degrees, units that are none of length, and headings that differ.
+    """
     names, found = None, {}
     for number, line in enumerate(lines):
-        cells = _cells(line)
-        matches = [_HEADING.fullmatch(cell) for cell in cells]
-        if not cells or not all(matches):
+        cells = _cells(line, delimiter)
+        axes = [_axis(cell) for cell in cells]
+        heads_points = len(cells) == shape[1] and all(axes.count(name) == 1 for name in "xyz")
+        if not heads_points and not (axes == ["z"] and _unit_of_heading(cells[0])):
+            if not _STATEMENT.search(line) and any(map(_is_unit, re.findall(r"[\[(]\s*([^\W\d]\w*)\s*[\])]", line))):
+                raise ValueError(f"header {line.strip()[:60]!r}: whose units it states is not known; 'x [um], y [um], z [nm]' is")
             continue
-        here = tuple(match[1].lower().replace("ö", "o")[0] for match in matches)
-        here = tuple("z" if name == "h" else name for name in here)
-        if len(set(here)) < len(here) or (len(here) == 3) != (columns == 3 and set(here) == set("xyz")):
-            continue
-        if here != ("z",) and len(here) != 3:
-            continue
-        texts = [next(filter(None, match.groups()[1:]), "") for match in matches]
-        texts = [text if match[4] is None or _is_unit(text) else "" for text, match in zip(texts, matches, strict=True)]
-        below = [cell.strip("[]()") for cell in _cells(lines[number + 1])] if number + 1 < len(lines) else []
-        if not any(texts) and len(below) == len(here) and all(map(_is_unit, below)):
+        if heads_points:
+            if names not in (None, tuple(axes)):
+                raise ValueError(f"header: columns are {', '.join(names)} or {', '.join(axes)}; one heading is needed")
+            names = tuple(axes)
+        texts = [_unit_of_heading(cell) for cell in cells]
+        below = [cell.strip("[]()") for cell in _cells(lines[number + 1], delimiter)] if number + 1 < len(lines) else []
+        if not any(texts) and len(below) == len(cells) and all(map(_is_unit, below)):
             texts = below
-        if here == ("z",) and not any(texts):
-            continue
-        if len(here) == 3:
-            if names not in (None, here):
-                raise ValueError(f"header: columns are {', '.join(names)} or {', '.join(here)}; one heading is needed")
-            names = here
-        for name, text in zip(here, texts, strict=True):
-            if text and found.setdefault(name, text) != text:
+        for name, text in zip(axes, texts, strict=True):
+            if name and text and not _is_unit(text):
+                raise ValueError(f"heading {line.strip()[:60]!r}: {text!r} is no unit of length, such as um, nm or m")
+            if name and text and found.setdefault(name, text) != text:
                 raise ValueError(f"header: {name} is in {found[name]} or {text}; one unit is needed")
     return names, found
 
 
-def _cells(line):
+def _cells(line, delimiter):
     """The headings in a line, each with its unit."""
-    line = re.sub(r"\s+(?=[\[(/])|(?<=/)\s+", "", line.strip().lstrip("#%/;! \t").replace('"', ""))
-    line = re.sub(r"(?<=\w)\s+in\s+(?=\w)", "/", line)
-    return [cell for cell in re.split(r"[\s,;]+", line) if cell]
+    line = line.strip().lstrip("#%/;! \t").replace('"', "")
+    if delimiter is None or delimiter not in line:
+        line = re.sub(r"\s+(?=[\[(/])|(?<=/)\s+", "", line)
+        line = re.sub(r"(?<=\w)\s+in\s+(?=\w)", "/", line)
+        delimiter = next((mark for mark in (r"\s*[,;\t]\s*", r"\s{2,}") if re.search(mark, line)), r"\s+")
+    else:
+        delimiter = re.escape(delimiter)
+    return [cell.strip() for cell in re.split(delimiter, line)]
+
+
+def _axis(cell):
+    """Which of x, y and z a heading names; "" for none. Raises ValueError for longitude and latitude."""
+    for word in re.split(r"[\W_]+", re.split(r"[\[(/]", cell.lower())[0]):
+        if match := _AXIS.fullmatch(word):
+            return match[1] or "z"
+        if word in ("lon", "lat", "longitude", "latitude", "long", "länge", "breitengrad", "längengrad"):
+            raise ValueError(f"heading {cell!r}: positions in degrees; lengths x and y are needed")
+    return ""
+
+
+def _unit_of_heading(cell):
+    """The unit in a heading such as "x [um]", "x (um)", "x/um", "x in um" or "x_um"; "" for none."""
+    if match := re.search(r"[\[(]([^\])]*)[\])]|/\s*(.+)$|\sin\s+(\S+)$", cell):
+        return next(filter(None, match.groups()), "").strip()
+    words = re.split(r"[\s_]+", cell)
+    return words[-1] if len(words) > 1 and not _axis(words[-1]) and _is_unit(words[-1]) else ""
 
 
 def _is_unit(text):

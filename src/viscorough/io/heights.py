@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
+from viscorough import units
 from viscorough.errors import AccuracyWarning
 from viscorough.io import netcdf
 from viscorough.io.atomic import reason
@@ -143,8 +144,6 @@ def _spacing(rows, columns):
     (_, _, unit), (_, _, other) = stated
     distances = [uniform_spacing(name, positions) for name, positions, _ in stated]
     if unit != other:
-        from viscorough import units
-
         if "1" in (unit, other):
             raise ValueError(f"coordinates are in {unit} and {other}; units of length are needed for both")
         distances[1] *= units.metres(other) / units.metres(unit)
@@ -153,6 +152,8 @@ def _spacing(rows, columns):
 
 def _are_indices(positions, unit):
     """Whether positions only count points, from 0 or 1 on, so that they state no distance."""
+    if units.counts_points(unit):
+        return True
     if unit != "1" or not positions.size or np.ma.is_masked(positions):
         return False
     return positions[0] in (0, 1) and np.array_equal(positions - positions[0], np.arange(positions.size))

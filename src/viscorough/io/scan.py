@@ -107,11 +107,15 @@ def uniform_spacing(name, positions):
     with np.errstate(over="ignore"):
         steps = np.diff(positions)
         mean = (positions[-1] - positions[0]) / (positions.size - 1)
-    rounding = 4 * np.finfo(np.float32).eps * np.abs(positions).max()
+        largest = np.abs(positions).max()
+        in_single = np.array_equal(positions, positions.astype(np.float32))  # so they may have been rounded to it
+        rounding = float(np.spacing(largest.astype(np.float32))) if in_single else 4 * np.spacing(largest)
     if (
         not (mean != 0 and np.isfinite(mean) and np.abs(steps - mean).max() <= _UNIFORMITY * abs(mean) + rounding)
         or (np.sign(steps) != np.sign(mean)).any()
     ):
         text = f"coordinate {name} is not uniform: its steps lie between {steps.min():g} and {steps.max():g}"
         raise ValueError(f"{text}; equal spacing is needed")
+    if rounding > _UNIFORMITY * abs(mean) * steps.size and np.ptp(steps) > _UNIFORMITY * abs(mean):
+        raise ValueError(f"coordinate {name} is too coarse for its steps of {abs(mean):g}; --spacing is needed")
     return abs(mean)

@@ -27,8 +27,11 @@ _FIELD = re.compile(rf"{_NUMBER}|[+-]?inf(?:inity)?|{_MISSING}|", re.IGNORECASE)
 _MARK = re.compile(rf"(?<![^\s,;])(?:{_MISSING})(?![^\s,;])", re.IGNORECASE)
 _ALMOST_A_NUMBER = re.compile(rf"[^\w\s]?\s?\d.*|{_MISSING}", re.IGNORECASE)
 _UTF16 = (b"\xff\xfe", b"\xfe\xff")
-_COMMENT = re.compile(r"[ \t]*(?:[%;!]|//|#(?!n/?a\b|nv\b|[^\W\d]+(?:/0)?[!?]))", re.IGNORECASE)
-_REMARK = re.compile(r"\s(?:#|%)(?:\s*[^\W\d].*|\s*$)")
+_HASH = r"#(?!n/?a\b|nv\b|[^\W\d]+(?:/0)?[!?])"  # not that of a mark such as #N/A or #DIV/0!
+_COMMENT = re.compile(rf"[ \t]*(?:[%;!]|//|{_HASH})", re.IGNORECASE)
+_DIGITS = re.compile(r"\d[^:=]*[\s;,\"][^:=]*\d")
+_REMARK = re.compile(rf"\s(?:{_HASH}|%)(?:\s*[^\W\d].*|\s*$)", re.IGNORECASE)
+_ROW_NUMBERS = re.compile(r"rows?|index|nos?\.?|nr\.?|zeilen?|lines?|lignes?", re.IGNORECASE)
 _PLAIN = b"0123456789.,;+-eE \t\n"  # a body of other characters holds marks of missing points
 _ESRI_KEY = re.compile(r"^\s*(ncols|nrows|cellsize|dx|dy|nodata_value|[xy]ll(?:corner|center))\s+(\S+)\s*$", re.IGNORECASE)
 _LEAST_LABELS = 6  # evenly spaced numbers that are taken for positions rather than heights
@@ -51,15 +54,20 @@ def read_text(path):
     lines = text.split("\n")
     first = next((number for number, line in enumerate(lines) if _is_row(line)), None)
     if first is None:
-        raise ValueError("no row of numbers; a matrix of heights, or columns x, y, z, is needed")
+        odd = next((f" (line {number} is {line[:40]!r})" for number, line in enumerate(lines, 1) if _DIGITS.search(line)), "")
+        raise ValueError(f"no row of numbers{odd}; a matrix of heights, or columns x, y, z, is needed")
     rows, comments, apart = _rows(lines, first)
     delimiter, decimal = _punctuation(rows)
+    if (above := _without_points(lines, first, delimiter, rows.lines[0])) < first:
+        first = above
+        rows, comments, apart = _rows(lines, first, delimiter == ";")
+        delimiter, decimal = _punctuation(rows)
     table = _table(rows, delimiter, decimal)
     esri = _esri(lines[:first])
-    _check_above(lines[:first], delimiter, table.shape[1], esri)
+    _check_above(lines[:first], delimiter, {table.shape[1], len(rows.lines[0].split(delimiter))}, esri)
     if {"ncols", "nrows"} <= set(esri):
         return _esri_scan(table, esri)
-    header = read_header([*lines[:first], *comments], table.shape, decimal)
+    header = read_header([*lines[:first], *comments], table.shape, delimiter, decimal)
     grid = _grid(table, header, required=header.columns is not None or str(path).lower().endswith(".xyz"))
     if grid is not None:
         return _scan_of_points(grid, header)
@@ -73,7 +81,18 @@ def read_text(path):
 
 def is_binary(path):
     """Whether a file cannot be text. Raises a one-line ValueError if it cannot be read."""
-    return b"\x00" in (start := _content(path, 4096)) and not start.startswith(_UTF16)
+    start = _content(path, 4096)
+    return b"\x00" in start and _utf16(start) is None
+
+
+def _utf16(start):
+    """The encoding of a text of two bytes a letter, with or without a byte order mark; None for other texts."""
+    if start.startswith(_UTF16):
+        return "utf-16"
+    places = np.flatnonzero(np.frombuffer(start, np.uint8) == 0) % 2
+    if not places.size or 2 * places.size < 0.9 * (len(start) // 2 * 2) or np.ptp(places):
+        return None
+    return "utf-16-le" if places[0] else "utf-16-be"
 
 
 def _content(path, size=-1):
@@ -90,8 +109,8 @@ def _content(path, size=-1):
 def _decoded(path):
     """The text of a file, in the encodings that instruments use, with \\n at the end of lines and ASCII minus signs."""
     content = _content(path)
-    if content.startswith(_UTF16):
-        text = content.decode("utf-16", errors="replace")
+    if encoding := _utf16(content[:4096]):
+        text = content.decode(encoding, errors="replace")
     else:
         try:
             text = content.decode("utf-8-sig")
@@ -109,12 +128,23 @@ def _is_row(line):
     return all(_FIELD.fullmatch(part) for cell in cells for part in cell.split(","))
 
 
-def _rows(lines, first):
+def _without_points(lines, first, delimiter, row):
+    """Number of the first of the rows just above `first` in which every point is missing; `first` if there is none."""
+    wanted = len(row.split(delimiter))
+    while first > 0:
+        cells = [cell.strip(' "') for cell in lines[first - 1].strip(" ").split(delimiter)]
+        if not (1 < len(cells) == wanted and all(re.fullmatch(f"(?:{_MISSING})?", cell, re.IGNORECASE) for cell in cells)):
+            break
+        first -= 1
+    return first
+
+
+def _rows(lines, first, has_semicolons=None):
     """(_Rows, comments beside and below them, number of the first empty line that parts them unevenly or 0).
 
     Raises ValueError for a comment between rows that states something, as between two maps.
     """
-    has_semicolons = lines[first].count(";") > 0
+    has_semicolons = ";" in lines[first] if has_semicolons is None else has_semicolons
     numbers, kept, comments, gaps, between = [], [], [], [], []
     for number, line in enumerate(lines[first:], first + 1):
         if not line.strip(" ") or (not line.strip() and "\t" not in lines[first].strip(" ")):
@@ -157,7 +187,7 @@ def _punctuation(rows):
         raise ValueError(f"{where}: commas with and without spaces; decimal points, or semicolons, are needed")
     if tight and parted:
         return None, ","
-    if tight and (re.search(r"(?<!\d)0\d|-0,", body) or all(line.count(",") == 1 for line in rows.lines)):
+    if tight and (re.search(r"(?<!\d)0\d", body) or all(line.count(",") == 1 for line in rows.lines)):
         readings = "one column with decimal commas, or columns of whole numbers"
         raise ValueError(f"{where}: {readings}; decimal points, or semicolons, are needed")
     return ",", "."
@@ -180,7 +210,7 @@ def _table(rows, delimiter, decimal):
     if decimal == ",":
         text = text.replace(",", ".")
     odd = text.encode(errors="replace").translate(None, _PLAIN)
-    if odd.strip(b"na") or any(f"-{end}" in text for end in (delimiter or " ", "\n")) or text.endswith("-"):
+    if odd.replace(b"nan", b"") or any(f"-{end}" in text for end in (delimiter or " ", "\n")) or text.endswith("-"):
         text = _MARK.sub("nan", text)
         text = re.sub(r"(?<=[\d.])[dD](?=[+-]?\d)", "e", text)
     if delimiter is not None:
@@ -222,10 +252,10 @@ def _fault(numbers, lines, delimiter):
     return ""
 
 
-def _check_above(lines, delimiter, columns, esri):
+def _check_above(lines, delimiter, counts, esri):
     """Raise ValueError if a line above the first row may be a row itself: nothing of a map is left out for a misprint.
 
-    Such a line has as many cells as the table, and one of them is, or almost is, a number, or all are the same.
+    Such a line has one of the counts of cells of the table, with and without outer delimiters, and one of them is, or almost is, a number, or all are the same.
     """
     for number, line in enumerate(lines, 1):
         if not line.strip() or _COMMENT.match(line) and not (delimiter == ";" and line.lstrip().startswith(";")):
@@ -233,11 +263,11 @@ def _check_above(lines, delimiter, columns, esri):
         if re.search(r"[:=]", line) or (esri and _ESRI_KEY.match(line)):
             continue
         cells = [cell.strip(' "') for cell in _REMARK.sub("", line).strip(" ").split(delimiter)]
-        if delimiter is not None and len(cells) == columns + 1 and cells[-1] == "":
-            del cells[-1]
-        if len(cells) != columns:
+        if len(cells) not in counts:
             continue
-        if any(_ALMOST_A_NUMBER.fullmatch(cell) for cell in cells) or (columns > 1 and len(set(cells)) == 1):
+        if len(cells) > 1 and _ROW_NUMBERS.fullmatch(cells[0]) and not {"x", "y", "z"} <= {cell.lower()[:1] for cell in cells}:
+            raise ValueError(f"line {number} ({line[:40]!r}) heads a column of numbers of rows; heights alone are needed")
+        if any(_ALMOST_A_NUMBER.fullmatch(cell) for cell in cells) or (len(cells) > 1 and len(set(cells)) == 1):
             raise ValueError(f"line {number} ({line[:40]!r}) is not a row of numbers; numbers or a comment are needed")
 
 
@@ -266,7 +296,7 @@ def _grid(table, header, required):
     grid = gridded(table, required=required) if required or table.shape[1] == 3 else None
     if grid is None and 3 < table.shape[1] <= 6 and gridded(table[:, :3], required=False) is not None:
         raise ValueError(f"{table.shape[1]} columns, of which two are positions; three, x, y and z, are needed")
-    if grid is None or header.spacing is None:
+    if grid is None or header.spacing is None or units.counts_points(header.lateral_unit):
         return grid
     ratio = 1.0
     if "1" not in (header.spacing_unit, header.lateral_unit):
@@ -284,8 +314,10 @@ def _grid(table, header, required):
 def _scan_of_points(grid, header):
     """The Scan of a grid of points, with the units that the header states for them."""
     heights, spacing = grid
+    if units.counts_points(header.lateral_unit):
+        return Scan(header.factor * heights, header.unit, header.spacing, header.spacing_unit)
     lateral = header.lateral_unit if header.lateral_unit != "1" else header.spacing_unit
-    return Scan(heights if header.factor == 1 else header.factor * heights, header.unit, spacing, lateral)
+    return Scan(header.factor * heights, header.unit, spacing, lateral)
 
 
 def _esri(lines):
@@ -314,6 +346,8 @@ def _esri_scan(table, esri):
         text = f"{len(table)} lines of {in_line} numbers contradict {rows:g} rows and {columns:g} columns"
         raise ValueError(f"{text}; a line for each row is needed")
     table = table.reshape(int(rows), int(columns))
-    heights = np.where(table == esri.get("nodata_value", -9999.0), np.nan, table)
+    mark = esri.get("nodata_value", -9999.0)
+    missing = np.isclose(table, mark, rtol=1e-5, atol=0) if abs(mark) > 1e30 else table == mark  # printed with few digits
+    heights = np.where(missing, np.nan, table)
     sides = esri.get("dx", esri.get("cellsize")), esri.get("dy", esri.get("cellsize"))
     return Scan(heights, spacing=None if None in sides else sides)

@@ -1,15 +1,18 @@
 """Maps of heights in TIFF files: of one channel, with the spacing that GeoTIFF or ImageJ tags state."""
 
 import logging
+import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 
+from viscorough import units
 from viscorough.io.atomic import reason
 from viscorough.io.scan import Scan
 
 _PARK_SYSTEMS = 50432  # tag of the atomic force microscopes whose heights are not in the picture
-_LINEAR_UNITS = {9001: "m", 9002: "foot", 9003: "US_survey_foot", 9036: "km"}
+_LINEAR_UNITS = {9001: "m", 9002: "foot", 9003: "survey_foot", 9036: "km"}
 _GEOGRAPHIC = 2
+_GDAL_METADATA = 42112
 # What tifffile logs about a damaged file is not printed: the error says it in one line.
 logging.getLogger("tifffile").addHandler(logging.NullHandler())
 
@@ -34,12 +37,16 @@ def read_tiff(path, channel=None):
                 raise ValueError(f"a picture of {page.samplesperpixel} colours; a map of heights is needed")
             heights = page.asarray()
             spacing, spacing_unit, unit = _stated(file, page)
-            nodata = page.tags.get(42113)
+            scale, offset, scaled_unit = _scaling(file, page)
+            heights = _without(heights, page.tags.get(42113))
+            if (scale, offset) != (1, 0):
+                heights = scale * heights.astype(float) + offset
+            unit = _one_of(unit, scaled_unit)
     except (MemoryError, ModuleNotFoundError):
         raise
     except Exception as error:  # damage raises errors of many kinds, and codecs that are not installed do, too
         raise ValueError(f"{path}: not readable ({reason(error)}); a TIFF file of one channel is needed") from error
-    return Scan(_without(heights, nodata), unit, spacing, spacing_unit)
+    return Scan(heights, unit, spacing, spacing_unit)
 
 
 def _page(file, channel):
@@ -62,7 +69,9 @@ def _stated(file, page):
         keys = page.geotiff_tags
         unit = _unit_of_key(keys.get("ProjLinearUnitsGeoKey"))
         height_unit = _unit_of_key(keys.get("VerticalUnitsGeoKey"))
-        if keys.get("GTModelTypeGeoKey") == _GEOGRAPHIC:
+        projected = {"ProjectedCSTypeGeoKey", "ProjLinearUnitsGeoKey", "ProjCoordTransGeoKey"} & set(keys)
+        angles = {"GeographicTypeGeoKey", "GeogAngularUnitsGeoKey"} & set(keys)
+        if keys.get("GTModelTypeGeoKey") == _GEOGRAPHIC or (angles and not projected):
             raise ValueError("its coordinates are in degrees; a map in projected coordinates is needed")
         if "ModelPixelScale" in keys:
             dx, dy = keys["ModelPixelScale"][:2]
@@ -74,12 +83,44 @@ def _stated(file, page):
         else:
             return None, "1", height_unit
         return (float(dx), float(dy)), unit, height_unit
-    unit = (file.imagej_metadata or {}).get("unit") if file.is_imagej else None
-    if unit and unit != "pixel" and {"XResolution", "YResolution"} <= {tag.name for tag in page.tags}:
+    stated = (file.imagej_metadata or {}) if file.is_imagej else {}
+    unit, unit_y = _unit_of_imagej(stated.get("unit")), _unit_of_imagej(stated.get("yunit", stated.get("unit")))
+    if "1" not in (unit, unit_y) and {"XResolution", "YResolution"} <= {tag.name for tag in page.tags}:
         per_unit = [page.tags[name].value for name in ("XResolution", "YResolution")]
         if all(points > 0 and length > 0 for points, length in per_unit):
-            return tuple(length / points for points, length in per_unit), unit.replace("\\u00B5", "µ"), "1"
+            dx, dy = (length / points for points, length in per_unit)
+            return (dx, dy if unit_y == unit else dy * units.metres(unit_y) / units.metres(unit)), unit, "1"
     return None, "1", "1"
+
+
+def _unit_of_imagej(text):
+    """A unit of ImageJ, in which µ is escaped; "1" for none, and for numbers of points."""
+    unit = str(text or "").strip().strip("\x00").replace("\\u00B5", "µ").replace("\\u00b5", "µ")
+    return "1" if not unit or units.counts_points(unit) else unit
+
+
+def _scaling(file, page):
+    """(scale, offset, unit) of stored numbers, by GDAL's metadata or ImageJ's calibration; "1" for no unit.
+
+    Raises ValueError for a calibration by a function that is not linear.
+    """
+    if file.is_imagej and "cf" in (stated := file.imagej_metadata or {}):
+        if int(stated["cf"]) != 0 or not {"c0", "c1"} <= set(stated):
+            raise ValueError("its heights are calibrated by a function; a linear calibration, or none, is needed")
+        return float(stated["c1"]), float(stated["c0"]), _unit_of_imagej(stated.get("vunit"))
+    roles = {}
+    if _GDAL_METADATA in page.tags:
+        for item in ElementTree.fromstring(str(page.tags[_GDAL_METADATA].value).strip("\x00 ")).iter("Item"):
+            if item.get("role") and item.get("sample", "0") == "0":
+                roles[item.get("role").lower()] = (item.text or "").strip()
+    return float(roles.get("scale", 1)), float(roles.get("offset", 0)), roles.get("unittype") or "1"
+
+
+def _one_of(unit, other):
+    """The unit that is stated. Raises ValueError for two that differ."""
+    if "1" not in (unit, other) and units.metres(unit) != units.metres(other):
+        raise ValueError(f"its heights are in {unit} and in {other}; one unit is needed")
+    return other if unit == "1" else unit
 
 
 def _unit_of_key(key):

@@ -10,6 +10,7 @@ def zygo_scan(lines):
 
     Line 4 of the header holds the origin and size of the map in points, the seventh number of line 8 the distance of
     the points in metres (0 if it is not known). Heights are commonly in micrometres, but the file does not state it.
+    Points that are left out are missing; a second line "#" ends them.
 
     Raises ValueError where a line is not of this form.
     """
@@ -35,7 +36,7 @@ def zygo_scan(lines):
         except (ValueError, IndexError, TypeError) as error:
             wanted = f"column, row and height of one of {columns} by {rows} points are needed"
             raise ValueError(f"line {number} ({line[:40]!r}); {wanted}") from error
-    if not seen.all():
-        raise ValueError(f"{seen.size - seen.sum()} of {columns} by {rows} points are not there; a whole file is needed")
+    if not seen.all() and lines[start:].count("#") != 1:
+        raise ValueError(f"the closing line '#' lacks, and {seen.size - seen.sum()} points do; a whole file is needed")
     stated = (spacing, spacing) if spacing > 0 else None
     return Scan(heights, spacing=stated, spacing_unit="m" if stated else "1")

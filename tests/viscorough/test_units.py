@@ -64,6 +64,14 @@ def test_what_is_no_quantity_is_refused(text):
     one_line(error)
 
 
+@pytest.mark.parametrize(
+    "text", ["px", "pixel", "Pixels", "points", "pt", "dots", "mpx", "css_pixel", "pica", "1e-6 px"]
+)
+def test_points_of_a_picture_are_no_lengths(text):
+    with pytest.raises(ValueError, match="unit"):
+        units.length_unit(text)
+
+
 def test_different_dimensions_are_not_converted():
     with pytest.raises(ValueError, match="cannot be converted to N"):
         units.quantity("5 mm").to("N")

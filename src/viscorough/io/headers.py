@@ -22,10 +22,16 @@ _BETWEEN = r"\s*(?:x|×|\*|by|,|;)\s*"
 _END = r"(?!\s*[-+.,'’^*]?\d)"
 _ONE = re.compile(rf"[(\[]?\s*{_LENGTH}{_END}")
 _PAIR = re.compile(rf"([(\[]?)\s*{_LENGTH}({_BETWEEN}){_LENGTH}\s*({_UNIT}){_END}")
-_STATEMENT = re.compile(r"(?:^|[,;\t|])[\s#%/;!*\"'|]*([^\W\d_][^:=,;\t|()\[\]\"]*?)\s*(?:[(\[]([^)\]]*)[)\]])?\"?\s*[:=]\s*")
+_STATEMENT = re.compile(
+    r"(?:^|[,;\t|])[\s#%/;!*\"'|]*([^\W\d_][^:=,;\t|()\[\]\"]*?)\s*(?:[(\[]([^)\]]*)[)\]])?\"?\s*[:=]\s*"
+)
 _KEY_WITH_UNIT = re.compile(r"(.*\w)\s*(?:\s+in\s+|/\s*)(\S+)")
-_AXIS = re.compile(r"([xyz])(?:pos|position|coord|coordinate|axis|achse|koordinate|value|wert)?|height|höhe|hauteur|elevation")
-_OTHER_LANGUAGE = re.compile(r"breite|höhe|kanal|einheit|größe|abstand|largeur|hauteur|canal|unité|taille", re.IGNORECASE)
+_AXIS = re.compile(
+    r"([xyz])(?:pos|position|coord|coordinate|axis|achse|koordinate|value|wert)?|height|höhe|hauteur|elevation"
+)
+_OTHER_LANGUAGE = re.compile(
+    r"breite|höhe|kanal|einheit|größe|abstand|largeur|hauteur|canal|unité|taille", re.IGNORECASE
+)
 
 
 def _keys(template):
@@ -33,7 +39,9 @@ def _keys(template):
     return {a: {f"{a}{key}" for key in template.split()} | {f"{key}{a}" for key in template.split()} for a in "xy"}
 
 
-_STEPS = "pixelsize pixelspacing pointspacing samplespacing spacing step stepsize pitch increment pixelgröße pixelabstand d"
+_STEPS = (
+    "pixelsize pixelspacing pointspacing samplespacing spacing step stepsize pitch increment pixelgröße pixelabstand d"
+)
 _EXTENTS = "size scansize scanrange range length extent"
 _STEP = "pixelsize pixelspacing pointspacing samplespacing gridspacing lateralspacing spacing pixelgröße pixelabstand"
 _ROLES = {
@@ -42,6 +50,7 @@ _ROLES = {
     "step": set(_STEP.split()) | {"tailledepixel", "tailledupixel", "taillepixel", "cellsize"},
     "extent x": _keys(_EXTENTS)["x"] | {"width", "breite", "largeur", "scanwidth", "imagewidth"},
     "extent y": _keys(_EXTENTS)["y"] | {"height", "höhe", "hoehe", "hauteur", "scanheight", "imageheight"},
+    "extent": {"scansize", "scanrange", "scanarea", "imagesize"},
     "unit z": {"zunit", "unitz", "valueunit", "heightunit", "dataunit", "werteinheit", "zeinheit", "einheitz"}
     | {"höheneinheit", "unitédevaleur", "unitédesvaleurs", "unitéz", "unitédez", "unitédehauteur", "verticalunit"},
     "unit x": {"xunit", "unitx", "xeinheit", "einheitx", "unitéx"},
@@ -85,6 +94,7 @@ def read_header(lines, shape, delimiter, decimal):
 
     Raises ValueError for statements that contradict each other or can be read in two ways.
     """
+    lines = [line for line in lines if line.strip()]
     statements = _statements(lines)
     columns, units_of_columns = _headings(lines, shape, delimiter)
     comma = decimal == "," or any(_OTHER_LANGUAGE.search(line) for line in lines)
@@ -92,7 +102,7 @@ def read_header(lines, shape, delimiter, decimal):
     for role, line, unit, value in statements:
         if role:
             stated[role].append((line, unit, value))
-        elif unit_of_unknown_meaning(line, value):
+        elif _has_unit_of_unknown_meaning(line, value):
             raise ValueError(f"header {line!r}: whose unit it states is not known; 'x units', 'y units', 'z units' are")
 
     def unit_among(*roles, more=()):
@@ -110,14 +120,14 @@ def read_header(lines, shape, delimiter, decimal):
         for axis in "xy"
     ]
     spacing, spacing_unit = _spacing(stated, shape, lateral, comma)
-    if lateral[0] != lateral[1] and spacing is None:
-        if "" in lateral or units.metres(lateral[0]) != units.metres(lateral[1]):
-            raise ValueError(f"x is in {lateral[0] or 'no unit'}, y in {lateral[1] or 'no unit'}; one unit is needed")
+    different = lateral[0] != lateral[1] and ("" in lateral or units.metres(lateral[0]) != units.metres(lateral[1]))
+    if different and spacing is None:
+        raise ValueError(f"x is in {lateral[0] or 'no unit'}, y in {lateral[1] or 'no unit'}; one unit is needed")
     lateral_unit = "px" if any(in_points) else lateral[0] or "1"
     return Header(spacing, spacing_unit, lateral_unit, unit or own or general or "1", factor, columns)
 
 
-def unit_of_unknown_meaning(line, value):
+def _has_unit_of_unknown_meaning(line, value):
     """Whether a statement gives a unit of length to something unknown, such as "foo units: um"."""
     key = re.split(r"[:=]", line)[0].lower()
     if not re.search(r"(?:units?|einheit(?:en)?|unités?)\W*$", key):
@@ -198,13 +208,16 @@ def _lengths(line, unit, value, comma):
 def _spacing(stated, shape, lateral, comma):
     """((dx, dy), unit) that statements give; (None, "1") for none; nan for a direction without statement."""
     steps, extents = ([], []), ([], [])
-    for role, axes in (("step x", (0,)), ("step y", (1,)), ("step", (0, 1)), ("extent x", (0,)), ("extent y", (1,))):
+    axes_of = {"step x": (0,), "step y": (1,), "step": (0, 1), "extent x": (0,), "extent y": (1,), "extent": (0, 1)}
+    for role, axes in axes_of.items():
         for line, bracket, value in stated[role]:
             if bracket and not re.match(rf"\s*[(\[]?\s*{_NUMBER}", value):
                 continue  # "Height (nm):" heads numbers below
             lengths = _lengths(line, bracket, value, comma)
             if len(lengths) == 2 and len(axes) == 1:
                 raise ValueError(f"header {line!r}: two lengths for one direction; one is needed")
+            if role == "extent" and len(lengths) == 1 and shape[0] != shape[1]:
+                continue  # of which side is not said
             for place, axis in enumerate(axes):
                 number, unit = lengths[place % len(lengths)]
                 if units.counts_points(unit):
@@ -236,7 +249,9 @@ def _agreed_step(axis, steps, extents, count, unit):
     for extent in extents:
         if not steps:
             if abs(extent - extents[0]) > _AGREEMENT * abs(extents[0]):
-                raise ValueError(f"header: {name} extend over {extents[0]:g} or {extent:g} {unit}; one extent is needed")
+                raise ValueError(
+                    f"header: {name} extend over {extents[0]:g} or {extent:g} {unit}; one extent is needed"
+                )
         elif min(abs(extent / n - steps[0]) for n in (count, max(count - 1, 1))) > _ROUNDING * abs(steps[0]):
             text = f"{name} are {steps[0]:g} {unit} apart, {count} of them extend over {extent:g} {unit}"
             raise ValueError(f"header: {text}; statements that agree are needed")
@@ -257,7 +272,9 @@ def _headings(lines, shape, delimiter):
         heads_points = len(cells) == shape[1] and all(axes.count(name) == 1 for name in "xyz")
         if not heads_points and not (axes == ["z"] and _unit_of_heading(cells[0])):
             if not _STATEMENT.search(line) and any(map(_is_unit, re.findall(r"[\[(]\s*([^\W\d]\w*)\s*[\])]", line))):
-                raise ValueError(f"header {line.strip()[:60]!r}: whose units it states is not known; 'x [um], y [um], z [nm]' is")
+                raise ValueError(
+                    f"header {line.strip()[:60]!r}: whose units it states is not known; 'x [um], y [um], z [nm]' is"
+                )
             continue
         if heads_points:
             if names not in (None, tuple(axes)):

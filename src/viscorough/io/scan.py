@@ -16,8 +16,9 @@ class Scan(NamedTuple):
 
     heights : shape (rows, columns), nan or masked where nothing was measured
     unit : of the heights, as in the file; "1" if the file states none
-    spacing : (dx, dy), distances between neighbouring columns and rows; None if the file states none
-    spacing_unit : of the spacing, as in the file; "1" if the file states none
+    spacing : (dx, dy), distances between neighbouring columns and rows; None if the file states none, nan for a
+        direction of which it states none
+    spacing_unit : of the spacing, or of lengths along x and y, as in the file; "1" if the file states none
     """
 
     heights: np.ndarray
@@ -42,18 +43,35 @@ def to_indenter(scan, spacing=None, unit=None):
     if heights.ndim != 2:
         raise ValueError(f"heights have the shape {heights.shape}; a two-dimensional map is needed")
     length_unit = _length_unit(scan, unit)
-    stated = _stated_spacing(scan, length_unit, spacing is not None)
+    stated = _stated_spacing(scan, length_unit, spacing)
+    if spacing is not None and stated is None:
+        _check_unit_of_spacing(scan, length_unit, spacing)
     spacing = None if spacing is None else tuple(_number(distance, length_unit) for distance in spacing)
-    if spacing is None and stated is None:
-        raise ValueError("the distance between neighbouring points is not stated; --spacing is needed")
+    if spacing is None and (stated is None or not np.isfinite(stated).all()):
+        which = "neighbouring points" if stated is None else "columns" if np.isnan(stated[0]) else "rows"
+        raise ValueError(f"the distance between {which} is not stated; --spacing is needed")
     if spacing is not None and stated is not None:
         for name, given, in_file in zip(("columns", "rows"), spacing, stated, strict=True):
             if abs(given - in_file) > _AGREEMENT * in_file:
                 unit = "" if length_unit == units.UNKNOWN else f" {length_unit}"
                 text = f"--spacing {given:g}{unit} contradicts the file, in which {name} are {in_file:g}{unit} apart"
                 raise ValueError(f"{text}; leave it out")
-    dx, dy = spacing if stated is None else stated
+    dx, dy = spacing if stated is None or np.isnan(stated).any() else stated
     return Indenter(heights, dx, dy, length_unit=length_unit)
+
+
+def _check_unit_of_spacing(scan, length_unit, spacing):
+    """Raise ValueError for plain numbers where lengths along x and y have another unit than the heights."""
+    if scan.spacing is not None or scan.spacing_unit == units.UNKNOWN or units.counts_points(scan.spacing_unit):
+        return
+    lateral = units.length_unit(scan.spacing_unit)
+    if lateral != length_unit and not all(isinstance(each, units.Quantity) and each.unit for each in spacing):
+        text = (
+            f"heights are in {length_unit}, x and y in {lateral}"
+            if length_unit != units.UNKNOWN
+            else f"x is in {lateral}"
+        )
+        raise ValueError(f"--spacing {spacing[0]}: {text}; a spacing with a unit, and the unit of heights, are needed")
 
 
 def _number(distance, length_unit):
@@ -77,14 +95,15 @@ def _length_unit(scan, given):
 def _stated_spacing(scan, length_unit, given):
     """The spacing (dx, dy) that the file states, in the unit of the heights; None if it states none.
 
-    given : whether a spacing is given, which then stands for one without a unit
+    given : a given spacing, which then stands for one without a unit, or None
     """
     if scan.spacing is None:
         return None
     if scan.spacing_unit.strip() in ("", units.UNKNOWN):
         if scan.unit.strip() in ("", units.UNKNOWN):
             return scan.spacing
-        if given:
+        if given is not None:
+            _check_ratio(scan.spacing, given)
             return None
         raise ValueError(f"heights are in {length_unit}, coordinates in no stated unit; --spacing is needed")
     unit = units.length_unit(scan.spacing_unit)
@@ -92,6 +111,15 @@ def _stated_spacing(scan, length_unit, given):
         raise ValueError(f"coordinates are in {unit}, heights in no stated unit; --unit is needed")
     factor = units.factor(unit, length_unit)
     return tuple(float(f"{factor * distance:.14g}") for distance in scan.spacing)
+
+
+def _check_ratio(stated, given):
+    """Raise ValueError unless a given spacing is one power of ten times that stated without a unit."""
+    lengths = [each.number if isinstance(each, units.Quantity) else each for each in given]
+    powers = np.log10([a / b for a, b in zip(lengths, stated, strict=True) if a > 0 and b > 0])
+    if np.abs(powers - np.rint(powers)).max(initial=0) > _AGREEMENT or np.ptp(np.rint(powers) if len(powers) else [0]):
+        text = f"--spacing {lengths[0]:g},{lengths[1]:g} contradicts the file, which states {stated[0]:g},{stated[1]:g}"
+        raise ValueError(f"{text} without a unit; the same length in a unit is needed")
 
 
 def uniform_spacing(name, positions):

@@ -21,7 +21,8 @@ from viscorough.io.scan import Scan
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?"
 _MISSING = (
-    r"[+-]?nan|n/?a|n\.a\.|#n/?a!?|#nv|none|null|bad|void|masked|missing|no ?data|[+-]?1\.#(?:qnan|ind)0*|\?+|\*+|[-–—]+"
+    r"[+-]?nan|n/?a|n\.a\.|#n/?a!?|#nv|none|null|bad|void|masked|missing|no ?data|[+-]?1\.#(?:qnan|ind)0*"
+    r"|\?+|\*+|[-–—]+"
 )
 _FIELD = re.compile(rf"{_NUMBER}|[+-]?inf(?:inity)?|{_MISSING}|", re.IGNORECASE)
 _MARK = re.compile(rf"(?<![^\s,;])(?:{_MISSING})(?![^\s,;])", re.IGNORECASE)
@@ -33,7 +34,9 @@ _DIGITS = re.compile(r"\d[^:=]*[\s;,\"][^:=]*\d")
 _REMARK = re.compile(rf"\s(?:{_HASH}|%)(?:\s*[^\W\d].*|\s*$)", re.IGNORECASE)
 _ROW_NUMBERS = re.compile(r"rows?|index|nos?\.?|nr\.?|zeilen?|lines?|lignes?", re.IGNORECASE)
 _PLAIN = b"0123456789.,;+-eE \t\n"  # a body of other characters holds marks of missing points
-_ESRI_KEY = re.compile(r"^\s*(ncols|nrows|cellsize|dx|dy|nodata_value|[xy]ll(?:corner|center))\s+(\S+)\s*$", re.IGNORECASE)
+_ESRI_KEY = re.compile(
+    r"^\s*(ncols|nrows|cellsize|dx|dy|nodata_value|[xy]ll(?:corner|center))\s+(\S+)\s*$", re.IGNORECASE
+)
 _LEAST_LABELS = 6  # evenly spaced numbers that are taken for positions rather than heights
 
 
@@ -54,7 +57,9 @@ def read_text(path):
     lines = text.split("\n")
     first = next((number for number, line in enumerate(lines) if _is_row(line)), None)
     if first is None:
-        odd = next((f" (line {number} is {line[:40]!r})" for number, line in enumerate(lines, 1) if _DIGITS.search(line)), "")
+        odd = next(
+            (f" (line {number} is {line[:40]!r})" for number, line in enumerate(lines, 1) if _DIGITS.search(line)), ""
+        )
         raise ValueError(f"no row of numbers{odd}; a matrix of heights, or columns x, y, z, is needed")
     rows, comments, apart = _rows(lines, first)
     delimiter, decimal = _punctuation(rows)
@@ -72,7 +77,7 @@ def read_text(path):
     if grid is not None:
         return _scan_of_points(grid, header)
     if apart:
-        raise ValueError(f"line {apart} is empty, and more rows follow; one map is needed")
+        raise ValueError(f"line {apart}: empty lines part it from the rows above; one map is needed")
     _check_labels(table)
     heights = table if header.factor == 1 else header.factor * table
     spacing_unit = header.spacing_unit if header.spacing else header.lateral_unit
@@ -130,39 +135,45 @@ def _is_row(line):
 
 def _without_points(lines, first, delimiter, row):
     """Number of the first of the rows just above `first` in which every point is missing; `first` if there is none."""
-    wanted = len(row.split(delimiter))
-    while first > 0:
-        cells = [cell.strip(' "') for cell in lines[first - 1].strip(" ").split(delimiter)]
-        if not (1 < len(cells) == wanted and all(re.fullmatch(f"(?:{_MISSING})?", cell, re.IGNORECASE) for cell in cells)):
+    wanted, missing = len(row.split(delimiter)), re.compile(f"(?:{_MISSING})?", re.IGNORECASE)
+    for number in range(first - 1, -1, -1):
+        line = _REMARK.sub("", lines[number]).strip(" ")
+        cells = [cell.strip(' "') for cell in line.split(delimiter)]
+        if 1 < len(cells) == wanted and all(map(missing.fullmatch, cells)):
+            first = number
+        elif line:
             break
-        first -= 1
     return first
 
 
 def _rows(lines, first, has_semicolons=None):
-    """(_Rows, comments beside and below them, number of the first empty line that parts them unevenly or 0).
+    """(_Rows, comments beside and below them, number of the first row that empty lines part from those above it or 0).
+
+    Empty lines part nothing where there are as many above every row.
 
     Raises ValueError for a comment between rows that states something, as between two maps.
     """
     has_semicolons = ";" in lines[first] if has_semicolons is None else has_semicolons
-    numbers, kept, comments, gaps, between = [], [], [], [], []
+    has_tabs = "\t" in lines[first].strip(" ")
+    starts_row = (";",) * has_semicolons + ("\t",) * has_tabs
+    numbers, kept, comments, between = [], [], [], []
+    empty = [0]  # number of empty lines above each row, and below the last one
     for number, line in enumerate(lines[first:], first + 1):
-        if not line.strip(" ") or (not line.strip() and "\t" not in lines[first].strip(" ")):
-            gaps.append(number)
-        elif _COMMENT.match(line) and not (has_semicolons and line.lstrip().startswith(";")):
+        if not line.strip(" ") or (not line.strip() and not has_tabs):
+            empty[-1] += 1
+        elif _COMMENT.match(line) and not line.lstrip(" ").startswith(starts_row):
             comments.append(line)
             between.append((number, len(numbers)))
         else:
             numbers.append(number)
             kept.append(line)
+            empty.append(0)
     kept = [_REMARK.sub("", line) if "#" in line or "%" in line else line for line in kept]
     for (number, before), comment in zip(between, comments, strict=True):
         if before < len(numbers) and states(comment):
             raise ValueError(f"line {number} ({comment[:40]!r}) stands between rows; one map is needed")
-    parted = [number for number in gaps if numbers[0] < number < numbers[-1]]
-    places = set(np.searchsorted(numbers, parted).tolist())
-    apart = parted[0] if parted and len(places) < len(numbers) - 1 else 0
-    return _Rows(numbers, [line.strip(" ") for line in kept]), comments, apart
+    parted = [number for number, above in zip(numbers[1:], empty[1:], strict=False) if above != min(empty[1:-1])]
+    return _Rows(numbers, [line.strip(" ") for line in kept]), comments, parted[0] if parted else 0
 
 
 def _punctuation(rows):
@@ -179,11 +190,14 @@ def _punctuation(rows):
         return delimiter, "," if comma else "."
     if not comma:
         return None, "."
+    spaced = re.search(r", | ,", body)
+    if point and spaced and re.search(r"(?<![\d.])\d+,\d+(?![\d.])", body):
+        raise ValueError(f"{where}: decimal points and commas, with and without spaces; one decimal mark is needed")
     if point:
         return ",", "."
     tight = re.search(r"\d,\d", body)
     parted = re.search(r"[^,\s] +[^,\s]", body)
-    if tight and not parted and re.search(r", | ,", body):
+    if tight and not parted and spaced:
         raise ValueError(f"{where}: commas with and without spaces; decimal points, or semicolons, are needed")
     if tight and parted:
         return None, ","
@@ -244,8 +258,11 @@ def _fault(numbers, lines, delimiter):
     """Which line is not a row of as many numbers as the first, in words; "" for none."""
     wanted = len(lines[0].split(delimiter))
     for number, line in zip(numbers, lines, strict=False):
+        if not line.isascii():
+            odd = next(letter for letter in line if not letter.isascii())
+            return f"line {number} holds {odd!r}; numbers, and nan for missing points, are needed"
         cells = line.split(delimiter)
-        if odd := next((cell for cell in cells if not _FIELD.fullmatch(cell.strip(" ")) or not cell.isascii()), ""):
+        if odd := next((cell for cell in cells if not _FIELD.fullmatch(cell.strip(" "))), ""):
             return f"line {number}: {odd[:40]!r} is not a number; numbers, and nan for missing points, are needed"
         if len(cells) != wanted:
             return f"line {number}: {len(cells)} cells, {wanted} in line {numbers[0]}; rows of equal length are needed"
@@ -255,18 +272,30 @@ def _fault(numbers, lines, delimiter):
 def _check_above(lines, delimiter, counts, esri):
     """Raise ValueError if a line above the first row may be a row itself: nothing of a map is left out for a misprint.
 
-    Such a line has one of the counts of cells of the table, with and without outer delimiters, and one of them is, or almost is, a number, or all are the same.
+    Such a line has as many cells as the table, with or without outer delimiters, and one of them is, or almost is, a
+    number, or all are the same.
     """
     for number, line in enumerate(lines, 1):
-        if not line.strip() or _COMMENT.match(line) and not (delimiter == ";" and line.lstrip().startswith(";")):
+        is_comment = _COMMENT.match(line) and not (delimiter == ";" and line.lstrip().startswith(";"))
+        if is_comment or not line.strip():
             continue
         if re.search(r"[:=]", line) or (esri and _ESRI_KEY.match(line)):
             continue
         cells = [cell.strip(' "') for cell in _REMARK.sub("", line).strip(" ").split(delimiter)]
+        if delimiter is not None and len(cells) > 1 and not any(cells) and len(cells) not in counts:
+            raise ValueError(
+                f"line {number}: {len(cells)} empty cells above rows of {max(counts)}; equal rows are needed"
+            )
         if len(cells) not in counts:
             continue
-        if len(cells) > 1 and _ROW_NUMBERS.fullmatch(cells[0]) and not {"x", "y", "z"} <= {cell.lower()[:1] for cell in cells}:
-            raise ValueError(f"line {number} ({line[:40]!r}) heads a column of numbers of rows; heights alone are needed")
+        if (
+            len(cells) > 1
+            and _ROW_NUMBERS.fullmatch(cells[0])
+            and not {"x", "y", "z"} <= {cell.lower()[:1] for cell in cells}
+        ):
+            raise ValueError(
+                f"line {number} ({line[:40]!r}) heads a column of numbers of rows; heights alone are needed"
+            )
         if any(_ALMOST_A_NUMBER.fullmatch(cell) for cell in cells) or (len(cells) > 1 and len(set(cells)) == 1):
             raise ValueError(f"line {number} ({line[:40]!r}) is not a row of numbers; numbers or a comment are needed")
 
@@ -274,10 +303,10 @@ def _check_above(lines, delimiter, counts, esri):
 def _check_labels(table):
     """Raise ValueError if the first column or row counts up evenly, unlike the others, so that it holds no heights."""
     for name, first, others in (("column", table[:, 0], table[:, 1:].T), ("row", table[0], table[1:])):
-        if first.size >= _LEAST_LABELS and _is_even(first[1:] if np.isnan(first[0]) else first):
-            if len(others) and not any(_is_even(other) for other in others):
-                text = "counts up evenly, unlike the others: positions, not heights?"
-                raise ValueError(f"the first {name} {text} Heights alone, or columns x, y, z, are needed")
+        even = first.size >= _LEAST_LABELS and _is_even(first[1:] if np.isnan(first[0]) else first)
+        if even and len(others) and not any(map(_is_even, others)):
+            text = "counts up evenly, unlike the others, as positions do"
+            raise ValueError(f"the first {name} {text}; heights alone, or columns x, y, z, are needed")
 
 
 def _is_even(values):
@@ -301,10 +330,9 @@ def _grid(table, header, required):
     ratio = 1.0
     if "1" not in (header.spacing_unit, header.lateral_unit):
         ratio = units.metres(header.spacing_unit) / units.metres(header.lateral_unit)
-    differ = any(abs(ratio * a - b) > 1e-3 * b for a, b in zip(header.spacing, grid[1], strict=True) if a == a)
-    if differ and "1" in (header.spacing_unit, header.lateral_unit) and header.spacing_unit != header.lateral_unit:
-        differ = False  # not comparable
-    if differ:
+    elif header.spacing_unit != header.lateral_unit:
+        return grid  # one is known, the other is not
+    if any(abs(ratio * a - b) > 1e-3 * b for a, b in zip(header.spacing, grid[1], strict=True) if a == a):
         a, b = header.spacing, grid[1]
         text = f"({a[0]:g}, {a[1]:g}) in the header, ({b[0]:g}, {b[1]:g}) between points x, y, z"
         raise ValueError(f"spacing {text}; statements that agree are needed")
@@ -321,7 +349,7 @@ def _scan_of_points(grid, header):
 
 
 def _esri(lines):
-    """The keys of an ESRI grid in lines, and their numbers. Raises ValueError for one that is not a number, or twice."""
+    """The keys of an ESRI grid in lines, and their numbers. Raises ValueError for no number, and for two of a key."""
     found = {}
     for number, line in enumerate(lines, 1):
         if match := _ESRI_KEY.match(line):
@@ -347,7 +375,9 @@ def _esri_scan(table, esri):
         raise ValueError(f"{text}; a line for each row is needed")
     table = table.reshape(int(rows), int(columns))
     mark = esri.get("nodata_value", -9999.0)
-    missing = np.isclose(table, mark, rtol=1e-5, atol=0) if abs(mark) > 1e30 else table == mark  # printed with few digits
+    missing = (
+        np.isclose(table, mark, rtol=1e-5, atol=0) if abs(mark) > 1e30 else table == mark
+    )  # printed with few digits
     heights = np.where(missing, np.nan, table)
     sides = esri.get("dx", esri.get("cellsize")), esri.get("dy", esri.get("cellsize"))
     return Scan(heights, spacing=None if None in sides else sides)

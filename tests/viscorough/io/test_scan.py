@@ -65,6 +65,26 @@ def test_given_spacing_that_agrees_is_accepted(tmp_path):
     assert (indenter.spacing, indenter.row_spacing, indenter.length_unit) == (2000, 2000, "nm")
 
 
+def test_a_plain_spacing_is_not_taken_in_another_unit_than_that_of_x_and_y(tmp_path):
+    (tmp_path / "a.txt").write_text("# XY units: mm\n# Z units: um\n1 2\n3 4\n")
+    with pytest.raises(ValueError, match="heights are in um, x and y in mm; a spacing with a unit"):
+        read_heights(tmp_path / "a.txt", 0.5)
+    assert read_heights(tmp_path / "a.txt", [units.quantity("0.5 mm")] * 2).spacing == 500
+
+
+def test_positions_far_from_0_are_as_exact_as_their_precision():
+    northings = 5.4e6 + 0.5 * np.arange(9)
+    assert uniform_spacing("y", northings) == 0.5
+    assert uniform_spacing("y", northings.astype(np.float32)) == 0.5
+    assert uniform_spacing("y", (5e5 + 0.1 * np.arange(200)).astype(np.float32)) == pytest.approx(0.1, rel=3e-3)
+    jitter = np.array([0, 0.95, -0.95, 0.5, 0, 0.9, -0.9, 0, 0])
+    for positions in (2e6 + np.arange(9) + 0.4 * jitter, 5.4e6 + 3 * np.arange(9) + jitter):
+        with pytest.raises(ValueError, match="not uniform"):
+            uniform_spacing("y", positions)
+    with pytest.raises(ValueError, match=r"too coarse|not uniform"):
+        uniform_spacing("y", (5.4e6 + 0.7 * np.arange(9)).astype(np.float32))
+
+
 CONTRADICTIONS = {
     "spacing": ({}, {"spacing": 0.5}, "--spacing 0.5 um contradicts the file, in which rows are 1 um apart"),
     "unit": ({}, {"unit": "nm"}, "--unit nm contradicts the file, in which heights are in um"),

@@ -51,6 +51,54 @@ def test_feet_and_unknown_units_of_heights(tmp_path):
         read_heights(path)
 
 
+def test_survey_feet(tmp_path):
+    path = geotiff(tmp_path / "a.tif", PROJECTED, (3076, 9003), VERTICAL_METRES)
+    assert read_heights(path).spacing == pytest.approx(30 * 1200 / 3937, rel=1e-12)
+
+
+def gdal_metadata(*items):
+    text = "".join(f'<Item name="a" sample="0" role="{role}">{value}</Item>' for role, value in items)
+    return (42112, "s", 0, f"<GDALMetadata>{text}</GDALMetadata>", True)
+
+
+def test_scale_and_offset_of_gdal_hold_for_heights_and_not_for_marks(tmp_path):
+    stored = np.array([[10, 20, 30], [40, -99, 60]], dtype="i2")
+    tags = [gdal_metadata(("scale", 0.5), ("offset", -100), ("unittype", "m")), (NODATA, "s", 0, "-99", True)]
+    tifffile.imwrite(tmp_path / "a.tif", stored, extratags=tags)
+    indenter = read_heights(tmp_path / "a.tif", spacing=1)
+    np.testing.assert_array_equal(indenter.heights, [[-95, -90, -85], [-80, np.nan, -70]])
+    assert indenter.length_unit == "m"
+    keys = [1, 1, 0, 3, *(number for key, value in (PROJECTED, METRES, (4099, 9002)) for number in (key, 0, 1, value))]
+    tifffile.imwrite(tmp_path / "b.tif", stored, extratags=[*tags, (KEYS, "H", len(keys), keys, True)])
+    with pytest.raises(ValueError, match="heights are in foot and in m"):
+        read_heights(tmp_path / "b.tif", spacing=1)
+
+
+@pytest.mark.parametrize("keys", [[(2048, 4326)], [(2054, 9102)], [(1024, 32767), (2048, 4326)]])
+def test_degrees_without_a_model_are_refused(tmp_path, keys):
+    with pytest.raises(ValueError, match="degrees"):
+        read_heights(geotiff(tmp_path / "a.tif", *keys), unit="m")
+
+
+def imagej(path, **metadata):
+    tifffile.imwrite(path, HEIGHTS, imagej=True, resolution=(2.0, 4.0), metadata=metadata)
+    return path
+
+
+def test_units_and_calibration_of_imagej(tmp_path):
+    indenter = read_heights(imagej(tmp_path / "a.tif", unit="um", yunit="0.001 mm"), unit="um")
+    assert (indenter.spacing, indenter.row_spacing) == pytest.approx((0.5, 0.25), rel=1e-12)
+    for unit in ("px", "pixels", "dots"):
+        with pytest.raises(ValueError, match="--spacing is needed"):
+            read_heights(imagej(tmp_path / "b.tif", unit=unit), unit="um")
+    path = imagej(tmp_path / "c.tif", unit="um", cf=0, c0=5.0, c1=2.0, vunit="nm")
+    indenter = read_heights(path)
+    np.testing.assert_allclose(indenter.heights, 5 + 2 * HEIGHTS.astype(float), rtol=1e-15)
+    assert (indenter.spacing, indenter.length_unit) == (500, "nm")
+    with pytest.raises(ValueError, match="a linear calibration"):
+        read_heights(imagej(tmp_path / "d.tif", unit="um", cf=3, c0=5.0, c1=2.0), unit="um")
+
+
 def test_transformation_without_rotation(tmp_path):
     for off, name in ((0.0, "a.tif"), (1.0, "b.tif")):
         matrix = [2.0, off, 0, 0, 0, -3.0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1.0]

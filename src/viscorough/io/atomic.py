@@ -1,4 +1,7 @@
-"""Files written atomically: under a temporary name, which becomes the final one when the content is complete."""
+"""Files written atomically: under a temporary name, which becomes the final one when the content is complete.
+
+Also what files, read or written, must be.
+"""
 
 import contextlib
 import functools
@@ -17,6 +20,21 @@ import psutil
 def reason(error):
     """The message of an error, on one line."""
     return " ".join(str(getattr(error, "strerror", None) or error).split())
+
+
+def check_readable(path):
+    """Raise a one-line ValueError if a file to be read exists but is none whose bytes can be read to an end.
+
+    Opening a pipe waits for a writer, and a device may have no end. A file that does not exist, or may not be read, is
+    left to whoever opens it.
+    """
+    try:
+        mode = os.stat(path).st_mode
+    except (OSError, ValueError):  # a ValueError: no path can have that name
+        return
+    if not stat.S_ISREG(mode):
+        kind = "a pipe" if stat.S_ISFIFO(mode) else "a folder" if stat.S_ISDIR(mode) else "a device"
+        raise ValueError(f"{path}: not readable (it is {kind}); a regular file is needed")
 
 
 def check_output(path):

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from viscorough.io.atomic import reason
+from viscorough.io.atomic import check_readable, reason
 from viscorough.io.heights import npy_array
 
 
@@ -23,9 +23,8 @@ def read_columns(path, what, columns):
     if Path(path).suffix == ".npy":
         table = npy_array(path)
     else:
+        check_readable(path)
         try:
-            if Path(path).is_fifo():  # opening it would wait for a writer
-                raise ValueError("it is a pipe")
             lines = [line for line in Path(path).read_text(encoding="utf-8-sig").splitlines() if line.strip()]
             header = 1 if lines and not any(map(_starts_like_a_number, lines[0].split(","))) else 0
             table = np.loadtxt(lines[header:], delimiter=",", ndmin=2) if lines[header:] else np.empty((0, 0))

@@ -7,7 +7,7 @@ from pathlib import Path
 import yaml
 
 from viscorough import units
-from viscorough.io.atomic import reason
+from viscorough.io.atomic import check_readable, reason
 from viscorough.io.columns import read_columns
 from viscorough.viscous.media import (
     CreepTable,
@@ -106,9 +106,8 @@ class _Loader(yaml.SafeLoader):
 
 def _mapping(path):
     wanted = "one mapping of YAML with the kind of medium and its parameters is needed"
+    check_readable(path)
     try:
-        if not Path(path).is_file():
-            raise ValueError("it is no file" if Path(path).exists() else "there is no such file")
         if Path(path).stat().st_size > _LARGEST_FILE:
             raise ValueError("it is too large")
         content = yaml.load(Path(path).read_bytes(), Loader=_Loader)

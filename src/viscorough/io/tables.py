@@ -16,7 +16,7 @@ import numpy as np
 
 from viscorough.arrays import read_only
 from viscorough.io import netcdf
-from viscorough.io.atomic import atomic_write, reason
+from viscorough.io.atomic import atomic_write, check_readable, reason
 from viscorough.io.netcdf import Content, Variable
 
 _ATTRIBUTE = re.compile(r"# ?((?:column )?[A-Za-z]\w*): (.*)", re.ASCII)
@@ -63,9 +63,8 @@ def read(path):
 
     Raises a one-line ValueError if the file is missing or is no such table.
     """
+    check_readable(path)
     try:
-        if Path(path).is_fifo():  # opening it would wait for a writer
-            raise ValueError("it is a pipe")
         lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
         about = dict(filter(None, (_attribute(line) for line in lines if line.startswith("#"))))
         titles, *rows = csv.reader((line for line in lines if line.strip() and not line.startswith("#")), strict=True)

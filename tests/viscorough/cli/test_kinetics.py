@@ -233,8 +233,11 @@ BAD_OPTIONS = {
         ["--force", "1e-320", "--medium", "newtonian.yaml"],
         ", --medium newtonian.yaml: times overflow",
     ),
-    "missing medium": (["--force", "1", "--medium", "none.yaml"], "none.yaml: not readable (there is no such file)"),
-    "a folder": (["--force", "1", "--medium", "."], "not readable (it is no file)"),
+    "missing medium": (
+        ["--force", "1", "--medium", "none.yaml"],
+        "none.yaml: not readable (No such file or directory)",
+    ),
+    "a folder": (["--force", "1", "--medium", "."], "not readable (it is a folder); a regular file"),
     "missing history": (["--force-history", "none.csv", "--viscosity", "1"], "none.csv: not readable"),
     "history of another kind": (["--force-history", "curve.nc", "--viscosity", "1"], "read from .csv and .npy"),
     "times after the history": (

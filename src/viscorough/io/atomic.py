@@ -81,9 +81,22 @@ def atomic_write(path):
             temporary.chmod(stat.S_IMODE(target.stat().st_mode))
         os.replace(temporary, target)
     except (OSError, RuntimeError) as error:  # the NetCDF library raises RuntimeError where the disk is full
-        raise OSError(f"{path}: not written ({reason(error)}); room on a writable disk is needed") from error
+        cause = reason(_error_of_plain_writing(temporary) or error)
+        raise OSError(f"{path}: not written ({cause}); room on a writable disk is needed") from error
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def _error_of_plain_writing(path):
+    """The error where a file cannot be continued; the NetCDF library calls a full disk a denied permission."""
+    try:
+        with open(path, "ab") as file:
+            file.write(bytes(2**20))
+            file.flush()
+            os.fsync(file.fileno())
+    except OSError as error:
+        return error
+    return None
 
 
 @functools.cache

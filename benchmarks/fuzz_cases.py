@@ -161,14 +161,21 @@ def add_variable(draw, file, name, values):
         variable[...] = values.astype(object) if values.dtype.kind == "U" else values
 
 
+def convex_force(depth, stiffness):
+    """Forces of a curve whose slope between two levels is the mean of the stiffnesses there."""
+    mean = 0.5 * (np.append(0, stiffness[:-1]) + stiffness)
+    return np.cumsum(mean * np.diff(depth, prepend=0))
+
+
 @st.composite
 def curve_files(draw):
     """Files of loading curves, some with motion; with variables and attributes changed, added or removed."""
     levels = draw(st.integers(1, 6))
     random = np.random.default_rng(draw(st.integers(0, 2**32)))
-    steps = random.random((4, levels)) + 0.1
-    depth, force, stiffness, residual = np.cumsum(steps, axis=1) * draw(st.sampled_from([1.0, 1e-6, 1e150, 1e-160]))
-    count = np.arange(1, levels + 1)
+    depth, stiffness = np.cumsum(random.random((2, levels)) + 0.1, axis=1)
+    depth, stiffness = np.array([depth, stiffness]) * draw(st.sampled_from([1.0, 1e-6, 1e150, 1e-160]))
+    force = convex_force(depth, stiffness)
+    count, residual = np.arange(1, levels + 1), 1e-3 * random.random(levels)
     about = levels + 9, "boundary elements", 1e-3, 5, residual, draw(st.sampled_from(["1", "m", "um"]))
     content = curve_to_content(LoadingCurve(depth, force, stiffness, count, *about))
     if draw(st.booleans()):
@@ -220,11 +227,13 @@ def curve_bytes(variables, attributes):
 def curve_tables(draw):
     """Tables of loading curves, as the command line writes them; some with another column."""
     levels = draw(st.integers(1, 4))
-    numbers = np.cumsum(np.random.default_rng(draw(st.integers(0, 2**32))).random((4, levels)) + 0.1, axis=1)
-    header = draw(st.sampled_from(["depth (um),force (um2),stiffness (um),", "depth,force,stiffness,", "a,b,c,"]))
-    rows = [",".join(map(repr, [*row, i + 1, 0.5])) for i, row in enumerate(numbers[:3].T.tolist())]
+    depth, stiffness = np.cumsum(np.random.default_rng(draw(st.integers(0, 2**32))).random((2, levels)) + 0.1, axis=1)
+    headings = ["depth (um),force (um2),stiffness (um),", "depth [m],force [m2],stiffness [m],"]
+    headings += ["depth,force,stiffness,", "depth (um),force (nm2),stiffness (um),", "a,b,c,"]
+    numbers = np.array([depth, convex_force(depth, stiffness), stiffness]).T.tolist()
+    rows = [",".join(map(repr, [*row, i + 1, 5e-4])) for i, row in enumerate(numbers)]
     about = ["# elements: 9", "# operator_applications: 0", "# tolerance: 0.001", '# method: "made up"']
-    return "\n".join([*about, f"{header}contact_count,residual", *rows, ""]).encode()
+    return "\n".join([*about, f"{draw(st.sampled_from(headings))}contact_count,residual", *rows, ""]).encode()
 
 
 FIELDS = st.one_of(

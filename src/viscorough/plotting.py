@@ -13,6 +13,7 @@ from matplotlib.ticker import LogLocator, NullFormatter
 
 from viscorough import units
 from viscorough.io.atomic import atomic_write
+from viscorough.io.curves import STORED, curve_from_content, unstack_curves
 
 FORMATS = (".png", ".pdf", ".svg")
 _BLUE, _VERMILION = "#0072b2", "#d55e00"  # of Okabe and Ito, which can be told apart with any colour vision
@@ -65,6 +66,8 @@ def plot(content, path):
 
 def figure_of(content):
     """The matplotlib Figure of a Content; its kind follows from names and dimensions. Raises ValueError as `plot`."""
+    if set(STORED) <= set(content.variables):  # of a loading curve, also in files of motions that follow from one
+        (unstack_curves if "levels" in content.variables else curve_from_content)(content)
     numbers = {name: v for name, v in content.variables.items() if v.values.dtype.kind in "iuf" and v.values.size}
     for kind, names in _KINDS:
         together = set(names) <= set(numbers) and len({numbers[name].dimensions for name in names}) == 1
@@ -193,11 +196,17 @@ def _axis_label(variables, dimension):
 def _motion(variables, dimensions):
     if dimensions != 1:
         return None
-    figure, axes = _panels(2)
     time = variables["time"].values
-    for panel, name in zip(axes, ("depth", "velocity"), strict=True):
+    if not (np.diff(time) >= 0).all():
+        raise ValueError("time must not decrease; a file that viscorough wrote is needed")
+    along = variables["time"].dimensions
+    names = [name for name in ("depth", "velocity") if name in variables and variables[name].dimensions == along]
+    figure, axes = _panels(len(names))
+    for panel, name in zip(axes, names, strict=True):
         ends = [variables.get(f"{name}_{end}") for end in ("low", "high")]
         if None not in ends:  # an estimate
+            if {end.attributes.get("units") for end in ends} != {variables[name].attributes.get("units")}:
+                raise ValueError(f"{name} and its interval have different units; one is needed")
             panel.fill_between(time, *(end.values for end in ends), color=_BLUE, alpha=0.25, linewidth=0)
         _curve(panel, time, variables[name].values)
         _label(panel, _label_of(variables, "time"), _label_of(variables, name))
@@ -264,6 +273,6 @@ def _unit(variable):
 _KINDS = (
     (_fields, ("pressure",)),
     (_surface, ("heights",)),
-    (_motion, ("time", "depth", "velocity")),
+    (_motion, ("time", "depth")),
     (_loading_curve, ("depth", "force")),
 )

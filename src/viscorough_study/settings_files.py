@@ -11,6 +11,7 @@ from pathlib import Path
 
 import yaml
 
+from viscorough.io.atomic import check_readable
 from viscorough_study.settings import SettingsError
 
 
@@ -29,13 +30,17 @@ class _UniqueKeys(yaml.SafeLoader):
 def read_settings_file(path):
     """The mapping in a file; raises SettingsError with one line, which names the file and, if it can, the line."""
     try:
+        check_readable(path)
+    except ValueError as error:
+        raise SettingsError(str(error)) from None
+    try:
         text = Path(path).read_bytes().decode("utf-8-sig")
         settings = yaml.load(text, _UniqueKeys)
     except OSError as error:
         raise SettingsError(f"{path}: not readable ({error.strerror})") from None
     except UnicodeDecodeError as error:
         raise SettingsError(f"{path}: byte {error.start + 1} is not UTF-8 text; allowed: YAML in UTF-8") from None
-    except yaml.YAMLError as error:
+    except (yaml.YAMLError, ValueError) as error:
         raise SettingsError(f"{path}{_place(error)}: not valid YAML") from None
     if not isinstance(settings, dict):
         raise SettingsError(f"{path}: holds no settings; allowed: keys with values")

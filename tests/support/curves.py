@@ -8,14 +8,18 @@ from viscorough.loading_curve import LoadingCurve
 
 
 def random_curve(levels=7, seed=0, **changes):
-    """A LoadingCurve of increasing random numbers in full double precision, which describe no real contact."""
+    """A LoadingCurve of random numbers in full double precision, convex as those of growing contacts are."""
     random = np.random.default_rng(seed)
+    depth, stiffness = (np.cumsum(random.random(levels) + 0.1) * scale for scale in (1e-7, 1e-6))
+    before = np.append(0.0, stiffness)[:-1]
+    mean_stiffness = before + random.random(levels) * (stiffness - before)
+    elements = changes.get("elements", 1009)
     values = {
-        "depth": np.cumsum(random.random(levels) + 0.1) * 1e-7,
-        "force": np.cumsum(random.random(levels) + 0.1) * 1e-13,
-        "stiffness": np.cumsum(random.random(levels) + 0.1) * 1e-6,
-        "contact_count": np.cumsum(random.integers(1, 9, levels)),
-        "elements": 1009,
+        "depth": depth,
+        "force": np.cumsum(mean_stiffness * np.diff(depth, prepend=0)),
+        "stiffness": stiffness,
+        "contact_count": np.sort(random.integers(1, elements + 1, levels)),
+        "elements": elements,
         "method": "boundary elements",
         "tolerance": 1e-3 / 3,
         "operator_applications": 41,

@@ -1,5 +1,9 @@
 """Files of settings that cannot be read: one line with file and line."""
 
+import os
+import subprocess
+import sys
+
 import pytest
 
 from viscorough_study.settings import SettingsError
@@ -16,6 +20,7 @@ BROKEN = {
     "list": (b"- discs\n", "mine.yaml: holds no settings; allowed: keys with values"),
     "empty": (b"", "mine.yaml: holds no settings"),
     "tag": (b"seed: !!python/object:os.system 1\n", "mine.yaml, line 1, column 7: could not determine a constructor"),
+    "no date": (b"seed: 2013-13-13\n", "mine.yaml: not valid YAML"),
     "unhashable key": (b"? [discs]\n: 1\n", "mine.yaml, line 1, column 3: found unhashable key"),
 }
 
@@ -34,6 +39,14 @@ def test_broken_file_is_one_line(tmp_path, monkeypatch, capsys, content, message
 def test_missing_file():
     with pytest.raises(SettingsError, match=r"^nowhere.yaml: not readable \(No such file or directory\)$"):
         read_settings_file("nowhere.yaml")
+
+
+def test_pipe_is_not_waited_for(tmp_path):
+    os.mkfifo(tmp_path / "pipe.yaml")
+    command = [sys.executable, "-m", "viscorough_study.settings_files", "pipe.yaml"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False)
+    assert done.returncode == 2
+    assert done.stderr == ("Error in the settings: pipe.yaml: not readable (it is a pipe); a regular file is needed\n")
 
 
 def test_readable_file(tmp_path, capsys):

@@ -83,7 +83,7 @@ def kinetics(curve, force, force_history, viscosity, medium, times, output):
         text = str(error)
         raise ValueError(text if medium and text.startswith(str(medium)) else f"{curve}: {text}") from error
     if force_history is not None:
-        history, about["force"] = _history(force_history), printable_name(force_history)
+        history, about["force"] = _history(force_history, loading.length_unit), printable_name(force_history)
     else:
         history = about["force"] = number_in("N", force, loading.length_unit, "--force")
     motion = correspondence.kinetics(loading, history, law, times)
@@ -121,12 +121,12 @@ def _medium(viscosity, medium, length_unit):
     }
 
 
-def _history(path):
+def _history(path, length_unit):
     """The ForceHistory in a file. Raises ValueError if it holds none."""
     from viscorough.io.motion import read_force_history
     from viscorough.viscous.correspondence import impulses
 
-    times, force = read_force_history(path)
+    times, force = read_force_history(path, length_unit)
     try:
         return impulses(force, times)
     except ValueError as error:

@@ -128,7 +128,7 @@ def _in_viscous_medium(indenter, method, viscosity, force, times, force_history,
     from viscorough.io import motion
 
     if force_history:
-        history = _read_history(force_history)
+        history = _read_history(force_history, indenter.length_unit)
         steps = np.unique(history.impulse[history.impulse > 0]) / viscosity
         integrated = _integrate(indenter, method, steps, **options)
         return motion.integration_under_history(integrated, history, viscosity)
@@ -146,7 +146,7 @@ def _in_medium(indenter, method, medium, force, times, force_history, *, until_f
 
     law = read_medium(medium, indenter.length_unit)
     if force_history:
-        history = _read_history(force_history)
+        history = _read_history(force_history, indenter.length_unit)
         times, forces = history.times, history.force
     else:
         times, forces = [0.0, *times], [force] * (1 + len(times))
@@ -159,12 +159,12 @@ def _in_medium(indenter, method, medium, force, times, force_history, *, until_f
     return motion.medium_motion_to_content(moved), {"medium": printable_name(medium)}
 
 
-def _read_history(path):
+def _read_history(path, length_unit):
     """The ForceHistory in a file. Raises ValueError if the file holds none, or if the force is zero at all times."""
     from viscorough.io.motion import read_force_history
     from viscorough.viscous.correspondence import impulses
 
-    times, force = read_force_history(path)
+    times, force = read_force_history(path, length_unit)
     try:
         history = impulses(force, times)
         if not history.impulse[-1] > 0:

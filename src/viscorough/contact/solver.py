@@ -100,11 +100,14 @@ class ContactSolver:
         contact : the last one that was solved
         depth, pressure_sum : u and ΣP, reduced; for a dense solution, those of the contact
 
-        Its residual may be up to twice the tolerance.
+        Its residual may be up to twice the tolerance. It includes a bound on the overlap of elements outside the box of
+        the grid: the depth beyond the initial gap.
         """
         if contact.fields is None:
             return replace(contact, reduced_depth=depth, pressure_sum=pressure_sum)
-        return self._grid.settled(contact, depth, pressure_sum)
+        settled = self._grid.settled(contact, depth, pressure_sum)
+        overlap = depth - self.elements.initial_gap[self._reach] if self._reach < self.elements.count else 0.0
+        return replace(settled, residual=max(settled.residual, overlap / depth))
 
     def advance(self, contact, depth):
         """The ContactState at a depth [length] larger than that of `contact`.

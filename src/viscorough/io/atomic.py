@@ -1,4 +1,7 @@
-"""Files written atomically: under a temporary name, which becomes the final one when the content is complete."""
+"""Files written atomically: under a temporary name, which becomes the final one when the content is complete.
+
+Also what files, read or written, must be.
+"""
 
 import contextlib
 import functools
@@ -17,6 +20,21 @@ import psutil
 def reason(error):
     """The message of an error, on one line."""
     return " ".join(str(getattr(error, "strerror", None) or error).split())
+
+
+def check_readable(path):
+    """Raise a one-line ValueError if a file to be read exists but is none whose bytes can be read to an end.
+
+    Opening a pipe waits for a writer, and a device may have no end. A file that does not exist, or may not be read, is
+    left to whoever opens it.
+    """
+    try:
+        mode = os.stat(path).st_mode
+    except (OSError, ValueError):  # a ValueError: no path can have that name
+        return
+    if not stat.S_ISREG(mode):
+        kind = "a pipe" if stat.S_ISFIFO(mode) else "a folder" if stat.S_ISDIR(mode) else "a device"
+        raise ValueError(f"{path}: not readable (it is {kind}); a regular file is needed")
 
 
 def check_output(path):
@@ -63,9 +81,22 @@ def atomic_write(path):
             temporary.chmod(stat.S_IMODE(target.stat().st_mode))
         os.replace(temporary, target)
     except (OSError, RuntimeError) as error:  # the NetCDF library raises RuntimeError where the disk is full
-        raise OSError(f"{path}: not written ({reason(error)}); room on a writable disk is needed") from error
+        cause = reason(_error_of_plain_writing(temporary) or error)
+        raise OSError(f"{path}: not written ({cause}); room on a writable disk is needed") from error
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def _error_of_plain_writing(path):
+    """The error where a file cannot be continued; the NetCDF library calls a full disk a denied permission."""
+    try:
+        with open(path, "ab") as file:
+            file.write(bytes(2**20))
+            file.flush()
+            os.fsync(file.fileno())
+    except OSError as error:
+        return error
+    return None
 
 
 @functools.cache

@@ -1,40 +1,114 @@
 """Two columns of numbers read from a file: force histories and tables of creep."""
 
 import contextlib
+import itertools
 import re
 from pathlib import Path
 
 import numpy as np
 
-from viscorough.io.atomic import reason
+from viscorough import units
+from viscorough.io.atomic import check_readable, reason
 from viscorough.io.heights import npy_array
 
+# A unit in a heading: in brackets at its end; behind a slash or "in"; or a common one as its last word, as in t_ms.
+_UNITS = [
+    re.compile(r".*[\[(]([^\[\]()]*)[\])]"),
+    re.compile(r".*?(?:/|\bin\s)(.*)"),
+    re.compile(
+        r"(?:.*[\s_:;])?((?:[kMmunpµμ]|kilo|milli|micro|nano)?(?:[sN]|sec|seconds?|newtons?)"
+        r"|min|minutes?|h|hours?|[kMG]?Pa\^?-1)"
+    ),
+]
+_LETTER = re.compile(r"[^\W\d_]")
+_TWO_NAMES = re.compile(r"# *[^\W\d_][^,]*, *[^\W\d_][^,]*")
+# What spreadsheets write for a number that is missing, such as #N/A, looks like a comment.
+_MISSING = re.compile(r"#[A-Z][^\s,]*,\s*[-+.\d]")
 
-def read_columns(path, what, columns):
+
+def read_columns(path, what, columns, length_unit):
     """Two columns in a .csv or .npy file, arrays of shape (rows,) with at least two rows.
 
-    The first row of a .csv file may be a header, in which no field is or starts like a number, nan or infinity.
+    The first row of a .csv file may be a heading, in which no field is or starts like a number, nan or infinity. Lines
+    that start with "#" are comments; two names above the first row are a heading there, too. Where a heading states
+    units, as in t [ms], t (ms), t/ms, t in ms or t_ms, numbers are converted.
 
-    what : what is read; columns : what the columns hold; both for messages
+    what : what is read, for messages
+    columns : {what a column holds: unit to which it is converted}
+    length_unit : "1" if it is not known. Numbers are then in consistent units of the user's choice, and headings that
+        state units are refused
+
     Raises a one-line ValueError that names the file and what is wrong.
     """
     if Path(path).suffix not in (".npy", ".csv"):
         raise ValueError(f"{path}: unknown kind of file; {what} is read from .csv and .npy")
+    names, factors = " and ".join(columns), (1.0, 1.0)
     if Path(path).suffix == ".npy":
         table = npy_array(path)
     else:
+        check_readable(path)
         try:
-            if Path(path).is_fifo():  # opening it would wait for a writer
-                raise ValueError("it is a pipe")
-            lines = [line for line in Path(path).read_text(encoding="utf-8-sig").splitlines() if line.strip()]
-            header = 1 if lines and not any(map(_starts_like_a_number, lines[0].split(","))) else 0
-            table = np.loadtxt(lines[header:], delimiter=",", ndmin=2) if lines[header:] else np.empty((0, 0))
+            table, factors = _rows_and_factors(path, columns.values(), length_unit)
         except (OSError, ValueError) as error:
-            text = f"{path}: not readable ({reason(error)}); two columns, {columns}, are needed"
+            text = f"{path}: not readable ({reason(error)}); two columns, {names}, are needed"
             raise ValueError(text) from error
     if table.ndim != 2 or table.shape[1] != 2 or table.shape[0] < 2 or table.dtype.kind not in "iuf":
-        raise ValueError(f"{path}: has the shape {table.shape}; two columns, {columns}, and two rows are needed")
-    return table[:, 0].astype(float), table[:, 1].astype(float)
+        raise ValueError(f"{path}: has the shape {table.shape}; two columns, {names}, and two rows are needed")
+    return tuple(table[:, i].astype(float) * factors[i] for i in range(2))
+
+
+def _rows_and_factors(path, wanted, length_unit):
+    """The numbers in a .csv file, and the factors that convert its columns to the units wanted."""
+    lines = [line.strip() for line in Path(path).read_text(encoding="utf-8-sig").splitlines() if line.strip()]
+    if missing := next(filter(_MISSING.match, lines), None):
+        raise ValueError(f"{missing[:40]!r} is no row of two numbers")
+    above = [*itertools.takewhile(_is_comment, lines)]
+    rows = [*itertools.filterfalse(_is_comment, lines)]
+    if rows and not any(map(_starts_like_a_number, rows[0].split(","))):
+        heading = rows.pop(0)
+    else:
+        heading = above[-1] if above and _TWO_NAMES.fullmatch(above[-1]) else None
+    table = np.loadtxt(rows, delimiter=",", ndmin=2) if rows else np.empty((0, 0))
+    _check_comments([line for line in lines if _is_comment(line) and line is not heading], wanted)
+    return table, _factors(heading, wanted, length_unit) if heading else (1.0, 1.0)
+
+
+def _is_comment(line):
+    return line.startswith("#")
+
+
+def _factors(heading, wanted, length_unit):
+    """Factors that convert the columns from the units in their heading to those wanted."""
+    fields = [field.strip('# \t"') for field in heading.split(",")]
+    if len(fields) != 2 or fields[0] == fields[1] or not all(map(_LETTER.search, fields)):
+        raise ValueError(f"{heading[:40]!r} is neither two numbers nor the names of two columns")
+    factors = [1.0, 1.0]
+    for i, (field, unit) in enumerate(zip(fields, wanted, strict=True)):
+        stated = next(filter(None, (pattern.fullmatch(field) for pattern in _UNITS)), None)
+        if stated and length_unit == units.UNKNOWN:
+            text = "states a unit, but the unit of length is not known; --unit where the heights are read states it"
+            raise ValueError(f"the heading {field[:40]!r} {text}")
+        if stated:
+            try:
+                factors[i] = units.factor(stated[1].strip(), unit)
+            except ValueError as error:
+                raise ValueError(f"the heading {field[:40]!r}: {error}") from error
+    return factors
+
+
+def _check_comments(comments, wanted):
+    """Raise ValueError if a comment ends with a unit to which numbers would have to be converted."""
+    for comment, pattern in itertools.product(comments, _UNITS):
+        stated = pattern.fullmatch(comment.strip("# "))
+        if stated and any(_is_another(stated[1].strip(), unit) for unit in wanted):
+            raise ValueError(f"the comment {comment[:40]!r} states a unit; a heading of both columns is needed for it")
+
+
+def _is_another(unit, wanted):
+    """Whether a text is a unit that measures the same as that wanted, but another one."""
+    with contextlib.suppress(ValueError):
+        return units.factor(unit, wanted) != 1
+    return False
 
 
 def _starts_like_a_number(field):

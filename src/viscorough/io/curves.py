@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from viscorough import units
 from viscorough.io.netcdf import Content, Variable
 from viscorough.loading_curve import LoadingCurve
 from viscorough.summaries import unit_power
@@ -10,6 +11,11 @@ COMMENT = (
     "Rigid indenter on an incompressible half-space, no friction, no adhesion. Depth is from first contact, "
     "force is F/G, stiffness is d(F/G)/du. With viscosity for G and impulse for F it is the viscous solution."
 )
+_NEEDED = "a loading curve of viscorough indent is needed"
+_ROUNDING = 1e-6  # relative; of numbers that were stored in single precision
+# Relative decrease of contact counts and stiffnesses that is allowed for, over the tolerance; where levels are close to
+# each other, they do decrease by up to the tolerance.
+_LOST = 10
 # Variables over levels: long_name, and the power of the length unit that is their unit.
 OVER_LEVELS = {
     "depth": ("depth of indentation u", 1),
@@ -45,28 +51,87 @@ def curve_to_content(curve):
 
 
 def curve_from_content(content):
-    """The LoadingCurve in a Content made by curve_to_content. Raises ValueError if it does not hold a valid one."""
+    """The LoadingCurve in a Content made by curve_to_content.
+
+    Raises ValueError if it holds none, for units that do not follow from that of the depth, and for numbers that no
+    curve can have, within its tolerance.
+    """
     level_fields, curve_fields = {}, {}
-    for name in STORED:
+    for name in OVER_LEVELS:
         variable = content.variables.get(name)
+        if variable is None and name not in STORED:
+            continue
         if variable is None or variable.dimensions != ("level",) or variable.values.dtype.kind not in "iuf":
-            raise ValueError(f"no numbers {name}(level); a loading curve of viscorough indent is needed")
+            raise ValueError(f"no numbers {name}(level); {_NEEDED}")
+        if not np.isfinite(variable.values).all():
+            raise ValueError(f"{name} must be finite at every level; {_NEEDED}")
         level_fields[name] = variable.values
     for name, (convert, _) in PER_CURVE.items():
         if name not in content.attributes:
-            raise ValueError(f"no attribute {name}; a loading curve of viscorough indent is needed")
+            raise ValueError(f"no attribute {name}; {_NEEDED}")
         curve_fields[name] = _converted(name, content.attributes[name], convert)
-    for name in OVER_LEVELS:
-        values = content.variables[name].values if name in content.variables else np.zeros(0)
-        if values.dtype.kind not in "iuf" or not np.isfinite(values).all():
-            raise ValueError(f"{name} must be finite at every level; a loading curve of viscorough indent is needed")
-    return LoadingCurve(**level_fields, **curve_fields, length_unit=_length_unit(content))
+    fraction = level_fields.pop("contact_fraction", None)
+    curve = LoadingCurve(**level_fields, **curve_fields, length_unit=_length_unit(content))
+    _check_contact(curve)
+    if fraction is not None and not np.allclose(fraction, curve.contact_fraction, rtol=_ROUNDING, atol=0):
+        raise ValueError(f"contact_fraction must be contact_count over {curve.elements} elements; {_NEEDED}")
+    return curve
 
 
 def _length_unit(content):
-    """Unit of the depth in a Content; "1" if it states none."""
-    unit = content.variables["depth"].attributes.get("units")
-    return unit if isinstance(unit, str) and unit.strip() else "1"
+    """Unit of the depth in a Content; "1" if it states none. Raises ValueError if the other units contradict it."""
+    length = _unit_of("depth", content)
+    if length != units.UNKNOWN:
+        units.metres(length)  # raises ValueError if it is not a length
+    for name in OVER_LEVELS:
+        if name not in content.variables:
+            continue
+        unit, needed = _unit_of(name, content), unit_power(length, OVER_LEVELS[name][1])
+        try:
+            agrees = unit == needed or units.factor(unit, needed) == 1
+        except ValueError:
+            agrees = False
+        if not agrees:
+            raise ValueError(f"{name} is in {unit!r} and depth in {length!r}; {needed!r} is needed for {name}")
+    return length
+
+
+def _unit_of(name, content):
+    """Unit of a variable as the Content states it; "1" if it states none."""
+    unit = content.variables[name].attributes.get("units", units.UNKNOWN)
+    if not isinstance(unit, str):
+        raise ValueError(f"{name} has the units {unit!r}; text is needed")
+    return unit.strip() or units.UNKNOWN
+
+
+def _check_contact(curve):
+    """Raise ValueError unless the numbers of a curve can be those of a growing contact, within its tolerance.
+
+    Contact only grows, so that the force is a convex function of the depth: between two levels its mean slope is not
+    below the stiffness at the first one and not above that at the second one.
+    """
+    if not curve.tolerance < 1:
+        raise ValueError(f"attribute tolerance is {curve.tolerance:g}; a number below 1 is needed")
+    count, stiffness = curve.contact_count.astype(float), curve.stiffness
+    tolerance = max(curve.tolerance, _ROUNDING)
+    depth_steps, force_steps = (np.diff(values, prepend=0) for values in (curve.depth, curve.force))
+    with np.errstate(over="ignore", invalid="ignore"):
+        slack = tolerance * stiffness * curve.depth
+        too_soft = force_steps < np.append(0, stiffness[:-1]) * depth_steps - slack
+        too_stiff = force_steps > stiffness * depth_steps + slack
+    wrong = {
+        f"contact_count must be a whole number from 1 to {curve.elements}": (count != np.rint(count))
+        | (count < 1)
+        | (count > curve.elements),
+        "contact_count must not decrease": np.diff(count, prepend=0) < -_LOST * tolerance * count,
+        f"residual must be from 0 to the tolerance, {curve.tolerance:g}": (curve.residual < 0)
+        | (curve.residual > tolerance),
+        "stiffness must not decrease": np.diff(stiffness, prepend=0) < -_LOST * tolerance * stiffness,
+        "force must rise with the depth as the stiffness requires": too_soft | too_stiff,
+    }
+    for needed, where in wrong.items():
+        if where.any():
+            raise ValueError(f"{needed} (level {np.argmax(where)}); {_NEEDED}")
 
 
 def _converted(name, value, kind):
@@ -109,7 +174,9 @@ def stack_curves(curves):
 
 
 def unstack_curves(content):
-    """The LoadingCurves in a Content made by stack_curves, in order. Raises KeyError if a variable is missing."""
+    """The LoadingCurves in a Content made by stack_curves, in order. Raises ValueError as curve_from_content."""
+    if missing := [name for name in (*STORED, *PER_CURVE, "levels") if name not in content.variables]:
+        raise ValueError(f"no variable {missing[0]}; loading curves of viscorough reduce are needed")
     values = {name: content.variables[name].values for name in (*STORED, *PER_CURVE, "levels")}
     length_unit, curves = _length_unit(content), []
     for index, levels in enumerate(values["levels"].tolist()):
@@ -117,4 +184,5 @@ def unstack_curves(content):
         level_fields["contact_count"] = level_fields["contact_count"].astype(int)  # stored as floats because of nan
         curve_fields = {name: convert(values[name][index]) for name, (convert, _) in PER_CURVE.items()}
         curves.append(LoadingCurve(**level_fields, **curve_fields, length_unit=length_unit))
+        _check_contact(curves[-1])
     return curves

@@ -8,7 +8,7 @@ import numpy as np
 from viscorough import units
 from viscorough.errors import AccuracyWarning
 from viscorough.io import netcdf
-from viscorough.io.atomic import reason
+from viscorough.io.atomic import check_readable, reason
 from viscorough.io.scan import Scan, to_indenter, uniform_spacing
 from viscorough.io.text import is_binary, read_text
 from viscorough.io.unpacking import unpacked
@@ -80,6 +80,7 @@ def _read_scan(path, channel):
 
 def npy_array(path):
     """The array in a .npy file. Raises a one-line ValueError if it cannot be read; pickled objects are refused."""
+    check_readable(path)
     try:
         with open(path, "rb") as file:
             return np.lib.format.read_array(file, allow_pickle=False)

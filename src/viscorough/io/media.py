@@ -7,7 +7,7 @@ from pathlib import Path
 import yaml
 
 from viscorough import units
-from viscorough.io.atomic import reason
+from viscorough.io.atomic import check_readable, reason
 from viscorough.io.columns import read_columns
 from viscorough.viscous.media import (
     CreepTable,
@@ -56,7 +56,8 @@ def medium_from_mapping(mapping, length_unit="1", *, folder=Path()):
     mapping : `kind`, one of KINDS, and all keys of that kind. Where the unit of length is known, plain moduli are in
         Pa, viscosities in Pa s and times in s, and any of them may be given with a unit ("2 MPa"), but for the
         springpot's; where it is "1", plain numbers are in consistent units of the user's choice, and no others are
-        allowed. A creep table names a file of two columns, times and compliances (1/Pa), relative to `folder`
+        allowed. A creep table names a file of two columns, times and compliances, in s and 1/Pa or in the units that
+        its heading states, relative to `folder`
 
     Raises a one-line ValueError that says what is wrong.
     """
@@ -69,7 +70,7 @@ def medium_from_mapping(mapping, length_unit="1", *, folder=Path()):
     if missing := [key for key in keys if key not in mapping]:
         raise ValueError(f"lacks {', '.join(missing)}; {kind} needs {', '.join(keys)}")
     if make is CreepTable:
-        medium = _table(folder, mapping["file"])
+        medium = _table(folder, mapping["file"], length_unit)
     else:
         medium = make(**{key: _values(key, mapping[key], keys[key], length_unit) for key in keys})
     return medium if length_unit == "1" else scaled(medium, units.metres(length_unit) ** 2)
@@ -106,9 +107,8 @@ class _Loader(yaml.SafeLoader):
 
 def _mapping(path):
     wanted = "one mapping of YAML with the kind of medium and its parameters is needed"
+    check_readable(path)
     try:
-        if not Path(path).is_file():
-            raise ValueError("it is no file" if Path(path).exists() else "there is no such file")
         if Path(path).stat().st_size > _LARGEST_FILE:
             raise ValueError("it is too large")
         content = yaml.load(Path(path).read_bytes(), Loader=_Loader)
@@ -137,11 +137,11 @@ def _values(key, value, unit, length_unit):
         raise ValueError(f"{key}: {error}; allowed: a number above 0, plain or with a unit such as {unit}") from error
 
 
-def _table(folder, name):
+def _table(folder, name, length_unit):
     if not isinstance(name, str) or not name or "\0" in name:
         raise ValueError(f"file: {_shown(name)}; allowed: the name of a .csv or .npy file")
-    times, compliances = read_columns(folder / name, "a creep table", "time and compliance")
-    return CreepTable(times, compliances)
+    columns = {"time": TIME, "compliance": "1/Pa"}
+    return CreepTable(*read_columns(folder / name, "a creep table", columns, length_unit))
 
 
 def _shown(value):

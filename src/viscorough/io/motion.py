@@ -128,13 +128,15 @@ def estimate_to_content(estimate, length_unit="1"):
     return Content(variables, {"title": "Penetration of a self-affine indenter by the calibrated law, no simulation"})
 
 
-def read_force_history(path):
+def read_force_history(path, length_unit="1"):
     """Times and forces, both of shape (times,), in a file of two columns: .csv or .npy (io.columns.read_columns).
+
+    length_unit : of the indenter. If it is known, numbers are converted to s and N from the units that a heading states
 
     Raises a one-line ValueError that names the file and what is wrong. Whether the numbers are a force history is
     checked by viscous.correspondence.impulses.
     """
-    return read_columns(path, "a force history", "time and force")
+    return read_columns(path, "a force history", {"time": "s", "force": "N"}, length_unit)
 
 
 def kinetics_to_content(motion, force, length_unit="1"):

@@ -2,7 +2,6 @@
 
 from contextlib import contextmanager
 from dataclasses import dataclass
-from pathlib import Path
 from typing import NamedTuple
 
 import netCDF4
@@ -10,7 +9,7 @@ import numpy as np
 
 from viscorough import __version__
 from viscorough.arrays import read_only
-from viscorough.io.atomic import atomic_write, reason
+from viscorough.io.atomic import atomic_write, check_readable, reason
 from viscorough.io.unpacking import STORAGE, unpacked
 
 COMPRESSED_FROM = 4096  # number of values; for fewer, chunks cost more than compression saves
@@ -83,9 +82,8 @@ def _write_variable(file, name, dimensions, values, attributes):
 @contextmanager
 def faults_named(path):
     """Context in which a file is read: any fault of it becomes a one-line ValueError that names it."""
+    check_readable(path)
     try:
-        if Path(path).is_fifo():  # opening it would wait for a writer
-            raise ValueError("it is a pipe")
         open(path, "rb").close()  # its message is clearer than that of the NetCDF library
         yield
     except (OSError, RuntimeError, ValueError, LookupError, TypeError, AttributeError) as error:

@@ -8,6 +8,7 @@ parentheses, and a row for each level, in full precision. Where a value is missi
 import contextlib
 import csv
 import io
+import itertools
 import json
 import re
 from pathlib import Path
@@ -16,11 +17,11 @@ import numpy as np
 
 from viscorough.arrays import read_only
 from viscorough.io import netcdf
-from viscorough.io.atomic import atomic_write, reason
+from viscorough.io.atomic import atomic_write, check_readable, reason
 from viscorough.io.netcdf import Content, Variable
 
 _ATTRIBUTE = re.compile(r"# ?((?:column )?[A-Za-z]\w*): (.*)", re.ASCII)
-_COLUMN = re.compile(r"(\w+)(?: \((.*)\))?")
+_COLUMN = re.compile(r"(\w+)\s*(?:\((.*)\)|\[(.*)\])?")
 
 
 def is_table(path):
@@ -63,21 +64,24 @@ def read(path):
 
     Raises a one-line ValueError if the file is missing or is no such table.
     """
+    check_readable(path)
     try:
-        if Path(path).is_fifo():  # opening it would wait for a writer
-            raise ValueError("it is a pipe")
         lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
         about = dict(filter(None, (_attribute(line) for line in lines if line.startswith("#"))))
-        titles, *rows = csv.reader((line for line in lines if line.strip() and not line.startswith("#")), strict=True)
+        table = itertools.dropwhile(lambda line: line.startswith("#"), filter(str.strip, lines))
+        titles, *rows = csv.reader(table, strict=True)
         if not rows or any(len(row) != len(titles) for row in rows):
             raise ValueError(f"not every row has {len(titles)} fields, or there is none")
         variables = {}
         for title, cells in zip(titles, zip(*rows, strict=True), strict=True):
-            name, unit = _COLUMN.fullmatch(title.strip()).groups()
-            attributes = {"long_name": about.pop(f"column {name}", name), "units": unit or "1"}
+            match = _COLUMN.fullmatch(title.strip())
+            if match is None or match[1] in variables:
+                raise ValueError(f"{title[:40]!r} is not a name that no other column has, with or without (unit)")
+            name, unit = match[1], match[2] or match[3] or "1"
+            attributes = {"long_name": about.pop(f"column {name}", name), "units": unit}
             variables[name] = Variable(("level",), _numbers(cells), attributes)
         return Content(variables, about)
-    except (OSError, ValueError, AttributeError, csv.Error) as error:
+    except (OSError, ValueError, csv.Error) as error:
         raise ValueError(f"{path}: not readable ({reason(error)}); a whole table of viscorough is needed") from error
 
 

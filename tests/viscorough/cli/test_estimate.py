@@ -109,7 +109,7 @@ def test_mistakes_are_one_line(here, capsys, arguments, what):
         ("kind: newtonian\nviscosity: 1 Pa s", [], "since the unit of length is not known"),
         ("kind: creep_table\nfile: J.csv", [], "beyond the last time of the creep table"),
         ("kind: newtonian\nviscosity: 1.0e+6", ["-o", "medium.yaml"], "would replace the medium"),
-        ("", ["--medium", "none.yaml"], "none.yaml: not readable (there is no such file)"),
+        ("", ["--medium", "none.yaml"], "none.yaml: not readable (No such file or directory)"),
     ],
 )
 def test_mistakes_in_media_are_one_line(here, capsys, text, options, what):

@@ -62,17 +62,17 @@ def complaint(folder, *arguments):
 @pytest.mark.parametrize("size", [100, 8000])
 def test_full_disk_leaves_the_older_file(here, size):
     line = complaint(here, sys.executable, "-c", NO_LARGE_FILES, str(size), VISCOROUGH, *INDENT)
-    assert line.startswith("viscorough indent: out.nc: not written (")
+    assert line == "viscorough indent: out.nc: not written (File too large); room on a writable disk is needed\n"
 
 
 @pytest.mark.parametrize("arguments", [INDENT, KINETICS], ids=["indent", "kinetics"])
-@pytest.mark.parametrize("room", [0, 8192])
+@pytest.mark.parametrize("room", [0, 4096, 8192])
 def test_full_disk_in_a_namespace(here, arguments, room):
     unshare = namespace("--user", "--map-root-user", "--mount")
     (here / "disk").mkdir()
     line = complaint(here, *unshare, "sh", "-c", FULL_DISK, "sh", str(room), VISCOROUGH, *arguments)
-    assert line.startswith(f"viscorough {arguments[0]}: out.nc: not written (")
-    assert "room on a writable disk is needed" in line
+    reason = "No space left on device"
+    assert line == f"viscorough {arguments[0]}: out.nc: not written ({reason}); room on a writable disk is needed\n"
 
 
 # ---- damaged files
@@ -260,13 +260,38 @@ def test_file_that_cannot_be_opened_in_time_is_one_line():
     assert len(done.stderr.splitlines()) == 1
 
 
-@pytest.mark.parametrize("command", [KINETICS, ["indent", "curve.nc", *INDENT[2:]]], ids=["kinetics", "indent"])
-def test_pipe_in_the_place_of_a_file_is_refused(here, command):
-    """Opening it would wait for somebody to write into it."""
-    (here / "curve.nc").unlink()
-    os.mkfifo(here / "curve.nc")
-    done = subprocess.run([VISCOROUGH, *command], cwd=here, capture_output=True, text=True, timeout=20, check=False)
-    assert done.returncode == 2
-    assert done.stderr == (
-        f"viscorough {command[0]}: curve.nc: not readable (it is a pipe); a whole NetCDF file is needed\n"
-    )
+# Commands that read FILE, by its suffix.
+READING = {
+    ".nc": [["kinetics", "FILE", *KINETICS[2:]], ["indent", "FILE", *INDENT[2:]], ["plot", "FILE", "-o", "out.png"]],
+    ".csv": [
+        ["kinetics", "FILE", *KINETICS[2:]],
+        ["kinetics", "curve.nc", "--force-history", "FILE", *KINETICS[4:]],
+        ["kinetics", "curve.nc", "--force", "1", "--medium", "of.csv.yaml", "-o", "out.nc"],
+    ],
+    ".npy": [
+        ["indent", "FILE", *INDENT[2:]],
+        ["reduce", "FILE", *INDENT[2:]],
+        ["kinetics", "curve.nc", "--force-history", "FILE", *KINETICS[4:]],
+        ["kinetics", "curve.nc", "--force", "1", "--medium", "of.npy.yaml", "-o", "out.nc"],
+    ],
+    ".yaml": [["kinetics", "curve.nc", "--force", "1", "--medium", "FILE", "-o", "out.nc"]],
+}
+
+
+@pytest.mark.parametrize("suffix", READING)
+def test_what_is_no_regular_file_is_refused(here, suffix):
+    """Opening a pipe would wait for somebody to write into it, and a device may have no end."""
+    os.mkfifo(here / f"pipe{suffix}")
+    (here / f"device{suffix}").symlink_to("/dev/zero")
+    (here / f"folder{suffix}").mkdir()
+    for kind in ("pipe", "device", "folder"):
+        name, script = f"{kind}{suffix}", "import sys; from viscorough.cli import main"
+        (here / f"of{suffix}.yaml").write_text(f"{{kind: creep_table, file: {name}}}")
+        commands = [[word.replace("FILE", name) for word in command] for command in READING[suffix]]
+        script += "".join(f"; assert main({command}) == 2" for command in commands)
+        command = [sys.executable, "-c", script]
+        done = subprocess.run(command, cwd=here, capture_output=True, text=True, timeout=60, check=False)
+        assert (done.returncode, done.stdout) == (0, ""), done.stderr
+        lines = done.stderr.splitlines()
+        assert len(lines) == len(commands)
+        assert all(f"{name}: not readable (it is a {kind}); a regular file is needed" in line for line in lines), lines

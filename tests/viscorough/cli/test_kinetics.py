@@ -6,7 +6,7 @@ import pytest
 from support.command_line import sphere_heights
 from support.faults import contents
 from viscorough import cli
-from viscorough.io import netcdf
+from viscorough.io import netcdf, tables
 from viscorough.io.curves import curve_from_content
 from viscorough.viscous.correspondence import impulses, kinetics
 from viscorough.viscous.media import CreepTable, KelvinVoigt, Maxwell, Newtonian, Prony, Springpot, StandardLinearSolid
@@ -117,6 +117,33 @@ def test_units_are_converted_where_the_unit_of_length_is_known(here):
     np.testing.assert_allclose(result(here)["depth"], expected.depth, rtol=1e-12)
 
 
+@pytest.mark.parametrize("command", ["kinetics", "march"])
+def test_units_in_headings_are_converted(here, made, command):
+    """A force history in ms and mN, and a creep table in h and 1/MPa, are those in s, N and 1/Pa."""
+    np.save("um.npy", np.load(made / "heights.npy"))
+    if command == "march":
+        common = ["march", "um.npy", "--spacing", "1 um", "--unit", "um", "--method", "implicit", "-o", "kin.nc"]
+    else:
+        common = ["kinetics", "um.nc", "-o", "kin.nc"]
+    motions = []
+    for text in ("0,0\n1e-3,3e-3\n2e-3,4e-3\n", "t [ms],F [mN]\n0,0\n1,3\n2,4\n"):
+        (here / "force.csv").write_text(text)
+        assert cli.main([*common, "--force-history", "force.csv", "--viscosity", "2 MPa s"]) == 0
+        motions.append(result(here))
+    for name, values in motions[0].items():
+        np.testing.assert_allclose(motions[1][name], values, rtol=1e-12, err_msg=name)
+    if command == "kinetics":
+        (here / "medium.yaml").write_text(MEDIA["creep_table"][0])
+        depths = []
+        for text in ("t,J\n0,1e-6\n3600,2e-6\n", "t (h),J (1/MPa)\n0,1\n1,2\n", "t/h,J in MPa^-1\n0,1\n1,2\n"):
+            (here / "table.csv").write_text(text)
+            assert cli.main([*common, "--force", "1 uN", "--medium", "medium.yaml", "--times", "1800"]) == 0
+            depths += result(here)["depth"].tolist()
+        np.testing.assert_allclose(
+            depths, kinetics(loading(here), 1.0, viscosity=1.0, times=[1.5]).depth[0], rtol=1e-12
+        )
+
+
 def test_missing_values_are_warned_of(here, capsys, made):
     """A ramp passes through depths before the first level, at which the curve is not determined."""
     indent = ["indent", str(made / "heights.npy"), "--spacing", "1", "--depths", "0.15,0.6"]
@@ -205,6 +232,13 @@ BAD_TABLES = {
     "one row": ("0,1\n", "two rows are needed"),
     "three columns": ("0,1,2\n1,2,3\n", "two columns"),
     "text": ("0,1\n1,one\n", "not readable"),
+    "a unit without one of length": (
+        "t,J [1/MPa]\n0,1\n1,2\n",
+        "the heading 'J [1/MPa]' states a unit, but the unit of",
+    ),
+    "a comment with a unit": ("# t in h\n0,1\n1,2\n", "the comment '# t in h' states a unit"),
+    "semicolons": ("0;1\n1;2\n", "not readable"),
+    "decimal commas": ("0,0;1,5\n1,0;2,5\n", "not readable"),
 }
 BAD_HISTORIES = {
     "negative": ("0,1\n1,-1\n", "sample 1 is -1"),
@@ -218,6 +252,12 @@ BAD_HISTORIES = {
     "text": ("0,1\n1,one\n", "not readable"),
     "empty": ("", "two columns, time and force"),
     "units": ("0 s,1 N\n1 s,2 N\n", "not readable"),
+    "a unit without one of length": (
+        "t [ms],F\n0,0\n1,1\n",
+        "the heading 't [ms]' states a unit, but the unit of length",
+    ),
+    "wrong order": ("F [N],t [s]\n0,0\n1,1\n", "the heading 'F [N]' states a unit"),
+    "decimal commas": ("0,0 1,5\n1,0 2,5\n", "not readable"),
     "unloading": ("0,0.3\n1,0.3\n2,0\n", "from time 1 on the contact would recede"),
     "a step down": ("0,0.3\n1,0.3\n1,0.2\n2,0.2\n", "from time 1 on the contact would recede"),
     "beyond the curve": ("0,0.3\n1,1e9\n", "at time 1 the creep"),
@@ -233,8 +273,11 @@ BAD_OPTIONS = {
         ["--force", "1e-320", "--medium", "newtonian.yaml"],
         ", --medium newtonian.yaml: times overflow",
     ),
-    "missing medium": (["--force", "1", "--medium", "none.yaml"], "none.yaml: not readable (there is no such file)"),
-    "a folder": (["--force", "1", "--medium", "."], "not readable (it is no file)"),
+    "missing medium": (
+        ["--force", "1", "--medium", "none.yaml"],
+        "none.yaml: not readable (No such file or directory)",
+    ),
+    "a folder": (["--force", "1", "--medium", "."], "not readable (it is a folder); a regular file"),
     "missing history": (["--force-history", "none.csv", "--viscosity", "1"], "none.csv: not readable"),
     "history of another kind": (["--force-history", "curve.nc", "--viscosity", "1"], "read from .csv and .npy"),
     "times after the history": (
@@ -259,10 +302,10 @@ BAD_OPTIONS = {
 }
 
 
-def complaint(here, capsys, arguments):
+def complaint(here, capsys, arguments, curve=("curve.nc",)):
     """The one line of a command that fails and leaves all files as they are."""
     before = contents(here)
-    assert cli.main(["kinetics", "curve.nc", "-o", "kin.nc", *arguments]) == 2
+    assert cli.main(["kinetics", *curve, "-o", "kin.nc", *arguments]) == 2
     out, err = capsys.readouterr()
     assert out == ""
     assert err.startswith("viscorough kinetics: ")
@@ -298,6 +341,53 @@ def test_bad_histories(here, capsys, name):
         assert message in complaint(here, capsys, ["--force-history", "force.csv", "--medium", "medium.yaml"])
     else:
         assert cli.main(["kinetics", "curve.nc", "--force-history", "force.csv", "--viscosity", "1", "-o", "k.nc"]) == 0
+
+
+@pytest.mark.parametrize(
+    ("heading", "message"),
+    [
+        ("F [N],t [s]", "the heading 'F [N]': unit 'N': cannot be converted to s"),
+        ("t [s],F [um]", "the heading 'F [um]': unit 'um': cannot be converted to N"),
+        ("t [s],F [kp]", "the heading 'F [kp]': unit 'kp': a unit such as"),
+        ("# in ms", "the comment '# in ms' states a unit; a heading of both columns is needed"),
+    ],
+)
+def test_units_of_histories_that_cannot_be_used(here, capsys, heading, message):
+    (here / "curve.nc").write_bytes((here / "um.nc").read_bytes())
+    (here / "force.csv").write_text(f"{heading}\n0,0\n1,1\n")
+    line = complaint(here, capsys, ["--force-history", "force.csv", "--viscosity", "1"])
+    assert line.startswith("viscorough kinetics: force.csv: not readable (")
+    assert message in line
+
+
+@pytest.mark.parametrize(
+    ("name", "change", "message"),
+    [
+        ("force", {"units": "nm2"}, "force is in 'nm2' and depth in 'um'; 'um2' is needed for force"),
+        ("depth", {"units": "mm"}, "force is in 'um2' and depth in 'mm'; 'mm2' is needed for force"),
+        ("stiffness", {"units": "1"}, "stiffness is in '1' and depth in 'um'; 'um' is needed for stiffness"),
+        ("contact_count", {"values": lambda count: -count}, "contact_count must be a whole number from 1 to"),
+        ("contact_count", {"values": lambda count: count[::-1]}, "contact_count must not decrease"),
+        ("stiffness", {"values": lambda stiffness: stiffness[::-1]}, "stiffness must not decrease (level 1)"),
+        ("force", {"values": lambda force: 1e6 * force}, "force must rise with the depth as the stiffness requires"),
+    ],
+)
+def test_bad_curves(here, capsys, name, change, message):
+    for suffix in ("nc", "csv"):
+        content = netcdf.read(here / "um.nc")
+        variable = content.variables[name]
+        if "units" in change:
+            variable = variable._replace(attributes=variable.attributes | change)
+        else:
+            variable = variable._replace(values=change["values"](variable.values))
+        content = netcdf.Content(content.variables | {name: variable}, content.attributes)
+        (netcdf if suffix == "nc" else tables).write(content, here / f"bad.{suffix}")
+        arguments = [f"bad.{suffix}", "--force", "1", "--viscosity", "1"]
+        line = complaint(here, capsys, arguments, curve=[])
+        assert line.startswith(f"viscorough kinetics: bad.{suffix}: ")
+        assert message in line
+        assert cli.main(["plot", f"bad.{suffix}", "-o", "bad.png"]) == 2
+        assert message in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("name", BAD_OPTIONS)

@@ -20,6 +20,8 @@ def made(tmp_path_factory):
     """Folder with a file of every kind that can be drawn."""
     folder = tmp_path_factory.mktemp("made")
     np.save(folder / "heights.npy", sphere_heights(9))
+    (folder / "medium.yaml").write_text("{kind: maxwell, shear_modulus: 2, viscosity: 5}")
+    medium = str(folder / "medium.yaml")
     heights, curve = str(folder / "heights.npy"), str(folder / "curve.nc")
     surface = ["generate", "--hurst", "0.7", "--rms", "1", "--diameter", "9", "--seed", "1"]
     law = ["estimate", "--hurst", "0.8", "--rms", "1e-6", "--diameter", "0.01", "--force", "10", "--viscosity", "1e6"]
@@ -34,6 +36,18 @@ def made(tmp_path_factory):
         "contacts.nc": ["contact", heights, "--spacing", "1", "--depth", "0.01,0.02"],
         "lines.nc": ["reduce", heights, "--spacing", "1", "--realizations", "3"],
         "estimate.nc": [*law, "--times", "1e-9,1e-5,1e-4"],
+        "medium.nc": [
+            "march",
+            heights,
+            "--spacing",
+            "1",
+            "--method",
+            "implicit",
+            "--times",
+            "1,2,3",
+            "--medium",
+            medium,
+        ],
     }.items():
         assert main([*arguments, "-o", str(folder / name)]) == 0
     return folder
@@ -48,7 +62,7 @@ def here(made, tmp_path, monkeypatch):
 
 
 FILES = ["curve.nc", "curve.csv", "motion.nc", "march.nc", "disc.nc", "line.nc", "lines.nc", "estimate.nc"]
-FILES += ["contact.nc", "contacts.nc"]
+FILES += ["contact.nc", "contacts.nc", "medium.nc"]
 
 
 @pytest.mark.parametrize("file", FILES)
@@ -80,6 +94,32 @@ def test_axes_have_symbols_and_units(here):
     assert texts[-1] == "contact fraction"
     assert axes_of("motion.nc") == ["time $t$ (s)", "depth $u$", "time $t$ (s)", "velocity $v$ (s⁻¹)"]
     assert axes_of("um.nc")[:2] == ["$x$ (µm)", "$y$ (µm)"]
+
+
+def test_motion_in_a_medium_is_depth_over_time(here):
+    """Its force F is that at each time, and no F/G of a loading curve."""
+    assert axes_of("medium.nc") == ["time $t$ (s)", "depth $u$"]
+
+
+@pytest.mark.parametrize(
+    ("file", "name", "change", "what"),
+    [
+        ("motion.nc", "time", {"values": lambda time: time[::-1]}, "time must not decrease"),
+        ("motion.nc", "stiffness", {"values": lambda stiffness: stiffness[::-1]}, "stiffness must not decrease"),
+        ("lines.nc", "contact_count", {"values": lambda count: -count}, "contact_count must be a whole number from 1"),
+        ("lines.nc", "force", {"units": "um2"}, "force is in 'um2' and depth in '1'"),
+        ("estimate.nc", "depth_high", {"units": "um"}, "depth and its interval have different units"),
+    ],
+)
+def test_damaged_files_are_refused(here, capsys, file, name, change, what):
+    content = netcdf.read(here / file)
+    variable = content.variables[name]
+    if "units" in change:
+        variable = variable._replace(attributes=variable.attributes | change)
+    else:
+        variable = variable._replace(values=change["values"](variable.values))
+    netcdf.write(Content(content.variables | {name: variable}, content.attributes), here / "bad.nc")
+    assert what in complaint(["plot", "bad.nc", "-o", "figure.png"], capsys, here)
 
 
 def axes_of(file):

@@ -5,6 +5,7 @@ import pytest
 
 from viscorough import reference
 from viscorough.contact.loading_path import indent
+from viscorough.contact.one_contact import contact_at
 from viscorough.contact.options import SolverOptions
 from viscorough.contact.prescribed_force import ForceSearch
 from viscorough.contact.solver import ContactSolver
@@ -41,6 +42,21 @@ def test_jumps_of_the_stiffness_are_met(options):
     curve = indent(terraces(), forces=forces, tolerance=1e-6, options=options)
     exact = indent(terraces(), depths=curve.depth, tolerance=1e-9)
     assert np.abs(exact.force / forces - 1).max() < 1e-6
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-6])
+def test_a_lower_terrace_beside_the_contact_is_met(tolerance):
+    """It lies outside the box of the grid on which the contact of the upper one is solved."""
+    row, column = np.mgrid[:65, :65] - 32
+    steps = Indenter(np.where(column > 0, 1e-3, 0.0) - 1e-9 * (row**2 + column**2), 1.0)
+    forces = [1e-3, 0.2, 3.0, 6.0]
+    curve = indent(steps, forces=forces, tolerance=tolerance)
+    exact = indent(steps, depths=curve.depth, tolerance=1e-3 * tolerance)
+    assert np.abs(exact.force / forces - 1).max() < tolerance
+    contacts = contact_at(steps, force=forces, tolerance=tolerance)
+    for contact in contacts:
+        assert np.nanmin(contact.gap) >= -tolerance * contact.depth
+    np.testing.assert_allclose([contact.depth for contact in contacts], curve.depth, rtol=tolerance)
 
 
 def test_a_flat_indenter_is_a_straight_line():

@@ -10,7 +10,7 @@ import pytest
 
 from support.curves import one_line
 from support.faults import namespace
-from viscorough.io.atomic import atomic_write, check_output
+from viscorough.io.atomic import atomic_write, check_output, check_readable
 
 
 def test_permissions_are_those_of_any_new_file(tmp_path):
@@ -142,3 +142,16 @@ def test_paths_that_cannot_be_written(tmp_path):
         with pytest.raises(ValueError, match=str(path)), atomic_write(path):
             pass
     assert sorted(os.listdir(tmp_path)) == ["folder", "pipe"]
+
+
+def test_only_files_with_an_end_are_readable(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    (tmp_path / "link").symlink_to(tmp_path / "pipe")
+    (tmp_path / "file").write_text("")
+    kinds = {tmp_path / "pipe": "a pipe", tmp_path / "link": "a pipe", tmp_path: "a folder", "/dev/zero": "a device"}
+    for path, kind in kinds.items():
+        with pytest.raises(ValueError, match=rf"{path}: not readable \(it is {kind}\); a regular file is") as error:
+            check_readable(path)
+        one_line(error)
+    for path in (tmp_path / "file", tmp_path / "none", "a\0b"):
+        check_readable(path)

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from support.curves import assert_same_curve, one_line, random_curve
+from viscorough.contact.loading_path import indent
+from viscorough.indenter import Indenter
 from viscorough.io import netcdf
 from viscorough.io.curves import (
     PER_CURVE,
@@ -17,6 +19,8 @@ from viscorough.io.curves import (
 )
 from viscorough.io.netcdf import Content
 from viscorough.loading_curve import LoadingCurve
+from viscorough.mdr import reduce
+from viscorough.surfaces import self_affine_disc, self_affine_line
 
 
 def test_every_field_of_a_curve_is_stored():
@@ -142,10 +146,144 @@ def test_stacked_curves_survive_files_exactly(tmp_path):
         stack_curves([*curves, random_curve(length_unit="um")])
 
 
+def with_units(content, **units):
+    """The content with the units of some variables replaced; None: without."""
+    variables = dict(content.variables)
+    for name, unit in units.items():
+        attributes = {"long_name": name} | ({} if unit is None else {"units": unit})
+        variables[name] = variables[name]._replace(attributes=attributes)
+    return Content(variables, content.attributes)
+
+
 def test_unit_of_a_file_that_states_none_is_not_known():
-    content = curve_to_content(random_curve())
-    del content.variables["depth"].attributes["units"]
+    content = with_units(curve_to_content(random_curve()), depth=None, force=None, stiffness="1")
     assert curve_from_content(content).length_unit == "1"
+
+
+@pytest.mark.parametrize(
+    ("depth", "force", "stiffness"),
+    [
+        *[("um", power, "um") for power in ("um2", "um^2", "um**2", "µm2", "micron2", "1e-12 m2", " um2 ")],
+        ("µm", "um2", "1e-6 m"),
+        ("(1e-6 m)", "um2", "um"),
+    ],
+)
+def test_units_agree_however_they_are_spelled(depth, force, stiffness):
+    content = with_units(curve_to_content(random_curve()), depth=depth, force=force, stiffness=stiffness)
+    assert_same_curve(curve_from_content(content), random_curve(length_unit=depth))
+
+
+@pytest.mark.parametrize(
+    ("units", "what"),
+    [
+        ({"force": "nm2"}, "force is in 'nm2' and depth in 'um'; 'um2' is needed for force"),
+        ({"force": "um"}, "force is in 'um'"),
+        ({"force": "N"}, "force is in 'N'"),
+        ({"force": "1"}, "force is in '1' and depth in 'um'"),
+        ({"force": None}, "force is in '1' and depth in 'um'"),
+        ({"force": "furlongs of it"}, "force is in 'furlongs of it'"),
+        ({"stiffness": "m"}, "stiffness is in 'm'"),
+        ({"depth": "m"}, "force is in 'um2' and depth in 'm'; 'm2' is needed for force"),
+        ({"depth": None}, "force is in 'um2' and depth in '1'; '1' is needed for force"),
+        ({"depth": "N", "force": "N2", "stiffness": "N"}, "'N': not a unit of length"),
+        ({"depth": "1", "force": "1"}, "stiffness is in 'um' and depth in '1'"),
+        ({"contact_fraction": "percent"}, "contact_fraction is in 'percent'"),
+        ({"residual": "um"}, "residual is in 'um'"),
+        ({"contact_count": 3.0}, "contact_count has the units 3.0; text is needed"),
+    ],
+)
+def test_units_that_contradict_that_of_the_depth_are_refused(units, what):
+    curve = random_curve(length_unit="um")
+    for content, read in ((curve_to_content(curve), curve_from_content), (stack_curves([curve]), unstack_curves)):
+        with pytest.raises(ValueError, match=what) as error:
+            read(with_units(content, **units))
+        one_line(error)
+
+
+BAD_NUMBERS = [
+    ("contact_count", 3, -1, "a whole number from 1 to 1009"),
+    ("contact_count", 0, 0, "a whole number from 1 to 1009"),
+    ("contact_count", -1, 1010, "a whole number from 1 to 1009"),
+    ("contact_count", 3, 1, "contact_count must not decrease"),
+    ("residual", 3, -1e-9, "residual must be from 0 to the tolerance"),
+    ("residual", 3, 1e-3, "residual must be from 0 to the tolerance"),
+    ("stiffness", 3, 1e-7, "stiffness must not decrease"),
+    ("stiffness", 3, 1e-3, "stiffness must not decrease"),
+    ("force", slice(None), lambda values: 1e6 * values, "force must rise with the depth"),
+    ("force", slice(None), lambda values: 1e-6 * values, "force must rise with the depth"),
+    ("depth", slice(None), lambda values: 1e3 * values, "force must rise with the depth"),
+    ("depth", 0, 1e-9, "force must rise with the depth"),
+]
+
+
+@pytest.mark.parametrize(("name", "index", "value", "what"), BAD_NUMBERS)
+def test_numbers_that_no_contact_has_are_refused(name, index, value, what):
+    curve = random_curve(tolerance=1e-4)
+
+    def change(values):
+        values[..., index] = value(values[..., index]) if callable(value) else value
+        return values
+
+    for content, read in ((curve_to_content(curve), curve_from_content), (stack_curves([curve]), unstack_curves)):
+        with pytest.raises(ValueError, match=what) as error:
+            read(changed(content, name, change))
+        one_line(error)
+
+
+@pytest.mark.parametrize(
+    ("name", "values", "what"),
+    [
+        ("contact_count", 0.5, "a whole number from 1 to 1009"),
+        ("contact_fraction", 0.3, "contact_fraction must be contact_count over 1009 elements"),
+    ],
+)
+def test_counts_and_fractions_that_contradict_each_other_are_refused(name, values, what):
+    content = curve_to_content(random_curve())
+    with pytest.raises(ValueError, match=what) as error:
+        curve_from_content(changed(content, name, lambda old: old + values))
+    one_line(error)
+
+
+@pytest.mark.parametrize(
+    ("attribute", "value", "what"),
+    [("elements", 1, "a whole number from 1 to 1"), ("tolerance", 1.0, "a number below 1 is needed")],
+)
+def test_attributes_that_no_curve_has_are_refused(attribute, value, what):
+    with pytest.raises(ValueError, match=what) as error:
+        curve_from_content(curve_to_content(random_curve()).with_attributes(**{attribute: value}))
+    one_line(error)
+
+
+def test_counts_of_unsigned_bytes_are_compared_as_numbers():
+    content = curve_to_content(random_curve(elements=200))
+    with pytest.raises(ValueError, match="contact_count must not decrease"):
+        curve_from_content(changed(content, "contact_count", lambda counts: counts[::-1].astype(np.uint8)))
+
+
+@pytest.mark.parametrize("tolerance", [1e-1, 1e-2, 1e-3, 1e-5, 1e-8])
+@pytest.mark.parametrize("kind", ["disc", "terraces", "sphere"])
+def test_curves_that_the_solvers_compute_are_read(kind, tolerance):
+    """To their tolerance they are convex, and contact grows; in single precision they are read as well."""
+    row, column = np.mgrid[:21, :21] - 10.0
+    indenter = {
+        "disc": self_affine_disc(0.4, 21, seed=5),
+        "terraces": Indenter(-0.1 * ((row // 5 + column // 3) % 3), 0.5),
+        "sphere": Indenter(-(row**2 + column**2) / 50, 0.1, length_unit="um"),
+    }[kind]
+    curve = indent(indenter, tolerance=tolerance, until_fraction=1.0)
+    levels = np.linspace(0.1, 1, 7)
+    curves = [
+        curve,
+        indent(indenter, tolerance=tolerance, until_fraction=0.9, start_fraction=0.3),
+        indent(indenter, tolerance=tolerance, depths=curve.depth[-1] * levels),
+        indent(indenter, tolerance=tolerance, forces=curve.force[-1] * levels),
+        reduce(self_affine_line(0.4, 1000, seed=5)),
+    ]
+    for curve in curves:
+        content = curve_to_content(curve)
+        assert_same_curve(curve_from_content(content), curve)
+        singles = {k: v._replace(values=v.values.astype(np.float32)) for k, v in content.variables.items()}
+        curve_from_content(Content(singles, content.attributes))
 
 
 @pytest.mark.parametrize("name", ["contact_count", "contact_fraction", "residual"])

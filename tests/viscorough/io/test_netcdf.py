@@ -118,7 +118,7 @@ def test_full_disk_is_one_line_and_leaves_nothing(tmp_path, limit):
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     assert done.stderr == ""
     assert len(done.stdout.splitlines()) == 1
-    assert "curve.nc: not written" in done.stdout
+    assert "curve.nc: not written (File too large)" in done.stdout
     assert os.listdir(tmp_path) == []
 
 

@@ -57,6 +57,30 @@ def test_maps_are_no_tables(path):
     assert not path.exists()
 
 
+@pytest.mark.parametrize("heading", ["depth (um)", "depth [um]", "depth[um]", "depth  (um)", " depth (um) "])
+def test_units_in_other_brackets_are_read(path, heading):
+    path.write_text(f"{heading},force (um2)\n1.0,2.0\n", encoding="utf-8")
+    variables = tables.read(path).variables
+    assert [variables[name].attributes["units"] for name in ("depth", "force")] == ["um", "um2"]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        *[
+            f"{heading},force\n1.0,2.0\n"
+            for heading in ("depth/um", "depth in um", "depth um", "depth (um", "um)", "force")
+        ],
+        *["depth,force\n1.0,2.0\n#N/A,3.0\n2.0,4.0\n", "depth (um);force (um2)\n1,0;2,0\n", "depth\tforce\n1\t2\n"],
+    ],
+)
+def test_other_headings_and_marks_are_refused_in_one_line(path, text):
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(ValueError, match=r"curve\.csv: not readable \(") as error:
+        tables.read(path)
+    assert "NoneType" not in one_line(error)
+
+
 @pytest.mark.parametrize(
     "text",
     ["", "# title: only\n", "depth\n", "depth,force\n1.0\n", "depth\none\n", "a b\n1.0\n", 'depth\n"1.0\n', "\0\n1\n"],

@@ -113,6 +113,7 @@ large: settings
 
 fuzz: environment
 	$(BIN)/python benchmarks/fuzz.py --runs 10000 --output results/fuzz.json
+	$(BIN)/python benchmarks/file_campaign.py --files 10000 --output results/file_campaign.json
 
 faults: environment
 	$(BIN)/python benchmarks/planted_faults.py --output results/planted_faults.json

@@ -5,15 +5,15 @@ import io
 import netCDF4
 import numpy as np
 import tifffile
-from text_files import PIXELS, UNITS, Draft, distances, map_shape, missing_points
+from file_cases import PIXELS, UNITS, Draft, distances, map_shape, missing_points
 
 SI = ("um", "nm", "mm", "m")
 
 
-def heights_of(draft, kinds):
-    """Heights of a random type, some missing where the type has nan; and the type."""
-    kind = np.dtype(draft.pick({name: name for name in kinds}))
-    shape = map_shape(draft)
+def heights_of(draft, kinds, least=2):
+    """Heights of a random type, some of them missing where the type has nan."""
+    kind = np.dtype(draft.pick(kinds))
+    shape = map_shape(draft, least)
     values = draft.random.normal(0, 30, shape) if kind.kind == "f" else draft.random.integers(1, 100, shape)
     values = values.astype(kind)
     if kind.kind == "f":
@@ -21,11 +21,12 @@ def heights_of(draft, kinds):
     return values
 
 
-def given(draft, dx, dy, *, unit=None):
-    """(options, unit of the heights in metres, spacing) where the arguments state both."""
-    if unit is None and draft.chance(0.5):
+def given(draft):
+    """(options, unit of the heights in metres, spacing) where the arguments state the spacing, and a unit or none."""
+    dx, dy = distances(draft)
+    if draft.chance(0.5):
         return {"spacing": (dx, dy)}, None, (dx, dy)
-    unit = unit or draft.one_of(SI)
+    unit = draft.one_of(SI)
     draft.note("unit given")
     return {"spacing": (dx, dy), "unit": unit}, UNITS[unit], (dx * UNITS[unit], dy * UNITS[unit])
 
@@ -50,83 +51,74 @@ def npy(random):
         draft.note("no map", bad=True)
     file = io.BytesIO()
     np.save(file, stored)
-    options, unit, spacing = given(draft, *distances(draft))
+    options, unit, spacing = given(draft)
     return draft.case("map.npy", file.getvalue(), values.astype(float), unit, spacing, options)
 
 
 # ---- NetCDF
 
-COORDINATES = {"double": ("f8", 0), "single": ("f4", 0), "far": ("f8", 2e6), "far, single": ("f4", 1000), "none": None}
-NO_MAP = ("irregular", "far and irregular", "degrees", "one coordinate", "volts", "no unit of x and y", "repeated x")
+COORDINATES = {"double": ("f8", 0), "single": ("f4", 0), "far": ("f8", 2e6), "far, single": ("f4", 1000)}
+NO_MAP = ("irregular", "irregular, far", "repeated", "one coordinate", "degrees", "volts", "no unit of x and y")
 
 
 def netcdf(random):
     """A NetCDF file with a map, and coordinates or none."""
     draft = Draft("NetCDF", random)
-    values = heights_of(draft, ["f8", "f4", "i4", ">f4"])
-    heights = values.astype(float)
+    values = heights_of(draft, ["f8", "f4", "i4", ">f4"], least=3)
     dx, dy = distances(draft)
     u, z = draft.one_of([*SI, "µm", "micron"]), draft.one_of([*SI, "µm", "micrometer"])
-    kind = draft.pick(COORDINATES)
-    fault = draft.one_of(NO_MAP) if kind and draft.chance(0.15) else ""
-    with_units = draft.chance(0.7)
-    pixels = kind is not None and not fault and draft.chance(0.06)
-    names = draft.pick({"y, x": ("y", "x"), "rows, columns": ("row", "col")}, {"x, y": ("x", "y")}, odd=0.08)
-    options, unit, spacing = {}, UNITS[z] if with_units else None, (dx, dy)
-    if with_units:
-        spacing = dx * UNITS[u], dy * UNITS[u]
-    accuracy, z_unit, x_unit = 1e-12, z if with_units else None, u if with_units else None
-    if fault:
-        draft.note(fault, bad=True)
-        z_unit = "V" if fault == "volts" else z
-        x_unit = {"degrees": "degrees_east", "no unit of x and y": None}.get(fault, u)
-    elif kind is None or pixels:
-        unit = UNITS[z] if with_units else None
+    if draft.chance(0.8):
+        precision, origin = draft.pick(COORDINATES)
+        form = draft.pick(["units", "units", "no units"], ["pixels", "x before y"], NO_MAP, odd=0.25)
+    else:
+        precision, form = None, draft.pick(["no coordinates", "no units"])
+    z_unit = {"no units": None, "volts": "V"}.get(form, z)
+    x_unit = {"no units": None, "no unit of x and y": None, "degrees": "degrees_east"}.get(form, u)
+    unit, options = UNITS[z] if z_unit else None, {}
+    if precision is None or form == "pixels":
+        x_unit, options = draft.one_of(PIXELS), {"spacing": (dx, dy)}
         spacing = tuple(distance * (unit or 1) for distance in (dx, dy))
-        options, x_unit = {"spacing": (dx, dy)}, draft.one_of(PIXELS) if pixels else None
-        if pixels:
-            draft.note("pixels", clear=False)
-            if draft.chance(0.3):
-                draft.note("no spacing", bad=True)
-                options = {}
+        if form == "pixels" and draft.chance(0.3):
+            draft.note("no spacing", bad=True)
+            options = {}
+    else:
+        spacing = tuple(distance * (UNITS[u] if unit else 1) for distance in (dx, dy))
+    if form == "no units" and precision and 1.0 in (dx, dy):
+        draft.note("may be numbers of points", clear=False)
+    names = draft.one_of([("y", "x"), ("row", "col")]) if form != "x before y" else ("x", "y")
+    steps = (dx, dy) if form == "x before y" else (dy, dx)
     file = netCDF4.Dataset("map.nc", "w", memory=0, format=draft.one_of(["NETCDF4", "NETCDF3_CLASSIC"]))
-    shape = values.shape if names[0] != "x" else values.shape[::-1]
-    for name, size in zip(names, shape, strict=True):
+    accuracy = 1e-12
+    for name, size, step in zip(names, values.shape if names[0] != "x" else values.shape[::-1], steps, strict=True):
         file.createDimension(name, size)
-    if kind is not None:
-        for axis, name in enumerate(names):
-            step = (dx if name in ("x", "col") else dy) if not pixels else 1
-            positions = kind[1] * (not pixels) + step * np.arange(shape[axis])
-            if draft.chance(0.3):
-                positions = positions[::-1]
-                draft.note(f"descending {name}")
-            if fault in ("irregular", "repeated x"):
-                positions[-1] = positions[-2] if fault == "repeated x" else positions[-1] + 0.7 * step
-                fault = "irregular"
-            elif fault == "far and irregular":
-                positions = 2e6 + 2 * np.arange(shape[axis]) + (-1.0) ** np.arange(shape[axis]) * 0.4
-            if fault == "one coordinate" and axis == 1:
-                continue
-            variable = file.createVariable(name, kind[0], (name,))
-            variable[:] = positions
-            if x_unit:
-                variable.units = x_unit
-            if kind[0] == "f4" and not pixels:
-                rounding = np.finfo("f4").eps * np.abs(positions).max() / np.ptp(positions)
-                accuracy = max(accuracy, rounding)
-            elif not pixels:
-                accuracy = max(accuracy, 4 * np.finfo("f8").eps * np.abs(positions).max() / np.ptp(positions))
-    if fault.startswith("irregular") and min(shape) < 3:  # two positions are always equally far apart
-        draft.bad, draft.clear = True, False
-    heights = _netcdf_heights(draft, file, names, values, heights, z_unit)
-    content = bytes(file.close())
-    if fault == "irregular" and min(shape) < 3:
-        return netcdf(random)
-    return draft.case("map.nc", content, heights, unit, spacing, options, accuracy=accuracy)
+        if precision is None or (form == "one coordinate" and name == names[1]):
+            continue
+        positions = np.arange(size) if form == "pixels" else _positions(draft, form, origin, step, size)
+        variable = file.createVariable(name, precision, (name,))
+        variable[:] = positions
+        if x_unit:
+            variable.units = x_unit
+        if not draft.bad:
+            accuracy += 2 * np.finfo(precision).eps * np.abs(positions).max() / np.ptp(positions)
+    heights = _netcdf_heights(draft, file, names, values, z_unit)
+    return draft.case("map.nc", bytes(file.close()), heights, unit, spacing, options, accuracy)
 
 
-def _netcdf_heights(draft, file, names, values, heights, unit):
+def _positions(draft, form, origin, step, size):
+    """Positions along an axis, one in three descending."""
+    positions = origin + step * np.arange(size)
+    if form == "irregular":
+        positions[-1] += 0.7 * step
+    elif form == "repeated":
+        positions[-1] = positions[-2]
+    elif form == "irregular, far":  # by more than single precision rounds them
+        positions = 2e6 + 2.0 * np.arange(size) + 0.8 * (-1.0) ** np.arange(size)
+    return positions[::-1] if draft.chance(0.3) else positions
+
+
+def _netcdf_heights(draft, file, names, values, unit):
     """Write the variable of heights; what it holds once unpacked."""
+    heights = values.astype(float)
     attributes = {key: unit for key in [draft.one_of(["units", "units", "units", "unit"])] if unit}
     name = draft.one_of(["heights", "heights", "z", "elevation", "Band1"])
     fill, mask = None, np.isnan(heights)
@@ -163,7 +155,6 @@ def tiff(random):
     """A TIFF file whose tags state no spacing, but for the resolution of prints."""
     draft = Draft("TIFF", random)
     values = heights_of(draft, ["f4", "f8", "u2", "i2", "u1", "f2"])
-    dx, dy = distances(draft)
     form = draft.pick(
         {
             "plain": {},
@@ -174,7 +165,7 @@ def tiff(random):
             "72 dpi": {"resolution": (72, 72), "resolutionunit": "INCH"},
         }
     )
-    options, unit, spacing = given(draft, dx, dy)
+    options, unit, spacing = given(draft)
     if draft.chance(0.08):
         draft.note("three colours" if draft.chance(0.5) else "two pages", bad=True)
         values = np.stack([values] * (3 if draft.traits[-1] == "three colours" else 2))
@@ -285,4 +276,4 @@ def imagej(random):
         options = {} if draft.chance(0.5) else options
     resolution = (1 / dx, 1 / dy) if text else (1.0, 1.0)
     content = written(values, imagej=True, resolution=resolution, metadata=metadata)
-    return draft.case("map.tif", content, heights, unit, spacing, options, accuracy=1e-6)
+    return draft.case("map.tif", content, heights, unit, spacing, options, 1e-6)

@@ -2,7 +2,7 @@
 
     python benchmarks/file_campaign.py --files 10000 --seed 1 --output results/file_campaign.json
 
-Each file is made from a known map, spacing and unit (text_files.py, binary_files.py), and read with
+Each file is made from a known map, spacing and unit (text_files.py, point_files.py, binary_files.py), and read with
 viscorough.read_heights. It must be read exactly, with nan where points are missing, or be refused by a ValueError of
 one line that names the file, and the line where the fault is in a line of text. Everything else is wrong: another
 number, spacing or unit, a missing point that is dropped, another error, a warning other than AccuracyWarning, anything
@@ -30,7 +30,9 @@ from pathlib import Path
 
 import binary_files
 import click
+import column_files
 import numpy as np
+import point_files
 import text_files
 from tqdm import tqdm
 
@@ -41,16 +43,18 @@ from viscorough_study.tables import write_json
 
 KINDS = {
     text_files.matrix: 50,
-    text_files.points: 14,
-    text_files.zygo: 2,
-    text_files.esri: 8,
+    point_files.points: 14,
+    point_files.zygo: 2,
+    point_files.esri: 8,
     binary_files.netcdf: 8,
     binary_files.npy: 3,
     binary_files.tiff: 3,
     binary_files.geotiff: 6,
     binary_files.imagej: 6,
+    column_files.two_columns: 3,
+    column_files.curve: 1,
 }
-LONGEST = 20  # seconds that a file may take
+LONGEST, NO_END = 20, "no end after"  # seconds that a file may take
 METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
 READ, REFUSED, UNREAD, WRONG = "read", "refused", "refused though unambiguous", "wrong"
 
@@ -60,9 +64,7 @@ def cases(seed, count, first=0):
     share = np.array(list(KINDS.values())) / sum(KINDS.values())
     for index in range(first, first + count):
         random = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(index,)))
-        case = list(KINDS)[random.choice(len(KINDS), p=share)](random)
-        case.index = index
-        yield case
+        yield list(KINDS)[random.choice(len(KINDS), p=share)](random)
 
 
 # ---- the judge
@@ -73,7 +75,7 @@ def time_limit(seconds):
     """Raise TimeoutError in the context when the time is over."""
 
     def stop(*_):
-        raise TimeoutError(f"no end after {seconds} s")
+        raise TimeoutError(f"{NO_END} {seconds} s")
 
     before = signal.signal(signal.SIGALRM, stop)
     signal.setitimer(signal.ITIMER_REAL, seconds)
@@ -86,27 +88,38 @@ def time_limit(seconds):
 
 def outcome(case, folder):
     """(READ, REFUSED, UNREAD or WRONG, why) of a case, whose file is written to the folder."""
-    path = Path(folder) / case.name
+    path, printed = Path(folder) / case.name, io.StringIO()
     path.write_bytes(case.content)
-    printed = io.StringIO()
+    found, refusal = None, ""
     with warnings.catch_warnings(record=True) as caught, contextlib.redirect_stdout(printed):
         warnings.simplefilter("always")
         try:
             with contextlib.redirect_stderr(printed), time_limit(LONGEST):
-                indenter = viscorough.read_heights(path, **case.options)
+                found = read(case, path)
         except ValueError as error:
-            indenter, refusal = None, str(error)
+            refusal = str(error)
         except Exception:
             return WRONG, traceback.format_exc().strip().splitlines()[-1]
-    others = [warning for warning in caught if not issubclass(warning.category, AccuracyWarning)]
-    if others or printed.getvalue():
-        return WRONG, f"{others[0].category.__name__}: {others[0].message}" if others else printed.getvalue()[:200]
-    if indenter is None:
+    for warning in caught:
+        if not issubclass(warning.category, AccuracyWarning):
+            return WRONG, f"{warning.category.__name__}: {warning.message}"
+    if printed.getvalue() or NO_END in refusal:
+        return WRONG, printed.getvalue()[:200] or refusal
+    if found is None:
         return judged_refusal(case, refusal, path)
-    if case.heights is None:
-        return WRONG, f"read, though it must be refused: {described(indenter)}"
-    fault = difference(case, indenter)
+    fault = difference(case, *found)
     return (WRONG, fault) if fault else (READ, "")
+
+
+def read(case, path):
+    """(heights, their unit in metres or None, spacing) as the package reads a file."""
+    if case.kind in column_files.READERS:
+        return column_files.READERS[case.kind](path), None, ()
+    indenter = viscorough.read_heights(path, **case.options)
+    unit, spacing = indenter.length_unit, (indenter.spacing, indenter.row_spacing)
+    if unit != "1":
+        unit = METRES[unit] if unit in METRES else float(unit.removesuffix(" m"))
+    return indenter.heights, None if unit == "1" else unit, spacing
 
 
 def judged_refusal(case, text, path):
@@ -119,36 +132,25 @@ def judged_refusal(case, text, path):
     return (UNREAD if case.unambiguous else REFUSED), what
 
 
-def difference(case, indenter):
-    """How an indenter differs from the truth of a case; empty if it does not."""
-    unit = metres(indenter.length_unit)
+def difference(case, heights, unit, spacing):
+    """How what was read differs from the truth of a case; empty if it does not."""
+    read_as = f"shape {heights.shape}, spacing {spacing}, unit {unit} m"
+    if case.heights is None:
+        return f"read, though it must be refused: {read_as}"
     if (unit is None) != (case.unit is None):
-        return f"another unit: {described(indenter)}, not {case.unit} m"
-    if indenter.heights.shape != case.heights.shape:
-        return f"another shape: {indenter.heights.shape}, not {case.heights.shape}"
-    heights, truth = indenter.heights * (unit or 1.0), case.heights * (case.unit or 1.0)
-    if unit == case.unit:
-        heights, truth = indenter.heights, case.heights
+        return f"another unit: {read_as}, not {case.unit} m"
+    if heights.shape != case.heights.shape:
+        return f"another shape: {read_as}, not {case.heights.shape}"
+    truth, unit = case.heights, unit or 1.0
+    if unit != (case.unit or 1.0):
+        heights, truth = heights * unit, truth * case.unit
     exact = np.where(np.isnan(truth), np.isnan(heights), np.abs(heights - truth) <= 1e-12 * np.abs(truth))
     if not exact.all():
         row, column = np.argwhere(~exact)[0]
-        return f"another map: {heights[row, column]!r} in row {row}, column {column}, not {truth[row, column]!r}"
-    spacing = np.array([indenter.spacing, indenter.row_spacing]) * (unit or 1.0)
-    if (np.abs(spacing / case.spacing - 1) > case.accuracy).any():
-        return f"another spacing: {described(indenter)}, not {case.spacing} {'m' if case.unit else ''}"
+        return f"another map: {heights[row, column]} in row {row}, column {column}, not {truth[row, column]}"
+    if any(abs(d * unit / t - 1) > case.accuracy for d, t in zip(spacing, case.spacing, strict=True)):
+        return f"another spacing: {read_as}, not {case.spacing}{' m' if case.unit else ''}"
     return ""
-
-
-def metres(unit):
-    """A unit of length as results spell it, in metres; None if it is not known."""
-    if unit == "1":
-        return None
-    return METRES[unit] if unit in METRES else float(unit.removesuffix(" m"))
-
-
-def described(indenter):
-    shape = "x".join(map(str, indenter.heights.shape))
-    return f"{shape} points, spacing ({indenter.spacing:g}, {indenter.row_spacing:g}) {indenter.length_unit}"
 
 
 def kind_of_refusal(text):
@@ -168,17 +170,18 @@ def main(files, seed, only, keep, output):
     began, counts, refusals, failures = time.perf_counter(), {}, Counter(), []
     first, files = (0, files) if only is None else (only, 1)
     with tempfile.TemporaryDirectory() as folder:
-        for case in tqdm(cases(seed, files, first), total=files, unit="file", mininterval=2, disable=only is not None):
+        progress = tqdm(cases(seed, files, first), total=files, unit="file", mininterval=2, disable=only is not None)
+        for index, case in enumerate(progress, first):
             word, why = outcome(case, folder)
             counts.setdefault(case.kind, Counter())[word] += 1
             if word in (REFUSED, UNREAD):
                 refusals[f"{case.kind}: {kind_of_refusal(why)}"] += 1
             if word in (UNREAD, WRONG):
                 why = why.replace(f"{folder}/", "")
-                failures.append({"file": case.index, "kind": case.kind, "traits": case.traits, "why": why, "is": word})
+                failures.append({"file": index, "kind": case.kind, "traits": case.traits, "why": why, "is": word})
             if keep and (word in (UNREAD, WRONG) or only is not None):
                 keep.mkdir(parents=True, exist_ok=True)
-                (keep / f"{seed}-{case.index}-{case.name}").write_bytes(case.content)
+                (keep / f"{seed}-{index}-{case.name}").write_bytes(case.content)
             if only is not None:
                 click.echo(f"{case.kind}, {', '.join(case.traits)}; arguments {case.options}\n{word}: {why}")
                 click.echo(f"truth: {case.heights}, spacing {case.spacing}, unit {case.unit} m")

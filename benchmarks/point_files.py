@@ -64,7 +64,7 @@ def points(random):
 def _coordinates(draft, columns, rows):
     """(dx, dy, texts of x and y, relative accuracy of the spacing that they state)."""
     dx, dy = distances(draft)
-    form = draft.pick(["", "", "", "", "rounded", "UTM"], [], ["irregular, far"], odd=0.1)
+    form = draft.pick(["", "", "", "", "rounded", "UTM"], [], ["irregular, far"] * (columns > 5), odd=0.3)
     (x0, y0), decimals = draft.one_of([(0, 0), (0, 0), (-7.5, 100), (0.25, -3)]), 4
     if form == "rounded":
         dx, dy, decimals = dx / 3, dy / 3, 5
@@ -74,9 +74,7 @@ def _coordinates(draft, columns, rows):
         (x0, y0), dx, dy, decimals = (2e6, 5412345.25), 2.0, 2.0, 2
     x, y = x0 + dx * np.arange(columns), y0 + dy * np.arange(rows)
     if form == "irregular, far":
-        x += 0.95 * draft.random.choice([-1, 1], columns) * draft.random.uniform(0.6, 1, columns)
-        x[-1] += 0.55 if columns < 3 else 0
-        y[-1] += 0.7
+        x += draft.random.uniform(-0.95, 0.95, columns)
     texts = [[f"{value:.{decimals}f}" for value in axis] for axis in (x, y)]
     rounding = 10.0**-decimals / min((columns - 1) * dx, (rows - 1) * dy) if form == "rounded" else 0
     return dx, dy, texts, rounding + 1e-9
@@ -134,7 +132,9 @@ def zygo(random):
     heights[draft.random.random((rows, columns)) < draft.one_of([0, 0.2])] = np.nan
     heights[0, 0] = heights[-1, -1] = 0.5
     x0, y0 = draft.one_of([(0, 0), (10, 20)])
-    pixel, gap = draft.one_of([3.9535e-4, 5.067e-5, 1.09e-6]), draft.one_of(["No Data", "No Data", None])
+    pixel = draft.one_of([3.9535e-4, 5.067e-5, 1.09e-6])
+    gap = draft.pick(["No Data"], {"left out": None}, odd=0.15)
+    options = draft.pick({"unit given": {"unit": "um"}}, {"unit not given": {}}, odd=0.4)  # the file does not name it
     if draft.chance(0.1):
         draft.note("not calibrated", bad=True)
     lines = ["Zygo XYZ Data File - Format 1", '0 3 0 0 "Tue Aug 25 16:59:23 2015"', f"0 0 {columns} {rows} 1 255"]
@@ -144,7 +144,7 @@ def zygo(random):
     for (i, j), value in np.ndenumerate(heights):
         if gap or value == value:
             lines.append(f"{x0 + j} {y0 + i} {gap if np.isnan(value) else f'{value:.4f}'}")
-    return draft.case("map.xyz", encoded(draft, [*lines, "#"]), heights, 1e-6, (pixel, pixel))
+    return draft.case("map.xyz", encoded(draft, [*lines, "#"]), heights, 1e-6, (pixel, pixel), options)
 
 
 BODIES = ("a row per line", "a leading space")

@@ -64,7 +64,7 @@ def table_text(draft, shape):
     if decimal_comma:
         cells = [[cell.translate(SWAPPED) for cell in row] for row in cells]
         draft.note("decimal commas", clear=not has_comma and _are_decimals(cells, delimiter))
-    elif has_comma and not quoted and "integers" in draft.traits:
+    elif has_comma and "integers" in draft.traits:
         digits = {len(cell) for row in cells for cell in row[1:]}
         draft.note("", clear=shape[1] > 2 and digits != {3})  # else they may be decimals or thousands
     mask, options = missing_points(draft, shape), {}
@@ -112,7 +112,7 @@ def _mark(draft, delimiter, mask):
     mark = draft.pick(MARKS, ODD_MARKS, odd=0.2)
     if rows_missing.any() and mark.lower() != "nan":  # may be a title, or a rule
         draft.note("row of marks", clear=mark.isalpha() and not at_an_end)
-    draft.faulty_line |= mark in ODD_MARKS
+    draft.faulty_line |= mark in ODD_MARKS and not mask.any(axis=1).all()  # else there is no other row to compare with
     return mark
 
 

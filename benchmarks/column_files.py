@@ -99,7 +99,7 @@ def curve(random):
 def read_history(path):
     """Times and forces, as the command line reads them."""
     heading = CURVE["clear"].format(u="m")
-    (path.parent / "loading.csv").write_text("\n".join([*ABOUT, heading + COUNTS, "1e6,1e6,1.0,99,1.0,0.0", ""]))
+    (path.parent / "loading.csv").write_text("\n".join([*ABOUT, heading + COUNTS, "1e12,1e12,1.0,99,1.0,0.0", ""]))
     names = [str(path.parent / "loading.csv"), "--force-history", str(path), "--viscosity", "1", "-o"]
     with contextlib.redirect_stderr(io.StringIO()) as said, contextlib.redirect_stdout(io.StringIO()):
         code = cli.main(["kinetics", *names, str(path.parent / "kinetics.nc")])

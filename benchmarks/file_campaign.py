@@ -3,10 +3,11 @@
     python benchmarks/file_campaign.py --files 10000 --seed 1 --output results/file_campaign.json
 
 Each file is made from a known map, spacing and unit (text_files.py, point_files.py, binary_files.py), and read with
-viscorough.read_heights. It must be read exactly, with nan where points are missing, or be refused by a ValueError of
-one line that names the file, and the line where the fault is in a line of text. Everything else is wrong: another
-number, spacing or unit, a missing point that is dropped, another error, a warning other than AccuracyWarning, anything
-printed, a file that takes too long. Files that hold no single map, or contradict themselves, must be refused.
+viscorough.read_heights; a few are curves, force histories and creep tables (column_files.py). It must be read exactly,
+with nan where points are missing, or be refused by a ValueError of one line that names the file, and the line where the
+fault is in a line of text. Everything else is wrong: another number, spacing or unit, a missing point that is dropped,
+another error, a warning other than AccuracyWarning, anything printed, a file that takes too long. Files that hold no
+single map, or contradict themselves, must be refused.
 
 A file is marked *unambiguous* if its variations are ordinary and leave one meaning to whoever reads it by eye: numbers
 in rows of equal length, one of the usual delimiters and decimal marks that cannot be confused with each other, the

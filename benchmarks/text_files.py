@@ -218,7 +218,7 @@ def matrix(random):
     header, unit, spacing, options = header_lines(draft, shape, decimal_comma)
     if GWYDDION.keys() & set(draft.traits):
         draft.kind = "matrix, Gwyddion"
-    if draft.chance(0.05) and min(shape) > 1:
+    if draft.chance(0.05) and min(shape) > 1 and "leading delimiters" not in draft.traits:
         lines = spoiled(draft, lines, columns, delimiter, np.array(spacing) / (unit or 1))
     lines = with_header(draft, header, lines, delimiter, columns)
     name = "map" + draft.one_of([".txt", ".txt", ".csv", ".dat", ".asc", ".TXT", ".tsv"])

@@ -107,7 +107,7 @@ def header_lines(draft, shape, decimal_comma):
     else:
         unit, spacing, options, z = _options_needed(draft, lines, (dx, dy), z)
     in_z = states_spacing and in_z
-    numbers = {"dx": dx, "dy": dy, "dx2": 2 * dx, "k": dx, "kz": dx if in_z else dx * UNITS[u] / UNITS[z]}
+    numbers = {"dx": dx, "dy": dy, "dx2": 3 * dx, "k": dx, "kz": dx if in_z else dx * UNITS[u] / UNITS[z]}
     numbers |= {"w": round(dx * columns, 9), "h": round(dy * rows, 9)}
     texts = {name: f"{value:.15g}" for name, value in numbers.items()}
     if lines and (decimal_comma or draft.chance(0.04)):
@@ -123,7 +123,7 @@ def header_lines(draft, shape, decimal_comma):
 
 def _redundant_options(draft, unit, spacing):
     """Now and then a spacing that the file states, too, or that contradicts it."""
-    if draft.bad or not draft.chance(0.06):
+    if not draft.clear or not draft.chance(0.1):  # who does not understand a header may believe the argument
         return {}
     dx, dy = (float(f"{distance / unit:.12g}") for distance in spacing)
     agrees = draft.chance(0.5)

@@ -1,0 +1,210 @@
+"""Read files of known maps of heights, in every format with its ordinary variations: is any read as another map?
+
+    python benchmarks/file_campaign.py --files 10000 --seed 1 --output results/file_campaign.json
+
+Each file is made from a known map, spacing and unit (text_files.py, point_files.py, binary_files.py), and read with
+viscorough.read_heights; a few are curves, force histories and creep tables (column_files.py). It must be read exactly,
+with nan where points are missing, or be refused by a ValueError of one line that names the file, and the line where the
+fault is in a line of text. Everything else is wrong: another number, spacing or unit, a missing point that is dropped,
+another error, a warning other than AccuracyWarning, anything printed, a file that takes too long. Files that hold no
+single map, or contradict themselves, must be refused.
+
+A file is marked *unambiguous* if its variations are ordinary and leave one meaning to whoever reads it by eye: numbers
+in rows of equal length, one of the usual delimiters and decimal marks that cannot be confused with each other, the
+usual marks of missing points, comments behind #, %, // or in words, and headers that name one quantity a line with its
+unit, as common programs write them. Those must be read; their refusals are counted apart, and are failures, too.
+
+`--only I --keep FOLDER` repeats one file of a seed and leaves it in the folder; --keep alone keeps all that failed.
+"""
+
+import contextlib
+import io
+import re
+import signal
+import tempfile
+import time
+import traceback
+import warnings
+from collections import Counter
+from importlib.metadata import version
+from pathlib import Path
+
+import binary_files
+import click
+import column_files
+import numpy as np
+import point_files
+import text_files
+from tqdm import tqdm
+
+import viscorough
+from viscorough.errors import AccuracyWarning
+from viscorough_study.performance import timing
+from viscorough_study.tables import write_json
+
+KINDS = {
+    text_files.matrix: 50,
+    point_files.points: 14,
+    point_files.zygo: 2,
+    point_files.esri: 8,
+    binary_files.netcdf: 8,
+    binary_files.npy: 3,
+    binary_files.tiff: 3,
+    binary_files.geotiff: 6,
+    binary_files.imagej: 6,
+    column_files.two_columns: 3,
+    column_files.curve: 1,
+}
+LONGEST, NO_END = 20, "no end after"  # seconds that a file may take
+METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
+READ, REFUSED, UNREAD, WRONG = "read", "refused", "refused though unambiguous", "wrong"
+
+
+def cases(seed, count, first=0):
+    """The cases with numbers from `first` on; each depends on the seed and its number only."""
+    share = np.array(list(KINDS.values())) / sum(KINDS.values())
+    for index in range(first, first + count):
+        random = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(index,)))
+        yield list(KINDS)[random.choice(len(KINDS), p=share)](random)
+
+
+# ---- the judge
+
+
+@contextlib.contextmanager
+def time_limit(seconds):
+    """Raise TimeoutError in the context when the time is over."""
+
+    def stop(*_):
+        raise TimeoutError(f"{NO_END} {seconds} s")
+
+    before = signal.signal(signal.SIGALRM, stop)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+
+
+def outcome(case, folder):
+    """(READ, REFUSED, UNREAD or WRONG, why) of a case, whose file is written to the folder."""
+    path, printed = Path(folder) / case.name, io.StringIO()
+    path.write_bytes(case.content)
+    found, refusal = None, ""
+    with warnings.catch_warnings(record=True) as caught, contextlib.redirect_stdout(printed):
+        warnings.simplefilter("always")
+        try:
+            with contextlib.redirect_stderr(printed), time_limit(LONGEST):
+                found = read(case, path)
+        except ValueError as error:
+            refusal = str(error)
+        except Exception:
+            return WRONG, traceback.format_exc().strip().splitlines()[-1]
+    for warning in caught:
+        if not issubclass(warning.category, AccuracyWarning):
+            return WRONG, f"{warning.category.__name__}: {warning.message}"
+    if printed.getvalue() or NO_END in refusal:
+        return WRONG, printed.getvalue()[:200] or refusal
+    if found is None:
+        return judged_refusal(case, refusal, path)
+    fault = difference(case, *found)
+    return (WRONG, fault) if fault else (READ, "")
+
+
+def read(case, path):
+    """(heights, their unit in metres or None, spacing) as the package reads a file."""
+    if case.kind in column_files.READERS:
+        return column_files.READERS[case.kind](path), None, ()
+    indenter = viscorough.read_heights(path, **case.options)
+    unit, spacing = indenter.length_unit, (indenter.spacing, indenter.row_spacing)
+    if unit != "1":
+        unit = METRES[unit] if unit in METRES else float(unit.removesuffix(" m"))
+    return indenter.heights, None if unit == "1" else unit, spacing
+
+
+def judged_refusal(case, text, path):
+    """The outcome of a refusal."""
+    if "\n" in text or not text.startswith(str(path)):
+        return WRONG, f"a refusal of more than one line, or without the file: {text[:200]!r}"
+    what = text.removeprefix(f"{path}: ")
+    if case.faulty_line and not re.search(r"\blines? \d+", what):
+        return WRONG, f"a refusal that does not name the line: {what}"
+    return (UNREAD if case.unambiguous else REFUSED), what
+
+
+def difference(case, heights, unit, spacing):
+    """How what was read differs from the truth of a case; empty if it does not."""
+    read_as = f"shape {heights.shape}, spacing {spacing}, unit {unit} m"
+    if case.heights is None:
+        return f"read, though it must be refused: {read_as}"
+    if (unit is None) != (case.unit is None):
+        return f"another unit: {read_as}, not {case.unit} m"
+    if heights.shape != case.heights.shape:
+        return f"another shape: {read_as}, not {case.heights.shape}"
+    truth, unit = case.heights, unit or 1.0
+    if unit != (case.unit or 1.0):
+        heights, truth = heights * unit, truth * case.unit
+    exact = np.where(np.isnan(truth), np.isnan(heights), np.abs(heights - truth) <= 1e-12 * np.abs(truth))
+    if not exact.all():
+        row, column = np.argwhere(~exact)[0]
+        return f"another map: {heights[row, column]} in row {row}, column {column}, not {truth[row, column]}"
+    if any(abs(d * unit / t - 1) > case.accuracy for d, t in zip(spacing, case.spacing, strict=True)):
+        return f"another spacing: {read_as}, not {case.spacing}{' m' if case.unit else ''}"
+    return ""
+
+
+def kind_of_refusal(text):
+    """A refusal without the numbers and names of its file."""
+    text = re.sub(r"'[^']*'|\"[^\"]*\"|\([^)]*\)", "_", text)
+    return re.sub(r"[+-]?\d[\d.,e+-]*", "N", text)[:80]
+
+
+@click.command()
+@click.option("--files", type=click.IntRange(1), default=10_000, show_default=True, help="Number of files.")
+@click.option("--seed", type=click.IntRange(0), default=1, show_default=True, help="Seed of all files.")
+@click.option("--only", type=click.IntRange(0), help="Number of the one file to try.")
+@click.option("--keep", type=click.Path(file_okay=False, path_type=Path), help="Folder for the files that failed.")
+@click.option("--output", help="File to write, JSON.")
+def main(files, seed, only, keep, output):
+    """Count files that are read as another map; exit code 1 if there is any, or an unambiguous one is refused."""
+    began, counts, refusals, failures = time.perf_counter(), {}, Counter(), []
+    first, files = (0, files) if only is None else (only, 1)
+    with tempfile.TemporaryDirectory() as folder:
+        progress = tqdm(cases(seed, files, first), total=files, unit="file", mininterval=2, disable=only is not None)
+        for index, case in enumerate(progress, first):
+            word, why = outcome(case, folder)
+            counts.setdefault(case.kind, Counter())[word] += 1
+            if word in (REFUSED, UNREAD):
+                refusals[f"{case.kind}: {kind_of_refusal(why)}"] += 1
+            if word in (UNREAD, WRONG):
+                why = why.replace(f"{folder}/", "")
+                failures.append({"file": index, "kind": case.kind, "traits": case.traits, "why": why, "is": word})
+            if keep and (word in (UNREAD, WRONG) or only is not None):
+                keep.mkdir(parents=True, exist_ok=True)
+                (keep / f"{seed}-{index}-{case.name}").write_bytes(case.content)
+            if only is not None:
+                click.echo(f"{case.kind}, {', '.join(case.traits)}; arguments {case.options}\n{word}: {why}")
+                click.echo(f"truth: {case.heights}, spacing {case.spacing}, unit {case.unit} m")
+    about = {"machine": timing.machine(), "version": version("viscorough"), "seed": seed, "files": files}
+    about["seconds"] = round(time.perf_counter() - began, 1)
+    if output:
+        write_json(about | {"counts": counts, "refusals": dict(refusals.most_common()), "failures": failures}, output)
+    for failure in failures[:40]:
+        text = f"{failure['is']}: {failure['kind']} ({', '.join(failure['traits'])}): {failure['why']}"
+        click.echo(f"--seed {seed} --only {failure['file']}: {text}")
+    click.echo(table(counts))
+    raise SystemExit(bool(failures))
+
+
+def table(counts):
+    """Counts by kind of file as a table of text."""
+    words = (READ, REFUSED, UNREAD, WRONG)
+    rows = [("kind of file", *words)]
+    rows += [(kind, *(str(counts[kind][word]) for word in words)) for kind in sorted(counts)]
+    rows.append(("all", *(str(sum(count[word] for count in counts.values())) for word in words)))
+    return "\n".join(f"{row[0]:20}" + "".join(f"{cell:>28}" for cell in row[1:]) for row in rows)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,161 @@
+"""No file of the campaign is read as another map; and its judge notices what is not read as it should be."""
+
+import dataclasses
+import warnings
+
+import numpy as np
+import pytest
+
+from viscorough.indenter import Indenter
+
+
+@pytest.fixture(scope="module")
+def campaign(script):
+    """Imports the other modules, which are loaded first, each after those that it imports."""
+    for name in ("file_cases", "text_headers", "text_files", "point_files", "binary_files", "column_files"):
+        script(name)
+    return script("file_campaign")
+
+
+@pytest.fixture(scope="module")
+def some_cases(campaign):
+    return list(campaign.cases(2013, 400))
+
+
+@pytest.fixture
+def case(campaign, some_cases):
+    """An unambiguous matrix in a known unit, with a point missing."""
+    return next(
+        case
+        for case in some_cases
+        if case.kind == "matrix" and case.unambiguous and case.unit and np.isnan(case.heights).any()
+    )
+
+
+def test_no_file_is_read_as_another_map(campaign, some_cases, tmp_path):
+    """A failure is repeated by `python benchmarks/file_campaign.py --seed 2013 --only NUMBER`."""
+    outcomes = [(number, *campaign.outcome(case, tmp_path)) for number, case in enumerate(some_cases)]
+    assert [found for found in outcomes if found[1] in (campaign.WRONG, campaign.UNREAD)] == []
+
+
+def test_every_kind_of_file_is_tried_and_many_are_unambiguous_or_bad(campaign, some_cases):
+    kinds = {case.kind for case in some_cases}
+    assert kinds >= {
+        "matrix",
+        "matrix, Gwyddion",
+        "points",
+        "Zygo XYZ",
+        "ESRI grid",
+        "NetCDF",
+        "npy",
+        "TIFF",
+        "GeoTIFF",
+    }
+    assert kinds >= {"ImageJ", "force history", "creep table", "curve"}
+    assert sum(case.unambiguous for case in some_cases) > 150
+    assert sum(case.heights is None for case in some_cases) > 20
+
+
+def test_cases_depend_on_seed_and_number_only(campaign, some_cases):
+    for again, case in zip(campaign.cases(2013, 9, first=30), some_cases[30:], strict=False):
+        assert (again.traits, again.options) == (case.traits, case.options)
+        assert again.content == case.content or case.kind == "NetCDF"  # whose files hold addresses of memory
+    assert next(campaign.cases(2014, 1, first=30)).content != some_cases[30].content
+
+
+def reader(case, *, shift=0.0, wider=1.0, unit=None, rows=None):
+    """A reader that returns the truth of a case, in metres, or something else."""
+
+    def read(path, **_):
+        heights = case.heights * case.unit
+        heights = heights + shift * np.nanmax(abs(heights))
+        dx, dy = case.spacing
+        return Indenter(heights[:rows], dx * wider, dy, length_unit=unit or "m")
+
+    return read
+
+
+@pytest.mark.parametrize(
+    ("change", "what"),
+    [
+        ({}, ""),
+        ({"shift": 1e-15}, ""),
+        ({"shift": 1e-9}, "another map"),
+        ({"wider": 1 + 1e-9}, "another spacing"),
+        ({"unit": "1"}, "another unit"),
+        ({"unit": "mm"}, "another map"),
+        ({"rows": -1}, "another shape"),
+    ],
+)
+def test_another_map_spacing_or_unit_is_noticed(campaign, case, tmp_path, monkeypatch, change, what):
+    monkeypatch.setattr("viscorough.read_heights", reader(case, **change))
+    outcome, why = campaign.outcome(case, tmp_path)
+    assert outcome == (campaign.WRONG if what else campaign.READ)
+    assert why.startswith(what)
+
+
+def test_a_missing_point_that_becomes_a_height_is_noticed(campaign, case, tmp_path, monkeypatch):
+    filled = dataclasses.replace(case, heights=np.nan_to_num(case.heights))
+    monkeypatch.setattr("viscorough.read_heights", reader(filled))
+    assert campaign.outcome(case, tmp_path)[0] == campaign.WRONG
+
+
+def refusing(text, error=ValueError):
+    def read(path, **_):
+        raise error(text.format(path=path))
+
+    return read
+
+
+@pytest.mark.parametrize(
+    ("text", "error", "change", "expected"),
+    [
+        ("{path}: no", ValueError, {}, "UNREAD"),
+        ("{path}: no", ValueError, {"unambiguous": False}, "REFUSED"),
+        ("{path}: no", ValueError, {"unambiguous": False, "faulty_line": True}, "WRONG"),
+        ("{path}: line 3 is wrong", ValueError, {"unambiguous": False, "faulty_line": True}, "REFUSED"),
+        ("{path}: no\nno", ValueError, {"unambiguous": False}, "WRONG"),
+        ("no", ValueError, {"unambiguous": False}, "WRONG"),
+        ("{path}: no", TypeError, {"unambiguous": False}, "WRONG"),
+    ],
+)
+def test_refusals_are_judged(campaign, case, tmp_path, monkeypatch, text, error, change, expected):
+    monkeypatch.setattr("viscorough.read_heights", refusing(text, error))
+    outcome, _ = campaign.outcome(dataclasses.replace(case, **change), tmp_path)
+    assert outcome == getattr(campaign, expected)
+
+
+def test_a_file_that_must_be_refused_and_is_read_is_noticed(campaign, case, tmp_path, monkeypatch):
+    monkeypatch.setattr("viscorough.read_heights", reader(case))
+    outcome, why = campaign.outcome(dataclasses.replace(case, heights=None), tmp_path)
+    assert (outcome, why[:28]) == (campaign.WRONG, "read, though it must be refu")
+
+
+@pytest.mark.parametrize("fault", ["warning", "print", "endless"])
+def test_warnings_printed_lines_and_readers_without_end_are_noticed(campaign, case, tmp_path, monkeypatch, fault):
+    right = reader(case)
+
+    def read(path, **_):
+        if fault == "warning":
+            warnings.warn("overflow", RuntimeWarning, stacklevel=2)
+        if fault == "print":
+            print("reading")
+        while fault == "endless":
+            pass
+        return right(path)
+
+    monkeypatch.setattr("viscorough.read_heights", read)
+    monkeypatch.setattr(campaign, "LONGEST", 0.05)
+    assert campaign.outcome(case, tmp_path)[0] == campaign.WRONG
+
+
+def test_the_command_counts_and_repeats_what_failed(campaign, tmp_path, monkeypatch):
+    from click.testing import CliRunner
+
+    monkeypatch.setattr("viscorough.read_heights", refusing("{path}: no"))
+    result = CliRunner().invoke(campaign.main, ["--files", "30", "--seed", "3", "--keep", str(tmp_path)])
+    assert result.exit_code == 1
+    assert "--seed 3 --only" in result.output
+    kept = sorted(path.name.split("-")[1] for path in tmp_path.iterdir())
+    again = CliRunner().invoke(campaign.main, ["--seed", "3", "--only", kept[0]])
+    assert campaign.UNREAD in again.output

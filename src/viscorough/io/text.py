@@ -8,13 +8,12 @@ nothing is left out but comments.
 
 import io
 import re
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from viscorough import units
-from viscorough.io.atomic import reason
+from viscorough.io.atomic import check_readable, reason
 from viscorough.io.grids import gridded
 from viscorough.io.headers import read_header, states
 from viscorough.io.scan import Scan
@@ -102,9 +101,8 @@ def _utf16(start):
 
 def _content(path, size=-1):
     """The first bytes of a regular file."""
+    check_readable(path)
     try:
-        if Path(path).is_fifo():  # opening it would wait for a writer
-            raise ValueError(f"{path}: not readable (it is a pipe); a text file of heights is needed")
         with open(path, "rb") as file:
             return file.read(size)
     except OSError as error:

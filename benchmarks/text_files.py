@@ -149,7 +149,7 @@ def _with_comments(draft, rows, mark):
     """Rows with comments between or after them, or behind one; or with blank lines between."""
     forms = [*["none"] * 40, *["between", "after", "behind"] * 3, "text between", "text after", "blank lines between"]
     form, at = draft.one_of(forms), int(draft.random.integers(1, len(rows) + 1))
-    if form == "none":
+    if form == "none" or (form == "behind" and not rows[at - 1].strip()):
         return rows
     draft.note(f"comments: {form}", clear=form in ("between", "after", "behind"))
     if form == "behind":

@@ -27,7 +27,7 @@ def progress_bar(label, wanted):
         total=1.0,
         desc=label,
         delay=_DELAY,
-        disable=None if wanted is None else not wanted,
+        disable=sys.stderr is None or (None if wanted is None else not wanted),  # None where it was closed
         leave=False,
         file=sys.stderr,
         bar_format="{desc}: {percentage:3.0f} % |{bar:30}| {elapsed} gone, about {remaining} left",

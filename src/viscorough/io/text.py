@@ -139,7 +139,7 @@ def _without_points(lines, first, delimiter, row):
         cells = [cell.strip(' "') for cell in line.split(delimiter)]
         if 1 < len(cells) == wanted and all(map(missing.fullmatch, cells)):
             first = number
-        elif line:
+        elif line and not _COMMENT.match(lines[number]):
             break
     return first
 
@@ -280,10 +280,9 @@ def _check_above(lines, delimiter, counts, esri):
         if re.search(r"[:=]", line) or (esri and _ESRI_KEY.match(line)):
             continue
         cells = [cell.strip(' "') for cell in _REMARK.sub("", line).strip(" ").split(delimiter)]
-        if delimiter is not None and len(cells) > 1 and not any(cells) and len(cells) not in counts:
-            raise ValueError(
-                f"line {number}: {len(cells)} empty cells above rows of {max(counts)}; equal rows are needed"
-            )
+        if delimiter is not None and len(cells) > 1 and not any(cells):
+            text = "a row of empty cells apart from the others, or of another length"
+            raise ValueError(f"line {number}: {text}; rows of equal length are needed")
         if len(cells) not in counts:
             continue
         if (

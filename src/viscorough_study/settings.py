@@ -190,6 +190,9 @@ def _too_short_wave(settings):
 
 def _empty_range(settings):
     ranges = {f"{part}.x_low and x_high": (settings[part]["x_low"], settings[part]["x_high"]) for part in _RANGES}
+    for section in ("indentation", "sizes"):
+        ends = settings["ensemble"]["x_low"], settings[section]["until_x"]
+        ranges[f"ensemble.x_low and {section}.until_x"] = ends
     ranges |= {f"sizes.windows[{i}]": window for i, window in enumerate(settings["sizes"]["windows"])}
     ranges["media.times.low and high"] = settings["media"]["times"]["low"], settings["media"]["times"]["high"]
     for name, (low, high) in ranges.items():

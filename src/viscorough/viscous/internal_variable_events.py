@@ -33,7 +33,7 @@ class MediumEvents:
     time, depth [length], force, contact_count : at the times given, shape (times,)
     event_time, event_depth : at which the contact set grew, from the second element on, shape (events,)
     elements : number of elements of the indenter
-    pressure : p at the last time, on the grid of the heights, nan outside the indenter
+    pressure : p at the last time, after a step of the force there, on the grid of the heights, nan outside the indenter
     """
 
     time: np.ndarray
@@ -80,7 +80,10 @@ def march_medium_events(indenter, medium, times, *, force=None, depth=None, unti
             progress(len(rows) / times.size)
     depths, forces, counts = np.array(rows).T
     event_time, event_depth = np.array(contact.events).reshape(-1, 2).T
-    pressure = elements.pressure_map(contact.pressure)
+    pressure = contact.pressure
+    if depth is None and medium.relaxation.viscosity:  # the dashpot carries a step of the force at the last time
+        pressure = pressure + (load[-1] / elements.scale - pressure.sum()) * contact.punch_share
+    pressure = elements.pressure_map(pressure)
     moved = times, depths, forces, counts.astype(int), event_time, event_depth
     return MediumEvents(*moved, elements.count, pressure, indenter.length_unit)
 
@@ -254,6 +257,11 @@ class _GrowingContact:
         self._load = load
         self._closing = 1 - elements.deflection(load)
         self._find_next()
+
+    @property
+    def punch_share(self):
+        """q over Σq of the contact set, for all elements."""
+        return self._load / self.punch
 
     def _find_next(self):
         with np.errstate(divide="ignore"):

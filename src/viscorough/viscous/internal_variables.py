@@ -30,8 +30,7 @@ class MediumMotion:
 
     time : t; depth : u [length]; force : F; contact_count : elements in contact
     elements : number of elements of the indenter
-    pressure : p at the last time, on the grid of the heights, nan outside the indenter; in a medium with a
-        parallel dashpot (Newtonian, Kelvin-Voigt) and the second-order scheme, the mean over the last step
+    pressure : p at the last time, after a step of the force there, on the grid of the heights, nan outside the indenter
     receding_from : the first time at which an element had left the contact, so that the correspondence with the elastic
         problem holds no more; nan if none has
     """
@@ -74,9 +73,10 @@ def march_medium(indenter, medium, times, *, force=None, depth=None, scheme="sec
     elements = Elements(indenter, "march_medium")
     state = _State(elements, medium.relaxation)
     contact = _ContactProblem(elements)
-    by_depth, rows, receding = force is None, [], np.nan
+    by_depth, rows, receding, rate = force is None, [], np.nan, 0.0
     for k in range(times.size):
         length = times[k] - times[k - 1] if k else 0.0
+        rate = (load[k] - load[k - 1]) / length if length else rate
         before = contact.members
         if length > 0 or medium.relaxation.viscosity == 0:
             mean = by_depth or length == 0 or scheme == "backward_euler" or medium.relaxation.viscosity == 0
@@ -88,16 +88,15 @@ def march_medium(indenter, medium, times, *, force=None, depth=None, scheme="sec
             raise ValueError(
                 f"march_medium: depth steps at time {times[k]:g}, which takes an infinite force; allowed: ramps"
             )
-        rows.append((state.depth, elements.scale * state.pressure.sum(), contact.members.size))
+        if by_depth or k == times.size - 1:
+            pressure = state.pressure_now(contact, rate if by_depth else load[k], by_depth=by_depth)
+        force_now = elements.scale * pressure.sum() if by_depth else load[k]
+        rows.append((state.depth, force_now, contact.members.size))
         if progress:
             progress(len(rows) / times.size)
     depths, forces, counts = np.array(rows).T
-    if not by_depth:
-        forces = load
-    pressure = elements.pressure_map(state.pressure)
-    return MediumMotion(
-        times, depths, forces, counts.astype(int), elements.count, pressure, float(receding), indenter.length_unit
-    )
+    moved = times, depths, forces, counts.astype(int), elements.count, elements.pressure_map(pressure)
+    return MediumMotion(*moved, float(receding), indenter.length_unit)
 
 
 def load_samples(caller, times, force, depth):
@@ -118,7 +117,10 @@ def load_samples(caller, times, force, depth):
 
 
 class _State:
-    """Motion y, pressures Q and internal variables w of all elements."""
+    """Motion y, pressures Q and internal variables w of all elements.
+
+    With a parallel dashpot Q is that which a step assumes, its mean over the step in the second-order scheme.
+    """
 
     def __init__(self, elements, relaxation):
         self._elements, self._relaxation = elements, relaxation
@@ -140,6 +142,22 @@ class _State:
         change = (self.pressure - kept) / stiffness
         self._branches = decay[:, None] * self._branches + gain[:, None] * change
         self.motion = self.motion + change
+
+    def pressure_now(self, contact, load, *, by_depth):
+        """Q at this time: with a parallel dashpot, K y' = u' on the contact set, and Q = 0 elsewhere.
+
+        load : the force F, or u' if `by_depth`
+        """
+        viscosity, relaxed, moduli, _ = self._relaxation
+        if viscosity == 0:
+            return self.pressure
+        kept = relaxed * self.motion + (moduli[:, None] * self._branches).sum(axis=0)
+        wanted = viscosity * load if by_depth else load / self._elements.scale
+        members = contact.members
+        if members.size == 0:
+            height = self._elements.initial_gap + self._elements.deflection(self.motion)
+            members = np.flatnonzero(height == height.min())
+        return contact.solve_among(members, -self._elements.deflection(kept), wanted, by_depth=by_depth)
 
 
 def _branch_factors(x, scheme):
@@ -200,6 +218,15 @@ class _ContactProblem:
             deepest = np.argsort(gap)[: min(np.count_nonzero(overlaps), members.size + _ADDED_AT_ONCE)]
             members = np.union1d(members, deepest)
         raise ConvergenceError(f"march_medium: no contact set found in {_MAX_ITERATIONS} iterations")
+
+    def solve_among(self, members, free, wanted, *, by_depth):
+        """Q ≥ 0 where only some elements may touch, those of them under tension released."""
+        pressure = np.zeros(free.size)
+        if by_depth or wanted > 0:
+            while ((load := self._solve_on(members, free, wanted, by_depth=by_depth)[0]) < 0).any():
+                members = members[load >= 0]
+            pressure[members] = load
+        return pressure
 
     def _solve_on(self, members, free, wanted, *, by_depth):
         if members.size == 0:

@@ -235,6 +235,14 @@ def test_stops_at_fraction_or_force():
     assert by_force.force[-2] < 2.0
 
 
+@pytest.mark.parametrize("end", [{"until_fraction": 1e-300}, {"until_fraction": 1.0, "until_force": 1e-300}])
+def test_a_curve_that_ends_at_once_has_its_first_level(end):
+    disc = self_affine_disc(0.6, 33, seed=1)
+    curve, whole = indent(disc, **end), indent(disc)
+    np.testing.assert_array_equal(curve.depth, whole.depth[:1])
+    np.testing.assert_array_equal(curve.force, whole.force[:1])
+
+
 def test_first_level_is_one_element_in_contact():
     disc = self_affine_disc(0.8, 65, seed=4)
     curve = indent(disc, until_fraction=0.01)

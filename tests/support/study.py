@@ -105,30 +105,41 @@ def evidence(zeta=reference.zeta_elastic, **options):
         columns=["case", "quantity", "elements", "error"],
     )
     scaling = pd.DataFrame(rows, columns=list(COLUMNS))
-    found = Evidence(
-        discs=discs,
-        tables={
-            "scaling": scaling,
-            "prefactors": prefactors(scaling, BASE_SURFACES),
-            "validation": validation,
-            "direct": compare_direct(HURST, 17, 25, 1),
-            **mdr_tables(),
-            "methods": pd.DataFrame(
-                METHODS, columns=["method", "hurst", "elements", "value", "wall_s", "error", "steps"]
-            ),
-            "sizes_trends": pd.DataFrame(TRENDS, columns=["source", "window_rule", "hurst", *SLOPES]),
-            "sizes": scaling.query("source == 'discs'").assign(case_group="sizes", elements=round(0.778 * ACROSS**2)),
-            "plateaus": pd.DataFrame(plateaus, columns=of_plateaus),
-        },
-        numbers=NUMBERS,
-        conventions=SHOWN,
-        across=ACROSS,
-        limits=LIMITS,
-        rules=RULES,
-        **BOOTSTRAP,
+    found = evidence_of(
+        discs,
+        scaling=scaling,
+        prefactors=prefactors(scaling, BASE_SURFACES),
+        validation=validation,
+        direct=compare_direct(HURST, 17, 25, 1),
+        methods=pd.DataFrame(METHODS, columns=["method", "hurst", "elements", "value", "wall_s", "error", "steps"]),
+        sizes_trends=pd.DataFrame(TRENDS, columns=["source", "window_rule", "hurst", *SLOPES]),
+        sizes=scaling.query("source == 'discs'").assign(case_group="sizes", elements=round(0.778 * ACROSS**2)),
+        plateaus=pd.DataFrame(plateaus, columns=of_plateaus),
+        **mdr_tables(),
     )
     laws = zeta_laws(found.pooled, found.regions, (0.0, 0.6), average="geometric", **BOOTSTRAP)
     return replace(found, tables=found.tables | {"zeta_laws": laws})  # which has not pooled the discs yet
+
+
+def evidence_of(discs, **tables):
+    """Evidence of a pool of discs and these tables."""
+    rules = {"limits": LIMITS, "rules": RULES, **BOOTSTRAP}
+    return Evidence(discs=discs, tables=tables, numbers=NUMBERS, conventions=SHOWN, across=ACROSS, **rules)
+
+
+def evidence_with_factors(scatter):
+    """Evidence of 80 discs of each Hurst exponent, κ of which has factors that are the same ones at every H.
+
+    scatter : standard deviation of their logarithms, which have the mean 0
+    Where Hurst exponents share the draws of a bootstrap, all their means move by the same factor.
+    """
+    normal = np.random.default_rng(9).standard_normal(80)
+    factors = np.exp(scatter * (normal - normal.mean()) / normal.std(ddof=1)).reshape(4, 20, 1)
+    members = []
+    for hurst in HURST:
+        same = ensemble(hurst, "c", reference.zeta_elastic(hurst), scatter=0.0)
+        members += [same.assign(stiffness=same["stiffness"] * factor) for factor in factors]
+    return evidence_of(pool_of(members))
 
 
 def mdr_tables(drift=1.0, ratio=1.0):

@@ -55,15 +55,21 @@ def test_numbers_are_the_calibrated_ones():
     assert table["hurst"].tolist() == beyond["hurst"].tolist() == HURST
     assert np.all(table["beta_low"] < table["beta"])
     assert np.all(table["beta"] < table["beta_high"])
-    for i, hurst in enumerate(HURST):
-        law = viscorough.penetration_law(hurst)
-        assert (law.beta, law.zeta) == (table["beta"][i], table["zeta"][i])
-        assert law.region == pytest.approx((table["x_low"][i], table["x_high"][i]))
-        assert (law.exponent, law.peak, law.depth_offset) == (
-            beyond["exponent"][i],
-            beyond["peak"][i],
-            beyond["depth_offset"][i],
-        )
+    files = [pd.read_csv(ROOT / f"src/viscorough/data/{name}.csv") for name in ("calibration", "interface")]
+    fits = files[0].query("source == 'discs'").set_index("hurst")
+    # H = 1 has been computed among the grids from coarse to fine only, which stand after the base discs.
+    laws = files[1].query("source == 'discs' and across == 257 and average == 'geometric'")
+    laws = laws.sort_values("case_group").drop_duplicates("hurst").set_index("hurst")
+    for hurst in HURST:
+        law, fit, row = viscorough.penetration_law(hurst), fits.loc[hurst], laws.loc[hurst]
+        for name in ("beta", "zeta"):
+            assert (getattr(law, name), *getattr(law, f"{name}_interval")) == tuple(
+                fit[[name, f"{name}_low", f"{name}_high"]]
+            )
+        assert law.region == pytest.approx(tuple(fit[["x_low", "x_high"]]))
+        assert (law.exponent, law.peak, law.error) == tuple(row[["exponent", "peak", "error"]])
+        assert (law.peak_x, law.x_low) == pytest.approx(tuple(row[["peak_x", "law_low"]]))
+        assert (law.depth_offset, *law.depth_offset_interval) == tuple(row[["depth_offset", "depth_low", "depth_high"]])
         assert law.velocity(1.0) == pytest.approx(1 + interface_velocity(1.0, law.exponent, law.peak, law.peak_x))
 
 

@@ -42,6 +42,9 @@ def test_newtonian_media_follow_the_law():
     np.testing.assert_allclose(
         [found.velocity_low, found.velocity_high], RMS / times * np.array(law.velocity_interval(times)), rtol=1e-14
     )
+    np.testing.assert_allclose(
+        [found.depth_low, found.depth_high], RMS * np.array(law.depth_interval(times)), rtol=1e-14
+    )
 
 
 @pytest.mark.parametrize("medium", [Maxwell(100.0, 1.0), StandardLinearSolid(100.0, 20.0, 0.3)])

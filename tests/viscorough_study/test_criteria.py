@@ -9,8 +9,8 @@ import pytest
 import xarray as xr
 from scipy import stats
 
-from support.study import ACROSS, CLAIMS, HURST, X, evidence, pool_of
-from viscorough.reference import one_element_stiffness, zeta_elastic
+from support.study import ACROSS, CLAIMS, ELEMENTS, HURST, X, evidence, evidence_of, evidence_with_factors, pool_of
+from viscorough.reference import exponent_alpha, one_element_stiffness, zeta_elastic
 from viscorough_study.criteria import JUDGES
 from viscorough_study.ensembles import ensemble_dataset
 from viscorough_study.evidence import equivalence, judged, mean_with_interval, opposite
@@ -229,6 +229,15 @@ def test_curves_that_leave_the_first_region_sooner_separate_first():
     assert separation(swapped, 0.0)[1].verdict == "not reproduced"
 
 
+def test_interval_of_the_separation_is_that_of_independent_ensembles():
+    """ln X at the end of region (a) scatters by 1/α of ln κ, and the variances of both Hurst exponents add up."""
+    found = dataclasses.replace(evidence_with_factors(0.2), resamples=2000)
+    error = stats.t.ppf(0.975, 79) * 0.2 / np.sqrt(80)
+    for case, pair in zip(separation(found, 0.0), pairwise(HURST), strict=True):
+        of_both = error * np.hypot(*(1 / exponent_alpha(hurst) for hurst in pair))
+        assert np.log(case.high / case.low) / 2 == pytest.approx(of_both, rel=0.1)
+
+
 def test_contact_is_complete_only_where_most_elements_touch():
     """These discs have κ² of their elements in contact, and all of them where κ is 1."""
     found = evidence()
@@ -266,6 +275,8 @@ def test_interval_of_the_exponent_that_250_indentations_give():
     found.discs["stiffness"] = found.discs["stiffness"] * found.discs["x"] ** exponent
     for case in realizations(found, 0.03):
         assert case.low < 1.96 * 0.1 / np.sqrt(250) < case.high
+        probabilities = [stats.chi2.cdf(79 * (case.value / end) ** 2, 79) for end in (case.low, case.high)]
+        assert probabilities == pytest.approx([0.975, 0.025]), "the distribution of a variance of 80 samples"
         assert case.verdict == "reproduced"
     assert {case.verdict for case in realizations(found, 0.001)} == {"not reproduced"}
 
@@ -318,6 +329,17 @@ def test_slope_of_the_last_region_is_over_the_end_of_the_curves():
         assert {case.verdict for case in last_region(changed, 0.05) if "slope" in case.name} == {verdict}
 
 
+def test_slope_and_prefactor_of_the_last_region_are_those_of_the_curve_there():
+    """A parabola of ln(vt/h) over ln X has the least-squares slope of its middle: a quarter of a decade, five steps."""
+    log_x = np.log(X)
+    stiffness = np.tile(X / np.exp(0.2 + 0.7 * log_x + 0.05 * log_x**2), (1, 3, 1))
+    about = {"hurst": 0.6, "case": "c", "diameter": 1.0, "elements": ELEMENTS}
+    found = evidence_of(pool_of([ensemble_dataset(["disc"], X, stiffness, stiffness, about)]))
+    cases = last_region(dataclasses.replace(found, rules={"end_decades": 0.26}), 0.05)
+    slope = 0.7 + 0.1 * log_x[[-6, -1]].mean()
+    assert [case.value for case in cases] == pytest.approx([stiffness[0, 0, -1], slope], rel=1e-9)
+
+
 def test_interval_of_the_depth_contains_the_scatter_of_the_exponent():
     """Of power laws of exponents β_i the ratio is ⟨β⟩⟨1/β⟩ on these discs: far more certain than ⟨1/β⟩ for a given ⟨β⟩.
 
@@ -326,9 +348,9 @@ def test_interval_of_the_depth_contains_the_scatter_of_the_exponent():
     exponents = 0.4 * np.exp(0.2 * np.random.default_rng(4).standard_normal((60, 1)))
     stiffness = 0.5 * X ** (1 - exponents)
     count = np.where(X < 1e-3, 2, 20) * np.ones_like(stiffness)  # region (b) far from the first abscissa
-    about = {"hurst": 0.6, "case": "c", "diameter": 1.0, "elements": 51433}
+    about = {"hurst": 0.6, "case": "c", "diameter": 1.0, "elements": ELEMENTS}
     discs = pool_of([ensemble_dataset(["disc"], X, stiffness[None], count[None], about)])
-    (case,) = depth(dataclasses.replace(evidence(), discs=discs), 0.1)
+    (case,) = depth(evidence_of(discs), 0.1)
     assert case.value == pytest.approx(exponents.mean() * (1 / exponents).mean(), rel=0.015)
     with_fixed_exponent = 2 * 1.96 * 0.2 / np.sqrt(60)
     assert 0 < case.high - case.low < with_fixed_exponent / 2

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from viscorough_study.infinite_grid import COLUMNS, ERRORS, NEEDED, PLACES, fit, limit_tables, place_of
+from viscorough_study.infinite_grid import COLUMNS, ERRORS, NEEDED, PLACES, fit, limit_tables, place_of, points
 from viscorough_study.power_law import log_means
 from viscorough_study.scaling_collapse import Grid
 
@@ -55,6 +55,16 @@ def test_joint_fit_returns_the_law_within_its_intervals(factor):
         assert sum(one.omega_low <= OMEGA <= one.omega_high for one in fits) >= 6
         assert np.median([one.correction for one in fits]) == pytest.approx(B, rel=0.2)
         assert np.median([one.amplitude for one in fits]) == pytest.approx(A, rel=0.1)
+
+
+def test_resamples_scatter_as_means_of_independent_realizations():
+    """By the standard deviation over √n; those of resamples of n, here 3, by √(2/3) of it."""
+    generator, x = np.random.default_rng(1), np.geomspace(1e-3, 0.1, 9)
+    logarithms = generator.standard_normal((3, 1))
+    means = log_means(np.exp(logarithms) * x**BETA, "geometric", 4000, generator)
+    of_hurst = [Grid(number, 3, np.log(x), means, np.full(x.size, 10), 1.0, 1.0) for number in (65, 257)]
+    _, log_y, _ = points(of_hurst, "whole", "resolved", elements_min=10, x_high=1.0)
+    assert log_y[1:, 0].std() == pytest.approx(logarithms.std(ddof=1) / np.sqrt(3), rel=0.05)
 
 
 def test_the_interface_is_fitted_without_the_punch():

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy import stats
 
 from viscorough.contact.loading_path import indent
 from viscorough.indenter import Indenter
@@ -51,7 +52,13 @@ def test_comparison():
     assert list(table) == list(COLUMNS)
     assert (table["stiffness_ratio_low"] < table["stiffness_ratio"]).all()
     assert table["stiffness_ratio"].between(0.3, 3).all()
+    half_width = stats.t.ppf(0.975, 5) * table["stiffness_scatter"] / np.sqrt(6)
+    for end, side in (("low", -1), ("high", 1)):
+        np.testing.assert_allclose(
+            np.log(table[f"stiffness_ratio_{end}"] / table["stiffness_ratio"]), side * half_width
+        )
     assert table["correlation"].between(-1, 1).all()
+    np.testing.assert_allclose(stats.norm.cdf(np.arctanh(table["chance"]) * np.sqrt(6 - 3)), 0.975, atol=1e-4)
     assert (table["realizations"] == 6).all()
     assert table["stiffness"].is_monotonic_increasing
     with_gap = is_power_of_ten(table["x"])

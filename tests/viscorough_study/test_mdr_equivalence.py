@@ -17,9 +17,10 @@ x = abscissa(1e-7, 30, 20)
 HOW = {"average": "geometric", "stiffness_range": [0.03, 0.3], "resamples": 50, "seed": 1, **LIMITS}
 
 
-def ensemble(alpha, seed, *, factor=1.0, elements=10**5, hurst=0.7):
-    """κ = factor X^α with scatter, from one element to complete contact."""
-    scatter = np.exp(0.05 * np.random.default_rng(seed).normal(size=(12, 1)))
+def ensemble(alpha, seed, *, factor=1.0, elements=10**5, hurst=0.7, spread=0.0):
+    """κ = factor X^α with scatter, from one element to complete contact; spread : standard deviation of α."""
+    normal = np.random.default_rng(seed).normal(size=(12, 1))
+    scatter, alpha = np.exp(0.05 * normal), alpha + spread * normal
     stiffness = np.clip(factor * scatter * x**alpha, 1e-6, 1)
     return ensemble_of(x, stiffness, elements=elements, hurst=hurst).isel(rms_convention=0)
 
@@ -47,6 +48,14 @@ def test_equal_ensembles_have_the_lambda_pi():
     assert exponents["window"].tolist() == list(WINDOWS)
     assert exponents["difference"].abs().max() < 1e-9
     assert (exponents["difference_low"] <= 0).all()
+
+
+def test_discs_and_lines_are_drawn_independently():
+    """Even if they are the same curves: the variances of both exponents add up."""
+    one = {0.7: ensemble(0.6, seed=1, spread=0.01)}
+    _, _, exponents = compare_ensembles(one, one, **HOW | {"resamples": 1000})
+    widths = {name: exponents[f"{name}_high"] - exponents[f"{name}_low"] for name in ("beta_discs", "difference")}
+    np.testing.assert_allclose(widths["difference"], np.sqrt(2) * widths["beta_discs"], rtol=0.15)
 
 
 def test_another_exponent_makes_lambda_drift():

@@ -71,6 +71,19 @@ def test_few_realizations_leave_it_undecided():
     assert collapse(ensembles(1)[:1], HURST, "whole", "resolved", X_HIGH, tolerance=0.01)["finding"] == "undecided"
 
 
+@pytest.mark.parametrize(("apart", "p", "finding"), [(0.965, 0.04, "does not collapse"), (0.945, 0.06, "undecided")])
+def test_quantile_and_p_value_are_those_of_the_distribution_of_spreads(apart, p, finding):
+    """Two grids to either side of their mean: of 101 resamples the spreads are 0 to 1, uniformly."""
+    resamples = np.concatenate([[0], np.linspace(0, 1, 101) * np.sqrt(9 / 10)])  # means of 10 scatter more
+    log_x = STEP * np.arange(-30, 0)
+    curves = [BETA * log_x + side * (apart + resamples[:, None]) for side in (-1, 1)]
+    of_hurst = [Grid(129, 10, log_x, curve, np.full(log_x.size, 100.0), 1.0, 1.0) for curve in curves]
+    row = collapse(of_hurst, HURST, "whole", "resolved", 1.0, tolerance=0.05)
+    assert (row["spread"], row["spread_null"], row["p_value"]) == pytest.approx((apart, 0.95, p), abs=1e-3)
+    assert row["finding"] == finding
+    assert ("beta_low" in row) == (finding == "undecided"), "grids of equal N collapse with any exponent or none"
+
+
 def test_the_height_over_all_waves_makes_one_law_of_many():
     """Each grid has its share of the heights; at a large share of the scatter, only h of the spectrum collapses."""
     generator = np.random.default_rng(3)
@@ -106,24 +119,32 @@ def test_share_of_the_variance(source, hurst):
     assert shares[0] / shares[1] == pytest.approx(ratio, rel=2e-3)
 
 
-def pool():
-    """Two grids of one Hurst exponent, one of which has too few realizations."""
+def pool(*realizations, scatter=0.0):
+    """Two grids of one Hurst exponent, with factors on vt/h of the same random numbers."""
     x = 10 ** np.arange(-4, 0, 0.1)
     parts = []
-    for elements, realizations in ((ELEMENTS, 4), (13049, 2)):
-        velocity = np.tile(x**0.4, (1, realizations, 1))
+    for elements, number in zip((ELEMENTS, 13049), realizations, strict=True):
+        velocity = np.exp(scatter * np.random.default_rng(1).standard_normal((1, number, 1))) * x**0.4
         part = xr.Dataset({"stiffness": (("rms_convention", "realization", "abscissa"), x / velocity)})
         part["contact_count"] = part["stiffness"] * 0 + 1000 * x / x[10] / 100
         about = {"hurst": HURST, "elements": elements, "group": "sizes", "case": "sizes", "diameter": 1.0}
-        parts.append(
-            part.assign_coords({name: ("realization", [value] * realizations) for name, value in about.items()})
-        )
+        parts.append(part.assign_coords({name: ("realization", [value] * number) for name, value in about.items()}))
     return xr.concat(parts, "realization").assign_coords(x=("abscissa", x), rms_convention=["disc"])
 
 
+OF_POOL = {"average": "geometric", "rms_convention": "disc", "elements_min": 10, "fraction_min": 0.95, "seed": 1}
+
+
+def test_realizations_of_each_grid_are_drawn_independently():
+    """Resamples of equal curves on two grids are not correlated: 0.2 is four standard errors of 400 pairs."""
+    found = grids(pool(20, 20, scatter=0.1), "discs", **OF_POOL, resamples=400)
+    coarse, fine = (one.log_velocity[1:, 0] for one in found[HURST])
+    assert abs(np.corrcoef(coarse, fine)[0, 1]) < 0.2
+
+
 def test_grids_of_a_pool():
-    how = {"average": "geometric", "rms_convention": "disc", "elements_min": 10, "fraction_min": 0.95}
-    found = grids(pool(), "discs", **how, resamples=20, seed=1)
+    """One of which has too few realizations."""
+    found = grids(pool(4, 2), "discs", **OF_POOL, resamples=20)
     (one,) = found[HURST]
     assert (one.number, one.realizations, one.log_velocity.shape[0]) == (257, 4, 21)
     assert one.punch == pytest.approx(0.99486, abs=1e-4)

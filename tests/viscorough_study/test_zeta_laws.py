@@ -4,9 +4,10 @@ import dataclasses
 
 import numpy as np
 import pytest
+from scipy import stats
 from scipy.special import gamma as gamma_function
 
-from support.study import BOOTSTRAP, HURST, LIMITS, evidence
+from support.study import BOOTSTRAP, HURST, LIMITS, evidence, evidence_with_factors
 from viscorough import reference
 from viscorough_study.zeta_laws import COLUMNS, LAWS, MEASURES, difference, value_of, zeta_laws
 
@@ -47,6 +48,16 @@ def test_differences_are_those_of_the_same_samples():
                 assert low <= value <= high
     value, _, high = value_of(table, "curve", difference(FOUR), "deviation")
     assert value < high < 0, "surfaces that obey Eq. 4 are nearer to it"
+
+
+def test_realizations_of_each_hurst_exponent_are_drawn_independently():
+    """The common factor is a mean over Hurst exponents, whose errors add up as those of independent ensembles."""
+    found = evidence_with_factors(0.2)
+    table = zeta_laws(found.pooled, found.regions, average="geometric", resamples=2000, seed=1)
+    error = stats.t.ppf(0.975, 79) * 0.2 / np.sqrt(80) / np.sqrt(len(HURST))
+    for quantity in ("zeta", "curve"):
+        _, low, high = value_of(table, quantity, FOUR, "common factor")
+        assert np.log(high / low) / 2 == pytest.approx(error, rel=0.1)
 
 
 def test_spread_of_curves_is_that_at_equal_abscissae():

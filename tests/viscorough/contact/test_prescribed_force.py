@@ -72,6 +72,15 @@ def test_a_sphere_has_the_depths_of_hertz():
     np.testing.assert_allclose(sphere.force(curve.depth), forces, rtol=2e-3)
 
 
+def test_the_last_correction_is_as_small_as_the_tolerance_asks():
+    """The stiffness at a force is that of the last contact solved, before the correction that reaches the force."""
+    sphere, tolerance = reference.sphere(2.0), 0.1
+    options = SolverOptions(dense_contacts=0, dense_interactions=0)
+    for force in np.geomspace(0.01, 0.5, 15):
+        curve = indent(sphere.indenter(65, width=2), forces=[force], tolerance=tolerance, options=options)
+        assert curve.stiffness == pytest.approx(sphere.stiffness(curve.depth), rel=tolerance)
+
+
 def test_few_depths_are_solved():
     """A force costs about as many solutions as it takes to come near it, and a force close by one or two."""
     disc, depths = self_affine_disc(0.8, 129, seed=3), []

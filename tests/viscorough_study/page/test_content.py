@@ -7,9 +7,9 @@ import pandas as pd
 import pytest
 import xarray as xr
 
-from support.study import NUMBERS, ROOT
-from viscorough_study.page.answers import fastest_methods, method_row, verdict_counts
-from viscorough_study.page.content import media, other_solvers, scale
+from support.study import CLAIMS, NUMBERS, ROOT
+from viscorough_study.page.answers import best_model, failures, fastest_methods, method_row, verdict_counts
+from viscorough_study.page.content import costs, measured, media, other_solvers, scale, scenes, verdicts
 from viscorough_study.page.results import Results
 
 
@@ -53,6 +53,7 @@ def methods():
         ("path", "path, automatic levels", "tolerance", 1e-3, 0.3, 4e-4),
         ("marching", "explicit, logarithmic steps", "steps", 64, 5.0, 8e-3),
         ("model", "MDR", "points", 64, 1e-3, 0.2),
+        ("model", "power law", "gamma", 0, 1e-6, 0.3),
         ("other solver", "ASPHER", "tolerance", 1e-3, 0.01, 1e-4),
     ]
     table = pd.DataFrame(rows, columns=["group", "method", "parameter", "value", "wall_s", "error"])
@@ -63,12 +64,13 @@ def methods():
 
 def test_the_fastest_method_that_reaches_an_error_is_named(methods):
     fastest = {row["error"]: row["fastest"] for row in fastest_methods(methods)}
-    assert fastest[0.1]["path"] == method_row(methods, 6)
+    assert fastest[0.1]["path"] == method_row(methods, 7)
     assert fastest[1e-2]["path"]["value"].value == 1e-3
     assert fastest[1e-2]["path"]["wall_s"].value == 0.2
     assert fastest[1e-2]["marching"]["wall_s"].value == 5.0
     assert fastest[1e-2]["model"] is None
     assert set(fastest[1e-6].values()) == {None}
+    assert best_model(methods)["method"] == "MDR"
 
 
 def test_a_claim_counts_once_with_the_worst_of_its_verdicts():
@@ -76,6 +78,48 @@ def test_a_claim_counts_once_with_the_worst_of_its_verdicts():
     rows = [(*row, "physics") for row in rows] + [("d", "not reproduced", "bookkeeping")]
     counts = verdict_counts(Results({"claims": pd.DataFrame(rows, columns=["claim", "verdict", "kind"])}, {}, {}))
     assert [(count.counted, count.value) for count in counts] == [("reproduced", 2), ("not reproduced", 1)]
+
+
+def test_numbers_stand_in_the_rows_for_which_they_are_shown():
+    conventions = {"rms_convention": "disc", "average": "geometric", "window_rule": "default"}
+    names = {
+        "level_placement": {"scene": ["a", "a", "b"], "choice": ["c", "d", "c"]},
+        "rule_costs": {"rule": ["e", "f"]},
+        "measured_scans": {"file": ["g", "h"], "group": "i"},
+        "measured_fits": {"case_group": ["j", "k"], **conventions},
+    }
+    numbers = {
+        "level_placement": "accuracy reached levels wall_s ratio error",
+        "rule_costs": "jobs seconds longest_s memory_mb",
+        "measured_scans": "elements spacing row_spacing rms rms_slope diameter",
+        "measured_fits": "realizations decades beta beta_low beta_high zeta",
+    }
+    tables = {name: pd.DataFrame(names[name]).assign(**dict.fromkeys(numbers[name].split(), 1.0)) for name in names}
+    results = Results(tables | {"claims": pd.read_csv(ROOT / "docs/claims.csv")}, {}, {})
+    shown = [
+        (case["value"], {"claim": claim["name"], "case": case["case"]})
+        for claims in verdicts(results, CLAIMS).values()
+        for claim in claims
+        for case in claim["cases"]
+    ]
+    for scene in scenes(results):
+        shown += [(row["levels"], {"scene": scene["scene"], "choice": name}) for name, row in scene["choices"].items()]
+    shown += [(row["jobs"], {"rule": row["rule"]}) for row in costs(results)["rules"]]
+    of_scans = measured(results, conventions)
+    shown += [(row["rms"], {"file": row["file"]}) for row in of_scans["scans"]]
+    shown += [(row["beta"], {"case_group": row["group"]}) for row in of_scans["groups"]]
+    for number, about in shown:
+        assert results.tables[number.table].loc[number.row, list(about)].to_dict() == about
+    assert {number.table for number, _ in shown} == set(results.tables)
+
+
+def test_worst_error_of_the_models_is_one_of_those_that_users_are_told():
+    rows = [("MDR", "stated", 0.3), ("MDR", "holds", 0.4), ("power law", "warned", 0.2), ("path", "warned", 0.5)]
+    table = pd.DataFrame(rows, columns=["method", "verdict", "error"]).assign(group="a", case="b", reason="c")
+    found = failures(Results({"failure_map": table}, {}, {}))
+    assert found["worst_model"].value == 0.3
+    assert (found["cases"].value, found["warned"].value, found["unnoticed"].value) == (2, 2, 0)
+    assert [row["messages"] for row in found["methods"]] == [{}, {}, {("warned", "c"): ["a: b"]}]
 
 
 def test_published_ratios_of_other_solvers_say_when_and_where_they_were_measured():

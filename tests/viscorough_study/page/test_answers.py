@@ -1,0 +1,67 @@
+"""The answers at the top of the page: every sentence has the numbers of the claims whose verdicts it shows."""
+
+import re
+
+import pandas as pd
+import pytest
+
+from support.study import CLAIMS, ROOT
+from viscorough_study.page.answers import answers
+from viscorough_study.page.render import render
+from viscorough_study.page.results import Results
+
+TABLE = pd.read_csv(ROOT / "docs/claims.csv")
+FOUND = answers(Results({"claims": TABLE}, {}, {}))
+FOUND = answers(Results({"claims": TABLE}, {}, {}))
+
+
+@pytest.fixture(scope="module")
+def text():
+    """The list of answers, with <claim> in place of a claim's verdict and {row column} in place of a number."""
+    template = (ROOT / "workflow/page/page.html.jinja").read_text(encoding="utf-8")
+    answer = template.split("<!DOCTYPE")[0] + re.search('<ol class="found">.*?</ol>', template, re.DOTALL)[0]
+    content = {"advised": {"path": None, "marching": None}, "failures": {"cases": None, "unnoticed": None}}
+    content |= {"overall": {name: f"<{name}>" for name in CLAIMS}, "short": dict.fromkeys(CLAIMS, "")}
+    html = render(answer, "", {}, {}, {}, a=FOUND, advised_elements=None, best_model=None, **content)
+    html = re.sub(r'<data [^>]*data-row="(\d+)" data-column="(\w+)"[^>]*>[^<]*</data>', r"{\1 \2}", html)
+    return " ".join(re.sub("<.*?>", "", html).split()).replace("&lt;", "<").replace("&gt;", ">")
+
+
+def test_numbers_are_those_of_the_claims_whose_verdicts_stand_before_them(text):
+    parts = re.findall(r"((?:<\w+>[^{<]*)+)((?:\{\d+ \w+\}[^{<]*)+)", text)
+    for verdicts, numbers in parts:
+        rows = [int(row) for row in re.findall(r"\{(\d+)", numbers)]
+        assert set(TABLE.loc[rows, "claim"]) == set(re.findall(r"<(\w+)>", verdicts))
+    assert sum(numbers.count("{") for _, numbers in parts) == text.count("{")
+
+
+def test_verdicts_on_an_equation_are_those_of_the_claims_on_it(text):
+    named = re.findall(r"(Eq\. \d+)(?:, with Γ)?: <(\w+)>", text)
+    assert [CLAIMS[claim]["where"] for _, claim in named] == [equation for equation, _ in named] == ["Eq. 4", "Eq. 11"]
+
+
+def test_intervals_and_cases_are_those_of_their_numbers(text):
+    intervals = re.findall(r"\{(\d+) value\} \[\{(\d+) low\}, \{(\d+) high\}\]", text)
+    assert all(len(set(rows)) == 1 for rows in intervals)
+    assert len(intervals) == text.count("[") > 2
+    cases = re.findall(r"\{(\d+) value\}(?: \[[^]]*\])? for (H = [\d.]+)", text)
+    cases += [(row, case) for case, row in re.findall(r"differ most for (H = [\d.]+): by \{(\d+)", text)]
+    assert [TABLE.at[int(row), "case"] for row, _ in cases] == [case for _, case in cases]
+    assert len(cases) == len(re.findall(r"for H = ", text))
+
+
+def test_numbers_of_the_paper_are_the_expected_ones(text):
+    said = re.findall(r"paper(?:: | has )\{\d+ (\w+)\}(?: to \{\d+ (\w+)\})?", text)
+    assert {column for columns in said for column in columns if column} == {"expected"}
+    assert len(said) == text.count("the paper:") + text.count("the paper has")
+
+
+def test_least_largest_and_ends_are_those_of_all_cases():
+    of_claim = dict(list(TABLE.groupby("claim")))
+    assert abs(FOUND["coincide"]["value"].value) == of_claim["coincide"]["value"].abs().max()
+    ranges = {"power_law": [("value", "value")], "gamma": [("least", "largest"), ("expected", "expected")]}
+    for name, claim in (("decades", "power_law"), ("gamma", "gamma")):
+        ends = [(of_claim[claim][low].min(), of_claim[claim][high].max()) for low, high in ranges[claim]]
+        assert [number.value for number in FOUND[name]] == [end for pair in ends for end in pair]
+    for name in ("elastic", "viscous"):
+        assert [case["case"] for case in FOUND[name]] == ["H = 0.1", "H = 0.9"]

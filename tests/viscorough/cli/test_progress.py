@@ -2,6 +2,9 @@
 
 import time
 
+import pytest
+
+from viscorough.cli import progress
 from viscorough.cli.progress import progress_bar
 
 
@@ -29,3 +32,12 @@ def test_what_is_quick_shows_nothing(capsys):
 def test_without_a_terminal_only_what_is_asked_for_is_shown(capsys):
     for wanted in (None, False):
         assert shown(capsys, wanted, 1.05) == ("", "")
+
+
+@pytest.mark.parametrize("wanted", [None, True])
+def test_where_standard_error_is_closed_slow_work_goes_on(monkeypatch, wanted):
+    monkeypatch.setattr(progress, "_DELAY", 0.0)
+    monkeypatch.setattr("sys.stderr", None)
+    with progress_bar("viscorough indent", wanted) as report:
+        time.sleep(0.2)  # longer than the shortest time between two updates
+        report(0.5)

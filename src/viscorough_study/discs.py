@@ -30,6 +30,14 @@ def ensemble_disc(elements, surface, seed):
     return indenter, {name: float(height * factor) for name, height in rms.items()}
 
 
+def end_of_curve(number, *, until_x, short_until_x, whole_curves):
+    """X at which the curve of a realization ends, by its number in the ensemble: the first `whole_curves` are longer.
+
+    The number is known before the surface is, so that the longer curves are a random sample of the ensemble.
+    """
+    return until_x if number < whole_curves else short_until_x
+
+
 def indent_disc(disc, rms, diameter, *, tolerance, until_fraction, until_x):
     """LoadingCurve of a disc until a contact fraction or X = F/(4GhL) is reached.
 

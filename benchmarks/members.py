@@ -59,7 +59,7 @@ def _turn(settings, ensemble, number, whole_curves, x):
     start = time.process_time()
     seed = realization_seed(settings["seed"], *ensemble["spawn_key"], number)
     disc, rms = ensemble_disc(ensemble["elements"], surface, seed)
-    until_x = end_of_curve(number, **ends)
+    until_x = end_of_curve(number, ends)
     member = indent_disc(
         disc, rms, surface["diameter"], tolerance=discs["tolerance"], until_x=until_x, **until_fraction
     )

@@ -30,12 +30,12 @@ def ensemble_disc(elements, surface, seed):
     return indenter, {name: float(height * factor) for name, height in rms.items()}
 
 
-def end_of_curve(number, *, until_x, short_until_x, whole_curves):
-    """X at which the curve of a realization ends, by its number in the ensemble: the first `whole_curves` are longer.
+def end_of_curve(number, indentation):
+    """X at which the curve of a realization ends: `until_x` for the first `whole_curves`, `short_until_x` for others.
 
-    The number is known before the surface is, so that the longer curves are a random sample of the ensemble.
+    number : of the realization, which is known before the surface is: longer curves are a random sample of the ensemble
     """
-    return until_x if number < whole_curves else short_until_x
+    return indentation["until_x" if number < indentation["whole_curves"] else "short_until_x"]
 
 
 def indent_disc(disc, rms, diameter, *, tolerance, until_fraction, until_x):

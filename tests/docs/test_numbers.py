@@ -301,7 +301,7 @@ def test_times_of_the_whole_paper():
     assert f"50 500 lines: {minutes} minutes" in pages["reproduce"]
     assert f"Of {minutes} min" in pages["performance"]
     short = re.search(r"takes ([\d.]+) minutes on two cores \(`make bench`\)", words("README.md"))[1]
-    assert f"at a reduced scale; {short} minutes" in pages["reproduce"]
+    assert f"at the paper's scale; {short} minutes" in pages["reproduce"]
     assert f"It takes {short} minutes" in words("docs/getting_started.md")
     settings = merged(read_settings("config"), read_settings("paper"))
     ensembles = [

@@ -13,14 +13,12 @@ from viscorough_study.seeds import realization_seed
 def main(curves, *, ensembles, seed, indentation):
     """Indent the realizations of a batch; all lengths in m.
 
-    ensembles : the batch's, each with name, spawn_key, elements, surface (arguments of self_affine_disc) and numbers,
-        first realization and the one after the last
+    ensembles : of `viscorough_study.cases.ensembles_of_batch`; surface : arguments of self_affine_disc
     indentation : tolerance and until_fraction, as in `indent_disc`, and where curves end, as in `end_of_curve`
     """
     batch, indented, heights = numbered(ensembles), [], []
     accuracy = {name: indentation[name] for name in ("tolerance", "until_fraction")}
-    ends = {name: value for name, value in indentation.items() if name not in accuracy}
-    until_x = [end_of_curve(number, **ends) for _, number in batch]
+    until_x = [end_of_curve(number, indentation) for _, number in batch]
     for (one, number), end in zip(progress(batch, len(batch), "indentations"), until_x, strict=True):
         start = time.perf_counter()
         disc, rms = ensemble_disc(one["elements"], one["surface"], realization_seed(seed, *one["spawn_key"], number))
@@ -33,8 +31,8 @@ def main(curves, *, ensembles, seed, indentation):
     about = {name: [one["surface"][name] for one, _ in batch] for name in ("hurst", "diameter")}
     about |= {"spacing": [one["surface"]["diameter"] / one["elements"] for one, _ in batch], "settings": settings}
     about |= {"rms": {name: [rms[name] for rms in heights] for name in heights[0]}, "until_x": until_x}
-    about["cases"] = [one["name"] for one, _ in batch]
-    netcdf.write(batch_of_curves(indented, realizations=[number for _, number in batch], **about), curves)
+    about |= {"cases": [one["name"] for one, _ in batch], "realizations": [number for _, number in batch]}
+    netcdf.write(batch_of_curves(indented, **about), curves)
 
 
 if job := globals().get("snakemake"):

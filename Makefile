@@ -93,6 +93,7 @@ bench: environment
 	$(BIN)/python benchmarks/rectangles.py --output results/rectangles.json
 	$(BIN)/python benchmarks/kinetics.py --output results/kinetics.json
 	$(BIN)/python benchmarks/lines.py --output results/lines.json
+	$(BIN)/python benchmarks/members.py --output results/members.json
 
 speed stability: SETTINGS = config/methods.yaml
 sizes: SETTINGS = config/sizes.yaml

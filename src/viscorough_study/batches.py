@@ -16,13 +16,14 @@ RMS = {
 }
 
 
-def batch_of_curves(curves, *, realizations, hurst, rms, spacing, diameter, settings):
+def batch_of_curves(curves, *, realizations, hurst, rms, spacing, diameter, until_x, cases, settings):
     """Content of a NetCDF file; lengths in m.
 
     curves : LoadingCurve of every realization; realizations : their numbers
     rms : {convention: rms heights, shape (realizations,)}, conventions of `RMS`
-    hurst, spacing, diameter : Hurst exponent, spacing of the grid and L of every realization, one number in the file
-        where all are equal
+    hurst, spacing, diameter, until_x : Hurst exponent, spacing of the grid, L and the X that its curve was to reach, of
+        every realization; one number in the file where all are equal
+    cases : name of the ensemble of every realization
     settings : what the curves were made from, for the attribute settings
     """
     content = stack_curves(curves)
@@ -31,11 +32,14 @@ def batch_of_curves(curves, *, realizations, hurst, rms, spacing, diameter, sett
         "spacing": (_one_if_equal(spacing), "spacing of the grid", "m"),
         "diameter": (_one_if_equal(diameter), "diameter of the indenter", "m"),
         "hurst": (_one_if_equal(hurst), "Hurst exponent", "1"),
+        "until_x": (_one_if_equal(until_x), "X that the curve was to reach", "1"),
         "realization": (np.asarray(realizations), "number of it", "1"),
+        "case": (np.asarray(cases, dtype=object), "name of the ensemble", ""),
     }
     for name, (values, text, units) in lengths.items():
         dimensions = ("realization",) if values.ndim else ()
-        content.variables[name] = Variable(dimensions, values, {"long_name": text, "units": units})
+        attributes = {"long_name": text} | ({"units": units} if units else {})
+        content.variables[name] = Variable(dimensions, values, attributes)
     return content.with_attributes(settings=json.dumps(settings))
 
 
@@ -51,4 +55,4 @@ def without_numbers(ensembles):
 
 def _one_if_equal(values):
     values = np.asarray(values)
-    return values[0] if (values == values[0]).all() or values.size == 1 else values
+    return values.flat[0] if values.size == 1 or (values == values.flat[0]).all() else values

@@ -1,9 +1,10 @@
 """Tables of cases: which ensembles, batches and indenters the settings ask for, and what their jobs need.
 
-A case is a dictionary of what its jobs need: one ensemble of surfaces of one kind, or, of grids from coarse to fine,
-several, whose realizations are numbered one after the other, so that a job can hold many small ones. Its name stands in
-file names, which hold no floating-point numbers. Cases of one meaning form a group; the curves of all cases that are
-evaluated together are brought to common abscissae in one pool.
+A case is a dictionary of what its jobs need: one ensemble of surfaces of one kind, or several. The combinations of one
+Hurst exponent are batched side by side, so that a job has the same realizations of all of them; grids from coarse to
+fine are batched one after the other, so that a job can hold many small discs. The name of a case stands in file names,
+which hold no floating-point numbers, that of an ensemble in the tables. Cases of one meaning form a group; the curves
+of all cases that are evaluated together are brought to common abscissae in one pool.
 """
 
 import itertools
@@ -32,37 +33,43 @@ def hurst_id(hurst):
 def disc_cases(settings):
     """{case: its description} of every case of discs.
 
-    A description holds pool, group, realizations, batch, indentation and either ensembles or the keys of one ensemble:
-    spawn_key, elements and surface (arguments of self_affine_disc). The base cases also hold combination. To the spawn
-    key (viscorough_study.seeds) the number of the realization is added.
+    A description holds pool, group, realizations, batch, indentation and ensembles, each of them name, spawn_key,
+    elements, surface (arguments of self_affine_disc) and realizations; those of the base cases also combination. To the
+    spawn key (viscorough_study.seeds) the number of the realization is added. Realizations of the case are those of all
+    ensembles, or, where `side_by_side` is true, of each.
     """
     return _paper_discs(settings) | _size_discs(settings)
 
 
 def _paper_discs(settings):
     cases, discs, variants = {}, settings["discs"], settings["variants"]
-    shared = {"pool": "discs", "elements": discs["elements"], "indentation": settings["indentation"]}
+    indentation = {name: discs[name] for name in ("tolerance", "whole_curves", "short_until_x")}
+    shared = {"pool": "discs", "indentation": settings["indentation"] | indentation}
     for hurst in discs["hurst"]:
-        for combination in discs["combinations"]:
-            number = combination["number"]
-            lengths = {name: combination[name] for name in ("rms", "diameter")}
-            cases[f"{hurst_id(hurst)}_c{number}"] = shared | {
-                "group": "base",
-                "spawn_key": seeds.disc_key(hurst, number),
+        base = {"elements": discs["elements"], "realizations": discs["realizations"]}
+        combinations = [
+            base
+            | {
+                "name": f"{hurst_id(hurst)}_c{combination['number']}",
+                "spawn_key": seeds.disc_key(hurst, combination["number"]),
                 "combination": combination,
-                "surface": settings["surface"] | {"hurst": hurst} | lengths,
-                "realizations": discs["realizations"],
-                "batch": discs["batch"],
+                "surface": settings["surface"]
+                | {"hurst": hurst, "rms": combination["rms"], "diameter": combination["diameter"]},
             }
+            for combination in discs["combinations"]
+        ]
+        about = {"group": "base", "realizations": discs["realizations"], "batch": discs["batch"], "side_by_side": True}
+        cases[hurst_id(hurst)] = shared | about | {"ensembles": combinations}
         for variant in variants["cases"]:
-            changed = {key: value for key, value in variant.items() if key != "name"}
-            cases[f"{hurst_id(hurst)}_{variant['name']}"] = shared | {
-                "group": variant["name"],
-                "spawn_key": seeds.variant_key(hurst, variant["name"]),
+            changed, name = {key: value for key, value in variant.items() if key != "name"}, variant["name"]
+            ensemble = {
+                "name": f"{hurst_id(hurst)}_{name}",
+                "spawn_key": seeds.variant_key(hurst, name),
+                "elements": discs["elements"],
                 "surface": settings["surface"] | changed | UNIT_DISC | {"hurst": hurst},
                 "realizations": variants["realizations"],
-                "batch": variants["batch"],
             }
+            cases[ensemble["name"]] = shared | _of_several([ensemble], variants["batch"], name)
     return cases
 
 
@@ -84,7 +91,8 @@ def surface_conventions(settings):
 
 def _size_discs(settings):
     sizes = settings["sizes"]
-    shared = {"pool": "size_discs", "indentation": settings["indentation"] | {"until_x": sizes["until_x"]}}
+    ends = {"until_x": sizes["until_x"], "short_until_x": sizes["until_x"], "whole_curves": 0}  # all at the same X
+    shared = {"pool": "size_discs", "indentation": settings["indentation"] | ends}
     surface, control = settings["surface"] | UNIT_DISC, sizes["control"]
     powers = [
         grid | {"spawn_key": seeds.size_disc_key(hurst, grid["elements"]), "surface": surface | {"hurst": hurst}}
@@ -95,7 +103,7 @@ def _size_discs(settings):
         for grid in sizes["discs"]
     ]
     return {
-        group: shared | _of_several(ensembles, sizes["batch"], group)
+        group: shared | _of_several([{"name": group} | one for one in ensembles], sizes["batch"], group)
         for group, ensembles in (("sizes", powers), ("controls", controls))
     }
 
@@ -113,8 +121,8 @@ def _of_several(ensembles, batch, group):
 def line_cases(settings):
     """{line: its description} of every case of lines.
 
-    A description is that of a case of discs, with points in place of elements, surface the arguments of
-    self_affine_line, and until_x in place of indentation.
+    A description is that of a case of discs, or of one of its ensembles, with points in place of elements, surface the
+    arguments of self_affine_line, and until_x in place of indentation.
     """
     lines, sizes = settings["lines"], settings["sizes"]
     shared = {name: settings["surface"][name] for name in ("amplitudes", "roll_off_wavelength", "roll_off_level")}
@@ -123,6 +131,7 @@ def line_cases(settings):
         cases[hurst_id(hurst)] = {
             "pool": "lines",
             "group": "lines",
+            "name": hurst_id(hurst),
             "spawn_key": seeds.line_key(hurst),
             "surface": shared | UNIT_LINE | {"hurst": hurst},
             "points": lines["points"],
@@ -136,7 +145,7 @@ def line_cases(settings):
         for hurst, grid in itertools.product(sizes["hurst"], sizes["lines"])
     ]
     cases["sizes"] = {"pool": "size_lines", "until_x": sizes["until_x"]}
-    cases["sizes"] |= _of_several(powers, sizes["batch"], "sizes")
+    cases["sizes"] |= _of_several([{"name": "sizes"} | one for one in powers], sizes["batch"], "sizes")
     return cases
 
 
@@ -162,9 +171,15 @@ def measured_cases(scans):
 
 
 def first_combination(settings):
-    """Names of the base cases of the first combination, one for every Hurst exponent."""
+    """Names of the ensembles of the first combination, one for every Hurst exponent."""
     first = settings["discs"]["combinations"][0]["number"]
     return [f"{hurst_id(hurst)}_c{first}" for hurst in settings["discs"]["hurst"]]
+
+
+def combined_ensembles(settings):
+    """{name: ensemble} of every combination and Hurst exponent."""
+    bases = (case for case in disc_cases(settings).values() if case["group"] == "base")
+    return {ensemble["name"]: ensemble for case in bases for ensemble in case["ensembles"]}
 
 
 def example_discs(settings):
@@ -172,10 +187,11 @@ def example_discs(settings):
 
     Rms height and diameter are 1.
     """
-    names, cases = first_combination(settings), disc_cases(settings)
+    ensembles = combined_ensembles(settings)
+    examples = [ensembles[name] for name in first_combination(settings)]
     return {
-        "spawn_keys": [cases[name]["spawn_key"] for name in names],
-        "discs": [cases[name]["surface"] | UNIT_DISC for name in names],
+        "spawn_keys": [one["spawn_key"] for one in examples],
+        "discs": [one["surface"] | UNIT_DISC for one in examples],
     }
 
 
@@ -195,19 +211,18 @@ def realizations(batch):
 
 
 def ensembles_of_batch(case, batch):
-    """Ensembles of a batch, each with spawn_key, surface, elements or points, and the numbers of its realizations.
+    """Ensembles of a batch, each with name, spawn_key, surface, elements or points, and numbers of its realizations.
 
     numbers : first realization of the batch in this ensemble, and the one after its last
     """
     first, end = realizations(batch)
-    parts, before = [], 0
+    parts, before, kept = [], 0, ("name", "spawn_key", "surface", "elements", "points")
     for ensemble in case.get("ensembles", [case]):
         after = before + ensemble["realizations"]
         if before < end and first < after:
             numbers = [max(first - before, 0), min(end, after) - before]
-            kept = {name: ensemble[name] for name in ("spawn_key", "surface", "elements", "points") if name in ensemble}
-            parts.append(kept | {"numbers": numbers})
-        before = after
+            parts.append({name: ensemble[name] for name in kept if name in ensemble} | {"numbers": numbers})
+        before = 0 if case.get("side_by_side") else after
     return parts
 
 
@@ -251,7 +266,8 @@ def line_memory(case):
 
 def pool_memory(cases, pool, ensemble):
     """All realizations of a pool on common abscissae, twice while they are joined; ensemble : setting of that name."""
-    realizations = sum(case["realizations"] for case in cases.values() if case["pool"] == pool)
+    members = [one for case in cases.values() if case["pool"] == pool for one in case.get("ensembles", [case])]
+    realizations = sum(one["realizations"] for one in members)
     abscissae = 1 + ensemble["per_decade"] * math.log10(ensemble["x_high"] / ensemble["x_low"])
     variables = 2 * len(POOLS[pool])
     return round(BASE_MEMORY + 2 * 8 * variables * realizations * abscissae / 1e6)

@@ -30,6 +30,14 @@ def ensemble_disc(elements, surface, seed):
     return indenter, {name: float(height * factor) for name, height in rms.items()}
 
 
+def end_of_curve(number, indentation):
+    """X at which the curve of a realization ends: `until_x` for the first `whole_curves`, `short_until_x` for others.
+
+    number : of the realization, which is known before the surface is: longer curves are a random sample of the ensemble
+    """
+    return indentation["until_x" if number < indentation["whole_curves"] else "short_until_x"]
+
+
 def indent_disc(disc, rms, diameter, *, tolerance, until_fraction, until_x):
     """LoadingCurve of a disc until a contact fraction or X = F/(4GhL) is reached.
 

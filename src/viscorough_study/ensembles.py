@@ -11,6 +11,7 @@ import warnings
 import numpy as np
 import xarray as xr
 
+ROUNDING = 1e-9  # relative difference up to which abscissae and ends of ranges count as equal
 MEANING = {
     "x": ("dimensionless force F/(4GhL) or time Ft/(4ηhL)", "Eq. 2 and Eq. 3"),
     "velocity": ("dimensionless velocity vt/h = X/κ", "Eq. 2"),
@@ -23,7 +24,7 @@ MEANING = {
     "contact_count_median": ("median of the elements in contact", "Sec. III, regions (a) to (c)"),
     "contact_fraction_mean": ("mean share of the elements in contact", "Sec. III, regions (a) to (c)"),
     "realizations_defined": ("realizations whose curve reaches this abscissa", "Eq. 2"),
-    "fraction_defined": ("share of the realizations whose curve reaches this abscissa", "Eq. 2"),
+    "fraction_defined": ("share of the curves that were to reach this abscissa and do", "Eq. 2"),
 }
 
 
@@ -36,9 +37,8 @@ def abscissa(low, high, per_decade):
         raise ValueError(f"abscissa: low and high must be 0 < low <= high < inf, not {low} and {high}")
     if per_decade != int(per_decade) or per_decade < 1:
         raise ValueError(f"abscissa: per_decade must be a whole number >= 1, not {per_decade}")
-    rounding = 1e-9  # so that ends that are multiples belong to the grid
-    first = np.ceil(per_decade * np.log10(low) - rounding)
-    last = np.floor(per_decade * np.log10(high) + rounding)
+    first = np.ceil(per_decade * np.log10(low) - ROUNDING)
+    last = np.floor(per_decade * np.log10(high) + ROUNDING)
     if last < first:
         raise ValueError(f"abscissa: no multiple of 1/{per_decade} decade lies between {low} and {high}")
     return 10.0 ** (np.arange(first, last + 1) / per_decade)
@@ -49,7 +49,7 @@ def on_abscissae(curves, rms, diameter, x):
 
     curves : list of LoadingCurve
     rms : {convention: rms heights h, shape (realizations,) or a number for all} [length]
-    diameter : L [length]; x : X, shape (abscissae,) [1], strictly increasing
+    diameter : L, shape (realizations,) or a number for all [length]; x : X, shape (abscissae,) [1], strictly increasing
 
     κ = k/(4GL) at F/G = 4hLX (Eq. 3); nan beyond the last level of a curve. Between levels ln(count) is linear in
     ln F, and below the first level the count is that of the first level.
@@ -58,7 +58,8 @@ def on_abscissae(curves, rms, diameter, x):
     x = np.asarray(x, dtype=float)
     if not curves:
         raise ValueError("on_abscissae: there is no loading curve; at least one is needed")
-    if not 0 < diameter < np.inf:
+    diameters = np.broadcast_to(diameter, len(curves))
+    if not ((diameters > 0) & (diameters < np.inf)).all():
         raise ValueError(f"on_abscissae: diameter must be positive and finite, not {diameter}")
     if x.ndim != 1 or x.size == 0 or not (x[0] > 0 and np.all(np.diff(x) > 0) and x[-1] < np.inf):
         raise ValueError("on_abscissae: x must be one-dimensional, positive and strictly increasing")
@@ -70,22 +71,12 @@ def on_abscissae(curves, rms, diameter, x):
 
     stiffness = np.empty((*heights.shape, x.size))
     count = np.empty_like(stiffness)
-    for i, curve in enumerate(curves):
-        force = 4 * diameter * heights[:, i, None] * x
-        stiffness[:, i] = curve.at_force(force)[1] / (4 * diameter)
+    for i, (curve, length) in enumerate(zip(curves, diameters, strict=True)):
+        force = 4 * length * heights[:, i, None] * x
+        stiffness[:, i] = curve.at_force(force)[1] / (4 * length)
         count[:, i] = np.exp(np.interp(np.log(force), np.log(curve.force), np.log(curve.contact_count)))
     count[np.isnan(stiffness)] = np.nan
     return stiffness, count
-
-
-def _rms_heights(rms, number):
-    """rms heights, shape (rms conventions, realizations)."""
-    heights = np.empty((len(rms), number))
-    for row, (name, values) in zip(heights, rms.items(), strict=True):
-        if np.shape(values) not in ((), row.shape) or not np.all(np.isfinite(values) & (np.asarray(values) > 0)):
-            raise ValueError(f"on_abscissae: rms[{name!r}] must be {number} positive numbers, or one for all")
-        row[:] = values
-    return heights
 
 
 def ensemble_dataset(conventions, x, stiffness, count, coords):
@@ -93,32 +84,38 @@ def ensemble_dataset(conventions, x, stiffness, count, coords):
 
     conventions : names of the rms conventions; x : X, shape (abscissae,)
     stiffness, count : κ and elements in contact, shape (conventions, realizations, abscissae), nan where undefined
-    coords : hurst, case, diameter, elements
+    coords : hurst, case, diameter, elements, and until_x, the X that the curves were to reach, if it is less than all
     """
-    velocity, elements = x / stiffness, coords["elements"]
-    elements = elements[1] if isinstance(elements, tuple) else elements  # of every realization
+    coords = {"until_x": np.inf} | coords
+    velocity = x / stiffness
+    elements, until_x = (
+        one[1] if isinstance(one, tuple) else one  # of every realization
+        for one in (coords["elements"], coords["until_x"])
+    )
     of_curves = ("rms_convention", "realization", "abscissa")
     variables = {"velocity": velocity, "stiffness": stiffness, "contact_count": count}
     variables = {name: (of_curves, values) for name, values in variables.items()}
     variables |= {
         name: (("rms_convention", "abscissa"), values)
-        for name, values in _averages(x, velocity, count, elements).items()
+        for name, values in _averages(x, velocity, count, elements, until_x).items()
     }
     dataset = xr.Dataset(variables, {"x": ("abscissa", x), "rms_convention": conventions, **coords})
     for name, (long_name, equation) in MEANING.items():
         dataset[name].attrs = {"long_name": long_name, "units": "1", "paper_equation": equation}
     dataset["hurst"].attrs = {"long_name": "Hurst exponent", "units": "1"}
     dataset["elements"].attrs = {"long_name": "elements of an indenter", "units": "1"}
+    dataset["until_x"].attrs = {"long_name": "X that the curve was to reach", "units": "1"}
     dataset["diameter"].attrs = {"long_name": "diameter of the indenter", "units": "m"}
     dataset["case"].attrs = {"long_name": "name of the case"}
     dataset["rms_convention"].attrs = {"long_name": "where the rms height h is measured"}
     return dataset
 
 
-def _averages(x, velocity, count, elements):
+def _averages(x, velocity, count, elements, until_x):
     """Averages over the realizations that are defined, each of shape (rms conventions, abscissae)."""
     defined = np.isfinite(velocity)
     number = defined.sum(axis=1)
+    expected = np.broadcast_to(np.reshape(until_x, (-1, 1)) * (1 + ROUNDING) >= x, velocity.shape[1:]).sum(axis=0)
 
     def mean(values):
         return np.where(defined, values, 0).sum(axis=1) / number
@@ -136,5 +133,5 @@ def _averages(x, velocity, count, elements):
             "contact_count_median": np.nanmedian(count, axis=1),
             "contact_fraction_mean": mean(count / np.reshape(elements, (-1, 1))),
             "realizations_defined": number,
-            "fraction_defined": number / velocity.shape[1],
+            "fraction_defined": np.where(expected > 0, number / np.maximum(expected, 1), 0.0),
         }

@@ -51,6 +51,13 @@ class Evidence:
         return {hurst: ensemble.isel(rms_convention=0) for hurst, ensemble in ensembles}
 
     @cached_property
+    def whole(self):
+        """{H: the discs of `pooled` whose curves go on to region (c)}, those of the largest X."""
+        until_x = self.discs["until_x"].values
+        discs = self._discs.isel(realization=np.flatnonzero(until_x == until_x.max()))
+        return {hurst: pool.ensembles(discs, "hurst")[hurst].isel(rms_convention=0) for hurst in self.pooled}
+
+    @cached_property
     def combinations(self):
         """{H: ensemble of every combination of force, viscosity, size and rms height}, otherwise as `pooled`."""
         by_case = {hurst: pool.ensembles(pool.select(self._discs, hurst=hurst), "case") for hurst in self.pooled}

@@ -86,7 +86,7 @@ def computing_time(evidence, tolerance):
     one run to the next.
     """
     numbers = {name: evidence.said("boundary_elements", name) for name in ("combinations", "realizations_min")}
-    counts = [ensemble["contact_count"].max("abscissa").values for ensemble in evidence.pooled.values()]
+    counts = [ensemble["contact_count"].max("abscissa").values for ensemble in evidence.whole.values()]
     problems = np.prod(list(numbers.values())) * np.median(np.concatenate(counts))
     names = "hurst_count", "realizations", "points"
     points = np.prod([float(evidence.said("reduction", name)) for name in names])

@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from viscorough.io.curves import unstack_curves
-from viscorough_study.ensembles import ensemble_dataset, on_abscissae
+from viscorough_study.ensembles import ROUNDING, ensemble_dataset, on_abscissae
 
 DIMENSIONS = ("rms_convention", "realization", "abscissa")
 VARIABLES = {
@@ -23,29 +23,32 @@ OF_REALIZATIONS = {
     "case": ("name of the case", ""),
     "diameter": ("diameter of the indenter", "m"),
     "elements": ("elements of the indenter", "1"),
+    "until_x": ("X that the curve was to reach", "1"),
 }
 
 
 def pool_batches(batches, conventions, x):
-    """The pool of all batches.
+    """The pool of all batches, sorted by case and number of the realization, whichever batch each of them was in.
 
-    batches : iterable of (case, group, Content of io.curves.stack_curves with hurst, diameter, rms_<convention> and the
-        attribute settings); one at a time need be in memory
+    batches : iterable of (group, Content of viscorough_study.batches.batch_of_curves); one at a time need be in memory
     conventions : of the rms heights; x : X, shape (abscissae,) [1]
     """
-    stiffness, count, about, settings = [], [], {name: [] for name in OF_REALIZATIONS}, {}
-    for case, group, batch in batches:
+    stiffness, count, settings, numbers = [], [], {}, []
+    about = {name: [] for name in OF_REALIZATIONS}
+    for group, batch in batches:
         curves, values = unstack_curves(batch), {name: variable.values for name, variable in batch.variables.items()}
         rms = {name: values[f"rms_{name}"] for name in conventions}
-        diameter = values["diameter"].item()
-        for parts, part in zip((stiffness, count), on_abscissae(curves, rms, diameter, x), strict=True):
-            parts.append(part)
-        of_batch = {"hurst": values["hurst"], "group": group, "case": case, "diameter": diameter}
-        of_batch |= {"elements": [curve.elements for curve in curves]}
+        # Which of the shorter curves reach further by chance depends on the surface: a mean over them would be biased.
+        beyond = np.broadcast_to(values["until_x"], len(curves))[:, None] * (1 + ROUNDING) < x
+        for parts, part in zip((stiffness, count), on_abscissae(curves, rms, values["diameter"], x), strict=True):
+            parts.append(np.where(beyond, np.nan, part))
+        of_batch = {name: values[name] for name in ("hurst", "case", "diameter", "until_x")}
+        of_batch |= {"group": group, "elements": [curve.elements for curve in curves]}
         for name, value in of_batch.items():
             about[name] += np.broadcast_to(value, len(curves)).tolist()
+        numbers += values["realization"].tolist()
         made_from = json.loads(batch.attributes["settings"])
-        known = settings.setdefault(case, made_from).get("ensembles", [])
+        known = settings.setdefault(values["case"][0], made_from).get("ensembles", [])
         known += [one for one in made_from.get("ensembles", []) if one not in known]
     pool = xr.Dataset(coords={"x": ("abscissa", x), "rms_convention": list(conventions)})
     for (name, text), parts in zip(VARIABLES.items(), (stiffness, count), strict=True):
@@ -56,7 +59,10 @@ def pool_batches(batches, conventions, x):
         pool = pool.assign_coords({name: ("realization", about[name], attributes)})
     pool["x"].attrs = {"long_name": "dimensionless force F/(4GhL) or time Ft/(4ηhL)", "units": "1"}
     pool["rms_convention"].attrs = {"long_name": "where the rms height h is measured"}
-    return pool.assign_attrs(title="Loading curves on common abscissae", settings=json.dumps(settings))
+    pool = pool.assign_attrs(title="Loading curves on common abscissae", settings=json.dumps(settings))
+    cases = {name: rank for rank, name in enumerate(dict.fromkeys(zip(about["group"], about["case"], strict=True)))}
+    ranks = [cases[pair] for pair in zip(about["group"], about["case"], strict=True)]
+    return pool.isel(realization=np.lexsort((numbers, ranks)))
 
 
 def select(pool, **wanted):
@@ -89,7 +95,7 @@ def ensembles_on_grids(pool):
 
 def _ensemble(part, about):
     coords = {}
-    for name in ("hurst", "elements", "case", "diameter"):
+    for name in ("hurst", "elements", "case", "diameter", "until_x"):
         values = part[name].values
         same = np.unique(values).size == 1  # nan, of measured surfaces, is equal to nan
         if not same and name == "hurst":

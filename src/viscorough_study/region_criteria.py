@@ -96,7 +96,7 @@ def first_region(evidence, tolerance):
 def last_region(evidence, tolerance):
     """Xh/(vt), which is κ, and the slope of ln(vt/h) over ln X, where curves end."""
     slope_said, cases = evidence.said("regions", "slope_last"), []
-    for hurst, ensemble in evidence.pooled.items():
+    for hurst, ensemble in evidence.whole.items():
         x, stiffness = ensemble["x"].values, ensemble["stiffness"].values
         last = np.flatnonzero(ensemble["fraction_defined"].values == 1)[-1]
         end = np.flatnonzero(x >= x[last] / 10 ** evidence.rules["end_decades"])[0]
@@ -163,7 +163,7 @@ def _end_of_first_region(evidence, ensemble, seed):
 def complete_contact(evidence, tolerance):
     """Share of the elements in contact at the X from which on the local slope is 1 within `SLOPE_OF_LINE`."""
     cases = []
-    for hurst, ensemble in evidence.pooled.items():
+    for hurst, ensemble in evidence.whole.items():
         defined = ensemble["fraction_defined"].values == 1
         log_x, mean = np.log(ensemble["x"].values[defined]), np.log(ensemble["velocity_geometric"].values[defined])
         inner, (slopes,) = local_slopes(log_x, mean[None], evidence.limits["slope_half_width"] * np.log(10))

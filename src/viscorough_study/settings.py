@@ -88,7 +88,7 @@ def _allowed(rule):
 def _contradiction(settings):
     """One line on settings that are allowed one by one but not together, or None."""
     checks = (_reserved, _repeated, _too_precise, _disc_without_line, _too_rough, _too_smooth)
-    checks += (_decreasing_task, _too_short_wave, _empty_range, _wrong_medium)
+    checks += (_decreasing_task, _too_short_wave, _empty_range, _too_short_curve, _wrong_medium)
     return next(filter(None, (check(settings) for check in checks)), None)
 
 
@@ -201,6 +201,18 @@ def _empty_range(settings):
     low, high = settings["scaling"]["stiffness_range"]
     if not low < high:
         return f"scaling.stiffness_range: {low} and {high} are no range; allowed: the first below the second"
+    return None
+
+
+def _too_short_curve(settings):
+    end = settings["verdicts"]["plateau_range"][1] * 10 ** settings["scaling"]["slope_half_width"]
+    for key, until_x in (
+        ("discs.short_until_x", settings["discs"]["short_until_x"]),
+        ("indentation.until_x", settings["indentation"]["until_x"]),
+    ):
+        if until_x < end:
+            what = "verdicts.plateau_range and half a slope's width"
+            return f"{key}: curves that end at X = {until_x} miss a part of {what}; allowed: from {end:.4g}"
     return None
 
 

@@ -42,28 +42,47 @@ def test_rms_height_of_the_ensemble_is_that_of_the_spectrum():
     assert abs(random.mean() - 1) < 4 * error
 
 
+ENDS = {"until_x": 3.0, "short_until_x": 0.1, "whole_curves": 1}
+INDENTATION = {"tolerance": 1e-3, "until_fraction": 1.0} | ENDS
+
+
 @pytest.mark.parametrize("kind", ["discs", "lines"])
 def test_a_realization_is_the_same_in_every_batch(tmp_path, kind):
     settings = read_settings("config")
-    case = {"discs": cases.disc_cases(settings)["h04000_c3"], "lines": cases.line_cases(settings)["h04000"]}[kind]
-    (ensemble,) = cases.ensembles_of_batch(case, "0000-0002")
-    about = {"seed": 7}
+    case = {"discs": cases.disc_cases(settings), "lines": cases.line_cases(settings)}[kind]["h04000"]
+    ensembles = cases.ensembles_of_batch(case, "0000-0002")[-2:]
     if kind == "discs":
-        ensemble["elements"] = 17
-        about |= {"indentation": {"tolerance": 1e-3, "until_fraction": 0.5, "until_x": 30.0}}
+        ensembles = [ensemble | {"elements": 17} for ensemble in ensembles]
+        about = {"seed": 7, "indentation": INDENTATION}
     else:
-        ensemble["points"] = 512
-        about |= {"until_x": 30.0}
+        ensembles = [ensemble | {"points": 512} for ensemble in ensembles]
+        about = {"seed": 7, "until_x": 30.0}
     curves = {}
     for first in (0, 2):
-        numbers = {"numbers": [first, 3]}
-        load_script(f"indent_{kind}").main(tmp_path / "curves.nc", ensembles=[ensemble | numbers], **about)
+        batch = [ensemble | {"numbers": [first, 3]} for ensemble in ensembles]
+        load_script(f"indent_{kind}").main(tmp_path / "curves.nc", ensembles=batch, **about)
         content = netcdf.read(tmp_path / "curves.nc")
-        assert content.variables["realization"].values.tolist() == list(range(first, 3))
-        force = content.variables["force"].values
-        curves[first] = [row[np.isfinite(row)] for row in force]
-    np.testing.assert_array_equal(curves[0][2], curves[2][0])
-    assert not np.array_equal(curves[0][2], curves[0][0])
+        names, numbers = (content.variables[name].values.tolist() for name in ("case", "realization"))
+        assert names == [one["name"] for one in batch for _ in range(first, 3)]
+        assert numbers == len(batch) * list(range(first, 3))
+        force = [row[np.isfinite(row)] for row in content.variables["force"].values]
+        curves[first] = dict(zip(zip(names, numbers, strict=True), force, strict=True))
+    for key, force in curves[2].items():
+        np.testing.assert_array_equal(curves[0][key], force)
+    assert not np.array_equal(*list(curves[0].values())[:2])
+
+
+def test_the_first_curves_of_every_ensemble_go_further(tmp_path):
+    settings = read_settings("config")
+    ensembles = cases.ensembles_of_batch(cases.disc_cases(settings)["h09000"], "0000-0002")[:2]
+    batch = [ensemble | {"elements": 17} for ensemble in ensembles]
+    load_script("indent_discs").main(tmp_path / "curves.nc", ensembles=batch, seed=7, indentation=INDENTATION)
+    values = {name: one.values for name, one in netcdf.read(tmp_path / "curves.nc").variables.items()}
+    assert values["until_x"].tolist() == [3.0, 0.1, 0.1] * 2
+    largest_rms = np.maximum(values["rms_disc"], values["rms_square"])
+    ends = np.nanmax(values["force"], axis=1) / (4 * largest_rms * values["diameter"])
+    assert (ends >= values["until_x"]).all()
+    assert (ends < 1.5 * values["until_x"]).all()
 
 
 @pytest.mark.parametrize("across", [9, 17, 33, 64, 65, 129, 200, 257, 513])

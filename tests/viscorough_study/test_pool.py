@@ -21,20 +21,54 @@ def curves():
     return [line_curve(gaps) for gaps in heights.max(axis=1, keepdims=True) - heights]
 
 
-def batch(curves, rms, hurst=0.5):
+def batch(curves, rms, hurst=0.5, case="a_c1", first=0, until_x=3.0):
     content = stack_curves(curves)
-    for name, dimensions, values in (("hurst", (), hurst), ("diameter", (), 1.0), ("rms_line", ("realization",), rms)):
-        content.variables[name] = Variable(dimensions, np.asarray(values), {})
+    for name, value in (("hurst", hurst), ("diameter", 1.0), ("until_x", until_x)):
+        content.variables[name] = Variable((), np.asarray(value), {})
+    for name, values in (
+        ("rms_line", rms),
+        ("case", np.array([case] * len(curves), dtype=object)),
+        ("realization", first + np.arange(len(curves))),
+    ):
+        content.variables[name] = Variable(("realization",), values, {})
     content.attributes["settings"] = json.dumps({"seed": 1})
     return content
 
 
 @pytest.fixture(scope="module")
 def pool(curves):
-    parts = ((slice(0, 5), "a_c1"), (slice(5, 9), "a_c2"), (slice(9, 12), "a_c2"))
-    batches = [(case, "base", batch(curves[part], RMS[part])) for part, case in parts]
-    other = ("b_c1", "variant", batch(curves[:2], RMS[:2], hurst=0.7))
+    parts = ((slice(0, 5), "a_c1", 0), (slice(5, 9), "a_c2", 0), (slice(9, 12), "a_c2", 4))
+    batches = [("base", batch(curves[part], RMS[part], case=case, first=first)) for part, case, first in parts]
+    other = ("variant", batch(curves[:2], RMS[:2], hurst=0.7, case="b_c1"))
     return pool_batches([*batches, other], ["line"], X)
+
+
+def test_the_pool_does_not_depend_on_the_batches(curves, pool):
+    """The same realizations in batches across cases, each with a part of both."""
+
+    def across(members, names, numbers):
+        content = batch([curves[i] for i in members], RMS[members])
+        content.variables["case"] = Variable(("realization",), np.array(names, dtype=object), {})
+        content.variables["realization"] = Variable(("realization",), np.array(numbers), {})
+        return "base", content
+
+    first = across([0, 1, 2, 5, 6], ["a_c1"] * 3 + ["a_c2"] * 2, [0, 1, 2, 0, 1])
+    second = across([3, 4, 7, 8, 9, 10, 11], ["a_c1"] * 2 + ["a_c2"] * 5, [3, 4, 2, 3, 4, 5, 6])
+    np.testing.assert_array_equal(
+        pool_batches([first, second], ["line"], X)["stiffness"], select(pool, group="base")["stiffness"]
+    )
+
+
+def test_a_mean_is_over_the_curves_that_were_to_reach_its_abscissa(curves):
+    """Shorter curves reach further by chance, by what the surface is; beyond their end they do not count."""
+    short = ("base", batch(curves[2:], RMS[2:], first=2, until_x=0.1))
+    mean = ensembles(pool_batches([("base", batch(curves[:2], RMS[:2])), short], ["line"], X), "hurst")[0.5]
+    whole = aggregate(curves[:2], {"line": RMS[:2]}, 1.0, X, hurst=0.5, case="a")
+    below, above = X < 0.11, X > 0.11
+    assert mean["realizations_defined"].values[0, below].tolist() == [12] * below.sum()
+    for name in ("velocity_geometric", "realizations_defined", "fraction_defined", "contact_count_median"):
+        np.testing.assert_array_equal(mean[name].values[:, above], whole[name].values[:, above], err_msg=name)
+    assert mean["fraction_defined"].values[0, 0] == 1
 
 
 def test_ensemble_of_a_hurst_exponent_is_one_large_ensemble(curves, pool):
@@ -66,12 +100,12 @@ def test_unlike_realizations_make_no_ensemble(pool):
 def test_a_batch_of_several_ensembles(curves):
     """Realizations on two grids and with two Hurst exponents in one file."""
     short = line_curve([0.0, 0.5, 1.0])
-    content = batch([*curves[:2], short], np.ones(3), hurst=0.5)
+    content = batch([*curves[:2], short], np.ones(3), hurst=0.5, case="sizes")
     content.variables["hurst"] = Variable(("realization",), np.array([0.5, 0.5, 0.7]), {})
-    other = batch([short], np.ones(1), hurst=0.7)
+    other = batch([short], np.ones(1), hurst=0.7, case="sizes", first=3)
     for one, names in ((content, ("a", "b")), (other, ("b", "c"))):
         one.attributes["settings"] = json.dumps({"ensembles": [{"name": name} for name in names]})
-    mixed = pool_batches([("sizes", "sizes", content), ("sizes", "sizes", other)], ["line"], X)
+    mixed = pool_batches([("sizes", content), ("sizes", other)], ["line"], X)
     assert mixed["elements"].values.tolist() == [40, 40, 3, 3]
     assert mixed["hurst"].values.tolist() == [0.5, 0.5, 0.7, 0.7]
     assert [one["name"] for one in json.loads(mixed.attrs["settings"])["sizes"]["ensembles"]] == ["a", "b", "c"]

@@ -47,7 +47,7 @@ def test_every_figure_and_table_is_made(finished):
 def test_files_follow_the_cf_conventions(finished):
     """One of every kind: curves of discs and lines, pools, examples, tables."""
     files = [path for path in (finished / "results").rglob("*.nc") if "curves" not in path.parts]
-    files += [finished / f"results/curves/{case}/0000-0001.nc" for case in ("discs/h04000_c1", "lines/h04000")]
+    files += [finished / f"results/curves/{case}/0000-0001.nc" for case in ("discs/h04000", "lines/h04000")]
     without_html = ("interface_curves", "collapse_curves")
     assert len(files) == 4 + 1 + len(TABLES) + len(without_html) + 2
     for path in files:
@@ -122,7 +122,7 @@ def test_a_second_run_has_nothing_to_do(finished):
 
 
 def test_deleted_curves_are_made_again_by_a_target(finished):
-    (finished / "results/curves/discs/h04000_c1/0000-0001.nc").unlink()
+    (finished / "results/curves/discs/h04000/0000-0001.nc").unlink()
     assert plan(finished, *TEST) == {}
     assert plan(finished, *TEST, "--", "curves") == {"indent_discs": 1}
 

@@ -92,11 +92,10 @@ def with_another_statement(text):
             (FITS_AND_FIGURES | INTERFACE | {"indent_lines", "pool_curves"}) - {"compare_zeta_laws"},
         ),
         (
-            {"indentation": {"tolerance": 2e-3}},
+            {"discs": {"tolerance": 2e-3}},
             FITS_AND_FIGURES
             | INTERFACE
             | MEDIA
-            | SIZES
             | {"indent_discs", "pool_curves", "measure_plateaus", "compare_reduction", "plot_reduction"},
         ),
         (
@@ -126,22 +125,24 @@ def test_a_changed_setting_reruns_what_uses_it(finished, changed, rerun):
     planned = plan(finished, *TEST, settings_file(finished, "changed", **changed))
     assert set(planned) == rerun | LAST
     if "surface" in changed:
-        assert planned["indent_discs"] == 4 + 4  # two batches each of grids from coarse to fine and of their control
+        assert (
+            planned["indent_discs"] == 2 + 4
+        )  # two Hurst exponents, two batches each of grids from coarse to fine and of their control
 
 
 def test_a_further_exponent_reruns_only_what_depends_on_it(finished):
     more = settings_file(finished, "more", discs={"hurst": [0.4, 0.6, 0.9]}, lines={"hurst": [0.4, 0.6, 0.9]})
     text = snakemake(finished, "--dry-run", *TEST, more)
     cases = set(re.findall(r"^Job \d+: .*\b(h\d{5}\w*)", text, re.MULTILINE))
-    assert cases == {"h06000", "h06000_c1", "h06000_c9", "h06000_longer_period"}
+    assert cases == {"h06000", "h06000_longer_period"}
     planned = jobs(text)
-    assert (planned["indent_discs"], planned["indent_lines"], planned["pool_curves"]) == (3, 2, 2)
+    assert (planned["indent_discs"], planned["indent_lines"], planned["pool_curves"]) == (2, 2, 2)
     assert "validate" not in planned
 
 
 def test_more_realizations_keep_those_that_are_there(finished):
     planned = plan(finished, *TEST, settings_file(finished, "more", discs={"realizations": 4}))
-    assert planned["indent_discs"] == 4  # the second batch of each of the four cases
+    assert planned["indent_discs"] == 2  # the second batch of both Hurst exponents
     assert "indent_lines" not in planned
 
 

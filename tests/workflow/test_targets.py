@@ -33,7 +33,7 @@ def drawn(folder, *figures):
 
 @pytest.mark.parametrize(
     ("name", "indent_discs", "indent_lines"),
-    [("config", 4 * (9 + 4) + 2, 22), ("paper", 4 * (9 * 2 + 8) + 4, 102), ("test", 2 * (2 + 1) + 4, 2 * 2 + 2)],
+    [("config", 4 * (2 + 1) + 2, 22), ("paper", 4 * (8 + 8) + 4, 102), ("test", 2 * (1 + 1) + 4, 2 * 2 + 2)],
 )
 def test_plans_of_every_scale(unmade, name, indent_discs, indent_lines):
     planned = plan(unmade, "--configfile", f"config/{name}.yaml")
@@ -42,7 +42,7 @@ def test_plans_of_every_scale(unmade, name, indent_discs, indent_lines):
     assert planned.pop("measure_methods") == (2 if name == "test" else 3)
     assert set(planned.values()) == {1}
     assert {"check_validation", "fit_scaling", "judge_claims", "make_page"} < set(planned)
-    assert indent_discs + indent_lines + sum(planned.values()) <= (130 if name == "config" else 250)
+    assert indent_discs + indent_lines + sum(planned.values()) <= (100 if name == "config" else 250)
 
 
 def test_one_figure_needs_only_its_own(unmade):

@@ -109,23 +109,15 @@ def curves_of_pool(pool):
     return [f"results/curves/{kind}/{case}/{batch}.nc" for case, batch in batches_of_pool(pool)]
 
 
-def curves_of_first_combination(wildcards):
-    """Curves of the discs of the first combination, of every Hurst exponent."""
-    return [
-        f"results/curves/discs/{case}/{batch}.nc"
-        for case in cases.first_combination(config)
-        for batch in cases.batches(DISCS[case])
-    ]
-
-
-def names_of_pool(wildcards):
-    """Case of each batch of a pool."""
-    return [case for case, _ in batches_of_pool(wildcards.pool)]
+def curves_of_combinations():
+    """Curves of the discs of all combinations."""
+    bases = [name for name, case in DISCS.items() if case["group"] == "base"]
+    return [f"results/curves/discs/{case}/{batch}.nc" for case in bases for batch in cases.batches(DISCS[case])]
 
 
 def groups_of_pool(wildcards):
     """Group of each batch of a pool."""
-    return [cases_of_pool(wildcards.pool)[case]["group"] for case in names_of_pool(wildcards)]
+    return [cases_of_pool(wildcards.pool)[case]["group"] for case, _ in batches_of_pool(wildcards.pool)]
 
 
 def paper(name):
@@ -161,8 +153,8 @@ def interface_limits():
 
 
 def combinations():
-    """{case: force [N], viscosity [Pa s], diameter [m], rms [m]} of the base cases."""
-    return {name: case["combination"] for name, case in DISCS.items() if case["group"] == "base"}
+    """{name: force [N], viscosity [Pa s], diameter [m], rms [m]} of the ensembles of all combinations."""
+    return {name: ensemble["combination"] for name, ensemble in cases.combined_ensembles(config).items()}
 
 
 def other_solvers():

@@ -102,7 +102,7 @@ rule compare_reduction:
         hurst=config["discs"]["hurst"],
         elements=config["discs"]["elements"],
         realizations=config["discs"]["realizations"],
-        tolerance=config["indentation"]["tolerance"],
+        tolerance=config["discs"]["tolerance"],
         seed=config["seed"],
     message:
         "Reduction of dimensionality against boundary elements, surface by surface"

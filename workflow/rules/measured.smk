@@ -17,6 +17,7 @@ rule indent_measured:
         mem_mb=measured_memory,
     params:
         of_scan("digest"),
+        name=lambda wildcards: wildcards.scan,
         group=of_scan("group"),
         spacing=of_scan("spacing"),
         unit=of_scan("unit"),

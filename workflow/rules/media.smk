@@ -3,7 +3,7 @@
 
 rule compute_media:
     input:
-        curves=curves_of_first_combination,
+        curves=curves_of_combinations(),
     output:
         csv="results/tables/media.csv",
         html=report(
@@ -35,6 +35,8 @@ rule compute_media:
         **config["media"],
         **{name: config["scaling"][name] for name in ("stiffness_range", "resamples")},
         rms_convention=config["figures"]["rms_convention"],
+        discs=cases.first_combination(config),
+        until_x=config["indentation"]["until_x"],
         seed=config["seed"],
     message:
         "Kinetics in other media"

@@ -17,7 +17,6 @@ rule pool_curves:
     resources:
         mem_mb=pool_memory,
     params:
-        cases=names_of_pool,
         groups=groups_of_pool,
         conventions=lambda wildcards: cases.POOLS[wildcards.pool],
         ensemble=config["ensemble"],

@@ -1,5 +1,7 @@
 """Kinetics of the discs in other media, from their loading curves."""
 
+import numpy as np
+
 from viscorough.io import netcdf
 from viscorough.io.curves import unstack_curves
 from viscorough_study.ensembles import abscissa
@@ -8,19 +10,22 @@ from viscorough_study.media_kinetics import COLUMNS, EXPONENT_COLUMNS, media_tab
 from viscorough_study.tables import recorded, write_table
 
 
-def main(curves, csv, html, nc, exponents_csv, exponents_html, exponents_nc, *, rms_convention, cases, **how):
+def main(curves, csv, html, nc, exponents_csv, exponents_html, exponents_nc, *, discs, until_x, cases, **how):
     """Tabulate the kinetics.
 
-    curves : files of batches; rms_convention : of h; cases : [name and further keys of a medium]
-    how : further arguments of media_tables; times : low, high [s] and per_decade
+    curves : files of batches, of which the curves of the ensembles `discs` are taken that were to reach X = until_x
+    cases : [name and further keys of a medium]
+    how : rms_convention, of h, and further arguments of media_tables; times : low, high [s] and per_decade
     """
-    ensembles, about = {}, recorded(settings={"cases": cases, **how})
+    ensembles, about, convention = {}, recorded(settings={"cases": cases, **how}), how.pop("rms_convention")
     for path in curves:
         batch = netcdf.read(path)
         values = {name: variable.values for name, variable in batch.variables.items()}
-        all_curves, rms, diameter = ensembles.get(values["hurst"].item(), ([], [], values["diameter"].item()))
-        joined = [*all_curves, *unstack_curves(batch)], [*rms, *values[f"rms_{rms_convention}"]], diameter
-        ensembles[values["hurst"].item()] = joined
+        read, heights = unstack_curves(batch), values[f"rms_{convention}"]
+        diameter, hurst = np.broadcast_to(values["diameter"], heights.shape), values["hurst"].item()
+        for i in np.flatnonzero(np.isin(values["case"].astype(str), discs) & (values["until_x"] == until_x)):
+            joined, rms, _ = ensembles.get(hurst, ([], [], None))
+            ensembles[hurst] = [*joined, read[i]], [*rms, heights[i]], diameter[i]
     table, exponents = media_tables(ensembles, named_media(cases), **how | {"times": abscissa(**how["times"])})
     of_table = {"columns": COLUMNS, "dimension": "point", "title": "Kinetics of the discs in other media"}
     write_table(table, csv, nc, html, attributes=about, **of_table)

@@ -27,7 +27,8 @@ def main(curves, *, ensembles, seed, until_x):
     about = {"hurst": [surface["hurst"] for surface in surfaces], "realizations": [number for _, number in batch]}
     about |= {"rms": {"line": [surface["rms"] for surface in surfaces]}}  # every line has the nominal rms height
     about |= {"spacing": [one["surface"]["length"] / one["points"] for one, _ in batch]}
-    about |= {"diameter": [surface["length"] for surface in surfaces], "settings": settings}
+    about |= {"diameter": [surface["length"] for surface in surfaces], "settings": settings, "until_x": until_x}
+    about["cases"] = [one["name"] for one, _ in batch]
     netcdf.write(batch_of_curves(reduced, **about), curves)
 
 

@@ -9,10 +9,11 @@ from viscorough_study.job_log import log_to
 from viscorough_study.measured import lengths, measured_indenter
 
 
-def main(heights, curves, *, group, indentation, **reading):
+def main(heights, curves, *, name, group, indentation, **reading):
     """Indent one scan.
 
-    reading : spacing, unit, preparation; indentation : tolerance and where the curve ends, as for the discs
+    name : of the scan; reading : spacing, unit, preparation
+    indentation : tolerance and where the curve ends, as for the discs
     """
     indenter = measured_indenter(heights, **reading)
     about = lengths(indenter)
@@ -22,7 +23,8 @@ def main(heights, curves, *, group, indentation, **reading):
     curve = indent(indenter, tolerance=indentation["tolerance"], **limits)
     settings = {"file": str(heights), "group": group, **reading, "indentation": indentation, "lengths": about}
     about = {"rms": {"disc": [about["rms"]]}, "spacing": [about["spacing"]], "diameter": [about["diameter"]]}
-    content = batch_of_curves([curve], realizations=[0], hurst=[float("nan")], settings=settings, **about)
+    about |= {"hurst": [float("nan")], "until_x": indentation["until_x"], "cases": [name]}
+    content = batch_of_curves([curve], realizations=[0], settings=settings, **about)
     netcdf.write(content, curves)
 
 

@@ -7,14 +7,14 @@ from viscorough_study.job_log import log_to, progress
 from viscorough_study.pool import pool_batches
 
 
-def main(curves, pool, *, cases, groups, conventions, ensemble):
+def main(curves, pool, *, groups, conventions, ensemble):
     """Pool batches of loading curves.
 
-    curves : files of the batches; cases, groups : case and group of each batch
+    curves : files of the batches; groups : group of each batch
     conventions : of the rms heights, side by side; ensemble : x_low, x_high and per_decade of the abscissae
     """
     x = abscissa(ensemble["x_low"], ensemble["x_high"], ensemble["per_decade"])
-    batches = zip(cases, groups, map(netcdf.read, progress(curves, len(curves), "batches")), strict=True)
+    batches = zip(groups, map(netcdf.read, progress(curves, len(curves), "batches")), strict=True)
     write_dataset(pool_batches(batches, conventions, x), pool)
 
 

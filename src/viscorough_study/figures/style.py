@@ -83,6 +83,7 @@ def save_figure(figure, *paths):
                 _save_picture(figure, temporary)
             else:
                 figure.savefig(temporary, format=kind, metadata={"CreationDate": None} if kind == "pdf" else None)
+        figure.set_layout_engine("none")  # the places of the first format, which take as long to find as the drawing
 
 
 def _save_picture(figure, path):

@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pandas as pd
 
+from viscorough.io.netcdf import opened
 from viscorough_study.paper_data import read_paper
 from viscorough_study.rule_costs import in_words
 from viscorough_study.stale_locks import REMOVED
@@ -61,7 +62,7 @@ class Progress:
         pace = (self.changed - self.began + OWN_SPEED) / (self.ended + OWN_SPEED)
         left = max(0.0, pace * (self.planned - self.ended) - (now - self.changed))
         what = next(reversed(self.running.values()), "")
-        return f"{self.done} of {self.total}, {in_words(left)} left: {what}"
+        return f"{self.done} of {self.total}, {in_words(left) if left >= 5 else 'seconds'} left: {what}"
 
     def _seconds_of(self, rule):
         return self.seconds.get(rule, 0.0 if rule == "all" else self.mean)
@@ -94,9 +95,7 @@ def run(command, output=OUTPUT, screen=sys.stderr):
         print(CLEAR, end="", file=screen, flush=True)
     code = 128 - process.returncode if process.returncode < 0 else process.returncode
     if code:
-        for line in _errors(progress.failed_logs, output.read_text(encoding="utf-8", errors="replace")):
-            print(line, file=screen)
-        print(f"All that was printed: {output}", file=screen, flush=True)
+        print(*_errors(progress.failed_logs, output), sep="\n", file=screen, flush=True)
     return code
 
 
@@ -113,13 +112,14 @@ def _draw(progress, drawn, screen, on_terminal):
     return part
 
 
-def _errors(logs, printed):
+def _errors(logs, output):
     """Lines about what ended a run: of every job that failed its error and its log, else what Snakemake says."""
+    everything = f"All that was printed: {output}"
     if logs:
-        return [f"Error: {_error_in(Path(log))} (log: {log})" for log in logs]
-    lines = printed.rstrip().splitlines()
-    named = (i for i, line in enumerate(lines) if re.match(r"\w*(Error|Exception)\b", line))
-    return lines[next(named, -5) :]
+        return [*(f"Error: {_error_in(Path(log))} (log: {log})" for log in logs), everything]
+    lines = output.read_text(encoding="utf-8", errors="replace").rstrip().splitlines()
+    named = (lines[i:] for i, line in enumerate(lines) if re.match(r"\w*(Error|Exception)\b", line))
+    return next(named, [*lines[-5:], everything])
 
 
 def _error_in(log):
@@ -141,11 +141,13 @@ def _published_seconds():
 def summary(results=Path("results"), paper=Path("resources/paper")):
     """The lines that a run ends with: the count of verdicts, the time beside the paper's, the page to open."""
     claims = counted_verdicts(pd.read_csv(results / "tables/claims.csv"))
+    with opened(results / "tables/claims.nc") as file:
+        trial = "; trial scale, on which verdicts mean nothing" * int(file.getncattr("trial"))
     seconds = pd.read_csv(results / "tables/rule_costs.csv")["share_s"].sum()
     theirs = read_paper(paper, "numbers")["boundary_elements"]["computing_time"]["value"]
     verdicts = ", ".join(f"{number} {verdict}" for verdict, number in claims)
     return [
-        f"{sum(number for _, number in claims)} claims of the paper: {verdicts}",
+        f"{sum(number for _, number in claims)} claims of the paper: {verdicts}{trial}",
         f"It took {in_words(seconds)}; the paper: {theirs}",
         f"Open {results / 'index.html'} in a browser",
     ]

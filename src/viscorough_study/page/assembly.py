@@ -53,6 +53,7 @@ def page(
         verdict_short=content.VERDICT_SHORT,
         overall={claim["name"]: claim["verdict"] for claims in verdicts.values() for claim in claims},
         verdicts=verdicts,
+        differing=[claim for claims in verdicts.values() for claim in claims if claim["full_scale"]],
         groups=answers.GROUPS,
         fastest_methods=fastest,
         percents={error: f"{100 * error:g} %" for error in answers.ERRORS},

@@ -6,6 +6,8 @@ UV ?= uv
 BIN := .venv/bin
 SETTINGS ?=
 SNAKEMAKE = $(BIN)/snakemake --cores $(CORES) $(if $(SETTINGS),--configfile $(SETTINGS))
+# One line of progress; all that is printed is in results/run.log.
+WITH_PROGRESS = $(BIN)/python -m viscorough_study.terminal --
 
 .PHONY: help environment environment-slurm settings reproduce paper report test docs test-slurm bench speed stability \
 	sizes large fuzz faults seeds resampled publish chaos peers lock lock-peers lock-slurm clean
@@ -59,13 +61,11 @@ settings: environment
 	@$(if $(SETTINGS),$(BIN)/python -m viscorough_study.settings_files $(SETTINGS))
 
 reproduce: settings
-	$(SNAKEMAKE) -- all
-	@echo "What was found: open results/index.html in a browser"
+	@$(WITH_PROGRESS) $(SNAKEMAKE) -- all
 
 paper: override SETTINGS := config/paper.yaml
 paper: settings
-	$(BIN)/python benchmarks/costs.py --output results/costs.json -- $(SNAKEMAKE) -- all
-	@echo "What was found: open results/index.html in a browser"
+	@$(BIN)/python benchmarks/costs.py --output results/costs.json -- $(WITH_PROGRESS) $(SNAKEMAKE) -- all
 
 # Includes the targets beside `all` that were made.
 report: settings

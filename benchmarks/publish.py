@@ -4,9 +4,10 @@
 
 Every command (`make paper`, `make speed`, ...) has its own figures and tables, which are copied into docs/results/ with
 their origin. Name the commands whose results are in the folder: some of the files also exist at a smaller scale. Those
-of paper include the verdicts and the calibrated law; seeds and resampled have how the verdicts depend on the seed, and
-on the surfaces drawn. Without results (`--pages-only`) only the tables in README.md and docs/ are written, from what
-was published before and from the statements in resources/paper/claims.yaml. The workflow writes only into results/.
+of paper include the verdicts and the calibrated law, those of reproduce verdicts, cost and Figure 2 of the default run;
+seeds and resampled have how the verdicts depend on the seed, and on the surfaces drawn. Without results
+(`--pages-only`) only the tables in README.md and docs/ are written, from what was published before and from the
+statements in resources/paper/claims.yaml. The workflow writes only into results/.
 """
 
 import json
@@ -24,12 +25,14 @@ from viscorough_study.evidence import VERDICTS
 from viscorough_study.infinite_grid import OMEGA, PLACES, place_of
 from viscorough_study.paper_data import read_paper
 from viscorough_study.performance import timing
+from viscorough_study.rule_costs import in_words
 from viscorough_study.tables import write_json
 from viscorough_study.verdicts import markdown, overall
 
 ROOT = Path(__file__).resolve().parents[1]
 BEGIN, END = "<!-- {}: by benchmarks/publish.py -->\n", "<!-- end of {} -->\n"
 OTHER_SOLVERS = "resources/published/other_solvers.csv"  # with which runs are compared that do not measure them
+DEFAULT_COSTS, DEFAULT_CLAIMS = "resources/published/default_costs.csv", "resources/published/default_claims.csv"
 # {command of make: files in results/ that it makes and that are published in docs/results/}
 PUBLISHED = {
     "paper": (
@@ -58,6 +61,7 @@ PUBLISHED = {
         "tables/needed_grids.csv",
     ),
     "large": ("figures/large.png", "tables/large.csv"),
+    "reproduce": (),
     "seeds": (),
     "resampled": (),
 }
@@ -68,11 +72,16 @@ KEPT = {
         "tables/calibration.csv": "src/viscorough/data/calibration.csv",
         "tables/interface.csv": "src/viscorough/data/interface.csv",
     },
+    "reproduce": {
+        "tables/rule_costs.csv": DEFAULT_COSTS,
+        "tables/claims.csv": DEFAULT_CLAIMS,
+        "figures/fig2_kinetics.png": "docs/fig2_kinetics.png",
+    },
     "seeds": {"seeds.json": "docs/seeds.json", "seeds.csv": "docs/seeds.csv"},
     "resampled": {"resampled.json": "docs/resampled.json"},
 }
 INTERFACE_QUANTITIES = {"whole": "*vt*/*h*", "interface": "*g*"}
-PICTURES = ("fig2_kinetics.png", "speed.png")  # which README.md shows: also in docs/
+PICTURES = ("speed.png",)  # which README.md shows: also in docs/
 
 
 def verdicts():
@@ -86,19 +95,35 @@ def verdicts():
 
 
 def verdict_lines():
-    """The same without numbers: the titles of the claims on physics, one line for each verdict."""
-    claims, verdicts = read_claims(), overall(published_claims())
+    """The verdicts on physics without numbers: titles of claims, one line for each verdict, and how the scales agree.
+
+    Of the default run where it agrees with the full scale, else of the full scale.
+    """
+    claims, full, default = read_claims(), overall(published_claims()), overall(published_claims(DEFAULT_CLAIMS))
+    physics = [name for name in full if claims[name]["kind"] == "physics"]
+    undecided = sum(full[name] != default[name] == "undecided" for name in physics)
+    contradicted = sum(full[name] != default[name] != "undecided" for name in physics)
     lines = ["| verdict | claims on physics |", "|---|---|"]
     for verdict in VERDICTS:
-        names = [name for name, given in verdicts.items() if given == verdict]
-        titles = [claims[name]["title"] for name in names if claims[name]["kind"] == "physics"]
-        if titles:
-            lines.append(f"| {verdict} | {'; '.join(titles)} |")
-    return "\n".join(lines) + "\n"
+        titles = [claims[name]["title"] for name in physics if full[name] == verdict]
+        lines += [f"| {verdict} | {'; '.join(titles)} |"] if titles else []
+    note = "Of the default run, `make reproduce`; those of `make paper` are the same."
+    if undecided or contradicted:
+        note = f"Of `make paper`; the default run leaves {undecided} of them undecided and contradicts {contradicted}."
+    return "\n".join(lines) + "\n\n" + paragraph(note)
 
 
-def published_claims():
-    return pd.read_csv(ROOT / "docs/claims.csv", keep_default_na=False, na_values=[""])
+def time_sentence():
+    """Weeks in the paper, minutes here: of the default run, with its machine and date."""
+    costs = pd.read_csv(ROOT / DEFAULT_COSTS)
+    weeks = read_paper(ROOT / "resources/paper", "numbers")["boundary_elements"]["computing_time"]["value"]
+    text = f"**{weeks.capitalize()} in the paper, {in_words(costs['share_s'].sum())} here**: "
+    where = f"{costs['machine'].iloc[0]} ({costs['measured'].iloc[0]})"
+    return paragraph(f"{text}`make reproduce` on {where}.")
+
+
+def published_claims(name="docs/claims.csv"):
+    return pd.read_csv(ROOT / name, keep_default_na=False, na_values=[""])
 
 
 def read_claims():
@@ -241,6 +266,7 @@ def published_results(records):
 def write_tables():
     """Write what is between the marks of a table: in README.md and in pages of docs/."""
     tables = {("README.md", "verdicts"): verdict_lines(), ("docs/verdicts.md", "verdicts"): verdicts()}
+    tables["README.md", "time"] = time_sentence()
     tables["docs/performance.md", "other solvers"] = other_solver_times()
     tables["docs/scaling.md", "infinite grid"] = infinite_grid()
     tables["docs/theory.md", "interface law"] = interface_law()
@@ -263,6 +289,11 @@ def copy_other_solvers(table, target, machine, date):
     times = times[["task", "hurst", "elements", "levels", "solver", "version", "threads", "ratio"]]
     times = times.assign(ratio=times["ratio"].map("{:.3g}".format), measured=date, machine=machine)
     times.to_csv(target, index=False, lineterminator="\n")
+
+
+def date_of(file):
+    """The day on which a file was made."""
+    return datetime.fromtimestamp(file.stat().st_mtime, UTC).date().isoformat()
 
 
 def copy_picture(file, target):
@@ -291,19 +322,21 @@ def copy_results(results, project, commands, commit):
     record_file = folder / "published.json"
     records = json.loads(record_file.read_text(encoding="utf-8")) if record_file.is_file() else {}
     about = {"processor": machine["processor"], "cores": machine["cores"], "commit": commit}
+    where = f"{machine['processor']}, {machine['cores']} cores"
     for command in commands:
         for name, target in KEPT.get(command, {}).items():
             shutil.copyfile(results / name, project / target)
+            if target == DEFAULT_COSTS:
+                costs = pd.read_csv(results / name).assign(measured=date_of(results / name), machine=where)
+                costs.to_csv(project / target, index=False, lineterminator="\n")
         for file in (results / name for name in PUBLISHED[command]):
             copy = {".png": copy_picture, ".csv": copy_table}.get(file.suffix, shutil.copyfile)
             copy(file, folder / file.name)
             if file.name in PICTURES:
                 shutil.copyfile(folder / file.name, project / "docs" / file.name)
-            date = datetime.fromtimestamp(file.stat().st_mtime, UTC).date().isoformat()
-            records[file.name] = {"command": f"make {command}", "date": date} | about
+            records[file.name] = {"command": f"make {command}", "date": date_of(file)} | about
             if file.name == "other_solvers.csv":
-                where = f"{machine['processor']}, {machine['cores']} cores"
-                copy_other_solvers(file, project / OTHER_SOLVERS, where, date)
+                copy_other_solvers(file, project / OTHER_SOLVERS, where, date_of(file))
     write_json(dict(sorted(records.items())), record_file)
 
 

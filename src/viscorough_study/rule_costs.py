@@ -1,16 +1,20 @@
 """Cost of the rules of the workflow, from the benchmark files that Snakemake writes for every job."""
 
 import math
+import os
 import platform
 from importlib.metadata import version
+from itertools import pairwise
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 
 COLUMNS = {
     "rule": ("rule of the workflow", ""),
     "jobs": ("jobs of the rule", "1"),
     "seconds": ("wall time of all jobs", "s"),
+    "share_s": ("time of the run, without pauses, shared by the jobs that ran side by side", "s"),
     "longest_s": ("longest wall time of one job", "s"),
     "memory_mb": ("largest resident memory of one job", "Mbyte"),
 }
@@ -20,23 +24,46 @@ PACKAGES = ("viscorough", "numpy", "scipy", "numba", "ducc0", "xarray", "netCDF4
 def rule_costs(folder):
     """Time and memory of every rule, most expensive first; a pandas.DataFrame with the columns of `COLUMNS`.
 
-    folder : of benchmark files, <rule>.tsv or <rule>/<job>.tsv; without any, the table has no rows
+    folder : of benchmark files, <rule>.tsv or <rule>/<job>.tsv, each written when its job ended; without any, the table
+        has no rows
     Raises ValueError for a file that is damaged.
     """
-    rows = [
-        (Path(path.relative_to(folder).parts[0]).stem, *_time_and_memory(path))
-        for path in sorted(Path(folder).rglob("*.tsv"))
-    ]
-    by_rule = pd.DataFrame(rows, columns=["rule", "s", "memory"]).groupby("rule")
+    paths = sorted(Path(folder).rglob("*.tsv"))
+    jobs = pd.DataFrame([_time_and_memory(path) for path in paths], columns=["s", "memory"])
+    jobs["rule"] = [Path(path.relative_to(folder).parts[0]).stem for path in paths]
+    jobs["share"] = _shares(np.array([path.stat().st_mtime for path in paths]), jobs["s"].to_numpy())
+    by_rule = jobs.groupby("rule")
     table = pd.DataFrame(
         {
             "jobs": by_rule.size(),
             "seconds": by_rule["s"].sum().round(1),
+            "share_s": by_rule["share"].sum().round(2),
             "longest_s": by_rule["s"].max().round(1),
             "memory_mb": by_rule["memory"].max().round(),
         }
     )
     return table.sort_values("seconds", ascending=False).reset_index()[list(COLUMNS)]
+
+
+def _shares(ends, seconds):
+    """Share of each job in the time during which any job ran [s]: at every moment, those that run share equally.
+
+    Where files were copied without their times, the jobs seem to have run all at once; then the shares sum up to the
+    time of all jobs over the number of cores, as they always do at least.
+    """
+    starts, shares = ends - seconds, np.zeros(len(ends))
+    moments = np.unique([*starts, *ends])
+    for low, high in pairwise(moments):
+        running = (starts <= low) & (high <= ends)
+        shares[running] += (high - low) / max(running.sum(), 1)
+    return shares * max(1.0, seconds.sum() / os.cpu_count() / max(shares.sum(), 1e-9))
+
+
+def in_words(seconds):
+    """A time such as "50 seconds", "5.5 minutes", "3.1 hours"."""
+    if seconds < 100:
+        return f"{seconds:.0f} seconds"
+    return f"{seconds / 60:.1f} minutes" if seconds < 6000 else f"{seconds / 3600:.1f} hours"
 
 
 def versions():

@@ -10,6 +10,8 @@ import os
 import sys
 from pathlib import Path
 
+REMOVED = "The last run in this folder was killed: its lock is removed, its results are kept."
+
 
 def remove_stale_locks(folder=".snakemake"):
     """Remove Snakemake's locks from its folder unless another Snakemake is alive in it.
@@ -37,4 +39,4 @@ def _remove(folder):
     if stale := list(folder.glob("*.lock")):
         for path in stale:
             path.unlink(missing_ok=True)
-        print("The last run in this folder was killed: its lock is removed, its results are kept.", file=sys.stderr)
+        print(REMOVED, file=sys.stderr)

@@ -4,6 +4,7 @@ What a claim says, of which kind it is, by which criterion it is judged and why 
 resources/paper/claims.yaml; viscorough_study.criteria has the function of each criterion, under the name of the claim.
 """
 
+from collections import Counter
 from dataclasses import astuple
 
 import numpy as np
@@ -67,6 +68,22 @@ def overall(table):
     return {claim: VERDICTS[rank] for claim, rank in ranks.items()}
 
 
+def counted_verdicts(table):
+    """[(verdict, its number of claims)], most frequent first."""
+    return Counter(overall(table).values()).most_common()
+
+
+def deciding_case(rows):
+    """Index of the case that a claim's verdict rests on: of those with it, the farthest from what the paper says.
+
+    rows : the cases of one claim; without a value to compare with, the first of them
+    """
+    (verdict,) = overall(rows).values()
+    rows = rows[rows["verdict"] == verdict]
+    distance = (rows["value"] - rows["expected"]).abs()
+    return rows.index[0] if distance.isna().all() else distance.idxmax()
+
+
 def undecided_cases(rows):
     """How many cases are undecided, in words, such as "2 of 4 cases undecided"; "" if none."""
     number = int((rows["verdict"] == "undecided").sum())
@@ -105,10 +122,10 @@ def cases_shown(rows):
 def _in_words(rows):
     shown = cases_shown(rows)
     number = f"{len(rows)} cases, of which " if len(shown) < len(rows) else ""
-    return number + "; ".join(_case_in_words(row) for _, row in shown.iterrows())
+    return number + "; ".join(case_in_words(row) for _, row in shown.iterrows())
 
 
-def _case_in_words(row):
+def case_in_words(row):
     """Name and value of a case, its interval in brackets, its range in words, and what the paper says."""
     if not np.isfinite(row["value"]):
         return f"{row['case']}: –"

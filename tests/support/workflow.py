@@ -36,6 +36,8 @@ def copy_project(folder):
     for name in ("workflow", "config", "profiles", "resources"):
         shutil.copytree(ROOT / name, folder / name)
     shutil.copy(ROOT / "Snakefile", folder)
+    (folder / "docs").mkdir()
+    shutil.copy(ROOT / "docs/claims.csv", folder / "docs")  # published verdicts, for the page
     return folder
 
 

@@ -1,6 +1,7 @@
 """What one full run of the small settings leaves behind."""
 
 import re
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -75,12 +76,12 @@ def test_every_job_has_a_log_and_a_benchmark(finished, tmp_path):
         return {path.relative_to(finished / folder).with_suffix("") for path in paths}
 
     logs = stems("results/logs", ".log")
-    assert logs == stems("results/benchmarks", ".tsv")
+    assert logs == stems("results/benchmarks", ".tsv") - {Path("compile_kernels")}
     assert len(logs) == 62
     files = {kind: tmp_path / f"costs.{kind}" for kind in ("csv", "html", "nc")}
     load_script("tabulate_rule_costs").main(**files, benchmarks=finished / "results/benchmarks")
     table = pd.read_csv(files["csv"]).set_index("rule")
-    assert table["jobs"].sum() == 62
+    assert table["jobs"].sum() == 62 + 1
     assert table.loc["indent_discs", "jobs"] == 10
     assert (table["longest_s"] <= table["seconds"]).all()
     assert table["seconds"].is_monotonic_decreasing

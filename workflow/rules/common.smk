@@ -5,10 +5,12 @@ import importlib.util
 import os
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import yaml
 
+from viscorough.io.atomic import atomic_write
 from viscorough_study import cases
 from viscorough_study.paper_data import number, read_paper
 from viscorough_study.scans import scans
@@ -177,7 +179,7 @@ def other_solvers_wanted():
 def page_digests():
     """Digests of the texts of the page that are no results, whose paths depend on where the project lies."""
     texts = sorted([*(WORKFLOW / "page").iterdir(), *(WORKFLOW / "report").glob("*.rst")])
-    texts.append(Path(workflow.basedir) / "resources/published/other_solvers.csv")
+    texts += [Path(workflow.basedir) / name for name in ("resources/published/other_solvers.csv", "docs/claims.csv")]
     return [hashlib.sha256(path.read_bytes()).hexdigest()[:16] for path in texts]
 
 
@@ -280,5 +282,11 @@ def compile_kernels():
     digest = SOURCES.digest(Path(importlib.util.find_spec("viscorough_study.kernels").origin))
     if stamp.is_file() and stamp.read_text() == digest:
         return
+    print("Compiling the solvers, once: about a minute", file=sys.stderr, flush=True)
+    start = time.monotonic()
     subprocess.run([sys.executable, "-m", "viscorough_study.kernels"], check=True)
+    cost = Path("results/benchmarks/compile_kernels.tsv")  # as of a job, whose memory is not measured
+    cost.parent.mkdir(parents=True, exist_ok=True)
+    with atomic_write(cost) as temporary:
+        temporary.write_text(f"s\tmax_rss\n{time.monotonic() - start:.2f}\t\n")
     stamp.write_text(digest)

@@ -10,7 +10,7 @@ from viscorough_study.page.assembly import page
 def main(project, discs, lines, other_solvers, tables, figures, page_file, *, claims, numbers):
     """Write the page.
 
-    project : folder of the project, which has template, style, captions and published numbers
+    project : folder of the project, which has template, style, captions, published numbers and verdicts
     other_solvers : [] or [path of their table]; tables, figures : paths, whose stems name them
     """
     tables, figures = ({Path(path).stem: path for path in paths} for paths in (tables, figures))
@@ -19,6 +19,7 @@ def main(project, discs, lines, other_solvers, tables, figures, page_file, *, cl
     *texts, section, script = [(project / "workflow/page" / name).read_text("utf-8") for name in names]
     (others,) = other_solvers or [project / "resources/published/other_solvers.csv"]
     more = {"calculator": (section, script), "claims": claims, "numbers": numbers}
+    more["published"] = project / "docs/claims.csv"
     html = page(*texts, discs, lines, others, tables, figures, captions, **more)
     with atomic_write(page_file) as temporary:
         temporary.write_text(html, encoding="utf-8")

@@ -33,7 +33,7 @@ def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
     Region (a) is left out. The lower panel is cut to the range of region (b).
     """
     looks = hurst_looks(ds["hurst"].item() for ds in discs)
-    figure = Figure(figsize=(NARROW, 135 * MM))
+    figure = Figure(figsize=(NARROW, 120 * MM))
     panels = law, ratio = figure.subplots(2, 1, sharex=True, height_ratios=(1.7, 1))
     for axes in panels:
         axes.set(xscale="log", yscale="log")
@@ -51,7 +51,7 @@ def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
     law.plot(ends, ends, "--", color="black")
     ratio.axhline(1, linestyle="--", color="black")
     law.set(xlim=ends, ylabel="$vt/h$")
-    xlabel = r"$(Ft/4\eta hL)^{H/(1+H)} \,/\, [(2-H)\,\Gamma(\frac{1+2H}{1+H})]$"
+    xlabel = r"right side of Eq. 12, $X^{H/(1+H)} /\, [(2-H)\,\Gamma(2-\alpha)]$"
     ratio.set(xlabel=xlabel, ylabel="$vt/h$ over Eq. 12", ylim=(min(ratios) / 1.3, max(ratios) * 1.3))
     logarithmic_ticks(*panels)
     ratio.yaxis.set(major_locator=FixedLocator([0.1, 0.2, 0.5, 1, 2, 5, 10]), major_formatter="{x:g}")

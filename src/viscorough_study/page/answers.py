@@ -3,7 +3,7 @@
 import numpy as np
 
 from viscorough_study.page.results import Count
-from viscorough_study.verdicts import overall
+from viscorough_study.verdicts import counted_verdicts
 
 GROUPS = {"path": "elastic path", "marching": "direct integration in time", "model": "model"}
 ERRORS = (0.1, 1e-2, 1e-3, 1e-6)  # of the velocity, for which the fastest method is named
@@ -13,14 +13,9 @@ CASE = ("value", "low", "high", "expected")
 
 
 def verdict_counts(results):
-    """[Count] of claims on physics by verdict, most frequent first; a claim has the verdict over all its cases."""
-    table = results.tables["claims"]
-    verdicts = list(overall(table[table["kind"] == "physics"]).values())
-    numbers = {verdict: verdicts.count(verdict) for verdict in dict.fromkeys(verdicts)}
-    ordered = sorted(numbers.items(), key=lambda item: -item[1])
-    return [
-        Count(number, "claims", "verdict over all cases of a claim on physics", verdict) for verdict, number in ordered
-    ]
+    """[Count] of claims by verdict, most frequent first; a claim has the verdict over all its cases."""
+    numbers = counted_verdicts(results.tables["claims"])
+    return [Count(number, "claims", "verdict over all cases of a claim", verdict) for verdict, number in numbers]
 
 
 def answers(results):

@@ -4,8 +4,9 @@ from viscorough_study.page import answers, content
 from viscorough_study.page.calculator import calculator as with_law
 from viscorough_study.page.discussion import QUANTITIES, discussion
 from viscorough_study.page.render import render
-from viscorough_study.page.results import read_results, readable
+from viscorough_study.page.results import read_results, read_table, readable
 from viscorough_study.robustness.failure_map import VERDICTS as OUTCOMES
+from viscorough_study.rule_costs import in_words
 from viscorough_study.tables import read_recorded
 
 FURTHER = {
@@ -21,7 +22,9 @@ FURTHER = {
 }
 
 
-def page(template, style, discs, lines, other_solvers, tables, figures, captions, *, calculator, claims, numbers):
+def page(
+    template, style, discs, lines, other_solvers, tables, figures, captions, *, calculator, claims, numbers, published
+):
     """HTML of the page.
 
     template, style : text of the template and of the style sheet
@@ -29,11 +32,12 @@ def page(template, style, discs, lines, other_solvers, tables, figures, captions
     discs, lines : paths of the pools; other_solvers : path of a table of the workflow or of published numbers
     tables, figures, captions : {name: path}, of CSV, PNG and reStructuredText
     claims, numbers : what the paper says, the contents of resources/paper/claims.yaml and numbers.yaml
+    published : path of the table of verdicts of the full scale
     """
     results = read_results(tables)
-    scale, verdicts = content.scale(discs, lines, numbers), content.verdicts(results, claims)
+    scale, verdicts = content.scale(discs, lines, numbers), content.verdicts(results, claims, read_table(published))
     fastest = answers.fastest_methods(results)
-    costs_nc = str(tables["rule_costs"]).removesuffix(".csv") + ".nc"
+    boundary_elements, costs_nc = numbers["boundary_elements"], str(tables["rule_costs"]).removesuffix(".csv") + ".nc"
     return render(
         template,
         style,
@@ -48,8 +52,8 @@ def page(template, style, discs, lines, other_solvers, tables, figures, captions
         verdict_counts=answers.verdict_counts(results),
         verdict_short=content.VERDICT_SHORT,
         overall={claim["name"]: claim["verdict"] for claims in verdicts.values() for claim in claims},
-        short={claim["name"]: claim["short"] for claims in verdicts.values() for claim in claims},
         verdicts=verdicts,
+        differing=[claim for claims in verdicts.values() for claim in claims if claim["full_scale"]],
         groups=answers.GROUPS,
         fastest_methods=fastest,
         percents={error: f"{100 * error:g} %" for error in answers.ERRORS},
@@ -71,4 +75,6 @@ def page(template, style, discs, lines, other_solvers, tables, figures, captions
         machine=results.machine["rule_costs"],
         versions=read_recorded(costs_nc, "versions"),
         made=read_recorded(costs_nc, "made"),
+        time=in_words(results.tables["rule_costs"]["share_s"].sum()),
+        paper_time=boundary_elements["computing_time"]["value"],
     )

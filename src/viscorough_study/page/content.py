@@ -8,7 +8,7 @@ import pandas as pd
 from viscorough.io.netcdf import opened
 from viscorough_study.medium_names import medium_label
 from viscorough_study.scale import is_trial
-from viscorough_study.verdicts import KINDS, cases_shown, overall, undecided_cases
+from viscorough_study.verdicts import KINDS, case_in_words, cases_shown, deciding_case, overall, undecided_cases
 
 # {name of the figure: what it shows, for those who cannot see it}
 ALTERNATIVE_TEXTS = {
@@ -52,17 +52,22 @@ VERDICT_SHORT = {
 }
 
 
-def verdicts(results, statements):
-    """Every claim with its statement, its verdict and the cases that are shown, with their numbers: {kind: claims}."""
+def verdicts(results, statements, published):
+    """Every claim with its statement, its verdict and the cases that are shown, with their numbers: {kind: claims}.
+
+    statements : content of resources/paper/claims.yaml
+    published : table of the verdicts of the full scale; a claim with another verdict there has it as `full_scale`
+    """
     table, claims = results.tables["claims"], {heading: [] for heading in KINDS.values()}
+    at_full_scale = overall(published)
     for name, verdict in overall(table).items():
         rows = table[table["claim"] == name]
         first, shown = rows.iloc[0], cases_shown(rows)
-        cases = [
-            {"case": row["case"], "verdict": row["verdict"], "convention": row["convention"]}
-            | results.numbers("claims", i, "value", "low", "high", "least", "largest", "expected")
-            for i, row in shown.iterrows()
-        ]
+        full_scale = None
+        if at_full_scale.get(name, verdict) != verdict:
+            of_claim = published[published["claim"] == name]
+            in_words = case_in_words(of_claim.loc[deciding_case(of_claim)])
+            full_scale = {"verdict": at_full_scale[name], "case": in_words}
         claims[KINDS[first["kind"]]].append(
             {
                 "name": name,
@@ -72,13 +77,20 @@ def verdicts(results, statements):
                 "reason": first["reason"],
                 "tolerance": results.number("claims", rows.index[0], "tolerance"),
                 "verdict": verdict,
-                "short": VERDICT_SHORT[verdict],
+                "full_scale": full_scale,
                 "undecided": undecided_cases(rows),
-                "cases": cases,
+                "deciding": _case(results, deciding_case(rows)),
+                "cases": [_case(results, i) for i in shown.index],
                 "left_out": len(rows) - len(shown),
             }
         )
     return {heading: of_kind for heading, of_kind in claims.items() if of_kind}
+
+
+def _case(results, row):
+    """Texts and numbers of a case of a claim."""
+    texts = results.tables["claims"].loc[row, ["case", "verdict", "convention"]].to_dict()
+    return texts | results.numbers("claims", row, "value", "low", "high", "least", "largest", "expected")
 
 
 def other_solvers(path):
@@ -145,11 +157,10 @@ def measured(results, conventions):
 
 
 def costs(results):
-    """Cost of every rule, most expensive first, and the sum of the wall times [s]."""
-    table = results.tables["rule_costs"]
-    columns = ("jobs", "seconds", "longest_s", "memory_mb")
-    rows = [{"rule": row["rule"]} | results.numbers("rule_costs", i, *columns) for i, row in table.iterrows()]
-    return {"rules": rows, "sum": float(table["seconds"].sum())}
+    """Cost of every rule, most expensive first."""
+    columns = ("jobs", "seconds", "share_s", "longest_s", "memory_mb")
+    rules = results.tables["rule_costs"]["rule"].items()
+    return [{"rule": rule} | results.numbers("rule_costs", row, *columns) for row, rule in rules]
 
 
 # ---- scale
@@ -158,6 +169,8 @@ def costs(results):
 def scale(discs, lines, numbers):
     """The scale at which a run was made, from its ensembles, beside that of the paper.
 
+    Its name is paper with as many discs and lines as there, whatever the points of the lines, else trial, and coarse
+    where the discs are too coarse for a power law.
     discs, lines : paths of the pools; numbers : content of resources/paper/numbers.yaml
     """
     pools = {"discs": _pool(discs), "lines": _pool(lines)}
@@ -174,11 +187,9 @@ def scale(discs, lines, numbers):
         "points": pools["lines"]["description"]["points"],
         "lines": pools["lines"]["realizations"],
     }
-    if all(run[name] >= paper[name] for name in paper):
-        name = "paper"
-    else:
-        name = "trial" if is_trial(run["elements"], paper["elements"]) else "reduced"
-    return {"name": name, "run": run, "paper": paper, **pools}
+    as_many = all(run[name] >= paper[name] for name in ("elements", "realizations", "lines"))
+    coarse = is_trial(run["elements"], paper["elements"])
+    return {"name": "coarse" if coarse else "paper" if as_many else "trial", "run": run, "paper": paper, **pools}
 
 
 def _pool(path):

@@ -11,6 +11,8 @@ from markupsafe import Markup
 
 from viscorough_study.page.results import readable
 
+SCALE = 0.675  # pixels of the page for a pixel of a figure
+
 
 def render(template, style, figures, captions, conventions, **content):
     """HTML of the page.
@@ -50,10 +52,10 @@ def _element(value, text):
 
 
 def embedded_png(content):
-    """src, width and height of an image of the page; the figures have 200 dots to the inch, screens about 100."""
+    """src, width and height of an image of the page: 7 points, the smallest text of the figures, are 13 pixels high."""
     width, height = struct.unpack(">II", content[16:24])
     source = "data:image/png;base64," + base64.b64encode(content).decode("ascii")
-    return {"src": Markup(source), "width": width // 2, "height": height // 2}
+    return {"src": Markup(source), "width": round(width * SCALE), "height": round(height * SCALE)}
 
 
 def caption(text, conventions):

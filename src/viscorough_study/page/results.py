@@ -100,8 +100,7 @@ class Results:
 
 def read_results(tables):
     """Results of the tables at {name: path of the CSV}, beside which stand the NetCDF files of the same names."""
-    texts = {"keep_default_na": False, "na_values": [""]}
-    frames = {name: _without_missing_texts(pd.read_csv(path, **texts)) for name, path in tables.items()}
+    frames = {name: read_table(path) for name, path in tables.items()}
     settings, machine = {}, {}
     for name, path in tables.items():
         for attribute, place in (("settings", settings), ("machine", machine)):
@@ -109,8 +108,9 @@ def read_results(tables):
     return Results(frames, settings, machine)
 
 
-def _without_missing_texts(table):
-    """The table with empty texts where pandas, which cannot know that a column holds texts, reads nan."""
+def read_table(path):
+    """A table of a CSV file, with empty texts where pandas, which cannot know that a column holds texts, reads nan."""
+    table = pd.read_csv(path, keep_default_na=False, na_values=[""])
     return table.assign(**{name: table[name].astype(object).fillna("") for name in MAY_BE_EMPTY if name in table})
 
 

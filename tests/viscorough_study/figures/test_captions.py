@@ -45,7 +45,7 @@ from viscorough_study.prefactors import prefactors
 
 REPORT = ROOT / "workflow" / "report"
 SYMBOLS = {r"\alpha": "α", r"\beta": "β", r"\zeta": "ζ", r"\kappa": "κ", r"\eta": "η", r"\lambda": "λ", r"\ln": "ln "}
-RIGHT_SIDE = "(Ft/4ηhL)^{H/(1+H)} / [(2-H)Γ(\\frac{1+2H}{1+H})]"  # of Eq. 12
+RIGHT_SIDE = r"right side of Eq. 12, $X^{H/(1+H)} /\, [(2-H)\,\Gamma(2-\alpha)]$"
 
 
 @dataclass(frozen=True)
@@ -200,7 +200,7 @@ def test_panels_are_as_many_as_what_they_are_for(drawn):
         ("failure_curves", ("(b)", ""), "panel (b) is not described"),
         ("fig2_kinetics", ("Right:", "Below:"), "panel right is not described"),
         ("fig2_kinetics", ("time t", "t"), "axis time t is not described"),
-        ("fig3_master_curve", ("right side", "left side"), "axis (Ft"),
+        ("fig3_master_curve", ("right side", "left side"), "axis right side"),
         ("validation", ("one panel for each quantity", ""), "panels are for each"),
         ("growth", ("wall time", "dashed: time"), "nothing is dashed"),
         ("growth", ("wall time", "hatched: time"), "nothing is hatched"),

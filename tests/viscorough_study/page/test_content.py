@@ -30,9 +30,10 @@ def pool(path, description, realizations):
     ("elements", "realizations", "lines", "points", "name"),
     [
         (257, 80, 500, 4_000_000, "paper"),
-        (257, 80, 500, 262_144, "reduced"),
-        (257, 6, 500, 4_000_000, "reduced"),
-        (33, 80, 500, 4_000_000, "trial"),
+        (257, 80, 500, 131_072, "paper"),
+        (257, 6, 500, 4_000_000, "trial"),
+        (257, 80, 50, 4_000_000, "trial"),
+        (33, 80, 500, 4_000_000, "coarse"),
     ],
 )
 def test_scale_is_told_from_the_ensembles(tmp_path, elements, realizations, lines, points, name):
@@ -75,8 +76,7 @@ def test_the_fastest_method_that_reaches_an_error_is_named(methods):
 
 def test_a_claim_counts_once_with_the_worst_of_its_verdicts():
     rows = [("a", "reproduced"), ("a", "not reproduced"), ("b", "reproduced"), ("c", "reproduced")]
-    rows = [(*row, "physics") for row in rows] + [("d", "not reproduced", "bookkeeping")]
-    counts = verdict_counts(Results({"claims": pd.DataFrame(rows, columns=["claim", "verdict", "kind"])}, {}, {}))
+    counts = verdict_counts(Results({"claims": pd.DataFrame(rows, columns=["claim", "verdict"])}, {}, {}))
     assert [(count.counted, count.value) for count in counts] == [("reproduced", 2), ("not reproduced", 1)]
 
 
@@ -90,7 +90,7 @@ def test_numbers_stand_in_the_rows_for_which_they_are_shown():
     }
     numbers = {
         "level_placement": "accuracy reached levels wall_s ratio error",
-        "rule_costs": "jobs seconds longest_s memory_mb",
+        "rule_costs": "jobs seconds share_s longest_s memory_mb",
         "measured_scans": "elements spacing row_spacing rms rms_slope diameter",
         "measured_fits": "realizations decades beta beta_low beta_high zeta",
     }
@@ -98,13 +98,13 @@ def test_numbers_stand_in_the_rows_for_which_they_are_shown():
     results = Results(tables | {"claims": pd.read_csv(ROOT / "docs/claims.csv")}, {}, {})
     shown = [
         (case["value"], {"claim": claim["name"], "case": case["case"]})
-        for claims in verdicts(results, CLAIMS).values()
+        for claims in verdicts(results, CLAIMS, results.tables["claims"]).values()
         for claim in claims
         for case in claim["cases"]
     ]
     for scene in scenes(results):
         shown += [(row["levels"], {"scene": scene["scene"], "choice": name}) for name, row in scene["choices"].items()]
-    shown += [(row["jobs"], {"rule": row["rule"]}) for row in costs(results)["rules"]]
+    shown += [(row["jobs"], {"rule": row["rule"]}) for row in costs(results)]
     of_scans = measured(results, conventions)
     shown += [(row["rms"], {"file": row["file"]}) for row in of_scans["scans"]]
     shown += [(row["beta"], {"case_group": row["group"]}) for row in of_scans["groups"]]
@@ -120,6 +120,36 @@ def test_worst_error_of_the_models_is_one_of_those_that_users_are_told():
     assert found["worst_model"].value == 0.3
     assert (found["cases"].value, found["warned"].value, found["unnoticed"].value) == (2, 2, 0)
     assert [row["messages"] for row in found["methods"]] == [{}, {}, {("warned", "c"): ["a: b"]}]
+
+
+def claims_table(*verdicts_of_cases):
+    """Cases of the claim on β with their verdicts, and with values ever farther from what the paper says."""
+    table = pd.DataFrame({"verdict": verdicts_of_cases}).assign(claim="beta", kind="physics", where="Eq. 5")
+    table = table.assign(case=[f"H = {i}" for i in range(len(table))], convention="", criterion="it is", reason="it is")
+    numbers = dict.fromkeys(("low", "high", "least", "largest", "tolerance"), 0.1) | {"expected": 0.0}
+    return table.assign(value=0.1 * table.index, **numbers)
+
+
+def test_the_case_that_is_shown_has_the_verdict_of_the_claim_and_is_the_farthest_from_the_paper():
+    table = claims_table("reproduced", "undecided", "undecided", "reproduced")
+    ((claim,),) = verdicts(Results({"claims": table}, {}, {}), CLAIMS, table).values()
+    assert (claim["verdict"], claim["deciding"]["case"]) == ("undecided", "H = 2")
+    assert [case["value"].row for case in claim["cases"]] == [0, 1, 2, 3]
+    table["expected"] = np.nan
+    ((claim,),) = verdicts(Results({"claims": table}, {}, {}), CLAIMS, table).values()
+    assert claim["deciding"]["case"] == "H = 1"
+
+
+def test_a_verdict_that_the_full_scale_does_not_share_is_shown_with_its_case():
+    table, full = claims_table("undecided", "reproduced"), claims_table("reproduced", "not reproduced")
+    ((claim,),) = verdicts(Results({"claims": table}, {}, {}), CLAIMS, full).values()
+    assert claim["full_scale"] == {
+        "verdict": "not reproduced",
+        "case": "H = 1: 0.1 [0.1, 0.1], least 0.1, largest 0.1, paper 0",
+    }
+    for published in (table, full.assign(claim="renamed")):
+        ((claim,),) = verdicts(Results({"claims": table}, {}, {}), CLAIMS, published).values()
+        assert claim["full_scale"] is None
 
 
 def test_published_ratios_of_other_solvers_say_when_and_where_they_were_measured():

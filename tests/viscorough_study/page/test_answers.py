@@ -20,9 +20,8 @@ def text():
     """The list of answers, with <claim> in place of a claim's verdict and {row column} in place of a number."""
     template = (ROOT / "workflow/page/page.html.jinja").read_text(encoding="utf-8")
     answer = template.split("<!DOCTYPE")[0] + re.search('<ol class="found">.*?</ol>', template, re.DOTALL)[0]
-    content = {"advised": {"path": None, "marching": None}, "failures": {"cases": None, "unnoticed": None}}
-    content |= {"overall": {name: f"<{name}>" for name in CLAIMS}, "short": dict.fromkeys(CLAIMS, "")}
-    html = render(answer, "", {}, {}, {}, a=FOUND, advised_elements=None, best_model=None, **content)
+    marks = {name: f"<{name}>" for name in CLAIMS}
+    html = render(answer, "", {}, {}, {}, a=FOUND, overall=marks, verdict_short=dict.fromkeys(marks.values(), ""))
     html = re.sub(r'<data [^>]*data-row="(\d+)" data-column="(\w+)"[^>]*>[^<]*</data>', r"{\1 \2}", html)
     return " ".join(re.sub("<.*?>", "", html).split()).replace("&lt;", "<").replace("&gt;", ">")
 

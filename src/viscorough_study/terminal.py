@@ -3,6 +3,7 @@
 python -m viscorough_study.terminal -- snakemake --cores 2 -- all
 """
 
+import contextlib
 import re
 import shutil
 import signal
@@ -68,14 +69,14 @@ class Progress:
         return self.seconds.get(rule, 0.0 if rule == "all" else self.mean)
 
 
-def run(command, output=OUTPUT, screen=sys.stderr):
+def run(command, output=OUTPUT):
     """Run a command of Snakemake and return its exit code; show its progress, and in the end what went wrong.
 
     Ctrl-C reaches the command by itself; it has the time to end its jobs and to unlock its folder. SIGTERM, which
     reaches only this process, is passed on.
     """
     progress, drawn, pending = Progress(_published_seconds()), "", ""
-    on_terminal = screen.isatty()
+    on_terminal = bool(sys.stderr) and sys.stderr.isatty()
     output.parent.mkdir(parents=True, exist_ok=True)
     with open(output, "w", encoding="utf-8") as file, open(output, encoding="utf-8", errors="replace") as printed:
         process = subprocess.Popen(command, stdout=file, stderr=subprocess.STDOUT)
@@ -88,27 +89,33 @@ def run(command, output=OUTPUT, screen=sys.stderr):
             for line in lines:
                 progress.read(line, time.monotonic())
                 if line.startswith(PASSED_ON):
-                    print(CLEAR * on_terminal + line, file=screen, flush=True)
-            drawn = _draw(progress, drawn, screen, on_terminal)
+                    _show(CLEAR * on_terminal + line + "\n")
+            drawn = _draw(progress, drawn, on_terminal)
             time.sleep(0 if ended else 0.2)
     if on_terminal and drawn:
-        print(CLEAR, end="", file=screen, flush=True)
+        _show(CLEAR)
     code = 128 - process.returncode if process.returncode < 0 else process.returncode
     if code:
-        print(*_errors(progress.failed_logs, output), sep="\n", file=screen, flush=True)
+        _show("".join(f"{line}\n" for line in _errors(progress.failed_logs, output)))
     return code
 
 
-def _draw(progress, drawn, screen, on_terminal):
+def _show(text):
+    """Write to standard error; the run goes on where that is closed."""
+    with contextlib.suppress(OSError):
+        print(text, end="", file=sys.stderr, flush=True)
+
+
+def _draw(progress, drawn, on_terminal):
     """Show the progress if it is new: on a terminal over the last line, elsewhere in a few lines in all."""
     if on_terminal:
         text = progress.text(time.monotonic())[: shutil.get_terminal_size().columns - 1]
         if text != drawn:
-            print(CLEAR + text, end="", file=screen, flush=True)
+            _show(CLEAR + text)
         return text
     part = str(SPARSE * progress.done // max(progress.total, 1)) if progress.began else ""
     if part != drawn:
-        print(progress.text(time.monotonic()), file=screen, flush=True)
+        _show(progress.text(time.monotonic()) + "\n")
     return part
 
 

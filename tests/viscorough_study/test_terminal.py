@@ -107,6 +107,15 @@ def test_a_terminal_has_one_line_that_is_drawn_again(tmp_path):
     assert shown.endswith(CLEAR)
 
 
+def test_the_run_goes_on_where_nobody_reads_its_progress(tmp_path):
+    reader, writer = os.pipe()
+    os.close(reader)
+    done = run(tmp_path, f"print({STARTED!r}); open('made', 'w')", stderr=writer)
+    os.close(writer)
+    assert (tmp_path / "made").exists()
+    assert done.returncode in (0, 120)  # the latter of Python, which cannot flush standard error
+
+
 def test_the_error_of_a_job_is_shown_with_its_log_and_the_code_kept(tmp_path):
     lines = ("INFO 3 of 9", "WARNING UserWarning: wide", "ERROR ValueError: no contact", "ERROR Traceback (most recent")
     (tmp_path / "indent.log").write_text("".join(f"2026-01-01 10:00:00 {line}\n" for line in lines))

@@ -69,7 +69,7 @@ def read_text(path):
     table = _table(rows, delimiter, decimal)
     esri = _esri(lines[:first])
     _check_above(lines[:first], delimiter, {table.shape[1], len(rows.lines[0].split(delimiter))}, esri)
-    if {"ncols", "nrows"} <= set(esri):
+    if esri:
         return _esri_scan(table, esri)
     header = read_header([*lines[:first], *comments], table.shape, delimiter, decimal)
     grid = _grid(table, header, required=header.columns is not None or str(path).lower().endswith(".xyz"))

@@ -78,7 +78,11 @@ def test_positions_far_from_0_are_as_exact_as_their_precision():
     assert uniform_spacing("y", northings.astype(np.float32)) == 0.5
     assert uniform_spacing("y", (5e5 + 0.1 * np.arange(200)).astype(np.float32)) == pytest.approx(0.1, rel=3e-3)
     jitter = np.array([0, 0.95, -0.95, 0.5, 0, 0.9, -0.9, 0, 0])
-    for positions in (2e6 + np.arange(9) + 0.4 * jitter, 5.4e6 + 3 * np.arange(9) + jitter):
+    for positions in (
+        2e6 + np.arange(9) + 0.04 * jitter,
+        2e6 + np.arange(9) + 0.4 * jitter,
+        5.4e6 + 3 * np.arange(9) + jitter,
+    ):
         with pytest.raises(ValueError, match="not uniform"):
             uniform_spacing("y", positions)
     with pytest.raises(ValueError, match=r"too coarse|not uniform"):

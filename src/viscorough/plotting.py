@@ -177,17 +177,23 @@ def _extent(variables, name, values):
 
 def _positions(variables, dimension, points=None):
     """Positions along a dimension and their distance: those of its coordinate, else the numbers of the points."""
-    if dimension in variables and variables[dimension].dimensions == (dimension,):
+    if _has_positions(variables, dimension):
         values = variables[dimension].values.astype(float)
-        if np.isfinite(values).all() and (np.diff(values) > 0).all():
-            return values, (values[-1] - values[0]) / max(len(values) - 1, 1) or 1.0
+        return values, (values[-1] - values[0]) / max(len(values) - 1, 1) or 1.0
     points = points or next(len(v.values) for v in variables.values() if v.dimensions == (dimension,))
     return np.arange(points), 1.0
 
 
+def _has_positions(variables, dimension):
+    """Whether a dimension has a coordinate, increasing or decreasing."""
+    if dimension not in variables or variables[dimension].dimensions != (dimension,):
+        return False
+    steps = np.diff(variables[dimension].values.astype(float))
+    return bool(np.isfinite(steps).all() and ((steps > 0).all() or (steps < 0).all()))
+
+
 def _axis_label(variables, dimension):
-    known = dimension in variables and variables[dimension].dimensions == (dimension,)
-    return _label_of(variables, dimension) if known else f"{dimension}, points"
+    return _label_of(variables, dimension) if _has_positions(variables, dimension) else f"{dimension}, points"
 
 
 # ---- curves

@@ -10,7 +10,7 @@ PAGES = [
     *(README, ROOT / "CHANGELOG.md", ROOT / "config/README.md", ROOT / "results/README.md"),
     *sorted((ROOT / "docs").rglob("*.md")),
 ]
-_FENCE = re.compile(r"^```(\S*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+_FENCE = re.compile(r"^```(\S*)(?: [^\n]*)?\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 _NAMED = re.compile(r"^`(\w+/[\w./]+)`:\n\n```\S*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 

@@ -53,7 +53,8 @@ def kinetics(curve, force, force_history, viscosity, medium, times, output):
     times and compliances J).
 
     If the unit of length of the curve is known, forces are in N, moduli in Pa, viscosities in Pa s, or have a unit,
-    as in --viscosity "2 kPa s". If not, they are plain numbers in consistent units: with heights in metres, N and Pa s.
+    as in --viscosity "2 kPa s" or in the heading t [ms],F [mN] of a force history. If not, they are plain numbers in
+    consistent units: with heights in metres, N and Pa s.
 
     \b
     Examples:

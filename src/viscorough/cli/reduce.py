@@ -8,7 +8,6 @@ from viscorough.cli.messages import announce
 from viscorough.cli.options import (
     PositiveNumber,
     check_not_an_input,
-    number_in,
     output_option,
     printable_name,
     write_output,
@@ -63,10 +62,9 @@ def reduce(surface, until_fraction, realizations, seed, output, progress):
     if dimensions_of_heights(line_or_map) == 1:
         if realizations or seed is not None:
             raise click.UsageError("--realizations and --seed are for maps, of which lines are made; this is a line")
-        if surface.unit or surface.channel or surface.preparation:
-            raise click.UsageError("--unit, --channel and preparation are for maps; this is a line")
-        spacing = surface.spacing and number_in("m", surface.spacing[0], "1", "--spacing")
-        lines = [read_line(line_or_map, spacing)]
+        if surface.channel or surface.preparation:
+            raise click.UsageError("--channel and preparation are for maps; this is a line")
+        lines = [read_line(line_or_map, surface.spacing and surface.spacing[0], surface.unit)]
     else:
         if (realizations or 1) > 1 and output.suffix.lower() == ".csv":
             raise click.UsageError("--realizations: several curves are no table; a NetCDF file (.nc) is needed")

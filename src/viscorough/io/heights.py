@@ -97,8 +97,8 @@ def _netcdf_scan(path, channel):
         names = [channel] if channel else ["heights"] if "heights" in file.variables else maps
         if len(names) == 1 and names[0] in file.variables:
             variable = file.variables[names[0]]
-            heights, unit = unpacked(variable), _unit(variable)
-            positions = [_positions(file, dimension) for dimension in variable.dimensions]
+            heights, unit = unpacked(variable), unit_of(variable)
+            positions = [positions_along(file, dimension) for dimension in variable.dimensions]
             dimensions = variable.dimensions
         else:
             heights = None
@@ -114,14 +114,14 @@ def _netcdf_scan(path, channel):
     return Scan(heights, unit, spacing, spacing_unit)
 
 
-def _unit(variable):
+def unit_of(variable):
     """The attribute `units` of a NetCDF variable, or `unit`, as some programs spell it; "1" if it has none."""
     attributes = netcdf.attributes_of(variable)
     unit = attributes.get("units", attributes.get("unit"))
     return unit if isinstance(unit, str) and unit.strip() else "1"
 
 
-def _positions(file, dimension):
+def positions_along(file, dimension):
     """Name, positions and unit along a dimension: of the variable of that name, or of the only one that has only it."""
     along = [
         name
@@ -129,7 +129,7 @@ def _positions(file, dimension):
         if variable.dimensions == (dimension,) and variable.dtype is not str and np.dtype(variable.dtype).kind in "iuf"
     ]
     name = dimension if dimension in along else along[0] if len(along) == 1 else None
-    return None if name is None else (name, unpacked(file.variables[name]), _unit(file.variables[name]))
+    return None if name is None else (name, unpacked(file.variables[name]), unit_of(file.variables[name]))
 
 
 def _spacing(rows, columns):
@@ -137,7 +137,7 @@ def _spacing(rows, columns):
 
     Raises ValueError if only one of them is there, or if their units differ in kind.
     """
-    stated = [axis for axis in (columns, rows) if axis is not None and not _are_indices(*axis[1:])]
+    stated = [axis for axis in (columns, rows) if axis is not None and not are_indices(*axis[1:])]
     if not stated:
         return None, "1"
     if len(stated) == 1:
@@ -151,7 +151,7 @@ def _spacing(rows, columns):
     return tuple(distances), unit
 
 
-def _are_indices(positions, unit):
+def are_indices(positions, unit):
     """Whether positions only count points, from 0 or 1 on, so that they state no distance."""
     if units.counts_points(unit):
         return True

@@ -5,9 +5,9 @@ from pathlib import Path
 import numpy as np
 
 from viscorough.indenter import Indenter
-from viscorough.io.heights import npy_array
-from viscorough.io.netcdf import Content, Variable, attributes_of, opened
-from viscorough.io.scan import uniform_spacing
+from viscorough.io.heights import are_indices, npy_array, positions_along, unit_of
+from viscorough.io.netcdf import Content, Variable, opened
+from viscorough.io.scan import Scan, to_indenter, uniform_spacing
 from viscorough.io.unpacking import unpacked
 
 
@@ -25,24 +25,23 @@ def surface_to_content(indenter):
     return Content(variables, {"title": "Heights of a rigid indenter; larger is higher and touches first"})
 
 
-def read_line(path, spacing=None):
+def read_line(path, spacing=None, unit=None):
     """Read the heights of a line as an Indenter, for the method of reduction of dimensionality (mdr.reduce).
 
     path : .npy of shape (points,), or .nc with a variable `heights` of one dimension, or only one such variable
-    spacing : distance between neighbouring points, in the unit of the heights; by default that of the coordinate in a
-        NetCDF file, in the same unit as the heights
+    spacing : distance between neighbouring points, a number in the unit of the heights or a viscorough.units.Quantity;
+        by default that of the coordinate in a NetCDF file
+    unit : unit of length of the heights, where the file states none, such as "um"
 
     Raises a one-line ValueError that names the file and what is wrong.
     """
-    heights, unit, stated = (npy_array(path), "1", None) if Path(path).suffix == ".npy" else _from_netcdf(path)
-    if heights.dtype.kind not in "iuf" or heights.ndim != 1:
-        raise ValueError(f"{path}: heights are of type {heights.dtype} and shape {heights.shape}; a line is needed")
-    if spacing is None and stated is None:
-        raise ValueError(f"{path}: states no spacing of its points; --spacing is needed")
-    if spacing is not None and stated is not None and not np.isclose(spacing, stated, rtol=1e-3, atol=0):
-        raise ValueError(f"{path}: its points are {stated:g} apart, not {spacing:g}; the same or no spacing is allowed")
+    scan = Scan(npy_array(path)) if Path(path).suffix == ".npy" else _scan_of_netcdf(path)
+    if scan.heights.dtype.kind not in "iuf" or scan.heights.ndim != 1:
+        kind = f"type {scan.heights.dtype} and shape {scan.heights.shape}"
+        raise ValueError(f"{path}: heights are of {kind}; a line is needed")
     try:
-        return Indenter(heights, stated if spacing is None else spacing, length_unit=unit)
+        row = to_indenter(scan._replace(heights=scan.heights[None]), spacing and (spacing, spacing), unit)
+        return Indenter(row.heights[0], row.spacing, length_unit=row.length_unit)
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from error
 
@@ -66,20 +65,19 @@ def _line_in(file):
     return lines[0] if len(lines) == 1 and not maps else None
 
 
-def _from_netcdf(path):
-    """Heights, their unit, and the spacing that the coordinate states; None if there is no coordinate."""
+def _scan_of_netcdf(path):
+    """The Scan of a line, whose heights are of shape (points,)."""
     with opened(path) as file:
         name = _line_in(file)
         if name is None:
             raise ValueError("no line of heights")
         variable = file[name]
-        unit = attributes_of(variable).get("units", "1")
-        unit = unit if isinstance(unit, str) and unit.strip() else "1"
-        (axis,) = variable.dimensions
-        if axis not in file.variables:
-            return unpacked(variable), unit, None
-        coordinate = file[axis]
-        if attributes_of(coordinate).get("units", unit) != unit:
-            raise ValueError(f"{axis} is not in the unit of the heights, {unit}")
-        positions = unpacked(coordinate)
-        return unpacked(variable), unit, uniform_spacing(axis, positions) if positions.size > 1 else None
+        heights, unit, (axis,) = unpacked(variable), unit_of(variable), variable.dimensions
+        coordinate = positions_along(file, axis)
+    if coordinate is None or coordinate[0] != axis or coordinate[1].size < 2 or are_indices(*coordinate[1:]):
+        return Scan(heights, unit)
+    _, positions, lateral_unit = coordinate
+    try:
+        return Scan(heights, unit, (uniform_spacing(axis, positions),) * 2, lateral_unit)
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from error

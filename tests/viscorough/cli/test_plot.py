@@ -181,3 +181,22 @@ def test_lengths_are_drawn_in_readable_units(tmp_path):
     assert axes.images[0].get_array().max() == pytest.approx(5)
     plain = {name: variable._replace(attributes={"units": "1"}) for name, variable in content.variables.items()}
     assert figure_of(Content(plain, {})).axes[0].images[0].get_array().max() == 5e-9
+
+
+@pytest.mark.parametrize(
+    ("y", "extent", "label"),
+    [
+        ([4.0, 2.0, 0.0], [-0.5, 1.5, 5, -1], "$y$ (m)"),
+        ([0.0, 2.0, 4.0], [-0.5, 1.5, -1, 5], "$y$ (m)"),
+        ([0.0, 4.0, 2.0], [-0.5, 1.5, -0.5, 2.5], "y, points"),
+        ([0.0, np.nan, 4.0], [-0.5, 1.5, -0.5, 2.5], "y, points"),
+    ],
+)
+def test_positions_are_those_of_the_file_or_points(y, extent, label):
+    """Numbers of points are not drawn as positions in metres."""
+    attributes = {"long_name": "length", "units": "m"}
+    heights = Variable(("y", "x"), np.arange(6.0).reshape(3, 2), attributes)
+    content = Content({"heights": heights, "y": Variable(("y",), np.array(y), attributes)}, {})
+    axes = figure_of(content).axes[0]
+    np.testing.assert_allclose(axes.images[0].get_extent(), extent)
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("x, points", label)

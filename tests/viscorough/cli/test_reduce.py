@@ -73,7 +73,7 @@ def test_reduced_curve_of_a_generated_map_is_that_of_its_kind(here):
 @pytest.mark.parametrize(
     ("arguments", "what"),
     [
-        (["line.npy"], "line.npy: states no spacing of its points; --spacing is needed"),
+        (["line.npy"], "line.npy: the distance between neighbouring points is not stated; --spacing is needed"),
         (["line.npy", "--spacing", "1", "--realizations", "2"], "--realizations and --seed are for maps"),
         (["line.npy", "--spacing", "1", "--seed", "2"], "--realizations and --seed are for maps"),
         (["line.npy", "--spacing", "0"], "--spacing"),
@@ -95,8 +95,10 @@ def test_mistakes_are_one_line(here, capsys, arguments, what):
     ("positions", "unit", "spacing", "what"),
     [
         ([0, 1, 3], "um", None, "coordinate x is not uniform: its steps lie between 1 and 2"),
-        ([0, 1, 2], "m", None, "x is not in the unit of the heights, um"),
-        ([0, 1, 2], "um", "2", "its points are 1 apart, not 2"),
+        ([0, 1, 2], "N", None, "unit 'N': not a unit of length"),
+        ([0, 0.5, 1], "1", None, "heights are in um, coordinates in no stated unit; --spacing is needed"),
+        ([0, 1, 2], "1", None, "the distance between neighbouring points is not stated; --spacing is needed"),
+        ([0, 1, 2], "um", "2", "--spacing 2 um contradicts the file, in which columns are 1 um apart"),
         ([0, np.nan, 2], "um", None, "coordinate x is not finite everywhere"),
     ],
 )
@@ -108,3 +110,27 @@ def test_coordinates_that_contradict_are_refused(here, capsys, positions, unit, 
     netcdf.write(netcdf.Content(variables, {}), here / "line.nc")
     options = [] if spacing is None else ["--spacing", spacing]
     assert what in complaint(["reduce", "line.nc", *options, "-o", "out.nc"], capsys, here)
+
+
+@pytest.mark.parametrize(
+    ("units", "x", "arguments"),
+    [
+        (("um", "m"), [0, 2e-6, 4e-6], []),
+        (("µm", "um"), [0, 2, 4], []),
+        (("um", "um"), [4, 2, 0], ["--spacing", "2"]),
+        (("um", None), [0, 1, 2], ["--spacing", "2e-3 mm"]),
+        (("um", None), None, ["--spacing", "2"]),
+        (("1", None), None, ["--spacing", "2 um", "--unit", "um"]),
+    ],
+)
+def test_spacing_of_a_line_is_in_the_unit_of_its_heights(here, units, x, arguments):
+    heights = np.array([0.0, 1.0, 0.5])
+    variables = {"heights": netcdf.Variable(("x",), heights, {"long_name": "height", "units": units[0]})}
+    if x is not None:
+        attributes = {"long_name": "position", "units": units[1] or "1"}
+        variables["x"] = netcdf.Variable(("x",), np.array(x, dtype=float), attributes)
+    netcdf.write(netcdf.Content(variables, {}), here / "line.nc")
+    assert main(["reduce", "line.nc", *arguments, "-o", "curve.nc"]) == 0
+    curve = curve_from_content(netcdf.read(here / "curve.nc"))
+    assert curve.length_unit == "um"
+    np.testing.assert_allclose(curve.force, mdr.reduce(Indenter(heights, 2.0)).force, rtol=1e-14)

@@ -110,8 +110,8 @@ def read_header(lines, shape, delimiter, decimal):
         return _agreed([text for text in [*texts, *more] if not units.counts_points(text)])
 
     factor, unit = 1.0, ""
-    for _, bracket, value in stated["factor"]:
-        factor, unit = _number(value.split()[0], comma), bracket.replace("->", "").strip()
+    for line, bracket, value in stated["factor"]:
+        ((factor, _), *_), unit = _lengths(line, "", value, comma), bracket.replace("->", "").strip()
     own = unit_among("unit z", more=[units_of_columns[name] for name in "z" if units_of_columns.get(name)])
     general = unit_among("unit")
     in_points = [units.counts_points(units_of_columns.get(axis, "")) for axis in "xy"]

@@ -231,6 +231,7 @@ BAD = {
     "unit of what": (b"# foo units: um\n# pixel size: 1 um\n1 2\n3 4\n", "foo units: um.*not known"),
     "two spacings": (b"# dx=1 um\n# dx=2 um\n# dy=1 um\n# unit: um\n1 2\n3 4\n", "columns are 1 or 2 um apart"),
     "width and spacing": (b"# Width: 9 um\n# Height: 2 um\n# dx=1 um\n# unit: um\n1 2\n3 4\n", "extend over 9 um"),
+    "no factor": (b"# height conversion factor (-> m) =\n# dx=1 m, dy=1 m\n1 2\n3 4\n", "not a length|number"),
     "a thousand or one": (b"# pixel size: 1,234 nm\n# unit: nm\n1 2\n3 4\n", "1,234 is 1234 or 1.234"),
     "one direction": (b"# dx: 1 nm\n# unit: nm\n1 2\n3 4\n", "between rows is not stated"),
     "another number of columns": (b"# Width: 3 px\n# Height: 2 px\n1 2\n3 4\n", "the table has 2 points there"),

@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 from viscorough import reference
 from viscorough_study.conventions import LENGTH, fits
-from viscorough_study.figures.mean_curve import mean_curve
+from viscorough_study.figures.mean_curve import mean_curve, realizations_text
 from viscorough_study.figures.placement import place_labels
 from viscorough_study.figures.style import (
     BLACK,
@@ -16,7 +16,6 @@ from viscorough_study.figures.style import (
     SMALL,
     STYLE,
     WIDE,
-    count_text,
     hurst_handles,
     hurst_looks,
     logarithmic_ticks,
@@ -67,7 +66,7 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
     collapsed.set(xscale="log", yscale="log", xlabel=r"$Ft/(h\eta L)$", ylabel="$vt/h$")
     _mark_limits(collapsed, _elements_across(ensembles[0]["elements"].item()), length_over_diameter)
     _mark_windows(collapsed, looks, scaling, conventions)
-    realizations = f"each a mean over {count_text([ds.sizes['realization'] for ds in ensembles])} discs"
+    realizations = f"each a mean over {realizations_text(ensembles)} discs"
     legend = {"loc": "upper left", "title": realizations, "title_fontsize": SMALL, "alignment": "left"}
     collapsed.legend(handles=hurst_handles(looks, marker=""), **legend)
     logarithmic_ticks(raw, collapsed)

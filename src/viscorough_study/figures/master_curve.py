@@ -8,7 +8,7 @@ from matplotlib.ticker import FixedLocator
 
 from viscorough import reference
 from viscorough_study.conventions import fits
-from viscorough_study.figures.mean_curve import mean_curve
+from viscorough_study.figures.mean_curve import mean_curve, realizations_text
 from viscorough_study.figures.style import (
     GREY,
     MM,
@@ -55,7 +55,7 @@ def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
     ratio.set(xlabel=xlabel, ylabel="$vt/h$ over Eq. 12", ylim=(min(ratios) / 1.3, max(ratios) * 1.3))
     logarithmic_ticks(*panels)
     ratio.yaxis.set(major_locator=FixedLocator([0.1, 0.2, 0.5, 1, 2, 5, 10]), major_formatter="{x:g}")
-    numbers = [count_text([ds.sizes["realization"] for ds in ensembles]) for ensembles in (discs, lines)]
+    numbers = count_text([ds.sizes["realization"] for ds in discs]), *map(realizations_text, (discs, lines))
     figure.legend(handles=_handles(looks, *numbers), loc="outside upper center", ncols=2, columnspacing=1)
     return figure
 
@@ -77,12 +77,12 @@ def _draw_discs(panels, curve, hurst, windows, look):
     return (curve.velocity / right_side)[thinned & inside].tolist()
 
 
-def _handles(looks, discs, lines):
-    """Legend entries; discs, lines : realizations for each Hurst exponent, as text."""
+def _handles(looks, discs_in_region, discs, lines):
+    """Legend entries; realizations for each Hurst exponent, as text."""
     symbol = {"color": GREY, "linestyle": "", "marker": "o"}
     return [
         *hurst_handles(looks, linestyle="-"),
-        Line2D([], [], **symbol, label=f"{discs} discs, region (b)"),
+        Line2D([], [], **symbol, label=f"{discs_in_region} discs, region (b)"),
         Line2D([], [], **symbol, label=f"{discs} discs, elsewhere", markerfacecolor="white"),
         Line2D([], [], color=GREY, label=f"{lines} lines (MDR)"),
         Line2D([], [], color="black", linestyle="--", label="Eq. 12"),

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscorough_study.conventions import LENGTH
+from viscorough_study.figures.style import count_text
 
 
 @dataclass(frozen=True)
@@ -37,3 +38,12 @@ def mean_curve(ensemble, conventions, fraction_min):
         2 * mean["velocity_spread"].values / np.sqrt(np.maximum(mean["realizations_defined"].values, 1)),
         defined & (mean["contact_count_median"].values > 1),
     )
+
+
+def realizations_text(ensembles):
+    """Number of realizations behind the means of ensembles, as text; the least is that at the largest X."""
+    counts = []
+    for ensemble in ensembles:
+        until_x = np.broadcast_to(ensemble["until_x"].values, ensemble.sizes["realization"])
+        counts += [until_x.size, int((until_x == until_x.max()).sum())]
+    return count_text(counts)

@@ -59,6 +59,10 @@ def test_combinations_are_named_at_their_lines_and_listed_below(discs, combinati
     assert cells[:5] == ["combination", "$F$ (N)", r"$\eta$ (Pa s)", "$L$ (mm)", "$h$ (µm)"]
     assert cells[5:] == ["c1", "1", "$10^{6}$", "10", "1", "c9", "300", r"$3\times 10^{7}$", "30", "0.3"]
     assert collapsed.get_legend().get_title().get_text() == "each a mean over 2 discs"
+    until_x = np.where(np.arange(2) < 1, 30.0, 1.8)
+    shorter = [ds.assign_coords(until_x=("realization", until_x)) for ds in discs]
+    _, collapsed, _ = plot_kinetics(shorter, combinations, scaling, SHOWN, fraction_min=0.95).axes
+    assert collapsed.get_legend().get_title().get_text() == "each a mean over 1 to 2 discs"
 
 
 @pytest.mark.parametrize(("convention", "length"), [("diameter", 1.0), ("radius", 0.5)])

@@ -33,7 +33,7 @@ def batch_of_curves(curves, *, realizations, hurst, rms, spacing, diameter, unti
         "diameter": (_one_if_equal(diameter), "diameter of the indenter", "m"),
         "hurst": (_one_if_equal(hurst), "Hurst exponent", "1"),
         "until_x": (_one_if_equal(until_x), "X that the curve was to reach", "1"),
-        "realization": (np.asarray(realizations), "number of it", "1"),
+        "number": (np.asarray(realizations), "number of the realization", "1"),
         "case": (np.asarray(cases, dtype=object), "name of the ensemble", ""),
     }
     for name, (values, text, units) in lengths.items():

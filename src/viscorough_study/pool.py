@@ -46,7 +46,7 @@ def pool_batches(batches, conventions, x):
         of_batch |= {"group": group, "elements": [curve.elements for curve in curves]}
         for name, value in of_batch.items():
             about[name] += np.broadcast_to(value, len(curves)).tolist()
-        numbers += values["realization"].tolist()
+        numbers += values["number"].tolist()
         made_from = json.loads(batch.attributes["settings"])
         known = settings.setdefault(values["case"][0], made_from).get("ensembles", [])
         known += [one for one in made_from.get("ensembles", []) if one not in known]

@@ -49,7 +49,7 @@ def test_the_pool_does_not_depend_on_the_batches(curves, pool):
     def across(members, names, numbers):
         content = batch([curves[i] for i in members], RMS[members])
         content.variables["case"] = Variable(("realization",), np.array(names, dtype=object), {})
-        content.variables["realization"] = Variable(("realization",), np.array(numbers), {})
+        content.variables["number"] = Variable(("realization",), np.array(numbers), {})
         return "base", content
 
     first = across([0, 1, 2, 5, 6], ["a_c1"] * 3 + ["a_c2"] * 2, [0, 1, 2, 0, 1])

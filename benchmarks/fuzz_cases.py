@@ -300,7 +300,8 @@ TABLES = st.lists(st.floats(0, 1), min_size=2, max_size=6).map(
 )
 TABLES = damaged(st.one_of(TABLES, TABLES, ROWS.map("\n".join)).map(str.encode))
 STEPS = GOOD.map(lambda rows: [*rows, f"{len(rows) - 1},9", f"{len(rows)},9"])  # a step at the last time
-HEADED = GOOD.map(lambda rows: ["t,F", *rows])
+HEADINGS = ["t,F", "t [ms],F [mN]", "# t/h,F in kN", "F [N],t [s]", "t (x),F", "# in ms", "#N/A,1", "t;F"]
+HEADED = st.tuples(st.sampled_from(HEADINGS), GOOD).map(lambda parts: [parts[0], *parts[1]])
 HISTORIES = damaged(st.one_of(GOOD, HEADED, STEPS, ROWS).map("\n".join).map(str.encode))
 
 # ---- options

@@ -1,5 +1,7 @@
 """Loading curves in NetCDF files, one or a stack of them: variables over levels, and how the curve was obtained."""
 
+import contextlib
+
 import numpy as np
 
 from viscorough import units
@@ -87,13 +89,19 @@ def _length_unit(content):
         if name not in content.variables:
             continue
         unit, needed = _unit_of(name, content), unit_power(length, OVER_LEVELS[name][1])
-        try:
-            agrees = unit == needed or units.factor(unit, needed) == 1
-        except ValueError:
-            agrees = False
-        if not agrees:
+        if not _are_same(unit, needed):
             raise ValueError(f"{name} is in {unit!r} and depth in {length!r}; {needed!r} is needed for {name}")
+    attribute = str(content.attributes.get("length_unit", units.UNKNOWN))
+    if attribute != units.UNKNOWN and not _are_same(attribute, length):
+        raise ValueError(f"depth is in {length!r} and the attribute length_unit is {attribute!r}; one unit is needed")
     return length
+
+
+def _are_same(unit, other):
+    """Whether two units are the same, however they are spelled."""
+    with contextlib.suppress(ValueError):
+        return unit == other or units.factor(unit, other) == 1
+    return False
 
 
 def _unit_of(name, content):

@@ -200,6 +200,17 @@ def test_units_that_contradict_that_of_the_depth_are_refused(units, what):
         one_line(error)
 
 
+@pytest.mark.parametrize(("attribute", "agrees"), [("1", True), ("µm", True), ("m", False), (3, False), ("N", False)])
+def test_the_unit_of_the_heights_is_that_of_the_depth(attribute, agrees):
+    content = curve_to_content(random_curve(length_unit="um")).with_attributes(length_unit=attribute)
+    if agrees:
+        assert curve_from_content(content).length_unit == "um"
+        return
+    with pytest.raises(ValueError, match="depth is in 'um' and the attribute length_unit is") as error:
+        curve_from_content(content)
+    one_line(error)
+
+
 BAD_NUMBERS = [
     ("contact_count", 3, -1, "a whole number from 1 to 1009"),
     ("contact_count", 0, 0, "a whole number from 1 to 1009"),

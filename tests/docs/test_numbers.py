@@ -321,6 +321,7 @@ def test_times_of_the_whole_paper():
     assert f"Of {minutes} min" in pages["performance"]
     short = re.search(r"at the paper's scale; ([\d.]+) minutes", pages["reproduce"])[1]
     assert f"It takes {short} minutes" in words("docs/getting_started.md")
+    assert f"{short} minutes here" in words("README.md")
     settings = merged(read_settings("config"), read_settings("paper"))
     ensembles = [
         (case["group"], one["realizations"]) for case in disc_cases(settings).values() for one in case["ensembles"]

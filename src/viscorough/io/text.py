@@ -275,7 +275,7 @@ def _check_above(lines, delimiter, counts, esri):
     """
     for number, line in enumerate(lines, 1):
         is_comment = _COMMENT.match(line) and not (delimiter == ";" and line.lstrip().startswith(";"))
-        if is_comment or not line.strip():
+        if is_comment or not line.strip(" " if delimiter == "\t" else None):
             continue
         if re.search(r"[:=]", line) or (esri and _ESRI_KEY.match(line)):
             continue

@@ -221,6 +221,7 @@ BAD = {
     "spaces in numbers": ("1\u202f234 5\n6 7\n".encode(), "line 1 holds"),
     "two maps": (b"1 2\n3 4\n\n5 6\n7 8\n", "line 4: empty lines part it"),
     "two maps with empty lines between rows": (b"1 2\n\n3 4\n\n\n5 6\n\n7 8\n", "line 6: empty lines part it"),
+    "a row of empty cells apart from the others": (b"\t\nsecond part\n3\t4\n5\t6\n", "line 1: a row of empty cells"),
     "two maps of Gwyddion": (b"# Channel: A\n1 2\n# Channel: B\n3 4\n", "line 3 .* stands between rows"),
     "numbers of rows": (b"1 7 2\n2 3 9\n3 1 4\n4 8 8\n5 2 7\n6 9 1\n", "the first column counts up evenly"),
     "contradicting lines": (b"ncols 3\nnrows 2\ncellsize 1\n1 2\n3 4\n5 6\n", "3 lines of 2 numbers contradict"),

@@ -81,13 +81,14 @@ def ensembles_of(pool, source, case_group, hursts=None):
 
     pool : of viscorough_study.pool; hursts : only these Hurst exponents
     """
-    found = []
-    for (hurst, elements), ensemble in ensembles_on_grids(select(pool, group=case_group)).items():
-        if hursts is None or hurst in hursts:
-            number = elements if source == "lines" else elements_across(elements)
-            punch = COMPLETE_CONTACT_STIFFNESS if source == "lines" else punch_stiffness(number)
-            about = {"source": source, "case_group": case_group, "hurst": hurst, "across": number}
-            found.append((about, ensemble, punch))
+    found, pool = [], select(pool, group=case_group)
+    if hursts is not None:
+        pool = pool.isel(realization=np.flatnonzero(np.isin(pool["hurst"], list(hursts))))
+    for (hurst, elements), ensemble in ensembles_on_grids(pool).items():
+        number = elements if source == "lines" else elements_across(elements)
+        punch = COMPLETE_CONTACT_STIFFNESS if source == "lines" else punch_stiffness(number)
+        about = {"source": source, "case_group": case_group, "hurst": hurst, "across": number}
+        found.append((about, ensemble, punch))
     return found
 
 

@@ -13,6 +13,7 @@ def main(pools, csv, html, nc, slopes_csv, slopes_html, slopes_nc, curves_csv, c
     fit : further arguments of interface_tables; rms_convention : of the discs
     """
     discs, lines, size_discs, size_lines = map(read_dataset, pools)
+    discs, size_discs = (pool.sel(rms_convention=[rms_convention]) for pool in (discs, size_discs))
     cases = ensembles_of(discs, "discs", "base") + ensembles_of(size_discs, "discs", "sizes")
     hursts = {about["hurst"] for about, _, _ in cases}
     cases += ensembles_of(lines, "lines", "lines", hursts) + ensembles_of(size_lines, "lines", "sizes")

@@ -62,7 +62,7 @@ def test_a_realization_is_the_same_in_every_batch(tmp_path, kind):
         batch = [ensemble | {"numbers": [first, 3]} for ensemble in ensembles]
         load_script(f"indent_{kind}").main(tmp_path / "curves.nc", ensembles=batch, **about)
         content = netcdf.read(tmp_path / "curves.nc")
-        names, numbers = (content.variables[name].values.tolist() for name in ("case", "realization"))
+        names, numbers = (content.variables[name].values.tolist() for name in ("case", "number"))
         assert names == [one["name"] for one in batch for _ in range(first, 3)]
         assert numbers == len(batch) * list(range(first, 3))
         force = [row[np.isfinite(row)] for row in content.variables["force"].values]

@@ -28,7 +28,7 @@ def batch(curves, rms, hurst=0.5, case="a_c1", first=0, until_x=3.0):
     for name, values in (
         ("rms_line", rms),
         ("case", np.array([case] * len(curves), dtype=object)),
-        ("realization", first + np.arange(len(curves))),
+        ("number", first + np.arange(len(curves))),
     ):
         content.variables[name] = Variable(("realization",), values, {})
     content.attributes["settings"] = json.dumps({"seed": 1})

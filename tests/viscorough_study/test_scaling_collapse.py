@@ -128,6 +128,7 @@ def pool(*realizations, scatter=0.0):
         part = xr.Dataset({"stiffness": (("rms_convention", "realization", "abscissa"), x / velocity)})
         part["contact_count"] = part["stiffness"] * 0 + 1000 * x / x[10] / 100
         about = {"hurst": HURST, "elements": elements, "group": "sizes", "case": "sizes", "diameter": 1.0}
+        about["until_x"] = 30.0
         parts.append(part.assign_coords({name: ("realization", [value] * number) for name, value in about.items()}))
     return xr.concat(parts, "realization").assign_coords(x=("abscissa", x), rms_convention=["disc"])
 

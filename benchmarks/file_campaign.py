@@ -9,7 +9,7 @@ fault is in a line of text. Everything else is wrong: another number, spacing or
 another error, a warning other than AccuracyWarning, anything printed, a file that takes too long. Files that hold no
 single map, or contradict themselves, must be refused.
 
-A file is marked *unambiguous* if its variations are ordinary and leave one meaning to whoever reads it by eye: numbers
+A file is marked *unambiguous* if its variations are ordinary and leave one meaning to a person who reads it: numbers
 in rows of equal length, one of the usual delimiters and decimal marks that cannot be confused with each other, the
 usual marks of missing points, comments behind #, %, // or in words, and headers that name one quantity a line with its
 unit, as common programs write them. Those must be read; their refusals are counted apart, and are failures, too.

@@ -26,7 +26,7 @@ def check_readable(path):
     """Raise a one-line ValueError if a file to be read exists but is none whose bytes can be read to an end.
 
     Opening a pipe waits for a writer, and a device may have no end. A file that does not exist, or may not be read, is
-    left to whoever opens it.
+    left to the code that opens it.
     """
     try:
         mode = os.stat(path).st_mode

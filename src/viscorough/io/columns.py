@@ -9,17 +9,14 @@ import numpy as np
 
 from viscorough import units
 from viscorough.io.atomic import check_readable, reason
+from viscorough.io.headers import explicit_unit
 from viscorough.io.heights import npy_array
 
-# A unit in a heading: in brackets at its end; behind a slash or "in"; or a common one as its last word, as in t_ms.
-_UNITS = [
-    re.compile(r".*[\[(]([^\[\]()]*)[\])]"),
-    re.compile(r".*?(?:/|\bin\s)(.*)"),
-    re.compile(
-        r"(?:.*[\s_:;])?((?:[kMmunpµμ]|kilo|milli|micro|nano)?(?:[sN]|sec|seconds?|newtons?)"
-        r"|min|minutes?|h|hours?|[kMG]?Pa\^?-1)"
-    ),
-]
+# A common unit as the last word of a heading, as in t_ms.
+_LAST_WORD = re.compile(
+    r"(?:.*[\s_:;])?((?:[kMmunpµμ]|kilo|milli|micro|nano)?(?:[sN]|sec|seconds?|newtons?)"
+    r"|min|minutes?|h|hours?|[kMG]?Pa\^?-1)"
+)
 _LETTER = re.compile(r"[^\W\d_]")
 _TWO_NAMES = re.compile(r"# *[^\W\d_][^,]*, *[^\W\d_][^,]*")
 # What spreadsheets write for a number that is missing, such as #N/A, looks like a comment.
@@ -84,13 +81,13 @@ def _factors(heading, wanted, length_unit):
         raise ValueError(f"{heading[:40]!r} is neither two numbers nor the names of two columns")
     factors = [1.0, 1.0]
     for i, (field, unit) in enumerate(zip(fields, wanted, strict=True)):
-        stated = next(filter(None, (pattern.fullmatch(field) for pattern in _UNITS)), None)
-        if stated and length_unit == units.UNKNOWN:
+        stated = _unit_in(field)
+        if stated is not None and length_unit == units.UNKNOWN:
             text = "states a unit, but the unit of length is not known; --unit where the heights are read states it"
             raise ValueError(f"the heading {field[:40]!r} {text}")
-        if stated:
+        if stated is not None:
             try:
-                factors[i] = units.factor(stated[1].strip(), unit)
+                factors[i] = units.factor(stated, unit)
             except ValueError as error:
                 raise ValueError(f"the heading {field[:40]!r}: {error}") from error
     return factors
@@ -98,10 +95,16 @@ def _factors(heading, wanted, length_unit):
 
 def _check_comments(comments, wanted):
     """Raise ValueError if a comment ends with a unit to which numbers would have to be converted."""
-    for comment, pattern in itertools.product(comments, _UNITS):
-        stated = pattern.fullmatch(comment.strip("# "))
-        if stated and any(_is_another(stated[1].strip(), unit) for unit in wanted):
+    for comment in comments:
+        stated = _unit_in(comment.strip("# "))
+        if stated is not None and any(_is_another(stated, unit) for unit in wanted):
             raise ValueError(f"the comment {comment[:40]!r} states a unit; a heading of both columns is needed for it")
+
+
+def _unit_in(heading):
+    """The unit that a heading states; None for none."""
+    stated, last = explicit_unit(heading), _LAST_WORD.fullmatch(heading)
+    return last[1] if stated is None and last else stated
 
 
 def _is_another(unit, wanted):

@@ -103,7 +103,9 @@ def read_header(lines, shape, delimiter, decimal):
         if role:
             stated[role].append((line, unit, value))
         elif _has_unit_of_unknown_meaning(line, value):
-            raise ValueError(f"header {line!r}: whose unit it states is not known; 'x units', 'y units', 'z units' are")
+            raise ValueError(
+                f"header {line!r}: of which lengths is not stated; 'x units', 'y units', 'z units' are allowed"
+            )
 
     def unit_among(*roles, more=()):
         texts = [_unit_text(value) for role in roles for _, _, value in stated[role]]
@@ -156,7 +158,7 @@ def _statements(lines):
 
 
 def _role(key):
-    """What a key states; "" if it is not known."""
+    """What a key states, one of `_ROLES`; "" if it is not known."""
     compact = re.sub(r"[\s_.-]+", "", key.lower())
     return _ROLE_OF.get(re.sub(r"(unité?|einheit)(?:s|en)", r"\1", compact), "")
 
@@ -272,9 +274,8 @@ def _headings(lines, shape, delimiter):
         heads_points = len(cells) == shape[1] and all(axes.count(name) == 1 for name in "xyz")
         if not heads_points and not (axes == ["z"] and _unit_of_heading(cells[0])):
             if not _STATEMENT.search(line) and any(map(_is_unit, re.findall(r"[\[(]\s*([^\W\d]\w*)\s*[\])]", line))):
-                raise ValueError(
-                    f"header {line.strip()[:60]!r}: whose units it states is not known; 'x [um], y [um], z [nm]' is"
-                )
+                text = "of which lengths these are the units is not stated; 'x [um], y [um], z [nm]' is allowed"
+                raise ValueError(f"header {line.strip()[:60]!r}: {text}")
             continue
         if heads_points:
             if names not in (None, tuple(axes)):
@@ -314,10 +315,16 @@ def _axis(cell):
     return ""
 
 
+def explicit_unit(heading):
+    """The unit in a heading such as "x [um]", "x (um)", "x/um" or "x in um"; None for other headings."""
+    match = re.search(r"[\[(]([^\])]*)[\])]|/\s*(.+)$|\bin\s+(\S+)$", heading)
+    return next(text for text in match.groups() if text is not None).strip() if match else None
+
+
 def _unit_of_heading(cell):
-    """The unit in a heading such as "x [um]", "x (um)", "x/um", "x in um" or "x_um"; "" for none."""
-    if match := re.search(r"[\[(]([^\])]*)[\])]|/\s*(.+)$|\sin\s+(\S+)$", cell):
-        return next(filter(None, match.groups()), "").strip()
+    """The unit in a heading, also as its last word, as in "x_um"; "" for none."""
+    if unit := explicit_unit(cell):
+        return unit
     words = re.split(r"[\s_]+", cell)
     return words[-1] if len(words) > 1 and not _axis(words[-1]) and _is_unit(words[-1]) else ""
 

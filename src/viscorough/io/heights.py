@@ -58,6 +58,7 @@ def _pair(spacing):
 
 def _read_scan(path, channel):
     """The Scan in a file, by the reader for its suffix."""
+    check_readable(path)
     suffix = Path(path).suffix.lower()
     if suffix == ".nc":
         return _netcdf_scan(path, channel)

@@ -21,8 +21,6 @@ def read_instrument(path, channel=None):
     """
     if not Path(path).exists():
         raise ValueError(f"{path}: not readable (No such file or directory); a file of heights is needed")
-    if not Path(path).is_file():
-        raise ValueError(f"{path}: is not a regular file; a file of heights is needed")
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # about optional packages

@@ -1,9 +1,9 @@
 """Maps of heights in text files: matrices, ESRI ASCII grids, and columns x, y, z of the points of a grid.
 
-Lines before the first row of numbers, and lines that start with #, %, // or ;, are comments, but for those of a table
-that semicolons delimit. What they state about spacing and units is used (io.headers). A file is refused where its
-delimiter, its decimal mark or the number of its cells is not certain: every row has the same number of cells, and
-nothing is left out but comments.
+Lines before the first row of numbers are a header, and lines that start with #, %, //, ! or ; are comments; ; starts a
+row where semicolons delimit the table. What they state about spacing and units is used (io.headers). A file is refused
+where its delimiter, its decimal mark or the number of its cells is not certain: every row has the same number of cells,
+and nothing is left out but comments.
 """
 
 import io
@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from viscorough import units
-from viscorough.io.atomic import check_readable, reason
+from viscorough.io.atomic import reason
 from viscorough.io.grids import gridded
 from viscorough.io.headers import read_header, states
 from viscorough.io.scan import Scan
@@ -56,16 +56,13 @@ def read_text(path):
     lines = text.split("\n")
     first = next((number for number, line in enumerate(lines) if _is_row(line)), None)
     if first is None:
-        odd = next(
-            (f" (line {number} is {line[:40]!r})" for number, line in enumerate(lines, 1) if _DIGITS.search(line)), ""
-        )
-        raise ValueError(f"no row of numbers{odd}; a matrix of heights, or columns x, y, z, is needed")
-    rows, comments, apart = _rows(lines, first)
+        almost = [f" (line {number} is {line[:40]!r})" for number, line in enumerate(lines, 1) if _DIGITS.search(line)]
+        raise ValueError(f"no row of numbers{''.join(almost[:1])}; a matrix of heights, or columns x, y, z, is needed")
+    rows, comments, separated = _rows(lines, first)
     delimiter, decimal = _punctuation(rows)
-    if (above := _without_points(lines, first, delimiter, rows.lines[0])) < first:
+    if (above := _first_row_without_points(lines, first, delimiter, rows.lines[0])) < first:
         first = above
-        rows, comments, apart = _rows(lines, first, delimiter == ";")
-        delimiter, decimal = _punctuation(rows)
+        rows, comments, separated = _rows(lines, first, delimiter == ";")
     table = _table(rows, delimiter, decimal)
     esri = _esri(lines[:first])
     _check_above(lines[:first], delimiter, {table.shape[1], len(rows.lines[0].split(delimiter))}, esri)
@@ -75,8 +72,8 @@ def read_text(path):
     grid = _grid(table, header, required=header.columns is not None or str(path).lower().endswith(".xyz"))
     if grid is not None:
         return _scan_of_points(grid, header)
-    if apart:
-        raise ValueError(f"line {apart}: empty lines part it from the rows above; one map is needed")
+    if separated:
+        raise ValueError(f"line {separated}: empty lines separate it from the rows above; one map is needed")
     _check_labels(table)
     heights = table if header.factor == 1 else header.factor * table
     spacing_unit = header.spacing_unit if header.spacing else header.lateral_unit
@@ -90,7 +87,7 @@ def is_binary(path):
 
 
 def _utf16(start):
-    """The encoding of a text of two bytes a letter, with or without a byte order mark; None for other texts."""
+    """The encoding of UTF-16 text, with or without a byte order mark; None for other text."""
     if start.startswith(_UTF16):
         return "utf-16"
     places = np.flatnonzero(np.frombuffer(start, np.uint8) == 0) % 2
@@ -100,8 +97,7 @@ def _utf16(start):
 
 
 def _content(path, size=-1):
-    """The first bytes of a regular file."""
-    check_readable(path)
+    """The first bytes of a file."""
     try:
         with open(path, "rb") as file:
             return file.read(size)
@@ -131,7 +127,7 @@ def _is_row(line):
     return all(_FIELD.fullmatch(part) for cell in cells for part in cell.split(","))
 
 
-def _without_points(lines, first, delimiter, row):
+def _first_row_without_points(lines, first, delimiter, row):
     """Number of the first of the rows just above `first` in which every point is missing; `first` if there is none."""
     wanted, missing = len(row.split(delimiter)), re.compile(f"(?:{_MISSING})?", re.IGNORECASE)
     for number in range(first - 1, -1, -1):
@@ -145,9 +141,9 @@ def _without_points(lines, first, delimiter, row):
 
 
 def _rows(lines, first, has_semicolons=None):
-    """(_Rows, comments beside and below them, number of the first row that empty lines part from those above it or 0).
+    """(_Rows, comments beside and below them, line of the first row that empty lines separate from those above, or 0).
 
-    Empty lines part nothing where there are as many above every row.
+    Empty lines separate nothing where there are as many above every row.
 
     Raises ValueError for a comment between rows that states something, as between two maps.
     """
@@ -167,17 +163,16 @@ def _rows(lines, first, has_semicolons=None):
             kept.append(line)
             empty.append(0)
     kept = [_REMARK.sub("", line) if "#" in line or "%" in line else line for line in kept]
+    kept = [_without_quotes(number, line) if '"' in line else line for number, line in zip(numbers, kept, strict=True)]
     for (number, before), comment in zip(between, comments, strict=True):
         if before < len(numbers) and states(comment):
             raise ValueError(f"line {number} ({comment[:40]!r}) stands between rows; one map is needed")
-    parted = [number for number, above in zip(numbers[1:], empty[1:], strict=False) if above != min(empty[1:-1])]
-    return _Rows(numbers, [line.strip(" ") for line in kept]), comments, parted[0] if parted else 0
+    separated = [number for number, above in zip(numbers[1:], empty[1:], strict=False) if above != min(empty[1:-1])]
+    return _Rows(numbers, [line.strip(" ") for line in kept]), comments, separated[0] if separated else 0
 
 
 def _punctuation(rows):
     """(delimiter, decimal mark) of rows; the delimiter is None for white space. Raises ValueError if not certain."""
-    if any('"' in line for line in rows.lines):
-        rows.lines[:] = [_without_quotes(number, line) for number, line in zip(*rows, strict=True)]
     body = "\n".join(rows.lines)
     comma, point = "," in body, "." in body
     delimiter = ";" if ";" in body else "\t" if "\t" in body else None
@@ -226,7 +221,7 @@ def _table(rows, delimiter, decimal):
         text = _MARK.sub("nan", text)
         text = re.sub(r"(?<=[\d.])[dD](?=[+-]?\d)", "e", text)
     if delimiter is not None:
-        text = _with_empty_cells(text, delimiter)
+        text = _fill_empty_cells(text, delimiter)
     try:
         if not text.isascii():
             raise ValueError("other characters than those of numbers")
@@ -236,7 +231,7 @@ def _table(rows, delimiter, decimal):
         raise ValueError(_fault(rows.numbers, text.split("\n"), delimiter) or reason(error)) from error
 
 
-def _with_empty_cells(text, delimiter):
+def _fill_empty_cells(text, delimiter):
     """A text with nan in empty cells; a delimiter that ends, or starts, every line is left out."""
     if f"{delimiter} " in text:
         text = re.sub(rf"{delimiter} +", delimiter, text)
@@ -290,9 +285,7 @@ def _check_above(lines, delimiter, counts, esri):
             and _ROW_NUMBERS.fullmatch(cells[0])
             and not {"x", "y", "z"} <= {cell.lower()[:1] for cell in cells}
         ):
-            raise ValueError(
-                f"line {number} ({line[:40]!r}) heads a column of numbers of rows; heights alone are needed"
-            )
+            raise ValueError(f"line {number} ({line[:40]!r}) heads a column of row numbers; heights alone are needed")
         if any(_ALMOST_A_NUMBER.fullmatch(cell) for cell in cells) or (len(cells) > 1 and len(set(cells)) == 1):
             raise ValueError(f"line {number} ({line[:40]!r}) is not a row of numbers; numbers or a comment are needed")
 
@@ -324,11 +317,10 @@ def _grid(table, header, required):
         raise ValueError(f"{table.shape[1]} columns, of which two are positions; three, x, y and z, are needed")
     if grid is None or header.spacing is None or units.counts_points(header.lateral_unit):
         return grid
-    ratio = 1.0
-    if "1" not in (header.spacing_unit, header.lateral_unit):
-        ratio = units.metres(header.spacing_unit) / units.metres(header.lateral_unit)
-    elif header.spacing_unit != header.lateral_unit:
-        return grid  # one is known, the other is not
+    same = header.spacing_unit == header.lateral_unit
+    if not same and units.UNKNOWN in (header.spacing_unit, header.lateral_unit):
+        return grid  # which cannot be compared
+    ratio = 1.0 if same else units.metres(header.spacing_unit) / units.metres(header.lateral_unit)
     if any(abs(ratio * a - b) > 1e-3 * b for a, b in zip(header.spacing, grid[1], strict=True) if a == a):
         a, b = header.spacing, grid[1]
         text = f"({a[0]:g}, {a[1]:g}) in the header, ({b[0]:g}, {b[1]:g}) between points x, y, z"
@@ -372,9 +364,8 @@ def _esri_scan(table, esri):
         raise ValueError(f"{text}; a line for each row is needed")
     table = table.reshape(int(rows), int(columns))
     mark = esri.get("nodata_value", -9999.0)
-    missing = (
-        np.isclose(table, mark, rtol=1e-5, atol=0) if abs(mark) > 1e30 else table == mark
-    )  # printed with few digits
+    # Marks such as -3.4e38 are printed with few digits.
+    missing = np.isclose(table, mark, rtol=1e-5, atol=0) if abs(mark) > 1e30 else table == mark
     heights = np.where(missing, np.nan, table)
     sides = esri.get("dx", esri.get("cellsize")), esri.get("dy", esri.get("cellsize"))
     return Scan(heights, spacing=None if None in sides else sides)

@@ -6,7 +6,7 @@ import xml.etree.ElementTree as ElementTree
 import numpy as np
 
 from viscorough import units
-from viscorough.io.atomic import check_readable, reason
+from viscorough.io.atomic import reason
 from viscorough.io.scan import Scan
 
 _PARK_SYSTEMS = 50432  # tag of the atomic force microscopes whose heights are not in the picture
@@ -26,7 +26,6 @@ def read_tiff(path, channel=None):
     """
     import tifffile
 
-    check_readable(path)
     try:
         with tifffile.TiffFile(path) as file:
             page = _page(file, channel)

@@ -46,7 +46,8 @@ class Progress:
                 self.planned += int(match[2]) * self._seconds_of(match[1])
                 self.total += int(match[2])
         elif match := re.fullmatch(r"Job (\d+): (.*)", line):
-            self.began = self.changed = now if self.began is None else self.began
+            if self.began is None:
+                self.began = self.changed = now
             self.running[match[1]] = match[2]
         elif match := re.fullmatch(r"Finished jobid: (\d+) \(Rule: (\w+)\)", line):
             self.running.pop(match[1], None)

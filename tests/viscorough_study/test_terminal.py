@@ -57,6 +57,15 @@ def test_what_runs_how_many_of_how_many_and_the_time_left():
     assert progress.text(1000) == "1 of 41, seconds left: Figure 1"
 
 
+def test_the_next_job_does_not_change_the_time_left():
+    progress = Progress({"indent": 10.0, "plot": 1.0})
+    read(progress, STARTED, 0)
+    read(progress, FINISHED, 40)
+    before = progress.text(40)
+    read(progress, "Job 5: Figure 1", 40)
+    assert progress.text(40) == before
+
+
 def test_a_machine_of_half_the_speed_takes_twice_as_long():
     """After a while; at first, the published times count."""
     progress = Progress({"indent": 10.0, "plot": 1.0})

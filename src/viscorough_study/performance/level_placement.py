@@ -20,7 +20,7 @@ from viscorough_study.performance import timing
 
 HAND_PICKED = (3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512)  # numbers of levels that are tried
 NAIVE = tuple(2**n for n in range(2, 13))
-# Times the automatic choice's cost, beyond which hand-picked levels, and naive ones, are not pursued.
+# Beyond so many times the automatic choice's levels, hand-picked ones are not pursued; naive ones, beyond its cost.
 MAX_RATIO_HAND_PICKED, MAX_RATIO_NAIVE = 4, 20
 MARGIN = 0.01  # by which levels reach beyond the range of depth, whose ends are known to the tolerance only
 PROBES = 60  # forces at which the depth is compared
@@ -89,7 +89,7 @@ def compare(scene, repeats, report=lambda text: None, *, hand_picked=HAND_PICKED
         row = _row(scene, "best by hand", partial(path, depths=np.geomspace(first, last, number)), exact)
         if row["reached"]:
             by_hand.append(row)
-        if row["reached"] or row["wall_s"] > MAX_RATIO_HAND_PICKED * automatic["wall_s"]:  # more levels only cost more
+        if row["reached"] or number > MAX_RATIO_HAND_PICKED * automatic["levels"]:  # more levels only cost more
             break
     report(f"{scene.name}: naive levels")
     for number in naive:

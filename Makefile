@@ -9,13 +9,14 @@ SNAKEMAKE = $(BIN)/snakemake --cores $(CORES) $(if $(SETTINGS),--configfile $(SE
 # One line of progress; all that is printed is in results/run.log.
 WITH_PROGRESS = $(BIN)/python -m viscorough_study.terminal --
 
-.PHONY: help environment environment-slurm settings reproduce paper report test docs test-slurm bench speed stability \
+.PHONY: help environment environment-slurm settings reproduce paper report check test docs test-slurm bench speed stability \
 	sizes large fuzz faults seeds resampled publish chaos peers lock lock-peers lock-slurm clean
 
 help:
 	@echo "make reproduce   the default reproduction: figures, tables, and the page results/index.html, which shows them"
 	@echo "make paper       the same at the paper's full scale, and its cost in results/costs.json"
 	@echo "make report      results/report.html of the existing results, with the SETTINGS that they were made with"
+	@echo "make check       format, lint, contracts and the tests of what has changed since the last commit; half a minute"
 	@echo "make test        format, lint, documentation and every test"
 	@echo "make docs        the documentation as a site, in build/docs/index.html"
 	@echo "make bench       cost and errors of curves and lines, and cost of the reproduction, in results/benchmarks.json"
@@ -76,6 +77,16 @@ report: settings
 # Written in full each time (-E): pages that are kept would hide the warnings of an earlier run.
 docs: environment
 	$(BIN)/sphinx-build -q -W -E -b html docs build/docs
+
+# What takes half a minute of `make test`, for the change at hand; COMMIT= compares with another commit than the last.
+COMMIT ?= HEAD
+check: environment
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/snakefmt --check .
+	$(BIN)/lint-imports
+	@tests=$$($(BIN)/python tests/changed.py $(COMMIT)) && if [ -n "$$tests" ]; then $(BIN)/python -m pytest $$tests; \
+		else echo "no file has changed since $(COMMIT) that has tests of its own"; fi
 
 test: environment docs
 	$(BIN)/ruff check .

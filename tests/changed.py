@@ -1,0 +1,51 @@
+"""Print the test files for what has changed since a commit: `python tests/changed.py [COMMIT]`, by default HEAD.
+
+A module has the test file of its name in the folder of tests of the same shape; without one, those that import it;
+without any, those of its folder. Changes of the workflow and of pages have the quick tests of their form.
+"""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+BY_FOLDER = {
+    "workflow": ["tests/workflow/test_form.py"],
+    "config": ["tests/viscorough_study/test_settings.py"],
+    "resources": ["tests/viscorough_study/test_evidence.py", "tests/viscorough_study/test_verdicts.py"],
+    "docs": ["tests/docs/test_pages.py", "tests/docs/test_numbers.py"],
+}
+
+
+def changed(commit):
+    """Files that differ from a commit, and those that git does not track yet."""
+    commands = ["diff", "--name-only", "--diff-filter=d", commit], ["ls-files", "--others", "--exclude-standard"]
+    runs = [subprocess.run(["git", *words], cwd=ROOT, capture_output=True, text=True, check=True) for words in commands]
+    return [name for run in runs for name in run.stdout.splitlines()]
+
+
+def relevant_tests(name, root=ROOT):
+    """Test files for a changed file; paths from the root as text."""
+    path = Path(name)
+    if path.name.startswith("test_"):
+        return [name]
+    if path.suffix != ".py" or path.parts[0] not in ("src", "benchmarks"):
+        folder = {"Snakefile": "workflow", "README.md": "docs"}.get(name, path.parts[0])
+        return [test for test in BY_FOLDER.get(folder, []) if (root / test).is_file()]
+    parts = path.parts[1:] if path.parts[0] == "src" else path.parts
+    mirror = Path("tests", *parts[:-1], f"test_{path.name}")
+    if (root / mirror).is_file():
+        return [str(mirror)]
+    package, module = ".".join(parts[:-1]), path.stem
+    imports = re.compile(
+        rf"(from|import) {re.escape(package)}\.{module}\b|from {re.escape(package)} import .*\b{module}\b"
+    )
+    tests = sorted((root / "tests").rglob("test_*.py"))
+    found = [test for test in tests if imports.search(test.read_text(encoding="utf-8"))]
+    return [str(test.relative_to(root)) for test in found or (root / mirror.parent).glob("test_*.py")]
+
+
+if __name__ == "__main__":
+    commit = sys.argv[1] if len(sys.argv) > 1 else "HEAD"
+    print("\n".join(sorted({test for name in changed(commit) for test in relevant_tests(name)})))

@@ -35,7 +35,7 @@ SNAKEMAKE = [sys.executable, "-m", "snakemake", "--cores", "2", "--nocolor", "--
 # The longest wait for a kill, as a share of the time of an undisturbed run: most runs are killed several times, and
 # their ends as often as their beginnings.
 LONGEST_WAIT = 1 / 3
-HANGS = 600  # seconds after which a run is taken to hang
+HANGS = 3600  # seconds after which a run is taken to hang, even on a busy machine
 
 
 def copy_project(folder):

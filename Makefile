@@ -19,7 +19,7 @@ help:
 	@echo "make check       format, lint, contracts and the tests of what has changed since the last commit; half a minute"
 	@echo "make test        format, lint, documentation and every test"
 	@echo "make docs        the documentation as a site, in build/docs/index.html"
-	@echo "make bench       cost and errors of curves and lines, and cost of the reproduction, in results/benchmarks.json"
+	@echo "make bench       cost and errors of curves, lines and operators, in results/benchmarks.json and files beside it"
 	@echo "make speed       speed against accuracy of every method, in results/figures/speed.png; 80 minutes"
 	@echo "make stability   where each method fails, and random small indenters against dense solutions"
 	@echo "make sizes       exponents on grids from 33 to 4097 elements across and on lines, and their collapse"
@@ -98,11 +98,10 @@ test: environment docs
 	$(BIN)/python -m pytest -n $(CORES) --dist worksteal
 
 bench: environment
-	$(BIN)/python benchmarks/curves.py --reproduction --cores $(CORES) --output results/benchmarks.json
+	$(BIN)/python benchmarks/curves.py --output results/benchmarks.json
 	$(BIN)/python benchmarks/strips.py --output results/strips.json
 	$(BIN)/python benchmarks/large_map.py --output results/large_map.json
 	$(BIN)/python benchmarks/rectangles.py --output results/rectangles.json
-	$(BIN)/python benchmarks/kinetics.py --output results/kinetics.json
 	$(BIN)/python benchmarks/lines.py --output results/lines.json
 	$(BIN)/python benchmarks/members.py --output results/members.json
 

@@ -23,6 +23,7 @@ from pathlib import Path
 import click
 import numpy as np
 import psutil
+from measured_times import holds_times
 
 import viscorough
 from viscorough.io import netcdf
@@ -34,9 +35,7 @@ SNAKEMAKE = [sys.executable, "-m", "snakemake", "--cores", "2", "--nocolor", "--
 # The longest wait for a kill, as a share of the time of an undisturbed run: most runs are killed several times, and
 # their ends as often as their beginnings.
 LONGEST_WAIT = 1 / 3
-# Beside logs and benchmarks: files that hold measured times, under these names with any suffix.
-TIMED = {"methods", "level_placement", "rule_costs", "speed", "all_methods", "index"}
-HANGS = 600  # seconds after which a run is taken to hang
+HANGS = 3600  # seconds after which a run is taken to hang, even on a busy machine
 
 
 def copy_project(folder):
@@ -150,12 +149,9 @@ def killed_run(folder, random, longest_wait, kills, report):
 
 def contents(folder):
     """{name: bytes} of everything in results/, without the bytes of what contains times."""
-    names = sorted(path.relative_to(folder) for path in (folder / "results").rglob("*") if path.is_file())
-
-    def timed(name):
-        return name.parts[1] in ("logs", "benchmarks", "methods") or name.stem in TIMED
-
-    return {str(name): b"" if timed(name) else (folder / name).read_bytes() for name in names}
+    results = folder / "results"
+    names = sorted(path.relative_to(results) for path in results.rglob("*") if path.is_file())
+    return {str(name): b"" if holds_times(name) else (results / name).read_bytes() for name in names}
 
 
 def compare(actual, expected):

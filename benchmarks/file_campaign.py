@@ -35,6 +35,7 @@ import column_files
 import numpy as np
 import point_files
 import text_files
+from file_cases import generators
 from tqdm import tqdm
 
 import viscorough
@@ -60,12 +61,11 @@ METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
 READ, REFUSED, UNREAD, WRONG = "read", "refused", "refused though unambiguous", "wrong"
 
 
-def cases(seed, count, first=0):
-    """The cases with numbers from `first` on; each depends on the seed and its number only."""
+def cases(seed, numbers):
+    """(number, case) of the cases with these numbers."""
     share = np.array(list(KINDS.values())) / sum(KINDS.values())
-    for index in range(first, first + count):
-        random = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(index,)))
-        yield list(KINDS)[random.choice(len(KINDS), p=share)](random)
+    for number, random in generators(seed, numbers):
+        yield number, list(KINDS)[random.choice(len(KINDS), p=share)](random)
 
 
 # ---- the judge
@@ -169,10 +169,10 @@ def kind_of_refusal(text):
 def main(files, seed, only, keep, output):
     """Count files that are read as another map; exit code 1 if there is any, or an unambiguous one is refused."""
     began, counts, refusals, failures = time.perf_counter(), {}, Counter(), []
-    first, files = (0, files) if only is None else (only, 1)
+    numbers = range(files) if only is None else [only]
     with tempfile.TemporaryDirectory() as folder:
-        progress = tqdm(cases(seed, files, first), total=files, unit="file", mininterval=2, disable=only is not None)
-        for index, case in enumerate(progress, first):
+        progress = tqdm(numbers, unit="file", mininterval=2, disable=only is not None)
+        for index, case in cases(seed, progress):
             word, why = outcome(case, folder)
             counts.setdefault(case.kind, Counter())[word] += 1
             if word in (REFUSED, UNREAD):
@@ -186,7 +186,7 @@ def main(files, seed, only, keep, output):
             if only is not None:
                 click.echo(f"{case.kind}, {', '.join(case.traits)}; arguments {case.options}\n{word}: {why}")
                 click.echo(f"truth: {case.heights}, spacing {case.spacing}, unit {case.unit} m")
-    about = {"machine": timing.machine(), "version": version("viscorough"), "seed": seed, "files": files}
+    about = {"machine": timing.machine(), "version": version("viscorough"), "seed": seed, "files": len(numbers)}
     about["seconds"] = round(time.perf_counter() - began, 1)
     if output:
         write_json(about | {"counts": counts, "refusals": dict(refusals.most_common()), "failures": failures}, output)

@@ -10,6 +10,12 @@ UNITS |= {"micrometer": 1e-6, "cm": 1e-2, "Å": 1e-10, "pm": 1e-12}
 PIXELS = ("px", "pixel", "pixels", "points", "Pixel", "pts", "dots")  # no lengths
 
 
+def generators(seed, numbers):
+    """(number, random generator) of numbered cases; each depends on the seed and its number only."""
+    for number in numbers:
+        yield number, np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(number,)))
+
+
 @dataclass
 class Case:
     """A file, the arguments it is read with, and the truth about both.

@@ -5,7 +5,7 @@
 Every run ends in one of two ways. Either the exit code is 0, the output file can be read and holds finite
 numbers, and standard error holds nothing but warnings of one line; or the exit code is 1 or 2, standard error holds one
 line, standard output nothing, and no file was made or changed, so that no code in a file was run either. `make fuzz`
-runs it. Runs come in blocks with a seed each; a failure is printed with the command that repeats its block.
+runs it. A failure is printed with the command that repeats it.
 """
 
 import contextlib
@@ -23,9 +23,9 @@ from importlib.metadata import version
 from pathlib import Path
 
 import click
-import hypothesis
 import numpy as np
-from fuzz_cases import STARTED, cases
+from file_cases import generators
+from fuzz_cases import STARTED, case
 from tqdm import tqdm
 
 from viscorough import cli
@@ -34,7 +34,6 @@ from viscorough.io.curves import OVER_LEVELS
 from viscorough_study.performance import timing
 from viscorough_study.tables import write_json
 
-BLOCK = 100  # runs with one seed
 FIGURES = {".png": b"\x89PNG", ".svg": b"<?xml"}  # first bytes
 LONGEST = 120  # seconds that a run may take
 
@@ -139,27 +138,15 @@ def fault_of_output(path):
     return ""
 
 
-def breaches(seed, runs, folder):
-    """Breaches of the contract in a block of runs: a list of (arguments, words), and the number of each exit code."""
+def breaches(seed, numbers, folder):
+    """(number, arguments, words) of the runs that break the contract, and the number of each exit code."""
     found, codes = [], Counter()
-
-    @hypothesis.seed(seed)
-    @hypothesis.settings(
-        max_examples=runs,
-        database=None,
-        deadline=None,
-        phases=[hypothesis.Phase.generate],
-        suppress_health_check=list(hypothesis.HealthCheck),
-    )
-    @hypothesis.given(cases())
-    def check(case):
-        arguments, files = case
+    for number, random in generators(seed, numbers):
+        arguments, files = case(random)
         code, words = result_of(folder, arguments, files)
         codes[str(code)] += 1
         if words:
-            found.append((arguments, words))
-
-    check()
+            found.append((number, arguments, words))
     return found, codes
 
 
@@ -183,26 +170,24 @@ def workplace():
 
 @click.command()
 @click.option("--runs", type=click.IntRange(1), default=10_000, show_default=True, help="Number of runs.")
-@click.option("--seed", type=click.IntRange(0), default=2013, show_default=True, help="Seed of the first block.")
+@click.option("--seed", type=click.IntRange(0), default=2013, show_default=True, help="Seed of all runs.")
+@click.option("--only", type=click.IntRange(0), help="Number of the one run to try.")
 @click.option("--output", help="File to write, JSON.")
-def main(runs, seed, output):
+def main(runs, seed, only, output):
     """Count runs that break the contract; exit code 1 if there is any."""
-    began, failures, codes = time.perf_counter(), [], Counter()
+    began, numbers = time.perf_counter(), range(runs) if only is None else [only]
     with workplace() as folder:
-        for first in tqdm(range(0, runs, BLOCK), unit="block", mininterval=2):
-            block = seed + first // BLOCK
-            found, codes_of_block = breaches(block, min(BLOCK, runs - first), folder)
-            codes += codes_of_block
-            for arguments, words in found:
-                failures.append({"seed": block, "arguments": arguments, "breach": words})
-                repeat = f"python benchmarks/fuzz.py --seed {block} --runs {min(BLOCK, runs - first)}"
-                tqdm.write(f"{repeat}: viscorough {' '.join(map(repr, arguments))}: {words}")
-    about = {"machine": timing.machine(), "version": version("viscorough"), "seed": seed, "runs": runs}
+        found, codes = breaches(seed, tqdm(numbers, unit="run", mininterval=2), folder)
+    for number, arguments, words in found:
+        repeat = f"python benchmarks/fuzz.py --seed {seed} --only {number}"
+        click.echo(f"{repeat}: viscorough {' '.join(map(repr, arguments))}: {words}")
+    failures = [{"run": number, "arguments": arguments, "breach": words} for number, arguments, words in found]
+    about = {"machine": timing.machine(), "version": version("viscorough"), "seed": seed, "runs": len(numbers)}
     result = about | {"seconds": round(time.perf_counter() - began, 1), "exit_codes": codes, "off_contract": failures}
     if output:
         write_json(result, output)
-    click.echo(f"{len(failures)} of {runs} runs off the contract, exit codes {dict(codes)}, {result['seconds']} s")
-    raise SystemExit(bool(failures))
+    click.echo(f"{len(found)} of {len(numbers)} runs off the contract, exit codes {dict(codes)}, {result['seconds']} s")
+    raise SystemExit(bool(found))
 
 
 if __name__ == "__main__":

@@ -263,18 +263,25 @@ def published_results(records):
     return "\n".join(text) or "None yet.\n"
 
 
-def write_tables():
-    """Write what is between the marks of a table: in README.md and in pages of docs/."""
-    tables = {("README.md", "verdicts"): verdict_lines(), ("docs/verdicts.md", "verdicts"): verdicts()}
-    tables["README.md", "time"] = time_sentence()
-    tables["docs/performance.md", "other solvers"] = other_solver_times()
-    tables["docs/scaling.md", "infinite grid"] = infinite_grid()
-    tables["docs/theory.md", "interface law"] = interface_law()
-    tables["README.md", "speed chart"] = speed_chart()
+def tables():
+    """{(page, name): text} of what stands between marks in README.md and in pages of docs/."""
     records = ROOT / "docs/results/published.json"
     known = json.loads(records.read_text(encoding="utf-8")) if records.is_file() else {}
-    tables["docs/published.md", "results"] = published_results(known)
-    for (page, name), table in tables.items():
+    return {
+        ("README.md", "verdicts"): verdict_lines(),
+        ("README.md", "time"): time_sentence(),
+        ("README.md", "speed chart"): speed_chart(),
+        ("docs/verdicts.md", "verdicts"): verdicts(),
+        ("docs/performance.md", "other solvers"): other_solver_times(),
+        ("docs/scaling.md", "infinite grid"): infinite_grid(),
+        ("docs/theory.md", "interface law"): interface_law(),
+        ("docs/published.md", "results"): published_results(known),
+    }
+
+
+def write_tables():
+    """Write what is between the marks of every table."""
+    for (page, name), table in tables().items():
         begin, end = BEGIN.format(name), END.format(name)
         before, rest = (ROOT / page).read_text(encoding="utf-8").split(begin)
         (ROOT / page).write_text(before + begin + "\n" + table + "\n" + end + rest.split(end)[1], encoding="utf-8")

@@ -8,19 +8,13 @@ medians of processor seconds, their ratio to those of squares of the same repeat
 `make bench` runs it.
 """
 
-import os
-import time
+from functools import partial
 
-os.environ |= dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
-
-import click
 import numpy as np
+from measuring import command, turns
 
-import viscorough
 from viscorough import Indenter, indent
 from viscorough.surfaces import cut_disc, self_affine_square
-from viscorough_study.performance import timing
-from viscorough_study.tables import write_json
 
 ELEMENTS, TOLERANCE, SEED = 257, 1e-3, 3
 ASPECTS = (1.0, 2.0, 0.5, 5.0, 0.2)
@@ -34,41 +28,28 @@ def maps():
     return {f"square, H = {hurst:g}": square for hurst, square in squares.items()} | discs
 
 
-def measure(heights, repeats):
+def costs(heights, repeats):
     """{aspect: costs} of the curve of one map."""
     indenters = [Indenter(heights, (aspect**-0.5, aspect**0.5)) for aspect in ASPECTS]
-    curves = [indent(indenter, tolerance=TOLERANCE) for indenter in indenters]  # also loads compiled code and tables
-    seconds = np.empty((repeats, len(ASPECTS)))
-    for repeat in range(repeats):
-        for i in np.roll(np.arange(len(ASPECTS)), repeat):
-            began = time.process_time()
-            indent(indenters[i], tolerance=TOLERANCE)
-            seconds[repeat, i] = time.process_time() - began
-    ratios = np.median(seconds / seconds[:, :1], axis=0)
+    curves = [indent(indenter, tolerance=TOLERANCE) for indenter in indenters]
+    seconds = turns([partial(indent, indenter, tolerance=TOLERANCE) for indenter in indenters], repeats)[:, :, 1]
     return {
         f"{aspect:g}": {
-            "processor_s": float(median),
-            "over_squares": float(ratio),
+            "processor_s": float(np.median(of_aspect)),
+            "over_squares": float(np.median(of_aspect / seconds[:, 0])),
             "operator_applications": curve.operator_applications,
             "levels": curve.depth.size,
         }
-        for aspect, median, ratio, curve in zip(ASPECTS, np.median(seconds, axis=0), ratios, curves, strict=True)
+        for aspect, of_aspect, curve in zip(ASPECTS, seconds.T, curves, strict=True)
     }
 
 
-@click.command()
-@click.option("--repeats", type=click.IntRange(1), default=9, show_default=True, help="Of which the median is taken.")
-@click.option("--output", help="File to write, JSON.")
-def main(repeats, output):
-    """Time of loading curves on rectangular elements, over that on squares."""
-    result = {"machine": timing.machine(), "viscorough": viscorough.__version__, "repeats": repeats}
-    for name, heights in maps().items():
-        result[name] = measure(heights, repeats)
-        ratios = ", ".join(f"{cost['over_squares']:.2f} at {aspect}" for aspect, cost in result[name].items())
-        click.echo(f"{name}: time over squares {ratios}")
-    if output:
-        write_json(result, output)
+def measured(repeats):
+    """{map: {aspect: costs}}"""
+    return {name: costs(heights, repeats) for name, heights in maps().items()}
 
+
+main = command(measured, repeats=9)
 
 if __name__ == "__main__":
     main()

@@ -1,453 +1,338 @@
 """The numbers that README and docs/ quote are those of the published tables."""
 
 import json
-import os
 import re
 
-import click
 import numpy as np
 import pandas as pd
+import publish
 import pytest
-from PIL import Image
 
-from support.benchmarks import load_benchmark
-from support.documentation import README, ROOT, read
+from support.documentation import ROOT, read
 from support.study import CLAIMS
 from support.workflow import merged, read_settings
 from viscorough.reference import exponent_beta, zeta_elastic
 from viscorough_study.cases import disc_cases
 from viscorough_study.discs import punch_stiffness
 from viscorough_study.performance.cost_growth import fit_cost, median_costs
-from viscorough_study.verdicts import markdown, overall
+from viscorough_study.verdicts import overall
 
-VERDICTS = ROOT / "docs/verdicts.md"
 TABLE = pd.read_csv(ROOT / "docs/claims.csv")
-
-
-def between_marks(page, name="verdicts"):
-    return re.search(rf"<!-- {name}: .*? -->\n\n(.*?)\n<!-- end of {name} -->", read(page), re.DOTALL)[1]
-
-
-def of_claim(name):
-    return TABLE[TABLE["claim"] == name].set_index("case")
-
-
-def percent(ratios):
-    return [round(100 * abs(end - 1)) for end in (ratios.min(), ratios.max())]
-
-
-def test_pages_have_the_published_verdicts():
-    """benchmarks/publish.py writes both."""
-    assert list(dict.fromkeys(TABLE["claim"])) == list(CLAIMS)
-    publish = load_benchmark("publish")
-    assert between_marks(VERDICTS) == publish.verdicts()
-    assert between_marks(VERDICTS).startswith(markdown(TABLE, CLAIMS))
-    assert between_marks(README) == publish.verdict_lines()
-    physics = [claim["title"] for claim in CLAIMS.values() if claim["kind"] == "physics"]
-    rows = [line for line in between_marks(README).splitlines()[2:] if line.startswith("|")]
-    assert sorted(title.strip() for row in rows for title in row.split("|")[2].split(";")) == sorted(physics)
-
-
-def test_readme_says_where_the_default_run_differs_from_the_full_scale(monkeypatch):
-    publish, full = load_benchmark("publish"), overall(TABLE)
-    changed = TABLE.copy()
-    monkeypatch.setattr(publish, "published_claims", lambda name="": changed if "default" in name else TABLE)
-    monkeypatch.setattr(publish, "DEFAULT_CLAIMS", "default")
-    assert publish.verdict_lines().endswith("those of `make paper` are the same.\n")
-    assert (full["gamma"], full["collapse"]) == ("not reproduced", "reproduced")
-    changed.loc[TABLE["claim"] == "gamma", "verdict"] = "reproduced"
-    changed.loc[TABLE["claim"] == "collapse", "verdict"] = "undecided"
-    assert "the default run leaves 1 of them undecided and contradicts 1.\n" in publish.verdict_lines()
-
-
-def test_readme_begins_with_the_time_of_the_published_default_run():
-    publish = load_benchmark("publish")
-    assert between_marks(README, "time") == publish.time_sentence()
-    minutes = pd.read_csv(ROOT / publish.DEFAULT_COSTS)["share_s"].sum() / 60
-    assert publish.time_sentence().startswith(f"**Several weeks in the paper, {minutes:.1f} minutes here**")
-    assert read(README).index("**Several weeks") < read(README).index("## ")
-
-
-def test_prefactors():
-    first, second = (of_claim(f"zeta_{name}") for name in ("elastic", "viscous"))
-    low, high = percent(first["value"] / first["expected"])
-    most, least = percent(second["value"] / second["expected"])
-    assert f"ζ is {low} to {high} % above" in read(README)
-    assert f"{least} to {most} % below the second" in read(README)
-    assert f"*ζ* as defined here is {low} to {high} % above Eq. 4" in read(VERDICTS)
-    fits = published("scaling.csv").query("source == 'discs' and case_group == 'base' and window_rule == 'kappa'")
-    fits = fits.query("rms_convention == 'disc' and average == 'geometric'")
-    low, high = percent(fits["zeta"] / fits["hurst"].map(zeta_elastic))
-    assert f"at equal contact stiffness {low} to {high} %" in words("docs/verdicts.md")
-
-
-def test_verdicts_of_other_draws():
-    """The claim that is named is the one whose verdict depends on the draw."""
-    draws = json.loads(read(ROOT / "docs/resampled.json"))["verdicts"]
-    table, published = pd.DataFrame(draws), overall(TABLE)
-    moved = [claim for claim in published if (table.loc[claim] != published[claim]).any()]
-    assert moved == ["zeta_elastic_shape"]
-    case = of_claim("zeta_elastic_shape").loc["all H"]
-    expected = f"its quantity is {case['value']:.3f}, with {case['low']:.3f} to {case['high']:.3f}, beside the end"
-    assert f"{expected} of its tolerance, {case['tolerance']:g}" in words("docs/verdicts.md")
-    sentence = load_benchmark("publish").other_surfaces({"a": "x", "b": "y"}, {1: {"a": "x", "b": "x"}})
-    assert "Of 1 draws" in sentence
-    assert sentence.strip().endswith("b (x in 1).")
-
-
-def test_answers_of_readme():
-    text = " ".join(read(README).split())
-    fits = pd.read_csv(ROOT / "docs/results/scaling.csv").query(
-        "source == 'discs' and case_group == 'base' and rms_convention == 'disc' and average == 'geometric'"
-        " and window_rule == 'default'"
-    )
-    above = (fits.set_index("hurst")["beta"] - [exponent_beta(hurst) for hurst in fits["hurst"]]).to_dict()
-    assert f"at H = 0.4 and 0.1 it is {above[0.4]:.2f} and {above[0.1]:.2f} larger" in text
-    error = of_claim("exact_correspondence")["value"].abs()
-    inside = error[error.index.str.endswith("region (b)")]
-    assert f"in region (b) to {round(100 * inside.max())} %" in text
-    law = pd.read_csv(ROOT / "src/viscorough/data/interface.csv").query("source == 'discs'")
-    assert f"F/({law['u0'].mean():.2f} h)" in text
-    of_readme = law.query("case_group == 'base' and average == 'geometric'")
-    assert f"within 5 % from X = {of_readme['law_low'].max():.1g} until contact is complete" in text
-    assert (of_readme["law_high"] > 25).all()
-
-
-def test_lines_that_stand_for_discs():
-    text = " ".join(read(ROOT / "docs/verification.md").split())
-    drift, error = of_claim("lambda_constant")["value"], of_claim("exact_correspondence")["value"].abs()
-    assert f"factors of {drift.iloc[0]:.2f}, {drift.iloc[1]:.2f}, {drift.iloc[2]:.2f} and {drift.iloc[3]:.2f}" in text
-    percents = [round(100 * value) for value in error]
-    inside, beyond = percents[::2], percents[1::2]
-    assert "of {}, {}, {} and {} %, and".format(*inside) in text
-    assert "up to {}, {}, {} and {} % |".format(*beyond) in text
-    difference = of_claim("coincide_equal_windows")["value"].abs()
-    assert f"within {difference.iloc[2:].max():.2f}" in text
-    assert difference.iloc[:2].round(2).tolist() == [0.08, 0.08]
-    area, gap = (of_claim(f"line_{name}")["value"] for name in ("area", "gap"))
-    assert f"{area.min():.0f} to {area.max():.0f} times too large" in text
-    assert f"{gap.min():.2f} to {gap.max():.2f} of that of the discs" in text
-
-
-def test_stiffness_of_lines_beside_their_discs():
-    text, table = words("docs/verification.md"), published("reduction.csv")
-    fits = published("scaling.csv").query("source == 'discs' and case_group == 'base' and window_rule == 'default'")
-    fits = fits.query("rms_convention == 'disc' and average == 'geometric'").set_index("hurst")
-    low, high = (table["hurst"].map(fits[name]) for name in ("x_low", "x_high"))
-    inside = table[table["x"].between(low, high)]
-    assert "in region (b) to 20 %, beyond it to 25 %" in text
-    for rows, most in ((inside, 0.2), (table, 0.25)):
-        assert (rows["stiffness_ratio"] - 1).abs().max() < most
-    factors = np.exp(inside["stiffness_scatter"])
-    assert f"to a factor of {factors.min():.1f} to {factors.max():.1f} in region (b)" in text
-    assert f"up to {np.exp(table['stiffness_scatter']).max():.0f} below it" in text
-
-
-def test_power_law_and_complete_contact():
-    decades, text = of_claim("power_law"), " ".join(read(VERDICTS).split())
-    assert (decades["low"].drop("H = 0.1, decades") >= 2).all()
-    value, low, high = (f"{decades[name]['H = 0.1, decades']:.3g}" for name in ("value", "low", "high"))
-    assert f"over {value} decades, {low} to {high}" in text
-    fractions = of_claim("complete_contact")["value"]
-    assert f"only {100 * fractions.min():.0f} to {100 * fractions.max():.0f} % of the elements touch" in text
-    assert "take some hundred times as long as the lines" in text
-    assert 50 < of_claim("computing_time")["value"].iloc[0] < 1000
-    assert f"with about {51432 * of_claim('contact_problems')['value'].iloc[0]:.0f} contact problems" in text
-    assert set(of_claim("zeta_better")["verdict"]) == {"reproduced"}
-    assert "not reproduced" in set(of_claim("master_curve_shape")["verdict"])
-
-
-def test_exponents():
-    law = pd.read_csv(ROOT / "src/viscorough/data/calibration.csv").query("source == 'discs'").set_index("hurst")
-    above = [f"{law['beta'][hurst] - exponent_beta(hurst):.2f}" for hurst in (0.1, 0.4)]
-    for page in ("verdicts", "verification"):
-        text = " ".join(read(ROOT / f"docs/{page}.md").split())
-        assert f"above *H*/(1 + *H*), by {above[0]} and {above[1]}" in text
-    limit = of_claim("alpha_limit").loc["H = 1, discs"]
-    assert "discs have {:.3f}, {:.3f} to {:.3f}".format(*limit[["value", "low", "high"]]) in words("docs/verdicts.md")
-    assert limit["verdict"] == "undecided"
-    apart = of_claim("coincide")["value"].abs()
-    assert apart[["H = 0.6", "H = 0.9"]].max() < 0.02
-    assert f"by {apart['H = 0.1']:.2f} and {apart['H = 0.4']:.2f}" in read(ROOT / "docs/verification.md")
-
-
-def test_grids_from_coarse_to_fine():
-    publish = load_benchmark("publish")
-    assert between_marks(ROOT / "docs/scaling.md", "infinite grid") == publish.infinite_grid()
-    limits = pd.read_csv(ROOT / "docs/results/infinite_grid.csv").query("law == 'corrected' and height == 'spectrum'")
-    outside = limits[~limits["expected"].between(limits["ranges_low"], limits["ranges_high"])].set_index("source")
-    assert set(outside["quantity"]) == {"interface"}
-    assert set(outside["hurst"]) == {0.1}
-    lowest = outside["ranges_low"]
-    assert f"at {lowest['discs']:.3f} for discs and {lowest['lines']:.3f} for lines" in words("docs/scaling.md")
-    assert (outside["omega_high"] == 1.5).all()
-    assert set(limits.loc[limits["source"] == "discs", "finding"]) == {"undecided"}
-    of_velocity = limits.query("source == 'lines' and quantity == 'whole'")
-    assert (of_velocity["beta"] - of_velocity["expected"]).abs().max() < 0.01
-    trends = pd.read_csv(ROOT / "docs/results/sizes_trends.csv").query("source != 'controls'")
-    text = " ".join(read(ROOT / "docs/verification.md").split())
-    fixed = trends[trends["window_rule"] == "X = 0.01 to 0.1"]["slope"].abs()
-    assert f"as many elements change it by at most {fixed.max():.3f}, at any" in text
-    early = trends.query("source == 'lines' and hurst == 0.1 and window_rule.str.match('X = 0.00')", engine="python")
-    assert (early["slope_high"] < 0).all()
-    assert f"by {early['slope'].abs().min():.3f} to {early['slope'].abs().max():.3f}" in text
-
-
-def test_two_springs_in_series():
-    """u₀/h to ± 0.02 at every H, and the law within 5 % from X = 0.001, at H = 0.1 from 0.002."""
-    assert between_marks(ROOT / "docs/theory.md", "interface law") == load_benchmark("publish").interface_law()
-    text = " ".join(read(ROOT / "docs/theory.md").split())
-    table = pd.read_csv(ROOT / "src/viscorough/data/interface.csv").query("source == 'discs' and across == 257")
-    table = table[table["average"] == "geometric"].drop_duplicates("hurst").set_index("hurst")
-    assert set(table.index) == {0.1, 0.4, 0.6, 0.9, 1.0}
-    assert "*u*₀/*h* is known to ±0.02 at every *H*" in text
-    assert np.maximum(table["u0_high"] - table["u0"], table["u0"] - table["u0_low"]).max() <= 0.02
-    assert "within 5 % of the mean curve of each of these ensembles from *X* = 0.001, at *H* = 0.1 from 0.002" in text
-    assert table["deviation"].max() <= 0.05
-    assert "softer by about 1.3/*n*" in text
-    assert all(abs(number * (1 - punch_stiffness(number)) - 1.3) < 0.06 for number in (33, 257, 1025))
-    assert (table["law_low"].round(6) == [0.001778, 0.001, 0.001, 0.001, 0.001]).all()
-
-
-def test_control_has_no_power_law():
-    """Of discs with a roll-off none has the decades that are required, while synthetic power laws pass."""
-    plateaus = published("plateaus.csv")
-    control = plateaus[plateaus["case_group"] == "roll_off"]
-    assert set(control["hurst"]) == {0.1, 0.4, 0.6, 0.9}
-    assert "The control falls short of two decades at every *H*" in words("docs/verdicts.md")
-    assert control["decades_high"].max() < 2
-    assert (plateaus["draws"] == 200).all()
-    text, least = words("docs/verdicts.md"), plateaus.query("case_group == 'base'")["decades_low"].min()
-    assert "with 1.5 decades *H* = 0.1 would pass, and the control would be undecided" in text
-    assert control["decades_high"].max() >= 1.5 > control["decades_low"].max()
-    assert least >= 1.5
-    assert plateaus[plateaus["case_group"] == "base"]["power_law_passes"].min() >= 0.95
-    assert plateaus["control_passes"].max() == 0
-
-
-def test_gamma_factor():
-    expected = of_claim("gamma")["expected"]
-    text = " ".join(read(ROOT / "docs/verification.md").split())
-    assert f"which would be {expected.min():.2f} to {expected.max():.2f}" in text
-    low, high = percent(expected)
-    assert f"changes *ζ* by {low} to {high} %" in " ".join(read(ROOT / "docs/theory.md").split())
-
-
-def test_other_solvers():
-    publish = load_benchmark("publish")
-    assert between_marks(ROOT / "docs/performance.md", "other solvers") == publish.other_solver_times()
-    times = pd.read_csv(ROOT / publish.OTHER_SOLVERS)["ratio"]
-    in_words = f"take {times.min():.0f} to {10 * round(times.max() / 10)} times as long"
-    assert in_words in " ".join(read(README).split())
-
-
-def published(name):
-    """A table of docs/results."""
-    path = ROOT / "docs/results" / name
-    if not path.exists():
-        pytest.skip(f"{name} is not published yet")
-    return pd.read_csv(path)
+LAW = pd.read_csv(ROOT / "src/viscorough/data/interface.csv").query("source == 'discs'")
+LAW_HERE = LAW.query("across == 257 and average == 'geometric'").drop_duplicates("hurst").set_index("hurst")
+BASE = "source == 'discs' and case_group == 'base' and rms_convention == 'disc' and average == 'geometric'"
 
 
 def words(page):
     return " ".join(read(ROOT / page).split())
 
 
-def test_large_discs():
-    table = published("large.csv").set_index("across")
-    largest, half = table.loc[4097], table.loc[2049]
-    time, memory = f"{largest['wall']:.0f} s", f"{largest['memory'] / 1e9:.1f} GB"
-    assert f"4097 elements across takes {time} up to 50 % contact and {memory}, on one" in words("docs/performance.md")
-    assert f"4097 elements across takes {time} and {memory}" in words("docs/questions.md")
-    scaling = words("docs/scaling.md")
-    applications, levels = (f"{largest[name]:.0f}" for name in ("operator_applications", "levels"))
-    assert f"| {time}, {applications} operator applications, {levels} levels |" in scaling
-    assert f"from {table.loc[257, 'operator_applications']:.0f} at 257 elements across to {applications} at" in scaling
-    growth = fit_cost(np.array([half["elements"], largest["elements"]]), [half["memory"], largest["memory"]])[0]
-    assert f"| {memory}; between 2049 and 4097 it grows as the number of elements to the power {growth:.2f}" in scaling
-    sizes = table.loc[[257, 4097]]
-    assert f"elements to the power {fit_cost(sizes['elements'], sizes['wall'])[0]:.1f}, to which" in scaling
-    large = table.loc[[4097, 8193]]
-    assert (large["memory"] / large["elements"]).max() < 200
-    steeper = fit_cost(large["elements"], large["memory"])[0]
-    assert f"between 4097 and 8193 to the power {steeper:.2f}; at most 200 bytes" in scaling
+def published(name):
+    """A table of docs/results."""
+    return pd.read_csv(ROOT / "docs/results" / name)
 
 
-def test_records_and_threads():
-    """8193 elements across, what 16 385 would take, and two threads beside one."""
-    table, text = published("large.csv").set_index("across"), words("docs/performance.md")
-    record, before = table.loc[8193], table.loc[4097]
-    assert f"on one thread, {before['wall_threads']:.0f} s on two" in text
-    minutes, gigabytes = f"{record['wall'] / 60:.0f} minutes", record["memory"] / 1e9
-    assert f"{minutes} and {gigabytes:.1f} GB, on two threads {record['wall_threads'] / 60:.1f} minutes" in text
-    next_wall, next_memory = (record[name] * (record[name] / before[name]) for name in ("wall", "memory"))
-    assert next_wall / 60 == pytest.approx(90, rel=0.05)
-    assert f"would take about 90 minutes and {next_memory / 1e9:.0f} GB on one thread" in text
-    ratio = table.loc[2049, "wall"] / table.loc[2049, "wall_threads"]
-    assert f"On a disc of 2049 two threads are {ratio:.2f} times as fast as one" in text
-    sizes = table.loc[129:4097]
-    growth = fit_cost(sizes["elements"], sizes["wall"])[0]
-    assert f"to the power {growth:.2f} from 129 to 4097 (`make large`)" in text
+def value(claim, case=slice(None), column="value"):
+    """Values of a claim by case, or that of one case."""
+    return TABLE[TABLE["claim"] == claim].set_index("case")[column].loc[case]
 
 
-def test_growth_and_placement_of_levels():
-    methods, text = published("methods.csv"), words("docs/performance.md")
-    growth = {}
-    for hurst in (0.4, 0.8):
-        costs = median_costs(methods[methods["hurst"] == hurst], "path, automatic levels", 1e-3)
-        growth[hurst] = f"{fit_cost(costs['number'], costs['wall_s'])[0]:.2f}"
-    assert f"to the power {growth[0.4]} (H = 0.4) and {growth[0.8]} (H = 0.8)" in text
-    placed = (
-        published("level_placement.csv").query("reached == 1").pivot(index="scene", columns="choice", values="ratio")
-    )
-    worst, second = sorted(1 / placed["best by hand"], reverse=True)[:2]
-    assert f"at most {worst:.3g} times the time of the best levels placed by hand" in text
-    assert f"at most {second:.3g} times in the others" in text
-    assert f"at least {placed['naive'].min():.2g} times the time of the automatic ones" in text
+def ends(values, places=0, factor=1):
+    """The least and the largest of values, rounded."""
+    return [f"{factor * end:.{places}f}" for end in (values.min(), values.max())]
 
 
-def test_times_of_the_whole_paper():
-    """The README states what docs/ state, and shares and cost of lines are those of the published run."""
-    costs = published("rule_costs.csv").set_index("rule")
-    text, pages = (
-        words("docs/performance.md"),
-        {name: words(f"docs/{name}.md") for name in ("reproduce", "performance")},
-    )
-    shares = costs["seconds"] / costs["seconds"].sum()
-    assert f"lines took {100 * shares['indent_lines']:.0f} % and discs {100 * shares['indent_discs']:.0f} %" in text
-    assert f"the largest job took {costs['memory_mb'].max() / 1000:.0f} GB" in text
-    minutes = re.search(r"`make paper` repeats .*?, in (\d+) minutes", words("README.md"))[1]
-    assert f"50 500 lines: {minutes} minutes" in pages["reproduce"]
-    assert f"Of {minutes} min" in pages["performance"]
-    short = re.search(r"at the paper's scale; ([\d.]+) minutes", pages["reproduce"])[1]
-    assert f"It takes {short} minutes" in words("docs/getting_started.md")
-    assert f"{short} minutes here" in words("README.md")
-    settings = merged(read_settings("config"), read_settings("paper"))
-    ensembles = [
-        (case["group"], one["realizations"]) for case in disc_cases(settings).values() for one in case["ensembles"]
-    ]
-    discs = pd.DataFrame(ensembles, columns=["group", "realizations"]).groupby("group")["realizations"].sum()
-    further = discs.sum() - discs["base"]
-    assert f"{discs['base']} discs for the figures, {further} for variants and grids" in pages["reproduce"]
-    assert f"own scale: {discs['base']} discs and 50 500 lines" in words("docs/verdicts.md")
-    line, disc = costs["seconds"]["indent_lines"] / 50500, costs["seconds"]["indent_discs"] / discs.sum()
-    assert 0.17 < line / disc < 0.23
-    for page in ("README.md", "docs/questions.md"):
-        assert "at about a fifth of the cost" in words(page)
+def percents(ratios):
+    """Deviations of the least and the largest ratio from 1."""
+    return [f"{100 * abs(end - 1):.0f}" for end in (ratios.min(), ratios.max())]
 
 
-def test_other_solvers_on_two_threads():
+def fits(window_rule):
+    return published("scaling.csv").query(BASE).query(f"window_rule == '{window_rule}'").set_index("hurst")
+
+
+def over_expected(claim):
+    return value(claim) / value(claim, column="expected")
+
+
+def above(betas):
+    """β less H/(1 + H), of a series by Hurst exponent."""
+    return betas - betas.index.map(exponent_beta)
+
+
+def of_base(law):
+    return law.query("case_group == 'base' and average == 'geometric'")
+
+
+def of_claims(claim, case=slice(None)):
+    return set(np.atleast_1d(value(claim, case, "verdict")))
+
+
+def departures():
+    """β less H/(1 + H) of the calibrated law of discs, at H = 0.1 and 0.4."""
+    law = pd.read_csv(ROOT / "src/viscorough/data/calibration.csv").query("source == 'discs'").set_index("hurst")
+    return above(law["beta"])[[0.1, 0.4]]
+
+
+def reduction(inside):
+    """Discs beside their lines, over the whole range or in region (b)."""
+    table, windows = published("reduction.csv"), fits("default")
+    low, high = (table["hurst"].map(windows[name]) for name in ("x_low", "x_high"))
+    return table[table["x"].between(low, high)] if inside else table
+
+
+def largest(table):
+    return (table["stiffness_ratio"] - 1).abs().max()
+
+
+def plateaus(group):
+    return published("plateaus.csv").query(f"case_group == '{group}'")
+
+
+def limits():
+    """Exponents of infinitely fine grids."""
+    return published("infinite_grid.csv").query("law == 'corrected' and height == 'spectrum'")
+
+
+def below_expected():
+    """Those whose intervals in all ranges of X do not reach H/(1 + H)."""
+    table = limits()
+    return table[~table["expected"].between(table["ranges_low"], table["ranges_high"])].set_index("source")
+
+
+def trends():
+    return published("sizes_trends.csv").query("source != 'controls'")
+
+
+def early():
+    """Trends of lines in fixed windows at small X."""
+    return trends().query("source == 'lines' and hurst == 0.1 and window_rule.str.match('X = 0.00')", engine="python")
+
+
+def large(across, column):
+    return published("large.csv").set_index("across").loc[across, column]
+
+
+def cost_of_large(across, seconds):
+    """Wall time in so many seconds, and GB."""
+    return [large(across, "wall") / seconds, large(across, "memory") / 1e9]
+
+
+def growth_of_large(across, column):
+    return fit_cost(large(across, "elements"), large(across, column))[0]
+
+
+def growth_of_path(hurst):
+    methods = published("methods.csv").query(f"hurst == {hurst}")
+    costs = median_costs(methods, "path, automatic levels", 1e-3)
+    return fit_cost(costs["number"], costs["wall_s"])[0]
+
+
+def beyond(column):
+    """A cost of 16 385 elements across, if it goes on to grow as from 4097 to 8193."""
+    return large(8193, column) * (large(8193, column) / large(4097, column))
+
+
+def placed(choice):
+    """Times of levels placed otherwise over those of automatic ones, scene by scene, the least first."""
+    table = published("level_placement.csv").query("reached == 1")
+    return table.pivot(index="scene", columns="choice", values="ratio")[choice].sort_values()
+
+
+def costs(column="seconds"):
+    return published("rule_costs.csv").set_index("rule")[column]
+
+
+def two_threads():
     two = published("other_solvers.csv").query("solver != 'viscorough' and threads == 2")
-    fastest = two.groupby(["task", "hurst"])["ratio"].min()
-    in_words = f"takes {fastest.min():.2g} to {fastest.max():.2g} times as long for the single levels"
-    assert in_words in words("docs/performance.md")
+    return two.groupby(["task", "hurst"])["ratio"].min()
 
 
-def test_times_of_other_solvers_are_kept_with_their_origin(tmp_path):
-    publish = load_benchmark("publish")
-    published = pd.read_csv(ROOT / publish.OTHER_SOLVERS)
-    measured = published.drop(columns=["measured", "machine"]).assign(wall_s=1.0)
-    others = measured.iloc[:2].assign(solver=["viscorough", "Tamaas"], threads=[1, 2])
-    pd.concat([others, measured]).to_csv(tmp_path / "other_solvers.csv", index=False)
-    publish.copy_other_solvers(tmp_path / "other_solvers.csv", tmp_path / "kept.csv", "a machine", "2030-01-01")
-    kept = pd.read_csv(tmp_path / "kept.csv")
-    pd.testing.assert_frame_equal(kept, published.assign(measured="2030-01-01", machine="a machine"))
+def discs_of_paper():
+    """Number of discs of the paper's scale, by group."""
+    cases = disc_cases(merged(read_settings("config"), read_settings("paper"))).values()
+    discs = [(case["group"], one["realizations"]) for case in cases for one in case["ensembles"]]
+    return pd.DataFrame(discs, columns=["group", "number"]).groupby("group")["number"].sum()
 
 
-def test_published_files_say_where_they_come_from():
-    folder = ROOT / "docs/results"
-    if not folder.exists():
-        pytest.skip("nothing is published yet")
-    records = json.loads(read(folder / "published.json"))
-    assert between_marks(ROOT / "docs/published.md", "results") == load_benchmark("publish").published_results(records)
-    assert set(records) == {path.name for path in folder.iterdir()} - {"published.json"}
-    assert sum(path.stat().st_size for path in folder.iterdir()) <= 3e6
-    for name in load_benchmark("publish").PICTURES:
-        if name in records:
-            assert (folder / name).read_bytes() == (ROOT / "docs" / name).read_bytes()
+def line_over_disc():
+    """Cost of a line over that of a disc."""
+    return costs()["indent_lines"] / 50500 / (costs()["indent_discs"] / discs_of_paper().sum())
 
 
-def test_publishing(tmp_path):
-    publish = load_benchmark("publish")
-    results, project = tmp_path / "results", tmp_path / "project"
-    for folder in (results / "tables", results / "figures", project / "docs", project / "src/viscorough/data"):
-        folder.mkdir(parents=True)
-    gradient = np.arange(2 * 3 * 3).reshape(2, 3, 3).astype(np.uint8)
-    for name in (*publish.PUBLISHED["paper"], *publish.PUBLISHED["large"], *publish.KEPT["paper"]):
-        if name.endswith(".png"):
-            Image.fromarray(gradient).save(results / name)
-        else:
-            (results / name).write_text(name)
-    os.utime(results / "tables/rule_costs.csv", (86400 * 365.25 * 30,) * 2)
-    publish.copy_results(results, project, ["paper"], "abc")
-    publish.copy_results(results, project, ["large"], "def")
-    records = json.loads((project / "docs/results/published.json").read_text())
-    assert {path.name for path in (project / "docs/results").iterdir()} == {*records, "published.json"}
-    assert set(records) == {name.split("/")[-1] for name in publish.PUBLISHED["paper"] + publish.PUBLISHED["large"]}
-    assert records["rule_costs.csv"]["date"] == "2000-01-01"
-    for name, command, commit in (("large.csv", "make large", "def"), ("rule_costs.csv", "make paper", "abc")):
-        assert records[name]["command"] == command
-        assert records[name]["commit"] == commit
-    assert (project / "docs/claims.csv").read_text() == "tables/claims.csv"
-    for name in ("calibration", "interface"):
-        assert (project / f"src/viscorough/data/{name}.csv").read_text() == f"tables/{name}.csv"
+def minutes_of_paper():
+    return re.search(r"`make paper` repeats .*?, in (\d+) minutes", words("README.md"))[1]
 
 
-def test_publishing_the_default_run(tmp_path):
-    publish = load_benchmark("publish")
-    results, project = tmp_path / "results", tmp_path / "project"
-    for name in (*publish.KEPT["reproduce"], *publish.KEPT["reproduce"].values()):
-        for folder in (results, project):
-            (folder / name).parent.mkdir(parents=True, exist_ok=True)
-    for name in publish.KEPT["reproduce"]:
-        (results / name).write_text("rule,share_s\nplot,60.0\n")
-    os.utime(results / "tables/rule_costs.csv", (86400 * 365.25 * 30,) * 2)
-    publish.copy_results(results, project, ["reproduce"], "abc")
-    costs = pd.read_csv(project / publish.DEFAULT_COSTS)
-    assert costs[["rule", "share_s", "measured"]].to_numpy().tolist() == [["plot", 60.0, "2000-01-01"]]
-    assert costs["machine"].str.endswith("cores").all()
-    for name in (publish.DEFAULT_CLAIMS, "docs/fig2_kinetics.png"):
-        assert (project / name).read_text() == "rule,share_s\nplot,60.0\n"
+def minutes_of_reproduction():
+    return re.search(r"at the paper's scale; ([\d.]+) minutes", words("docs/reproduce.md"))[1]
 
 
-def test_readme_shows_the_published_chart_of_speed(tmp_path):
-    publish = load_benchmark("publish")
-    assert between_marks(README, "speed chart") == publish.speed_chart()
-    (tmp_path / "docs").mkdir()
-    assert publish.speed_chart(tmp_path) == ""
-    (tmp_path / "docs/speed.png").touch()
-    chart = publish.speed_chart(tmp_path)
-    assert chart.startswith("![Speed against accuracy of the main methods](docs/speed.png)\n\n*")
-    assert max(map(len, chart.splitlines())) <= 120
-    others = read(README).replace(between_marks(README, "speed chart"), "")
-    assert len((others + chart).split()) <= 1000
+def other_times():
+    return pd.read_csv(ROOT / publish.OTHER_SOLVERS)["ratio"]
 
 
-def test_nothing_is_published_of_an_incomplete_run(tmp_path):
-    """As the charts of a small scale would be, of a folder in which `make speed` was not run."""
-    publish = load_benchmark("publish")
-    (tmp_path / "figures").mkdir()
-    (tmp_path / "docs").mkdir()
-    (tmp_path / "figures/speed.png").touch()
-    with pytest.raises(click.ClickException, match="make speed"):
-        publish.copy_results(tmp_path, tmp_path, ["speed"], "abc")
-    assert not list((tmp_path / "docs").iterdir())
+# {page: {sentence: what fills its brackets, a text, a number or a list of them; or whether it is true}}
+QUOTED = {
+    "README.md": {
+        "ζ is {} to {} % above": lambda: percents(over_expected("zeta_elastic")),
+        "{} to {} % below the second": lambda: percents(over_expected("zeta_viscous"))[::-1],
+        "at H = 0.4 and 0.1 it is {:.2f} and {:.2f} larger": lambda: above(fits("default")["beta"])[[0.4, 0.1]],
+        "in region (b) to {:.0f} %": lambda: 100 * value("exact_correspondence").abs().iloc[::2].max(),
+        "F/({:.2f} h)": lambda: LAW["u0"].mean(),
+        "within 5 % from X = {:.1g} until contact is complete": lambda: of_base(LAW)["law_low"].max(),
+        "until contact is complete": lambda: (of_base(LAW)["law_high"] > 25).all(),
+        "take {:.0f} to {:.0f}": lambda: [other_times().min(), 10 * round(other_times().max() / 10)],
+        "{} minutes here": minutes_of_reproduction,
+        "at about a fifth of the cost": lambda: 0.17 < line_over_disc() < 0.23,
+    },
+    "docs/getting_started.md": {"It takes {} minutes": minutes_of_reproduction},
+    "docs/verdicts.md": {
+        "*ζ* as defined here is {} to {} % above Eq. 4": lambda: percents(over_expected("zeta_elastic")),
+        "at equal contact stiffness {} to {} %": lambda: percents(
+            fits("kappa")["zeta"] / fits("kappa").index.map(zeta_elastic)
+        ),
+        "its quantity is {:.3f}, with {:.3f} to {:.3f}, beside the end of its tolerance, {:g}": lambda: value(
+            "zeta_elastic_shape", "all H", ["value", "low", "high", "tolerance"]
+        ),
+        "over {:.3g} decades, {:.3g} to {:.3g}": lambda: value(
+            "power_law", "H = 0.1, decades", ["value", "low", "high"]
+        ),
+        "two decades at every *H*": lambda: (value("power_law", column="low").drop("H = 0.1, decades") >= 2).all(),
+        "only {} to {} % of the elements touch": lambda: ends(value("complete_contact"), factor=100),
+        "take some hundred times as long as the lines": lambda: 50 < value("computing_time").iloc[0] < 1000,
+        "with about {:.0f} contact problems": lambda: 51432 * value("contact_problems").iloc[0],
+        "above *H*/(1 + *H*), by {:.2f} and {:.2f}": lambda: departures(),
+        "discs have {:.3f}, {:.3f} to {:.3f}": lambda: value("alpha_limit", "H = 1, discs", ["value", "low", "high"]),
+        "The control falls short of two decades at every *H*": lambda: plateaus("roll_off")["decades_high"].max() < 2,
+        "with 1.5 decades *H* = 0.1 would pass": lambda: plateaus("base")["decades_low"].min() >= 1.5,
+        "and the control would be undecided": lambda: (
+            plateaus("roll_off")["decades_high"].max() >= 1.5 > plateaus("roll_off")["decades_low"].max()
+        ),
+        "own scale: {} discs and 50 500 lines": lambda: discs_of_paper()["base"],
+    },
+    "docs/verification.md": {
+        "factors of {:.2f}, {:.2f}, {:.2f} and {:.2f}": lambda: value("lambda_constant"),
+        "of {:.0f}, {:.0f}, {:.0f} and {:.0f} %, and": lambda: 100 * value("exact_correspondence").abs()[::2],
+        "up to {:.0f}, {:.0f}, {:.0f} and {:.0f} % |": lambda: 100 * value("exact_correspondence").abs()[1::2],
+        "within {:.2f}": lambda: value("coincide_equal_windows").abs().iloc[2:].max(),
+        "{} to {} times too large": lambda: ends(value("line_area")),
+        "{} to {} of that of the discs": lambda: ends(value("line_gap"), 2),
+        "in region (b) to 20 %, beyond it to 25 %": lambda: (
+            largest(reduction(inside=True)) < 0.2 and largest(reduction(inside=False)) < 0.25
+        ),
+        "to a factor of {} to {} in region (b)": lambda: ends(np.exp(reduction(inside=True)["stiffness_scatter"]), 1),
+        "up to {:.0f} below it": lambda: np.exp(reduction(inside=False)["stiffness_scatter"].max()),
+        "above *H*/(1 + *H*), by {:.2f} and {:.2f}": lambda: departures(),
+        "by {:.2f} and {:.2f}": lambda: value("coincide").abs()[["H = 0.1", "H = 0.4"]],
+        "as many elements change it by at most {:.3f}, at any": lambda: (
+            trends().query("window_rule == 'X = 0.01 to 0.1'")["slope"].abs().max()
+        ),
+        "by {} to {}": lambda: ends(early()["slope"].abs(), 3),
+        "which would be {} to {}": lambda: ends(value("gamma", column="expected"), 2),
+    },
+    "docs/theory.md": {
+        "changes *ζ* by {} to {} %": lambda: percents(value("gamma", column="expected")),
+        "*u*₀/*h* is known to ±0.02 at every *H*": lambda: (
+            max((LAW_HERE["u0_high"] - LAW_HERE["u0"]).max(), (LAW_HERE["u0"] - LAW_HERE["u0_low"]).max()) <= 0.02
+        ),
+        "within 5 % of the mean curve of each of these ensembles": lambda: LAW_HERE["deviation"].max() <= 0.05,
+        "from *X* = 0.001, at *H* = 0.1 from 0.002": lambda: (
+            LAW_HERE["law_low"].round(6).tolist() == [0.001778, 0.001, 0.001, 0.001, 0.001]
+        ),
+        "softer by about 1.3/*n*": lambda: all(
+            abs(number * (1 - punch_stiffness(number)) - 1.3) < 0.06 for number in (33, 257, 1025)
+        ),
+    },
+    "docs/scaling.md": {
+        "at {:.3f} for discs and {:.3f} for lines": lambda: below_expected()["ranges_low"][["discs", "lines"]],
+        "| {:.0f} s, {:.0f} operator applications, {:.0f} levels |": lambda: large(
+            4097, ["wall", "operator_applications", "levels"]
+        ),
+        "from {:.0f} at 257 elements across to {:.0f} at": lambda: large([257, 4097], "operator_applications"),
+        "elements to the power {:.1f}, to which": lambda: growth_of_large([257, 4097], "wall"),
+        "| {:.1f} GB; between 2049 and 4097 it grows as the number of elements to the power {:.2f}": lambda: [
+            large(4097, "memory") / 1e9,
+            growth_of_large([2049, 4097], "memory"),
+        ],
+        "between 4097 and 8193 to the power {:.2f}": lambda: growth_of_large([4097, 8193], "memory"),
+        "at most 200 bytes": lambda: (large([4097, 8193], "memory") / large([4097, 8193], "elements")).max() < 200,
+    },
+    "docs/questions.md": {
+        "4097 elements across takes {:.0f} s and {:.1f} GB": lambda: cost_of_large(4097, 1),
+        "at about a fifth of the cost": lambda: 0.17 < line_over_disc() < 0.23,
+    },
+    "docs/reproduce.md": {
+        "50 500 lines: {} minutes": minutes_of_paper,
+        "{0[base]} discs for the figures, {1} for variants and grids": lambda: [
+            discs_of_paper(),
+            discs_of_paper().drop("base").sum(),
+        ],
+    },
+    "docs/performance.md": {
+        "Of {} min": minutes_of_paper,
+        "4097 elements across takes {:.0f} s up to 50 % contact and {:.1f} GB, on one": lambda: cost_of_large(4097, 1),
+        "on one thread, {:.0f} s on two": lambda: large(4097, "wall_threads"),
+        "{:.0f} minutes and {:.1f} GB, on two threads {:.1f} minutes": lambda: [
+            *cost_of_large(8193, 60),
+            large(8193, "wall_threads") / 60,
+        ],
+        "would take about 90 minutes": lambda: 85 < beyond("wall") / 60 < 95,
+        "90 minutes and {:.0f} GB on one thread": lambda: beyond("memory") / 1e9,
+        "On a disc of 2049 two threads are {:.2f} times as fast": lambda: (
+            large(2049, "wall") / large(2049, "wall_threads")
+        ),
+        "to the power {:.2f} from 129 to 4097 (`make large`)": lambda: growth_of_large(slice(129, 4097), "wall"),
+        "to the power {:.2f} (H = 0.4) and {:.2f} (H = 0.8)": lambda: [growth_of_path(hurst) for hurst in (0.4, 0.8)],
+        "at most {:.3g} times the time of the best levels placed by hand": lambda: 1 / placed("best by hand").iloc[0],
+        "at most {:.3g} times in the others": lambda: 1 / placed("best by hand").iloc[1],
+        "at least {:.2g} times the time of the automatic ones": lambda: placed("naive").iloc[0],
+        "lines took {:.0f} % and discs {:.0f} %": lambda: (
+            100 * costs()[["indent_lines", "indent_discs"]] / costs().sum()
+        ),
+        "the largest job took {:.0f} GB": lambda: costs("memory_mb").max() / 1000,
+        "takes {:.2g} to {:.2g} times as long for the single levels": lambda: [
+            two_threads().min(),
+            two_threads().max(),
+        ],
+    },
+}
 
 
-def test_every_published_file_is_made_by_a_rule_or_a_benchmark():
-    publish = load_benchmark("publish")
-    made = "\n".join(read(path) for path in [*(ROOT / "workflow/rules").glob("*.smk"), ROOT / "Makefile"])
-    for command, names in publish.PUBLISHED.items():
-        assert re.search(rf"^{command}:", read(ROOT / "Makefile"), re.MULTILINE)
-        for name in names:
-            assert f"results/{name}" in made, name
+@pytest.mark.parametrize(("page", "sentence"), [(page, text) for page, rows in QUOTED.items() for text in rows])
+def test_numbers_on_pages_are_those_of_the_tables(page, sentence):
+    numbers = QUOTED[page][sentence]()
+    if isinstance(numbers, (bool, np.bool)):
+        assert numbers
+    assert sentence.format(*np.atleast_1d(np.asarray(numbers, dtype=object))) in words(page)
 
 
-def test_verdicts_under_several_root_seeds():
-    """The file of verdicts belongs to the tables beside it, and no verdict changes with the seed."""
-    seeds = json.loads(read(ROOT / "docs/seeds.json"))
+def test_what_pages_conclude_from_the_tables():
+    """Sentences without numbers, whose words change only if one of these does."""
+    assert of_claims("zeta_better") == {"reproduced"}
+    assert "not reproduced" in of_claims("master_curve_shape")
+    assert of_claims("alpha_limit", "H = 1, discs") == {"undecided"}
+    assert value("coincide").abs()[["H = 0.6", "H = 0.9"]].max() < 0.02
+    assert value("coincide_equal_windows").abs().iloc[:2].round(2).tolist() == [0.08, 0.08]
+    assert set(LAW_HERE.index) == set(plateaus("roll_off")["hurst"]) | {1.0} == {0.1, 0.4, 0.6, 0.9, 1.0}
+    assert plateaus("base")["power_law_passes"].min() >= 0.95
+    assert plateaus("base")["control_passes"].max() == 0
+    assert below_expected()[["quantity", "hurst", "omega_high"]].drop_duplicates().to_numpy().tolist() == [
+        ["interface", 0.1, 1.5]
+    ]
+    assert set(limits().query("source == 'discs'")["finding"]) == {"undecided"}
+    velocity = limits().query("source == 'lines' and quantity == 'whole'")
+    assert (velocity["beta"] - velocity["expected"]).abs().max() < 0.01
+    assert (early()["slope_high"] < 0).all()
+
+
+def test_verdicts_of_other_draws_and_seeds():
+    """The claim that a page names is the one whose verdict depends on the draw; none changes with the seed."""
+    draws, seeds = (json.loads(read(ROOT / f"docs/{name}.json")) for name in ("resampled", "seeds"))
+    table, as_published = pd.DataFrame(draws["verdicts"]), overall(TABLE)
+    moved = [claim for claim in as_published if (table.loc[claim] != as_published[claim]).any()]
+    assert moved == ["zeta_elastic_shape"]
     tables = pd.read_csv(ROOT / "docs/seeds.csv", keep_default_na=False, na_values=[""]).groupby("seed")
     assert {str(seed): overall(table) for seed, table in tables} == seeds["verdicts"]
-    assert len(seeds["verdicts"]) == 3
-    assert seeds["moved"] == {}
+    assert (len(seeds["verdicts"]), seeds["moved"]) == (3, {})
     assert all(list(verdicts) == list(CLAIMS) for verdicts in seeds["verdicts"].values())

@@ -1,0 +1,138 @@
+"""What `make bench` measures is what it says, on small problems."""
+
+import json
+import pkgutil
+import sys
+import time
+from types import SimpleNamespace
+
+import curves
+import large_map
+import lines
+import measuring
+import members
+import numpy as np
+import pytest
+import rectangles
+import strips
+from click.testing import CliRunner
+
+from support.workflow import merged, read_settings
+from viscorough import self_affine_disc
+
+
+def test_the_command_writes_machine_and_measurements(tmp_path, monkeypatch):
+    for name, value in measuring.ENVIRONMENT.items():  # else it would start again
+        monkeypatch.setenv(name, value)
+    output = tmp_path / "new/file.json"
+    main = measuring.command(lambda repeats: {"twice": 2 * repeats}, repeats=3)
+    outcome = CliRunner().invoke(main, ["--output", str(output)])
+    assert outcome.exit_code == 0, outcome.output
+    content = json.loads(output.read_text())
+    assert (content["repeats"], content["twice"]) == (3, 6)
+    assert content["machine"]["cores"] > 0
+
+
+def test_functions_take_turns():
+    calls = []
+    functions = [lambda: calls.append("a"), lambda: calls.append("b")]
+    assert measuring.turns(functions, 2).shape == (2, 2, 2)
+    assert "".join(calls) == "ababab"
+
+
+def test_every_part_takes_time_and_is_restored():
+    """The dense solver and the grid, on a disc of enough elements for both."""
+    for names in curves.PARTS_OF_LINE.values():
+        assert all(callable(pkgutil.resolve_name(name)) for name in names)
+    functions = [pkgutil.resolve_name(name) for names in curves.PARTS_OF_CURVE.values() for name in names]
+    disc = self_affine_disc(0.6, 65, seed=1)
+    shares = curves.shares(lambda: curves.indent(disc), curves.PARTS_OF_CURVE)
+    assert all(shares[part] > 0 for part in curves.PARTS_OF_CURVE)
+    assert sum(share for part, share in shares.items() if part != "processor_s") == pytest.approx(1)
+    assert functions == [pkgutil.resolve_name(name) for names in curves.PARTS_OF_CURVE.values() for name in names]
+    (row,) = curves.over_operators([0.6], 65, 1)
+    assert row["ratio"] > 1
+
+
+def test_stopwatch_counts_the_time_within(monkeypatch):
+    def work():
+        end = time.process_time() + 0.02
+        while time.process_time() < end:
+            pass
+
+    module = SimpleNamespace(work=work)
+    monkeypatch.setitem(sys.modules, "stand_in", module)
+    with curves.stopwatch({"work": ["stand_in.work"]}) as seconds:
+        start = time.process_time()
+        module.work()
+        module.work()
+        whole = time.process_time() - start
+        work()  # not through the module: not counted
+    assert 0.04 <= seconds["work"] <= whole  # a busy machine may make both longer
+
+
+def test_columns_by_ducc0_are_the_same_convolution():
+    rows, length = 17, curves.good_length(32)
+    spectrum = np.random.default_rng(1).random((length // 2 + 1, 5))
+    whole = spectrum[np.minimum(np.arange(length), length - np.arange(length))]
+    data = np.random.default_rng(2).random((rows, 5)) + 0j
+    expected = curves.ducc0_columns(data, whole)
+    curves.ColumnConvolution(rows, spectrum / length, float).apply(data)
+    np.testing.assert_allclose(data, expected, rtol=1e-12)
+
+
+def test_large_map_answers_both_questions(monkeypatch):
+    monkeypatch.setattr(large_map, "POINTS", 65)
+    assert 5e7 < large_map.in_a_process("large_map", "cost", "contact", 65, 1)["peak_bytes"] < 5e8
+    monkeypatch.setattr(large_map, "in_a_process", lambda *call: large_map.cost(*call[2:]))
+    rows = large_map.measured(1)
+    assert rows["curve"]["contact_fraction"] >= large_map.UNTIL_FRACTION
+    assert 0.05 < rows["contact"]["contact_fraction"] < 0.4
+    assert abs(rows["contact"]["force_balance"]) < 1e-6
+    for question in large_map.QUESTIONS:
+        assert rows[f"{question}_threads"]["contact_fraction"] == rows[question]["contact_fraction"]
+
+
+def test_lines_are_compared_with_a_transform():
+    result = lines.measured(3, points=2000)
+    assert 0 < result["ratio"]["low"] <= result["ratio"]["median"] <= result["ratio"]["high"]
+    assert result["waves"] + result["transform"] + result["bins"] == pytest.approx(1, abs=0.5)
+
+
+def test_members_are_compared_with_whole_curves():
+    """Errors of single discs stay below the tolerance in the depth, whose derivative is κ, and partly cancel."""
+    settings = merged(merged(read_settings("config"), read_settings("test")), {"discs": {"hurst": [0.9]}})
+    (values,) = members.measured(6, settings)["hurst"].values()
+    assert values["ratio"] == pytest.approx(values["member_s"] / values["curve_s"])
+    assert values["mean_error"] < values["disc_error"] < 3 * settings["discs"]["tolerance"]
+    assert values["standard_error"] == pytest.approx(values["scatter"] / 2)  # two combinations of two discs
+    settings["discs"]["tolerance"] = members.TOLERANCE
+    assert members.measured(3, settings)["hurst"]["0.9"]["disc_error"] < 1e-9
+
+
+def test_rectangles_are_compared_with_squares_on_the_same_map():
+    costs = rectangles.costs(np.random.default_rng(1).random((24, 24)), 2)
+    assert list(costs) == ["1", "2", "0.5", "5", "0.2"]
+    assert costs["1"]["over_squares"] == 1
+    assert all(cost["levels"] > 100 for cost in costs.values())
+    assert [bool(np.isnan(heights).any()) for heights in rectangles.maps().values()] == [False, False, True, True]
+
+
+@pytest.mark.parametrize("kind", strips.KINDS)
+def test_strips_are_compared_with_a_square_at_equal_contact(kind):
+    for shape in ((20, 20), (200, 2)):
+        cost = strips.cost(kind, shape)
+        assert cost["last_contact_fraction"] == pytest.approx(strips.FRACTIONS[-1], abs=0.03)
+        assert cost["peak_bytes"] >= cost["before_bytes"] > 0
+
+
+def test_strips_have_as_many_elements_as_the_square(monkeypatch):
+    elements = [rows * columns for rows, columns in strips.SHAPES]
+    assert elements == pytest.approx([elements[0]] * len(elements), rel=0.01)
+    monkeypatch.setattr(
+        strips,
+        "in_a_process",
+        lambda script, function, kind, shape: dict.fromkeys(("processor_s", "peak_bytes"), float(shape[1])),
+    )
+    costs = strips.measured(2)["paraboloid"]
+    assert costs["2 x 50000"]["processor_s_over_square"] == pytest.approx(50_000 / 316)

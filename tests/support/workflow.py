@@ -15,6 +15,8 @@ import yaml
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPTS = ROOT / "workflow/scripts"
 TEST = ("--configfile", "config/test.yaml")
+RESULTS = yaml.safe_load((ROOT / "workflow/results.yaml").read_text(encoding="utf-8"))
+FIGURES = {figure.get("file", name): figure for name, figure in RESULTS["figures"].items()}  # by their files
 TARGETS = {
     "all",
     "curves",

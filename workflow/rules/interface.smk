@@ -6,12 +6,6 @@ rule fit_interface:
         pools=expand("results/ensembles/{pool}.nc", pool=("discs", "lines", "size_discs", "size_lines")),
     output:
         csv="results/tables/interface.csv",
-        html=report(
-            "results/tables/interface.html",
-            caption="../report/interface_table.rst",
-            category=chapter("beyond"),
-            labels={"result": "interface and punch in series", "kind": "table"},
-        ),
         nc="results/tables/interface.nc",
         curves_csv="results/tables/interface_curves.csv",
         curves_nc="results/tables/interface_curves.nc",
@@ -22,7 +16,6 @@ rule fit_interface:
     localrule: True
     conda:
         "../envs/viscorough.yaml"
-    threads: 1
     resources:
         mem_mb=4000,
     params:

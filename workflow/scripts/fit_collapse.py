@@ -17,13 +17,13 @@ def main(discs, lines, *, ranges, conventions, fraction_min, tolerance, seed, **
     """Make the tables of discs, of their control and of lines.
 
     discs, lines : pools; ranges : setting `collapse`; conventions : those of the figures; tolerance : of the exponents
-    paths : {<table>_<csv, html or nc>: path}
+    paths : {<table>_<csv or nc>: path}
     """
     how = {name: conventions[name] for name in ("average", "rms_convention")}
     how |= {"fraction_min": fraction_min, "seed": seed, "tolerance": tolerance}
     tables = collapse_tables(read_dataset(discs), read_dataset(lines), ranges, **how)
     for name, (columns, title) in COLUMNS.items():
-        files = [paths.get(f"{name}_{kind}") for kind in ("csv", "nc", "html")]
+        files = [paths[f"{name}_{kind}"] for kind in ("csv", "nc")]
         write_table(tables[name], *files, columns=columns, dimension="row", title=title)
 
 

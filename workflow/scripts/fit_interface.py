@@ -6,7 +6,7 @@ from viscorough_study.job_log import log_to
 from viscorough_study.tables import recorded, write_table
 
 
-def main(pools, csv, html, nc, curves_csv, curves_nc, *, fit, rms_convention):
+def main(pools, csv, nc, curves_csv, curves_nc, *, fit, rms_convention):
     """Take discs and lines apart into interface and punch, lines at the Hurst exponents of the discs.
 
     pools : discs, lines, and discs and lines on grids from coarse to fine
@@ -19,7 +19,7 @@ def main(pools, csv, html, nc, curves_csv, curves_nc, *, fit, rms_convention):
     cases += ensembles_of(lines, "lines", "lines", hursts) + ensembles_of(size_lines, "lines", "sizes")
     table, curves = interface_tables(cases, rms_convention, **fit)
     about = {"dimension": "ensemble", "title": "Interface and punch in series", "attributes": recorded(settings=fit)}
-    write_table(table, csv, nc, html, columns=COLUMNS, **about)
+    write_table(table, csv, nc, columns=COLUMNS, **about)
     about = {"dimension": "abscissa", "title": "Curves of the interface alone"}
     write_table(curves, curves_csv, curves_nc, columns=CURVES, **about)
 

@@ -8,7 +8,7 @@ import pandas as pd
 import xarray as xr
 
 from support.cf import violations
-from support.workflow import RESULTS, ROOT, TEST, jobs, load_script, plan, snakemake
+from support.workflow import RESULTS, TEST, jobs, load_script, plan, snakemake
 from viscorough.surfaces import cut_disc
 
 MADE = {kind: [name for name, one in RESULTS[kind].items() if "target" not in one] for kind in RESULTS}
@@ -42,7 +42,6 @@ def test_small_scale_says_that_its_verdicts_mean_nothing(finished_once):
     with xr.open_dataset(finished_once / "results/tables/claims.nc") as claims:
         assert (claims.trial, claims.elements_across, claims.realizations) == (1, 33, 4)
         assert "the verdicts mean nothing" in claims.scale
-    assert "the verdicts mean nothing" in (finished_once / "results/tables/claims.html").read_text()
 
 
 def test_neither_surfaces_of_ensembles_nor_incomplete_files_are_left(finished_once):
@@ -68,25 +67,18 @@ def test_every_job_has_a_log_and_a_benchmark(finished_once, tmp_path):
     assert table["seconds"].is_monotonic_decreasing
 
 
-def run_beside(output):
-    """[(message of a job, numbers of the jobs that ran at any time beside it)] of a run's output."""
-    messages, beside, running = {}, {}, set()
-    for job, message, finished in re.findall(r"^Job (\d+): (.*)$|^Finished jobid: (\d+)", output, re.MULTILINE):
-        if finished:
-            running.discard(finished)
-            continue
-        messages[job], beside[job] = message, set(running)
-        for other in running:
-            beside[other].add(job)
-        running.add(job)
-    return [(message, beside[job]) for job, message in messages.items()]
-
-
 def test_timed_jobs_ran_alone(finished_once):
-    beside = run_beside((finished_once / "run.log").read_text())
-    timed = ("Cost and error of every method", "Placement of levels: by the package")
-    assert [others for message, others in beside if message.startswith(timed)] == [set()] * 3
-    assert any(others for _, others in beside), "else it would not show that timed jobs run alone"
+    timed, running, most = ("Cost and error of every method", "Placement of levels: by the package"), {}, 0
+    lines = re.findall(
+        r"^Job (\d+): (.*)$|^Finished jobid: (\d+)", (finished_once / "run.log").read_text(), re.MULTILINE
+    )
+    for job, message, finished in lines:
+        running.pop(finished, None)
+        if job:
+            running[job] = message
+            most = max(most, len(running))
+            assert len(running) == 1 or not any(one.startswith(timed) for one in running.values()), running
+    assert most > 1, "else it would not show that timed jobs run alone"
 
 
 def test_no_method_fails_unnoticed(finished_once):
@@ -126,13 +118,6 @@ def test_combinations_are_in_real_units(finished_once):
         np.testing.assert_allclose(ninth["rms_disc"], 3e-7)
         assert curves["force"].attrs["units"] == "m2"
         assert "spawn_key" in curves.attrs["settings"]
-
-
-def test_kernels_are_compiled_before_the_jobs(finished_once):
-    """Once for these sources: the stamp holds their digest."""
-    assert re.fullmatch(r"[0-9a-f]{16}", (finished_once / ".snakemake/kernels").read_text())
-    assert list((ROOT / "src/viscorough/contact/__pycache__").glob("grid_*.nbi"))
-    assert list((ROOT / "src/viscorough/__pycache__").glob("mdr.*.nbi"))
 
 
 def test_deleted_curves_are_made_again_by_a_target(finished):

@@ -87,13 +87,9 @@ def test_the_answer_states_no_other_numbers(page):
     assert re.findall(r"\d[^ ]*( %)?", text.replace("To 1 % error", "")) == []
 
 
-def test_settings_are_no_dumps(page):
-    assert not re.search(r"\{['\"]|spawn_key|None|nan\b|dtype|<[a-z]", page.text.replace("nan is outside", ""))
-
-
-def test_a_trial_run_says_that_its_verdicts_mean_nothing(page):
-    """config/test.yaml is one."""
+def test_settings_are_no_dumps_and_a_trial_run_says_that_it_is_one(page):
     assert "trial scale: its verdicts mean nothing." in page.text
+    assert not re.search(r"\{['\"]|spawn_key|None|nan\b|dtype|<[a-z]", page.text.replace("nan is outside", ""))
 
 
 def test_the_time_is_that_in_which_jobs_ran_beside_the_papers(folder, page):

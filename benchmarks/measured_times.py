@@ -3,7 +3,6 @@
 # Folders of results, and tables and figures under these names with any suffix.
 FOLDERS = {"logs", "benchmarks", "methods", "large"}
 NAMES = {
-    "all_methods",
     "equal_error",
     "growth",
     "index",

@@ -36,5 +36,5 @@ def test_workflow_catalog():
     assert (ROOT / "config/README.md").exists()
     rules = "".join(path.read_text() for path in (ROOT / "workflow/rules").glob("*.smk"))
     assert usage["software-stack-deployment"] == {"conda": True}
-    assert rules.count("    conda:\n") == rules.count("    script:\n")
+    assert rules.count(" conda:\n") == rules.count(" script:\n")
     assert usage["report"] == ("report(" in rules)

@@ -23,7 +23,20 @@ FURTHER = {
 
 
 def page(
-    template, style, discs, lines, other_solvers, tables, figures, captions, *, calculator, claims, numbers, published
+    template,
+    style,
+    discs,
+    lines,
+    other_solvers,
+    tables,
+    figures,
+    captions,
+    *,
+    calculator,
+    claims,
+    numbers,
+    published,
+    alternative,
 ):
     """HTML of the page.
 
@@ -33,6 +46,7 @@ def page(
     tables, figures, captions : {name: path}, of CSV, PNG and reStructuredText
     claims, numbers : what the paper says, the contents of resources/paper/claims.yaml and numbers.yaml
     published : path of the table of verdicts of the full scale
+    alternative : {figure: what it shows, for those who cannot see it}
     """
     results = read_results(tables)
     scale, verdicts = content.scale(discs, lines, numbers), content.verdicts(results, claims, read_table(published))
@@ -45,7 +59,7 @@ def page(
         captions,
         results.settings["claims"]["conventions"],
         calculator=with_law(*calculator),
-        alternative=content.ALTERNATIVE_TEXTS,
+        alternative=alternative,
         readable=readable,
         scale=scale,
         answers=answers.answers(results),

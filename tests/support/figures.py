@@ -36,9 +36,8 @@ def case_of(hurst, name):
 
 def whole_on_page(figure):
     """Whether nothing that is drawn reaches beyond the page, once laid out."""
-    canvas = FigureCanvasAgg(figure)
-    canvas.draw()
-    box, (width, height) = figure.get_tightbbox(canvas.get_renderer()), figure.get_size_inches()
+    figure.draw_without_rendering()
+    box, (width, height) = figure.get_tightbbox(FigureCanvasAgg(figure).get_renderer()), figure.get_size_inches()
     return box.x0 > -0.01 and box.y0 > -0.01 and box.x1 < width + 0.01 and box.y1 < height + 0.01
 
 

@@ -1,6 +1,7 @@
 """Ensembles of known curves, and the evidence and conventions by which claims are judged."""
 
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -88,8 +89,14 @@ def pool_of(members, group="base"):
 def evidence(zeta=reference.zeta_elastic, **options):
     """Evidence of four combinations and three Hurst exponents, with lines that equal the first combination.
 
-    zeta : function of H; options : of ensemble
+    zeta : function of H; options : of ensemble. A copy that may be changed; the same evidence is made once.
     """
+    made = _evidence(zeta, **options)
+    return replace(made, discs=made.discs.copy(deep=True), tables={name: t.copy() for name, t in made.tables.items()})
+
+
+@cache
+def _evidence(zeta, **options):
     members = [ensemble(hurst, f"c{i}", zeta(hurst), seed=i, **options) for hurst in HURST for i in range(4)]
     discs, first = pool_of(members), dict(zip(HURST, members[::4], strict=True))
     how, rows = {**BOOTSTRAP, "stiffness_range": [0.03, 0.3], **LIMITS}, []

@@ -43,8 +43,7 @@ def examined(interface, average="arithmetic", **changes):
 
 def test_plateau_is_given_back():
     """A power law up to X = 0.1, and constant from there on."""
-    row, _, _ = examined(lambda x: np.minimum(0.51, 0.51 * (x / 0.1) ** 0.3))
-    assert row["u0_low"] < row["u0"] < row["u0_high"]
+    row, *_ = examined(lambda x: np.minimum(0.51, 0.51 * (x / 0.1) ** 0.3))
     assert row["u0"] == pytest.approx(0.51, rel=0.02)
     assert row["u0_high"] - row["u0_low"] == pytest.approx(2 * 1.96 * 0.51 * 0.05 / np.sqrt(40), rel=0.3)
     assert row["plateau_low"] == pytest.approx(0.1 * 0.95 ** (1 / 0.3), rel=0.15)
@@ -109,11 +108,6 @@ def test_slopes_with_and_without_the_punch():
         raw = (x / PUNCH + 0.4 * 0.9 * x**0.4) / (x / PUNCH + 0.9 * x**0.4)
         assert row["raw"] == pytest.approx(raw, abs=0.01)
     assert slopes[2]["punch"] > 2 * slopes[0]["punch"]
-
-
-def test_punch_of_a_grid():
-    assert punch_stiffness(65) == pytest.approx(0.9801, abs=1e-4)
-    assert punch_stiffness(33) < punch_stiffness(65) < 1
 
 
 def test_tables_of_every_grid_and_average():

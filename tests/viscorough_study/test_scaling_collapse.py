@@ -43,12 +43,12 @@ def p_value(of_hurst, beta=BETA, height="resolved"):
 
 @pytest.mark.parametrize("realizations", [(40, 30, 20, 10), (16, 12, 8, 4)], ids=["many", "few"])
 def test_one_law_is_accepted_in_95_percent(realizations):
-    accepted = np.mean([p_value(ensembles(seed, realizations)) >= 0.05 for seed in range(200)])
-    assert 0.91 <= accepted <= 0.99
+    accepted = np.mean([p_value(ensembles(seed, realizations)) >= 0.05 for seed in range(100)])
+    assert 0.88 <= accepted <= 0.99
 
 
 def test_another_exponent_is_not_accepted():
-    other = np.mean([p_value(ensembles(seed, beta=BETA + 0.06)) >= 0.05 for seed in range(50)])
+    other = np.mean([p_value(ensembles(seed, beta=BETA + 0.06)) >= 0.05 for seed in range(25)])
     assert other <= 0.1
 
 
@@ -65,10 +65,9 @@ def test_exponents_with_which_curves_collapse_contain_their_own():
     assert {row["finding"] for row in rows} <= set(FINDINGS)
 
 
-def test_few_realizations_leave_it_undecided():
-    row = collapse(ensembles(1, (3, 3, 3, 3)), HURST, "whole", "resolved", X_HIGH, tolerance=0.01)
-    assert row["finding"] == "undecided"
-    assert collapse(ensembles(1)[:1], HURST, "whole", "resolved", X_HIGH, tolerance=0.01)["finding"] == "undecided"
+def test_few_realizations_and_a_single_grid_leave_it_undecided():
+    for few in (ensembles(1, (3, 3, 3, 3)), ensembles(1)[:1]):
+        assert collapse(few, HURST, "whole", "resolved", X_HIGH, tolerance=0.01)["finding"] == "undecided"
 
 
 @pytest.mark.parametrize(("apart", "p", "finding"), [(0.965, 0.04, "does not collapse"), (0.945, 0.06, "undecided")])
@@ -103,8 +102,7 @@ def test_the_punch_is_taken_off():
     assert (late.log_x[0], late.count[0]) == (one.log_x[4], 4)
 
 
-@pytest.mark.parametrize("source", ["discs", "lines"])
-@pytest.mark.parametrize("hurst", [0.1, 0.6, 1.0])
+@pytest.mark.parametrize(("source", "hurst"), [("discs", 0.1), ("lines", 0.6), ("discs", 1.0)])
 def test_share_of_the_variance(source, hurst):
     """Against sums over many waves; it rises to 1, the rest as N^(−2H)."""
     shares = [variance_share(hurst, number, source) for number in (33, 257, 2049, 16385)]

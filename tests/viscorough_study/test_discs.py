@@ -36,9 +36,9 @@ def test_rms_height_of_the_ensemble_is_that_of_the_spectrum():
         return np.array([(rms["square"] / rms["ensemble"]) ** 2 for rms in drawn])
 
     np.testing.assert_allclose(squares("fixed", 3), 1, rtol=1e-12)
-    random = squares("random", 600)
+    random = squares("random", 400)
     error = random.std(ddof=1) / np.sqrt(random.size)
-    assert error < 0.03  # a realization's own mean square scatters by more than half
+    assert error < 0.04  # a realization's own mean square scatters by more than half
     assert abs(random.mean() - 1) < 4 * error
 
 
@@ -85,7 +85,7 @@ def test_the_first_curves_of_every_ensemble_go_further(tmp_path):
     assert (ends < 1.5 * values["until_x"]).all()
 
 
-@pytest.mark.parametrize("across", [9, 17, 33, 64, 65, 129, 200, 257, 513])
+@pytest.mark.parametrize("across", [9, 64, 257])
 def test_elements_across_follow_from_their_number(across):
     elements = np.isfinite(cut_disc(np.zeros((across, across)), across)).sum()
     assert elements_across(elements) == across

@@ -37,7 +37,7 @@ def test_an_interrupt_is_one_line(tmp_path):
     ("error", "on_stderr"),
     [
         ("ValueError('rms: must be\\n positive')", False),
-        ("ConvergenceError('level 3')", False),
+        ("ConvergenceError('level')", False),
         ("KeyError('h')", True),
     ],
 )
@@ -69,24 +69,17 @@ def test_log_gets_messages_warnings_and_the_traceback(tmp_path, error, on_stderr
         assert lines[0].endswith("ERROR ValueError: rms: must be positive")
 
 
-def test_progress_logs_an_estimate_now_and_then(tmp_path, root_logger, monkeypatch):
+def test_progress_logs_an_estimate_now_and_then(tmp_path, root_logger):
     """With a clock that gains 1 s per step, 60 steps are logged every 5 s, with the time that is left."""
     job_log.log_to(tmp_path / "job.log")
-    clock = iter(range(10_000))
+    assert list(job_log.progress(iter("abc"), 3, "short")) == ["a", "b", "c"]
     ticks = {"now": 0.0}
     bar = job_log.progress(range(60), 60, "levels")
     bar._time = lambda: ticks["now"]
     bar.start_t = bar.last_print_t = 0.0
-    for _ in bar:
-        ticks["now"] = float(next(clock) + 1)
+    for step in bar:
+        ticks["now"] = step + 1.0
     lines = (tmp_path / "job.log").read_text().splitlines()
     assert 10 <= len(lines) <= 13
-    assert "INFO levels: " in lines[0]
     assert "30 of 60, 00:30 passed, 00:30 to go" in "\n".join(lines)
-    assert all(" of 60, " in line for line in lines)
-
-
-def test_progress_of_a_short_job_logs_nothing(tmp_path, root_logger):
-    job_log.log_to(tmp_path / "job.log")
-    assert list(job_log.progress(iter("abc"), 3, "levels")) == ["a", "b", "c"]
-    assert (tmp_path / "job.log").read_text() == ""
+    assert all("INFO levels: " in line and " of 60, " in line for line in lines)

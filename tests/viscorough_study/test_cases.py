@@ -63,25 +63,11 @@ def test_a_batch_has_the_same_realizations_of_all_combinations(settings):
     assert {(*one["numbers"], one["elements"]) for one in batch} == {(2, 6, 257)}
 
 
-def test_variants_change_only_what_they_name(settings):
-    settings = merged(settings, read_settings("paper"))
-    base = cases.combined_ensembles(settings)["h04000_c1"]["surface"]
-    variant = cases.disc_cases(settings)["h04000_longer_period"]["ensembles"][0]["surface"]
-    assert {key for key in base if base[key] != variant[key]} == {"period", "rms", "diameter"}
-    assert (variant["period"], variant["rms"], variant["diameter"]) == (2.0, 1.0, 1.0)
-
-
 def test_surfaces_that_are_compared_differ_only_in_what_the_paper_leaves_open(settings):
     assert list(cases.surface_conventions(settings)) == ["base"]  # without the control
     surfaces = cases.surface_conventions(merged(settings, read_settings("paper")))
     assert surfaces["corners"] == {"period": 1.0, "corners": True, "amplitudes": "random"}
     assert len({tuple(surface.values()) for surface in surfaces.values()}) == len(surfaces) == 8
-
-
-def test_batches():
-    assert cases.batches({"realizations": 10, "batch": 4}) == ["0000-0003", "0004-0007", "0008-0009"]
-    assert cases.batches({"realizations": 2, "batch": 8}) == ["0000-0001"]
-    assert cases.realizations("0008-0009") == [8, 10]
 
 
 @pytest.mark.parametrize("name", ["config", "paper"])

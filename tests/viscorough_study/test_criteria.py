@@ -134,13 +134,6 @@ def test_interval_against_a_range(interval, verdict):
     assert equivalence((np.nan, np.nan), -1.0, 1.0) is None
 
 
-def test_interval_of_a_mean_is_that_of_student():
-    mean, low, high = mean_with_interval(np.array([1.0, 2.0, 3.0]))
-    assert (mean, high - mean) == pytest.approx((2.0, 4.302653 / np.sqrt(3)))
-    assert low + high == pytest.approx(2 * mean)
-    assert np.isnan(mean_with_interval(np.ones(1))[1:]).all()
-
-
 def test_outcomes_of_a_case():
     values, undefined, stated = (1.0, 0.9, 1.1), (np.nan, 0.0, 1.0), "reproduced under a stated convention"
     for case, outcome in (
@@ -157,15 +150,11 @@ def test_outcomes_of_a_case():
 def test_all_errors_of_bodies_of_revolution_are_held_to_the_tolerance():
     """Also those of the stiffness, of which the finest grid decides."""
     found = evidence()
-    errors = {"depth": (1e-2, 1e-5), "stiffness": (3e-2, 3e-3)}
-    rows = [
-        ("cone_reduction", name, n, error)
-        for name, two in errors.items()
-        for n, error in zip((65, 129), two, strict=True)
-    ]
-    found.tables["validation"] = pd.DataFrame(rows, columns=["case", "quantity", "elements", "error"])
+    rows = [("depth", 65, 1e-2), ("depth", 129, 1e-5), ("stiffness", 65, 3e-2), ("stiffness", 129, 3e-3)]
+    validation = pd.DataFrame(rows, columns=["quantity", "elements", "error"]).assign(case="cone_reduction")
+    found.tables["validation"] = validation
     for tolerance, verdicts in ((5e-3, ["reproduced"] * 2), (1e-3, ["reproduced", "not reproduced"])):
-        cases = bodies_of_revolution(found, tolerance)
+        cases = list(bodies_of_revolution(found, tolerance))
         assert [case.verdict for case in cases] == verdicts
         assert [(case.value, case.least, case.largest) for case in cases] == [(1e-5, 1e-5, 1e-2), (3e-3, 3e-3, 3e-2)]
 
@@ -174,7 +163,7 @@ def test_four_elements_lie_on_the_rim_of_the_disc():
     (case,) = elements(evidence(), 4)
     assert (case.value, case.least, case.largest) == (51433, 51429, 51433)
     assert case.verdict == "reproduced"
-    assert elements(evidence(), 0)[0].verdict == "not reproduced"
+    assert next(iter(elements(evidence(), 0))).verdict == "not reproduced"
 
 
 def test_settings_decide_how_long_a_power_law_must_be():
@@ -191,7 +180,7 @@ def test_identities_hold_exactly_and_would_fail():
     """On a small disc: no element differs, and curves agree to rounding; not if no difference is allowed at all."""
     for name in ("history", "depth_over_rms", "one_surface"):
         tolerance = CLAIMS[name]["tolerance"]
-        cases = JUDGES[name](evidence(), tolerance)
+        cases = list(JUDGES[name](evidence(), tolerance))
         assert {case.verdict for case in cases} == {"reproduced"}
         assert all(case.least <= case.value == case.largest <= tolerance for case in cases)
     assert "not reproduced" in {case.verdict for case in JUDGES["history"](evidence(), -1)}
@@ -222,7 +211,7 @@ def test_contact_is_complete_only_where_most_elements_touch():
     found = evidence()
     assert {case.verdict for case in complete_contact(found, 0.1)} == {"reproduced"}
     halved = found.discs.assign(contact_count=found.discs["contact_count"] / 2)
-    cases = complete_contact(dataclasses.replace(found, discs=halved), 0.1)
+    cases = list(complete_contact(dataclasses.replace(found, discs=halved), 0.1))
     assert {case.verdict for case in cases} == {"not reproduced"}
     assert all(case.value == pytest.approx(0.5, abs=0.01) for case in cases)
 
@@ -237,12 +226,8 @@ def test_exponents_of_combinations_are_compared():
 
 def test_change_of_exponents_with_the_grid_is_judged_in_windows_of_fixed_x():
     found = evidence()
-    verdicts = {case.name: case.verdict for case in no_grid(found, 0.03)}
-    assert verdicts == {
-        "H = 0.4, X = 0.01 to 0.1": "reproduced",
-        "H = 0.6, X = 0.01 to 0.1": "undecided",
-        "H = 0.9, X = 0.01 to 0.1": "not reproduced",
-    }
+    verdicts = [case.verdict for case in no_grid(found, 0.03)]
+    assert verdicts == ["reproduced", "undecided", "not reproduced"]
     found.tables["sizes_trends"] = found.tables["sizes_trends"].query("source == 'lines'")
     assert [case.verdict for case in no_grid(found, 0.03)] == ["undecided"]
 
@@ -269,11 +254,11 @@ def test_limit_of_the_exponent_needs_lines_and_discs_of_that_exponent():
         for half_width, verdict in ((0.01, "reproduced"), (0.02, "undecided")):
             more = rows.assign(beta_low=0.5 - half_width, beta_high=0.5 + half_width)
             found.tables[table] = pd.concat([known, more], ignore_index=True)
-            assert alpha_limit(found, 0.015)[number].verdict == verdict
+            assert list(alpha_limit(found, 0.015))[number].verdict == verdict
     coarse = more.assign(elements=more["elements"] / 4, beta=0.1, beta_low=0.1, beta_high=0.1)
     finer = more.assign(elements=more["elements"] * 4, beta=0.1, beta_low=0.1, beta_high=0.1)
     found.tables["sizes"] = pd.concat([coarse, finer, more], ignore_index=True)
-    assert alpha_limit(found, 0.015)[1].value == 0.5
+    assert list(alpha_limit(found, 0.015))[1].value == 0.5
 
 
 def test_time_is_compared_at_the_numbers_of_the_paper():
@@ -282,9 +267,9 @@ def test_time_is_compared_at_the_numbers_of_the_paper():
     (case,) = computing_time(found, 10)
     assert case.value == pytest.approx(2880 * 51433 * 1e-3 / (101 * 500 * 4e6 * 1e-9))
     assert case.verdict == "not reproduced"
-    assert computing_time(found, 14)[0].verdict == "reproduced"
+    assert next(iter(computing_time(found, 14))).verdict == "reproduced"
     found.tables["methods"] = found.tables["methods"].query("method == 'MDR'")
-    assert computing_time(found, 10)[0].verdict == "undecided"
+    assert next(iter(computing_time(found, 10))).verdict == "undecided"
 
 
 def test_contact_problems_are_counted_against_changes_of_the_contact():
@@ -295,9 +280,9 @@ def test_contact_problems_are_counted_against_changes_of_the_contact():
     assert case.verdict == "not reproduced"
     paths = found.tables["methods"]["method"] == "path, automatic levels"
     found.tables["methods"].loc[paths, "steps"] = 6000.0
-    assert contact_problems(found, 10)[0].verdict == "reproduced"
+    assert next(iter(contact_problems(found, 10))).verdict == "reproduced"
     found.tables["methods"] = found.tables["methods"][~paths]
-    assert contact_problems(found, 10)[0].verdict == "undecided"
+    assert next(iter(contact_problems(found, 10))).verdict == "undecided"
 
 
 def test_slope_and_prefactor_of_the_last_region_are_those_of_the_curve_there():

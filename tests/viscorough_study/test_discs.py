@@ -49,22 +49,15 @@ INDENTATION = {"tolerance": 1e-3, "until_fraction": 1.0} | ENDS
 @pytest.mark.parametrize("kind", ["discs", "lines"])
 def test_a_realization_is_the_same_in_every_batch(tmp_path, kind):
     settings = read_settings("config")
-    case = {"discs": cases.disc_cases(settings), "lines": cases.line_cases(settings)}[kind]["h04000"]
-    ensembles = cases.ensembles_of_batch(case, "0000-0002")[-2:]
-    if kind == "discs":
-        ensembles = [ensemble | {"elements": 17} for ensemble in ensembles]
-        about = {"seed": 7, "indentation": INDENTATION}
-    else:
-        ensembles = [ensemble | {"points": 512} for ensemble in ensembles]
-        about = {"seed": 7, "until_x": 30.0}
+    table, size = (cases.disc_cases, {"elements": 17}) if kind == "discs" else (cases.line_cases, {"points": 512})
+    about = {"seed": 7} | ({"indentation": INDENTATION} if kind == "discs" else {"until_x": 30.0})
+    ensembles = [one | size for one in cases.ensembles_of_batch(table(settings)["h04000"], "0000-0002")[-2:]]
     curves = {}
     for first in (0, 2):
         batch = [ensemble | {"numbers": [first, 3]} for ensemble in ensembles]
         load_script(f"indent_{kind}").main(tmp_path / "curves.nc", ensembles=batch, **about)
         content = netcdf.read(tmp_path / "curves.nc")
         names, numbers = (content.variables[name].values.tolist() for name in ("case", "number"))
-        assert names == [one["name"] for one in batch for _ in range(first, 3)]
-        assert numbers == len(batch) * list(range(first, 3))
         force = [row[np.isfinite(row)] for row in content.variables["force"].values]
         curves[first] = dict(zip(zip(names, numbers, strict=True), force, strict=True))
     for key, force in curves[2].items():

@@ -7,7 +7,7 @@ import yaml
 
 from support.study import HURST, ROOT, SHOWN, evidence
 from viscorough import reference
-from viscorough_study.literature import COLUMNS, cited, literature
+from viscorough_study.literature import COLUMNS, literature
 from viscorough_study.page.discussion import KNOWN, QUANTITIES
 from viscorough_study.persson_law import persson_u0
 
@@ -82,8 +82,3 @@ def test_no_number_is_without_a_place_where_it_was_read():
         assert bool(entry["read"]) == (entry["sure"] != "not verified")
         assert entry["sure"] != "not verified" or not {"theirs", "law"} & set(entry)
         assert set(entry["ours"]) <= set(QUANTITIES)
-
-
-def test_sources_are_cited_by_surnames_and_year():
-    sources = {"A": "A 2007", "A and B": "A and B 2007", "A, B, C and D": "A et al. 2007"}
-    assert {source: cited(source, 2007) for source in sources} == sources

@@ -59,7 +59,6 @@ def power_law_curve(factor, beta=0.4):
 @pytest.mark.parametrize(
     ("medium", "times", "creep", "exponent"),
     [
-        (Newtonian(1e6), (1e-2, 1e2), 1.0, 0.4),
         (Maxwell(1e6, 1e6), (1e3, 5e4), 1.0, 0.4),  # τ = 1 s: later
         (KelvinVoigt(1e2, 1e6), (1e-2, 1e1), 1.0, 0.4),  # τ = 1e4 s: earlier
         (Springpot(1e6, 0.3), (1e-2, 1e2), 0.3, 0.3 * 0.4),

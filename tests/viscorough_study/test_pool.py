@@ -43,22 +43,6 @@ def pool(curves):
     return pool_batches([*batches, other], ["line"], X)
 
 
-def test_the_pool_does_not_depend_on_the_batches(curves, pool):
-    """The same realizations in batches across cases, each with a part of both."""
-
-    def across(members, names, numbers):
-        content = batch([curves[i] for i in members], RMS[members])
-        content.variables["case"] = Variable(("realization",), np.array(names, dtype=object), {})
-        content.variables["number"] = Variable(("realization",), np.array(numbers), {})
-        return "base", content
-
-    first = across([0, 1, 2, 5, 6], ["a_c1"] * 3 + ["a_c2"] * 2, [0, 1, 2, 0, 1])
-    second = across([3, 4, 7, 8, 9, 10, 11], ["a_c1"] * 2 + ["a_c2"] * 5, [3, 4, 2, 3, 4, 5, 6])
-    np.testing.assert_array_equal(
-        pool_batches([first, second], ["line"], X)["stiffness"], select(pool, group="base")["stiffness"]
-    )
-
-
 def test_a_mean_is_over_the_curves_that_were_to_reach_its_abscissa(curves):
     """Shorter curves reach further by chance, by what the surface is; beyond their end they do not count."""
     short = ("base", batch(curves[2:], RMS[2:], first=2, until_x=0.1))
@@ -113,7 +97,3 @@ def test_a_batch_of_several_ensembles(curves):
     found = ensembles_on_grids(mixed)[0.5, 40]
     whole = aggregate(curves[:2], {"line": np.ones(2)}, 1.0, X, hurst=0.5, case="a")
     np.testing.assert_array_equal(found["stiffness"], whole["stiffness"])
-
-
-def test_settings_of_every_case_are_kept(pool):
-    assert json.loads(pool.attrs["settings"])["a_c2"] == {"seed": 1}

@@ -6,7 +6,6 @@ import pytest
 
 from support.study import BASE_SURFACES, SHOWN, evidence
 from viscorough.reference import zeta_elastic, zeta_viscous
-from viscorough_study.conventions import left_open
 from viscorough_study.prefactors import COLUMNS, combinations, prefactors, ranked, rows_of
 
 OWN = {"case_group": "base"} | SHOWN
@@ -36,9 +35,6 @@ def test_deviations_from_a_law_with_and_without_a_common_factor(table):
     assert own["deviation_eq11"].iloc[0] == pytest.approx(np.sqrt(np.mean(logarithm**2)), rel=1e-12)
     assert own["common_eq11"].iloc[0] == pytest.approx(np.exp(logarithm.mean()), rel=1e-12)
     assert own["shape_eq11"].iloc[0] == pytest.approx(np.std(logarithm), rel=1e-12)
-    np.testing.assert_allclose(
-        own["deviation_eq11"] ** 2, own["shape_eq11"] ** 2 + np.log(own["common_eq11"]) ** 2, rtol=1e-12
-    )
 
 
 def test_combinations_are_ranked_by_their_largest_deviation(table):
@@ -48,15 +44,8 @@ def test_combinations_are_ranked_by_their_largest_deviation(table):
     deviations = [rows_of(table, combination)["worst_eq4"].iloc[0] for combination in ranking]
     assert deviations == sorted(deviations)
     assert deviations[0] < 0.05
-    assert len(ranking) == len({tuple(combination.values()) for combination in ranking}) == len(combinations(table))
+    assert len(ranking) == len(combinations(table))
     assert ranked(table.assign(worst_eq4=np.nan), "eq4") == []
-
-
-def test_the_radius_contradicts_the_paper(table):
-    assert set(left_open(table)["status"]) == {"left open by the paper"}
-    contradicting = table.drop(left_open(table).index)
-    assert set(contradicting["status"]) == {"contradicts the paper"}
-    assert set(contradicting["diameter_convention"]) == {"radius"}
 
 
 def test_surfaces_are_crossed_with_the_other_conventions(scaling):

@@ -2,8 +2,6 @@
 
 import re
 
-import numpy as np
-import pandas as pd
 import pytest
 import yaml
 
@@ -88,25 +86,6 @@ def test_other_scales_hold_only_what_differs(settings, name):
                 yield path + key
 
     assert list(same(settings, read_settings(name))) == []
-
-
-def test_paper_is_the_scale_of_the_paper():
-    paper = merged(read_settings("config"), read_settings("paper"))
-    assert paper["discs"]["hurst"] == [0.1, 0.4, 0.6, 0.9]
-    assert paper["discs"]["elements"] == 257
-    assert len(paper["discs"]["hurst"]) * len(paper["discs"]["combinations"]) == 36
-    assert paper["discs"]["realizations"] == 2 * 80  # the paper has at least 80
-    np.testing.assert_allclose(paper["lines"]["hurst"], np.linspace(0, 1, 101), atol=1e-12)
-    assert (paper["lines"]["realizations"], paper["lines"]["points"]) == (500, 4_000_000)
-
-
-def test_combinations_span_decades(settings):
-    combinations = pd.DataFrame(settings["discs"]["combinations"])
-    assert len(combinations) == 9
-    quantities = np.log10(combinations[["force", "viscosity", "diameter", "rms"]])
-    assert (quantities.max() - quantities.min() >= 2).all()
-    assert np.linalg.matrix_rank(quantities - quantities.mean()) == 4  # none is a power of the others
-    assert (combinations["rms"] / combinations["diameter"] <= 1e-4).all()
 
 
 def leaves(rule, definitions, path=""):

@@ -60,21 +60,15 @@ def test_what_runs_how_many_of_how_many_and_the_time_left():
 
 
 def test_a_machine_of_half_the_speed_takes_twice_as_long():
-    """After a while; at first, the published times count."""
-    progress = Progress({"indent": 10.0, "plot": 1.0})
-    read(progress, STARTED, 0)
+    """After a while; at first, the published times count, and their mean for rules that were never timed."""
+    for times, left in (({"indent": 10.0}, "6.7 minutes"), ({}, "40 seconds")):
+        read(progress := Progress(times), STARTED, 0)
+        assert progress.text(0).startswith(f"0 of 41, {left} left")
+    read(progress := Progress({"indent": 10.0, "plot": 1.0}), STARTED, 0)
     for job in range(30):
         read(progress, f"Finished jobid: {job} (Rule: indent)", 20 * (job + 1))
     left = float(re.search(r", (.*) seconds left", progress.text(600))[1])
     assert left == pytest.approx(2 * 10, rel=0.1)
-
-
-def test_rules_that_were_never_timed_take_the_mean():
-    progress = Progress({"indent": 10.0})
-    read(progress, STARTED, 0)
-    assert progress.text(0).startswith("0 of 41, 6.7 minutes left")
-    read(untimed := Progress({}), STARTED, 0)
-    assert untimed.text(0).startswith("0 of 41, 40 seconds left")
 
 
 def run(folder, script, stderr=subprocess.PIPE):

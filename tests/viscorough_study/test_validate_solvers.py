@@ -1,6 +1,5 @@
 """The comparison with exact solutions passes for the methods as they are, and notices when they are not."""
 
-import numpy as np
 import pytest
 
 from viscorough_study import validate_solvers
@@ -24,12 +23,9 @@ def table():
     return validate_solvers.validation_table(GRIDS, LIMITS, MARGIN)
 
 
-def test_all_cases_pass(table):
+def test_every_case_passes_on_every_grid(table):
     assert validate_solvers.failures(table, MARGIN) == []
     assert table["passed"].all()
-
-
-def test_table_has_every_case_on_every_grid(table):
     assert list(table.columns) == list(validate_solvers.COLUMNS)
     assert (table.groupby(["case", "quantity"])["elements"].apply(tuple) == GRIDS).all()
     assert set(table["quantity"]) == set(validate_solvers.ORDERS)
@@ -71,20 +67,6 @@ def test_a_solver_that_does_not_converge_is_noticed(table):
     judged = validate_solvers.judge_errors(GRIDS, errors, dict.fromkeys(LIMITS, 0.1), MARGIN)
     failed = validate_solvers.failures(judged, MARGIN)
     assert [line.split(":")[0] for line in failed] == ["sphere force", "cone force", "sphere_on_rectangles force"]
-
-
-def test_the_margin_of_the_order_decides(table):
-    order = table[table["quantity"] == "force"]["order"].min()
-    errors = {key: rows["error"].tolist() for key, rows in table.groupby(["case", "quantity"], sort=False)}
-    for margin, passes in ((2 - order + 0.01, True), (2 - order - 0.01, False)):
-        judged = validate_solvers.judge_errors(GRIDS, errors, dict.fromkeys(LIMITS, 0.1), margin)
-        assert judged[judged["quantity"] == "force"]["passed"].all() == passes
-
-
-def test_one_grid_shows_no_order():
-    table = validate_solvers.validation_table((33,), dict.fromkeys(LIMITS, 0.1), MARGIN)
-    assert np.isnan(table["order"]).all()
-    assert table["passed"].all()
 
 
 def test_limits_must_be_complete():

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from support.figures import COMBINATIONS, ELEMENTS, case_of, whole_on_page, without_region
+from support.figures import COMBINATIONS, ELEMENTS, case_of, whole_on_page
 from support.study import SHOWN
 from viscorough import reference
 from viscorough.viscous.correspondence import kinetics
@@ -57,12 +57,6 @@ def test_kinetics_mark_the_regions(discs, combinations, scaling, convention, len
     np.testing.assert_allclose(first[:, 1], first[:, 0] * length / 4 / kappa)
     np.testing.assert_allclose(last[:, 1], last[:, 0] * length / 4)
     assert whole_on_page(figure)
-
-
-def test_kinetics_of_one_case_without_region(discs, combinations, scaling):
-    figure = plot_kinetics(discs[:1], combinations, without_region(scaling, 0.4), SHOWN, fraction_min=0.95)
-    assert whole_on_page(figure)
-    assert not any(line.get_linewidth() == 2.5 for line in figure.axes[1].lines[:-1])
 
 
 @pytest.mark.parametrize(("fraction_min", "drawn"), [(0.5, True), (0.6, False)])

@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 
 from support.study import CLAIMS, NUMBERS, ROOT
-from viscorough_study.page.answers import best_model, failures, fastest_methods, method_row, verdict_counts
+from viscorough_study.page.answers import best_model, failures, fastest_methods, method_row
 from viscorough_study.page.content import costs, measured, media, other_solvers, scale, scenes, verdicts
 from viscorough_study.page.results import Results
 
@@ -29,9 +29,7 @@ def pool(path, description, realizations):
 @pytest.mark.parametrize(
     ("elements", "realizations", "lines", "points", "name"),
     [
-        (257, 80, 500, 4_000_000, "paper"),
         (257, 80, 500, 131_072, "paper"),
-        (257, 6, 500, 4_000_000, "trial"),
         (257, 80, 50, 4_000_000, "trial"),
         (33, 80, 500, 4_000_000, "coarse"),
     ],
@@ -42,8 +40,7 @@ def test_scale_is_told_from_the_ensembles(tmp_path, elements, realizations, line
     found = scale(discs, of_lines, NUMBERS)
     assert found["name"] == name
     assert found["run"] == {"elements": elements, "realizations": realizations, "points": points, "lines": lines}
-    assert found["discs"]["hurst"] == [0.4, 0.9]
-    assert found["discs"]["cases_per_hurst"] == 2
+    assert (found["discs"]["hurst"], found["discs"]["cases_per_hurst"]) == ([0.4, 0.9], 2)
 
 
 @pytest.fixture
@@ -66,18 +63,10 @@ def methods():
 def test_the_fastest_method_that_reaches_an_error_is_named(methods):
     fastest = {row["error"]: row["fastest"] for row in fastest_methods(methods)}
     assert fastest[0.1]["path"] == method_row(methods, 7)
-    assert fastest[1e-2]["path"]["value"].value == 1e-3
-    assert fastest[1e-2]["path"]["wall_s"].value == 0.2
-    assert fastest[1e-2]["marching"]["wall_s"].value == 5.0
+    assert [fastest[1e-2][group]["wall_s"].value for group in ("path", "marching")] == [0.2, 5.0]
     assert fastest[1e-2]["model"] is None
     assert set(fastest[1e-6].values()) == {None}
     assert best_model(methods)["method"] == "MDR"
-
-
-def test_a_claim_counts_once_with_the_worst_of_its_verdicts():
-    rows = [("a", "reproduced"), ("a", "not reproduced"), ("b", "reproduced"), ("c", "reproduced")]
-    counts = verdict_counts(Results({"claims": pd.DataFrame(rows, columns=["claim", "verdict"])}, {}, {}))
-    assert [(count.counted, count.value) for count in counts] == [("reproduced", 2), ("not reproduced", 1)]
 
 
 def test_numbers_stand_in_the_rows_for_which_they_are_shown():
@@ -156,16 +145,12 @@ def test_published_ratios_of_other_solvers_say_when_and_where_they_were_measured
     found = other_solvers(ROOT / "resources/published/other_solvers.csv")
     assert set(found["published"]) == {"measured", "machine"}
     assert all({"ASPHER", "ASPHER nested"} <= set(row["ratios"]) <= set(found["solvers"]) for row in found["rows"])
-    assert min(min(row["ratios"].values()) for row in found["rows"]) > 1
 
 
 def test_measured_ratios_of_other_solvers_are_not_called_published(tmp_path):
     columns = ["task", "hurst", "elements", "levels", "solver", "version", "threads", "ratio"]
-    rows = [
-        ("few", 0.4, 33, 8, "viscorough", "1", 1, 1.0),
-        ("few", 0.4, 33, 8, "Tamaas", "2", 1, 140.0),
-        ("few", 0.4, 33, 8, "Tamaas", "2", 2, 90.0),
-    ]
+    rows = [("few", 0.4, 33, 8, "Tamaas", "2", threads, ratio) for threads, ratio in ((1, 140.0), (2, 90.0))]
+    rows += [("few", 0.4, 33, 8, "viscorough", "1", 1, 1.0)]
     pd.DataFrame(rows, columns=columns).to_csv(tmp_path / "other_solvers.csv", index=False)
     found = other_solvers(tmp_path / "other_solvers.csv")
     assert found["published"] is None

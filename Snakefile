@@ -139,7 +139,6 @@ rule speed:
     input:
         rules.tabulate_methods.output,
         rules.plot_speed.output,
-        rules.plot_all_methods.output,
         rules.plot_growth.output,
         rules.plot_other_solvers.output,
         rules.plot_level_placement.output,
@@ -148,7 +147,6 @@ rule speed:
 rule stability:
     input:
         rules.plot_failure_map.output,
-        rules.plot_failure_curves.output,
 
 
 rule sizes:

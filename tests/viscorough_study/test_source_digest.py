@@ -157,7 +157,7 @@ def used(script):
 
 def test_scripts_of_the_workflow():
     boundary_elements = {"indent_discs", "compare_direct", "compare_reduction", "validate", "map_failures"}
-    boundary_elements |= {"measure_failure_curves", "measure_large", "measure_methods", "time_other_solvers"}
+    boundary_elements |= {"measure_large", "measure_methods", "time_other_solvers"}
     boundary_elements |= {"compare_level_placement", "indent_measured"}
     boundary_elements |= {"fit_collapse", "fit_interface", "judge_claims"}  # flat discs, small rough discs
     for script in sorted(path.stem for path in SCRIPTS.glob("*.py")):

@@ -64,7 +64,7 @@ def test_short_rules_run_where_snakemake_runs():
             "measure_large",
             "map_failures",
         ),
-        *("measure_failure_curves", "measure_methods", "time_other_solvers", "compare_level_placement"),
+        *("measure_methods", "time_other_solvers", "compare_level_placement"),
     }
 
 

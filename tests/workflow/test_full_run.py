@@ -24,8 +24,8 @@ TABLES = (
     "direct",
     "reduction",
 )
-TABLES += ("plateaus", "interface", "interface_slopes")
-TABLES += ("sizes", "sizes_trends", "collapse", "infinite_grid", "needed_grids")
+TABLES += ("plateaus", "interface")
+TABLES += ("sizes", "sizes_trends", "collapse", "infinite_grid")
 TABLES += ("mdr_lambda", "mdr_summary", "mdr_exponents")
 TABLES += ("methods", "equal_error", "failure_map", "level_placement", "rule_costs", "media", "media_exponents")
 

@@ -191,7 +191,6 @@ def test_a_changed_line_of_the_column_convolution_reruns_what_uses_boundary_elem
                 "compare_reduction",
                 "validate",
                 "map_failures",
-                "measure_failure_curves",
                 "measure_methods",
             },
         ),

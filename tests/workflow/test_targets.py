@@ -51,10 +51,9 @@ def test_one_figure_needs_only_its_own(unmade):
 
 def test_stability(fresh, default_plan):
     """From scripts to figures, on the smallest maps."""
-    rules = ("map_failures", "measure_failure_curves", "plot_failure_map", "plot_failure_curves")
-    assert set(rules) & set(default_plan) == {"map_failures", "plot_failure_map"}
+    rules = ("map_failures", "plot_failure_map")
     assert jobs(snakemake(fresh, *TEST, "--", "stability")) == dict.fromkeys(rules, 1)
-    assert drawn(fresh, "failure_map", "failure_curves")
+    assert drawn(fresh, "failure_map")
     table = pd.read_csv(fresh / "results/tables/failure_map.csv")
     with xr.open_dataset(fresh / "results/tables/failure_map.nc") as nc:
         assert nc["verdict"].values.tolist() == table["verdict"].tolist()
@@ -115,9 +114,9 @@ def test_speed_without_other_solvers(fresh, default_plan):
     assert set(planned) & set(default_plan) == small
     assert planned.pop("measure_methods") == 3  # sphere, cone, one rough disc
     tables = {"tabulate_methods", "time_other_solvers", "compare_level_placement"}
-    plots = {"plot_speed", "plot_all_methods", "plot_growth", "plot_other_solvers", "plot_level_placement"}
+    plots = {"plot_speed", "plot_growth", "plot_other_solvers", "plot_level_placement"}
     assert planned == dict.fromkeys(tables | plots, 1)
-    assert drawn(fresh, "speed", "all_methods", "growth", "other_solvers", "level_placement")
+    assert drawn(fresh, "speed", "growth", "other_solvers", "level_placement")
     methods = pd.read_csv(fresh / "results/tables/methods.csv")
     assert set(methods["problem"]) == {"sphere", "cone", "rough disc, H = 0.4"}
     assert not set(methods["group"]) & {"peer", "other solver"}

@@ -13,14 +13,6 @@ rule fit_interface:
             labels={"result": "interface and punch in series", "kind": "table"},
         ),
         nc="results/tables/interface.nc",
-        slopes_csv="results/tables/interface_slopes.csv",
-        slopes_html=report(
-            "results/tables/interface_slopes.html",
-            caption="../report/interface_slopes.rst",
-            category=chapter("beyond"),
-            labels={"result": "what the slopes owe to the punch", "kind": "table"},
-        ),
-        slopes_nc="results/tables/interface_slopes.nc",
         curves_csv="results/tables/interface_curves.csv",
         curves_nc="results/tables/interface_curves.nc",
     log:

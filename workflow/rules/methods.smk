@@ -163,33 +163,6 @@ rule plot_speed:
         "../scripts/plot_speed.py"
 
 
-rule plot_all_methods:
-    input:
-        table=rules.tabulate_methods.output.csv,
-    output:
-        png=report(
-            "results/figures/all_methods.png",
-            caption="../report/all_methods.rst",
-            category=chapter("speed"),
-            labels={"result": "speed against accuracy, all methods", "kind": "figure"},
-        ),
-        pdf="results/figures/all_methods.pdf",
-    log:
-        "results/logs/plot_all_methods.log",
-    benchmark:
-        "results/benchmarks/plot_all_methods.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-    message:
-        "Figure of speed against accuracy, all methods"
-    script:
-        "../scripts/plot_all_methods.py"
-
-
 rule plot_growth:
     input:
         table=rules.tabulate_methods.output.csv,

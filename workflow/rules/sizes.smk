@@ -94,14 +94,6 @@ rule fit_collapse:
             labels={"result": "exponents of an infinitely fine grid", "kind": "table"},
         ),
         infinite_nc="results/tables/infinite_grid.nc",
-        needed_csv="results/tables/needed_grids.csv",
-        needed_html=report(
-            "results/tables/needed_grids.html",
-            caption="../report/needed_grids.rst",
-            category=chapter("beyond"),
-            labels={"result": "grids needed for an exponent", "kind": "table"},
-        ),
-        needed_nc="results/tables/needed_grids.nc",
         curves_csv="results/tables/collapse_curves.csv",
         curves_nc="results/tables/collapse_curves.nc",
     log:

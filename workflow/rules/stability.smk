@@ -1,4 +1,4 @@
-# Where each method fails: `all` makes the map on small indenters, `make stability` on larger ones, and the curves.
+# Where each method fails: `all` makes the map on small indenters, `make stability` on larger ones.
 
 
 rule map_failures:
@@ -31,27 +31,6 @@ rule map_failures:
         "../scripts/map_failures.py"
 
 
-rule measure_failure_curves:
-    output:
-        csv="results/tables/failure_curves.csv",
-        nc="results/tables/failure_curves.nc",
-    log:
-        "results/logs/measure_failure_curves.log",
-    benchmark:
-        "results/benchmarks/measure_failure_curves.tsv"
-    conda:
-        "../envs/viscorough.yaml"
-    threads: 1
-    resources:
-        mem_mb=2000,
-    params:
-        seed=config["seed"],
-    message:
-        "Errors against steps and contact"
-    script:
-        "../scripts/measure_failure_curves.py"
-
-
 rule plot_failure_map:
     input:
         table=rules.map_failures.output.csv,
@@ -77,30 +56,3 @@ rule plot_failure_map:
         "Figure of every method in every stress-test case"
     script:
         "../scripts/plot_failure_map.py"
-
-
-rule plot_failure_curves:
-    input:
-        table=rules.measure_failure_curves.output.csv,
-    output:
-        png=report(
-            "results/figures/failure_curves.png",
-            caption="../report/failure_curves.rst",
-            category=chapter("failures"),
-            labels={"result": "errors against steps and contact", "kind": "figure"},
-        ),
-        pdf="results/figures/failure_curves.pdf",
-    log:
-        "results/logs/plot_failure_curves.log",
-    benchmark:
-        "results/benchmarks/plot_failure_curves.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-    message:
-        "Figure of errors against steps and contact"
-    script:
-        "../scripts/plot_failure_curves.py"

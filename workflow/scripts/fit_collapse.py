@@ -1,4 +1,4 @@
-"""Collapse of the curves of all grids, exponents of an infinitely fine grid, and the grids that an exponent needs."""
+"""Collapse of the curves of all grids, and exponents of an infinitely fine grid."""
 
 from viscorough.io.datasets import read_dataset
 from viscorough_study import infinite_grid, scaling_collapse
@@ -9,7 +9,6 @@ from viscorough_study.tables import write_table
 COLUMNS = {
     "collapse": (scaling_collapse.COLUMNS, "Collapse of the curves of all grids"),
     "infinite": (infinite_grid.COLUMNS, "Exponents of an infinitely fine grid"),
-    "needed": (infinite_grid.NEEDED, "Grids needed for an exponent, extrapolated"),
     "curves": (scaling_collapse.CURVES, "Curves of discs on all grids"),
 }
 

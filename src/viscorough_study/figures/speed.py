@@ -1,4 +1,4 @@
-"""Speed against accuracy of a few methods, each named at its line; `all_methods` draws every one."""
+"""Speed against accuracy of a few methods, each named at its line."""
 
 import re
 

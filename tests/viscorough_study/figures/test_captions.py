@@ -17,12 +17,10 @@ from support import figures as tables
 from support.study import BASE_SURFACES, ROOT, SHOWN
 from support.workflow import read_settings
 from viscorough.surfaces import self_affine_disc
-from viscorough_study.figures.all_methods import plot_all_methods
 from viscorough_study.figures.collapse import plot_collapse
 from viscorough_study.figures.conventions import plot_conventions
 from viscorough_study.figures.direct_integration import plot_direct_integration
 from viscorough_study.figures.exponent import plot_exponent
-from viscorough_study.figures.failure_curves import plot_failure_curves
 from viscorough_study.figures.failure_map import LETTERS, plot_failure_map
 from viscorough_study.figures.growth import plot_growth
 from viscorough_study.figures.interface import plot_interface
@@ -79,12 +77,10 @@ def drawn(discs, pooled, lines, scaling, combinations):
         "collapse": Drawn(plot_collapse(tables.curves_of_sizes(), *tables.collapse_tables())),
         "large": Drawn(plot_large(tables.large_table())),
         "speed": Drawn(plot_speed(tables.methods_table())),
-        "all_methods": Drawn(plot_all_methods(tables.methods_table()), {"indenter": 2}),
         "growth": Drawn(plot_growth(tables.methods_table())),
         "other_solvers": Drawn(plot_other_solvers(tables.other_solvers_table())),
         "level_placement": Drawn(plot_level_placement(tables.level_placement_table())),
         "failure_map": Drawn(plot_failure_map(tables.failure_table(LETTERS))),
-        "failure_curves": Drawn(plot_failure_curves(tables.failure_curves_table())),
     }
 
 
@@ -188,16 +184,14 @@ def test_panels_are_as_many_as_what_they_are_for(drawn):
     for name, rows in {"fig1_surfaces": 1, "conventions": 2, "validation": 1}.items():
         (number,) = drawn[name].repeated.values()
         assert len(panels(drawn[name].figure)) == rows * number
-    rough = 1  # of the two indenters, which has another panel for region (b)
-    assert len(panels(drawn["all_methods"].figure)) == drawn["all_methods"].repeated["indenter"] + rough
     assert len(panels(drawn["direct"].figure)) == drawn["direct"].repeated["indenter"]
 
 
 @pytest.mark.parametrize(
     ("name", "change", "fault"),
     [
-        ("failure_curves", ("Errors below", "(c) Exponents. Errors below"), "there is no panel (c)"),
-        ("failure_curves", ("(b)", ""), "panel (b) is not described"),
+        ("speed", ("(b)", "(b) and (c)"), "there is no panel (c)"),
+        ("speed", ("(b)", ""), "panel (b) is not described"),
         ("fig2_kinetics", ("Right:", "Below:"), "panel right is not described"),
         ("fig2_kinetics", ("time t", "t"), "axis time t is not described"),
         ("fig3_master_curve", ("right side", "left side"), "axis right side"),

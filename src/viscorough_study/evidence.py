@@ -70,13 +70,7 @@ class Evidence:
     @cached_property
     def regions(self):
         """{H: window (X_low, X_high) of region (b) of the pooled discs, None without one}."""
-        return {hurst: self._region(ensemble) for hurst, ensemble in self.pooled.items()}
-
-    def _region(self, ensemble):
-        try:
-            return find_region(ensemble, **self.limits)
-        except ValueError:
-            return None
+        return {hurst: find_region(ensemble, **self.limits) for hurst, ensemble in self.pooled.items()}
 
     def fits(self, source, **wanted):
         """Base fits of "discs" or "lines", a row for each Hurst exponent, in the conventions of the figures.
@@ -113,6 +107,15 @@ class Evidence:
         together = ndtri(1 - CONFIDENCE_TAIL / cases) / ndtri(1 - CONFIDENCE_TAIL)
         return False if equivalence(widened(values, factor * together), low, high) is False else None
 
+    def case(self, name, values, expected, allowed, *, realizations, cases=1, convention="", extremes=NO_INTERVAL):
+        """Case of a quantity that must lie in the range allowed, (low, high): `judged` by `within`.
+
+        convention : in which the claim holds, which few realizations do not tell
+        """
+        met = self.within(values, *allowed, realizations=realizations, cases=cases)
+        other = "" if self.are_few(realizations) else convention
+        return judged(name, values, expected, met, other, extremes=extremes)
+
 
 def equivalence(interval, low, high):
     """Whether a quantity with this 95 % interval lies in the range from low to high.
@@ -139,6 +142,17 @@ def mean_with_interval(samples):
     mean, number = samples.mean(), samples.size
     error = stats.t.ppf(0.975, number - 1) * samples.std(ddof=1) / np.sqrt(number) if number > 1 else np.nan
     return mean, mean - error, mean + error
+
+
+def deviation_interval(deviation, freedom):
+    """A standard deviation of normal samples and its 95 % interval by the distribution of χ²: (value, low, high)."""
+    ends = deviation * np.sqrt(freedom / stats.chi2.ppf([0.975, 0.025], freedom)) if freedom else NO_INTERVAL
+    return deviation, *ends
+
+
+def interval(row, column):
+    """Value of a column of a table and the ends of its interval: (value, low, high)."""
+    return tuple(row[name] for name in (column, f"{column}_low", f"{column}_high"))
 
 
 def hurst_name(hurst):

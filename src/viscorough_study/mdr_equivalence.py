@@ -6,8 +6,6 @@ surfaces, and so does the range of λ(X); what is judged are therefore straight 
 ln X, whose ends may lie on either side and whose intervals have no such bias.
 """
 
-from contextlib import suppress
-
 import numpy as np
 import pandas as pd
 
@@ -88,15 +86,15 @@ def _lambda_rows(discs, lines, limits, **how):
     """Rows of λ over X and the row of the summary, of one Hurst exponent."""
     x = discs["x"].values
     number = {"discs": discs.sizes["realization"], "lines": lines.sizes["realization"]}
-    with suppress(ValueError):
-        window = find_region(discs, **limits)
-        match = match_lines(x, discs["velocity"].values, lines["velocity"].values, **how)
-        best = match.best_stretch(window)
-        chosen = (x >= window[0] / 10) & (discs["fraction_defined"].values >= FRACTION_KEPT)
-        ratio = np.exp(match.deviation(best, chosen))
-        chosen[chosen] = np.isfinite(ratio[0])
-        return _of_abscissae(match, best, window, chosen), number | _summary(match, best, window, chosen)
-    return [], number
+    window = find_region(discs, **limits)
+    if window is None:
+        return [], number
+    match = match_lines(x, discs["velocity"].values, lines["velocity"].values, **how)
+    best = match.best_stretch(window)
+    chosen = (x >= window[0] / 10) & (discs["fraction_defined"].values >= FRACTION_KEPT)
+    ratio = np.exp(match.deviation(best, chosen))
+    chosen[chosen] = np.isfinite(ratio[0])
+    return _of_abscissae(match, best, window, chosen), number | _summary(match, best, window, chosen)
 
 
 def _of_abscissae(match, best, window, chosen):

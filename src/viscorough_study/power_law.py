@@ -7,7 +7,6 @@ Intervals are 95 % bootstrap intervals over realizations: whole curves are drawn
 They contain the scatter between surfaces, but not the choice of the window, which fits in other windows show.
 """
 
-from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,7 +37,7 @@ def local_slope(x, y, half_width):
 
 
 def find_region(mean, *, elements_min, stiffness_max, slope_max, slope_half_width, fraction_min, decades_min):
-    """Window (X_low, X_high) of region (b): the longest run of abscissae, in ln X, at which
+    """Window (X_low, X_high) of region (b), None without one: the longest run of abscissae, in ln X, at which
 
     - the median of the elements in contact is at least elements_min: with fewer, the curve depends on the grid;
     - the geometric mean κ is at most stiffness_max: above, the contact feels the finite size of the indenter, on the
@@ -50,15 +49,12 @@ def find_region(mean, *, elements_min, stiffness_max, slope_max, slope_half_widt
 
     mean : ensemble dataset (viscorough_study.ensembles) of one rms convention. No Hurst exponent enters the rule.
     The limits and the values advised for them are in config/README.md, section Scaling.
-    Raises ValueError if no such run spans decades_min decades: there is no region (b).
+    There is no region (b) if no such run spans decades_min decades.
     """
     x = mean["x"].values
     allowed = local_slope(x, mean["velocity_geometric"].values, slope_half_width) <= slope_max
     allowed &= mean["contact_count_median"].values >= elements_min
-    window = _longest_run(mean, allowed, (0, stiffness_max), fraction_min, decades_min)
-    if window is None:
-        raise ValueError(f"find_region: no run of abscissae in the limits spans {decades_min:g} decades")
-    return window
+    return _longest_run(mean, allowed, (0, stiffness_max), fraction_min, decades_min)
 
 
 def named_windows(mean, *, stiffness_range, fraction_min, decades_min, **limits):
@@ -73,10 +69,9 @@ def named_windows(mean, *, stiffness_range, fraction_min, decades_min, **limits)
     """
     run_limits = {"fraction_min": fraction_min, "decades_min": decades_min}
     windows = dict.fromkeys(FITTED["window_rule"])
-    with suppress(ValueError):  # that there is no region (b) is a result: the tables then have nan and 0 decades
-        low, high = find_region(mean, **run_limits, **limits)
-        middle = np.sqrt(low * high)
-        windows |= {"default": (low, high), "lower_half": (low, middle), "upper_half": (middle, high)}
+    if region := find_region(mean, **run_limits, **limits):  # else the tables have nan and 0 decades
+        middle = np.sqrt(np.prod(region))
+        windows |= {"default": region, "lower_half": (region[0], middle), "upper_half": (middle, region[1])}
     windows["kappa"] = _longest_run(mean, True, stiffness_range, **run_limits)
     return windows
 
@@ -177,6 +172,21 @@ def log_means(velocity, average, resamples, generator):
     with np.errstate(invalid="ignore", divide="ignore"):  # nan where a resample has no realization
         mean = (weights @ values) / (weights @ defined)
     return mean if average == "geometric" else np.log(mean)
+
+
+def resampled_means(values, resamples, random):
+    """Mean over the realizations, then of each of its bootstrap resamples, shape (resamples + 1, abscissae).
+
+    values : shape (realizations, abscissae), without nan; random : numpy.random.Generator
+    """
+    number = len(values)
+    weights = random.multinomial(number, np.full(number, 1 / number), size=resamples) / number
+    return np.vstack([values.mean(axis=0), weights @ values])
+
+
+def with_interval(samples, realizations):
+    """Value of an ensemble and its `percentile_interval`, (value, low, high); samples : its own, then of resamples."""
+    return samples[0], *percentile_interval(samples[1:], realizations)
 
 
 def percentile_interval(samples, realizations):

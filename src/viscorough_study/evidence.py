@@ -6,20 +6,18 @@ from functools import cached_property
 import numpy as np
 import pandas as pd
 import xarray as xr
-from scipy import stats
 from scipy.special import ndtri
 
 from viscorough_study import pool
 from viscorough_study.conventions import of_source, select
+from viscorough_study.intervals import NO_INTERVAL
 from viscorough_study.paper_data import number
 from viscorough_study.power_law import find_region
 
 # From the best to the worst: the verdict on a claim is the worst of its cases.
 VERDICTS = ("reproduced", "reproduced under a stated convention", "undecided", "not reproduced")
-UNDEFINED = (np.nan, np.nan, np.nan)  # value and interval of a quantity that cannot be computed
 CONFIDENCE_TAIL = 0.025  # on either side of an interval
 FEW_WIDENED = 20.0  # by what factor intervals of few realizations must be able to widen without deciding otherwise
-NO_INTERVAL = (np.nan, np.nan)  # of a quantity without statistical scatter, and of one without a range
 
 
 @dataclass(frozen=True)
@@ -135,24 +133,6 @@ def widened(values, factor):
     """Ends of an interval whose distances from the value are multiplied by a factor; values : value, low, high."""
     value, low, high = values
     return value - factor * (value - low), value + factor * (high - value)
-
-
-def mean_with_interval(samples):
-    """Mean of independent samples and its 95 % interval by Student's t: (value, low, high); nan for a single one."""
-    mean, number = samples.mean(), samples.size
-    error = stats.t.ppf(0.975, number - 1) * samples.std(ddof=1) / np.sqrt(number) if number > 1 else np.nan
-    return mean, mean - error, mean + error
-
-
-def deviation_interval(deviation, freedom):
-    """A standard deviation of normal samples and its 95 % interval by the distribution of χ²: (value, low, high)."""
-    ends = deviation * np.sqrt(freedom / stats.chi2.ppf([0.975, 0.025], freedom)) if freedom else NO_INTERVAL
-    return deviation, *ends
-
-
-def interval(row, column):
-    """Value of a column of a table and the ends of its interval: (value, low, high)."""
-    return tuple(row[name] for name in (column, f"{column}_low", f"{column}_high"))
 
 
 def hurst_name(hurst):

@@ -14,7 +14,8 @@ from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
 from viscorough.viscous.internal_variables import march_medium
 from viscorough.viscous.media import Newtonian
-from viscorough_study.evidence import NO_INTERVAL, hurst_name, judged
+from viscorough_study.evidence import hurst_name, judged
+from viscorough_study.intervals import NO_INTERVAL
 from viscorough_study.seeds import gamma_factor_key, realization_seed
 
 ACROSS = 33  # elements across the disc

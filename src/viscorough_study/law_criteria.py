@@ -11,8 +11,9 @@ import pandas as pd
 
 from viscorough import reference
 from viscorough_study.conventions import FITTED, NAMES, in_every_reading, in_words, left_open, of_source, select
-from viscorough_study.evidence import UNDEFINED, deviation_interval, hurst_name, interval, judged
-from viscorough_study.power_law import fit_power_law, in_window, log_means, percentile_interval
+from viscorough_study.evidence import hurst_name, judged
+from viscorough_study.intervals import UNDEFINED, deviation_interval, interval, percentile_interval
+from viscorough_study.power_law import fit_power_law, in_window, log_means
 from viscorough_study.region_criteria import combinations_case
 
 SHARE_OF_SQUARE = 0.75  # of its square, that a disc has at least on every grid

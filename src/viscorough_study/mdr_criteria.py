@@ -7,7 +7,8 @@ Letters 52, 223 (2013)) find that it reproduces neither contact area nor separat
 
 import numpy as np
 
-from viscorough_study.evidence import UNDEFINED, deviation_interval, hurst_name, interval, judged
+from viscorough_study.evidence import hurst_name, judged
+from viscorough_study.intervals import UNDEFINED, deviation_interval, interval
 
 EQUAL_WINDOWS = ("same X", "same κ")
 

@@ -3,7 +3,8 @@
 import numpy as np
 
 from viscorough.surfaces import cut_disc
-from viscorough_study.evidence import NO_INTERVAL, UNDEFINED, judged, opposite
+from viscorough_study.evidence import judged, opposite
+from viscorough_study.intervals import NO_INTERVAL, UNDEFINED
 
 WEEKS_IN_MINUTES = 7 * 24 * 60  # the unit of several weeks in that of a few minutes
 SMALL_ERROR = 0.01  # of the velocity, with which a contact problem for every change of the contact is compared

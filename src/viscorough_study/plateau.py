@@ -10,19 +10,15 @@ passes power laws, both with the scatter of the real realizations: shares of syn
 
 import numpy as np
 
-from viscorough_study.power_law import percentile_interval, resampled_means
+from viscorough_study.intervals import described, resampled_means, three_columns, with_interval
 
 ROUNDING = 1e-9  # relative difference up to which distances on the logarithmic axis count as equal
 COLUMNS = {
     "case_group": ("base or name of the control, which has no power law", None),
     "hurst": ("Hurst exponent H", "1"),
     "realizations": ("realizations in the ensemble", "1"),
-    "decades": ("decades of X over which the local slope is constant within the tolerance", "1"),
-    "decades_low": ("lower end of the 95 % interval of the decades", "1"),
-    "decades_high": ("upper end of the 95 % interval of the decades", "1"),
-    "slope": ("mean local slope of ln(vt/h) over these decades", "1"),
-    "slope_low": ("lower end of its 95 % interval", "1"),
-    "slope_high": ("upper end of its 95 % interval", "1"),
+    **described("decades", "decades of X over which the local slope is constant within the tolerance"),
+    **described("slope", "mean local slope of ln(vt/h) over these decades"),
     "x_low": ("lower end of these decades in X", "1"),
     "x_high": ("upper end of these decades in X", "1"),
     "draws": ("synthetic ensembles of each kind", "1"),
@@ -86,19 +82,9 @@ def plateau(log_x, log_y, *, half_width, tolerance, resamples, random):
     step = (inner[1] - inner[0]) / np.log(10)
     steps, start = longest_plateau(slopes, tolerance)
     run = slice(start[0], start[0] + steps[0] + 1)
-    means = slopes[:, run].mean(axis=1)
-    decades_low, decades_high = percentile_interval(steps[1:] * step, number)
-    slope_low, slope_high = percentile_interval(means[1:], number)
-    return {
-        "decades": steps[0] * step,
-        "decades_low": decades_low,
-        "decades_high": decades_high,
-        "slope": means[0],
-        "slope_low": slope_low,
-        "slope_high": slope_high,
-        "x_low": np.exp(inner[run][0]),
-        "x_high": np.exp(inner[run][-1]),
-    }
+    found = three_columns("decades", with_interval(steps * step, number))
+    found |= three_columns("slope", with_interval(slopes[:, run].mean(axis=1), number))
+    return found | {"x_low": np.exp(inner[run][0]), "x_high": np.exp(inner[run][-1])}
 
 
 def shares(log_x, mean, residuals, *, draws, decades_min, random, **how):

@@ -10,9 +10,9 @@ They contain the scatter between surfaces, but not the choice of the window, whi
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import ndtr, stdtrit
 
 from viscorough_study.conventions import FITTED, PLAIN, zeta_scale
+from viscorough_study.intervals import percentile_interval
 
 ROUNDING = 1e-9  # relative difference up to which abscissae and numbers of decades count as equal
 
@@ -172,36 +172,3 @@ def log_means(velocity, average, resamples, generator):
     with np.errstate(invalid="ignore", divide="ignore"):  # nan where a resample has no realization
         mean = (weights @ values) / (weights @ defined)
     return mean if average == "geometric" else np.log(mean)
-
-
-def resampled_means(values, resamples, random):
-    """Mean over the realizations, then of each of its bootstrap resamples, shape (resamples + 1, abscissae).
-
-    values : shape (realizations, abscissae), without nan; random : numpy.random.Generator
-    """
-    number = len(values)
-    weights = random.multinomial(number, np.full(number, 1 / number), size=resamples) / number
-    return np.vstack([values.mean(axis=0), weights @ values])
-
-
-def with_interval(samples, realizations):
-    """Value of an ensemble and its `percentile_interval`, (value, low, high); samples : its own, then of resamples."""
-    return samples[0], *percentile_interval(samples[1:], realizations)
-
-
-def percentile_interval(samples, realizations):
-    """95 % interval (low, high) of bootstrap samples: percentiles, widened for few realizations.
-
-    samples : shape (resamples,), or (resamples, quantities) for an interval of each; resamples with undefined (nan)
-        values are left out
-
-    Plain percentiles are too narrow for small n. The levels Φ(∓√(n/(n−1)) t), t the 97.5 % point of Student's
-    t with n − 1 degrees of freedom, make them the t interval for a mean (Hesterberg, The American
-    Statistician 69, 371 (2015): expanded percentile interval). Nan for a single realization.
-    """
-    samples = samples[np.isfinite(samples).reshape(len(samples), -1).all(axis=1)]
-    if realizations < 2 or samples.size == 0:
-        return np.nan, np.nan
-    tail = ndtr(-np.sqrt(realizations / (realizations - 1)) * stdtrit(realizations - 1, 0.975))
-    low, high = np.quantile(samples, [tail, 1 - tail], axis=0)
-    return low, high

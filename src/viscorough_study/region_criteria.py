@@ -6,9 +6,16 @@ import numpy as np
 from scipy import stats
 
 from viscorough import reference
-from viscorough_study.evidence import NO_INTERVAL, UNDEFINED, hurst_name, interval, judged, mean_with_interval
+from viscorough_study.evidence import hurst_name, judged
+from viscorough_study.intervals import (
+    NO_INTERVAL,
+    UNDEFINED,
+    interval,
+    mean_with_interval,
+    resampled_means,
+    with_interval,
+)
 from viscorough_study.plateau import local_slopes
-from viscorough_study.power_law import resampled_means, with_interval
 
 ROUNDING = 1e-9  # relative difference up to which numbers of decades count as equal
 LEFT_REGION = 2.0  # κ over that of one element, at which a curve has left region (a)

@@ -8,7 +8,8 @@ surfaces included, the verdict names those with the smallest deviation.
 import numpy as np
 
 from viscorough_study.conventions import NAMES, in_words, left_open
-from viscorough_study.evidence import hurst_name, interval
+from viscorough_study.evidence import hurst_name
+from viscorough_study.intervals import interval
 from viscorough_study.prefactors import COMBINED, LAWS
 from viscorough_study.zeta_laws import difference, value_of
 

@@ -11,9 +11,9 @@ from scipy import stats
 
 from support.study import ACROSS, CLAIMS, ELEMENTS, HURST, X, evidence, evidence_of, evidence_with_factors, pool_of
 from viscorough.reference import exponent_alpha, one_element_stiffness, zeta_elastic
-from viscorough_study.criteria import JUDGES
 from viscorough_study.ensembles import ensemble_dataset
-from viscorough_study.evidence import equivalence, judged, mean_with_interval
+from viscorough_study.evidence import equivalence, judged
+from viscorough_study.intervals import mean_with_interval
 from viscorough_study.law_criteria import alpha_limit, depth, hurst_only, no_grid, realizations
 from viscorough_study.method_criteria import bodies_of_revolution, computing_time, contact_problems, elements
 from viscorough_study.region_criteria import (
@@ -23,6 +23,7 @@ from viscorough_study.region_criteria import (
     power_law,
     separation,
 )
+from viscorough_study.verdicts import JUDGES
 
 
 def test_variance_between_groups_is_covered_at_the_stated_rate():

@@ -67,7 +67,6 @@ def test_contact_count_between_levels_is_linear_in_logarithms():
     x = np.array([1.0, 2.0, 4.0, 8.0, 16.0]) / (4 * h * length)  # at and half-way between (in ln F) the levels
     ensemble = aggregate([curve], {"disc": h}, length, x, hurst=0.5, case="a")
     np.testing.assert_allclose(ensemble.contact_count.values[0, 0], [3, 6, 12, 24, 48], rtol=1e-12)
-    np.testing.assert_allclose(ensemble.contact_fraction_mean.values[0], [0.03, 0.06, 0.12, 0.24, 0.48])
 
 
 def test_averages_are_over_the_realizations_defined(gaps):

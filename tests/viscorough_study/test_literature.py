@@ -7,9 +7,8 @@ import yaml
 
 from support.study import HURST, ROOT, SHOWN, evidence
 from viscorough import reference
-from viscorough_study.literature import COLUMNS, literature
+from viscorough_study.literature import COLUMNS, literature, persson_u0
 from viscorough_study.page.discussion import KNOWN, QUANTITIES
-from viscorough_study.persson_law import persson_u0
 
 ENTRIES = yaml.safe_load((ROOT / "resources/literature/stiffness.yaml").read_text(encoding="utf-8"))
 INTERFACE = pd.DataFrame(

@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.special import beta, erf
 
-from viscorough_study.persson_law import persson_u0
+from viscorough_study.literature import persson_u0
 
 
 @pytest.mark.parametrize("hurst", [0.3, 0.8])

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from support.study import ensemble_of
-from viscorough_study.plateau import local_slopes, longest_plateau, plateau, shares
-from viscorough_study.plateau_table import COLUMNS, plateau_row
+from viscorough_study.plateau import COLUMNS, local_slopes, longest_plateau, plateau, plateau_row, shares
 
 X = 10.0 ** np.linspace(-4, 1, 101)
 HALF_WIDTH = 0.25 * np.log(10)

@@ -7,7 +7,7 @@ import xarray as xr
 
 from support.workflow import ROOT
 from viscorough_study.paper_data import number, read_paper
-from viscorough_study.scale import attributes_of_scale
+from viscorough_study.verdicts import attributes_of_scale
 
 NUMBERS = read_paper(ROOT / "resources/paper", "numbers")
 

@@ -10,10 +10,9 @@ from scipy.special import gamma as gamma_function
 
 from support.study import BASE_SURFACES, CLAIMS, LIMITS, ROOT, evidence
 from viscorough import reference
-from viscorough_study.criteria import JUDGES
 from viscorough_study.evidence import VERDICTS
 from viscorough_study.prefactors import prefactors
-from viscorough_study.verdicts import KINDS, judge, markdown, overall, undecided_cases
+from viscorough_study.verdicts import JUDGES, KINDS, judge, markdown, overall, undecided_cases
 
 LAWS = "zeta_viscous", "zeta_elastic", "zeta_better", "master_curve", "zeta_viscous_shape", "master_curve_shape"
 

@@ -7,8 +7,15 @@ import pandas as pd
 
 from viscorough.io.netcdf import opened
 from viscorough_study.medium_names import medium_label
-from viscorough_study.scale import is_trial
-from viscorough_study.verdicts import KINDS, case_in_words, cases_shown, deciding_case, overall, undecided_cases
+from viscorough_study.verdicts import (
+    KINDS,
+    case_in_words,
+    cases_shown,
+    deciding_case,
+    is_trial,
+    overall,
+    undecided_cases,
+)
 
 # {name of the figure: what it shows, for those who cannot see it}
 ALTERNATIVE_TEXTS = {

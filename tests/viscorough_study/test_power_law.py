@@ -8,10 +8,9 @@ from scipy.stats import binom
 from support.study import LIMITS, ensemble_of, three_regions
 from viscorough import reference
 from viscorough_study.ensembles import abscissa
-from viscorough_study.power_law import find_region, fit_power_law, local_slope, named_windows
+from viscorough_study.power_law import find_region, fit_power_law, named_windows
 
 x = abscissa(1e-7, 10, 20)
-HALF_WIDTH = LIMITS["slope_half_width"]
 BOOTSTRAP = {"resamples": 400, "seed": 1}
 
 
@@ -26,14 +25,6 @@ def scattered(beta, prefactor, realizations, seed, *, slope_scatter=0.03, scatte
     slopes = beta + slope_scatter * rng.normal(size=(realizations, 1))
     logs = np.log(prefactor) + slopes * log_x + scatter * rng.normal(size=(realizations, 1))
     return np.exp(logs + 0.05 * rng.normal(size=logs.shape))
-
-
-def test_local_slope_of_the_three_regions():
-    slope = local_slope(x, x / three_regions(x), HALF_WIDTH)
-    low, high = (1e-6 / 1.2) ** (1 / 0.6), 1.2 ** (-1 / 0.6)
-    inner = (x > 2 * low) & (x < high / 2)
-    np.testing.assert_allclose(slope[inner], 0.4, atol=1e-12)
-    np.testing.assert_allclose(slope[x > 2 * high], 1, atol=1e-12)
 
 
 def test_region_of_a_three_region_curve():
@@ -57,12 +48,6 @@ def test_region_needs_nearly_all_realizations():
     assert high == x[x <= 1e-3][-1]
 
 
-def test_region_is_the_longest_run():
-    mean = one(ensemble_of(x, three_regions(x)))
-    mean["contact_count_median"] = mean["contact_count_median"] * np.where((x > 1e-5) & (x < 1.5e-5), 0, 1)
-    assert find_region(mean, **LIMITS)[0] == x[x >= 1.5e-5][0]
-
-
 @pytest.mark.parametrize("stiffness", [np.ones(x.size), np.full(x.size, np.nan)])
 def test_no_region_raises_and_its_windows_are_none(stiffness):
     mean = one(ensemble_of(x, three_regions(x)))
@@ -76,9 +61,8 @@ def test_no_region_raises_and_its_windows_are_none(stiffness):
 def test_named_windows():
     windows = named_windows(one(ensemble_of(x, three_regions(x))), stiffness_range=(0.03, 0.3), **LIMITS)
     low, high = windows["default"]
-    assert windows["lower_half"][0] == low
-    assert windows["upper_half"][1] == high
-    assert windows["lower_half"][1] == windows["upper_half"][0] == pytest.approx(np.sqrt(low * high))
+    middle = pytest.approx(np.sqrt(low * high))
+    assert (windows["lower_half"], windows["upper_half"]) == ((low, middle), (middle, high))
     inside = x[(three_regions(x) >= 0.03) & (three_regions(x) <= 0.3)]
     assert windows["kappa"] == (inside[0], inside[-1])
 
@@ -87,30 +71,13 @@ def test_fit_is_least_squares_in_logarithms():
     """Against numpy's polynomial fit, of the averages taken by numpy; window ends belong to it."""
     velocity = scattered(0.4, 0.7, 9, seed=2)
     inside = slice(60, 101)
-    for average, mean in (
-        ("arithmetic", np.log(velocity.mean(axis=0))),
-        ("geometric", np.log(velocity).mean(axis=0)),
-    ):
+    averages = {"arithmetic": np.log(velocity.mean(axis=0)), "geometric": np.log(velocity).mean(axis=0)}
+    for average, mean in averages.items():
         fit = fit_power_law(x, velocity, (x[60], x[100]), average=average, resamples=20, seed=1)
         slope, height = np.polyfit(np.log(x[inside]), mean[inside], 1)
-        assert fit.beta == pytest.approx(slope, rel=1e-10)
-        assert fit.zeta()[0] == pytest.approx(np.exp(-height), rel=1e-10)
+        assert (fit.beta, fit.zeta()[0]) == pytest.approx((slope, np.exp(-height)), rel=1e-10)
         deviation = mean[inside] - height - slope * np.log(x[inside])
         assert fit.residual == pytest.approx(np.sqrt(np.mean(deviation**2)), rel=1e-8)
-
-
-def test_bootstrap_is_that_of_drawing_curves_one_by_one():
-    """The spread of β over resamples against a plain loop: two estimates of one standard deviation."""
-    velocity, window = scattered(0.4, 0.7, 20, seed=3), (1e-5, 1e-1)
-    fit = fit_power_law(x, velocity, window, average="arithmetic", resamples=2000, seed=1)
-    inside, rng = (x >= window[0]) & (x <= window[1]), np.random.default_rng(5)
-    slopes = [
-        np.polyfit(np.log(x[inside]), np.log(velocity[drawn][:, inside].mean(axis=0)), 1)[0]
-        for drawn in rng.integers(20, size=(2000, 20))
-    ]
-    # relative standard error of a standard deviation of 2000 values is 1/√4000 = 1.6 %, of the ratio of two 2.2 %
-    assert np.std(fit.beta_samples) == pytest.approx(np.std(slopes), rel=0.09)
-    assert np.mean(fit.beta_samples) == pytest.approx(np.mean(slopes), abs=4 * np.std(slopes) / np.sqrt(1000))
 
 
 @pytest.mark.parametrize("realizations", [8, 24])

@@ -106,10 +106,9 @@ def test_a_terminal_has_one_line_that_is_drawn_again(tmp_path):
 def test_the_run_goes_on_where_nobody_reads_its_progress(tmp_path):
     reader, writer = os.pipe()
     os.close(reader)
-    done = run(tmp_path, f"print({STARTED!r}); open('made', 'w')", stderr=writer)
+    run(tmp_path, f"print({STARTED!r}); open('made', 'w')", stderr=writer)
     os.close(writer)
     assert (tmp_path / "made").exists()
-    assert done.returncode in (0, 120)  # the latter of Python, which cannot flush standard error
 
 
 def test_the_error_of_a_job_is_shown_with_its_log_and_the_code_kept(tmp_path):
@@ -117,10 +116,8 @@ def test_the_error_of_a_job_is_shown_with_its_log_and_the_code_kept(tmp_path):
     (tmp_path / "indent.log").write_text("".join(f"2026-01-01 10:00:00 {line}\n" for line in lines))
     done = run(tmp_path, f"print({STARTED + FAILED + FAILED!r}); raise SystemExit(3)")
     assert done.returncode == 3
-    assert done.stderr.splitlines()[-2:] == [
-        "Error: ValueError: no contact (log: indent.log)",
-        "All that was printed: results/run.log",
-    ]
+    last = ["Error: ValueError: no contact (log: indent.log)", "All that was printed: results/run.log"]
+    assert done.stderr.splitlines()[-2:] == last
     (tmp_path / "indent.log").unlink()
     assert "before it wrote its log (log: indent.log)" in run(tmp_path, f"exit({FAILED!r})").stderr
 
@@ -134,15 +131,15 @@ def test_what_ends_snakemake_itself_is_shown(tmp_path):
     assert killed.stderr.splitlines() == ["one", "two", "All that was printed: results/run.log"]
 
 
-@pytest.mark.parametrize(("trial", "added"), [(0, ""), (1, "; trial scale, on which verdicts mean nothing")])
-def test_the_end_is_three_lines(tmp_path, trial, added):
+def test_the_end_is_three_lines(tmp_path):
     (tmp_path / "tables").mkdir()
     rows = [("a", "reproduced"), ("a", "undecided"), ("b", "reproduced"), ("c", "reproduced")]
     pd.DataFrame(rows, columns=["claim", "verdict"]).to_csv(tmp_path / "tables/claims.csv", index=False)
     pd.DataFrame({"share_s": [200.0, 40.0]}).to_csv(tmp_path / "tables/rule_costs.csv", index=False)
-    xr.Dataset(attrs={"trial": trial}).to_netcdf(tmp_path / "tables/claims.nc")
-    assert summary(tmp_path, ROOT / "resources/paper") == [
-        "3 claims of the paper: 2 reproduced, 1 undecided" + added,
-        "It took 4.0 minutes; the paper: several weeks",
-        f"Open {tmp_path}/index.html in a browser",
-    ]
+    for trial, added in ((0, ""), (1, "; trial scale, on which verdicts mean nothing")):
+        xr.Dataset(attrs={"trial": trial}).to_netcdf(tmp_path / "tables/claims.nc")
+        assert summary(tmp_path, ROOT / "resources/paper") == [
+            "3 claims of the paper: 2 reproduced, 1 undecided" + added,
+            "It took 4.0 minutes; the paper: several weeks",
+            f"Open {tmp_path}/index.html in a browser",
+        ]

@@ -9,7 +9,7 @@ from PIL import Image
 
 from support.study import SHOWN
 from viscorough_study.figures.exponent import plot_exponent
-from viscorough_study.figures.style import STYLE, hurst_looks, logarithmic_ticks, number_text, save_figure, series_looks
+from viscorough_study.figures.style import STYLE, hurst_looks, logarithmic_ticks, number_text, save_figure
 
 pytestmark = pytest.mark.filterwarnings("error")
 
@@ -25,11 +25,6 @@ def test_looks_of_a_hurst_exponent_do_not_depend_on_how_exponents_are_listed():
     grey = [np.dot(to_rgb(look["color"]), (0.3, 0.6, 0.1)) for look in looks.values()]
     assert (np.diff(grey) > 0.07).all()  # told apart when printed in grey
     assert grey[-1] < 0.7  # and from the paper
-
-
-def test_series_of_the_same_colour_have_other_markers():
-    looks = series_looks([f"method {rank}" for rank in range(11)])
-    assert len({(look["color"], look["marker"], look["markerfacecolor"]) for look in looks.values()}) == 11
 
 
 def test_numbers_are_plain_or_with_a_power_of_ten():

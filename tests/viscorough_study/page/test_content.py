@@ -46,15 +46,15 @@ def test_scale_is_told_from_the_ensembles(tmp_path, elements, realizations, line
 @pytest.fixture
 def methods():
     rows = [
-        ("path", "path, at the depths", "tolerance", 1e-1, 0.1, 3e-2),
-        ("path", "path, at the depths", "tolerance", 1e-3, 0.2, 5e-4),
-        ("path", "path, automatic levels", "tolerance", 1e-3, 0.3, 4e-4),
-        ("marching", "explicit, logarithmic steps", "steps", 64, 5.0, 8e-3),
-        ("model", "MDR", "points", 64, 1e-3, 0.2),
-        ("model", "power law", "gamma", 0, 1e-6, 0.3),
-        ("other solver", "ASPHER", "tolerance", 1e-3, 0.01, 1e-4),
+        ("path", "path, at the depths", 1e-1, 0.1, 3e-2),
+        ("path", "path, at the depths", 1e-3, 0.2, 5e-4),
+        ("path", "path, automatic levels", 1e-3, 0.3, 4e-4),
+        ("marching", "explicit, logarithmic steps", 64, 5.0, 8e-3),
+        ("model", "MDR", 64, 1e-3, 0.2),
+        ("model", "power law", 0, 1e-6, 0.3),
+        ("other solver", "ASPHER", 1e-3, 0.01, 1e-4),
     ]
-    table = pd.DataFrame(rows, columns=["group", "method", "parameter", "value", "wall_s", "error"])
+    table = pd.DataFrame(rows, columns=["group", "method", "value", "wall_s", "error"]).assign(parameter="tolerance")
     table = table.assign(problem="rough disc, H = 0.8", hurst=0.8, elements=257)
     coarse = table.assign(elements=65, wall_s=1e-6, error=0.0)
     return Results({"methods": pd.concat([coarse, table], ignore_index=True)}, {}, {})
@@ -71,19 +71,15 @@ def test_the_fastest_method_that_reaches_an_error_is_named(methods):
 
 def test_numbers_stand_in_the_rows_for_which_they_are_shown():
     conventions = {"rms_convention": "disc", "average": "geometric", "window_rule": "default"}
-    names = {
+    keys = {
         "level_placement": {"scene": ["a", "a", "b"], "choice": ["c", "d", "c"]},
         "rule_costs": {"rule": ["e", "f"]},
         "measured_scans": {"file": ["g", "h"], "group": "i"},
         "measured_fits": {"case_group": ["j", "k"], **conventions},
     }
-    numbers = {
-        "level_placement": "accuracy reached levels wall_s ratio error",
-        "rule_costs": "jobs seconds share_s longest_s memory_mb",
-        "measured_scans": "elements spacing row_spacing rms rms_slope diameter",
-        "measured_fits": "realizations decades beta beta_low beta_high zeta",
-    }
-    tables = {name: pd.DataFrame(names[name]).assign(**dict.fromkeys(numbers[name].split(), 1.0)) for name in names}
+    numbers = "accuracy reached levels wall_s ratio error jobs seconds share_s longest_s memory_mb elements spacing"
+    numbers += " row_spacing rms rms_slope diameter realizations decades beta beta_low beta_high zeta"
+    tables = {name: pd.DataFrame(of).assign(**dict.fromkeys(numbers.split(), 1.0)) for name, of in keys.items()}
     results = Results(tables | {"claims": pd.read_csv(ROOT / "docs/claims.csv")}, {}, {})
     shown = [
         (case["value"], {"claim": claim["name"], "case": case["case"]})
@@ -132,19 +128,11 @@ def test_the_case_that_is_shown_has_the_verdict_of_the_claim_and_is_the_farthest
 def test_a_verdict_that_the_full_scale_does_not_share_is_shown_with_its_case():
     table, full = claims_table("undecided", "reproduced"), claims_table("reproduced", "not reproduced")
     ((claim,),) = verdicts(Results({"claims": table}, {}, {}), CLAIMS, full).values()
-    assert claim["full_scale"] == {
-        "verdict": "not reproduced",
-        "case": "H = 1: 0.1 [0.1, 0.1], least 0.1, largest 0.1, paper 0",
-    }
+    assert claim["full_scale"]["verdict"] == "not reproduced"
+    assert claim["full_scale"]["case"].startswith("H = 1: 0.1 [0.1, 0.1], least 0.1")
     for published in (table, full.assign(claim="renamed")):
         ((claim,),) = verdicts(Results({"claims": table}, {}, {}), CLAIMS, published).values()
         assert claim["full_scale"] is None
-
-
-def test_published_ratios_of_other_solvers_say_when_and_where_they_were_measured():
-    found = other_solvers(ROOT / "resources/published/other_solvers.csv")
-    assert set(found["published"]) == {"measured", "machine"}
-    assert all({"ASPHER", "ASPHER nested"} <= set(row["ratios"]) <= set(found["solvers"]) for row in found["rows"])
 
 
 def test_measured_ratios_of_other_solvers_are_not_called_published(tmp_path):
@@ -154,6 +142,7 @@ def test_measured_ratios_of_other_solvers_are_not_called_published(tmp_path):
     pd.DataFrame(rows, columns=columns).to_csv(tmp_path / "other_solvers.csv", index=False)
     found = other_solvers(tmp_path / "other_solvers.csv")
     assert found["published"] is None
+    assert set(other_solvers(ROOT / "resources/published/other_solvers.csv")["published"]) == {"measured", "machine"}
     assert found["rows"] == [{"task": "few", "hurst": 0.4, "elements": 33, "levels": 8, "ratios": {"Tamaas": 140.0}}]
 
 

@@ -12,17 +12,14 @@ from viscorough_study.performance import measurement, methods, problems
 
 @pytest.fixture(scope="module")
 def problem():
-    return problems.rough_problem(0.7, 33, 6, 1, LIMITS)
+    return problems.rough_problem(0.7, 17, 6, 1, LIMITS)
 
 
 @pytest.fixture(scope="module")
 def few_values():
-    """Every method with a coarse and a fine value of its parameter; where there are many, not the finest one."""
-
-    def chosen(values):
-        return tuple(dict.fromkeys([values[0], values[-1 if len(values) < 4 else -2]]))
-
-    return [replace(method, values=chosen(method.values)) for method in methods.METHODS]
+    """Every method with a fine value of its parameter; where there are many, not the finest one."""
+    place = {method.name: -1 if len(method.values) < 4 else -2 for method in methods.METHODS}
+    return [replace(method, values=(method.values[place[method.name]],)) for method in methods.METHODS]
 
 
 @pytest.fixture(scope="module")

@@ -9,13 +9,7 @@ from support.study import pool_of
 from viscorough.calibrated_law import X_LOW, interface_depth, interface_velocity
 from viscorough_study.discs import punch_stiffness
 from viscorough_study.ensembles import abscissa, ensemble_dataset
-from viscorough_study.interface import (
-    COLUMNS,
-    CURVES,
-    ensembles_of,
-    examine,
-    interface_tables,
-)
+from viscorough_study.interface import COLUMNS, CURVES, ensembles_of, examine, interface_tables
 
 X = abscissa(1e-9, 30, 20)
 PUNCH = 0.98

@@ -3,7 +3,6 @@
 import logging
 import subprocess
 import sys
-import textwrap
 
 import pytest
 
@@ -42,24 +41,22 @@ def test_an_interrupt_is_one_line(tmp_path):
     ],
 )
 def test_log_gets_messages_warnings_and_the_traceback(tmp_path, error, on_stderr):
-    script = textwrap.dedent(f"""
-        import logging, sys, warnings
-        from viscorough.errors import ConvergenceError
-        from viscorough_study.job_log import log_to
-        log_to(sys.argv[1])
-        logging.info("100 %s of it", "%")
-        warnings.warn("odd spacing")
-        raise {error}
-    """)
+    script = f"""
+import logging, sys, warnings
+from viscorough.errors import ConvergenceError
+from viscorough_study.job_log import log_to
+log_to(sys.argv[1])
+logging.info("100 %s of it", "%")
+warnings.warn("odd spacing")
+raise {error}
+"""
     path = tmp_path / "job.log"
     path.write_text("of an earlier run\n")
     done = subprocess.run([sys.executable, "-c", script, path], capture_output=True, text=True, check=False)
     log = path.read_text()
     assert done.returncode == 1
     assert "earlier run" not in log
-    for text in (log, done.stderr):
-        assert "INFO 100 % of it" in text
-        assert "odd spacing" in text
+    assert all(part in text for part in ("INFO 100 % of it", "odd spacing") for text in (log, done.stderr))
     assert log.count("Traceback") == 1
     assert done.stderr.count("Traceback") == on_stderr
     kind = error.split("(")[0]

@@ -46,6 +46,11 @@ def test_equal_ensembles_have_the_lambda_pi():
     assert (row["discs"], row["lines"]) == (12, 12)
     assert exponents["window"].tolist() == list(WINDOWS)
     assert exponents["difference"].abs().max() < 1e-9
+    few = discs.assign(contact_count_median=discs["contact_count_median"] * 0)  # without a region
+    of_lambda, summary, exponents = tables(few, discs)
+    assert of_lambda.empty
+    assert np.isnan(summary["drift"]).all()
+    assert exponents["difference"].notna().tolist() == [window == "same κ" for window in WINDOWS]
 
 
 def test_discs_and_lines_are_drawn_independently():
@@ -67,15 +72,3 @@ def test_another_exponent_makes_lambda_drift():
     same_x = exponents.set_index("window").loc["same X"]
     assert same_x["difference"] == pytest.approx(-0.05, abs=1e-6)
     assert same_x["x_low_lines"] == same_x["x_low_discs"] == row["x_low"]
-
-
-def test_without_a_region_there_is_no_lambda():
-    rough = ensemble(0.6, seed=1)
-    few = ensemble(0.6, seed=1, elements=10**6).assign(contact_count_median=rough["contact_count_median"] * 0)
-    of_lambda, summary, exponents = tables(few, rough)
-    assert of_lambda.empty
-    assert np.isnan(summary["drift"]).all()
-    assert summary["discs"].item() == 12
-    by_window = exponents.set_index("window")["difference"]
-    assert np.isnan(by_window[["own region", "same X"]]).all()
-    assert np.isfinite(by_window["same κ"])

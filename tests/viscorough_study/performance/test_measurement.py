@@ -10,7 +10,7 @@ from support.study import LIMITS
 from viscorough.contact.loading_path import indent
 from viscorough.viscous.events import march_events
 from viscorough_study.performance import measurement, methods, problems
-from viscorough_study.performance.pareto import pareto_front
+from viscorough_study.performance.costs import pareto_front
 
 
 @pytest.fixture(scope="module")

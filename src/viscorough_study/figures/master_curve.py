@@ -42,8 +42,15 @@ def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
     ratio.set(xlabel=xlabel, ylabel="$vt/h$ over Eq. 12", ylim=(min(ratios) / 1.3, max(ratios) * 1.3))
     style.logarithmic_ticks(*panels)
     style.plain_ticks(ratio.yaxis, [0.1, 0.2, 0.5, 1, 2, 5, 10])
-    numbers = style.count_text([ds.sizes["realization"] for ds in discs]), *map(realizations_text, (discs, lines))
-    figure.legend(handles=_handles(looks, *numbers), loc="outside upper center", ncols=2, columnspacing=1)
+    symbol, in_region = {"color": style.GREY, "linestyle": "", "marker": "o"}, [ds.sizes["realization"] for ds in discs]
+    handles = [
+        *style.hurst_handles(looks, linestyle="-"),
+        style.handle(f"{style.count_text(in_region)} discs, region (b)", **symbol),
+        style.handle(f"{realizations_text(discs)} discs, elsewhere", **symbol, markerfacecolor="white"),
+        style.handle(f"{realizations_text(lines)} lines (MDR)", color=style.GREY),
+        style.handle("Eq. 12", color="black", linestyle="--"),
+    ]
+    figure.legend(handles=handles, loc="outside upper center", ncols=2, columnspacing=1)
     return figure
 
 
@@ -62,15 +69,3 @@ def _draw_discs(panels, curve, hurst, windows, look):
             bars = [side[part] for side in error]
             axes.errorbar(right_side[part], y[part], bars, markerfacecolor=face, markeredgewidth=0.7, **look)
     return (curve.velocity / right_side)[thinned & inside].tolist()
-
-
-def _handles(looks, discs_in_region, discs, lines):
-    """Legend entries; realizations for each Hurst exponent, as text."""
-    symbol = {"color": style.GREY, "linestyle": "", "marker": "o"}
-    return [
-        *style.hurst_handles(looks, linestyle="-"),
-        style.handle(f"{discs_in_region} discs, region (b)", **symbol),
-        style.handle(f"{discs} discs, elsewhere", **symbol, markerfacecolor="white"),
-        style.handle(f"{lines} lines (MDR)", color=style.GREY),
-        style.handle("Eq. 12", color="black", linestyle="--"),
-    ]

@@ -27,19 +27,15 @@ def plot_sizes(table, conventions):
         window = "region (b)" if rule == conventions["window_rule"] else rule.replace("X =", "$X$ =")
         for axes, source, name in zip(row, ("discs", "lines"), ("boundary elements", "MDR"), strict=True):
             _panel(axes, table, conventions | {"window_rule": rule}, source, looks)
-            axes.set_title(f"({next(letters)}) {name}, {_realizations(table, source)}, {window}")
+            numbers = table.loc[(table["source"] == source) & (table["case_group"] == "sizes"), "realizations"]
+            realizations = f"{style.count_text(numbers)} {source}" if len(numbers) else source
+            axes.set_title(f"({next(letters)}) {name}, {realizations}, {window}")
         row[0].set_ylabel(r"exponent $\beta$")
     style.logarithmic_ticks(*panels.flat)
     handles = [*style.hurst_handles(looks, linestyle=""), style.handle("control, roll-off", **CONTROL)]
     handles.append(style.handle("$H/(1+H)$, Eq. 10", color=style.GREY, linestyle=":", linewidth=0.8))
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
     return figure
-
-
-def _realizations(table, source):
-    """Number of discs or lines of an ensemble in words."""
-    numbers = table.loc[(table["source"] == source) & (table["case_group"] == "sizes"), "realizations"]
-    return f"{style.count_text(numbers)} {source}" if len(numbers) else source
 
 
 def _panel(axes, table, conventions, source, looks):

@@ -28,7 +28,7 @@ ORANGE, VERMILION, PURPLE = "#e69f00", "#d55e00", "#cc79a7"
 SERIES_COLORS = (BLUE, VERMILION, GREEN, PURPLE, BLACK, SKY_BLUE, ORANGE)
 SERIES_MARKERS = "osD^v<>ph*X"
 DASHED, DASH_DOTTED, DOTTED = (0, (6, 1.5)), (0, (6, 1, 1, 1)), (0, (1.5, 1))
-# Markers and line styles of the Hurst exponents 0, 0.6, 0.1, 0.7, ..., 0.5, as `_hurst_rank` orders them.
+# Markers and line styles of the Hurst exponents 0, 0.6, 0.1, 0.7, ..., 0.5, as `hurst_looks` orders them.
 HURST_MARKERS = "X^o>P*vDs<p"
 HURST_LINES = (DOTTED, DASH_DOTTED, "-", DASHED, DASHED, DOTTED, DASH_DOTTED, DOTTED, DASHED, "-", "-")
 
@@ -114,14 +114,10 @@ def hurst_looks(exponents):
     """{Hurst exponent: color, marker, linestyle}, by ascending exponent."""
     looks = {}
     for hurst in sorted(set(exponents)):
-        rank, color = _hurst_rank(hurst), colormaps["plasma"](0.8 * hurst)
+        # Other than those of all other multiples of 0.1, and than those of exponents close by.
+        rank, color = round(20 * hurst) % len(HURST_MARKERS), colormaps["plasma"](0.8 * hurst)
         looks[hurst] = {"color": color, "marker": HURST_MARKERS[rank], "linestyle": HURST_LINES[rank]}
     return looks
-
-
-def _hurst_rank(hurst):
-    """Place among the looks: other than those of all other multiples of 0.1, and than those of exponents close by."""
-    return round(20 * hurst) % len(HURST_MARKERS)
 
 
 def series_looks(names):

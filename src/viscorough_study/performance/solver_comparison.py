@@ -141,8 +141,6 @@ class _Race:
 
     def record(self):
         """Median times and ratios; the median ratio lies between the least and the largest with 1 − 2^(1−n)."""
-        if not self.seconds:
-            return
         own, other = np.moveaxis(np.array(self.seconds), 1, 0)
         ratios = other[:, 0] / own[:, 0]
         self.row["wall_s"], self.row["processor_s"] = np.median(other, axis=0)

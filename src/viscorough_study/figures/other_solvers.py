@@ -29,7 +29,7 @@ def plot_other_solvers(table):
     for row in table.itertuples():
         look, height = looks[row.solver], heights[row.task, row.hurst]
         axes.plot([row.ratio_low, row.ratio_high], [height, height], color=look["color"], linewidth=1)
-        axes.plot(row.ratio, height, markersize=6, **look | (HOLLOW if row.threads > 1 else {}))
+        axes.plot(row.ratio, height, linestyle="", markersize=6, **look | (HOLLOW if row.threads > 1 else {}))
     for place in range(len(tasks)):
         axes.axhspan(-place - 0.48, -place + 0.48, color=style.PALE, alpha=0.35, zorder=0)
     for (_, hurst), y in heights.items():

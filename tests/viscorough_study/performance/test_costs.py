@@ -3,8 +3,10 @@
 import pandas as pd
 import pytest
 
+import pytest
+
+from viscorough_study.performance.costs import fastest, pareto_front
 from viscorough_study.performance.equal_error import COLUMNS, equal_error
-from viscorough_study.performance.pareto import fastest, pareto_front
 
 TABLE = pd.DataFrame(
     [("path", 1.0, 1e-1), ("path", 2.0, 1e-3), ("path", 5.0, 1e-5), ("marching", 3.0, 1e-2), ("model", 0.1, 0.3)],

@@ -20,32 +20,18 @@ _BLUE, _VERMILION = "#0072b2", "#d55e00"  # of Okabe and Ito, which can be told 
 _FEW = 40  # points below which a curve has markers
 _FEW_DECADES = 80  # ratio of the ends of a logarithmic axis
 _MOST_MAPS = 4  # contacts of one file that are drawn
-_STYLE = {
-    **{
-        "font.size": 8,
-        "axes.titlesize": 8,
-        "axes.linewidth": 0.6,
-        "lines.linewidth": 1.2,
-        "lines.markersize": 3,
-        "savefig.dpi": 200,
-    },
-    **{"xtick.direction": "in", "ytick.direction": "in", "pdf.fonttype": 42, "svg.hashsalt": "viscorough"},
-}
+_STYLE = {"font.size": 8, "axes.titlesize": 8, "axes.linewidth": 0.6, "lines.linewidth": 1.2, "lines.markersize": 3}
+_STYLE |= {"xtick.direction": "in", "ytick.direction": "in"}
+_STYLE |= {"savefig.dpi": 200, "pdf.fonttype": 42, "svg.hashsalt": "viscorough"}
+_COLOURS = {"heights": "cividis", "gap": "cividis", "pressure": "inferno"}
+_COLOURS |= {"contact": mpl.colors.ListedColormap(["white", _VERMILION])}
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_SYMBOLS = {"depth": "u", "force": "F/G", "stiffness": "k/G", "pressure": "p/G", "time": "t", "velocity": "v"}
 # Name of a variable: what stands on its axis.
-_LABELS = {
-    "depth": "depth $u$",
-    "force": "force $F/G$",
-    "stiffness": "stiffness $k/G$",
-    "contact_fraction": "contact fraction",
-    "time": "time $t$",
-    "velocity": "velocity $v$",
-    "x": "$x$",
-    "y": "$y$",
-    "heights": "height $z$",
-    "pressure": "pressure $p/G$",
-    "gap": "gap",
-}
+_LABELS = {name: f"{name} ${symbol}$" for name, symbol in _SYMBOLS.items()}
+_LABELS |= {"contact_fraction": "contact fraction", "heights": "height $z$", "x": "$x$", "y": "$y$"}
+# Name of a number of a contact: what it is called above its maps.
+_STATE = {"depth": "$u$", "force": "$F/G$", "contact_fraction": "contact fraction", "patches": "patches"}
 
 
 def plot(content, path):
@@ -69,11 +55,10 @@ def figure_of(content):
     if set(STORED) <= set(content.variables):  # of a loading curve, also in files of motions that follow from one
         (unstack_curves if "levels" in content.variables else curve_from_content)(content)
     numbers = {name: v for name, v in content.variables.items() if v.values.dtype.kind in "iuf" and v.values.size}
-    for kind, names in _KINDS:
+    for draw, names, dimensions in _KINDS:
         together = set(names) <= set(numbers) and len({numbers[name].dimensions for name in names}) == 1
-        drawn = kind(numbers, numbers[names[0]].values.ndim) if together else None
-        if drawn is not None:
-            return drawn
+        if together and numbers[names[0]].values.ndim in dimensions:
+            return draw(numbers)
     raise ValueError(
         "no surface, fields of a contact, loading curve or motion in it; a file that viscorough wrote is needed"
     )
@@ -82,39 +67,31 @@ def figure_of(content):
 # ---- maps
 
 
-def _surface(variables, dimensions):
-    heights = variables["heights"]
-    if dimensions == 1:
-        figure, axes = _panels(1)
-        axes[0].plot(_positions(variables, heights.dimensions[0])[0], heights.values, color=_BLUE, linewidth=0.6)
-        _label(axes[0], _axis_label(variables, heights.dimensions[0]), _label_of(variables, "heights"))
+def _surface(variables):
+    values, (*_, x) = variables["heights"].values, variables["heights"].dimensions
+    if values.ndim == 1:
+        figure, (axes,) = _panels(1)
+        axes.plot(_positions(variables, x, values.size)[0], values, color=_BLUE, linewidth=0.6)
+        _label(axes, _axis_label(variables, x), _label_of(variables, "heights"))
         return figure
-    if dimensions != 2:
-        return None
     variables = _in_readable_units(variables)
-    heights = variables["heights"]
-    figure, axes = _panels(1, width=4.6, height=3.8)
-    _map(figure, axes[0], variables, "heights", heights.values, "cividis")
+    figure, (axes,) = _panels(1, width=4.6, height=3.8)
+    _map(figure, axes, variables, "heights", variables["heights"].values)
     return figure
 
 
-def _fields(variables, dimensions):
-    if dimensions not in (2, 3):
-        return None
+def _fields(variables):
     variables = _in_readable_units(variables)
     names = [name for name in ("pressure", "gap", "contact") if name in variables]
     stacks = {name: variables[name].values.reshape(-1, *variables[name].values.shape[-2:]) for name in names}
+    outside = np.isnan(stacks["pressure"])
     contacts = min(len(stacks["pressure"]), _MOST_MAPS)
     figure = Figure(figsize=(3.1 * len(names), 2.7 * contacts), layout="constrained")
-    symbols = {"depth": "$u$", "force": "$F/G$", "contact_fraction": "contact fraction", "patches": "patches"}
     for i, part in enumerate(figure.subfigures(contacts, 1, squeeze=False)[:, 0]):
-        part.suptitle(_state(variables, i, symbols), fontsize=mpl.rcParams["axes.titlesize"])
+        part.suptitle(_state(variables, i), fontsize=mpl.rcParams["axes.titlesize"])
         for axes, name in zip(part.subplots(1, len(names), squeeze=False)[0], names, strict=True):
             values = stacks[name][i].astype(float)
-            if name == "contact":
-                _contact(axes, variables, np.where(np.isnan(stacks["pressure"][i]), np.nan, values))
-            else:
-                _map(part, axes, variables, name, values, "inferno" if name == "pressure" else "cividis")
+            _map(part, axes, variables, name, np.where(outside[i], np.nan, values) if name == "contact" else values)
     return figure
 
 
@@ -138,49 +115,36 @@ def _in_readable_units(variables):
     return changed
 
 
-def _state(variables, index, symbols):
-    """Numbers of one of the contacts in a file, as text; symbols : {name of the variable: what it is called}."""
+def _state(variables, index):
+    """Numbers of one of the contacts in a file, as text."""
     texts = []
-    for name, symbol in symbols.items():
+    for name, symbol in _STATE.items():
         if name in variables and variables[name].values.size > index:
             unit = _unit(variables[name])
             texts.append(f"{symbol} {variables[name].values.flat[index]:.4g}{f' {unit}' if unit else ''}")
     return ", ".join(texts)
 
 
-def _map(figure, axes, variables, name, values, colours):
-    image = axes.imshow(values, origin="lower", extent=_extent(variables, name, values), cmap=colours)
-    axes.set_facecolor("0.85")  # outside the indenter
-    figure.colorbar(image, ax=axes, label=_label_of(variables, name), shrink=0.85)
-    _label_map(axes, variables, name)
-
-
-def _contact(axes, variables, values):
-    colours = mpl.colors.ListedColormap(["white", _VERMILION])
-    axes.imshow(values, origin="lower", extent=_extent(variables, "contact", values), cmap=colours, vmin=0, vmax=1)
-    axes.set_facecolor("0.85")
-    _label_map(axes, variables, "contact")
-
-
-def _label_map(axes, variables, name):
+def _map(figure, axes, variables, name, values):
+    """Image of a map, grey outside the indenter, where it is nan; with a bar of colours unless it is of the contact."""
     y, x = variables[name].dimensions[-2:]
+    extent = []
+    for dimension, points in ((x, values.shape[1]), (y, values.shape[0])):
+        position, step = _positions(variables, dimension, points)
+        extent += [position[0] - step / 2, position[-1] + step / 2]
+    limits = {"vmin": 0, "vmax": 1} if name == "contact" else {}
+    image = axes.imshow(values, origin="lower", extent=extent, cmap=_COLOURS[name], **limits)
+    axes.set_facecolor("0.85")
+    if name != "contact":
+        figure.colorbar(image, ax=axes, label=_label_of(variables, name), shrink=0.85)
     _label(axes, _axis_label(variables, x), _axis_label(variables, y))
 
 
-def _extent(variables, name, values):
-    ends = []
-    for dimension, points in zip(variables[name].dimensions[:-3:-1], values.shape[::-1], strict=True):
-        position, step = _positions(variables, dimension, points)
-        ends += [position[0] - step / 2, position[-1] + step / 2]
-    return ends
-
-
-def _positions(variables, dimension, points=None):
+def _positions(variables, dimension, points):
     """Positions along a dimension and their distance: those of its coordinate, else the numbers of the points."""
     if _has_positions(variables, dimension):
         values = variables[dimension].values.astype(float)
         return values, (values[-1] - values[0]) / max(len(values) - 1, 1) or 1.0
-    points = points or next(len(v.values) for v in variables.values() if v.dimensions == (dimension,))
     return np.arange(points), 1.0
 
 
@@ -199,9 +163,7 @@ def _axis_label(variables, dimension):
 # ---- curves
 
 
-def _motion(variables, dimensions):
-    if dimensions != 1:
-        return None
+def _motion(variables):
     time = variables["time"].values
     if not (np.diff(time) >= 0).all():
         raise ValueError("time must not decrease; a file that viscorough wrote is needed")
@@ -219,9 +181,8 @@ def _motion(variables, dimensions):
     return figure
 
 
-def _loading_curve(variables, dimensions):
-    if dimensions not in (1, 2):
-        return None
+def _loading_curve(variables):
+    dimensions = variables["depth"].values.ndim
     pairs = [("depth", "force"), ("force", "stiffness"), ("force", "contact_fraction")]
     pairs = [pair for pair in pairs if pair[1] in variables and variables[pair[1]].values.ndim == dimensions]
     figure, axes = _panels(len(pairs))
@@ -247,8 +208,7 @@ def _curve(axes, x, y, thin=False):
 
 
 def _label(axes, x, y):
-    axes.set_xlabel(x)
-    axes.set_ylabel(y)
+    axes.set(xlabel=x, ylabel=y)
     for axis in (axes.xaxis, axes.yaxis):
         low, high = axis.get_view_interval()
         if axis.get_scale() == "log" and 0 < high < _FEW_DECADES * low:  # ticks at decades alone would be too few
@@ -277,8 +237,8 @@ def _unit(variable):
 
 
 _KINDS = (
-    (_fields, ("pressure",)),
-    (_surface, ("heights",)),
-    (_motion, ("time", "depth")),
-    (_loading_curve, ("depth", "force")),
+    (_fields, ("pressure",), (2, 3)),
+    (_surface, ("heights",), (1, 2)),
+    (_motion, ("time", "depth"), (1,)),
+    (_loading_curve, ("depth", "force"), (1, 2)),
 )

@@ -90,6 +90,11 @@ def left_open(table):
     return table
 
 
+def in_words(conventions):
+    """Conventions such as "rms_convention disc, average geometric"."""
+    return ", ".join(f"{name} {value}" for name, value in conventions.items())
+
+
 def select(table, wanted):
     """Rows of a table of fits with the wanted values, {column or convention: value}, in the reading of the law wanted.
 

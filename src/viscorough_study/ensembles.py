@@ -12,20 +12,6 @@ import numpy as np
 import xarray as xr
 
 ROUNDING = 1e-9  # relative difference up to which abscissae and ends of ranges count as equal
-MEANING = {
-    "x": ("dimensionless force F/(4GhL) or time Ft/(4ηhL)", "Eq. 2 and Eq. 3"),
-    "velocity": ("dimensionless velocity vt/h = X/κ", "Eq. 2"),
-    "stiffness": ("dimensionless stiffness κ = k/(4GL)", "Eq. 3"),
-    "contact_count": ("elements in contact", "Sec. III, regions (a) to (c)"),
-    "velocity_arithmetic": ("arithmetic mean of vt/h over the realizations", "Eq. 2"),
-    "velocity_geometric": ("geometric mean of vt/h over the realizations", "Eq. 2"),
-    "velocity_spread": ("standard deviation of ln(vt/h) over the realizations", "Eq. 2"),
-    "stiffness_geometric": ("geometric mean of κ over the realizations", "Eq. 3"),
-    "contact_count_median": ("median of the elements in contact", "Sec. III, regions (a) to (c)"),
-    "contact_fraction_mean": ("mean share of the elements in contact", "Sec. III, regions (a) to (c)"),
-    "realizations_defined": ("realizations whose curve reaches this abscissa", "Eq. 2"),
-    "fraction_defined": ("share of the curves that were to reach this abscissa and do", "Eq. 2"),
-}
 
 
 def abscissa(low, high, per_decade):
@@ -80,38 +66,30 @@ def on_abscissae(curves, rms, diameter, x):
 
 
 def ensemble_dataset(conventions, x, stiffness, count, coords):
-    """Ensemble dataset with its averages.
+    """Ensemble dataset: vt/h = X/κ (velocity), κ (stiffness), elements in contact, and averages over the realizations.
+
+    Averages are the means and medians of these that their names tell, velocity_spread, the standard deviation of
+    ln(vt/h), realizations_defined, whose curve reaches an abscissa, and fraction_defined, the share of the curves that
+    were to reach it and do.
 
     conventions : names of the rms conventions; x : X, shape (abscissae,)
     stiffness, count : κ and elements in contact, shape (conventions, realizations, abscissae), nan where undefined
     coords : hurst, case, diameter, elements, and until_x, the X that the curves were to reach, if it is less than all
     """
     coords = {"until_x": np.inf} | coords
-    velocity = x / stiffness
-    elements, until_x = (
-        one[1] if isinstance(one, tuple) else one  # of every realization
-        for one in (coords["elements"], coords["until_x"])
-    )
+    velocity, until_x = x / stiffness, coords["until_x"]
+    until_x = until_x[1] if isinstance(until_x, tuple) else until_x  # of every realization
     of_curves = ("rms_convention", "realization", "abscissa")
     variables = {"velocity": velocity, "stiffness": stiffness, "contact_count": count}
     variables = {name: (of_curves, values) for name, values in variables.items()}
     variables |= {
         name: (("rms_convention", "abscissa"), values)
-        for name, values in _averages(x, velocity, count, elements, until_x).items()
+        for name, values in _averages(x, velocity, count, until_x).items()
     }
-    dataset = xr.Dataset(variables, {"x": ("abscissa", x), "rms_convention": conventions, **coords})
-    for name, (long_name, equation) in MEANING.items():
-        dataset[name].attrs = {"long_name": long_name, "units": "1", "paper_equation": equation}
-    dataset["hurst"].attrs = {"long_name": "Hurst exponent", "units": "1"}
-    dataset["elements"].attrs = {"long_name": "elements of an indenter", "units": "1"}
-    dataset["until_x"].attrs = {"long_name": "X that the curve was to reach", "units": "1"}
-    dataset["diameter"].attrs = {"long_name": "diameter of the indenter", "units": "m"}
-    dataset["case"].attrs = {"long_name": "name of the case"}
-    dataset["rms_convention"].attrs = {"long_name": "where the rms height h is measured"}
-    return dataset
+    return xr.Dataset(variables, {"x": ("abscissa", x), "rms_convention": conventions, **coords})
 
 
-def _averages(x, velocity, count, elements, until_x):
+def _averages(x, velocity, count, until_x):
     """Averages over the realizations that are defined, each of shape (rms conventions, abscissae)."""
     defined = np.isfinite(velocity)
     number = defined.sum(axis=1)
@@ -131,7 +109,6 @@ def _averages(x, velocity, count, elements, until_x):
             "velocity_spread": np.sqrt(squares / (number - 1)),
             "stiffness_geometric": x / np.exp(geometric),
             "contact_count_median": np.nanmedian(count, axis=1),
-            "contact_fraction_mean": mean(count / np.reshape(elements, (-1, 1))),
             "realizations_defined": number,
             "fraction_defined": np.where(expected > 0, number / np.maximum(expected, 1), 0.0),
         }

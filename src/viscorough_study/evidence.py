@@ -6,20 +6,18 @@ from functools import cached_property
 import numpy as np
 import pandas as pd
 import xarray as xr
-from scipy import stats
 from scipy.special import ndtri
 
 from viscorough_study import pool
 from viscorough_study.conventions import of_source, select
+from viscorough_study.intervals import NO_INTERVAL
 from viscorough_study.paper_data import number
 from viscorough_study.power_law import find_region
 
 # From the best to the worst: the verdict on a claim is the worst of its cases.
 VERDICTS = ("reproduced", "reproduced under a stated convention", "undecided", "not reproduced")
-UNDEFINED = (np.nan, np.nan, np.nan)  # value and interval of a quantity that cannot be computed
 CONFIDENCE_TAIL = 0.025  # on either side of an interval
 FEW_WIDENED = 20.0  # by what factor intervals of few realizations must be able to widen without deciding otherwise
-NO_INTERVAL = (np.nan, np.nan)  # of a quantity without statistical scatter, and of one without a range
 
 
 @dataclass(frozen=True)
@@ -70,13 +68,7 @@ class Evidence:
     @cached_property
     def regions(self):
         """{H: window (X_low, X_high) of region (b) of the pooled discs, None without one}."""
-        return {hurst: self._region(ensemble) for hurst, ensemble in self.pooled.items()}
-
-    def _region(self, ensemble):
-        try:
-            return find_region(ensemble, **self.limits)
-        except ValueError:
-            return None
+        return {hurst: find_region(ensemble, **self.limits) for hurst, ensemble in self.pooled.items()}
 
     def fits(self, source, **wanted):
         """Base fits of "discs" or "lines", a row for each Hurst exponent, in the conventions of the figures.
@@ -113,6 +105,15 @@ class Evidence:
         together = ndtri(1 - CONFIDENCE_TAIL / cases) / ndtri(1 - CONFIDENCE_TAIL)
         return False if equivalence(widened(values, factor * together), low, high) is False else None
 
+    def case(self, name, values, expected, allowed, *, realizations, cases=1, convention="", extremes=NO_INTERVAL):
+        """Case of a quantity that must lie in the range allowed, (low, high): `judged` by `within`.
+
+        convention : in which the claim holds, which few realizations do not tell
+        """
+        met = self.within(values, *allowed, realizations=realizations, cases=cases)
+        other = "" if self.are_few(realizations) else convention
+        return judged(name, values, expected, met, other, extremes=extremes)
+
 
 def equivalence(interval, low, high):
     """Whether a quantity with this 95 % interval lies in the range from low to high.
@@ -132,13 +133,6 @@ def widened(values, factor):
     """Ends of an interval whose distances from the value are multiplied by a factor; values : value, low, high."""
     value, low, high = values
     return value - factor * (value - low), value + factor * (high - value)
-
-
-def mean_with_interval(samples):
-    """Mean of independent samples and its 95 % interval by Student's t: (value, low, high); nan for a single one."""
-    mean, number = samples.mean(), samples.size
-    error = stats.t.ppf(0.975, number - 1) * samples.std(ddof=1) / np.sqrt(number) if number > 1 else np.nan
-    return mean, mean - error, mean + error
 
 
 def hurst_name(hurst):

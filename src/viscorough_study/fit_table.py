@@ -12,6 +12,7 @@ import pandas as pd
 
 from viscorough.calibrated_law import COLUMNS as CALIBRATION
 from viscorough_study.conventions import FITTED, fits, interval_columns, of_source, readings
+from viscorough_study.intervals import described, three_columns
 from viscorough_study.mdr_lambda import match_lambda
 from viscorough_study.pool import elements_across
 from viscorough_study.power_law import fit_power_law, named_windows
@@ -19,13 +20,13 @@ from viscorough_study.power_law import fit_power_law, named_windows
 
 def _interval_descriptions():
     """Columns of the interval of ζ in every reading of the law."""
-    described = {}
+    columns = {}
     for reading in readings():
         law = "with the factor 1/Γ(1 + β) (Eq. 9)" if reading["gamma"] == "with" else "without Γ (Eq. 3)"
         text = f"end of the 95 % interval of ζ, {law}, L the {reading['diameter_convention']}"
         low, high = interval_columns(**reading)
-        described |= {low: (f"lower {text}", "1"), high: (f"upper {text}", "1")}
-    return described
+        columns |= {low: (f"lower {text}", "1"), high: (f"upper {text}", "1")}
+    return columns
 
 
 # column: (long_name, units), in the order of the table; units None for text
@@ -40,15 +41,13 @@ COLUMNS = {
     "x_high": ("upper end of the window in X = F/(4GhL) = Ft/(4ηhL), L the diameter", "1"),
     "decades": ("decades of X in the window, 0 where there is none", "1"),
     "realizations": ("realizations in the ensemble", "1"),
-    "beta": ("exponent β of vt/h in X (Eqs. 9 and 10)", "1"),
-    "beta_low": ("lower end of the 95 % interval of β", "1"),
-    "beta_high": ("upper end of the 95 % interval of β", "1"),
+    **described("beta", "exponent β of vt/h in X (Eqs. 9 and 10)", of="of the 95 % interval of β"),
     "zeta": ("prefactor ζ without Γ (Eq. 3), L the diameter", "1"),
     **_interval_descriptions(),
     "residual": ("rms deviation of ln(vt/h) from the power law in the window", "1"),
-    "lambda": ("λ in C1D = λ q C2D that matches the line to the surface (Eq. 13)", "1"),
-    "lambda_low": ("lower end of the 95 % interval of λ", "1"),
-    "lambda_high": ("upper end of the 95 % interval of λ", "1"),
+    **described(
+        "lambda", "λ in C1D = λ q C2D that matches the line to the surface (Eq. 13)", of="of the 95 % interval of λ"
+    ),
 }
 
 
@@ -81,15 +80,13 @@ def _fit(ensemble, lines, window, **how):
     x, velocity = ensemble["x"].values, ensemble["velocity"].values
     fit = fit_power_law(x, velocity, window, **how)
     columns = {"x_low": window[0], "x_high": window[1], "decades": np.log10(window[1] / window[0])}
-    columns |= {"beta": fit.beta, "residual": fit.residual}
-    columns["beta_low"], columns["beta_high"] = fit.beta_interval
-    columns["zeta"] = fit.zeta()[0]
+    columns |= three_columns("beta", (fit.beta, *fit.beta_interval))
+    columns |= {"zeta": fit.zeta()[0], "residual": fit.residual}
     for reading in readings():
         columns |= dict(zip(interval_columns(**reading), fit.zeta(**reading)[1:], strict=True))
     if lines is not None:
         with suppress(ValueError):
-            matched = match_lambda(x, velocity, lines["velocity"].values[0], window, **how)
-            columns |= dict(zip(("lambda", "lambda_low", "lambda_high"), matched, strict=True))
+            columns |= three_columns("lambda", match_lambda(x, velocity, lines["velocity"].values[0], window, **how))
     return columns
 
 

@@ -14,7 +14,8 @@ from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
 from viscorough.viscous.internal_variables import march_medium
 from viscorough.viscous.media import Newtonian
-from viscorough_study.evidence import NO_INTERVAL, judged
+from viscorough_study.evidence import hurst_name, judged
+from viscorough_study.intervals import NO_INTERVAL
 from viscorough_study.seeds import gamma_factor_key, realization_seed
 
 ACROSS = 33  # elements across the disc
@@ -62,15 +63,12 @@ def history(evidence, tolerance):
     differing = [int((first != second).sum()) for first, second in pairwise(sets)]
     apart = [abs(second / first - 1) for first, second in pairwise(depths)]
     number = int(sets[0].sum())
-    return [
-        _case(f"elements that differ, of {number}", differing, 0),
-        _case("relative difference of depths", apart, tolerance),
-    ]
+    yield _case(f"elements that differ, of {number}", differing, 0)
+    yield _case("relative difference of depths", apart, tolerance)
 
 
 def depth_over_rms(evidence, tolerance):
     """Elements that touch at u/h and differ when u and h are multiplied by the same factor."""
-    cases = []
     for hurst in evidence.pooled:
         disc = _disc(evidence, hurst)
         touching = contact_at(disc, depth=DEPTH).contact
@@ -79,8 +77,7 @@ def depth_over_rms(evidence, tolerance):
             scaled = Indenter(factor * disc.heights, disc.spacing)
             differing.append(int((contact_at(scaled, depth=factor * DEPTH).contact != touching).sum()))
         number = int((touching == 1).sum())
-        cases.append(_case(f"H = {hurst:g}, elements that differ, of {number}", differing, tolerance))
-    return cases
+        yield _case(f"{hurst_name(hurst)}, elements that differ, of {number}", differing, tolerance)
 
 
 def one_surface(evidence, tolerance):
@@ -89,7 +86,6 @@ def one_surface(evidence, tolerance):
     κ(X) with other heights and another diameter, for every Hurst exponent, and F/(ηvL) of direct integrations with
     other forces and viscosities, at the same Ft/η and so the same contact, for the smallest.
     """
-    cases = []
     for hurst in evidence.pooled:
         disc = _disc(evidence, hurst)
         curve = _stiffness(disc, 1.0, 1.0)
@@ -97,13 +93,10 @@ def one_surface(evidence, tolerance):
         for heights, lengths in UNITS:
             scaled = Indenter(heights * disc.heights, lengths * disc.spacing)
             deviations.append(np.max(np.abs(_stiffness(scaled, heights, lengths) / curve - 1)))
-        cases.append(_case(f"H = {hurst:g}", deviations, tolerance))
+        yield _case(hurst_name(hurst), deviations, tolerance)
     disc = _disc(evidence, min(evidence.pooled))
     first, *others = (_resistance(disc, *drive) for drive in DRIVES)
-    return [
-        *cases,
-        _case("other forces and viscosities", [np.max(np.abs(one / first - 1)) for one in others], tolerance),
-    ]
+    yield _case("other forces and viscosities", [np.max(np.abs(one / first - 1)) for one in others], tolerance)
 
 
 def _resistance(disc, force, viscosity):
@@ -115,10 +108,5 @@ def _resistance(disc, force, viscosity):
 
 def _stiffness(indenter, rms, diameter):
     """κ at the dimensionless forces, for a surface of these lengths."""
-    return (
-        indent(indenter, until_force=4 * rms * diameter * FORCES[-1]).at_force(4 * rms * diameter * FORCES)[1]
-        / diameter
-    )
-
-
-JUDGES = {"history": history, "depth_over_rms": depth_over_rms, "one_surface": one_surface}
+    force = 4 * rms * diameter * FORCES
+    return indent(indenter, until_force=force[-1]).at_force(force)[1] / diameter

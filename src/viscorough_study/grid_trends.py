@@ -12,6 +12,7 @@ import pandas as pd
 
 from viscorough.reference import exponent_beta
 from viscorough_study.conventions import FITTED, fits, of_source
+from viscorough_study.intervals import UNDEFINED, described, interval, three_columns
 from viscorough_study.power_law import fit_power_law, in_window
 
 FINDINGS = (
@@ -26,13 +27,9 @@ COLUMNS = {
     "hurst": ("Hurst exponent", "1"),
     "grids": ("grids that have a fit in this window", "1"),
     "elements": ("elements of the finest grid", "1"),
-    "beta": ("exponent in this window on the finest grid", "1"),
-    "beta_low": ("lower end of its 95 % interval", "1"),
-    "beta_high": ("upper end of its 95 % interval", "1"),
+    **described("beta", "exponent in this window on the finest grid"),
     "expected": ("H/(1 + H), Eq. 10; 0 for controls", "1"),
-    "slope": ("change of the exponent per decade of elements", "1"),
-    "slope_low": ("lower end of its 95 % interval", "1"),
-    "slope_high": ("upper end of its 95 % interval", "1"),
+    **described("slope", "change of the exponent per decade of elements"),
     "finding": ("one of: " + "; ".join(FINDINGS), ""),
 }
 ERROR_MIN = 1e-12  # of an exponent, so that equal curves have a finite weight
@@ -84,8 +81,8 @@ def fixed_window_rows(ensemble, windows, about, *, average, rms_convention, elem
         fit = fit_power_law(x, one["velocity"].values, (low, high), average=average, **bootstrap)
         row = about | {"hurst": ensemble["hurst"].item(), "rms_convention": own, "average": average}
         row |= {"window_rule": f"X = {low:g} to {high:g}", "x_low": low, "x_high": high}
-        row |= {"decades": np.log10(high / low), "realizations": one.sizes["realization"], "beta": fit.beta}
-        row["beta_low"], row["beta_high"] = fit.beta_interval
+        row |= {"decades": np.log10(high / low), "realizations": one.sizes["realization"]}
+        row |= three_columns("beta", (fit.beta, *fit.beta_interval))
         rows.append(row | {"zeta": fit.zeta()[0], "residual": fit.residual})
     return rows
 
@@ -94,15 +91,21 @@ def _trend(grids, expected, tolerance):
     """Columns of one source and Hurst exponent, from the number of grids on; grids : fits from coarse to fine."""
     slope = _slope(*(grids[name].to_numpy() for name in ("elements", "beta", "beta_low", "beta_high")))
     finest = grids.iloc[-1]
-    interval = finest[["beta", "beta_low", "beta_high"]].tolist()
-    finding = _finding(np.subtract(interval, expected), slope, tolerance)
-    return len(grids), finest["elements"], *interval, expected, *slope, finding
+    beta = interval(finest, "beta")
+    return (
+        len(grids),
+        finest["elements"],
+        *beta,
+        expected,
+        *slope,
+        _finding(np.subtract(beta, expected), slope, tolerance),
+    )
 
 
 def _slope(elements, beta, low, high):
     """dβ/d log₁₀ n and its 95 % interval; nan for fewer than three grids."""
     if beta.size < 3:
-        return (np.nan,) * 3
+        return UNDEFINED
     error = np.maximum(high - low, ERROR_MIN) / (2 * 1.96)
     x = np.log10(elements)
     (slope, intercept), covariance = np.polyfit(x, beta, 1, w=1 / error, cov="unscaled")

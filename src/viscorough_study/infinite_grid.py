@@ -14,6 +14,7 @@ import numpy as np
 import pandas as pd
 
 from viscorough.reference import exponent_beta
+from viscorough_study.intervals import described
 from viscorough_study.scaling_collapse import COLUMNS as OF_COLLAPSE
 from viscorough_study.scaling_collapse import HEIGHTS, QUANTITIES
 
@@ -29,17 +30,13 @@ COLUMNS = {
     "elements_min": ("elements in contact from which the fit begins", "1"),
     "x_high": ("X at which it ends", "1"),
     "expected": ("H/(1 + H), Eq. 10", "1"),
-    "beta": ("exponent of an infinitely fine grid", "1"),
-    "beta_low": ("lower end of its 95 % interval over realizations", "1"),
-    "beta_high": ("upper end of its 95 % interval over realizations", "1"),
+    **described("beta", "exponent of an infinitely fine grid", of="of its 95 % interval over realizations"),
     "ranges": ("ranges fitted", "1"),
     "ranges_low": ("lowest end of the intervals in all ranges", "1"),
     "ranges_high": ("highest end of the intervals in all ranges", "1"),
     "amplitude": ("A", "1"),
     "correction": ("B", "1"),
-    "omega": ("exponent ω of the correction", "1"),
-    "omega_low": ("lower end of its 95 % interval", "1"),
-    "omega_high": ("upper end of its 95 % interval", "1"),
+    **described("omega", "exponent ω of the correction"),
     "deviation": ("rms deviation of ln(vt/h) from the law, weighted", "1"),
     "finding": (
         "agrees: the intervals in all ranges lie within the tolerance of H/(1 + H), departs: outside, else undecided; "

@@ -16,8 +16,9 @@ from viscorough.calibrated_law import LARGEST_DEVIATION, X_LOW, interface_depth,
 from viscorough.reference import COMPLETE_CONTACT_STIFFNESS
 from viscorough_study.conventions import FITTED
 from viscorough_study.discs import punch_stiffness
+from viscorough_study.intervals import described, percentile_interval, three_columns, with_interval
 from viscorough_study.pool import elements_across, ensembles_on_grids, select
-from viscorough_study.power_law import log_means, percentile_interval
+from viscorough_study.power_law import log_means
 
 LAW_ELEMENTS_MIN = 5  # median of the elements in contact from which on the law is fitted; with one, the slope is 1
 ENSEMBLE = {
@@ -31,9 +32,7 @@ COLUMNS = {
     **ENSEMBLE,
     "realizations": ("realizations", "1"),
     "kappa_c": ("stiffness κ of the flat punch on this grid", "1"),
-    "u0": ("u₀/h: mean of the interface's part g of vt/h over the plateau", "1"),
-    "u0_low": ("lower end of its 95 % interval", "1"),
-    "u0_high": ("upper end of its 95 % interval", "1"),
+    **described("u0", "u₀/h: mean of the interface's part g of vt/h over the plateau"),
     "plateau_low": ("lower end of the plateau of g in X", "1"),
     "plateau_high": ("upper end of the plateau of g in X", "1"),
     "exponent": ("exponent b of the law of g: g ∝ X^b at small X", "1"),
@@ -52,9 +51,7 @@ CURVES = {
     **ENSEMBLE,
     "x": ("X = F/(4GhL) = Ft/(4ηhL)", "1"),
     "velocity": ("mean vt/h", "1"),
-    "interface": ("g: vt/h less X/κ_c of the punch", "1"),
-    "interface_low": ("lower end of its 95 % interval", "1"),
-    "interface_high": ("upper end of its 95 % interval", "1"),
+    **described("interface", "g: vt/h less X/κ_c of the punch"),
     "law": ("vt/h of the law", "1"),
 }
 
@@ -130,10 +127,8 @@ def _depths(x, velocity):
 def _plateau(x, interface, plateau, size):
     """Columns of u₀; interface : g of the ensemble and of its resamples, shape (resamples + 1, abscissae)."""
     run = _run(interface[0] >= (1 - plateau) * interface[0].max(), int(np.argmax(interface[0])))
-    values = interface[:, run].mean(axis=1)
-    low, high = percentile_interval(values[1:], size)
-    ends = {"plateau_low": x[run][0], "plateau_high": x[run][-1]}
-    return {"u0": values[0], "u0_low": low, "u0_high": high} | ends
+    u0 = with_interval(interface[:, run].mean(axis=1), size)
+    return three_columns("u0", u0) | {"plateau_low": x[run][0], "plateau_high": x[run][-1]}
 
 
 def fit_law(x, velocity, punch, allowed):

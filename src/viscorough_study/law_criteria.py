@@ -4,70 +4,19 @@ Where a claim fails in the conventions of the figures but holds in others that t
 so, and names the conventions with the smallest deviation.
 """
 
-from functools import partial
 from itertools import product
 
 import numpy as np
 import pandas as pd
-from scipy import stats
 
 from viscorough import reference
-from viscorough_study.conventions import FITTED, NAMES, in_every_reading, left_open, of_source, select
-from viscorough_study.evidence import UNDEFINED, hurst_name, judged
-from viscorough_study.power_law import fit_power_law, in_window, log_means, percentile_interval
+from viscorough_study.conventions import FITTED, NAMES, in_every_reading, in_words, left_open, of_source, select
+from viscorough_study.evidence import hurst_name, judged
+from viscorough_study.intervals import UNDEFINED, deviation_interval, interval, percentile_interval
+from viscorough_study.power_law import fit_power_law, in_window, log_means
 from viscorough_study.region_criteria import combinations_case
 
 SHARE_OF_SQUARE = 0.75  # of its square, that a disc has at least on every grid
-
-
-def law_cases(evidence, tolerance, *, source, column, law, above=-1.0, **fixed):
-    """Cases of a fitted quantity against a law, one for each Hurst exponent above the given one.
-
-    source : "discs" or "lines"; column : of the table of fits; law : function of H
-    tolerance : of the deviation; fixed : conventions that the claim itself fixes
-    """
-    fits = evidence.fits(source, **fixed)
-    fits = fits[fits.index > above]
-    deviation = partial(_largest_deviation, column=column, law=law, hursts=fits.index)
-    convention = _nearest_convention(evidence.tables["scaling"], source, fixed, deviation, tolerance)
-    cases = []
-    for hurst, fit in fits.iterrows():
-        values = fit[[column, f"{column}_low", f"{column}_high"]].tolist()
-        ends, number = (law(hurst) - tolerance, law(hurst) + tolerance), fit["realizations"]
-        met = evidence.within(values, *ends, realizations=number, cases=len(fits))
-        other = "" if evidence.are_few(number) else convention
-        cases.append(judged(hurst_name(hurst), values, law(hurst), met, other))
-    return cases
-
-
-def _largest_deviation(fits, *, column, law, hursts):
-    """Largest deviation from the law of an end of an interval; inf if one is undefined."""
-    if fits["hurst"].isin(hursts).sum() != len(hursts):
-        return np.inf
-    fits = fits.set_index("hurst").loc[hursts]
-    expected = law(fits.index.to_numpy())
-    ends = fits[[f"{column}_low", f"{column}_high"]].to_numpy()
-    deviations = np.abs(ends - expected[:, None])
-    return deviations.max() if np.isfinite(deviations).all() else np.inf
-
-
-def _nearest_convention(scaling, source, fixed, deviation, tolerance):
-    """Conventions in words in which the interval of every Hurst exponent lies within the tolerance; "" if none.
-
-    Of several, those with the smallest deviation.
-    """
-    fits = left_open(in_every_reading(scaling[(scaling["source"] == source) & (scaling["case_group"] == "base")]))
-    for name, value in fixed.items():
-        fits = fits[fits[name] == value]
-    nearest, smallest = "", tolerance
-    for values, group in fits.groupby(NAMES, sort=False):
-        if (largest := deviation(group)) <= smallest:
-            nearest, smallest = _in_words(dict(zip(NAMES, values, strict=True))), largest
-    return nearest
-
-
-def _in_words(conventions):
-    return ", ".join(f"{name} {value}" for name, value in conventions.items())
 
 
 # ---- exponents
@@ -75,14 +24,33 @@ def _in_words(conventions):
 
 def beta(evidence, tolerance, source="discs"):
     """β against H/(1 + H), at the Hurst exponents above which the paper says that it holds."""
-    above = evidence.said("agreement", "beta_hurst_min")
-    law = reference.exponent_beta
-    return law_cases(evidence, tolerance, source=source, column="beta", law=law, above=above)
+    fits = evidence.fits(source)
+    fits = fits[fits.index > evidence.said("agreement", "beta_hurst_min")]
+    convention = _nearest_convention(evidence.tables["scaling"], source, fits.index, tolerance)
+    for hurst, fit in fits.iterrows():
+        law, about = reference.exponent_beta(hurst), {"cases": len(fits), "convention": convention}
+        ends = law - tolerance, law + tolerance
+        yield evidence.case(hurst_name(hurst), interval(fit, "beta"), law, ends, **about, realizations=fit.realizations)
 
 
 def beta_lines(evidence, tolerance):
     """β of lines against H/(1 + H)."""
     return beta(evidence, tolerance, "lines")
+
+
+def _nearest_convention(scaling, source, hursts, tolerance):
+    """Conventions in words in which the interval of β of every Hurst exponent lies within the tolerance; "" if none.
+
+    Of several, those with the smallest deviation.
+    """
+    fits = left_open(in_every_reading(scaling[(scaling["source"] == source) & (scaling["case_group"] == "base")]))
+    nearest, smallest = "", tolerance
+    for values, group in fits.groupby(NAMES, sort=False):
+        ends = group.set_index("hurst").reindex(hursts)[["beta_low", "beta_high"]].to_numpy()
+        deviations = np.abs(ends - reference.exponent_beta(hursts.to_numpy())[:, None])
+        if np.isfinite(deviations).all() and deviations.max() <= smallest:
+            nearest, smallest = in_words(dict(zip(NAMES, values, strict=True))), deviations.max()
+    return nearest
 
 
 def coincide(evidence, tolerance):
@@ -92,13 +60,12 @@ def coincide(evidence, tolerance):
         conventions = dict(zip(FITTED, values, strict=True))
         ends = np.abs(_differences(evidence, conventions)[["low", "high"]].to_numpy())
         if ends.size and np.isfinite(ends).all() and ends.max() <= smallest:
-            nearest, smallest = _in_words(conventions), ends.max()
-    cases, differences = [], _differences(evidence, {})
+            nearest, smallest = in_words(conventions), ends.max()
+    differences = _differences(evidence, {})
     for hurst, row in differences.iterrows():
         *values, number = row.tolist()
-        met = evidence.within(values, -tolerance, tolerance, realizations=number, cases=len(differences))
-        cases.append(judged(hurst_name(hurst), values, 0.0, met, "" if evidence.are_few(number) else nearest))
-    return cases
+        about = {"realizations": number, "cases": len(differences), "convention": nearest}
+        yield evidence.case(hurst_name(hurst), values, 0.0, (-tolerance, tolerance), **about)
 
 
 def _differences(evidence, conventions):
@@ -116,10 +83,11 @@ def _differences(evidence, conventions):
 def hurst_only(evidence, tolerance):
     """Standard deviation of β between combinations of force, viscosity, size and rms height, without sampling."""
     if None in evidence.regions.values():
-        return [judged("all H", UNDEFINED, 0.0, None)]
+        yield judged("all H", UNDEFINED, 0.0, None)
+        return
     windows, combinations = evidence.regions, evidence.combinations.items()
     slopes = [[_slopes(one, windows[hurst]) for one in ensembles] for hurst, ensembles in combinations]
-    return [combinations_case(evidence, slopes, 0.0, tolerance)]
+    yield combinations_case(evidence, slopes, 0.0, tolerance)
 
 
 def no_grid(evidence, tolerance):
@@ -129,12 +97,12 @@ def no_grid(evidence, tolerance):
     """
     trends = evidence.tables["sizes_trends"]
     trends = trends[(trends["source"] == "discs") & ~trends["window_rule"].isin(FITTED["window_rule"])]
-    trends, cases = trends.dropna(subset="slope"), []
-    for row in trends.sort_values("hurst", kind="stable").itertuples():
-        values = row.slope, row.slope_low, row.slope_high
-        met = evidence.within(values, -tolerance, tolerance, realizations=np.inf, cases=len(trends))
-        cases.append(judged(f"{hurst_name(row.hurst)}, {row.window_rule}", values, 0.0, met))
-    return cases or [judged("all H", UNDEFINED, 0.0, None)]
+    trends = trends.dropna(subset="slope").sort_values("hurst", kind="stable")
+    if trends.empty:
+        yield judged("all H", UNDEFINED, 0.0, None)
+    for row in trends.to_dict("records"):
+        name, ends = f"{hurst_name(row['hurst'])}, {row['window_rule']}", (-tolerance, tolerance)
+        yield evidence.case(name, interval(row, "slope"), 0.0, ends, realizations=np.inf, cases=len(trends))
 
 
 def realizations(evidence, tolerance):
@@ -142,19 +110,16 @@ def realizations(evidence, tolerance):
 
     The interval is that of the standard deviation of a normal distribution, by the distribution of χ².
     """
-    number, cases = evidence.said("boundary_elements", "realizations_fig4"), []
+    number = evidence.said("boundary_elements", "realizations_fig4")
     for hurst, ensemble in evidence.pooled.items():
         window = evidence.regions[hurst]
         if window is None:
-            cases.append(judged(hurst_name(hurst), UNDEFINED, np.nan, None))
+            yield judged(hurst_name(hurst), UNDEFINED, np.nan, None)
             continue
         slopes = _slopes(ensemble, window)
-        freedom = slopes.size - 1
         half_width = 1.96 * slopes.std(ddof=1) / np.sqrt(number)
-        values = half_width, *(half_width * np.sqrt(freedom / stats.chi2.ppf([0.975, 0.025], freedom)))
-        of_all = {"realizations": slopes.size, "cases": len(evidence.pooled)}
-        cases.append(judged(hurst_name(hurst), values, np.nan, evidence.within(values, -np.inf, tolerance, **of_all)))
-    return cases
+        values, about = deviation_interval(half_width, slopes.size - 1), {"cases": len(evidence.pooled)}
+        yield evidence.case(hurst_name(hurst), values, np.nan, (-np.inf, tolerance), **about, realizations=slopes.size)
 
 
 def _slopes(ensemble, window):
@@ -170,15 +135,11 @@ def alpha_limit(evidence, tolerance):
     wanted = evidence.conventions | of_source("discs") | {"case_group": "sizes"}
     discs = select(evidence.tables["sizes"], wanted).set_index("hurst")
     discs = discs[discs["elements"] >= SHARE_OF_SQUARE * evidence.across**2].sort_values("elements", kind="stable")
-    cases = []
     for source, fits in (("lines", evidence.fits("lines")), ("discs", discs)):
-        fit = fits[fits.index == 1.0].head(1)
-        *values, number = (
-            fit[["beta", "beta_low", "beta_high", "realizations"]].iloc[0] if len(fit) else (*UNDEFINED, 0)
-        )
-        met = evidence.within(values, 0.5 - tolerance, 0.5 + tolerance, realizations=number, cases=2)
-        cases.append(judged(f"H = 1, {source}", tuple(map(float, values)), 0.5, met))
-    return cases
+        fit = fits[fits.index == 1.0].head(1).to_dict("records")
+        values, number = (interval(fit[0], "beta"), fit[0]["realizations"]) if fit else (UNDEFINED, 0)
+        ends = 0.5 - tolerance, 0.5 + tolerance
+        yield evidence.case(f"H = 1, {source}", values, 0.5, ends, realizations=number, cases=2)
 
 
 # ---- curves
@@ -216,29 +177,13 @@ def _cases_at_centre(evidence, tolerance, ratio):
     ratio : function of H, ensemble, fit of region (b), centre and bootstrap; returns the value and its samples
     """
     bootstrap = {"average": evidence.conventions["average"], "resamples": evidence.resamples, "seed": evidence.seed}
-    cases = []
     for hurst, ensemble in evidence.pooled.items():
         window = evidence.regions[hurst]
         if window is None:
-            cases.append(judged(hurst_name(hurst), UNDEFINED, 1.0, None))
+            yield judged(hurst_name(hurst), UNDEFINED, 1.0, None)
             continue
         fit = fit_power_law(ensemble["x"].values, ensemble["velocity"].values, window, **bootstrap)
         value, samples = ratio(hurst, ensemble, fit, np.sqrt(np.prod(window)), bootstrap)
         values = value, *percentile_interval(samples, fit.realizations)
         of_all = {"realizations": fit.realizations, "cases": len(evidence.pooled)}
-        met = evidence.within(values, 1 - tolerance, 1 + tolerance, **of_all)
-        cases.append(judged(hurst_name(hurst), values, 1.0, met))
-    return cases
-
-
-JUDGES = {
-    "beta": beta,
-    "beta_lines": beta_lines,
-    "coincide": coincide,
-    "hurst_only": hurst_only,
-    "no_grid": no_grid,
-    "realizations": realizations,
-    "alpha_limit": alpha_limit,
-    "depth": depth,
-    "master_curve": master_curve,
-}
+        yield evidence.case(hurst_name(hurst), values, 1.0, (1 - tolerance, 1 + tolerance), **of_all)

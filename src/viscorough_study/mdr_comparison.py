@@ -11,34 +11,28 @@ computed only at whole powers of ten.
 
 import numpy as np
 import pandas as pd
-from scipy.special import stdtrit
 
 from viscorough.contact.loading_path import indent
 from viscorough.contact.one_contact import contact_at
 from viscorough.indenter import Indenter
 from viscorough.mdr import line_of_surface, reduce
 from viscorough.surfaces import cut_disc, self_affine_square
+from viscorough_study.intervals import described, mean_with_interval
 from viscorough_study.seeds import mdr_comparison_key, realization_seed
 
 COLUMNS = {
     "hurst": ("Hurst exponent H", "1"),
     "x": ("dimensionless force F/(4GhL) or time Ft/(4ηhL)", "1"),
     "stiffness": ("geometric mean of κ of the discs", "1"),
-    "stiffness_ratio": ("geometric mean of κ of the lines over that of the discs", "1"),
-    "stiffness_ratio_low": ("lower end of its 95 % interval", "1"),
-    "stiffness_ratio_high": ("upper end of its 95 % interval", "1"),
+    **described("stiffness_ratio", "geometric mean of κ of the lines over that of the discs"),
     "stiffness_scatter": ("standard deviation of ln κ of a line over its disc", "1"),
-    "area_ratio": ("geometric mean of the contact fraction of the lines over that of the discs", "1"),
-    "area_ratio_low": ("lower end of its 95 % interval", "1"),
-    "area_ratio_high": ("upper end of its 95 % interval", "1"),
+    **described("area_ratio", "geometric mean of the contact fraction of the lines over that of the discs"),
     "force_ratio": (
         "geometric mean of X of a line over that of its disc, at equal u/h, where the disc has this X",
         "1",
     ),
     "gap": ("mean gap of a disc over h, geometric mean; at whole powers of ten only", "1"),
-    "gap_ratio": ("geometric mean of the mean gap of the lines over that of the discs", "1"),
-    "gap_ratio_low": ("lower end of its 95 % interval", "1"),
-    "gap_ratio_high": ("upper end of its 95 % interval", "1"),
+    **described("gap_ratio", "geometric mean of the mean gap of the lines over that of the discs"),
     "correlation": ("correlation of ln κ of discs and their lines over the realizations", "1"),
     "chance": ("correlations of as many unrelated pairs are within ± this in 95 % of all cases", "1"),
     "realizations": ("realizations", "1"),
@@ -122,7 +116,7 @@ def mean_gaps(indenter, curve, force, tolerance):
 
 def _of_gaps(gaps):
     """Columns of the mean gap; gaps : their logarithms, shape (realizations, disc and line, abscissae)."""
-    return [np.exp(gaps[:, 0].mean(axis=0)), *_mean_with_interval(gaps[:, 1] - gaps[:, 0])]
+    return [np.exp(gaps[:, 0].mean(axis=0)), *np.exp(mean_with_interval(gaps[:, 1] - gaps[:, 0]))]
 
 
 def _rows(hurst, x, compared, of_gaps):
@@ -135,9 +129,9 @@ def _rows(hurst, x, compared, of_gaps):
     chance = np.tanh(1.96 / np.sqrt(number - 3)) if number > 3 else 1.0  # by Fisher's transform
     columns = [
         np.exp(stiffness[:, 0].mean(axis=0)),
-        *_mean_with_interval(ratio),
+        *np.exp(mean_with_interval(ratio)),
         ratio.std(axis=0, ddof=1),
-        *_mean_with_interval(fraction[:, 1] - fraction[:, 0]),
+        *np.exp(mean_with_interval(fraction[:, 1] - fraction[:, 0])),
         np.exp((force[:, 1] - force[:, 0]).mean(axis=0)),
         *of_gaps,
         correlation,
@@ -145,10 +139,3 @@ def _rows(hurst, x, compared, of_gaps):
     ]
     rows = zip(x, np.transpose(columns), strict=True)
     return [(hurst, at, *values, number) for at, values in rows if np.isfinite(values[:_MUST_BE_DEFINED]).all()]
-
-
-def _mean_with_interval(logarithms):
-    """Geometric mean over the realizations, and the ends of its 95 % interval by Student's t."""
-    mean, spread, number = logarithms.mean(axis=0), logarithms.std(axis=0, ddof=1), len(logarithms)
-    error = stdtrit(number - 1, 0.975) * spread / np.sqrt(number)
-    return np.exp(mean), np.exp(mean - error), np.exp(mean + error)

@@ -6,30 +6,21 @@ surfaces, and so does the range of λ(X); what is judged are therefore straight 
 ln X, whose ends may lie on either side and whose intervals have no such bias.
 """
 
-from contextlib import suppress
-
 import numpy as np
 import pandas as pd
 
+from viscorough_study.intervals import described, percentile_interval, three_columns
 from viscorough_study.mdr_lambda import match_lines
-from viscorough_study.power_law import find_region, fit_power_law, in_window, named_windows, percentile_interval
+from viscorough_study.power_law import find_region, fit_power_law, in_window, named_windows
 
-_ENDS = {"low": "lower", "high": "upper"}
 FRACTION_KEPT = 1 - 1e-9  # of the realizations, that must be defined at an X of the whole curve
-
-
-def _with_interval(name, text):
-    """Columns of a quantity with its interval."""
-    ends = {f"{name}_{end}": (f"{side} end of its 95 % interval", "1") for end, side in _ENDS.items()}
-    return {name: (text, "1")} | ends
-
 
 LAMBDA_COLUMNS = {
     "hurst": ("Hurst exponent H", "1"),
     "x": ("dimensionless force F/(4GhL) or time Ft/(4ηhL)", "1"),
     "in_region": ("1 in region (b) of the discs, else 0", "1"),
-    **_with_interval("lambda", "λ of the line that has the velocity of the discs at this X (Eq. 13)"),
-    **_with_interval("velocity_ratio", "vt/h of the lines with the best single λ over that of the discs"),
+    **described("lambda", "λ of the line that has the velocity of the discs at this X (Eq. 13)"),
+    **described("velocity_ratio", "vt/h of the lines with the best single λ over that of the discs"),
     "velocity_ratio_pi": ("the same with λ = π, lines of the rms height of the discs", "1"),
 }
 SUMMARY_COLUMNS = {
@@ -38,12 +29,12 @@ SUMMARY_COLUMNS = {
     "x_high": ("upper end of region (b) of the discs in X", "1"),
     "x_end": ("X up to which all curves are defined, end of the whole curve", "1"),
     "lambda_range": ("largest over least λ(X) in region (b)", "1"),
-    **_with_interval("drift", "λ at the upper over λ at the lower end of region (b), by a power law through λ(X)"),
-    **_with_interval("lambda_best", "λ with the smallest largest error of vt/h over region (b)"),
+    **described("drift", "λ at the upper over λ at the lower end of region (b), by a power law through λ(X)"),
+    **described("lambda_best", "λ with the smallest largest error of vt/h over region (b)"),
     "error_region": ("largest error of ln(vt/h) over region (b) with this λ", "1"),
     "error_region_pi": ("the same with λ = π", "1"),
-    **_with_interval("error_trend", "error of ln(vt/h) at the upper end of region (b) with this λ, by a power law"),
-    **_with_interval("error_whole", "largest error of ln(vt/h) from the start of region (b) to the end of the curve"),
+    **described("error_trend", "error of ln(vt/h) at the upper end of region (b) with this λ, by a power law"),
+    **described("error_whole", "largest error of ln(vt/h) from the start of region (b) to the end of the curve"),
     "discs": ("number of discs", "1"),
     "lines": ("number of lines", "1"),
 }
@@ -58,9 +49,9 @@ EXPONENT_COLUMNS = {
     "x_high_discs": ("upper end of the window of the discs in X", "1"),
     "x_low_lines": ("lower end of the window of the lines in X", "1"),
     "x_high_lines": ("upper end of the window of the lines in X", "1"),
-    **_with_interval("beta_discs", "exponent β of the discs"),
-    **_with_interval("beta_lines", "exponent β of the lines"),
-    **_with_interval("difference", "β of the lines minus β of the discs"),
+    **described("beta_discs", "exponent β of the discs"),
+    **described("beta_lines", "exponent β of the lines"),
+    **described("difference", "β of the lines minus β of the discs"),
 }
 
 
@@ -88,15 +79,15 @@ def _lambda_rows(discs, lines, limits, **how):
     """Rows of λ over X and the row of the summary, of one Hurst exponent."""
     x = discs["x"].values
     number = {"discs": discs.sizes["realization"], "lines": lines.sizes["realization"]}
-    with suppress(ValueError):
-        window = find_region(discs, **limits)
-        match = match_lines(x, discs["velocity"].values, lines["velocity"].values, **how)
-        best = match.best_stretch(window)
-        chosen = (x >= window[0] / 10) & (discs["fraction_defined"].values >= FRACTION_KEPT)
-        ratio = np.exp(match.deviation(best, chosen))
-        chosen[chosen] = np.isfinite(ratio[0])
-        return _of_abscissae(match, best, window, chosen), number | _summary(match, best, window, chosen)
-    return [], number
+    window = find_region(discs, **limits)
+    if window is None:
+        return [], number
+    match = match_lines(x, discs["velocity"].values, lines["velocity"].values, **how)
+    best = match.best_stretch(window)
+    chosen = (x >= window[0] / 10) & (discs["fraction_defined"].values >= FRACTION_KEPT)
+    ratio = np.exp(match.deviation(best, chosen))
+    chosen[chosen] = np.isfinite(ratio[0])
+    return _of_abscissae(match, best, window, chosen), number | _summary(match, best, window, chosen)
 
 
 def _of_abscissae(match, best, window, chosen):
@@ -107,8 +98,8 @@ def _of_abscissae(match, best, window, chosen):
     rows = []
     for i, at in enumerate(x):
         row = {"x": at, "in_region": int(in_window(at, window)), "velocity_ratio_pi": with_pi[i]}
-        row |= _columns("lambda", match.with_interval(of_lambda[:, i]))
-        rows.append(row | _columns("velocity_ratio", match.with_interval(ratio[:, i])))
+        row |= three_columns("lambda", match.with_interval(of_lambda[:, i]))
+        rows.append(row | three_columns("velocity_ratio", match.with_interval(ratio[:, i])))
     return rows
 
 
@@ -123,12 +114,12 @@ def _summary(match, best, window, chosen):
         "x_high": window[1],
         "x_end": match.x[chosen][-1],
         "lambda_range": np.exp(2 * np.ptp(stretch[0])),
-        **_columns("drift", match.with_interval(np.exp(2 * _rise(match.x[region], stretch)))),
-        **_columns("lambda_best", match.with_interval(np.pi * np.exp(2 * best))),
+        **three_columns("drift", match.with_interval(np.exp(2 * _rise(match.x[region], stretch)))),
+        **three_columns("lambda_best", match.with_interval(np.pi * np.exp(2 * best))),
         "error_region": np.abs(error[0]).max(),
         "error_region_pi": np.abs(with_pi).max(),
-        **_columns("error_trend", match.with_interval(_rise(match.x[region], error) / 2)),
-        **_columns("error_whole", match.with_interval(np.abs(of_whole).max(axis=1))),
+        **three_columns("error_trend", match.with_interval(_rise(match.x[region], error) / 2)),
+        **three_columns("error_whole", match.with_interval(np.abs(of_whole).max(axis=1))),
     }
 
 
@@ -156,13 +147,8 @@ def _fits(discs, lines, windows, seed, how):
     for name, one, window, own_seed in names:
         fit = fit_power_law(one["x"].values, one["velocity"].values, window, **how, seed=own_seed)
         columns |= {f"x_low_{name}": window[0], f"x_high_{name}": window[1]}
-        columns |= _columns(f"beta_{name}", (fit.beta, *fit.beta_interval))
+        columns |= three_columns(f"beta_{name}", (fit.beta, *fit.beta_interval))
         fits.append(fit)
     samples, number = fits[1].beta_samples - fits[0].beta_samples, min(fit.realizations for fit in fits)
     value = fits[1].beta - fits[0].beta
-    return columns | _columns("difference", (value, *percentile_interval(samples, number)))
-
-
-def _columns(name, values):
-    """{column: value} of a quantity with its interval."""
-    return dict(zip((name, f"{name}_low", f"{name}_high"), values, strict=True))
+    return columns | three_columns("difference", (value, *percentile_interval(samples, number)))

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from viscorough_study.power_law import in_window, log_means, percentile_interval
+from viscorough_study.intervals import with_interval
+from viscorough_study.power_law import in_window, log_means
 
 _BISECTIONS = 40  # of ln s, which end far below the rounding of λ in the tables
 
@@ -77,7 +78,7 @@ class LineMatch:
 
     def with_interval(self, samples):
         """Value of the ensembles and the ends of its 95 % interval, from samples of shape (1 + resamples,)."""
-        return samples[0], *percentile_interval(samples[1:], self.realizations)
+        return with_interval(samples, self.realizations)
 
 
 def match_lines(x, discs, lines, *, average, resamples, seed):

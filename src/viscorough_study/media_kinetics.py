@@ -12,6 +12,7 @@ import pandas as pd
 from viscorough.io.media import medium_from_mapping
 from viscorough.reference import exponent_beta
 from viscorough.viscous.correspondence import kinetics
+from viscorough_study.intervals import described, three_columns
 from viscorough_study.power_law import fit_power_law, local_slope
 
 COLUMNS = {
@@ -37,9 +38,7 @@ EXPONENT_COLUMNS = {
     "creep_least": ("least local exponent of J(t) in the window; J is a power of time if it is the largest, too", "1"),
     "creep_largest": ("largest local exponent of J(t) in the window", "1"),
     "beta": ("exponent β of X/κ in X in the window", "1"),
-    "exponent": ("exponent of vt/h in time in the window", "1"),
-    "exponent_low": ("lower end of its 95 % interval", "1"),
-    "exponent_high": ("upper end of its 95 % interval", "1"),
+    **described("exponent", "exponent of vt/h in time in the window"),
     "expected": ("that of J and β, β times the exponent of J, plus that of d ln J/d ln t", "1"),
     "realizations": ("realizations in the mean", "1"),
 }
@@ -127,5 +126,5 @@ def _exponents(time, x, creep_exponent, velocity, stiffness_range, how):
     creep, change = (np.polyfit(np.log(time), np.log(values), 1)[0] for values in (x, a))
     columns |= {"time_low": time[0], "time_high": time[-1], "decades": np.log10(time[-1] / time[0])}
     columns |= {"creep_exponent": creep, "creep_least": a.min(), "creep_largest": a.max(), "beta": beta}
-    columns |= {"exponent": fit.beta, "expected": beta * creep + change}
-    return columns | dict(zip(("exponent_low", "exponent_high"), fit.beta_interval, strict=True))
+    columns |= three_columns("exponent", (fit.beta, *fit.beta_interval))
+    return columns | {"expected": beta * creep + change}

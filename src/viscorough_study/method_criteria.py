@@ -3,7 +3,8 @@
 import numpy as np
 
 from viscorough.surfaces import cut_disc
-from viscorough_study.evidence import NO_INTERVAL, judged, opposite
+from viscorough_study.evidence import judged, opposite
+from viscorough_study.intervals import NO_INTERVAL, UNDEFINED
 
 WEEKS_IN_MINUTES = 7 * 24 * 60  # the unit of several weeks in that of a few minutes
 SMALL_ERROR = 0.01  # of the velocity, with which a contact problem for every change of the contact is compared
@@ -11,12 +12,10 @@ SMALL_ERROR = 0.01  # of the velocity, with which a contact problem for every ch
 
 def gamma(evidence, tolerance):
     """Depth of direct integrations in time over the elastic depth, against the factor of Eq. 8."""
-    cases = []
     for name, rows in evidence.tables["direct"].groupby("case", sort=False):
         ratio, factor = rows["depth_ratio"], rows["with_gamma"].iloc[0]
         met, extremes = bool((np.abs(ratio - factor) <= tolerance).all()), (ratio.min(), ratio.max())
-        cases.append(judged(name, (ratio.median(), *NO_INTERVAL), factor, met, extremes=extremes))
-    return cases
+        yield judged(name, (ratio.median(), *NO_INTERVAL), factor, met, extremes=extremes)
 
 
 def line_spectrum(evidence, tolerance):
@@ -27,7 +26,8 @@ def line_spectrum(evidence, tolerance):
     """
     fits = evidence.fits("discs")[["lambda", "lambda_low", "lambda_high", "realizations"]].dropna()
     if len(fits) < 2:
-        return [judged("λ over H", (np.nan,) * 3, np.nan, None)]
+        yield judged("λ over H", UNDEFINED, np.nan, None)
+        return
     logarithms = np.log(fits.drop(columns="realizations").to_numpy())
     (first, first_low, first_high), (last, last_low, last_high) = logarithms[0], logarithms[-1]
     ratio = last - first
@@ -37,20 +37,18 @@ def line_spectrum(evidence, tolerance):
     met = opposite(evidence.within(logarithmic, -widest, widest, realizations=number))
     name = f"λ at H = {fits.index[-1]:g} over λ at H = {fits.index[0]:g}; least and largest λ/π"
     extremes = fits["lambda"].min() / np.pi, fits["lambda"].max() / np.pi
-    return [judged(name, np.exp(logarithmic), np.nan, met, extremes=extremes)]
+    yield judged(name, np.exp(logarithmic), np.nan, met, extremes=extremes)
 
 
 def bodies_of_revolution(evidence, tolerance):
     """Error of the reduction on the finest grid, with the least and the largest of all grids."""
     validation = evidence.tables["validation"]
     rows = validation[validation["case"].str.endswith("_reduction")]
-    cases = []
     for (case, quantity), grids in rows.groupby(["case", "quantity"], sort=False):
         error = grids.sort_values("elements")["error"]
         met, extremes = bool(error.iloc[-1] <= tolerance), (error.min(), error.max())
         name = f"{case.removesuffix('_reduction')}, {quantity}"
-        cases.append(judged(name, (error.iloc[-1], *NO_INTERVAL), 0.0, met, extremes=extremes))
-    return cases
+        yield judged(name, (error.iloc[-1], *NO_INTERVAL), 0.0, met, extremes=extremes)
 
 
 def elements(evidence, tolerance):
@@ -60,7 +58,7 @@ def elements(evidence, tolerance):
     x = np.arange(across) - (across - 1) / 2
     on_rim = (x[:, None] ** 2 + x**2 == ((across - 1) / 2) ** 2).sum()
     met, extremes = bool(abs(count - said) <= tolerance), (count - on_rim, count)
-    return [judged(f"{across} across", (count, *NO_INTERVAL), said, met, extremes=extremes)]
+    yield judged(f"{across} across", (count, *NO_INTERVAL), said, met, extremes=extremes)
 
 
 def contact_problems(evidence, tolerance):
@@ -72,9 +70,10 @@ def contact_problems(evidence, tolerance):
     levels = _rough_discs(evidence).query("method == 'path, automatic levels' and error <= @SMALL_ERROR")
     ratios = levels.groupby("hurst")["steps"].min().to_numpy() / evidence.said("boundary_elements", "elements")
     if not ratios.size:
-        return [judged("of a disc", (np.nan,) * 3, 1.0, None)]
+        yield judged("of a disc", UNDEFINED, 1.0, None)
+        return
     met = bool((np.abs(np.log(ratios)) <= np.log(tolerance)).all())
-    return [judged("of a disc", (ratios.max(), *NO_INTERVAL), 1.0, met, extremes=(ratios.min(), ratios.max()))]
+    yield judged("of a disc", (ratios.max(), *NO_INTERVAL), 1.0, met, extremes=(ratios.min(), ratios.max()))
 
 
 def computing_time(evidence, tolerance):
@@ -94,7 +93,7 @@ def computing_time(evidence, tolerance):
     times = [_time_of_one(methods, name) for name in ("explicit, logarithmic steps", "MDR")]
     ratio = problems * times[0] / (points * times[1])
     met = bool(1 / tolerance <= ratio / WEEKS_IN_MINUTES <= tolerance)
-    return [judged("ratio of the times", (ratio, *NO_INTERVAL), WEEKS_IN_MINUTES, met)]
+    yield judged("ratio of the times", (ratio, *NO_INTERVAL), WEEKS_IN_MINUTES, met)
 
 
 def _rough_discs(evidence):
@@ -110,13 +109,3 @@ def _time_of_one(methods, name):
         return np.nan
     most = rows.loc[rows["value"].idxmax()]
     return most["wall_s"] / most["value"]
-
-
-JUDGES = {
-    "gamma": gamma,
-    "line_spectrum": line_spectrum,
-    "bodies_of_revolution": bodies_of_revolution,
-    "elements": elements,
-    "contact_problems": contact_problems,
-    "computing_time": computing_time,
-}

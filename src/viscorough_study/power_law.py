@@ -7,13 +7,12 @@ Intervals are 95 % bootstrap intervals over realizations: whole curves are drawn
 They contain the scatter between surfaces, but not the choice of the window, which fits in other windows show.
 """
 
-from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import ndtr, stdtrit
 
 from viscorough_study.conventions import FITTED, PLAIN, zeta_scale
+from viscorough_study.intervals import percentile_interval
 
 ROUNDING = 1e-9  # relative difference up to which abscissae and numbers of decades count as equal
 
@@ -38,7 +37,7 @@ def local_slope(x, y, half_width):
 
 
 def find_region(mean, *, elements_min, stiffness_max, slope_max, slope_half_width, fraction_min, decades_min):
-    """Window (X_low, X_high) of region (b): the longest run of abscissae, in ln X, at which
+    """Window (X_low, X_high) of region (b), None without one: the longest run of abscissae, in ln X, at which
 
     - the median of the elements in contact is at least elements_min: with fewer, the curve depends on the grid;
     - the geometric mean κ is at most stiffness_max: above, the contact feels the finite size of the indenter, on the
@@ -50,15 +49,12 @@ def find_region(mean, *, elements_min, stiffness_max, slope_max, slope_half_widt
 
     mean : ensemble dataset (viscorough_study.ensembles) of one rms convention. No Hurst exponent enters the rule.
     The limits and the values advised for them are in config/README.md, section Scaling.
-    Raises ValueError if no such run spans decades_min decades: there is no region (b).
+    There is no region (b) if no such run spans decades_min decades.
     """
     x = mean["x"].values
     allowed = local_slope(x, mean["velocity_geometric"].values, slope_half_width) <= slope_max
     allowed &= mean["contact_count_median"].values >= elements_min
-    window = _longest_run(mean, allowed, (0, stiffness_max), fraction_min, decades_min)
-    if window is None:
-        raise ValueError(f"find_region: no run of abscissae in the limits spans {decades_min:g} decades")
-    return window
+    return _longest_run(mean, allowed, (0, stiffness_max), fraction_min, decades_min)
 
 
 def named_windows(mean, *, stiffness_range, fraction_min, decades_min, **limits):
@@ -73,10 +69,9 @@ def named_windows(mean, *, stiffness_range, fraction_min, decades_min, **limits)
     """
     run_limits = {"fraction_min": fraction_min, "decades_min": decades_min}
     windows = dict.fromkeys(FITTED["window_rule"])
-    with suppress(ValueError):  # that there is no region (b) is a result: the tables then have nan and 0 decades
-        low, high = find_region(mean, **run_limits, **limits)
-        middle = np.sqrt(low * high)
-        windows |= {"default": (low, high), "lower_half": (low, middle), "upper_half": (middle, high)}
+    if region := find_region(mean, **run_limits, **limits):  # else the tables have nan and 0 decades
+        middle = np.sqrt(np.prod(region))
+        windows |= {"default": region, "lower_half": (region[0], middle), "upper_half": (middle, region[1])}
     windows["kappa"] = _longest_run(mean, True, stiffness_range, **run_limits)
     return windows
 
@@ -177,21 +172,3 @@ def log_means(velocity, average, resamples, generator):
     with np.errstate(invalid="ignore", divide="ignore"):  # nan where a resample has no realization
         mean = (weights @ values) / (weights @ defined)
     return mean if average == "geometric" else np.log(mean)
-
-
-def percentile_interval(samples, realizations):
-    """95 % interval (low, high) of bootstrap samples: percentiles, widened for few realizations.
-
-    samples : shape (resamples,), or (resamples, quantities) for an interval of each; resamples with undefined (nan)
-        values are left out
-
-    Plain percentiles are too narrow for small n. The levels Φ(∓√(n/(n−1)) t), t the 97.5 % point of Student's
-    t with n − 1 degrees of freedom, make them the t interval for a mean (Hesterberg, The American
-    Statistician 69, 371 (2015): expanded percentile interval). Nan for a single realization.
-    """
-    samples = samples[np.isfinite(samples).reshape(len(samples), -1).all(axis=1)]
-    if realizations < 2 or samples.size == 0:
-        return np.nan, np.nan
-    tail = ndtr(-np.sqrt(realizations / (realizations - 1)) * stdtrit(realizations - 1, 0.975))
-    low, high = np.quantile(samples, [tail, 1 - tail], axis=0)
-    return low, high

@@ -13,6 +13,7 @@ import numpy as np
 
 from viscorough import reference
 from viscorough_study.conventions import NAMES, in_every_reading, left_open
+from viscorough_study.intervals import described
 
 COMBINED = ["case_group", *NAMES]  # columns that name a combination
 LAWS = {"eq4": ("Eq. 4", reference.zeta_elastic), "eq11": ("Eq. 11", reference.zeta_viscous)}
@@ -20,15 +21,15 @@ LAWS = {"eq4": ("Eq. 4", reference.zeta_elastic), "eq11": ("Eq. 11", reference.z
 
 def _law_columns():
     """Columns that compare ζ with each law."""
-    described = {name: (f"ζ over {title}", "1") for name, (title, _) in LAWS.items()}
+    columns = {name: (f"ζ over {title}", "1") for name, (title, _) in LAWS.items()}
     for name, (title, _) in LAWS.items():
-        described |= {
+        columns |= {
             f"worst_{name}": (f"largest |ln| of the ratio to {title} over all Hurst exponents", "1"),
             f"deviation_{name}": (f"rms over all Hurst exponents of ln of the ratio to {title}", "1"),
             f"common_{name}": (f"common factor of all Hurst exponents: geometric mean of the ratios to {title}", "1"),
             f"shape_{name}": (f"rms over all Hurst exponents of ln of the ratio to common factor times {title}", "1"),
         }
-    return described
+    return columns
 
 
 COLUMNS = {
@@ -43,9 +44,7 @@ COLUMNS = {
     "diameter_convention": ("L in X and κ is the diameter or, which contradicts the paper, the radius", ""),
     "status": ("left open by the paper, or contradicts the paper", ""),
     "hurst": ("Hurst exponent H", "1"),
-    "zeta": ("prefactor ζ", "1"),
-    "zeta_low": ("lower end of the 95 % interval of ζ", "1"),
-    "zeta_high": ("upper end of the 95 % interval of ζ", "1"),
+    **described("zeta", "prefactor ζ", of="of the 95 % interval of ζ"),
     **_law_columns(),
 }
 

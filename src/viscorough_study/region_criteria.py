@@ -6,9 +6,16 @@ import numpy as np
 from scipy import stats
 
 from viscorough import reference
-from viscorough_study.evidence import NO_INTERVAL, UNDEFINED, hurst_name, judged, mean_with_interval
+from viscorough_study.evidence import hurst_name, judged
+from viscorough_study.intervals import (
+    NO_INTERVAL,
+    UNDEFINED,
+    interval,
+    mean_with_interval,
+    resampled_means,
+    with_interval,
+)
 from viscorough_study.plateau import local_slopes
-from viscorough_study.power_law import percentile_interval
 
 ROUNDING = 1e-9  # relative difference up to which numbers of decades count as equal
 LEFT_REGION = 2.0  # κ over that of one element, at which a curve has left region (a)
@@ -26,7 +33,8 @@ def collapse(evidence, tolerance):
     """
     windows = [window for window in evidence.regions.values() if window is not None]
     if len(windows) < 2 or len(windows) < len(evidence.regions):
-        return [judged("all H", UNDEFINED, np.nan, None)]
+        yield judged("all H", UNDEFINED, np.nan, None)
+        return
     x = next(iter(evidence.pooled.values()))["x"].values
     at = int(np.argmin(np.abs(np.log(x) - np.mean(np.log(windows)))))
     logarithms = [
@@ -34,7 +42,7 @@ def collapse(evidence, tolerance):
         for ensembles in evidence.combinations.values()
     ]
     between_hursts = np.std([np.mean(np.concatenate(groups)) for groups in logarithms], ddof=1)
-    return [combinations_case(evidence, logarithms, np.nan, tolerance, unit=between_hursts)]
+    yield combinations_case(evidence, logarithms, np.nan, tolerance, unit=between_hursts)
 
 
 def combinations_case(evidence, sets, expected, tolerance, unit=1.0):
@@ -46,8 +54,8 @@ def combinations_case(evidence, sets, expected, tolerance, unit=1.0):
     *values, _ = np.sqrt(excess_variance(sets)) / unit
     single = [np.sqrt(excess_variance([groups])[0]) / unit for groups in sets]
     number = min(sum(np.isfinite(group).sum() for group in groups) for groups in sets)
-    met = evidence.within(values, -np.inf, tolerance, realizations=number)
-    return judged("all H", values, expected, met, extremes=(min(single), max(single)))
+    extremes = min(single), max(single)
+    return evidence.case("all H", values, expected, (-np.inf, tolerance), realizations=number, extremes=extremes)
 
 
 def excess_variance(sets):
@@ -81,21 +89,19 @@ def excess_variance(sets):
 
 def first_region(evidence, tolerance):
     """κ while one element touches, over π/(K₀₀ n)."""
-    cases = []
     for hurst, ensemble in evidence.pooled.items():
         alone = ensemble["contact_count"].values <= ONE_ELEMENT
         ratio = ensemble["stiffness"].values[alone] / reference.one_element_stiffness(evidence.across)
         if not ratio.size:
-            cases.append(judged(hurst_name(hurst), UNDEFINED, 1.0, None))
+            yield judged(hurst_name(hurst), UNDEFINED, 1.0, None)
             continue
         met, extremes = bool(np.all(np.abs(ratio - 1) <= tolerance)), (ratio.min(), ratio.max())
-        cases.append(judged(hurst_name(hurst), (np.median(ratio), *NO_INTERVAL), 1.0, met, extremes=extremes))
-    return cases
+        yield judged(hurst_name(hurst), (np.median(ratio), *NO_INTERVAL), 1.0, met, extremes=extremes)
 
 
 def last_region(evidence, tolerance):
     """Xh/(vt), which is κ, and the slope of ln(vt/h) over ln X, where curves end."""
-    slope_said, cases = evidence.said("regions", "slope_last"), []
+    slope_said = evidence.said("regions", "slope_last")
     for hurst, ensemble in evidence.whole.items():
         x, stiffness = ensemble["x"].values, ensemble["stiffness"].values
         last = np.flatnonzero(ensemble["fraction_defined"].values == 1)[-1]
@@ -104,11 +110,14 @@ def last_region(evidence, tolerance):
         slopes = np.polyfit(np.log(x[end : last + 1]), np.log(velocity).T, 1)[0]
         complete = reference.COMPLETE_CONTACT_STIFFNESS
         for name, samples, said in (("prefactor", stiffness[:, last], complete), ("slope", slopes, slope_said)):
-            values, extremes = mean_with_interval(samples), (samples.min(), samples.max())
-            of_all = {"realizations": samples.size, "cases": 2 * len(evidence.pooled)}
-            met = evidence.within(values, said - tolerance, said + tolerance, **of_all)
-            cases.append(judged(f"{hurst_name(hurst)}, {name}", values, said, met, extremes=extremes))
-    return cases
+            ends, about = (said - tolerance, said + tolerance), {"cases": 2 * len(evidence.pooled)}
+            yield _mean_case(evidence, f"{hurst_name(hurst)}, {name}", samples, said, ends, **about)
+
+
+def _mean_case(evidence, name, samples, expected, allowed, **about):
+    """Case of the mean of a quantity over realizations; about : cases."""
+    about |= {"realizations": samples.size, "extremes": (samples.min(), samples.max())}
+    return evidence.case(name, mean_with_interval(samples), expected, allowed, **about)
 
 
 def power_law(evidence, tolerance):
@@ -116,14 +125,13 @@ def power_law(evidence, tolerance):
 
     Scatter shortens plateaus, so a curve fails only where power laws with that scatter do not.
     """
-    plateaus, cases = evidence.tables["plateaus"], []
-    plateaus, needed = plateaus[plateaus["case_group"] == "base"], evidence.rules["decades_min"] * (1 - ROUNDING)
-    for row in plateaus.itertuples():
-        values = row.decades, row.decades_low, row.decades_high
-        met = evidence.within(values, needed, np.inf, realizations=row.realizations, cases=len(plateaus))
-        met = None if met is False and row.power_law_fails > POWER_LAWS_LOST_MAX else met
-        cases.append(judged(f"{hurst_name(row.hurst)}, decades", values, np.nan, met))
-    return cases
+    plateaus, needed = evidence.tables["plateaus"], evidence.rules["decades_min"] * (1 - ROUNDING)
+    plateaus = plateaus[plateaus["case_group"] == "base"]
+    for row in plateaus.to_dict("records"):
+        values = interval(row, "decades")
+        met = evidence.within(values, needed, np.inf, realizations=row["realizations"], cases=len(plateaus))
+        met = None if met is False and row["power_law_fails"] > POWER_LAWS_LOST_MAX else met
+        yield judged(f"{hurst_name(row['hurst'])}, decades", values, np.nan, met)
 
 
 def separation(evidence, tolerance):
@@ -135,14 +143,11 @@ def separation(evidence, tolerance):
         hurst: _end_of_first_region(evidence, ensemble, [evidence.seed, i])
         for i, (hurst, ensemble) in enumerate(evidence.pooled.items())
     }
-    cases = []
     for lower, higher in pairwise(ends):
         ratios = np.exp(ends[lower] - ends[higher])
         realizations = min(evidence.pooled[hurst].sizes["realization"] for hurst in (lower, higher))
-        values = ratios[0], *percentile_interval(ratios[1:], realizations)
-        met = evidence.within(values, 1, np.inf, realizations=realizations, cases=len(ends) - 1)
-        cases.append(judged(f"H = {lower:g} over H = {higher:g}", values, np.nan, met))
-    return cases
+        values, about = with_interval(ratios, realizations), {"realizations": realizations, "cases": len(ends) - 1}
+        yield evidence.case(f"H = {lower:g} over H = {higher:g}", values, np.nan, (1, np.inf), **about)
 
 
 def _end_of_first_region(evidence, ensemble, seed):
@@ -152,9 +157,7 @@ def _end_of_first_region(evidence, ensemble, seed):
     """
     x, stiffness = ensemble["x"].values, np.log(ensemble["stiffness"].values)
     stiffness = stiffness[:, np.isfinite(stiffness).all(axis=0)]
-    number, random = len(stiffness), np.random.default_rng(seed)
-    weights = random.multinomial(number, np.full(number, 1 / number), size=evidence.resamples) / number
-    means = np.vstack([stiffness.mean(axis=0), weights @ stiffness])
+    means = resampled_means(stiffness, evidence.resamples, np.random.default_rng(seed))
     level = np.log(LEFT_REGION * reference.one_element_stiffness(evidence.across))
     log_x = np.log(x[: means.shape[1]])
     return np.array([np.interp(level, mean, log_x, left=np.nan, right=np.nan) for mean in means])
@@ -162,30 +165,15 @@ def _end_of_first_region(evidence, ensemble, seed):
 
 def complete_contact(evidence, tolerance):
     """Share of the elements in contact at the X from which on the local slope is 1 within `SLOPE_OF_LINE`."""
-    cases = []
     for hurst, ensemble in evidence.whole.items():
         defined = ensemble["fraction_defined"].values == 1
         log_x, mean = np.log(ensemble["x"].values[defined]), np.log(ensemble["velocity_geometric"].values[defined])
         inner, (slopes,) = local_slopes(log_x, mean[None], evidence.limits["slope_half_width"] * np.log(10))
         below = np.flatnonzero(slopes < 1 - SLOPE_OF_LINE)
         if not below.size or below[-1] + 1 == slopes.size:
-            cases.append(judged(hurst_name(hurst), UNDEFINED, 1.0, None))
+            yield judged(hurst_name(hurst), UNDEFINED, 1.0, None)
             continue
         first = int(np.argmin(np.abs(np.log(ensemble["x"].values) - inner[below[-1] + 1])))
         fractions = ensemble["contact_count"].values[:, first] / ensemble["elements"].item()
-        values, extremes = mean_with_interval(fractions), (fractions.min(), fractions.max())
         name = f"{hurst_name(hurst)}, from X = {ensemble['x'].values[first]:.3g} on"
-        of_all = {"realizations": fractions.size, "cases": len(evidence.pooled)}
-        met = evidence.within(values, 1 - tolerance, np.inf, **of_all)
-        cases.append(judged(name, values, 1.0, met, extremes=extremes))
-    return cases
-
-
-JUDGES = {
-    "separation": separation,
-    "complete_contact": complete_contact,
-    "collapse": collapse,
-    "first_region": first_region,
-    "last_region": last_region,
-    "power_law": power_law,
-}
+        yield _mean_case(evidence, name, fractions, 1.0, (1 - tolerance, np.inf), cases=len(evidence.pooled))

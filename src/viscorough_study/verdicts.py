@@ -1,18 +1,44 @@
 """Verdicts on the paper's claims: a table of all cases, the verdict on each claim, and a summary in Markdown.
 
 What a claim says, of which kind it is, by which criterion it is judged and why its tolerance is what it is stands in
-resources/paper/claims.yaml; viscorough_study.criteria has the function of each criterion, under the name of the claim.
+resources/paper/claims.yaml. The function of each criterion has the name of the claim and is in one of the modules of
+criteria (`JUDGES`). It yields the cases of the claim from the evidence (viscorough_study.evidence.Evidence) and the
+tolerance of the claim.
+
+With other random surfaces the numbers differ, and a verdict must not depend on them: where a quantity has a 95 %
+interval, the claim is reproduced only if the whole interval lies within what the tolerance allows, and not reproduced
+only if it lies wholly outside; otherwise it is undecided. How the number of cases and that of realizations enter is
+said at viscorough_study.evidence.Evidence.within.
 """
 
 from collections import Counter
 from dataclasses import astuple
+from inspect import getmembers, isfunction, signature
 
 import numpy as np
 import pandas as pd
 
-from viscorough_study.criteria import JUDGES
+from viscorough_study import (
+    form_criteria,
+    law_criteria,
+    mdr_criteria,
+    method_criteria,
+    region_criteria,
+    zeta_criteria,
+)
 from viscorough_study.evidence import VERDICTS
 
+MODULES = form_criteria, region_criteria, law_criteria, zeta_criteria, method_criteria, mdr_criteria
+
+
+def _criteria(module):
+    """{claim: criterion} of a module: its public functions of evidence and tolerance."""
+    functions = {name: function for name, function in getmembers(module, isfunction) if not name.startswith("_")}
+    arguments = {name: [*signature(function).parameters][:2] for name, function in functions.items()}
+    return {name: functions[name] for name in functions if arguments[name] == ["evidence", "tolerance"]}
+
+
+JUDGES = {claim: criterion for module in MODULES for claim, criterion in _criteria(module).items()}
 KINDS = {
     "physics": "Physics",
     "identity": "Identities of the method, which hold for every surface",
@@ -36,6 +62,7 @@ COLUMNS = {
     "reason": ("why the tolerance is what it is", ""),
     "figure": ("figure that shows it", ""),
 }
+SMALLEST_SHARE = 0.5  # of the paper's elements across; below, region (b) is hardly as long as a fit needs
 CASES_SHOWN_MAX = 10  # cases of a claim, beyond which the summary shows three of them
 
 
@@ -60,6 +87,34 @@ def _columns(case):
     """Columns of a case."""
     names = ("case", "value", "low", "high", "least", "largest", "expected", "verdict", "convention")
     return dict(zip(names, astuple(case), strict=True))
+
+
+def is_trial(elements_across, paper_elements_across):
+    """Whether discs are so coarse that no power law can be found on them, and verdicts mean nothing."""
+    return elements_across < SMALLEST_SHARE * paper_elements_across
+
+
+def attributes_of_scale(evidence):
+    """Attributes of the table of verdicts: what was computed, taken from the results and not from the settings.
+
+    elements_across : of the discs; paper_elements_across : of those of the paper
+    realizations : discs of the Hurst exponent with the fewest of them
+    trial : 1 for a trial, whose verdicts mean nothing, else 0
+    scale : the same in words
+    """
+    across, paper = evidence.across, evidence.said("boundary_elements", "elements_across")
+    realizations = min(ensemble.sizes["realization"] for ensemble in evidence.pooled.values())
+    trial = is_trial(across, paper)
+    words = (
+        f"at least {realizations} discs of {across} elements across for every Hurst exponent (paper: {paper} across)"
+    )
+    return {
+        "elements_across": across,
+        "paper_elements_across": paper,
+        "realizations": realizations,
+        "trial": int(trial),
+        "scale": words + "; too coarse for a power law, the verdicts mean nothing" * trial,
+    }
 
 
 def overall(table):

@@ -7,8 +7,9 @@ surfaces included, the verdict names those with the smallest deviation.
 
 import numpy as np
 
-from viscorough_study.conventions import NAMES, left_open
-from viscorough_study.evidence import hurst_name, judged
+from viscorough_study.conventions import NAMES, in_words, left_open
+from viscorough_study.evidence import hurst_name
+from viscorough_study.intervals import interval
 from viscorough_study.prefactors import COMBINED, LAWS
 from viscorough_study.zeta_laws import difference, value_of
 
@@ -25,15 +26,12 @@ def zeta_viscous(evidence, tolerance):
 
 def _absolute(evidence, tolerance, name, gamma):
     """Cases of ζ against a law of viscorough_study.prefactors, one for each Hurst exponent."""
-    law, convention = LAWS[name][1], _nearest_convention(evidence.tables["prefactors"], name, gamma, tolerance)
-    cases, fits = [], evidence.fits("discs", gamma=gamma)
+    convention = _nearest_convention(evidence.tables["prefactors"], name, gamma, tolerance)
+    fits = evidence.fits("discs", gamma=gamma)
     for hurst, fit in fits.iterrows():
-        values = fit[["zeta", "zeta_low", "zeta_high"]].tolist()
-        ends, number = (law(hurst) * (1 - tolerance), law(hurst) * (1 + tolerance)), fit["realizations"]
-        met = evidence.within(values, *ends, realizations=number, cases=len(fits))
-        other = "" if evidence.are_few(number) else convention
-        cases.append(judged(hurst_name(hurst), values, law(hurst), met, other))
-    return cases
+        law, about = LAWS[name][1](hurst), {"cases": len(fits), "convention": convention}
+        ends = law * (1 - tolerance), law * (1 + tolerance)
+        yield evidence.case(hurst_name(hurst), interval(fit, "zeta"), law, ends, **about, realizations=fit.realizations)
 
 
 def _nearest_convention(table, name, gamma, tolerance):
@@ -45,8 +43,7 @@ def _nearest_convention(table, name, gamma, tolerance):
     if largest.empty or largest.min() > tolerance:
         return ""
     nearest = dict(zip(COMBINED, largest.idxmin(), strict=True))
-    words = [f"{name} {nearest[name]}" for name in NAMES]
-    return ", ".join([*words, f"surfaces {nearest['case_group']}"])
+    return in_words({name: nearest[name] for name in NAMES} | {"surfaces": nearest["case_group"]})
 
 
 def zeta_elastic_shape(evidence, tolerance):
@@ -66,12 +63,12 @@ def master_curve_shape(evidence, tolerance):
 
 def _spreads(evidence, tolerance, quantity, law):
     """Cases of the spread, which is 0 where a law holds up to a factor: for all Hurst exponents and from 0.4 on."""
-    table, cases = evidence.tables["zeta_laws"], []
+    table = evidence.tables["zeta_laws"]
     of_all = {"realizations": table["realizations"].min(), "cases": table["hurst_min"].nunique()}
     for least in table["hurst_min"].unique():
+        name = f"H from {least:g} on" if least > 0 else "all H"
         values = value_of(table, quantity, law, "spread", least)
-        cases.append(judged(_which(least), values, 0.0, evidence.within(values, -np.inf, tolerance, **of_all)))
-    return cases
+        yield evidence.case(name, values, 0.0, (-np.inf, tolerance), **of_all)
 
 
 def zeta_better(evidence, tolerance):
@@ -79,24 +76,9 @@ def zeta_better(evidence, tolerance):
 
     Both with the factor 1/Γ(2 − α), as in the paper, and each in its own reading, Eq. 4 without the factor.
     """
-    table, cases = evidence.tables["zeta_laws"], []
+    table = evidence.tables["zeta_laws"]
     readings = {"Eq. 4, with Γ": "both with Γ", "Eq. 4, without Γ": "Eq. 4 without Γ"}
     of_all = {"realizations": table["realizations"].min(), "cases": len(readings)}
     for law, reading in readings.items():
         values = value_of(table, "curve", difference(law), "deviation")
-        cases.append(judged(f"all H, {reading}", values, np.nan, evidence.within(values, tolerance, np.inf, **of_all)))
-    return cases
-
-
-def _which(least):
-    return f"H from {least:g} on" if least > 0 else "all H"
-
-
-JUDGES = {
-    "zeta_elastic": zeta_elastic,
-    "zeta_elastic_shape": zeta_elastic_shape,
-    "zeta_viscous": zeta_viscous,
-    "zeta_viscous_shape": zeta_viscous_shape,
-    "zeta_better": zeta_better,
-    "master_curve_shape": master_curve_shape,
-}
+        yield evidence.case(f"all H, {reading}", values, np.nan, (tolerance, np.inf), **of_all)

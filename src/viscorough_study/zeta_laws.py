@@ -19,7 +19,8 @@ import pandas as pd
 
 from viscorough import reference
 from viscorough_study.conventions import PLAIN, zeta_scale
-from viscorough_study.power_law import fit_power_law, in_window, log_means, percentile_interval
+from viscorough_study.intervals import UNDEFINED, with_interval
+from viscorough_study.power_law import fit_power_law, in_window, log_means
 
 LAWS = {  # {name: (ζ as a function of H, whether the law has the factor 1/Γ(2 − α))}
     "Eq. 4, without Γ": (reference.zeta_elastic, False),
@@ -69,9 +70,8 @@ def _rows(ensembles, windows, **how):
         ends = common if quantity == "curve" and common is not None else (np.nan, np.nan)
         measures = {law: _measures(samples[law]) if samples else None for law in LAWS}
         for law, measure, values in _with_differences(measures):
-            value = values[0] if values is not None else np.nan
-            interval = percentile_interval(values[1:], number) if values is not None else (np.nan, np.nan)
-            rows.append((quantity, law, measure, value, *interval, *ends, len(ensembles), number))
+            value = UNDEFINED if values is None else with_interval(values, number)
+            rows.append((quantity, law, measure, *value, *ends, len(ensembles), number))
     return rows
 
 
@@ -79,7 +79,7 @@ def value_of(table, quantity, law, measure, hurst_min=0.0):
     """Value and 95 % interval, (value, low, high), of one row of the table; nan if it is not there."""
     wanted = {"quantity": quantity, "law": law, "measure": measure, "hurst_min": hurst_min}
     rows = table[np.logical_and.reduce([table[name] == value for name, value in wanted.items()])]
-    return tuple(rows[["value", "low", "high"]].iloc[0].tolist()) if len(rows) else (np.nan,) * 3
+    return tuple(rows[["value", "low", "high"]].iloc[0].tolist()) if len(rows) else UNDEFINED
 
 
 def difference(law):

@@ -14,7 +14,7 @@ from support.workflow import merged, read_settings
 from viscorough.reference import exponent_beta, zeta_elastic
 from viscorough_study.cases import disc_cases
 from viscorough_study.discs import punch_stiffness
-from viscorough_study.performance.cost_growth import fit_cost, median_costs
+from viscorough_study.performance.costs import fit_cost, median_costs
 from viscorough_study.verdicts import overall
 
 TABLE = pd.read_csv(ROOT / "docs/claims.csv")

@@ -36,9 +36,8 @@ def case_of(hurst, name):
 
 def whole_on_page(figure):
     """Whether nothing that is drawn reaches beyond the page, once laid out."""
-    canvas = FigureCanvasAgg(figure)
-    canvas.draw()
-    box, (width, height) = figure.get_tightbbox(canvas.get_renderer()), figure.get_size_inches()
+    figure.draw_without_rendering()
+    box, (width, height) = figure.get_tightbbox(FigureCanvasAgg(figure).get_renderer()), figure.get_size_inches()
     return box.x0 > -0.01 and box.y0 > -0.01 and box.x1 < width + 0.01 and box.y1 < height + 0.01
 
 
@@ -63,6 +62,11 @@ def legend_texts(legend):
 # ---- tables
 
 
+def combinations_of(**values):
+    """Table of all combinations of the values of columns."""
+    return pd.MultiIndex.from_product(values.values(), names=values).to_frame(index=False)
+
+
 def without_region(scaling, hurst):
     """The scaling table with no region (b) for one Hurst exponent, as the workflow writes it."""
     numbers = [name for name, (_, units) in SCALING_COLUMNS.items() if units and name not in ("hurst", "realizations")]
@@ -71,14 +75,10 @@ def without_region(scaling, hurst):
 
 def validation_table(grids=(33, 65, 129), quantities=("force", "depth")):
     """Errors of second order, 0.5/n² for the sphere, 0.7/n² for its reduction, 0.2/n² for the cone, which fails."""
-    rows = [
-        (case, quantity, n, scale / n**2, 2.04 if len(grids) > 2 else np.nan, 2, 1e-3, int(case != "cone"))
-        for quantity in quantities
-        for case, scale in (("sphere", 0.5), ("sphere_reduction", 0.7), ("cone", 0.2))
-        for n in grids
-    ]
-    columns = ["case", "quantity", "elements", "error", "order", "expected_order", "limit", "passed"]
-    return pd.DataFrame(rows, columns=columns)
+    table = combinations_of(quantity=quantities, case=("sphere", "sphere_reduction", "cone"), elements=grids)
+    error = table["case"].map({"sphere": 0.5, "sphere_reduction": 0.7, "cone": 0.2}) / table["elements"] ** 2
+    order, passed = 2.04 if len(grids) > 2 else np.nan, (table["case"] != "cone").astype(int)
+    return table.assign(error=error, order=order, expected_order=2, limit=1e-3, passed=passed)
 
 
 def mdr_table():
@@ -99,41 +99,32 @@ def mdr_lambda_tables():
         of_lambda |= {name: value, f"{name}_low": value / 1.1, f"{name}_high": value * 1.1}
     exponents = {"window": ["own region", "same X", "same κ"], "difference": difference}
     exponents |= {"difference_low": difference - 0.05, "difference_high": difference + 0.05}
-    return [
-        pd.concat([pd.DataFrame(table | {"hurst": hurst}) for hurst in (0.4, 0.9)], ignore_index=True)
-        for table in (of_lambda, exponents)
-    ]
+    two = pd.DataFrame({"hurst": (0.4, 0.9)})
+    return [two.merge(pd.DataFrame(table), how="cross") for table in (of_lambda, exponents)]
 
 
 def direct_table():
     """Depths that are the elastic ones."""
-    rows = [(case, count, 1.0, 1.1) for case in ("sphere", "rough disc, H = 0.4") for count in (10, 100)]
-    return pd.DataFrame(rows, columns=["case", "contact_count", "depth_ratio", "with_gamma"])
+    table = combinations_of(case=("sphere", "rough disc, H = 0.4"), contact_count=(10, 100))
+    return table.assign(depth_ratio=1.0, with_gamma=1.1)
 
 
 def methods_table():
     """Costs of five methods on a rough disc and a sphere of three sizes; the time of the first grows as N^1.2."""
-    rows = []
-    for problem, hurst in (("rough disc, H = 0.4", 0.4), ("sphere", np.nan)):
-        for elements in (65, 257, 513):
-            for method, group, value, wall, error in (
-                ("path, automatic levels", "path", 1e-3, 1e-6 * elements**2.4, 1e-3),
-                ("path, at the depths", "path", 1e-1, 0.01, 1e-2),
-                ("path, at the depths", "path", 1e-6, 0.02, 0.0),
-                ("explicit, uniform steps", "marching", 16, 0.5, 0.5),
-                ("MDR", "model", 64, 0.001, 0.3),
-            ):
-                row = {"problem": problem, "hurst": hurst, "elements": elements, "method": method, "group": group}
-                row |= {"value": value, "wall_s": wall, "processor_s": wall, "error": error, "largest_error": error}
-                row |= {
-                    "error_b": error / 2,
-                    "operator_applications": elements,
-                    "steps": 1,
-                    "memory": 1,
-                    "parameter": "",
-                }
-                rows.append(row)
-    return pd.DataFrame(rows)[list(measurement.COLUMNS)]
+    rows = [
+        ("path, automatic levels", "path", 1e-3, np.nan, 1e-3),
+        ("path, at the depths", "path", 1e-1, 0.01, 1e-2),
+        ("path, at the depths", "path", 1e-6, 0.02, 0.0),
+        ("explicit, uniform steps", "marching", 16, 0.5, 0.5),
+        ("MDR", "model", 64, 0.001, 0.3),
+    ]
+    methods = pd.DataFrame(rows, columns=["method", "group", "value", "wall_s", "error"])
+    table = combinations_of(problem=("rough disc, H = 0.4", "sphere"), elements=(65, 257, 513))
+    table = table.merge(methods, how="cross")
+    wall, error = table["wall_s"].fillna(1e-6 * table["elements"] ** 2.4), table["error"]
+    table = table.assign(hurst=table["problem"].map({"rough disc, H = 0.4": 0.4}), wall_s=wall, processor_s=wall)
+    table = table.assign(largest_error=error, error_b=error / 2, operator_applications=table["elements"])
+    return table.assign(steps=1, memory=1, parameter="")[list(measurement.COLUMNS)]
 
 
 def other_solvers_table():
@@ -208,45 +199,25 @@ def large_table():
 
 def failure_table(verdicts):
     """One case for each verdict in two groups, which concern both of the two methods."""
-    rows = [
-        ("shape" if rank % 2 else "grid", f"case {rank}", method, error, verdict)
-        for rank, verdict in enumerate(verdicts)
-        for method, error in (("path, dense", 0.0), ("explicit steps", 1e-3))
-    ]
-    return pd.DataFrame(rows, columns=["group", "case", "method", "error", "verdict"])
+    methods = pd.DataFrame({"method": ("path, dense", "explicit steps"), "error": (0.0, 1e-3)})
+    rows = [("shape" if rank % 2 else "grid", f"case {rank}", verdict) for rank, verdict in enumerate(verdicts)]
+    return pd.DataFrame(rows, columns=["group", "case", "verdict"]).merge(methods, how="cross")
 
 
 def media_table():
     """Two media, in which the velocity is a power of time."""
-    time = np.geomspace(1e-3, 1e3, 13)
-    parts = [
-        pd.DataFrame({"time": time, "x": 1e-2 * time, "depth": time**hurst, "velocity": time**hurst}).assign(
-            medium=medium,
-            hurst=hurst,
-            velocity_error=0.1,
-            exponent=hurst,
-            creep_exponent=1.0,
-            expected=0.5,
-            realizations=6,
-        )
-        for medium in ("newtonian", "standard_linear_solid")
-        for hurst in HURST
-    ]
-    return pd.concat(parts, ignore_index=True)
+    media, time = ("newtonian", "standard_linear_solid"), np.geomspace(1e-3, 1e3, 13)
+    table = combinations_of(medium=media, hurst=HURST, time=time)
+    power = table["time"] ** table["hurst"]
+    table = table.assign(x=1e-2 * table["time"], depth=power, velocity=power, velocity_error=0.1)
+    return table.assign(exponent=table["hurst"], creep_exponent=1.0, expected=0.5, realizations=6)
 
 
 def measured_kinetics():
     """Two scans of one group under two forces in two media."""
-    time = np.geomspace(1e-3, 1e3, 13)
-    parts = [
-        pd.DataFrame({"time": time, "depth": 1e-6 * force * time, "velocity": 1e-6 * force}).assign(
-            scan=scan, group="polished", medium=medium, force=force
-        )
-        for scan in ("polished_1", "polished_2")
-        for medium in ("newtonian", "maxwell")
-        for force in (0.1, 1.0)
-    ]
-    return pd.concat(parts, ignore_index=True)
+    scans, media, time = ("polished_1", "polished_2"), ("newtonian", "maxwell"), np.geomspace(1e-3, 1e3, 13)
+    table = combinations_of(scan=scans, medium=media, force=(0.1, 1.0), time=time).assign(group="polished")
+    return table.assign(depth=1e-6 * table["force"] * table["time"], velocity=1e-6 * table["force"])
 
 
 def measured_figure(pooled, scaling):
@@ -276,13 +247,8 @@ def interface_tables_drawn():
             about = {"source": source, "case_group": group, "hurst": hurst, "across": across, "average": average}
             law = {"exponent": hurst / (1 + hurst), "peak": 0.5, "peak_x": 0.8}
             interface = interface_velocity(x, *law.values())
-            plateau = {
-                "u0": 0.48 + across / 1e4,
-                "u0_low": 0.47,
-                "u0_high": 0.53,
-                "plateau_low": 0.4,
-                "plateau_high": 1.2,
-            }
+            plateau = {"u0": 0.48 + across / 1e4, "u0_low": 0.47, "u0_high": 0.53}
+            plateau |= {"plateau_low": 0.4, "plateau_high": 1.2}
             rows.append(about | plateau | law | {"kappa_c": 1.0, "law_low": 1e-3, "law_high": 28.0})
             velocity = x + interface
             parts = {"x": x, "velocity": velocity, "interface": interface, "law": 1.02 * velocity}

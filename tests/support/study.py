@@ -1,6 +1,7 @@
 """Ensembles of known curves, and the evidence and conventions by which claims are judged."""
 
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -23,14 +24,8 @@ from viscorough_study.zeta_laws import zeta_laws
 ROOT = Path(__file__).resolve().parents[2]
 CLAIMS, NUMBERS = (read_paper(ROOT / "resources/paper", name) for name in ("claims", "numbers"))
 SHOWN = {"average": "geometric", "rms_convention": "disc", "window_rule": "default", **PLAIN}
-LIMITS = {
-    "elements_min": 10,
-    "stiffness_max": 0.2,
-    "slope_max": 0.8,
-    "slope_half_width": 0.25,
-    "fraction_min": 0.95,
-    "decades_min": 0.5,
-}
+LIMITS = {"elements_min": 10, "stiffness_max": 0.2, "slope_max": 0.8, "slope_half_width": 0.25}
+LIMITS |= {"fraction_min": 0.95, "decades_min": 0.5}
 BASE_SURFACES = {"base": {"period": 1.0, "corners": False, "amplitudes": "random"}}
 RULES = {"decades_min": 2.0, "end_decades": 0.25}
 SLOPES = "slope", "slope_low", "slope_high"
@@ -88,8 +83,14 @@ def pool_of(members, group="base"):
 def evidence(zeta=reference.zeta_elastic, **options):
     """Evidence of four combinations and three Hurst exponents, with lines that equal the first combination.
 
-    zeta : function of H; options : of ensemble
+    zeta : function of H; options : of ensemble. A copy that may be changed; the same evidence is made once.
     """
+    made = _evidence(zeta, **options)
+    return replace(made, discs=made.discs.copy(deep=True), tables={name: t.copy() for name, t in made.tables.items()})
+
+
+@cache
+def _evidence(zeta, **options):
     members = [ensemble(hurst, f"c{i}", zeta(hurst), seed=i, **options) for hurst in HURST for i in range(4)]
     discs, first = pool_of(members), dict(zip(HURST, members[::4], strict=True))
     how, rows = {**BOOTSTRAP, "stiffness_range": [0.03, 0.3], **LIMITS}, []
@@ -100,17 +101,14 @@ def evidence(zeta=reference.zeta_elastic, **options):
         rows += fit_rows(lines, source="lines", case_group="base", **how)
     plateaus = [("base", hurst, 80, 2.4, 2.2, 2.6, 0.0) for hurst in HURST]
     of_plateaus = ["case_group", "hurst", "realizations", "decades", "decades_low", "decades_high", "power_law_fails"]
-    validation = pd.DataFrame(
-        [("sphere_reduction", "depth", n, 1 / n**2) for n in (65, 129)],
-        columns=["case", "quantity", "elements", "error"],
-    )
+    validation = pd.DataFrame({"case": "sphere_reduction", "quantity": "depth", "elements": (65, 129)})
     scaling = pd.DataFrame(rows, columns=list(COLUMNS))
     found = evidence_of(
         discs,
         scaling=scaling,
         prefactors=prefactors(scaling, BASE_SURFACES),
-        validation=validation,
-        direct=compare_direct(HURST, 17, 25, 1),
+        validation=validation.assign(error=1 / validation["elements"] ** 2),
+        direct=_direct(),
         methods=pd.DataFrame(METHODS, columns=["method", "hurst", "elements", "value", "wall_s", "error", "steps"]),
         sizes_trends=pd.DataFrame(TRENDS, columns=["source", "window_rule", "hurst", *SLOPES]),
         sizes=scaling.query("source == 'discs'").assign(case_group="sizes", elements=round(0.778 * ACROSS**2)),
@@ -119,6 +117,11 @@ def evidence(zeta=reference.zeta_elastic, **options):
     )
     laws = zeta_laws(found.pooled, found.regions, (0.0, 0.6), average="geometric", **BOOTSTRAP)
     return replace(found, tables=found.tables | {"zeta_laws": laws})  # which has not pooled the discs yet
+
+
+@cache
+def _direct():
+    return compare_direct(HURST, 17, 25, 1)
 
 
 def evidence_of(discs, **tables):

@@ -11,10 +11,9 @@ from scipy import stats
 
 from support.study import ACROSS, CLAIMS, ELEMENTS, HURST, X, evidence, evidence_of, evidence_with_factors, pool_of
 from viscorough.reference import exponent_alpha, one_element_stiffness, zeta_elastic
-from viscorough_study.criteria import JUDGES
 from viscorough_study.ensembles import ensemble_dataset
-from viscorough_study.evidence import equivalence, judged, mean_with_interval, opposite
-from viscorough_study.form_criteria import _case as form_case
+from viscorough_study.evidence import judged
+from viscorough_study.intervals import mean_with_interval
 from viscorough_study.law_criteria import alpha_limit, depth, hurst_only, no_grid, realizations
 from viscorough_study.method_criteria import bodies_of_revolution, computing_time, contact_problems, elements
 from viscorough_study.region_criteria import (
@@ -24,15 +23,16 @@ from viscorough_study.region_criteria import (
     power_law,
     separation,
 )
+from viscorough_study.verdicts import JUDGES
 
 
 def test_variance_between_groups_is_covered_at_the_stated_rate():
-    """Of 4000 draws, each end of the 95 % interval misses the true ratio of variances in 2.5 %, the median in half.
+    """Of 1000 draws, each end of the 95 % interval misses the true ratio of variances in 2.5 %, the median in half.
 
-    The counts must lie in the 99.99 % range of the binomial distribution: 64 to 140 of 4000 for the ends. The groups
+    The counts must lie in the 99.99 % range of the binomial distribution: 8 to 47 of 1000 for the ends. The groups
     scatter so much that the least upper end does not matter.
     """
-    random, draws, between, within = np.random.default_rng(7), 4000, 2.0, 2.0
+    random, draws, between, within = np.random.default_rng(7), 1000, 2.0, 2.0
     beyond = np.zeros(3)
     for _ in range(draws):
         means = np.sqrt(between) * random.standard_normal(6)
@@ -45,40 +45,27 @@ def test_variance_between_groups_is_covered_at_the_stated_rate():
         assert fewest <= count <= most
 
 
-def test_interval_of_the_variance_between_groups_inverts_the_f_distribution():
-    """At the ends, MS_between/MS_within over 1 + n σ_b²/σ_w² is at the 97.5 % and the 2.5 % point of F."""
-    groups = 3 * np.arange(5)[:, None] + np.random.default_rng(3).standard_normal((5, 9))
-    *bounds, of_means = excess_variance([[*groups]])
-    within = groups.var(axis=1, ddof=1).mean()
-    ratio = 9 * groups.mean(axis=1).var(ddof=1) / within
-    probabilities = [stats.f.cdf(ratio / (1 + 9 * bound / within), 4, 40) for bound in bounds]
-    assert probabilities == pytest.approx([0.5, 0.975, 0.025], rel=1e-9)
-    assert of_means == pytest.approx(within / 9)
-
-
 def test_variance_between_groups_is_never_negative_and_needs_two_groups():
     same = [np.array([0.0, 1.0, np.nan])] * 3
     median, low, high, of_means = excess_variance([same])
     assert (median, low) == (0, 0)
     assert high == pytest.approx((1 / stats.f.ppf(0.025, 2, 3) - 1) * of_means), "as if they scattered by chance"
-    assert np.isnan(excess_variance([same[:1]])).all()
-    assert np.isnan(excess_variance([[np.zeros(1)] * 4])).all()
+    assert np.isnan([excess_variance([same[:1]]), excess_variance([[np.zeros(1)] * 4])]).all()
 
 
 def test_variance_between_groups_of_several_sets_leaves_out_that_between_the_sets():
     """Four sets tell the component four times as well as one, by the freedom 32 and 284 in place of 8 and 71."""
     groups = np.random.default_rng(5).standard_normal((4, 9, 80))
-    apart = [list(one + 10 * i) for i, one in enumerate(groups)]
-    np.testing.assert_allclose(excess_variance(apart), excess_variance([list(one) for one in groups]), rtol=1e-9)
-    of_one = np.mean([excess_variance([list(one)])[2] for one in groups])
-    assert excess_variance(apart)[2] < 0.5 * of_one
+    apart = excess_variance([list(one + 10 * i) for i, one in enumerate(groups)])
+    np.testing.assert_allclose(apart, excess_variance([list(one) for one in groups]), rtol=1e-9)
+    assert apart[2] < 0.5 * np.mean([excess_variance([list(one)])[2] for one in groups])
 
 
 def test_borderline_cases_of_few_realizations_are_never_decided():
-    """Of 500 draws of 54 realizations with a mean inside, at an end, or outside of the range, none is decided."""
+    """Of 100 draws of 54 realizations with a mean inside, at an end, or outside of the range, none is decided."""
     found, random = evidence(), np.random.default_rng(11)
     for mean in (0.0, 0.5, 1.0, 1.5):
-        draws = (mean_with_interval(mean + random.standard_normal(54)) for _ in range(500))
+        draws = (mean_with_interval(mean + random.standard_normal(54)) for _ in range(100))
         assert {found.within(values, -1.0, 1.0, realizations=54, cases=4) for values in draws} == {None}
     exact = mean_with_interval(0.001 * random.standard_normal(54))
     assert found.within(exact, -1.0, 1.0, realizations=54, cases=4) is True
@@ -88,9 +75,9 @@ def test_borderline_cases_of_few_realizations_are_never_decided():
 def test_borderline_cases_do_not_flip_between_the_two_verdicts():
     """At an end of the range each verdict comes by chance only, at its stated rate; half a width inside none is false.
 
-    Of 2000 draws: 2.5 % reproduced, 2.5 %/4 not reproduced, within the 99.99 % range of the binomial distribution.
+    Of 1000 draws: 2.5 % reproduced, 2.5 %/4 not reproduced, within the 99.99 % range of the binomial distribution.
     """
-    found, random, draws = evidence(), np.random.default_rng(12), 2000
+    found, random, draws = evidence(), np.random.default_rng(12), 1000
     for mean, shares in ((1.0, (0.025, 0.025 / 4)), (0.9, (None, 0.0))):
         outcomes = [
             found.within(mean_with_interval(mean + random.standard_normal(100)), -1.0, 1.0, realizations=100, cases=4)
@@ -105,7 +92,6 @@ def test_borderline_cases_do_not_flip_between_the_two_verdicts():
 def test_number_of_cases_and_of_realizations_enter_a_verdict():
     """1.05 to 1.35 lies outside of -1 to 1, of four cases from 1.01 on, of fifty from 0.95 on."""
     found, values = evidence(), (1.2, 1.05, 1.35)
-    assert found.within(values, -1.0, 1.0, realizations=80) is False
     assert found.within(values, -1.0, 1.0, realizations=80, cases=4) is False
     assert found.within(values, -1.0, 1.0, realizations=80, cases=50) is None
     assert found.within(values, -1.0, 1.0, realizations=79) is None
@@ -115,80 +101,46 @@ def test_number_of_cases_and_of_realizations_enter_a_verdict():
 
 def test_claims_on_ensembles_of_few_realizations_are_undecided():
     """40 discs for every Hurst exponent: the same evidence decides with 80."""
-    names = "zeta_elastic", "separation", "collapse", "power_law"
     many, few = evidence(scatter=0.1), evidence(scatter=0.1)
     for name in ("scaling", "plateaus", "zeta_laws"):
         few.tables[name]["realizations"] = 40
     first = few.discs["case"].isin(["c0", "c1"]).values
     few = dataclasses.replace(few, discs=few.discs.isel(realization=np.flatnonzero(first)))
-    for name in names:
+    for name in ("zeta_elastic", "separation", "collapse", "power_law"):
         tolerance = CLAIMS[name]["tolerance"]
         assert "undecided" not in {case.verdict for case in JUDGES[name](many, tolerance)}, name
         assert {case.verdict for case in JUDGES[name](few, tolerance)} == {"undecided"}, name
 
 
-@pytest.mark.parametrize(
-    ("interval", "verdict"),
-    [
-        ((0.1, 0.3), True),
-        ((-1.0, 1.0), True),
-        ((1.05, 1.2), False),
-        ((-2.0, -1.05), False),
-        ((0.9, 1.2), None),
-        ((-1.2, -0.9), None),
-        ((-1.9, 2.2), None),
-        ((np.nan, np.nan), None),
-    ],
-)
-def test_interval_against_a_range(interval, verdict):
-    """[-1, 1] is the range: inside, up to its ends, beyond either end, over an end, over both, and undefined."""
-    assert equivalence(interval, -1.0, 1.0) is verdict
-    assert opposite(equivalence(interval, -1.0, 1.0)) is {True: False, False: True, None: None}[verdict]
-
-
-def test_interval_of_a_mean_is_that_of_student():
-    mean, low, high = mean_with_interval(np.array([1.0, 2.0, 3.0]))
-    assert (mean, high - mean) == pytest.approx((2.0, 4.302653 / np.sqrt(3)))
-    assert low + high == pytest.approx(2 * mean)
-    assert np.isnan(mean_with_interval(np.ones(1))[1:]).all()
-
-
 def test_outcomes_of_a_case():
-    values = 1.0, 0.9, 1.1
-    assert judged("a", values, 1.0, True, "rms_convention square").verdict == "reproduced"
-    assert judged("a", values, 1.0, True, "rms_convention square").convention == ""
-    under_other = judged("a", values, 1.0, False, "rms_convention square")
-    assert under_other.verdict == "reproduced under a stated convention"
-    assert under_other.convention == "rms_convention square"
-    assert judged("a", values, 1.0, False).verdict == "not reproduced"
-    assert judged("a", values, 1.0, None).verdict == "undecided"
-    assert judged("a", values, 1.0, None, "rms_convention square").verdict == under_other.verdict
-    assert judged("a", (np.nan, 0.0, 1.0), 1.0, False).verdict == "undecided"
-    assert judged("a", (np.nan, 0.0, 1.0), 1.0, False, "rms_convention square").convention == ""
-    assert np.isnan([judged("a", values, 1.0, True).least, judged("a", values, 1.0, True).largest]).all()
+    values, undefined, stated = (1.0, 0.9, 1.1), (np.nan, 0.0, 1.0), "reproduced under a stated convention"
+    for case, outcome in (
+        (judged("a", values, 1.0, True, "square"), ("reproduced", "")),
+        (judged("a", values, 1.0, False, "square"), (stated, "square")),
+        (judged("a", values, 1.0, None, "square"), (stated, "square")),
+        (judged("a", values, 1.0, False), ("not reproduced", "")),
+        (judged("a", values, 1.0, None), ("undecided", "")),
+        (judged("a", undefined, 1.0, False, "square"), ("undecided", "")),
+    ):
+        assert (case.verdict, case.convention) == outcome
 
 
 def test_all_errors_of_bodies_of_revolution_are_held_to_the_tolerance():
     """Also those of the stiffness, of which the finest grid decides."""
     found = evidence()
-    errors = {"depth": (1e-2, 1e-5), "stiffness": (3e-2, 3e-3)}
-    rows = [
-        ("cone_reduction", name, n, error)
-        for name, two in errors.items()
-        for n, error in zip((65, 129), two, strict=True)
-    ]
-    found.tables["validation"] = pd.DataFrame(rows, columns=["case", "quantity", "elements", "error"])
+    rows = [("depth", 65, 1e-2), ("depth", 129, 1e-5), ("stiffness", 65, 3e-2), ("stiffness", 129, 3e-3)]
+    validation = pd.DataFrame(rows, columns=["quantity", "elements", "error"]).assign(case="cone_reduction")
+    found.tables["validation"] = validation
     for tolerance, verdicts in ((5e-3, ["reproduced"] * 2), (1e-3, ["reproduced", "not reproduced"])):
-        cases = bodies_of_revolution(found, tolerance)
+        cases = list(bodies_of_revolution(found, tolerance))
         assert [case.verdict for case in cases] == verdicts
         assert [(case.value, case.least, case.largest) for case in cases] == [(1e-5, 1e-5, 1e-2), (3e-3, 3e-3, 3e-2)]
 
 
 def test_four_elements_lie_on_the_rim_of_the_disc():
-    (case,) = elements(evidence(), 4)
+    (case,), (missed,) = (elements(evidence(), tolerance) for tolerance in (4, 0))
     assert (case.value, case.least, case.largest) == (51433, 51429, 51433)
-    assert case.verdict == "reproduced"
-    assert elements(evidence(), 0)[0].verdict == "not reproduced"
+    assert (case.verdict, missed.verdict) == ("reproduced", "not reproduced")
 
 
 def test_settings_decide_how_long_a_power_law_must_be():
@@ -202,36 +154,29 @@ def test_settings_decide_how_long_a_power_law_must_be():
 
 
 def test_identities_hold_exactly_and_would_fail():
-    """On a small disc: no element differs, curves agree to rounding; and one element more fails."""
-    found = evidence()
+    """On a small disc: no element differs, and curves agree to rounding; not if no difference is allowed at all."""
     for name in ("history", "depth_over_rms", "one_surface"):
         tolerance = CLAIMS[name]["tolerance"]
-        cases = JUDGES[name](found, tolerance)
+        cases = list(JUDGES[name](evidence(), tolerance))
         assert {case.verdict for case in cases} == {"reproduced"}
-        assert all(case.value <= tolerance for case in cases)
-    assert form_case("a", [0, 1], 0).verdict == "not reproduced"
-    assert (form_case("a", [0, 1], 0).least, form_case("a", [0, 1], 0).largest) == (0, 1)
+        assert all(case.least <= case.value == case.largest <= tolerance for case in cases)
+    assert "not reproduced" in {case.verdict for case in JUDGES["history"](evidence(), -1)}
 
 
 def test_curves_that_leave_the_first_region_sooner_separate_first():
     """κ = ζ X^α is twice π/(K₀₀ n) at X = (2π/(K₀₀ n ζ))^(1/α)."""
     found = evidence()
-    end = {}
-    for hurst in HURST:
-        level = 2 * one_element_stiffness(ACROSS) / zeta_elastic(hurst)
-        end[hurst] = level ** (1 + hurst)
+    end = {hurst: (2 * one_element_stiffness(ACROSS) / zeta_elastic(hurst)) ** (1 + hurst) for hurst in HURST}
     cases = separation(found, 0.0)
     for case, (lower, higher) in zip(cases, pairwise(HURST), strict=True):
         assert case.value == pytest.approx(end[lower] / end[higher], rel=0.1)
         assert case.low < case.value < case.high
         assert case.verdict == "reproduced"
-    swapped = evidence(lambda hurst: zeta_elastic(1.3 - hurst) * (0.2 if hurst == 0.9 else 1))
-    assert separation(swapped, 0.0)[1].verdict == "not reproduced"
 
 
 def test_interval_of_the_separation_is_that_of_independent_ensembles():
     """ln X at the end of region (a) scatters by 1/α of ln κ, and the variances of both Hurst exponents add up."""
-    found = dataclasses.replace(evidence_with_factors(0.2), resamples=2000)
+    found = dataclasses.replace(evidence_with_factors(0.2), resamples=1000)
     error = stats.t.ppf(0.975, 79) * 0.2 / np.sqrt(80)
     for case, pair in zip(separation(found, 0.0), pairwise(HURST), strict=True):
         of_both = error * np.hypot(*(1 / exponent_alpha(hurst) for hurst in pair))
@@ -242,8 +187,8 @@ def test_contact_is_complete_only_where_most_elements_touch():
     """These discs have κ² of their elements in contact, and all of them where κ is 1."""
     found = evidence()
     assert {case.verdict for case in complete_contact(found, 0.1)} == {"reproduced"}
-    found.discs["contact_count"] = found.discs["contact_count"] / 2
-    cases = complete_contact(dataclasses.replace(found), 0.1)
+    halved = found.discs.assign(contact_count=found.discs["contact_count"] / 2)
+    cases = list(complete_contact(dataclasses.replace(found, discs=halved), 0.1))
     assert {case.verdict for case in cases} == {"not reproduced"}
     assert all(case.value == pytest.approx(0.5, abs=0.01) for case in cases)
 
@@ -258,12 +203,8 @@ def test_exponents_of_combinations_are_compared():
 
 def test_change_of_exponents_with_the_grid_is_judged_in_windows_of_fixed_x():
     found = evidence()
-    verdicts = {case.name: case.verdict for case in no_grid(found, 0.03)}
-    assert verdicts == {
-        "H = 0.4, X = 0.01 to 0.1": "reproduced",
-        "H = 0.6, X = 0.01 to 0.1": "undecided",
-        "H = 0.9, X = 0.01 to 0.1": "not reproduced",
-    }
+    verdicts = [case.verdict for case in no_grid(found, 0.03)]
+    assert verdicts == ["reproduced", "undecided", "not reproduced"]
     found.tables["sizes_trends"] = found.tables["sizes_trends"].query("source == 'lines'")
     assert [case.verdict for case in no_grid(found, 0.03)] == ["undecided"]
 
@@ -290,11 +231,10 @@ def test_limit_of_the_exponent_needs_lines_and_discs_of_that_exponent():
         for half_width, verdict in ((0.01, "reproduced"), (0.02, "undecided")):
             more = rows.assign(beta_low=0.5 - half_width, beta_high=0.5 + half_width)
             found.tables[table] = pd.concat([known, more], ignore_index=True)
-            assert alpha_limit(found, 0.015)[number].verdict == verdict
-    coarse = more.assign(elements=more["elements"] / 4, beta=0.1, beta_low=0.1, beta_high=0.1)
-    finer = more.assign(elements=more["elements"] * 4, beta=0.1, beta_low=0.1, beta_high=0.1)
-    found.tables["sizes"] = pd.concat([coarse, finer, more], ignore_index=True)
-    assert alpha_limit(found, 0.015)[1].value == 0.5
+            assert [case.verdict for case in alpha_limit(found, 0.015)][number] == verdict
+    others = [more.assign(elements=more["elements"] * of, beta=0.1) for of in (0.25, 4)]
+    found.tables["sizes"] = pd.concat([*others, more], ignore_index=True)
+    assert [case.value for case in alpha_limit(found, 0.015)][1] == 0.5
 
 
 def test_time_is_compared_at_the_numbers_of_the_paper():
@@ -302,31 +242,19 @@ def test_time_is_compared_at_the_numbers_of_the_paper():
     found = evidence()
     (case,) = computing_time(found, 10)
     assert case.value == pytest.approx(2880 * 51433 * 1e-3 / (101 * 500 * 4e6 * 1e-9))
-    assert case.verdict == "not reproduced"
-    assert computing_time(found, 14)[0].verdict == "reproduced"
+    assert (case.verdict, *(one.verdict for one in computing_time(found, 14))) == ("not reproduced", "reproduced")
     found.tables["methods"] = found.tables["methods"].query("method == 'MDR'")
-    assert computing_time(found, 10)[0].verdict == "undecided"
+    assert [one.verdict for one in computing_time(found, 10)] == ["undecided"]
+    assert [one.verdict for one in contact_problems(found, 10)] == ["undecided"]
 
 
 def test_contact_problems_are_counted_against_changes_of_the_contact():
     """58 levels for H = 0.8, 51 for 0.4, each the fewest with an error below 1 %, for 51432 elements."""
     found = evidence()
     (case,) = contact_problems(found, 10)
-    assert (case.value, case.least) == (58 / 51432, 51 / 51432)
-    assert case.verdict == "not reproduced"
-    paths = found.tables["methods"]["method"] == "path, automatic levels"
-    found.tables["methods"].loc[paths, "steps"] = 6000.0
-    assert contact_problems(found, 10)[0].verdict == "reproduced"
-    found.tables["methods"] = found.tables["methods"][~paths]
-    assert contact_problems(found, 10)[0].verdict == "undecided"
-
-
-def test_slope_of_the_last_region_is_over_the_end_of_the_curves():
-    """Over the last twentieth of a decade κ is constant; over two decades the power law enters."""
-    found = evidence()
-    for decades, verdict in ((0.25, "reproduced"), (3.0, "not reproduced")):
-        changed = dataclasses.replace(found, rules=found.rules | {"end_decades": decades})
-        assert {case.verdict for case in last_region(changed, 0.05) if "slope" in case.name} == {verdict}
+    assert (case.value, case.least, case.verdict) == (58 / 51432, 51 / 51432, "not reproduced")
+    found.tables["methods"]["steps"] = 6000.0
+    assert [one.verdict for one in contact_problems(found, 10)] == ["reproduced"]
 
 
 def test_slope_and_prefactor_of_the_last_region_are_those_of_the_curve_there():

@@ -1,13 +1,13 @@
 """Ensembles: exact dashpot lines made by hand, counted and averaged independently of the module."""
 
-import warnings
-
 import numpy as np
 import pytest
 
 from support.study import aggregate, line_curve
 from viscorough.loading_curve import LoadingCurve
 from viscorough_study.ensembles import abscissa
+
+pytestmark = pytest.mark.filterwarnings("error")
 
 
 def line_stiffness(gaps, rms, x):
@@ -35,7 +35,7 @@ def test_abscissa_is_made_of_multiples_and_contains_its_ends():
     assert abscissa(1e-7, 30, 20)[-1] == pytest.approx(10**1.45)
 
 
-@pytest.mark.parametrize("arguments", [(0, 1, 20), (2, 1, 20), (1, np.inf, 20), (1, 2, 0), (1, 2, 1.5), (2, 3, 1)])
+@pytest.mark.parametrize("arguments", [(0, 1, 20), (2, 1, 20), (1, 2, 1.5), (2, 3, 1)])
 def test_abscissa_refuses(arguments):
     with pytest.raises(ValueError, match=r"^abscissa: "):
         abscissa(*arguments)
@@ -46,28 +46,16 @@ def test_velocity_of_a_line_is_exact(gaps):
     rms = gaps.std(axis=1)
     ensemble = aggregate([line_curve(g) for g in gaps], {"line": rms}, 1.0, x, hurst=0.5, case="lines")
     expected = np.array([line_stiffness(g, h, x) for g, h in zip(gaps, rms, strict=True)])
-    assert 1 / 40 in expected
+    assert 1 / 40 in expected  # in region (a), where one point is in contact
     assert expected.max() > 0.9
     np.testing.assert_allclose(ensemble.stiffness.values[0], expected, rtol=1e-12)
-    np.testing.assert_allclose(ensemble.velocity.values[0], x / expected, rtol=1e-12)
-
-
-def test_unit_of_length_does_not_matter(gaps):
-    x, unit = abscissa(1e-3, 1, 10), 1e-6
-    one = aggregate([line_curve(g) for g in gaps], {"line": 1.0}, 1.0, x, hurst=0.5, case="a")
-    curves = [line_curve(unit * g, length=unit) for g in gaps]
-    other = aggregate(curves, {"line": unit}, unit, x, hurst=0.5, case="a")
-    np.testing.assert_allclose(one.velocity, other.velocity, rtol=1e-12)
-    np.testing.assert_allclose(one.contact_count, other.contact_count, rtol=1e-12)
 
 
 def test_rms_conventions_shift_the_abscissa(gaps):
     """With twice the h, the force at X is that at 2X: κ(X; 2h) = κ(2X; h)."""
     x = 2.0 ** np.arange(-10, 0)
-    ensemble = aggregate(
-        [line_curve(g) for g in gaps], {"disc": 1.0, "square": np.full(12, 2.0)}, 1.0, x, hurst=0.5, case="a"
-    )
-    assert ensemble.rms_convention.values.tolist() == ["disc", "square"]
+    rms = {"disc": 1.0, "square": np.full(12, 2.0)}
+    ensemble = aggregate([line_curve(g) for g in gaps], rms, 1.0, x, hurst=0.5, case="a")
     disc, square = ensemble.stiffness.values
     np.testing.assert_allclose(square[:, :-1], disc[:, 1:], rtol=1e-12)
 
@@ -79,23 +67,12 @@ def test_contact_count_between_levels_is_linear_in_logarithms():
     x = np.array([1.0, 2.0, 4.0, 8.0, 16.0]) / (4 * h * length)  # at and half-way between (in ln F) the levels
     ensemble = aggregate([curve], {"disc": h}, length, x, hurst=0.5, case="a")
     np.testing.assert_allclose(ensemble.contact_count.values[0, 0], [3, 6, 12, 24, 48], rtol=1e-12)
-    np.testing.assert_allclose(ensemble.contact_fraction_mean.values[0], [0.03, 0.06, 0.12, 0.24, 0.48])
-
-
-def test_below_the_first_level_one_element_is_in_contact(gaps):
-    """Region (a): κ = 1/N and the slope of vt/h is 1."""
-    x = abscissa(1e-8, 1e-6, 5)
-    ensemble = aggregate([line_curve(g) for g in gaps], {"line": 1.0}, 1.0, x, hurst=0.5, case="a")
-    np.testing.assert_allclose(ensemble.velocity_geometric.values[0], 40 * x, rtol=1e-12)
-    assert (ensemble.contact_count == 1).all()
 
 
 def test_averages_are_over_the_realizations_defined(gaps):
     x = abscissa(1e-3, 3, 10)
     curves = [line_curve(g, levels=20 if i < 4 else None) for i, g in enumerate(gaps)]  # four stop early
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        ensemble = aggregate(curves, {"line": 1.0}, 1.0, x, hurst=0.5, case="a")
+    ensemble = aggregate(curves, {"line": 1.0}, 1.0, x, hurst=0.5, case="a")
     velocity, count = ensemble.velocity.values[0], ensemble.contact_count.values[0]
     assert np.array_equal(np.isnan(velocity), np.isnan(count))
     for j in range(x.size):
@@ -106,42 +83,11 @@ def test_averages_are_over_the_realizations_defined(gaps):
         assert one.velocity_arithmetic == pytest.approx(np.mean(v), rel=1e-12)
         assert one.velocity_geometric == pytest.approx(np.prod(v) ** (1 / v.size), rel=1e-12)
         assert one.velocity_spread == pytest.approx(np.std(np.log(v), ddof=1), rel=1e-9, abs=1e-12)
-        assert one.stiffness_geometric == pytest.approx(x[j] / np.prod(v) ** (1 / v.size), rel=1e-12)
         assert one.contact_count_median == np.median(count[~np.isnan(count[:, j]), j])
     assert set(ensemble.realizations_defined.values[0]) >= {8, 12}
-
-
-def test_beyond_all_curves_nothing_is_defined(gaps):
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        ensemble = aggregate([line_curve(gaps[0])], {"line": 1.0}, 1.0, [0.1, 1e3], hurst=0.5, case="a")
-    last = ensemble.isel(rms_convention=0, abscissa=1)
-    assert last.realizations_defined == 0
+    last = aggregate(curves[:1], {"line": 1.0}, 1.0, [0.1, 1e3], hurst=0.5, case="a").isel(abscissa=1)
+    assert last.realizations_defined == 0, "beyond all curves"
     assert all(np.isnan(last[name]) for name in ("velocity_arithmetic", "velocity_geometric", "contact_count_median"))
-    assert np.isnan(ensemble.velocity_spread.values[0, 0])  # of a single realization
-
-
-def test_averages_at_fixed_abscissa_are_averages_at_fixed_time(gaps):
-    """v = F/(η k/G) at F/G = Ft/η, the exact correspondence; F, η, L and a nominal h are common to all."""
-    force, viscosity, rms, length = 3.0, 7.0, 0.4, 1.0
-    curves = [line_curve(g) for g in gaps]
-    time = np.array([0.05, 0.3, 1.1])
-    velocity = [force / (viscosity * curve.at_force(force * time / viscosity)[1]) for curve in curves]
-    x = force * time / (4 * viscosity * rms * length)
-    ensemble = aggregate(curves, {"nominal": rms}, length, x, hurst=0.5, case="a")
-    np.testing.assert_allclose(
-        ensemble.velocity_arithmetic.values[0], np.mean(velocity, axis=0) * time / rms, rtol=1e-12
-    )
-
-
-def test_every_variable_is_described(gaps):
-    ensemble = aggregate([line_curve(gaps[0])], {"line": 1.0}, 1.0, [0.1], hurst=0.5, case="a")
-    for name, variable in ensemble.data_vars.items():
-        assert variable.attrs["units"] == "1", name
-        assert variable.attrs["long_name"], name
-        assert variable.attrs["paper_equation"].startswith(("Eq. ", "Sec. ")), name
-    assert ensemble.velocity.dims == ("rms_convention", "realization", "abscissa")
-    assert ensemble.velocity_spread.dims == ("rms_convention", "abscissa")
 
 
 @pytest.mark.parametrize(
@@ -150,14 +96,11 @@ def test_every_variable_is_described(gaps):
         ({"curves": []}, "at least one"),
         ({"rms": {"disc": -1.0}}, r"rms\['disc'\]"),
         ({"rms": {"disc": [1.0, 2.0]}}, r"rms\['disc'\]"),
-        ({"rms": {"disc": np.nan}}, r"rms\['disc'\]"),
         ({"diameter": 0.0}, "diameter"),
-        ({"x": [0.0, 1.0]}, "x must be"),
         ({"x": [2.0, 1.0]}, "x must be"),
     ],
 )
 def test_aggregate_refuses(change, message):
     arguments = {"curves": [line_curve([0, 1])], "rms": {"disc": 1.0}, "diameter": 1.0, "x": [0.1]} | change
-    with pytest.raises(ValueError, match=message) as caught:
+    with pytest.raises(ValueError, match=message):
         aggregate(**arguments, hurst=0.5, case="a")
-    assert "\n" not in str(caught.value)

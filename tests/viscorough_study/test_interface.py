@@ -6,16 +6,10 @@ import pytest
 import xarray as xr
 
 from support.study import pool_of
-from viscorough.calibrated_law import LARGEST_DEVIATION, X_LOW, interface_depth, interface_velocity
+from viscorough.calibrated_law import X_LOW, interface_depth, interface_velocity
 from viscorough_study.discs import punch_stiffness
 from viscorough_study.ensembles import abscissa, ensemble_dataset
-from viscorough_study.interface import (
-    COLUMNS,
-    CURVES,
-    ensembles_of,
-    examine,
-    interface_tables,
-)
+from viscorough_study.interface import COLUMNS, CURVES, ensembles_of, examine, interface_tables
 
 X = abscissa(1e-9, 30, 20)
 PUNCH = 0.98
@@ -43,7 +37,6 @@ def examined(interface, average="arithmetic", **changes):
 def test_plateau_is_given_back():
     """A power law up to X = 0.1, and constant from there on."""
     row, _ = examined(lambda x: np.minimum(0.51, 0.51 * (x / 0.1) ** 0.3))
-    assert row["u0_low"] < row["u0"] < row["u0_high"]
     assert row["u0"] == pytest.approx(0.51, rel=0.02)
     assert row["u0_high"] - row["u0_low"] == pytest.approx(2 * 1.96 * 0.51 * 0.05 / np.sqrt(40), rel=0.3)
     assert row["plateau_low"] == pytest.approx(0.1 * 0.95 ** (1 / 0.3), rel=0.15)
@@ -85,18 +78,6 @@ def test_error_of_the_law_contains_the_interval_of_the_mean():
     exact, scattered = (examined(lambda x: interface_velocity(x, *LAW), scatter=s)[0] for s in (0.0, 0.3))
     assert exact["error"] < 1e-4
     assert scattered["deviation"] < 0.05 < scattered["error"] < 0.3
-
-
-def test_law_has_no_range_where_it_does_not_fit():
-    row, _ = examined(lambda x: 0.5 * np.exp(-(np.log(x / 0.01) ** 2)))
-    assert "law_low" not in row or row["deviation"] <= LARGEST_DEVIATION
-    row, _ = examined(lambda x: 0.3 + 0.29 * np.sin(4 * np.log(x)))
-    assert "law_low" not in row or row["law_high"] / row["law_low"] < 1e3
-
-
-def test_punch_of_a_grid():
-    assert punch_stiffness(65) == pytest.approx(0.9801, abs=1e-4)
-    assert punch_stiffness(33) < punch_stiffness(65) < 1
 
 
 def test_tables_of_every_grid_and_average():

@@ -3,7 +3,6 @@
 import logging
 import subprocess
 import sys
-import textwrap
 
 import pytest
 
@@ -37,56 +36,45 @@ def test_an_interrupt_is_one_line(tmp_path):
     ("error", "on_stderr"),
     [
         ("ValueError('rms: must be\\n positive')", False),
-        ("ConvergenceError('level 3')", False),
+        ("ConvergenceError('level')", False),
         ("KeyError('h')", True),
     ],
 )
 def test_log_gets_messages_warnings_and_the_traceback(tmp_path, error, on_stderr):
-    script = textwrap.dedent(f"""
-        import logging, sys, warnings
-        from viscorough.errors import ConvergenceError
-        from viscorough_study.job_log import log_to
-        log_to(sys.argv[1])
-        logging.info("100 %s of it", "%")
-        warnings.warn("odd spacing")
-        raise {error}
-    """)
+    script = f"""
+import logging, sys, warnings
+from viscorough.errors import ConvergenceError
+from viscorough_study.job_log import log_to
+log_to(sys.argv[1])
+logging.info("100 %s of it", "%")
+warnings.warn("odd spacing")
+raise {error}
+"""
     path = tmp_path / "job.log"
     path.write_text("of an earlier run\n")
     done = subprocess.run([sys.executable, "-c", script, path], capture_output=True, text=True, check=False)
     log = path.read_text()
     assert done.returncode == 1
     assert "earlier run" not in log
-    for text in (log, done.stderr):
-        assert "INFO 100 % of it" in text
-        assert "odd spacing" in text
+    assert all(part in text for part in ("INFO 100 % of it", "odd spacing") for text in (log, done.stderr))
     assert log.count("Traceback") == 1
     assert done.stderr.count("Traceback") == on_stderr
     kind = error.split("(")[0]
-    lines = [line for line in done.stderr.splitlines() if f"ERROR {kind}: " in line]
-    assert len(lines) == 1
-    if kind == "ValueError":
-        assert lines[0].endswith("ERROR ValueError: rms: must be positive")
+    (line,) = (line for line in done.stderr.splitlines() if f"ERROR {kind}: " in line)
+    assert kind != "ValueError" or line.endswith("ERROR ValueError: rms: must be positive")
 
 
-def test_progress_logs_an_estimate_now_and_then(tmp_path, root_logger, monkeypatch):
+def test_progress_logs_an_estimate_now_and_then(tmp_path, root_logger):
     """With a clock that gains 1 s per step, 60 steps are logged every 5 s, with the time that is left."""
     job_log.log_to(tmp_path / "job.log")
-    clock = iter(range(10_000))
+    assert list(job_log.progress(iter("abc"), 3, "short")) == ["a", "b", "c"]
     ticks = {"now": 0.0}
     bar = job_log.progress(range(60), 60, "levels")
     bar._time = lambda: ticks["now"]
     bar.start_t = bar.last_print_t = 0.0
-    for _ in bar:
-        ticks["now"] = float(next(clock) + 1)
+    for step in bar:
+        ticks["now"] = step + 1.0
     lines = (tmp_path / "job.log").read_text().splitlines()
     assert 10 <= len(lines) <= 13
-    assert "INFO levels: " in lines[0]
     assert "30 of 60, 00:30 passed, 00:30 to go" in "\n".join(lines)
-    assert all(" of 60, " in line for line in lines)
-
-
-def test_progress_of_a_short_job_logs_nothing(tmp_path, root_logger):
-    job_log.log_to(tmp_path / "job.log")
-    assert list(job_log.progress(iter("abc"), 3, "levels")) == ["a", "b", "c"]
-    assert (tmp_path / "job.log").read_text() == ""
+    assert all("INFO levels: " in line and " of 60, " in line for line in lines)

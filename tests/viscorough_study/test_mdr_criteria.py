@@ -15,15 +15,13 @@ GOOD = evidence()
 def verdicts(claim, tolerance, **tables):
     """Verdicts of a claim by tables of `mdr_tables`, or by these."""
     made = dataclasses.replace(GOOD, tables=GOOD.tables | tables)
-    return [case.verdict for case in mdr_criteria.JUDGES[claim](made, tolerance)]
+    return [case.verdict for case in getattr(mdr_criteria, claim)(made, tolerance)]
 
 
 @pytest.mark.parametrize(
     ("claim", "cases", "drift", "ratio"),
     [
         ("lambda_constant", 1, 1.3, 1.0),
-        ("lambda_constant", 1, 0.7, 1.0),
-        ("exact_correspondence", 2, 1.8, 1.0),
         ("exact_correspondence", 2, 0.5, 1.0),
         ("coincide_equal_windows", 2, 5.0, 1.0),
         ("line_area", 1, 1.0, 100.0),
@@ -39,15 +37,13 @@ def test_equal_quantities_are_reproduced_and_unlike_ones_are_not(claim, cases, d
 
 def test_intervals_that_reach_over_the_tolerance_are_undecided():
     assert set(verdicts("lambda_constant", 0.1, **mdr_tables(drift=1.1))) == {"undecided"}
-    assert set(verdicts("line_gap", 0.1, **mdr_tables(ratio=1.1))) == {"undecided"}
     few = mdr_tables(ratio=1.2)["reduction"].assign(realizations=3)
     assert set(verdicts("single_surface", 0.1, reduction=few)) == {"undecided"}
 
 
 def test_quantities_are_taken_inside_region_b():
     table = mdr_tables()["reduction"]
-    low, high = GOOD.regions[0.6]
-    outside = ~table["x"].between(low, high)
+    outside = ~table["x"].between(*GOOD.regions[0.6])
     assert outside.any()
     changed = table.assign(area_ratio=np.where(outside, 50.0, table["area_ratio"]))
     assert set(verdicts("line_area", 0.1, reduction=changed)) == {"reproduced"}

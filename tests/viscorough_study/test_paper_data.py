@@ -4,7 +4,7 @@ import pytest
 import yaml
 
 from support.study import CLAIMS, NUMBERS, ROOT
-from viscorough_study.paper_data import number, read_paper
+from viscorough_study.paper_data import number
 
 
 def test_every_number_has_its_place():
@@ -30,7 +30,3 @@ def test_settings_of_the_paper_are_its_numbers():
     assert paper["discs"]["realizations"] >= about["realizations_min"]
     assert paper["lines"]["points"] == number(NUMBERS, "reduction", "points")
     assert len(paper["lines"]["hurst"]) == number(NUMBERS, "reduction", "hurst_count")
-
-
-def test_laws_are_read():
-    assert read_paper(ROOT / "resources/paper", "laws")["beta"]["equation"] == 10

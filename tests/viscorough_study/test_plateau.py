@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from support.study import ensemble_of
-from viscorough_study.plateau import local_slopes, longest_plateau, plateau, shares
-from viscorough_study.plateau_table import COLUMNS, plateau_row
+from viscorough_study.plateau import COLUMNS, local_slopes, longest_plateau, plateau, plateau_row, shares
 
 X = 10.0 ** np.linspace(-4, 1, 101)
 HALF_WIDTH = 0.25 * np.log(10)
@@ -47,10 +46,8 @@ def test_plateau_of_a_curve_with_a_kink():
     found = plateau(np.log(X), scattered(mean, 30, 1e-4), random=np.random.default_rng(1), **HOW)
     assert found["x_low"] == pytest.approx(10**-3.75)
     assert 10**-1.26 <= found["x_high"] <= 10**-1.05
-    assert found["decades"] == pytest.approx(np.log10(found["x_high"] / found["x_low"]))
     assert found["slope"] == pytest.approx(0.4, abs=0.02)
     assert found["decades_low"] <= found["decades"] <= found["decades_high"]
-    assert found["slope_low"] <= found["slope"] <= found["slope_high"]
 
 
 def test_power_laws_pass_and_what_is_none_does_not():
@@ -59,22 +56,19 @@ def test_power_laws_pass_and_what_is_none_does_not():
     means = 0.3 * np.log(X), control(X), 0.05 * np.log(X) ** 2
     how = {"draws": 20, "decades_min": 2.0, "random": random} | HOW
     assert [shares(np.log(X), mean, residuals, **how) for mean in means] == [(1, 0), (0, 1), (0, 1)]
+    passed, failed = shares(np.log(X), means[0], scattered(0.0, 8, 0.5), **how)
+    assert (passed, failed > 0.05) == (0, True), "few realizations lose power laws"
 
 
-def test_it_is_known_where_the_test_loses_power_laws():
-    """Eight realizations that scatter by more than the tolerance."""
-    how = {"draws": 10, "decades_min": 2.0, "random": np.random.default_rng(3)} | HOW
-    passed, failed = shares(np.log(X), 0.3 * np.log(X), scattered(0.0, 8, 0.5), **how)
-    assert passed == 0
-    assert failed > 0.05
+OPTIONS = {"x_range": [1e-3, 1.0], "half_width": 0.25, "tolerance": 0.05, "decades_min": 2.0}
 
 
-def row(mean, number=200, size=0.1, **options):
-    curve = ensemble_of(X, X * np.exp(-scattered(mean, number, size)), elements=10**9)
-    options = {"x_range": [1e-3, 1.0], "half_width": 0.25, "tolerance": 0.05, "decades_min": 2.0} | options
-    none = ensemble_of(X, X * np.exp(-scattered(control(X), 20, size, 1)), elements=10**9).isel(rms_convention=0)
-    random = np.random.default_rng(4)
-    return plateau_row(curve.isel(rms_convention=0), none, resamples=100, draws=10, random=random, **options)
+def row(mean):
+    curve, none = (
+        ensemble_of(X, X * np.exp(-scattered(one, number, 0.1, seed)), elements=10**9).isel(rms_convention=0)
+        for one, number, seed in ((mean, 200, 0), (control(X), 20, 1))
+    )
+    return plateau_row(curve, none, resamples=100, draws=10, random=np.random.default_rng(4), **OPTIONS)
 
 
 def test_row_of_a_power_law_and_of_a_control():
@@ -93,7 +87,6 @@ def test_curves_that_do_not_reach_all_abscissae_are_undecided():
     curves = np.exp(-scattered(0.3 * np.log(X) - 3, 20, 0.1)) * X
     curves[0, -40:] = np.nan
     short = ensemble_of(X, curves).isel(rms_convention=0)
-    options = {"x_range": [1e-3, 1.0], "half_width": 0.25, "tolerance": 0.05, "decades_min": 2.0, "resamples": 20}
-    found = plateau_row(short, None, draws=2, random=np.random.default_rng(1), **options)
+    found = plateau_row(short, None, resamples=20, draws=2, random=np.random.default_rng(1), **OPTIONS)
     assert {"case_group", *found} == set(COLUMNS)
     assert np.isnan(found["decades"])

@@ -8,10 +8,9 @@ from scipy.stats import binom
 from support.study import LIMITS, ensemble_of, three_regions
 from viscorough import reference
 from viscorough_study.ensembles import abscissa
-from viscorough_study.power_law import find_region, fit_power_law, local_slope, named_windows
+from viscorough_study.power_law import find_region, fit_power_law, named_windows
 
 x = abscissa(1e-7, 10, 20)
-HALF_WIDTH = LIMITS["slope_half_width"]
 BOOTSTRAP = {"resamples": 400, "seed": 1}
 
 
@@ -28,27 +27,16 @@ def scattered(beta, prefactor, realizations, seed, *, slope_scatter=0.03, scatte
     return np.exp(logs + 0.05 * rng.normal(size=logs.shape))
 
 
-def test_local_slope_of_the_three_regions():
-    slope = local_slope(x, x / three_regions(x), HALF_WIDTH)
-    low, high = (1e-6 / 1.2) ** (1 / 0.6), 1.2 ** (-1 / 0.6)
-    inner = (x > 2 * low) & (x < high / 2)
-    np.testing.assert_allclose(slope[inner], 0.4, atol=1e-12)
-    np.testing.assert_allclose(slope[x > 2 * high], 1, atol=1e-12)
-    assert np.isnan(local_slope(x, np.full(x.size, np.nan), HALF_WIDTH)).all()
-
-
 def test_region_of_a_three_region_curve():
     """Its ends are the outermost abscissae with 10 elements in contact and κ = 0.2."""
-    for elements in (10**3, 10**4):
-        low, high = find_region(one(ensemble_of(x, three_regions(x), elements=elements)), **LIMITS)
-        assert low == x[x >= (10 / elements / 1.2) ** (1 / 0.6)][0]
-        assert high == x[x <= (0.2 / 1.2) ** (1 / 0.6)][-1]
+    low, high = find_region(one(ensemble_of(x, three_regions(x), elements=10**3)), **LIMITS)
+    assert low == x[x >= (10 / 10**3 / 1.2) ** (1 / 0.6)][0]
+    assert high == x[x <= (0.2 / 1.2) ** (1 / 0.6)][-1]
 
 
 def test_region_ends_where_the_slope_is_that_of_a_fixed_contact():
     """A plateau of κ below stiffness_max, such as a flat-topped asperity, is no region (b)."""
-    plateau = np.minimum(1.2 * x**0.6, 0.05)
-    _, high = find_region(one(ensemble_of(x, plateau)), **LIMITS)
+    _, high = find_region(one(ensemble_of(x, np.minimum(1.2 * x**0.6, 0.05))), **LIMITS)
     corner = (0.05 / 1.2) ** (1 / 0.6)
     assert corner / 10**0.25 < high < corner * 10**0.25
 
@@ -58,26 +46,14 @@ def test_region_needs_nearly_all_realizations():
     stiffness[:2, x > 1e-3] = np.nan  # 90 % left
     _, high = find_region(one(ensemble_of(x, stiffness)), **LIMITS)
     assert high == x[x <= 1e-3][-1]
-    _, high = find_region(one(ensemble_of(x, stiffness)), **(LIMITS | {"fraction_min": 0.9}))
-    assert high > 1e-2
 
 
-def test_region_is_the_longest_run():
-    count = np.where((x > 1e-5) & (x < 1.5e-5), 0, 1)
-    mean = one(ensemble_of(x, three_regions(x)))
-    mean["contact_count_median"] = mean["contact_count_median"] * count
-    low, _ = find_region(mean, **LIMITS)
-    assert low == x[x >= 1.5e-5][0]
-
-
-@pytest.mark.parametrize("stiffness", [np.ones(x.size), np.full(x.size, 0.1), np.full(x.size, np.nan)])
+@pytest.mark.parametrize("stiffness", [np.ones(x.size), np.full(x.size, np.nan)])
 def test_no_region_raises_and_its_windows_are_none(stiffness):
     mean = one(ensemble_of(x, three_regions(x)))
     mean["stiffness_geometric"] = "abscissa", stiffness
     mean["velocity_geometric"] = "abscissa", x / stiffness
-    with pytest.raises(ValueError, match=r"^find_region: .*0\.5 decades") as caught:
-        find_region(mean, **LIMITS)
-    assert "\n" not in str(caught.value)
+    assert find_region(mean, **LIMITS) is None
     windows = named_windows(mean, stiffness_range=(0.5, 0.6), **LIMITS)
     assert windows == dict.fromkeys(("default", "lower_half", "upper_half", "kappa"))
 
@@ -85,51 +61,23 @@ def test_no_region_raises_and_its_windows_are_none(stiffness):
 def test_named_windows():
     windows = named_windows(one(ensemble_of(x, three_regions(x))), stiffness_range=(0.03, 0.3), **LIMITS)
     low, high = windows["default"]
-    assert windows["lower_half"][0] == low
-    assert windows["upper_half"][1] == high
-    assert windows["lower_half"][1] == windows["upper_half"][0] == pytest.approx(np.sqrt(low * high))
+    middle = pytest.approx(np.sqrt(low * high))
+    assert (windows["lower_half"], windows["upper_half"]) == ((low, middle), (middle, high))
     inside = x[(three_regions(x) >= 0.03) & (three_regions(x) <= 0.3)]
     assert windows["kappa"] == (inside[0], inside[-1])
-
-
-@pytest.mark.parametrize("average", ["arithmetic", "geometric"])
-def test_exact_power_law_is_recovered_exactly(average):
-    velocity = np.tile(x**0.37 / 1.6, (5, 1))
-    fit = fit_power_law(x, velocity, (1e-5, 1e-1), average=average, **BOOTSTRAP)
-    assert fit.beta == pytest.approx(0.37, abs=1e-12)
-    assert fit.beta_interval == pytest.approx((0.37, 0.37), abs=1e-12)
-    assert fit.zeta() == pytest.approx((1.6, 1.6, 1.6), rel=1e-11)
-    assert fit.residual == pytest.approx(0, abs=1e-12)
 
 
 def test_fit_is_least_squares_in_logarithms():
     """Against numpy's polynomial fit, of the averages taken by numpy; window ends belong to it."""
     velocity = scattered(0.4, 0.7, 9, seed=2)
     inside = slice(60, 101)
-    for average, mean in (
-        ("arithmetic", np.log(velocity.mean(axis=0))),
-        ("geometric", np.log(velocity).mean(axis=0)),
-    ):
-        fit = fit_power_law(x, velocity, (x[60], x[100]), average=average, **BOOTSTRAP)
+    averages = {"arithmetic": np.log(velocity.mean(axis=0)), "geometric": np.log(velocity).mean(axis=0)}
+    for average, mean in averages.items():
+        fit = fit_power_law(x, velocity, (x[60], x[100]), average=average, resamples=20, seed=1)
         slope, height = np.polyfit(np.log(x[inside]), mean[inside], 1)
-        assert fit.beta == pytest.approx(slope, rel=1e-10)
-        assert fit.zeta()[0] == pytest.approx(np.exp(-height), rel=1e-10)
+        assert (fit.beta, fit.zeta()[0]) == pytest.approx((slope, np.exp(-height)), rel=1e-10)
         deviation = mean[inside] - height - slope * np.log(x[inside])
         assert fit.residual == pytest.approx(np.sqrt(np.mean(deviation**2)), rel=1e-8)
-
-
-def test_bootstrap_is_that_of_drawing_curves_one_by_one():
-    """The spread of β over resamples against a plain loop: two estimates of one standard deviation."""
-    velocity, window = scattered(0.4, 0.7, 20, seed=3), (1e-5, 1e-1)
-    fit = fit_power_law(x, velocity, window, average="arithmetic", resamples=4000, seed=1)
-    inside, rng = (x >= window[0]) & (x <= window[1]), np.random.default_rng(5)
-    slopes = [
-        np.polyfit(np.log(x[inside]), np.log(velocity[drawn][:, inside].mean(axis=0)), 1)[0]
-        for drawn in rng.integers(20, size=(4000, 20))
-    ]
-    # relative standard error of a standard deviation of 4000 values is 1/√8000 = 1.1 %, twice of it: 1.6 %
-    assert np.std(fit.beta_samples) == pytest.approx(np.std(slopes), rel=0.06)
-    assert np.mean(fit.beta_samples) == pytest.approx(np.mean(slopes), abs=4 * np.std(slopes) / np.sqrt(2000))
 
 
 @pytest.mark.parametrize("realizations", [8, 24])
@@ -141,7 +89,7 @@ def test_intervals_cover_the_truth_95_times_in_100(realizations):
     hits = np.zeros(3)
     for seed in range(200):
         velocity = scattered(0.4, 0.7, realizations, seed=(realizations, seed))
-        fit = fit_power_law(x, velocity, (1e-5, 1e-1), average="geometric", resamples=400, seed=seed)
+        fit = fit_power_law(x, velocity, (1e-5, 1e-1), average="geometric", resamples=200, seed=seed)
         _, zeta_low, zeta_high = fit.zeta()
         plain = np.quantile(fit.beta_samples, [0.025, 0.975])
         truth = (0.4, 1 / 0.7, 0.4)
@@ -152,17 +100,6 @@ def test_intervals_cover_the_truth_95_times_in_100(realizations):
     assert fewest <= hits[1] <= most
     if realizations == 8:
         assert hits[2] < hits[0]
-
-
-def test_arithmetic_exceeds_geometric_mean_by_half_the_variance():
-    """Lognormal scatter σ: ln of the ratio of prefactors is σ²/2, and β the same."""
-    sigma, n = 0.4, 5000
-    scatter = sigma * np.random.default_rng(4).normal(size=(n, 1))
-    velocity = x**0.4 * np.exp(scatter)
-    fits = [fit_power_law(x, velocity, (1e-4, 1e-2), average=a, **BOOTSTRAP) for a in ("arithmetic", "geometric")]
-    assert fits[0].beta == pytest.approx(fits[1].beta, abs=1e-12)
-    # standard error of mean(e^y)/e^mean(y): √((e^σ² − 1 − σ²)/n) = 0.0017 for these; four of them
-    assert np.log(fits[0].prefactor / fits[1].prefactor) == pytest.approx(sigma**2 / 2, abs=0.007)
 
 
 def test_partly_defined_realizations_count_where_they_are_defined():
@@ -178,13 +115,9 @@ def test_partly_defined_realizations_count_where_they_are_defined():
         fit_power_law(x, velocity, (2e-3, 1e-1), average="arithmetic", **BOOTSTRAP)
 
 
-def test_single_realization_has_no_interval():
-    fit = fit_power_law(x, x[None] ** 0.4, (1e-4, 1e-2), average="geometric", **BOOTSTRAP)
-    assert np.isnan(fit.beta_interval).all()
-
-
-def test_fit_refuses():
+def test_fit_refuses_and_has_no_interval_for_one_realization():
     velocity = np.tile(x**0.4, (3, 1))
+    assert np.isnan(fit_power_law(x, velocity[:1], (1e-4, 1e-2), average="geometric", **BOOTSTRAP).beta_interval).all()
     with pytest.raises(ValueError, match="at least 3"):
         fit_power_law(x, velocity, (1.0e-4, 1.1e-4), average="geometric", **BOOTSTRAP)
     with pytest.raises(ValueError, match="average"):
@@ -194,23 +127,12 @@ def test_fit_refuses():
         fit.zeta(diameter_convention="width")
 
 
-@pytest.mark.parametrize("gamma", ["without", "with"])
-def test_both_readings_describe_the_same_curve(gamma):
+def test_both_readings_describe_the_same_curve():
     """ζ of either reading, put into the paper's law of that reading, gives back the curve."""
     velocity = scattered(0.375, 0.7, 6, seed=6, slope_scatter=0)
     fit = fit_power_law(x, velocity, (1e-4, 1e-2), average="geometric", **BOOTSTRAP)
-    law = reference.velocity_law(x, fit.zeta(gamma=gamma)[0], 1 - fit.beta, gamma=gamma == "with")
-    np.testing.assert_allclose(law, fit.prefactor * x**fit.beta, rtol=1e-12)
+    for gamma in ("without", "with"):
+        law = reference.velocity_law(x, fit.zeta(gamma=gamma)[0], 1 - fit.beta, gamma=gamma == "with")
+        np.testing.assert_allclose(law, fit.prefactor * x**fit.beta, rtol=1e-12)
     ratio = fit.zeta(gamma="with")[0] / fit.zeta()[0]
     assert ratio == pytest.approx(1 / gamma_function(1 + fit.beta))
-
-
-def test_radius_for_diameter_is_a_fit_on_doubled_abscissae():
-    """κ = k/(4GL) and X = F/(4GhL) both double with L/2; vt/h is measured and stays."""
-    velocity = scattered(0.4, 0.7, 10, seed=7)
-    window = np.array([x[60], x[100]])
-    fit = fit_power_law(x, velocity, window, average="arithmetic", **BOOTSTRAP)
-    doubled = fit_power_law(2 * x, velocity, 2 * window, average="arithmetic", **BOOTSTRAP)
-    assert fit.zeta(diameter_convention="radius") == pytest.approx(doubled.zeta(), rel=1e-9)
-    assert fit.beta == pytest.approx(doubled.beta, rel=1e-12)
-    assert fit.zeta(diameter_convention="radius")[0] == pytest.approx(2**fit.beta * fit.zeta()[0])

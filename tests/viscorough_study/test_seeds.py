@@ -36,9 +36,3 @@ def test_every_stream_has_its_own_number():
 def test_neighbouring_hurst_exponents_have_their_own_keys():
     hursts = np.round(np.arange(0, 1.00005, 1e-4), 4)
     assert len({seeds.line_key(hurst) for hurst in hursts}) == hursts.size
-
-
-def test_the_root_key_is_the_root_itself():
-    np.testing.assert_array_equal(
-        seeds.realization_seed(2013, *seeds.ROOT_KEY).generate_state(4), np.random.SeedSequence(2013).generate_state(4)
-    )

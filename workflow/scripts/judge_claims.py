@@ -7,9 +7,8 @@ from viscorough.io.datasets import read_dataset
 from viscorough_study.evidence import Evidence
 from viscorough_study.job_log import log_to
 from viscorough_study.pool import select
-from viscorough_study.scale import attributes_of_scale
 from viscorough_study.tables import recorded, write_table
-from viscorough_study.verdicts import COLUMNS, judge, markdown
+from viscorough_study.verdicts import COLUMNS, attributes_of_scale, judge, markdown
 
 
 def main(discs, tables, csv, nc, verdicts, *, claims, **settings):

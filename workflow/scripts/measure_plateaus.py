@@ -7,7 +7,7 @@ import pandas as pd
 
 from viscorough.io.datasets import read_dataset
 from viscorough_study.job_log import log_to
-from viscorough_study.plateau_table import COLUMNS, plateau_row
+from viscorough_study.plateau import COLUMNS, plateau_row
 from viscorough_study.pool import ensembles, select
 from viscorough_study.seeds import plateau_key, realization_seed
 from viscorough_study.tables import recorded, write_table

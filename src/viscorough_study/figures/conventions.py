@@ -1,15 +1,12 @@
 """How exponent and prefactor change with each convention that the paper leaves open."""
 
 import numpy as np
-from matplotlib import rc_context
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from matplotlib.ticker import FixedLocator, LogLocator, MaxNLocator, NullFormatter, NullLocator
+from matplotlib.ticker import MaxNLocator, NullLocator
 
 from viscorough import reference
 from viscorough_study.conventions import fits
+from viscorough_study.figures import style
 from viscorough_study.figures.labels import CONVENTION_LABELS
-from viscorough_study.figures.style import GREY, MM, STYLE, WIDE, count_text, hurst_looks, mark_with_interval
 
 VARIANTS = {
     "longer_period": "longer period",
@@ -23,7 +20,7 @@ VARIANTS = {
 }
 
 
-@rc_context(STYLE)
+@style.in_style
 def plot_conventions(scaling, conventions):
     """β and ζ of the discs, with 95 % intervals, as one convention or the surfaces change; four exponents in a row.
 
@@ -36,27 +33,28 @@ def plot_conventions(scaling, conventions):
         raise ValueError("plot_conventions: the table has no discs; at least one is needed")
     changes = _changes(discs, conventions)
     betas, zetas, figure = _panels(len(exponents), len(changes))
-    looks = hurst_looks(exponents)
+    looks = style.hurst_looks(exponents)
+    dashed, dotted = ({"color": style.GREY, "linestyle": line} for line in ("--", ":"))
     for hurst, beta, zeta in zip(exponents, betas, zetas, strict=True):
         _draw_changes(beta, "beta", discs[discs["hurst"] == hurst], changes, looks[hurst])
         _draw_changes(zeta, "zeta", discs[discs["hurst"] == hurst], changes, looks[hurst])
-        beta.axvline(reference.exponent_beta(hurst), color=GREY, linestyle="--", zorder=1)
-        zeta.axvline(reference.zeta_viscous(hurst), color=GREY, linestyle="--", zorder=1)
-        zeta.axvline(reference.zeta_elastic(hurst), color=GREY, linestyle=":", zorder=1)
+        beta.axvline(reference.exponent_beta(hurst), **dashed, zorder=1)
+        zeta.axvline(reference.zeta_viscous(hurst), **dashed, zorder=1)
+        zeta.axvline(reference.zeta_elastic(hurst), **dotted, zorder=1)
         beta.set(title=f"$H={hurst:g}$", xlabel=r"exponent $\beta$")
         zeta.set(xlabel=r"prefactor $\zeta$", xscale="log")
     beta.set(yticks=range(len(changes)), yticklabels=[label for label, _ in changes], ylim=(len(changes) - 0.4, -0.6))
     beta.yaxis.set_minor_locator(NullLocator())
     _same_length(betas)
     _same_length(zetas)
-    handles = [
-        Line2D([], [], color=GREY, linestyle="--", label="$H/(1+H)$, Eq. 10; $2-H$, Eq. 11 (with Γ)"),
-        Line2D([], [], color=GREY, linestyle=":", label=r"$\pi(3-H)/10$, Eq. 4"),
-    ]
     changed = discs["case_group"] != "base"
-    numbers = [f"{count_text(discs.loc[~changed, 'realizations'])} discs for each $H$"]
-    numbers += [f"{count_text(discs.loc[changed, 'realizations'])} of changed surfaces"] if changed.any() else []
-    handles.append(Line2D([], [], linestyle="", label=", ".join(numbers)))
+    numbers = [f"{style.count_text(discs.loc[~changed, 'realizations'])} discs for each $H$"]
+    numbers += [f"{style.count_text(discs.loc[changed, 'realizations'])} of changed surfaces"] if changed.any() else []
+    handles = [
+        style.handle("$H/(1+H)$, Eq. 10; $2-H$, Eq. 11 (with Γ)", **dashed),
+        style.handle(r"$\pi(3-H)/10$, Eq. 4", **dotted),
+        style.handle(", ".join(numbers), linestyle=""),
+    ]
     figure.legend(handles=handles, loc="outside lower center", ncols=3)
     return figure
 
@@ -65,7 +63,7 @@ def _panels(exponents, changes):
     """Panels of β and of ζ, one for each Hurst exponent, four in a row, and the figure."""
     columns = min(4, exponents)
     blocks = -(-exponents // columns)
-    figure = Figure(figsize=(WIDE, (2 * blocks * (13 + 4.2 * changes) + 10) * MM))
+    figure = style.new_figure(2 * blocks * (13 + 4.2 * changes) + 10)
     grid = figure.subplots(2 * blocks, columns, squeeze=False, sharey=True)
     for axes in grid[-2:, exponents - columns * (blocks - 1) :].flat:
         axes.remove()
@@ -91,11 +89,11 @@ def _draw_changes(axes, quantity, discs, changes, look):
         face = look["color"] if y == 0 else "white"
         rows = fits(discs, wanted)
         for value, low, high in rows[[quantity, f"{quantity}_low", f"{quantity}_high"]].itertuples(index=False):
-            mark_with_interval(axes, value, y, (low, high), look | {"markerfacecolor": face}, along="x")
+            style.mark_with_interval(axes, value, y, (low, high), look | {"markerfacecolor": face}, along="x")
             if y == 0 and low < high:
                 axes.axvspan(low, high, color="0.93", linewidth=0, zorder=0)
         if rows.empty:
-            words = {"color": GREY, "backgroundcolor": "white", "ha": "center", "va": "center"}
+            words = {"fontsize": 8, "color": style.GREY, "backgroundcolor": "white", "ha": "center", "va": "center"}
             axes.text(0.5, y, "no region (b)", transform=axes.get_yaxis_transform(), **words)
 
 
@@ -109,7 +107,6 @@ def _same_length(panels):
         ends = np.array([middle - half, middle + half])
         axes.set_xlim(10**ends if logarithmic else ends)
         if logarithmic:
-            axes.xaxis.set(major_locator=FixedLocator([0.1, 0.2, 0.5, 1, 2, 5, 10]), major_formatter="{x:g}")
-            axes.xaxis.set(minor_locator=LogLocator(subs=range(1, 10)), minor_formatter=NullFormatter())
+            style.plain_ticks(axes.xaxis, [0.1, 0.2, 0.5, 1, 2, 5, 10])
         else:
             axes.xaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))

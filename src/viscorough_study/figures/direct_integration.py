@@ -3,44 +3,37 @@
 import re
 
 import numpy as np
-from matplotlib import rc_context
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from matplotlib.ticker import MultipleLocator
 
-from viscorough_study.figures.style import BLACK, GREY, MM, SMALL, STYLE, WIDE, hurst_looks, number_text, require_rows
+from viscorough_study.figures import style
 
 COLUMNS = 3
 
 
-@rc_context(STYLE)
+@style.in_style
 def plot_direct_integration(table):
     """Depth by direct integration over the elastic depth, and what Eq. 8 gives, against the elements in contact.
 
     table : of viscorough_study.gamma_factor; a panel for each indenter, with the largest deviation of the ratio from 1
     Raises ValueError for a table without rows.
     """
-    require_rows("plot_direct_integration", table)
+    style.require_rows("plot_direct_integration", table)
     cases = list(table["case"].unique())
     columns = min(COLUMNS, len(cases))
-    rows = -(-len(cases) // columns)
-    figure = Figure(figsize=(WIDE, (42 * rows + 16) * MM))
-    grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
-    for axes, case in zip(grid.flat, cases, strict=False):
+    figure, panels = style.new_panels(len(cases), columns, height=42, rest=16, sharex=True, sharey=True)
+    for axes, case in zip(panels, cases, strict=True):
         _draw_case(axes, case, table[table["case"] == case])
     below, above = table["depth_ratio"].min(), table[["depth_ratio", "with_gamma"]].max(axis=None)
-    grid[0, 0].yaxis.set_major_locator(MultipleLocator(0.05))
-    grid[0, 0].set(xscale="log", ylim=(below - 0.15 * (above - below), above + 0.15 * (above - below)))
-    for axes in grid.flat[len(cases) - columns : len(cases)]:  # the lowest of each column
+    panels[0].yaxis.set_major_locator(MultipleLocator(0.05))
+    panels[0].set(xscale="log", ylim=(below - 0.15 * (above - below), above + 0.15 * (above - below)))
+    for axes in panels[-columns:]:  # the lowest of each column
         axes.tick_params(labelbottom=True)
         axes.set_xlabel("elements in contact")
-    for axes in grid.flat[len(cases) :]:
-        axes.remove()
-    figure.supylabel("viscous depth over elastic depth", fontsize=8)
+    figure.supylabel("viscous depth over elastic depth")
     handles = [
-        Line2D([], [], color=BLACK, marker="o", linestyle="", label="direct integration in time"),
-        Line2D([], [], color=GREY, linestyle="-", label="exact correspondence"),
-        Line2D([], [], color=GREY, linestyle="--", label=r"with the factor $1/\Gamma(2-\alpha)$, Eq. 8"),
+        style.handle("direct integration in time", color=style.BLACK, marker="o", linestyle=""),
+        style.handle("exact correspondence", color=style.GREY, linestyle="-"),
+        style.handle(r"with the factor $1/\Gamma(2-\alpha)$, Eq. 8", color=style.GREY, linestyle="--"),
     ]
     figure.legend(handles=handles, loc="outside lower center", ncols=3)
     return figure
@@ -49,13 +42,13 @@ def plot_direct_integration(table):
 def _draw_case(axes, case, rows):
     """One indenter: ratios, the two readings of the law, and in words the largest deviation from 1."""
     rough = re.search(r"H = ([\d.]+)", case)
-    look = hurst_looks([float(rough[1])]).popitem()[1] if rough else {"color": BLACK, "marker": "o"}
+    look = style.hurst_looks([float(rough[1])]).popitem()[1] if rough else {"color": style.BLACK, "marker": "o"}
     factor = rows["with_gamma"].iloc[0]
-    axes.axhline(1, color=GREY, linewidth=0.8, zorder=1)
-    axes.axhline(factor, color=GREY, linestyle="--", zorder=1)
+    axes.axhline(1, color=style.GREY, linewidth=0.8, zorder=1)
+    axes.axhline(factor, color=style.GREY, linestyle="--", zorder=1)
     axes.plot(rows["contact_count"], rows["depth_ratio"], **look | {"linestyle": "", "markersize": 3.5})
     axes.set_title(re.sub(r"H = ([\d.]+)", r"$H=\1$", case))
     deviation = np.abs(rows["depth_ratio"] - 1).max()
-    text = {"transform": axes.get_yaxis_transform(), "fontsize": SMALL, "color": GREY, "ha": "right"}
+    text = {"transform": axes.get_yaxis_transform(), "color": style.GREY, "ha": "right"}
     axes.text(0.97, factor - 0.004, f"{factor:.3f}", va="top", **text)
-    axes.text(0.97, 1.004, f"largest deviation {number_text(deviation, 2)}", va="bottom", **text)
+    axes.text(0.97, 1.004, f"largest deviation {style.number_text(deviation, 2)}", va="bottom", **text)

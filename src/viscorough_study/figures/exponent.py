@@ -1,57 +1,45 @@
 """Figure 4 of the paper: the exponent β over the Hurst exponent."""
 
 import numpy as np
-from matplotlib import rc_context
-from matplotlib.figure import Figure
 from matplotlib.legend_handler import HandlerTuple
 
 from viscorough import reference
 from viscorough_study.conventions import fits
-from viscorough_study.figures.style import (
-    GREY,
-    MM,
-    NARROW,
-    PALE,
-    SMALL,
-    STYLE,
-    count_text,
-    hurst_looks,
-    mark_with_interval,
-)
+from viscorough_study.figures import style
 
 
-@rc_context(STYLE)
+@style.in_style
 def plot_exponent(scaling, conventions, hurst_range):
     """β over the Hurst exponent, with 95 % intervals: lines, discs and Eq. 10.
 
     scaling : scaling table; conventions : {convention: value}
     hurst_range : in which the paper finds Eq. 10 accurate (resources/paper/laws.yaml)
     """
-    looks = hurst_looks(scaling.loc[scaling["source"] == "discs", "hurst"])
-    figure = Figure(figsize=(NARROW, 82 * MM))
+    looks = style.hurst_looks(scaling.loc[scaling["source"] == "discs", "hurst"])
+    figure = style.new_figure(82, style.NARROW)
     axes = figure.subplots()
     axes.axvspan(*hurst_range, color="0.94", linewidth=0)
-    text = {"color": GREY, "fontsize": SMALL, "ha": "right", "transform": axes.transAxes}
+    text = {"color": style.GREY, "ha": "right", "transform": axes.transAxes}
     axes.text(0.98, 0.04, "where the paper finds\nEq. 10 accurate", **text)
     lines = fits(scaling, conventions, source="lines", case_group="base", rms_convention="line")
-    band = axes.fill_between(lines["hurst"], lines["beta_low"], lines["beta_high"], color=PALE, linewidth=0)
+    band = axes.fill_between(lines["hurst"], lines["beta_low"], lines["beta_high"], color=style.PALE, linewidth=0)
     (solid,) = axes.plot(lines["hurst"], lines["beta"], color="black")
     discs = fits(scaling, conventions, source="discs", case_group="base")
     markers = [
-        mark_with_interval(axes, hurst, beta, interval, looks[hurst])
-        for hurst, beta, *interval in discs[["hurst", "beta", "beta_low", "beta_high"]].itertuples(index=False)
+        style.mark_with_interval(axes, row.hurst, row.beta, (row.beta_low, row.beta_high), looks[row.hurst])
+        for row in discs.itertuples()
     ]
     hurst = np.linspace(0, 1, 101)
-    (law,) = axes.plot(hurst, reference.exponent_beta(hurst), "--", color=GREY)
+    (law,) = axes.plot(hurst, reference.exponent_beta(hurst), "--", color=style.GREY)
     legend = {"$H/(1+H)$, Eq. 10": law}
     if len(lines):
-        legend[f"MDR, {count_text(lines['realizations'])} lines for each $H$"] = (band, solid)
+        legend[f"MDR, {style.count_text(lines['realizations'])} lines for each $H$"] = (band, solid)
     handlers = {}
     if markers:
-        number = count_text(discs["realizations"])
+        number = style.count_text(discs["realizations"])
         legend[f"boundary elements, {number} discs for each $H$"] = examples = tuple(markers[:5])
         handlers[examples] = HandlerTuple(ndivide=None, pad=0.3)  # side by side
-    above = {"loc": "outside upper center", "ncols": 1, "handlelength": 5}
+    above = {"loc": "outside upper center", "handlelength": 5}
     figure.legend(legend.values(), legend.keys(), handler_map=handlers, **above)
     axes.set(xlim=(-0.02, 1.02), xlabel="Hurst exponent $H$", ylabel=r"exponent $\beta$")
     axes.set_ylim(bottom=min(0, axes.get_ylim()[0]))

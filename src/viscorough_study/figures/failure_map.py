@@ -1,24 +1,13 @@
 """Failure map: error and verdict of every method in every stress-test case that concerns it."""
 
 import numpy as np
-from matplotlib import colormaps, rc_context
+from matplotlib import colormaps
 from matplotlib.colors import LogNorm
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 from matplotlib.transforms import ScaledTranslation
 
-from viscorough_study.figures.style import BLACK, MM, PALE, SMALL, STYLE, WIDE, require_rows
+from viscorough_study.figures import style
 
-LETTERS = {
-    "holds": "H",
-    "model": "M",
-    "stated": "S",
-    "warned": "W",
-    "refused": "R",
-    "not offered": "N",
-    "unnoticed": "U",
-}
 MEANINGS = {
     "holds": "within the limit of the method",
     "model": "model, within a factor of two",
@@ -28,6 +17,7 @@ MEANINGS = {
     "not offered": "not offered to users",
     "unnoticed": "wrong without notice",
 }
+LETTERS = {verdict: verdict[0].upper() for verdict in MEANINGS}
 KINDS = {  # of methods, by the beginnings of their names
     "elastic path": ("path",),
     "direct integration": ("events", "explicit", "heun", "implicit"),
@@ -46,11 +36,10 @@ CONCERNED = {
 GROUP_NAMES = {"ties": "equal\nheights", "Hurst exponent": "Hurst\nexponent", "force in time": "force\nin time"}
 FLOOR = 1e-16  # smaller errors are drawn here
 NORM = LogNorm(FLOOR, 10)
-TEXT = {"fontsize": SMALL, "va": "center"}
 HEADER = 68  # points above the cells, for the names of the methods, written upwards
 
 
-@rc_context(STYLE)
+@style.in_style
 def plot_failure_map(table):
     """Error, as colour and number, and verdict, as letter, of every method (columns) in every case (rows).
 
@@ -58,25 +47,25 @@ def plot_failure_map(table):
     Methods stand side by side by their kind. A cell is blank where the difficulty cannot matter to the method, unless
     the method refuses the case or fails unnoticed. Raises ValueError for a table without rows.
     """
-    require_rows("plot_failure_map", table)
+    style.require_rows("plot_failure_map", table)
     methods = sorted(dict.fromkeys(table["method"]), key=lambda name: [*KINDS, OTHER_KIND].index(_kind(name)))
     rows = list(dict.fromkeys(zip(table["group"], table["case"], strict=True)))
-    figure = Figure(figsize=(WIDE, (3.7 * len(rows) + 58) * MM))
+    figure = style.new_figure(3.7 * len(rows) + 58)
     axes = figure.subplots()
     errors = np.full((len(rows), len(methods)), np.nan)
     for cell in table.itertuples():
         i, j = rows.index((cell.group, cell.case)), methods.index(cell.method)
         if not _concerns(cell):
             continue
-        color = "black"
         if cell.verdict == "refused":
-            axes.add_patch(Rectangle((j - 0.5, i - 0.5), 1, 1, color=PALE, linewidth=0))
+            axes.add_patch(Rectangle((j - 0.5, i - 0.5), 1, 1, color=style.PALE, linewidth=0))
         else:
             errors[i, j] = max(cell.error, FLOOR)
-            color = "white" if NORM(errors[i, j]) < 0.55 else "black"
-        axes.text(j, i, _cell_text(cell), ha="center", color=color, **TEXT)
+        color = "white" if NORM(errors[i, j]) < 0.55 else "black"
+        axes.text(j, i, _cell_text(cell), ha="center", va="center", color=color)
     image = axes.imshow(errors, cmap=colormaps["cividis"], norm=NORM, aspect="auto")
-    axes.set_xticks(range(len(methods)), [_header(name) for name in methods], rotation=90)
+    headers = [name.removeprefix("path, ").removeprefix("media, ") for name in methods]
+    axes.set_xticks(range(len(methods)), headers, rotation=90)
     axes.set_yticks(range(len(rows)), [name for _, name in rows])
     axes.tick_params(which="both", length=0, top=False, labeltop=True, labelbottom=False, right=False)
     axes.minorticks_off()
@@ -85,7 +74,7 @@ def plot_failure_map(table):
     bar = figure.colorbar(image, ax=axes, location="bottom", aspect=60, shrink=0.8, pad=0.01, fraction=0.02)
     bar.set_label("largest relative error")
     meanings = [f"{letter}: {MEANINGS[verdict]}" for verdict, letter in LETTERS.items()]
-    handles = [Line2D([], [], linestyle="", label=text) for text in (*meanings, "blank: cannot matter")]
+    handles = [style.handle(text, linestyle="") for text in (*meanings, "blank: cannot matter")]
     figure.legend(handles=handles, loc="outside lower center", ncols=3, handlelength=0, handletextpad=0)
     return figure
 
@@ -99,11 +88,6 @@ def _concerns(cell):
     """Whether the difficulty of a case can matter to a method, or the method fails all the same."""
     names = CONCERNED.get(cell.group)
     return names is None or cell.method.startswith(names) or cell.verdict in ("refused", "unnoticed")
-
-
-def _header(method):
-    """Name of a method above its column, without its kind."""
-    return method.removeprefix("path, ").removeprefix("media, ")
 
 
 def _cell_text(cell):
@@ -122,8 +106,8 @@ def _name_kinds(axes, kinds):
         axes.axvline(column - 0.5, color="white", linewidth=0.6 if kinds[column] == kinds[column - 1] else 2)
     for kind in dict.fromkeys(kinds):
         first, last = kinds.index(kind), kinds.index(kind) + kinds.count(kind) - 1
-        axes.plot([first - 0.4, last + 0.4], [1, 1], color=BLACK, linewidth=0.6, **above)
-        axes.text((first + last) / 2, 1, kind, ha="center", va="bottom", fontsize=SMALL, **above)
+        axes.plot([first - 0.4, last + 0.4], [1, 1], color=style.BLACK, linewidth=0.6, **above)
+        axes.text((first + last) / 2, 1, kind, ha="center", va="bottom", **above)
 
 
 def _name_groups(axes, groups, x):
@@ -133,4 +117,4 @@ def _name_groups(axes, groups, x):
         if first:
             axes.axhline(first - 0.5, color="white", linewidth=1.5)
         middle = first + (groups.count(group) - 1) / 2
-        axes.text(x, middle, GROUP_NAMES.get(group, group), **TEXT)
+        axes.text(x, middle, GROUP_NAMES.get(group, group), va="center")

@@ -1,19 +1,9 @@
 """Growth of the cost of each method with the number of elements."""
 
 import numpy as np
-from matplotlib import rc_context
-from matplotlib.figure import Figure
 
-from viscorough_study.figures.style import (
-    MM,
-    STYLE,
-    WIDE,
-    logarithmic_ticks,
-    plain_ticks,
-    require_rows,
-    series_looks,
-)
-from viscorough_study.performance.cost_growth import fit_cost, median_costs
+from viscorough_study.figures import style
+from viscorough_study.performance.costs import fit_cost, median_costs
 
 # Methods and values of their parameter whose cost is drawn.
 METHODS = {
@@ -27,17 +17,17 @@ METHODS = {
 }
 
 
-@rc_context(STYLE)
+@style.in_style
 def plot_growth(table):
     """Wall time and operator applications against the number of elements of rough discs, with fitted exponents.
 
     table : of viscorough_study.performance.measurement
     Medians over the discs of one size. Raises ValueError for a table without rough discs.
     """
-    require_rows("plot_growth", table[table["hurst"].notna()])
-    figure = Figure(figsize=(WIDE, 85 * MM))
+    style.require_rows("plot_growth", table[table["hurst"].notna()])
+    figure = style.new_figure(85)
     time, operators = figure.subplots(1, 2)
-    looks = series_looks(METHODS.values())
+    looks = style.series_looks(METHODS.values())
     for (method, value), label in METHODS.items():
         costs = median_costs(table, method, value)
         if costs.empty:
@@ -52,7 +42,7 @@ def plot_growth(table):
     operators.set(ylabel="operator applications on the grid")
     for axes in (time, operators):
         axes.set(xscale="log", yscale="log", xlabel="elements of the disc $N$")
-        logarithmic_ticks(axes)
-    plain_ticks(operators.yaxis, [10, 20, 50, 100, 200, 500, 1000, 2000])
+        style.logarithmic_ticks(axes)
+    style.plain_ticks(operators.yaxis, [10, 20, 50, 100, 200, 500, 1000, 2000])
     figure.legend(loc="outside lower center", ncols=3)
     return figure

@@ -1,26 +1,12 @@
 """Figure 2 of the paper: kinetics of penetration, in SI units and in dimensionless variables."""
 
 import numpy as np
-from matplotlib import rc_context
-from matplotlib.figure import Figure
 
 from viscorough import reference
 from viscorough_study.conventions import LENGTH, fits
+from viscorough_study.figures import style
 from viscorough_study.figures.mean_curve import mean_curve, realizations_text
 from viscorough_study.figures.placement import place_labels
-from viscorough_study.figures.style import (
-    BLACK,
-    GREY,
-    MM,
-    PALE,
-    SMALL,
-    STYLE,
-    WIDE,
-    hurst_handles,
-    hurst_looks,
-    logarithmic_ticks,
-    number_text,
-)
 
 # Rows of the table of combinations: quantity, symbol, unit, size of the unit.
 QUANTITIES = (
@@ -31,7 +17,7 @@ QUANTITIES = (
 )
 
 
-@rc_context(STYLE)
+@style.in_style
 def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min):
     """Velocity over time in SI units, vt/h over Ft/(hηL) computed from them (Eq. 2), and a table of the combinations.
 
@@ -43,8 +29,8 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
     Grey where one element is in contact, region (a), of which one decade is drawn; bars at the bottom are the windows
     of region (b). The rms height is that of the combination, which is exact if h is measured where it was prescribed.
     """
-    looks = hurst_looks(ds["hurst"].item() for ds in ensembles)
-    figure = Figure(figsize=(WIDE, 112 * MM))
+    looks = style.hurst_looks(ds["hurst"].item() for ds in ensembles)
+    figure = style.new_figure(112)
     above, below = figure.subfigures(2, 1, height_ratios=(4.6, 1))
     raw, collapsed = above.subplots(1, 2, width_ratios=(1, 1.2))
     curves = [mean_curve(ds, conventions, fraction_min) for ds in ensembles]
@@ -56,7 +42,7 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
         time, velocity, dimensionless = _in_units(curve, combinations[case], length_over_diameter)
         single = (~curve.several | np.append(True, ~curve.several[:-1])) & (curve.x >= start)  # and the point after it
         for axes, (x, y) in ((raw, (time, velocity)), (collapsed, dimensionless)):
-            axes.plot(x[single], y[single], color=PALE, zorder=1)
+            axes.plot(x[single], y[single], color=style.PALE, zorder=1)
             axes.plot(x[curve.several], y[curve.several], label=case, **look)
         for last in np.flatnonzero(np.isfinite(velocity))[-1:]:
             end, name = (time[last], velocity[last]), _combination(case)
@@ -67,11 +53,11 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
     _mark_limits(collapsed, _elements_across(ensembles[0]["elements"].item()), length_over_diameter)
     _mark_windows(collapsed, looks, scaling, conventions)
     realizations = f"each a mean over {realizations_text(ensembles)} discs"
-    legend = {"loc": "upper left", "title": realizations, "title_fontsize": SMALL, "alignment": "left"}
-    collapsed.legend(handles=hurst_handles(looks, marker=""), **legend)
-    logarithmic_ticks(raw, collapsed)
+    handles = style.hurst_handles(looks, marker="")
+    collapsed.legend(handles=handles, loc="upper left", title=realizations, alignment="left")
+    style.logarithmic_ticks(raw, collapsed)
     _tabulate(below.subplots(), {_combination(case): at for case, at in combinations.items() if _combination(case)})
-    place_labels(raw, [(name, *end, BLACK) for name, end in ends.items() if name], fontsize=SMALL)
+    place_labels(raw, [(name, *end, style.BLACK) for name, end in ends.items() if name])
     return figure
 
 
@@ -85,15 +71,15 @@ def _tabulate(axes, combinations):
     axes.set(xlim=(0, len(combinations) + 2), ylim=(len(QUANTITIES) + 0.5, -0.5))
     axes.set_label("<table>")
     axes.axis("off")
-    axes.text(0, 0, "combination", va="center", fontsize=SMALL)
-    axes.axhline(0.5, color=GREY, linewidth=0.6)
+    axes.text(0, 0, "combination", va="center")
+    axes.axhline(0.5, color=style.GREY, linewidth=0.6)
     for row, (_, symbol, unit, _) in enumerate(QUANTITIES, 1):
-        axes.text(0, row, f"{symbol} ({unit})", va="center", fontsize=SMALL)
+        axes.text(0, row, f"{symbol} ({unit})", va="center")
     for column, (name, values) in enumerate(combinations.items()):
-        place = {"x": column + 2, "ha": "center", "va": "center", "fontsize": SMALL}
+        place = {"x": column + 2, "ha": "center", "va": "center"}
         axes.text(y=0, s=name, **place)
         for row, (quantity, _, _, size) in enumerate(QUANTITIES, 1):
-            axes.text(y=row, s=number_text(values[quantity] / size), **place)
+            axes.text(y=row, s=style.number_text(values[quantity] / size), **place)
 
 
 def _in_units(curve, combination, length_over_diameter):
@@ -107,35 +93,29 @@ def _in_units(curve, combination, length_over_diameter):
 
 def _mark_limits(axes, elements_across, length_over_diameter):
     """Limits (a) and (c), vt/h = X/κ of one element and of complete contact, over Ft/(hηL) = 4X."""
-    (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
+    bottom, top = axes.get_ylim()
+    axes.autoscale(False)
     for stiffness, low, start, text, side in (
         (reference.one_element_stiffness(elements_across), bottom, 0.6, "(a) one element in contact", "bottom"),
         (reference.COMPLETE_CONTACT_STIFFNESS, 0.02, 0.1, "(c) complete contact", "top"),
     ):
         x_of_y = 4 * stiffness / length_over_diameter
-        axes.plot([x_of_y * low, x_of_y * top], [low, top], color=GREY, linestyle=":", linewidth=0.8)
+        axes.plot([x_of_y * low, x_of_y * top], [low, top], color=style.GREY, linestyle=":", linewidth=0.8)
         y = low * (top / low) ** start
-        _text_along(axes, x_of_y * y, y, text, color=GREY, fontsize=SMALL, va=side)
-    axes.set(xlim=(left, right), ylim=(bottom, top))
+        angle = np.degrees(np.arctan(1 / x_of_y))  # of the line through the origin, which has slope 1 in the logarithms
+        along = {"rotation": angle, "rotation_mode": "anchor", "transform_rotates_text": True}
+        axes.text(x_of_y * y, y, text, color=style.GREY, va=side, **along)
 
 
 def _mark_windows(axes, looks, scaling, conventions):
     """Windows of region (b) as bars at the bottom, over Ft/(hηL) = 4X."""
-    (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
     bar = {"linewidth": 2.5, "solid_capstyle": "butt", "transform": axes.get_xaxis_transform()}
     for rank, (hurst, look) in enumerate(reversed(looks.items())):
         for row in fits(scaling, conventions, source="discs", case_group="base", hurst=hurst).itertuples():
             axes.plot([4 * row.x_low, 4 * row.x_high], [0.03 + 0.025 * rank] * 2, color=look["color"], **bar)
-    axes.text(0.97, 0.025, "bars: region (b)", color=GREY, fontsize=SMALL, transform=axes.transAxes, ha="right")
-    axes.set(xlim=(left, right), ylim=(bottom, top))
+    axes.text(0.97, 0.025, "bars: region (b)", color=style.GREY, transform=axes.transAxes, ha="right")
 
 
 def _elements_across(elements):
     """Elements across a disc that has this many elements in the circle through the outermost centres."""
     return round(1 + 2 * np.sqrt(elements / np.pi))
-
-
-def _text_along(axes, x, y, text, **look):
-    """Text from (x, y) on, in the direction of a line of slope 1 in double logarithmic axes."""
-    angle = np.degrees(np.arctan2(y, x))  # of the line through the origin: y ∝ x has slope 1 in the logarithms
-    axes.text(x, y, text, rotation=angle, rotation_mode="anchor", transform_rotates_text=True, **look)

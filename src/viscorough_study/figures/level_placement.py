@@ -1,50 +1,37 @@
 """Levels that the package chooses for a scene, against levels chosen by hand and naive ones."""
 
-from matplotlib import rc_context
-from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
-from viscorough_study.figures.style import (
-    BLUE,
-    GREEN,
-    GREY,
-    MM,
-    PALE,
-    SMALL,
-    STYLE,
-    VERMILION,
-    WIDE,
-    number_text,
-    require_rows,
-)
+from viscorough_study.figures import style
 
-CHOICES = {"automatic": BLUE, "best by hand": GREEN, "naive": VERMILION}
+CHOICES = {"automatic": style.BLUE, "best by hand": style.GREEN, "naive": style.VERMILION}
 HEIGHT = 0.8 / len(CHOICES)  # of a bar
 MISSED = "////"  # hatching of a choice that does not reach the accuracy
 
 
-@rc_context(STYLE)
+@style.in_style
 def plot_level_placement(table):
     """Time of each choice of levels over that of the automatic choice, as bars with number of levels and error.
 
     table : of viscorough_study.performance.level_placement
     A choice that does not reach the accuracy is hatched. Raises ValueError for a table without rows.
     """
-    require_rows("plot_level_placement", table)
+    style.require_rows("plot_level_placement", table)
     scenes = list(table["scene"].unique())
-    figure = Figure(figsize=(WIDE, (17 * len(scenes) + 24) * MM))
+    figure = style.new_figure(17 * len(scenes) + 24)
     axes = figure.subplots()
     for row in table.itertuples():
         rank = list(CHOICES).index(row.choice)
         y = scenes.index(row.scene) + HEIGHT * (rank - (len(CHOICES) - 1) / 2)
         look = {"color": CHOICES[row.choice]} if row.reached else {"facecolor": "white", "hatch": MISSED}
         axes.barh(y, row.ratio, 0.9 * HEIGHT, edgecolor=CHOICES[row.choice], linewidth=0.6, **look)
-        note = f"{number_text(1e3 * row.wall_s, 2)} ms, {row.levels} levels, error {number_text(row.error, 2)}"
-        axes.annotate(note, (max(row.ratio, 1), y), (3, 0), textcoords="offset points", va="center", fontsize=SMALL)
-    axes.axvline(1, color=GREY, linewidth=0.8)
+        time, error = style.number_text(1e3 * row.wall_s, 2), style.number_text(row.error, 2)
+        note = f"{time} ms, {row.levels} levels, error {error}"
+        axes.annotate(note, (max(row.ratio, 1), y), (3, 0), textcoords="offset points", va="center")
+    axes.axvline(1, color=style.GREY, linewidth=0.8)
     accuracy = table.groupby("scene")["accuracy"].first()
-    labels = [f"{scene}\nerror up to {number_text(accuracy[scene])}" for scene in scenes]
+    labels = [f"{scene}\nerror up to {style.number_text(accuracy[scene])}" for scene in scenes]
     axes.set_yticks(range(len(scenes)), labels)
     longest = table["ratio"].max()
     ticks = MaxNLocator(6, steps=[1, 2, 5, 10]).tick_values(0, longest)
@@ -56,8 +43,8 @@ def plot_level_placement(table):
     axes.tick_params(axis="x", top=False)
     axes.minorticks_off()
     for place in range(1, len(scenes)):
-        axes.axhline(place - 0.5, color=PALE, linewidth=0.6)
+        axes.axhline(place - 0.5, color=style.PALE, linewidth=0.6)
     handles = [Patch(color=color, label=choice) for choice, color in CHOICES.items()]
-    handles.append(Patch(facecolor="white", edgecolor=GREY, hatch=MISSED, label="accuracy not reached"))
+    handles.append(Patch(facecolor="white", edgecolor=style.GREY, hatch=MISSED, label="accuracy not reached"))
     figure.legend(handles=handles, loc="outside lower center", ncols=4)
     return figure

@@ -1,27 +1,14 @@
 """Figure 3 of the paper: the master curve, Eq. 12."""
 
 import numpy as np
-from matplotlib import rc_context
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from matplotlib.ticker import FixedLocator
 
 from viscorough import reference
 from viscorough_study.conventions import fits
+from viscorough_study.figures import style
 from viscorough_study.figures.mean_curve import mean_curve, realizations_text
-from viscorough_study.figures.style import (
-    GREY,
-    MM,
-    NARROW,
-    STYLE,
-    count_text,
-    hurst_handles,
-    hurst_looks,
-    logarithmic_ticks,
-)
 
 
-@rc_context(STYLE)
+@style.in_style
 def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
     """vt/h over the right side of Eq. 12 with its Γ, and below the ratio of the two.
 
@@ -32,8 +19,8 @@ def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
     Symbols, about eight for each decade of X, are filled in region (b); bars are two standard errors to either side.
     Region (a) is left out. The lower panel is cut to the range of region (b).
     """
-    looks = hurst_looks(ds["hurst"].item() for ds in discs)
-    figure = Figure(figsize=(NARROW, 120 * MM))
+    looks = style.hurst_looks(ds["hurst"].item() for ds in discs)
+    figure = style.new_figure(120, style.NARROW)
     panels = law, ratio = figure.subplots(2, 1, sharex=True, height_ratios=(1.7, 1))
     for axes in panels:
         axes.set(xscale="log", yscale="log")
@@ -53,10 +40,17 @@ def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
     law.set(xlim=ends, ylabel="$vt/h$")
     xlabel = r"right side of Eq. 12, $X^{H/(1+H)} /\, [(2-H)\,\Gamma(2-\alpha)]$"
     ratio.set(xlabel=xlabel, ylabel="$vt/h$ over Eq. 12", ylim=(min(ratios) / 1.3, max(ratios) * 1.3))
-    logarithmic_ticks(*panels)
-    ratio.yaxis.set(major_locator=FixedLocator([0.1, 0.2, 0.5, 1, 2, 5, 10]), major_formatter="{x:g}")
-    numbers = count_text([ds.sizes["realization"] for ds in discs]), *map(realizations_text, (discs, lines))
-    figure.legend(handles=_handles(looks, *numbers), loc="outside upper center", ncols=2, columnspacing=1)
+    style.logarithmic_ticks(*panels)
+    style.plain_ticks(ratio.yaxis, [0.1, 0.2, 0.5, 1, 2, 5, 10])
+    symbol, in_region = {"color": style.GREY, "linestyle": "", "marker": "o"}, [ds.sizes["realization"] for ds in discs]
+    handles = [
+        *style.hurst_handles(looks, linestyle="-"),
+        style.handle(f"{style.count_text(in_region)} discs, region (b)", **symbol),
+        style.handle(f"{realizations_text(discs)} discs, elsewhere", **symbol, markerfacecolor="white"),
+        style.handle(f"{realizations_text(lines)} lines (MDR)", color=style.GREY),
+        style.handle("Eq. 12", color="black", linestyle="--"),
+    ]
+    figure.legend(handles=handles, loc="outside upper center", ncols=2, columnspacing=1)
     return figure
 
 
@@ -75,15 +69,3 @@ def _draw_discs(panels, curve, hurst, windows, look):
             bars = [side[part] for side in error]
             axes.errorbar(right_side[part], y[part], bars, markerfacecolor=face, markeredgewidth=0.7, **look)
     return (curve.velocity / right_side)[thinned & inside].tolist()
-
-
-def _handles(looks, discs_in_region, discs, lines):
-    """Legend entries; realizations for each Hurst exponent, as text."""
-    symbol = {"color": GREY, "linestyle": "", "marker": "o"}
-    return [
-        *hurst_handles(looks, linestyle="-"),
-        Line2D([], [], **symbol, label=f"{discs_in_region} discs, region (b)"),
-        Line2D([], [], **symbol, label=f"{discs} discs, elsewhere", markerfacecolor="white"),
-        Line2D([], [], color=GREY, label=f"{lines} lines (MDR)"),
-        Line2D([], [], color="black", linestyle="--", label="Eq. 12"),
-    ]

@@ -1,27 +1,14 @@
 """The method of reduction of dimensionality (MDR) against boundary elements, surface by surface."""
 
 import numpy as np
-from matplotlib import rc_context
-from matplotlib.figure import Figure
 
-from viscorough_study.figures.style import (
-    GREY,
-    MM,
-    SMALL,
-    STYLE,
-    WIDE,
-    count_text,
-    hurst_handles,
-    hurst_looks,
-    plain_ticks,
-    require_rows,
-)
+from viscorough_study.figures import style
 
 TICKS = [0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000]
 NEAR_ONE = [0.2, 0.3, 0.5, 0.8, 1, 1.2, 1.5, 2, 3, 5]
 
 
-@rc_context(STYLE)
+@style.in_style
 def plot_mdr_comparison(table):
     """Lines over the discs with their spectra: κ (a, b), contact fraction (c), gap (d), correlation (e), force (f).
 
@@ -29,16 +16,15 @@ def plot_mdr_comparison(table):
     Bands are 95 % intervals of the means; in (e), 95 % of the correlations of unrelated pairs.
     Raises ValueError for a table without rows.
     """
-    require_rows("plot_mdr_comparison", table)
-    figure = Figure(figsize=(WIDE, 185 * MM))
+    style.require_rows("plot_mdr_comparison", table)
+    figure = style.new_figure(185)
     stiffness, scatter, area, gap, correlation, force = figure.subplots(3, 2, sharex=True).flat
-    looks = hurst_looks(table["hurst"])
+    looks = style.hurst_looks(table["hurst"])
     for hurst, rows in table.groupby("hurst"):
         look = {"color": looks[hurst]["color"], "linestyle": looks[hurst]["linestyle"]}
         for axes, name in ((stiffness, "stiffness_ratio"), (area, "area_ratio"), (gap, "gap_ratio")):
             known = rows.dropna(subset=name)
-            interval = known[f"{name}_low"], known[f"{name}_high"]
-            axes.fill_between(known["x"], *interval, color=look["color"], alpha=0.15, linewidth=0)
+            style.draw_band(axes, known, name, look["color"])
             axes.plot(known["x"], known[name], **look | {"marker": looks[hurst]["marker"] if axes is gap else ""})
         scatter.plot(rows["x"], np.exp(rows["stiffness_scatter"]), **look)
         correlation.plot(rows["x"], rows["correlation"], **look)
@@ -54,14 +40,14 @@ def plot_mdr_comparison(table):
         (force, "(f) at the depth of the disc", "force of line over disc"),
     ):
         axes.set(title=title, ylabel=label, xscale="log")
-        axes.axhline(0 if axes is correlation else 1, color=GREY, linewidth=0.6)
+        axes.axhline(0 if axes is correlation else 1, color=style.GREY, linewidth=0.6)
     for axes in (stiffness, scatter, area, gap, force):
         axes.set_yscale("log")
-        plain_ticks(axes.yaxis, TICKS if axes in (area, gap) else NEAR_ONE)
+        style.plain_ticks(axes.yaxis, TICKS if axes in (area, gap) else NEAR_ONE)
     for axes in (correlation, force):
         axes.set_xlabel("$X=F/(4GhL)$")
     correlation.set_ylim(-1, 1)
-    title = f"{count_text(table['realizations'])} discs and lines for each $H$"
-    look = {"title": title, "title_fontsize": SMALL, "ncols": len(looks)}
-    figure.legend(handles=hurst_handles(looks, marker=""), loc="outside lower center", **look)
+    title = f"{style.count_text(table['realizations'])} discs and lines for each $H$"
+    handles = style.hurst_handles(looks, marker="")
+    figure.legend(handles=handles, loc="outside lower center", title=title, ncols=len(looks))
     return figure

@@ -1,21 +1,8 @@
 """λ of the line that stands for a surface, and how well lines and discs then agree."""
 
 import numpy as np
-from matplotlib import rc_context
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
-from viscorough_study.figures.style import (
-    GREY,
-    MM,
-    STYLE,
-    WIDE,
-    hurst_handles,
-    hurst_looks,
-    mark_with_interval,
-    plain_ticks,
-    require_rows,
-)
+from viscorough_study.figures import style
 from viscorough_study.mdr_equivalence import WINDOWS
 
 _MARKERS = dict(zip(WINDOWS, "oDs", strict=True))
@@ -24,40 +11,38 @@ _RANGE = 4.0  # of the errors drawn: those of region (a), where lines have finer
 _LAMBDA_RANGE = (0.3, 30.0)  # drawn: λ grows without limit as contact becomes complete
 
 
-@rc_context(STYLE)
+@style.in_style
 def plot_mdr_lambda(of_lambda, exponents):
     """λ over X (a), vt/h of lines with the best single λ over that of discs (b), and exponents in equal windows (c).
 
     of_lambda, exponents : tables of viscorough_study.mdr_equivalence
     Raises ValueError for a table of λ without rows.
     """
-    require_rows("plot_mdr_lambda", of_lambda)
-    figure = Figure(figsize=(WIDE, 75 * MM))
+    style.require_rows("plot_mdr_lambda", of_lambda)
+    figure = style.new_figure(75)
     values, ratios, differences = figure.subplots(1, 3)
-    looks = hurst_looks(exponents["hurst"])
+    looks = style.hurst_looks(exponents["hurst"])
     for hurst, rows in of_lambda.groupby("hurst"):
         color, inside = looks[hurst]["color"], rows["in_region"] == 1
         for axes, name in ((values, "lambda"), (ratios, "velocity_ratio")):
-            interval = rows[f"{name}_low"], rows[f"{name}_high"]
-            axes.fill_between(rows["x"], *interval, color=color, alpha=0.15, linewidth=0)
+            style.draw_band(axes, rows, name, color)
             axes.plot(rows["x"], rows[name], color=color, linestyle=looks[hurst]["linestyle"], linewidth=0.7)
             axes.plot(rows["x"][inside], rows[name][inside], color=color, linewidth=2)
-    values.axhline(np.pi, color=GREY, linewidth=0.6)
-    ratios.axhline(1, color=GREY, linewidth=0.6)
+    values.axhline(np.pi, color=style.GREY, linewidth=0.6)
+    ratios.axhline(1, color=style.GREY, linewidth=0.6)
     values.set(title="(a) the λ that fits at $X$", ylabel=r"$\lambda$", ylim=_LAMBDA_RANGE)
     ratios.set(title="(b) one λ for each $H$", ylabel="$vt/h$ of lines over discs", ylim=(1 / _RANGE, _RANGE))
     for axes in (values, ratios):
         axes.set(xscale="log", yscale="log", xlabel="$X=F/(4GhL)$")
-    plain_ticks(values.yaxis, [0.2, 0.5, 1, 2, 5, 10, 20])
-    plain_ticks(ratios.yaxis, [0.3, 0.5, 0.7, 1, 1.5, 2, 3])
-    for _, row in exponents.dropna(subset="difference").iterrows():
-        place = row["hurst"] + _SHIFT * (WINDOWS.index(row["window"]) - 1)
-        look = {"color": looks[row["hurst"]]["color"], "marker": _MARKERS[row["window"]]}
-        interval = row["difference_low"], row["difference_high"]
-        mark_with_interval(differences, place, row["difference"], interval, look)
-    differences.axhline(0, color=GREY, linewidth=0.6)
+    style.plain_ticks(values.yaxis, [0.2, 0.5, 1, 2, 5, 10, 20])
+    style.plain_ticks(ratios.yaxis, [0.3, 0.5, 0.7, 1, 1.5, 2, 3])
+    for row in exponents.dropna(subset="difference").itertuples():
+        place = row.hurst + _SHIFT * (WINDOWS.index(row.window) - 1)
+        look = {"color": looks[row.hurst]["color"], "marker": _MARKERS[row.window]}
+        style.mark_with_interval(differences, place, row.difference, (row.difference_low, row.difference_high), look)
+    differences.axhline(0, color=style.GREY, linewidth=0.6)
     differences.set(title="(c) exponents", xlabel="$H$", ylabel=r"$\beta$ of lines minus $\beta$ of discs", xlim=(0, 1))
-    marks = [Line2D([], [], color=GREY, linestyle="", marker=mark, label=name) for name, mark in _MARKERS.items()]
-    handles = [*hurst_handles(looks, marker=""), *marks]
+    marks = [style.handle(name, color=style.GREY, linestyle="", marker=mark) for name, mark in _MARKERS.items()]
+    handles = [*style.hurst_handles(looks, marker=""), *marks]
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
     return figure

@@ -1,27 +1,15 @@
 """Measured surfaces beside the generated ones."""
 
 import numpy as np
-from matplotlib import rc_context
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from viscorough_study.conventions import fits
+from viscorough_study.figures import style
 from viscorough_study.figures.mean_curve import mean_curve
-from viscorough_study.figures.style import (
-    GREY,
-    MM,
-    STYLE,
-    WIDE,
-    hurst_handles,
-    hurst_looks,
-    logarithmic_ticks,
-    series_looks,
-)
 
 _LINES = ("-", "--", ":", "-.", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 3)))
 
 
-@rc_context(STYLE)
+@style.in_style
 def plot_measured(groups, discs, scaling, kinetics, conventions, *, fraction_min):
     """vt/h over X of measured surfaces and of generated discs (a), and the depth over time under given forces (b).
 
@@ -29,13 +17,13 @@ def plot_measured(groups, discs, scaling, kinetics, conventions, *, fraction_min
     scaling : fits of the groups; kinetics : table of depth over time by scan, medium and force, which may be empty
     conventions : {column of a scaling table: value}; fraction_min : share of the discs defined, for a mean to be drawn
     """
-    figure = Figure(figsize=(WIDE, 85 * MM))
+    figure = style.new_figure(85)
     law, motion = figure.subplots(1, 2)
-    looks, hursts = series_looks(groups), hurst_looks(ds["hurst"].item() for ds in discs)
+    looks, hursts = style.series_looks(groups), style.hurst_looks(ds["hurst"].item() for ds in discs)
     for ds in discs:
         curve, look = mean_curve(ds, conventions, fraction_min), hursts[ds["hurst"].item()]
-        style = {"color": look["color"], "linestyle": look["linestyle"], "linewidth": 0.7, "alpha": 0.6}
-        law.plot(curve.x[curve.several], curve.velocity[curve.several], **style)
+        look = look | {"marker": "", "linewidth": 0.7, "alpha": 0.6}
+        law.plot(curve.x[curve.several], curve.velocity[curve.several], **look)
     for name, group in groups.items():
         color, x = looks[name]["color"], group["x"].values
         for velocity, count in zip(group["velocity"].values[0], group["contact_count"].values[0], strict=True):
@@ -44,23 +32,24 @@ def plot_measured(groups, discs, scaling, kinetics, conventions, *, fraction_min
         for row in fits(scaling, conventions, **own_rms).itertuples():
             window = np.array([row.x_low, row.x_high])
             law.plot(window, window**row.beta / row.zeta, color=color, linewidth=3, alpha=0.4)
-    law.set(
-        xscale="log", yscale="log", xlabel=r"$X = Ft/(4\eta hL)$", ylabel="$vt/h$", title="(a) dimensionless velocity"
-    )
+    law.set(xscale="log", yscale="log", xlabel=r"$X = Ft/(4\eta hL)$", ylabel="$vt/h$")
+    law.set_title("(a) dimensionless velocity")
     media = dict(zip(dict.fromkeys(kinetics["medium"]), _LINES, strict=False))
     for (_, group, medium, _), rows in kinetics.groupby(["scan", "group", "medium", "force"]):
-        style = {"color": looks[group]["color"], "linestyle": media[medium], "linewidth": 0.9}
-        motion.plot(rows["time"], rows["depth"] * 1e6, **style)
+        look = {"color": looks[group]["color"], "linestyle": media[medium], "linewidth": 0.9}
+        motion.plot(rows["time"], rows["depth"] * 1e6, **look)
     forces = ", ".join(f"{force:g}" for force in sorted(set(kinetics["force"])))
     title = f"(b) depth under {forces} N" if forces else "(b) depth: no forces were given"
     motion.set(xlabel="time $t$ (s)", ylabel="depth $u$ (µm)", title=title)
     if len(kinetics):
         motion.set(xscale="log", yscale="log")
-    logarithmic_ticks(law, motion)
-    handles = [Line2D([], [], color=looks[name]["color"], label=name.replace("_", " ")) for name in groups]
-    handles += hurst_handles(hursts, marker="", linewidth=0.7, alpha=0.6)
-    handles.append(Line2D([], [], color=GREY, linewidth=3, alpha=0.4, label="power law, region (b)"))
-    lines = {"color": GREY, "linewidth": 0.9}
-    handles += [Line2D([], [], linestyle=line, label=name.replace("_", " "), **lines) for name, line in media.items()]
+    style.logarithmic_ticks(law, motion)
+    grey = {"color": style.GREY, "linewidth": 0.9}
+    handles = [
+        *(style.handle(name.replace("_", " "), color=looks[name]["color"]) for name in groups),
+        *style.hurst_handles(hursts, marker="", linewidth=0.7, alpha=0.6),
+        style.handle("power law, region (b)", color=style.GREY, linewidth=3, alpha=0.4),
+        *(style.handle(name.replace("_", " "), linestyle=line, **grey) for name, line in media.items()),
+    ]
     figure.legend(handles=handles, loc="outside lower center", ncols=5)
     return figure

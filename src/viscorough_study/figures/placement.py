@@ -1,5 +1,7 @@
 """Labels beside what they name, where they hide neither each other nor the curves."""
 
+from itertools import product
+
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
@@ -15,10 +17,10 @@ POINTS_OF_CURVE = 400  # at which a curve is looked for under a label
 WEIGHT_OF_MARKER = 40  # of a marker on its own, in points of curves
 
 
-def place_labels(axes, labels, **look):
+def place_labels(axes, labels):
     """Write labels beside points of an axes whose limits and scales are final.
 
-    labels : list of (text, x, y, color), written in a little darker colours; look : properties of all texts
+    labels : list of (text, x, y, color), written in a little darker colours
     Each label in turn takes the place, in eight directions and up to 30 points away, where it covers no other label
     and as little as possible of the curves; a line leads to a label that is not next to its point.
     """
@@ -26,42 +28,29 @@ def place_labels(axes, labels, **look):
     canvas = FigureCanvasAgg(figure)
     figure.draw_without_rendering()  # the layout is that of the saved figure from here on
     renderer, pixels = canvas.get_renderer(), figure.dpi / 72
-    legend = axes.get_legend()
-    curves, taken = _points_of_curves(axes), [legend.get_window_extent(renderer)] if legend else []
+    legend, frame, curves = axes.get_legend(), axes.get_window_extent(renderer), _points_of_curves(axes)
+    taken = [legend.get_window_extent(renderer)] if legend else []
     named = axes.transData.transform([(x, y) for _, x, y, _ in labels]).reshape(-1, 2)
-    frame = axes.get_window_extent(renderer)
     for (text, x, y, color), point in zip(labels, named, strict=True):
-        look = {"textcoords": "offset points", "va": "bottom", **HALO, **look}
-        label = axes.annotate(text, (x, y), (0, 0), color=np.multiply(DARKER, to_rgb(color)), **look)
-        width, height = label.get_window_extent(renderer).size
-        best = None
-        for distance in DISTANCES:
-            for right, up in DIRECTIONS:
-                corner = point + np.array([right, up]) * distance * pixels + _shift(right, up, width, height)
-                box = Bbox.from_bounds(*corner, width, height)
-                others = _inside(box.padded(NEAR * pixels), named[(named != point).any(axis=1)])
-                cost = _cost(box, taken, curves, frame) + MISLEADING * others + distance / DISTANCES[-1]
-                if best is None or cost < best[0]:
-                    best = cost, distance, box
-        _, distance, box = best
+        look = {"textcoords": "offset points", "va": "bottom", "color": np.multiply(DARKER, to_rgb(color)), **HALO}
+        label = axes.annotate(text, (x, y), (0, 0), **look)
+        size = label.get_window_extent(renderer).size
+        others = named[(named != point).any(axis=1)]
+        places = []
+        for distance, direction in product(DISTANCES, np.array(DIRECTIONS)):
+            corner = point + direction * distance * pixels + (direction - 1) / 2 * size
+            box = Bbox.from_bounds(*corner, *size)
+            hidden = sum(bool(Bbox.intersection(box, other)) for other in taken)
+            cost = 1e4 * (hidden + (_inside(frame, box.corners()) < 4)) + _inside(box, curves)
+            cost += MISLEADING * _inside(box.padded(NEAR * pixels), others) + distance / DISTANCES[-1]
+            places.append((cost, len(places), distance, box))
+        *_, distance, box = min(places)
         label.set_position((box.p0 - point) / pixels)
         if distance > DISTANCES[0]:
             nearest = np.clip(point, box.p0, box.p1)
             ends = axes.transData.inverted().transform([point, nearest])
             axes.plot(*ends.T, color=color, linewidth=0.4, scalex=False, scaley=False, label="_leader")
         taken.append(box.padded(1.5 * pixels))
-
-
-def _shift(right, up, width, height):
-    """From the corner that is nearest to the point to the lower left corner of a label."""
-    return np.array([(right - 1) / 2 * width, (up - 1) / 2 * height])
-
-
-def _cost(box, taken, curves, frame):
-    """Large where a label would lie on another or beyond the frame, else the points of curves beneath it."""
-    hidden = sum(bool(Bbox.intersection(box, other)) for other in taken)
-    beyond = not (frame.x0 < box.x0 and box.x1 < frame.x1 and frame.y0 < box.y0 and box.y1 < frame.y1)
-    return 1e4 * (hidden + beyond) + _inside(box, curves)
 
 
 def _inside(box, points):

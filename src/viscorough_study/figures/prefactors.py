@@ -1,25 +1,10 @@
 """The prefactor ζ over the paper's two laws for it: combinations of conventions, from the nearest to the law on."""
 
-from matplotlib import rc_context
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from viscorough_study import prefactors
 from viscorough_study.conventions import left_open
-from viscorough_study.figures.style import (
-    BLACK,
-    GREY,
-    MM,
-    SMALL,
-    STYLE,
-    WIDE,
-    hurst_handles,
-    hurst_looks,
-    mark_with_interval,
-    plain_ticks,
-    require_rows,
-)
+from viscorough_study.figures import style
 
 LAWS = {"eq4": r"(a) $\zeta$ over $\pi(3-H)/10$, Eq. 4", "eq11": r"(b) $\zeta$ over $2-H$, Eq. 11"}
 NEAREST = 6  # combinations drawn one by one
@@ -37,7 +22,7 @@ SHORT = {
 }
 
 
-@rc_context(STYLE)
+@style.in_style
 def plot_prefactors(table, conventions):
     """ζ over each of the paper's two laws: the nearest combinations of conventions, that of the figures, and all.
 
@@ -45,18 +30,18 @@ def plot_prefactors(table, conventions):
     Rows are ranked by the largest deviation over all Hurst exponents, among the combinations that the paper leaves
     open; below them is the nearest of those that contradict it. Raises ValueError for a table without rows.
     """
-    require_rows("plot_prefactors", table)
-    looks = hurst_looks(table["hurst"])
-    figure = Figure(figsize=(WIDE, 165 * MM))
+    style.require_rows("plot_prefactors", table)
+    looks = style.hurst_looks(table["hurst"])
+    figure = style.new_figure(165)
     panels = figure.subplots(2, 1, sharex=True)
     for axes, (law, title) in zip(panels, LAWS.items(), strict=True):
         _draw_law(axes, table, law, {"case_group": "base"} | conventions, looks)
         axes.set(title=title, xscale="log")
-        plain_ticks(axes.xaxis, [0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3, 5])
+        style.plain_ticks(axes.xaxis, [0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3, 5])
     panels[1].set_xlabel(r"$\zeta$ over the law")
     handles = [
-        *hurst_handles(looks, linestyle=""),
-        Line2D([], [], color=BLACK, linestyle="--", label="agreement with the law"),
+        *style.hurst_handles(looks, linestyle=""),
+        style.handle("agreement with the law", color=style.BLACK, linestyle="--"),
         Patch(color="0.92", label="to within a factor of 1.1"),
     ]
     figure.legend(handles=handles, loc="outside lower center", ncols=6, columnspacing=1)
@@ -74,7 +59,7 @@ def _draw_law(axes, table, law, shown, looks):
         words = _words(table, contradicting[0])
         rows.append((f"$L$ the radius (contradicts the paper), nearest:\n{words}", contradicting[0]))
     axes.axvspan(1 / AGREEMENT, AGREEMENT, color="0.92", linewidth=0, zorder=0)
-    axes.axvline(1, color=BLACK, linestyle="--", linewidth=0.8, zorder=1)
+    axes.axvline(1, color=style.BLACK, linestyle="--", linewidth=0.8, zorder=1)
     for y, (_, combination) in enumerate(rows):
         _draw_combination(axes, y, prefactors.rows_of(table, combination), law, looks)
     for rank, (hurst, look) in enumerate(looks.items()):
@@ -82,9 +67,9 @@ def _draw_law(axes, table, law, shown, looks):
         height = [len(rows) + _shift(rank, looks)] * len(every)
         axes.plot(every, height, **look | {"linestyle": "", "marker": "|", "markersize": 4.5, "alpha": 0.6})
     for y in range(min(NEAREST, len(ranking)), len(rows) + 1):
-        axes.axhline(y - 0.5, color=GREY, linewidth=0.5)
+        axes.axhline(y - 0.5, color=style.GREY, linewidth=0.5)
     labels = [label for label, _ in rows] + [f"all {len(prefactors.combinations(open_rows))} combinations left open"]
-    axes.set_yticks(range(len(labels)), labels, fontsize=SMALL)
+    axes.set_yticks(range(len(labels)), labels)
     axes.set_ylim(len(labels) - 0.5, -0.6)
     axes.tick_params(axis="y", which="both", length=0)
 
@@ -96,7 +81,7 @@ def _draw_combination(axes, y, rows, law, looks):
         interval = row.zeta_low * scale, row.zeta_high * scale
         place = y + _shift(list(looks).index(row.hurst), looks)
         look = looks[row.hurst] | {"markersize": 3.5}
-        mark_with_interval(axes, row.zeta * scale, place, interval, look, along="x")
+        style.mark_with_interval(axes, row.zeta * scale, place, interval, look, along="x")
 
 
 def _shift(rank, looks):

@@ -1,29 +1,14 @@
 """The exponent β of ensembles on grids from coarse to fine."""
 
-from matplotlib import rc_context
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-
 from viscorough.reference import exponent_beta
 from viscorough_study.conventions import fits
-from viscorough_study.figures.style import (
-    GREY,
-    MM,
-    STYLE,
-    WIDE,
-    count_text,
-    hurst_handles,
-    hurst_looks,
-    logarithmic_ticks,
-    mark_with_interval,
-    require_rows,
-)
+from viscorough_study.figures import style
 from viscorough_study.grid_trends import fixed_rules
 
-CONTROL = {"color": GREY, "marker": "x", "linestyle": ""}
+CONTROL = {"color": style.GREY, "marker": "x", "linestyle": ""}
 
 
-@rc_context(STYLE)
+@style.in_style
 def plot_sizes(table, conventions):
     """β over the number of elements, of discs (a) and lines (b) in region (b), and in a fixed window (c), (d).
 
@@ -32,29 +17,25 @@ def plot_sizes(table, conventions):
     crosses are controls, discs whose spectrum rolls off.
     Raises ValueError for a table without rows.
     """
-    require_rows("plot_sizes", table)
+    style.require_rows("plot_sizes", table)
     rules = [conventions["window_rule"], *fixed_rules(table)[-1:]]
-    figure = Figure(figsize=(WIDE, (25 + 60 * len(rules)) * MM))
+    figure = style.new_figure(25 + 60 * len(rules))
     panels = figure.subplots(len(rules), 2, sharex="col", sharey=True, squeeze=False)
-    looks = hurst_looks(table.loc[table["case_group"] == "sizes", "hurst"])
+    looks = style.hurst_looks(table.loc[table["case_group"] == "sizes", "hurst"])
     letters = iter("abcd")
     for row, rule in zip(panels, rules, strict=True):
         window = "region (b)" if rule == conventions["window_rule"] else rule.replace("X =", "$X$ =")
         for axes, source, name in zip(row, ("discs", "lines"), ("boundary elements", "MDR"), strict=True):
             _panel(axes, table, conventions | {"window_rule": rule}, source, looks)
-            axes.set_title(f"({next(letters)}) {name}, {_realizations(table, source)}, {window}")
+            numbers = table.loc[(table["source"] == source) & (table["case_group"] == "sizes"), "realizations"]
+            realizations = f"{style.count_text(numbers)} {source}" if len(numbers) else source
+            axes.set_title(f"({next(letters)}) {name}, {realizations}, {window}")
         row[0].set_ylabel(r"exponent $\beta$")
-    logarithmic_ticks(*panels.flat)
-    handles = [*hurst_handles(looks, linestyle=""), Line2D([], [], label="control, roll-off", **CONTROL)]
-    handles.append(Line2D([], [], color=GREY, linestyle=":", linewidth=0.8, label="$H/(1+H)$, Eq. 10"))
+    style.logarithmic_ticks(*panels.flat)
+    handles = [*style.hurst_handles(looks, linestyle=""), style.handle("control, roll-off", **CONTROL)]
+    handles.append(style.handle("$H/(1+H)$, Eq. 10", color=style.GREY, linestyle=":", linewidth=0.8))
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
     return figure
-
-
-def _realizations(table, source):
-    """Number of discs or lines of an ensemble in words."""
-    numbers = table.loc[(table["source"] == source) & (table["case_group"] == "sizes"), "realizations"]
-    return f"{count_text(numbers)} {source}" if len(numbers) else source
 
 
 def _panel(axes, table, conventions, source, looks):
@@ -65,9 +46,9 @@ def _panel(axes, table, conventions, source, looks):
         axes.axhline(exponent_beta(hurst), color=look["color"], linestyle=":", linewidth=0.8)
         for row in rows.sort_values("elements").itertuples():
             shifted = row.elements * 1.06 ** (rank - len(looks) / 2)  # so that intervals do not hide each other
-            mark_with_interval(axes, shifted, row.beta, (row.beta_low, row.beta_high), look)
+            style.mark_with_interval(axes, shifted, row.beta, (row.beta_low, row.beta_high), look)
     if source == "discs":
         for row in fits(table, conventions, source="discs", case_group="controls").itertuples():
-            mark_with_interval(axes, row.elements, row.beta, (row.beta_low, row.beta_high), CONTROL)
+            style.mark_with_interval(axes, row.elements, row.beta, (row.beta_low, row.beta_high), CONTROL)
     label = "elements of a disc" if source == "discs" else "points of a line"
     axes.set(xscale="log", xlabel=label, ylim=(-0.05, 0.7))

@@ -3,25 +3,10 @@
 import re
 
 import numpy as np
-from matplotlib import rc_context
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
+from viscorough_study.figures import style
 from viscorough_study.figures.placement import place_labels
-from viscorough_study.figures.style import (
-    BLACK,
-    GREY,
-    MM,
-    PALE,
-    SMALL,
-    STYLE,
-    WIDE,
-    logarithmic_ticks,
-    number_text,
-    require_rows,
-    series_looks,
-)
-from viscorough_study.performance.pareto import fastest, pareto_front
+from viscorough_study.performance.costs import fastest, pareto_front
 
 METHODS = {
     "path, automatic levels": "elastic path,\nautomatic levels",
@@ -34,18 +19,13 @@ ELEMENTS_ACROSS = 257  # of the indenters drawn, or the most below that
 FLOOR = 1e-13  # smaller errors are drawn here
 HEADLINE = 0.01  # error at which the fastest methods are compared
 COMPARED = {"marching": "time steps", "other solver": "other solvers"}  # with the path
-RING = {"color": BLACK, "marker": "o", "markersize": 9, "markerfacecolor": "none", "linestyle": ""}
+RING = {"color": style.BLACK, "marker": "o", "markersize": 9, "markerfacecolor": "none", "linestyle": ""}
 RING |= {"label": "fastest of its kind to an error of 1 %"}
-PARETO = {
-    "color": GREY,
-    "linewidth": 3,
-    "alpha": 0.35,
-    "drawstyle": "steps-post",
-    "label": "Pareto front of all methods",
-}
+PARETO = {"color": style.GREY, "linewidth": 3, "alpha": 0.35, "drawstyle": "steps-post"}
+PARETO |= {"label": "Pareto front of all methods"}
 
 
-@rc_context(STYLE)
+@style.in_style
 def plot_speed(table):
     """Wall time against the error of v: the elastic path, time steps, a model and the fastest of other solvers.
 
@@ -55,11 +35,11 @@ def plot_speed(table):
     most 1 %, of the path, of time steps and of other solvers, whose times are compared.
     Raises ValueError for a table without rows.
     """
-    require_rows("plot_speed", table)
+    style.require_rows("plot_speed", table)
     rough = sorted(name for name in table["problem"].unique() if name.startswith("rough"))
     problems = [*rough[:1], *({"sphere"} & set(table["problem"]))] or [table["problem"].iloc[0]]
-    looks = series_looks([*METHODS, "other"])
-    figure = Figure(figsize=(WIDE, 95 * MM))
+    looks = style.series_looks([*METHODS, "other"])
+    figure = style.new_figure(95)
     panels = figure.subplots(1, len(problems), squeeze=False)[0]
     labels = []
     for axes, problem, letter in zip(panels, problems, "ab", strict=False):
@@ -70,9 +50,9 @@ def plot_speed(table):
         _draw_headline(axes, costs)
         set_axes(axes, f"({letter}) {title}")
         axes.margins(x=0.08, y=0.1)
-    figure.legend(handles=[Line2D([], [], **PARETO), Line2D([], [], **RING)], loc="outside lower center", ncols=2)
+    figure.legend(handles=[style.handle(**PARETO), style.handle(**RING)], loc="outside lower center", ncols=2)
     for axes, texts in zip(panels, labels, strict=True):
-        place_labels(axes, texts, fontsize=SMALL)
+        place_labels(axes, texts)
     return figure
 
 
@@ -92,15 +72,14 @@ def on_floor(rows, column):
 
 def draw_front(axes, costs):
     """Pareto front of all rows, as a staircase."""
-    front = pareto_front(costs)
-    axes.plot(front["wall_s"], front["error"], **PARETO, zorder=1)
+    axes.plot("wall_s", "error", data=pareto_front(costs), **PARETO, zorder=1)
 
 
 def set_axes(axes, title):
     """Title, labels and scales of a panel of time and error."""
     axes.set(title=title, xlabel="wall time (s)", ylabel="relative error of $v$, root mean square")
     axes.set(xscale="log", yscale="log")
-    logarithmic_ticks(axes)
+    style.logarithmic_ticks(axes)
 
 
 def _draw_methods(axes, costs, looks):
@@ -125,12 +104,12 @@ def _draw_headline(axes, costs):
     if "path" not in best:
         return
     compared = {group: name for group, name in COMPARED.items() if group in best}
-    axes.axhline(HEADLINE, color=PALE, linewidth=0.6, zorder=0)
+    axes.axhline(HEADLINE, color=style.PALE, linewidth=0.6, zorder=0)
     for group in ("path", *compared):
         axes.plot(best[group]["wall_s"], best[group]["error"], **RING)
     wall = best["path"]["wall_s"]
-    lines = [f"elastic path {number_text(1e3 * wall, 2)} ms"]
-    lines += [f"{name} ×{number_text(best[group]['wall_s'] / wall, 2)}" for group, name in compared.items()]
-    handles = [Line2D([], [], linestyle="", label=line) for line in lines]
-    look = {"handlelength": 0, "handletextpad": 0, "alignment": "left", "title_fontsize": SMALL, "frameon": True}
-    axes.legend(handles=handles, title=f"to an error of {100 * HEADLINE:g} %:", loc="best", **look)
+    lines = [f"elastic path {style.number_text(1e3 * wall, 2)} ms"]
+    lines += [f"{name} ×{style.number_text(best[group]['wall_s'] / wall, 2)}" for group, name in compared.items()]
+    handles = [style.handle(line, linestyle="") for line in lines]
+    look = {"handlelength": 0, "handletextpad": 0, "alignment": "left", "frameon": True}
+    axes.legend(handles=handles, title=f"to an error of {100 * HEADLINE:g} %:", **look)

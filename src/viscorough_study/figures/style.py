@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib import colormaps, rc_context
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 from PIL import Image  # which matplotlib needs
@@ -27,30 +28,18 @@ ORANGE, VERMILION, PURPLE = "#e69f00", "#d55e00", "#cc79a7"
 SERIES_COLORS = (BLUE, VERMILION, GREEN, PURPLE, BLACK, SKY_BLUE, ORANGE)
 SERIES_MARKERS = "osD^v<>ph*X"
 DASHED, DASH_DOTTED, DOTTED = (0, (6, 1.5)), (0, (6, 1, 1, 1)), (0, (1.5, 1))
-# Marker and line style of the Hurst exponents 0, 0.6, 0.1, 0.7, ..., 0.5, as `_hurst_rank` orders them.
-HURST_LOOKS = (
-    ("X", DOTTED),
-    ("^", DASH_DOTTED),
-    ("o", "-"),
-    (">", DASHED),
-    ("P", DASHED),
-    ("*", DOTTED),
-    ("v", DASH_DOTTED),
-    ("D", DOTTED),
-    ("s", DASHED),
-    ("<", "-"),
-    ("p", "-"),
-)
+# Markers and line styles of the Hurst exponents 0, 0.6, 0.1, 0.7, ..., 0.5, as `hurst_looks` orders them.
+HURST_MARKERS = "X^o>P*vDs<p"
+HURST_LINES = (DOTTED, DASH_DOTTED, "-", DASHED, DASHED, DOTTED, DASH_DOTTED, DOTTED, DASHED, "-", "-")
 
 STYLE = {
     "font.family": "DejaVu Sans",
-    "font.size": 8,
+    "font.size": SMALL,
     "mathtext.fontset": "dejavusans",
     "axes.titlesize": 8,
     "axes.labelsize": 8,
+    "figure.labelsize": 8,
     "axes.linewidth": 0.6,
-    "xtick.labelsize": SMALL,
-    "ytick.labelsize": SMALL,
     "xtick.direction": "in",
     "ytick.direction": "in",
     "xtick.top": True,
@@ -60,7 +49,6 @@ STYLE = {
     "lines.linewidth": 1.0,
     "lines.markersize": 4,
     "errorbar.capsize": 2,
-    "legend.fontsize": SMALL,
     "legend.frameon": False,
     "legend.handlelength": 2.2,
     "legend.labelspacing": 0.3,
@@ -70,7 +58,28 @@ STYLE = {
 }
 
 
-@rc_context(STYLE)
+in_style = rc_context(STYLE)  # decorator of every function that draws
+
+
+def new_figure(height, width=WIDE):
+    """Empty figure of a height in mm; width : `WIDE` or `NARROW`."""
+    return Figure(figsize=(width, height * MM))
+
+
+def new_panels(count, columns, height, rest, **sharing):
+    """Figure and its panels, so many in rows of `columns`.
+
+    height : of a row of panels, rest : of what is above and below them [mm]; sharing : of axes, as in Figure.subplots
+    """
+    rows = -(-count // columns)
+    figure = new_figure(height * rows + rest)
+    grid = figure.subplots(rows, columns, squeeze=False, **sharing)
+    for axes in grid.flat[count:]:
+        axes.remove()
+    return figure, list(grid.flat[:count])
+
+
+@in_style
 def save_figure(figure, *paths):
     """Write a figure atomically to each path, in the format of its suffix (.png, .pdf).
 
@@ -105,14 +114,10 @@ def hurst_looks(exponents):
     """{Hurst exponent: color, marker, linestyle}, by ascending exponent."""
     looks = {}
     for hurst in sorted(set(exponents)):
-        marker, line = HURST_LOOKS[_hurst_rank(hurst)]
-        looks[hurst] = {"color": colormaps["plasma"](0.8 * hurst), "marker": marker, "linestyle": line}
+        # Other than those of all other multiples of 0.1, and than those of exponents close by.
+        rank, color = round(20 * hurst) % len(HURST_MARKERS), colormaps["plasma"](0.8 * hurst)
+        looks[hurst] = {"color": color, "marker": HURST_MARKERS[rank], "linestyle": HURST_LINES[rank]}
     return looks
-
-
-def _hurst_rank(hurst):
-    """Place among the looks: other than those of all other multiples of 0.1, and than those of exponents close by."""
-    return round(20 * hurst) % len(HURST_LOOKS)
 
 
 def series_looks(names):
@@ -132,9 +137,14 @@ def count_text(counts):
     return f"{low:g}" if low == high else f"{low:g} to {high:g}"
 
 
+def handle(label, **look):
+    """Entry of a legend, for a line or marker of this look."""
+    return Line2D([], [], label=label, **look)
+
+
 def hurst_handles(looks, **changes):
     """Legend handles of the Hurst exponents; changes : line properties that replace those of their looks."""
-    return [Line2D([], [], **(look | changes), label=f"$H={hurst:g}$") for hurst, look in looks.items()]
+    return [handle(f"$H={hurst:g}$", **(look | changes)) for hurst, look in looks.items()]
 
 
 def number_text(value, digits=3):
@@ -144,6 +154,11 @@ def number_text(value, digits=3):
         return f"{float(f'{mantissa}e{exponent}'):g}"
     factor = "" if float(mantissa) == 1 else rf"{float(mantissa):g}\times "
     return rf"${factor}10^{{{int(exponent)}}}$"
+
+
+def draw_band(axes, rows, name, color, alpha=0.15):
+    """Band over x between the columns of the ends of an interval, `name`_low and `name`_high."""
+    axes.fill_between(rows["x"], rows[f"{name}_low"], rows[f"{name}_high"], color=color, alpha=alpha, linewidth=0)
 
 
 def mark_with_interval(axes, x, y, interval, look, along="y"):

@@ -1,20 +1,18 @@
 """Errors of the solvers against exact solutions."""
 
 import numpy as np
-from matplotlib import rc_context
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
+import pandas as pd
 from matplotlib.ticker import FixedLocator, NullFormatter, NullLocator
 
-from viscorough_study.figures.style import BLUE, GREEN, MM, ORANGE, PURPLE, SMALL, STYLE, VERMILION, WIDE
+from viscorough_study.figures import style
 
-COLORS = (BLUE, VERMILION, GREEN, PURPLE, ORANGE)
+COLORS = (style.BLUE, style.VERMILION, style.GREEN, style.PURPLE, style.ORANGE)
 MARKERS = "osxD+"
-LIMIT = {"color": "black", "linewidth": 2, "label": "_limit"}
+LIMIT = {"color": "black", "linewidth": 2}
 LABEL_HEIGHT = 0.085  # of an order, as a share of the height of its panel
 
 
-@rc_context(STYLE)
+@style.in_style
 def plot_validation(table):
     """Relative errors against exact solutions over the elements across the body, one panel for each quantity.
 
@@ -24,19 +22,15 @@ def plot_validation(table):
     quantities, cases = table["quantity"].unique(), table["case"].unique()
     looks, grids = _case_looks(cases), sorted(table["elements"].unique())
     columns = min(4, len(quantities))
-    rows = -(-len(quantities) // columns)
-    figure = Figure(figsize=(WIDE, (54 * rows + 22) * MM))
-    grid = figure.subplots(rows, columns, squeeze=False)
-    for axes, quantity in zip(grid.flat, quantities, strict=False):
+    figure, panels = style.new_panels(len(quantities), columns, height=54, rest=22)
+    for axes, quantity in zip(panels, quantities, strict=True):
         _draw_errors(axes, quantity, table[table["quantity"] == quantity], looks, grids)
-    for axes in grid[:, 0]:
+    for axes in panels[::columns]:
         axes.set_ylabel("relative error")
-    for axes in grid.flat[len(quantities) - columns : len(quantities)]:  # the lowest of each column
+    for axes in panels[-columns:]:  # the lowest of each column
         axes.set_xlabel("elements across, $n$")
-    for axes in grid.flat[len(quantities) :]:
-        axes.remove()
-    handles = [Line2D([], [], **looks[case], label=case.replace("_", " ")) for case in cases]
-    handles.append(Line2D([], [], **LIMIT | {"label": "limit on the finest grid"}))
+    handles = [style.handle(case.replace("_", " "), **looks[case]) for case in cases]
+    handles.append(style.handle("limit on the finest grid", **LIMIT))
     figure.legend(handles=handles, loc="outside lower center", ncols=4)
     return figure
 
@@ -57,7 +51,7 @@ def _draw_errors(axes, quantity, errors, looks, grids):
     axes.yaxis.set_minor_formatter(NullFormatter())
     heights, texts = _order_labels(errors[errors["elements"] == grids[-1]])
     for height, text in zip(_spread(heights, LABEL_HEIGHT * np.ptp(ends)), texts, strict=True):
-        axes.text(grids[-1] * 1.25, 10**height, text, fontsize=SMALL, va="center")
+        axes.text(grids[-1] * 1.25, 10**height, text, va="center")
 
 
 def _order_labels(finest):
@@ -87,14 +81,13 @@ def _spread(heights, least):
 
 def _case_looks(cases):
     """Looks of cases named by body and method: the body has a colour and line style, the method a marker."""
-    named = [case.partition("_")[::2] for case in cases]
-    bodies, methods = (list(dict.fromkeys(names)) for names in zip(*named, strict=True))
+    bodies, methods = (pd.factorize(np.array([case.partition("_")[part] for case in cases]))[0] for part in (0, 2))
     return {
         case: {
-            "color": COLORS[bodies.index(body) % len(COLORS)],
-            "linestyle": ("-", "--")[bodies.index(body) % 2],
-            "marker": MARKERS[methods.index(method) % len(MARKERS)],
+            "color": COLORS[body % len(COLORS)],
+            "linestyle": ("-", "--")[body % 2],
+            "marker": MARKERS[method % len(MARKERS)],
             "markerfacecolor": "none",
         }
-        for case, (body, method) in zip(cases, named, strict=True)
+        for case, body, method in zip(cases, bodies, methods, strict=True)
     }

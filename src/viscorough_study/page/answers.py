@@ -3,6 +3,7 @@
 import numpy as np
 
 from viscorough_study.page.results import Count
+from viscorough_study.performance.costs import fastest
 from viscorough_study.verdicts import counted_verdicts
 
 GROUPS = {"path": "elastic path", "marching": "direct integration in time", "model": "model"}
@@ -20,22 +21,20 @@ def verdict_counts(results):
 
 def answers(results):
     """{name: numbers} of the sentences in the section "What was found"."""
-    claims = results.tables["claims"]
 
-    def cases(claim, contains=""):
-        rows = claims[(claims["claim"] == claim) & claims["case"].str.contains(contains, regex=False)]
-        return [{"case": row["case"]} | results.numbers("claims", i, *CASE) for i, row in rows.iterrows()]
+    def cases(claim):
+        return [_case(results, row) for row in results.rows("claims", claim=claim).index]
 
-    def extremes(claim, column, contains=""):
-        rows = claims[(claims["claim"] == claim) & claims["case"].str.contains(contains, regex=False)]
+    def extremes(claim, column):
+        rows = results.rows("claims", claim=claim)
         return [find(rows, "claims", column) for find in (results.least, results.largest)]
 
-    differences = claims[claims["claim"] == "coincide"]["value"].abs().dropna()
+    differences = results.rows("claims", claim="coincide")["value"].abs().dropna()
     return {
         "collapse": cases("collapse")[0],
         "decades": extremes("power_law", "value"),
         "beta": cases("beta"),
-        "coincide": _case(results, differences.idxmax() if len(differences) else None),
+        "coincide": _case(results, differences.idxmax()) if len(differences) else None,
         "elastic": _ends(cases("zeta_elastic")),
         "viscous": _ends(cases("zeta_viscous")),
         "gamma": [extremes("gamma", "least")[0], extremes("gamma", "largest")[1], *extremes("gamma", "expected")],
@@ -43,8 +42,6 @@ def answers(results):
 
 
 def _case(results, row):
-    if row is None:
-        return None
     return {"case": results.tables["claims"].at[row, "case"]} | results.numbers("claims", row, *CASE)
 
 
@@ -68,11 +65,9 @@ def fastest_methods(results):
     """For every error allowed, {group: the fastest method of the group that reaches it, None if no method does}."""
     rough, advice = rough_disc(results), []
     for error in ERRORS:
-        fastest = {}
-        for group in GROUPS:
-            good = rough[(rough["group"] == group) & (rough["error"] <= error)]
-            fastest[group] = method_row(results, good["wall_s"].idxmin()) if len(good) else None
-        advice.append({"error": error, "fastest": fastest})
+        rows = fastest(rough, error)
+        named = {group: method_row(results, rows[group].name) if group in rows else None for group in GROUPS}
+        advice.append({"error": error, "fastest": named})
     return advice
 
 
@@ -108,9 +103,7 @@ def failures(results):
     outside = table[table["method"].isin(MODELS) & table["verdict"].isin(["stated", "warned"])]
     return {
         "cases": results.count("failure_map", "method", table["method"].iloc[0]),  # a row of each case
-        "unnoticed": results.count("failure_map", "verdict", "unnoticed"),
-        "refused": results.count("failure_map", "verdict", "refused"),
-        "warned": results.count("failure_map", "verdict", "warned"),
+        **{name: results.count("failure_map", "verdict", name) for name in ("unnoticed", "warned")},
         "worst_model": results.largest(outside[np.isfinite(outside["error"])], "failure_map", "error"),
         "methods": methods,
     }

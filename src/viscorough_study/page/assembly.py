@@ -4,22 +4,10 @@ from viscorough_study.page import answers, content
 from viscorough_study.page.calculator import calculator as with_law
 from viscorough_study.page.discussion import QUANTITIES, discussion
 from viscorough_study.page.render import render
-from viscorough_study.page.results import read_results, read_table, readable
+from viscorough_study.page.results import netcdf_of, read_results, read_table, readable
 from viscorough_study.robustness.failure_map import VERDICTS as OUTCOMES
 from viscorough_study.rule_costs import in_words
 from viscorough_study.tables import read_recorded
-
-FURTHER = {
-    "validation": "Every method against exact solutions",
-    "conventions": "What the conventions change that the paper leaves open",
-    "interface": "Two springs in series: the rough interface and the punch behind it",
-    "prefactors": "The prefactor under every combination of conventions",
-    "direct": "Direct integration in time against both readings of the law",
-    "reduction": "The reduction of dimensionality, surface by surface",
-    "mdr_lambda": "The line that stands for a surface: λ, and exponents in equal windows",
-    "sizes": "Exponents on grids from coarse to fine",
-    "collapse": "The curves of all grids as one scaling law",
-}
 
 
 def page(
@@ -49,15 +37,16 @@ def page(
     alternative : {figure: what it shows, for those who cannot see it}
     """
     results = read_results(tables)
+    conventions = results.settings["claims"]["conventions"]
     scale, verdicts = content.scale(discs, lines, numbers), content.verdicts(results, claims, read_table(published))
     fastest = answers.fastest_methods(results)
-    boundary_elements, costs_nc = numbers["boundary_elements"], str(tables["rule_costs"]).removesuffix(".csv") + ".nc"
+    costs_nc = netcdf_of(tables["rule_costs"])
     return render(
         template,
         style,
         figures,
         captions,
-        results.settings["claims"]["conventions"],
+        conventions,
         calculator=with_law(*calculator),
         alternative=alternative,
         readable=readable,
@@ -70,7 +59,6 @@ def page(
         differing=[claim for claims in verdicts.values() for claim in claims if claim["full_scale"]],
         groups=answers.GROUPS,
         fastest_methods=fastest,
-        percents={error: f"{100 * error:g} %" for error in answers.ERRORS},
         advised=next(row["fastest"] for row in fastest if row["error"] == answers.ADVISED),
         advised_elements=results.number("methods", answers.rough_disc(results).index[0], "elements"),
         best_model=answers.best_model(results),
@@ -81,14 +69,13 @@ def page(
         media=content.media(results),
         literature=discussion(results),
         quantities=QUANTITIES,
-        measured=content.measured(results, results.settings["claims"]["conventions"]),
+        measured=content.measured(results, conventions),
         choices=("automatic", "best by hand", "naive"),
-        further=FURTHER,
         settings=content.settings_in_words(results, scale),
         costs=content.costs(results),
         machine=results.machine["rule_costs"],
         versions=read_recorded(costs_nc, "versions"),
         made=read_recorded(costs_nc, "made"),
         time=in_words(results.tables["rule_costs"]["share_s"].sum()),
-        paper_time=boundary_elements["computing_time"]["value"],
+        paper_time=numbers["boundary_elements"]["computing_time"]["value"],
     )

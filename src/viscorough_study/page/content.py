@@ -7,8 +7,15 @@ import pandas as pd
 
 from viscorough.io.netcdf import opened
 from viscorough_study.medium_names import medium_label
-from viscorough_study.scale import is_trial
-from viscorough_study.verdicts import KINDS, case_in_words, cases_shown, deciding_case, overall, undecided_cases
+from viscorough_study.verdicts import (
+    KINDS,
+    case_in_words,
+    cases_shown,
+    deciding_case,
+    is_trial,
+    overall,
+    undecided_cases,
+)
 
 VERDICT_SHORT = {
     "reproduced": "yes",
@@ -67,12 +74,11 @@ def other_solvers(path):
     table = pd.read_csv(path)
     table = table[(table["solver"] != "viscorough") & (table["threads"] == 1)].dropna(subset="ratio")
     solvers = list(dict.fromkeys(table["solver"]))
-    rows = []
-    for (task, hurst, elements, levels), group in table.groupby(
-        ["task", "hurst", "elements", "levels"], sort=False, dropna=False
-    ):
-        ratios = dict(zip(group["solver"], group["ratio"], strict=True))
-        rows.append({"task": task, "hurst": hurst, "elements": elements, "levels": levels, "ratios": ratios})
+    names = ["task", "hurst", "elements", "levels"]
+    rows = [
+        {**dict(zip(names, values, strict=True)), "ratios": dict(zip(group["solver"], group["ratio"], strict=True))}
+        for values, group in table.groupby(names, sort=False, dropna=False)
+    ]
     published = "measured" in table
     versions = dict(zip(table["solver"], table["version"], strict=True))
     origin = {"measured": table["measured"].iloc[0], "machine": table["machine"].iloc[0]} if published else None

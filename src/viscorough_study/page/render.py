@@ -32,23 +32,19 @@ def render(template, style, figures, captions, conventions, **content):
     return environment.from_string(template).render(content)
 
 
-def number(value):
+def number(value, scale=1, unit=""):
     """A Number or Count as an element that names its place in a table; a dash for None."""
-    return _element(value, None if value is None else readable(value.value))
-
-
-def percent(value):
-    """A Number in percent."""
-    return _element(value, None if value is None else readable(100 * value.value) + " %")
-
-
-def _element(value, text):
-    if value is None or text == "–":
+    if value is None or (text := readable(scale * value.value)) == "–":
         return "–"
     places = {f"data-{name}": place for name, place in value.place.items()}
     named = {"value": repr(value.value), "title": value.title} | places
     attributes = Markup(" ").join(Markup('{}="{}"').format(*attribute) for attribute in named.items())
-    return Markup("<data {}>{}</data>").format(attributes, text)
+    return Markup("<data {}>{}</data>").format(attributes, text + unit)
+
+
+def percent(value):
+    """A Number in percent."""
+    return number(value, scale=100, unit=" %")
 
 
 def embedded_png(content):

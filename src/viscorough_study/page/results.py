@@ -82,15 +82,11 @@ class Results:
 
     def least(self, rows, table, column):
         """The smallest number in a column of some rows of a table; None if there is none."""
-        return self._extreme(rows, table, column, "idxmin")
+        return self.number(table, rows[column].idxmin(), column) if rows[column].notna().any() else None
 
     def largest(self, rows, table, column):
         """The largest number in a column of some rows of a table; None if there is none."""
-        return self._extreme(rows, table, column, "idxmax")
-
-    def _extreme(self, rows, table, column, function):
-        values = rows[column].dropna()
-        return None if values.empty else self.number(table, getattr(values, function)(), column)
+        return self.number(table, rows[column].idxmax(), column) if rows[column].notna().any() else None
 
     def count(self, table, column, counted=None):
         """How many rows have the value `counted` in a column, or without it how many different values there are."""
@@ -101,10 +97,10 @@ class Results:
 def read_results(tables):
     """Results of the tables at {name: path of the CSV}, beside which stand the NetCDF files of the same names."""
     frames = {name: read_table(path) for name, path in tables.items()}
-    settings, machine = {}, {}
-    for name, path in tables.items():
-        for attribute, place in (("settings", settings), ("machine", machine)):
-            place[name] = read_recorded(_netcdf_of(path), attribute, missing={})
+    settings, machine = (
+        {name: read_recorded(netcdf_of(path), attribute, missing={}) for name, path in tables.items()}
+        for attribute in ("settings", "machine")
+    )
     return Results(frames, settings, machine)
 
 
@@ -114,7 +110,8 @@ def read_table(path):
     return table.assign(**{name: table[name].astype(object).fillna("") for name in MAY_BE_EMPTY if name in table})
 
 
-def _netcdf_of(csv_path):
+def netcdf_of(csv_path):
+    """Path of the NetCDF file beside the CSV file of a table."""
     return str(csv_path).removesuffix(".csv") + ".nc"
 
 

@@ -99,10 +99,9 @@ def _events(problem, fraction):
 
 def _steps(scheme, spacing, problem, number):
     """A number of steps of the impulse, and interpolation between their ends."""
-    ends = {
-        "logarithmic": partial(np.geomspace, 1e-4 * problem.force[0]),
-        "uniform": lambda last, number: np.linspace(0, last, number + 1)[1:],
-    }[spacing](problem.force[-1] * (1 + 1e-12), number)
+    last = problem.force[-1] * (1 + 1e-12)
+    uniform = np.linspace(0, last, number + 1)[1:]
+    ends = uniform if spacing == "uniform" else np.geomspace(1e-4 * problem.force[0], last, number)
     steps = march_steps(problem.indenter, ends, scheme=scheme)
     inside = problem.force >= ends[0]
     resistance = np.exp(np.interp(np.log(problem.force), np.log(ends), np.log(steps.resistance)))
@@ -186,11 +185,9 @@ METHODS = (
     Method("events", "marching", "contact fraction", (1.0,), _events, 65),
     Method("events to 5 %", "marching", "contact fraction", (0.05,), _events, 257, rough_only=True),
     *(
-        Method(
-            f"{scheme}, {spacing} steps", "marching", "steps", STEPS, partial(_steps, scheme, spacing), LARGEST[spacing]
-        )
+        Method(f"{scheme}, {spacing} steps", "marching", "steps", STEPS, partial(_steps, scheme, spacing), largest)
         for scheme in EXPLICIT
-        for spacing in ("logarithmic", "uniform")
+        for spacing, largest in LARGEST.items()
     ),
     *(
         Method(f"{scheme}, adaptive steps", "marching", "overlap", OVERLAPS, partial(_adaptive_steps, scheme), 129)

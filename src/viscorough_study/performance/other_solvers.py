@@ -30,6 +30,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from scipy.fft import next_fast_len
 
 from viscorough.contact.halfspace import Halfspace
 
@@ -159,17 +160,4 @@ def residual_of(gap, pressure, depth):
 
 def padded_size(elements):
     """Smallest size of a grid with a factor of 8 and no prime factor above 11: a good length of transforms."""
-    size = -(-elements // 8) * 8
-    while _largest_prime_factor(size) > 11:
-        size += 8
-    return size
-
-
-def _largest_prime_factor(number):
-    factor = 2
-    while factor * factor <= number:
-        if number % factor:
-            factor += 1
-        else:
-            number //= factor
-    return number
+    return 8 * next_fast_len(-(-elements // 8))

@@ -96,7 +96,9 @@ def compare_solvers(task, solvers, *, pairs, time_limit, report=lambda text: Non
         met = solution.residual.max() <= task.residual
         fastest = min(fastest, solution.wall_s) if met else fastest
         for threads, path in paths.items():
-            rows.append(_row_of_other(task, solver, threads, tolerance, solution, exact))
+            named = {"solver": solver.name, "version": solution.version, "threads": threads, "tolerance": tolerance}
+            cost = {"iterations": solution.total_iterations, "memory": solution.memory}
+            rows.append(_row(task, exact, solution) | named | cost)
             if met:
                 known = (solution.wall_s, solution.processor_s) if threads == 1 else None
                 races.append(_Race(path, partial(ask, [tolerance], threads=threads), known, rows[-1]))
@@ -111,8 +113,6 @@ def compare_solvers(task, solvers, *, pairs, time_limit, report=lambda text: Non
         seconds = [own for race in races if race.path is path for own, _ in race.seconds] or [timing.timed(path)[1:]]
         row["wall_s"], row["processor_s"] = np.median(seconds, axis=0)
         row |= dict.fromkeys(("ratio", "ratio_low", "ratio_high"), 1.0)
-    for row in rows:
-        row["met"] = int(row["residual"] <= task.residual)
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
@@ -141,8 +141,6 @@ class _Race:
 
     def record(self):
         """Median times and ratios; the median ratio lies between the least and the largest with 1 − 2^(1−n)."""
-        if not self.seconds:
-            return
         own, other = np.moveaxis(np.array(self.seconds), 1, 0)
         ratios = other[:, 0] / own[:, 0]
         self.row["wall_s"], self.row["processor_s"] = np.median(other, axis=0)
@@ -153,34 +151,22 @@ class _Race:
 
 def _row_of_path(task, path, threads, exact):
     curve, memory = timing.with_memory(path)
-    return _about(task) | {
-        "solver": "viscorough",
-        "version": __version__,
-        "threads": threads,
-        "tolerance": task.residual,
-        "residual": curve.residual.max(),
-        "iterations": curve.operator_applications,
-        "memory": memory,
-        "force_error": np.abs(curve.force / exact.force - 1).max(),
-    }
+    named = {"solver": "viscorough", "version": __version__, "threads": threads, "tolerance": task.residual}
+    return _row(task, exact, curve) | named | {"iterations": curve.operator_applications, "memory": memory}
 
 
-def _row_of_other(task, solver, threads, tolerance, solution, exact):
-    return _about(task) | {
-        "solver": solver.name,
-        "version": solution.version,
-        "threads": threads,
-        "tolerance": tolerance,
-        "residual": solution.residual.max(),
-        "iterations": solution.total_iterations,
-        "memory": solution.memory,
+def _row(task, exact, solution):
+    """What is computed, and how well; solution : LoadingCurve of the path, or Solution of another solver."""
+    residual = solution.residual.max()
+    return {
+        "task": task.name,
+        "hurst": task.hurst,
+        "elements": len(task.indenter.heights),
+        "levels": len(task.depths),
+        "residual": residual,
+        "met": int(residual <= task.residual),
         "force_error": np.abs(solution.force / exact.force - 1).max(),
     }
-
-
-def _about(task):
-    about = {"task": task.name, "hurst": task.hurst, "elements": len(task.indenter.heights)}
-    return about | {"levels": len(task.depths)}
 
 
 def _loosest_tolerance(ask, required, fastest):

@@ -63,14 +63,21 @@ def curve_failure(case, compute=indent):
         curve = compute(case.indenter, **case.arguments)
     events = march_events(case.indenter)
     tolerance, rounding = case.arguments["tolerance"], _HEIGHT_ROUNDING * max(np.nanmax(case.indenter.initial_gap), 0)
-    error = np.abs(events.depth_at(curve.force) / curve.depth - 1) - rounding / curve.depth
-    if error.max() > tolerance:
-        return f"depth {curve.depth[error.argmax()]:.3g} of a level off by {error.max():.2g}, tolerance {tolerance:.2g}"
-    if "depths" not in case.arguments:
-        if caught:
-            return ""
-        return _error_between(curve, events, case, max(tolerance, FINEST_ACCURACY), rounding)
-    return _error_before(curve, events, tolerance, rounding)
+    exact = events.depth_at(curve.force)
+    if wrong := _error("depth {:.3g} of a level", curve.depth, curve.depth, exact, tolerance, rounding):
+        return wrong
+    if "depths" in case.arguments:
+        return _error_before(curve, events, max(tolerance, FINEST_ACCURACY), rounding)
+    return "" if caught else _error_between(curve, events, case, max(tolerance, FINEST_ACCURACY), rounding)
+
+
+def _error(name, places, depth, exact, tolerance, rounding):
+    """Where depths differ most from exact ones, in words, if by more than the tolerance; name : of a place."""
+    error = np.nan_to_num(np.abs(depth / exact - 1) - rounding / exact, nan=np.inf)
+    worst = error.argmax()
+    if error[worst] <= tolerance:
+        return ""
+    return f"{name.format(places[worst])} off by {error[worst]:.2g}, tolerance {tolerance:.2g}"
 
 
 def _error_between(curve, events, case, tolerance, rounding):
@@ -82,24 +89,17 @@ def _error_between(curve, events, case, tolerance, rounding):
     first = max(curve.force[before_start], default=0.0)
     force = events.impulse[(events.impulse > first) & (events.impulse < last)]
     force = np.unique(np.concatenate([force, (force[1:] + force[:-1]) / 2, [first + 0.5 * (last - first), last]]))
-    depth = curve.at_force(force)[0]
-    error = np.abs(depth / events.depth_at(force) - 1) - rounding / depth
-    if not error.max() <= tolerance:  # also where it is nan
-        worst = np.argmax(np.nan_to_num(error, nan=np.inf))
-        return f"depth at force {force[worst]:.3g} off by {error[worst]:.2g}, tolerance {tolerance:.2g}"
+    exact = events.depth_at(force)
+    if wrong := _error("depth at force {:.3g}", force, curve.at_force(force)[0], exact, tolerance, rounding):
+        return wrong
     times = np.unique(np.append(0.0, force) / last)
-    moved, exact = kinetics(curve, np.full(times.shape, last), 1.0, times).depth[1:], events.depth_at(last * times[1:])
-    error = np.abs(moved / exact - 1) - rounding / exact
-    if not error.max() <= tolerance:
-        return f"depth at time {times[1 + error.argmax()]:.3g} off by {error.max():.2g}, tolerance {tolerance:.2g}"
-    return ""
+    moved = kinetics(curve, np.full(times.shape, last), 1.0, times).depth[1:]
+    return _error("depth at time {:.3g}", times[1:], moved, events.depth_at(last * times[1:]), tolerance, rounding)
 
 
 def _error_before(curve, events, tolerance, rounding):
     """What is wrong before the first given depth, where a depth is offered only if it is exact."""
     force = curve.force[0] * np.array([1e-3, 0.3, 0.9])
-    depth = curve.at_force(force)[0]
-    error = np.abs(depth / events.depth_at(force) - 1) - rounding / events.depth_at(force)
-    if np.nanmax(error, initial=0.0) > max(tolerance, FINEST_ACCURACY):
-        return f"depth before the first level off by {np.nanmax(error):.2g}, tolerance {tolerance:.2g}"
-    return ""
+    exact, depth = events.depth_at(force), curve.at_force(force)[0]
+    depth = np.where(np.isnan(depth), exact, depth)
+    return _error("depth before the first level", force, depth, exact, tolerance, rounding)

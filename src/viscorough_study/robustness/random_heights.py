@@ -47,8 +47,7 @@ def _positions(generator, rows, columns):
 
 def _rough(generator, rows, columns):
     """Heights of a self-affine disc and, in its corners, of its highest point times -1; of the given shape."""
-    across = max(3, rows, columns)
-    heights = self_affine_disc(generator.random(), int(across), seed=int(generator.integers(2**32))).heights
+    heights = _rough_disc(generator, rows, columns)
     return np.nan_to_num(heights, nan=-np.nanmax(heights))[:rows, :columns]
 
 

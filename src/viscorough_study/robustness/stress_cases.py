@@ -52,16 +52,10 @@ def stress_cases(seed, across, grids, hurst_min):
     hurst_min : Hurst exponent above which the paper says that Eq. 5 holds (resources/paper/numbers.yaml)
     """
     maps = _Maps(seed, across)
-    yield from _time_stepping_cases(maps)
-    yield from _hurst_cases(maps, hurst_min)
-    yield from _grid_cases(maps, grids)
-    yield from _contact_cases(maps)
+    yield from _disc_cases(maps, grids, hurst_min)
     yield from _tied_cases(maps)
     yield from _shape_cases(maps)
-    yield from _padding_cases(maps)
-    yield from _scale_cases(maps)
-    yield from _force_cases(maps)
-    yield from _tolerance_cases(maps)
+    yield from _question_cases(maps)
     yield from _medium_cases(maps)
 
 
@@ -86,31 +80,20 @@ class _Maps:
         return Indenter(0.1 * (function(x[:, None], x) + np.zeros((self.across, self.across))), 2 / self.across)
 
 
-def _time_stepping_cases(maps):
-    yield StressCase("step size", "4096 steps", **maps.usual, steps=4096)
-    yield StressCase("step size", "256 steps", **maps.usual)
-    yield StressCase("step size", "16 steps", **maps.usual, steps=16)
-    yield StressCase("step size", "one step", **maps.usual, steps=1)
-
-
-def _hurst_cases(maps, hurst_min):
+def _disc_cases(maps, grids, hurst_min):
+    """Rough discs: numbers of time steps, Hurst exponents, grids, and contact fractions."""
+    usual, elements = maps.usual, maps.usual["indenter"].elements
+    for steps, name in ((4096, "4096 steps"), (256, "256 steps"), (16, "16 steps"), (1, "one step")):
+        yield StressCase("step size", name, **usual, steps=steps)
     for hurst in (0.0, 0.2, 0.4, 0.7, 1.0):
         stated = f"Eq. 5 is said to hold above H = {hurst_min:g}" if hurst <= hurst_min else ""
         yield StressCase("Hurst exponent", f"H = {hurst:g}", maps.disc(hurst), hurst, stated=stated)
     rolled_off = maps.disc(0.7, roll_off_wavelength=0.2, roll_off_level=1.0)
     yield StressCase("Hurst exponent", "H = 0.7, roll-off", rolled_off, 0.7, stated=ROLL_OFF)
-
-
-def _grid_cases(maps, grids):
     for n in grids:
         fractions = (0.05, 0.5) if n < 65 else (30 / n**2, 300 / n**2)
         steps = 256 if n < 257 else 64
         yield StressCase("grid", f"{n} elements across", maps.disc(0.7, n), 0.7, fractions, steps=steps)
-
-
-def _contact_cases(maps):
-    usual = maps.usual
-    elements = usual["indenter"].elements
     yield StressCase("contact", "up to 2 elements", **usual, fractions=(1 / elements, 2 / elements))
     yield StressCase("contact", "95 % to all but one", **usual, fractions=(0.95, 1 - 1 / elements))
     yield StressCase("contact", "to all elements", **usual, fractions=(0.5, 1.0))
@@ -154,15 +137,12 @@ def _shape_cases(maps):
     yield shaped("steep: slope 20", lambda x, y: -200 * np.hypot(x, y))
 
 
-def _padding_cases(maps):
-    usual = maps.usual
-    low = (2 / usual["indenter"].elements, 20 / usual["indenter"].elements)
+def _question_cases(maps):
+    """One rough disc: without padding, in other units, under other forces in time, and to other tolerances."""
+    usual, rough = maps.usual, maps.usual["indenter"]
+    low = (2 / rough.elements, 20 / rough.elements)
     yield StressCase("no padding", "2 to 20 elements", **usual, fractions=low, periodic=True)
     yield StressCase("no padding", "up to half of all", **usual, periodic=True)
-
-
-def _scale_cases(maps):
-    rough = maps.disc(0.7)
     for name, height, length in (
         ("heights times 1e12", 1e12, 1.0),
         ("heights times 1e-12", 1e-12, 1.0),
@@ -171,9 +151,6 @@ def _scale_cases(maps):
         ("heights 1e-12, spacing 1e12", 1e-12, 1e12),
     ):
         yield StressCase("scale", name, Indenter(height * rough.heights, length * rough.spacing), 0.7)
-
-
-def _force_cases(maps):
     for name, force in (
         ("ramp", (0.0, 1.0)),
         ("step", (0.1, 0.1, 0.1, 1.0, 1.0, 1.0)),
@@ -181,12 +158,9 @@ def _force_cases(maps):
         ("zero at first", (0.0, 0.0, 0.0, 0.0, 1.0, 1.0)),
         ("negative for a while", (1.0, 1.0, -0.1, 1.0)),
     ):
-        yield StressCase("force in time", name, **maps.usual, force=force)
-
-
-def _tolerance_cases(maps):
+        yield StressCase("force in time", name, **usual, force=force)
     for tolerance in (1e-1, 1e-3, 1e-10, 1e-12, 1e-14):
-        yield StressCase("tolerance", f"{tolerance:g}", **maps.usual, tolerance=tolerance)
+        yield StressCase("tolerance", f"{tolerance:g}", **usual, tolerance=tolerance)
 
 
 def _medium_cases(maps):

@@ -30,17 +30,12 @@ def curves():
 @pytest.fixture(scope="session")
 def discs(curves):
     """Ensemble of every case, all of two realizations."""
-    return [
-        aggregate(
-            pair,
-            {"disc": COMBINATIONS[name]["rms"], "square": 1.1 * COMBINATIONS[name]["rms"]},
-            COMBINATIONS[name]["diameter"],
-            X,
-            hurst=hurst,
-            case=case_of(hurst, name),
-        )
-        for (hurst, name), pair in curves.items()
-    ]
+    members = []
+    for (hurst, name), pair in curves.items():
+        rms, diameter = COMBINATIONS[name]["rms"], COMBINATIONS[name]["diameter"]
+        case = case_of(hurst, name)
+        members.append(aggregate(pair, {"disc": rms, "square": 1.1 * rms}, diameter, X, hurst=hurst, case=case))
+    return members
 
 
 @pytest.fixture(scope="session")

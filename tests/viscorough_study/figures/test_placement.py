@@ -34,20 +34,6 @@ def test_labels_stay_inside():
         assert axes.bbox.y0 < box.y0 < box.y1 < axes.bbox.y1
 
 
-def test_a_label_is_next_to_its_point_where_there_is_room():
-    axes, boxes = placed([("here", 5, 5)], ([0, 1], [0, 0]))
-    point, (box,) = axes.transData.transform((5, 5)), boxes
-    assert 0 < box.x0 - point[0] < 10
-    assert box.y0 < point[1] < box.y1
-    assert len(axes.lines) == 1  # no line leads to it
-
-
-def test_a_label_is_not_next_to_what_another_one_names():
-    axes, boxes = placed([("first", 5, 5), ("second", 5.3, 5)], ([0, 1], [0, 0]))
-    second = axes.transData.transform((5.3, 5))
-    assert not boxes[0].padded(3).contains(*second)
-
-
 def test_a_label_rather_hides_a_piece_of_a_curve_than_a_marker():
     figure = Figure(layout="constrained")
     axes = figure.subplots()

@@ -6,7 +6,7 @@ import pytest
 
 from support.figures import coordinates, legend_texts, methods_table, whole_on_page
 from viscorough_study.figures.speed import FLOOR, RING, plot_speed
-from viscorough_study.performance.pareto import pareto_front
+from viscorough_study.performance.costs import pareto_front
 
 
 def with_peer(data, factor):

@@ -20,17 +20,11 @@ def test_numbers_of_others_stand_beside_ours():
     assert same[1] == Number(0.4, "literature", 3, "theirs_low")
 
 
-def test_who_only_quotes_a_number_is_said():
-    assert shown(sure="quoted")["quantities"]["u0"][0]["theirs"][0][0] == "One 2007, as quoted"
-
-
 def test_every_source_is_listed_once_with_how_it_is_known():
     sources = shown()["sources"]
     assert [one["cited"] for one in sources] == ["One 2007", "One et al. 2013", "Five 2011"]
     assert {one["known"] for one in sources} == {KNOWN["abstract"]}
-
-
-def test_quantities_without_values_are_left_out():
+    assert shown(sure="quoted")["quantities"]["u0"][0]["theirs"][0][0] == "One 2007, as quoted"
     assert shown(hurst=float("nan"))["quantities"] == {}
 
 

@@ -18,21 +18,15 @@ import numpy as np
 
 request = np.load(sys.argv[1])
 pressures = np.load({pressures!r})
-tolerances, levels = request["tolerances"], request["depths"].size
+tolerances = request["tolerances"][:, None]
 assert request["padding"] == 24 and np.isfinite(request["gap"]).any()
 assert (request["repeats"], request["maximum_seconds"]) == (1, 20)
-wall = np.full((len(tolerances), 1), {seconds} * int(request["threads"]))
-wall[tolerances > {too_slow}] = np.nan
-np.savez(
-    sys.argv[2],
-    version="1.2",
-    pressures=[pressures * (1 + t) for t in tolerances],
-    wall=wall,
-    cpu=np.full((len(tolerances), 1), 0.25),
-    iterations=np.full((len(tolerances), levels), {iterations}),
-    depth=np.tile(request["depths"], (len(tolerances), 1)),
-    memory_mb=3.0,
-)
+wall = np.where(tolerances > {too_slow}, np.nan, {seconds} * int(request["threads"]))
+depth = request["depths"] + 0 * tolerances
+iterations = np.full(depth.shape, {iterations})
+pressures = [pressures * (1 + t) for t in tolerances]
+about = dict(version="1.2", cpu=0 * tolerances + 0.25, memory_mb=3.0)
+np.savez(sys.argv[2], pressures=pressures, wall=wall, iterations=iterations, depth=depth, **about)
 '''
 
 
@@ -54,12 +48,10 @@ def stand_in(tmp_path, disc, exact):
     pressures = [dense_contact.pressure_at_depth(gap, depth / disc.spacing, 4.0) for depth in exact.depth]
     np.save(tmp_path / "pressures.npy", pressures)
 
-    def make(iterations=7, too_slow=np.inf, seconds=0.5):
+    def make(iterations=7, too_slow=1e300, seconds=0.5):
         adapter = tmp_path / f"adapter_{seconds}.py"
-        text = ADAPTER.format(
-            pressures=str(tmp_path / "pressures.npy"), iterations=iterations, too_slow=too_slow, seconds=seconds
-        )
-        adapter.write_text(text.replace("> inf", "> np.inf"))
+        values = {"iterations": iterations, "too_slow": too_slow, "seconds": seconds}
+        adapter.write_text(ADAPTER.format(pressures=str(tmp_path / "pressures.npy"), **values))
         return other_solvers.OtherSolver("stand-in", Path(sys.executable), adapter)
 
     return make
@@ -77,17 +69,10 @@ def test_residual_and_force_are_computed_from_the_pressures(disc, exact, stand_i
     assert fine.residual.max() < 1e-8
     np.testing.assert_allclose(coarse.residual, 1e-3, rtol=0.5)  # of the deflection, which gaps are subtracted from
     assert (fine.version, fine.wall_s, fine.processor_s, fine.memory) == ("1.2", 0.5, 0.25, 3e6)
-
-
-def test_iterations_that_are_not_reported_are_not_summed(disc, exact, stand_in):
-    assert solve(stand_in(iterations=7), disc, exact, [1e-3])[0].total_iterations == 21
-    assert solve(stand_in(iterations=-1), disc, exact, [1e-3])[0].total_iterations == -1
-
-
-def test_a_tolerance_beyond_the_time_limit_has_no_solution(disc, exact, stand_in):
-    fine, coarse = solve(stand_in(too_slow=1e-2), disc, exact, [1e-3, 1e-1])
-    assert fine is not None
-    assert coarse is None
+    assert fine.total_iterations == 21
+    untold, late = solve(stand_in(iterations=-1, too_slow=1e-2), disc, exact, [1e-3, 1e-1])
+    assert untold.total_iterations == -1
+    assert late is None
 
 
 def test_pressure_outside_the_indenter_is_no_solution(disc):
@@ -114,19 +99,15 @@ def test_comparison_uses_the_loosest_tolerance_that_meets_the_residual(disc, exa
     table = solver_comparison.compare_solvers(task, [stand_in()], pairs=3, time_limit=20)
     assert list(table.columns) == list(solver_comparison.COLUMNS)
     assert table["solver"].tolist() == ["viscorough", "viscorough", "stand-in", "stand-in"]
-    assert table["threads"].tolist() == [1, 2, 1, 2]
     residuals = [solve(stand_in(), disc, exact, [ratio * 1e-4])[0].residual.max() for ratio in (1 / 3, 1, 3)]
     loosest = max(ratio for ratio, left in zip((1 / 3, 1, 3), residuals, strict=True) if left <= 1e-4)
     np.testing.assert_allclose(table["tolerance"], [1e-4, 1e-4, loosest * 1e-4, loosest * 1e-4])
     assert loosest < 3
     assert (table["met"] == 1).all()
-    assert table["iterations"].tolist()[2:] == [21, 21]
     assert table["wall_s"].tolist()[2:] == [0.5, 1.0]
     # The stand-in reports the same time in every pair, so that the median ratio is that to the median time of the path.
     np.testing.assert_allclose(table["ratio"][2:], table["wall_s"][2:].to_numpy() / table["wall_s"][:2])
-    assert (table["ratio_low"] <= table["ratio"]).all()
-    assert (table["ratio"] <= table["ratio_high"]).all()
-    assert (table["ratio_low"] < table["ratio_high"])[2:].all()
+    assert (table["ratio"].between(table["ratio_low"], table["ratio_high"])).all()
 
 
 def test_far_slower_solvers_are_not_repeated(disc, exact, stand_in):
@@ -150,33 +131,20 @@ def test_a_residual_out_of_reach_is_not_met(disc, exact, stand_in):
     assert table["tolerance"][1] == pytest.approx(min(solver_comparison.TOLERANCE_RATIOS) * 1e-4)
 
 
-def test_a_task_is_at_the_contact_fractions_asked_for():
-    task = solver_comparison.disc_task("few", 0.7, 33, [0.05, 0.3], 1e-4, seed=2, threads=[1, 2])
-    curve = indent(task.indenter, tolerance=1e-6, depths=task.depths)
-    np.testing.assert_allclose(curve.contact_fraction, [0.05, 0.3], rtol=0.1)
-    assert task.threads == (1, 2)
-
-
 def test_another_solver_as_a_method_has_the_stiffness_by_differences(tmp_path):
     """An adapter for which force is 3 depth²: the velocity is depth/2."""
     adapter = tmp_path / "square.py"
-    adapter.write_text(
-        "import sys, numpy as np\n"
-        "request = np.load(sys.argv[1])\n"
-        "one, levels = np.ones((1, 1)), request['depths'].size\n"
-        "pressures = np.zeros((1, levels, *request['gap'].shape))\n"
-        "pressures[0, :, 4, 4] = 3 * request['depths'] ** 2\n"
-        "np.savez(sys.argv[2], version='1', pressures=pressures, wall=one, cpu=one, memory_mb=1.0,\n"
-        "         iterations=np.full((1, levels), 2), depth=request['depths'][None])\n"
-    )
+    adapter.write_text("""
+import sys, numpy as np
+request = np.load(sys.argv[1])
+depths, one = request["depths"][None], np.ones((1, 1))
+pressures = np.zeros((*depths.shape, *request["gap"].shape))
+pressures[:, :, 4, 4] = 3 * depths**2
+about = {"version": "1", "wall": one, "cpu": one, "memory_mb": 1.0, "iterations": np.full(depths.shape, 2)}
+np.savez(sys.argv[2], pressures=pressures, depth=depths, **about)
+""")
     method = methods.other_solver_method(other_solvers.OtherSolver("square", Path(sys.executable), adapter), 20)
     problem = problems.named_problem("sphere", 9, 4)
     answer = method.run(problem, 1e-4)
     np.testing.assert_allclose(answer.velocity, problem.depth / 2, rtol=1e-3)
-    assert answer.steps == 16
-    assert answer.seconds == (1.0, 1.0)
-
-
-@pytest.mark.parametrize(("elements", "size"), [(257, 264), (1025, 1056), (8, 8), (33, 40)])
-def test_padding_has_small_factors(elements, size):
-    assert other_solvers.padded_size(elements) == size
+    assert (answer.steps, answer.seconds) == (16, (1.0, 1.0))

@@ -1,9 +1,28 @@
-"""Cost of lines and boundary elements at the same error."""
+"""The Pareto front, the fastest methods that reach an error, and the cost at the same error."""
 
 import pandas as pd
 import pytest
 
+from viscorough_study.performance.costs import fastest, pareto_front
 from viscorough_study.performance.equal_error import COLUMNS, equal_error
+
+TABLE = pd.DataFrame(
+    [("path", 1.0, 1e-1), ("path", 2.0, 1e-3), ("path", 5.0, 1e-5), ("marching", 3.0, 1e-2), ("model", 0.1, 0.3)],
+    columns=["group", "wall_s", "error"],
+)
+
+
+def test_no_row_beats_those_of_the_front():
+    assert pareto_front(TABLE)["wall_s"].tolist() == [0.1, 1.0, 2.0, 5.0]
+
+
+def test_the_fastest_of_each_group_reach_the_error():
+    best = fastest(TABLE, 1e-2)
+    assert {group: row["wall_s"] for group, row in best.items()} == {"path": 2.0, "marching": 3.0}
+    assert fastest(TABLE, 1e-9) == {}
+
+
+# ---- cost at the same error
 
 
 def methods(rows):

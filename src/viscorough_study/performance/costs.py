@@ -1,6 +1,18 @@
-"""Growth of the cost with the number of elements, from tables of costs."""
+"""What tables of costs tell: the Pareto front, the fastest methods, and the growth of the cost with the size."""
 
 import numpy as np
+
+
+def pareto_front(table):
+    """Rows of a table that no other row beats in both wall time and error, from fast to accurate."""
+    ordered = table.sort_values(["wall_s", "error"])
+    return ordered[ordered["error"] < ordered["error"].cummin().shift(fill_value=np.inf)]
+
+
+def fastest(table, error):
+    """{group of methods: its fastest row with an error up to the given one}, without groups that do not reach it."""
+    reached = table[table["error"] <= error]
+    return {group: rows.loc[rows["wall_s"].idxmin()] for group, rows in reached.groupby("group", sort=False)}
 
 
 def median_costs(table, method, value):

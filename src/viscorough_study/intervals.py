@@ -1,0 +1,77 @@
+"""Intervals of 95 %: of bootstrap samples and of independent samples, and how tables of results hold them.
+
+In a table a quantity has three columns: its value, under its name, and the ends of its interval, under its name with
+_low and _high.
+"""
+
+import numpy as np
+from scipy import stats
+from scipy.special import ndtr, stdtrit
+
+UNDEFINED = (np.nan, np.nan, np.nan)  # value and interval of a quantity that cannot be computed
+NO_INTERVAL = (np.nan, np.nan)  # of a quantity without statistical scatter
+
+
+def described(name, text, units="1", of="of its 95 % interval"):
+    """Descriptions of the columns of a quantity and its interval, {column: (long_name, units)}."""
+    ends = {f"{name}_{end}": (f"{side} end {of}", units) for end, side in (("low", "lower"), ("high", "upper"))}
+    return {name: (text, units)} | ends
+
+
+def three_columns(name, values):
+    """{column: value} of a quantity and its interval; values : value, low, high."""
+    return dict(zip((name, f"{name}_low", f"{name}_high"), values, strict=True))
+
+
+def interval(row, name):
+    """(value, low, high) of a quantity in a row of a table."""
+    return tuple(row[column] for column in (name, f"{name}_low", f"{name}_high"))
+
+
+def resampled_means(values, resamples, random):
+    """Mean over the realizations, then of each of its bootstrap resamples, shape (resamples + 1, abscissae).
+
+    values : shape (realizations, abscissae), without nan; random : numpy.random.Generator
+    """
+    number = len(values)
+    weights = random.multinomial(number, np.full(number, 1 / number), size=resamples) / number
+    return np.vstack([values.mean(axis=0), weights @ values])
+
+
+def with_interval(samples, realizations):
+    """Value of an ensemble and its `percentile_interval`, (value, low, high); samples : its own, then of resamples."""
+    return samples[0], *percentile_interval(samples[1:], realizations)
+
+
+def percentile_interval(samples, realizations):
+    """95 % interval (low, high) of bootstrap samples: percentiles, widened for few realizations.
+
+    samples : shape (resamples,), or (resamples, quantities) for an interval of each; resamples with undefined (nan)
+        values are left out
+
+    Plain percentiles are too narrow for small n. The levels Φ(∓√(n/(n−1)) t), t the 97.5 % point of Student's
+    t with n − 1 degrees of freedom, make them the t interval for a mean (Hesterberg, The American
+    Statistician 69, 371 (2015): expanded percentile interval). Nan for a single realization.
+    """
+    samples = samples[np.isfinite(samples).reshape(len(samples), -1).all(axis=1)]
+    if realizations < 2 or samples.size == 0:
+        return np.nan, np.nan
+    tail = ndtr(-np.sqrt(realizations / (realizations - 1)) * stdtrit(realizations - 1, 0.975))
+    low, high = np.quantile(samples, [tail, 1 - tail], axis=0)
+    return low, high
+
+
+def mean_with_interval(samples):
+    """Mean of independent samples and its interval by Student's t: (value, low, high); no interval for a single one.
+
+    samples : shape (samples,), or (samples, quantities) for the mean of each
+    """
+    mean, number = samples.mean(axis=0), len(samples)
+    error = stdtrit(number - 1, 0.975) * samples.std(axis=0, ddof=1) / np.sqrt(number) if number > 1 else np.nan
+    return mean, mean - error, mean + error
+
+
+def deviation_interval(deviation, freedom):
+    """A standard deviation of normal samples and its interval by the distribution of χ²: (value, low, high)."""
+    ends = deviation * np.sqrt(freedom / stats.chi2.ppf([0.975, 0.025], freedom)) if freedom else NO_INTERVAL
+    return deviation, *ends

@@ -1,0 +1,369 @@
+"""Figures show the numbers of their tables, lie whole on their page, and refuse tables without rows."""
+
+import numpy as np
+import pandas as pd
+import pytest
+from matplotlib.colors import to_rgb
+
+from support import figures as tables
+from support.figures import HURST, X, coordinates, dashed, legend_texts, markers, whole_on_page, without_region
+from support.study import BASE_SURFACES, SHOWN
+from viscorough import reference
+from viscorough.surfaces import self_affine_disc
+from viscorough_study.conventions import fits, left_open, select
+from viscorough_study.figures.collapse import SHIFT, plot_collapse
+from viscorough_study.figures.conventions import plot_conventions
+from viscorough_study.figures.direct_integration import plot_direct_integration
+from viscorough_study.figures.exponent import plot_exponent
+from viscorough_study.figures.failure_map import LETTERS, plot_failure_map
+from viscorough_study.figures.growth import plot_growth
+from viscorough_study.figures.interface import plot_interface
+from viscorough_study.figures.large import plot_large
+from viscorough_study.figures.level_placement import plot_level_placement
+from viscorough_study.figures.master_curve import plot_master_curve
+from viscorough_study.figures.mdr_comparison import plot_mdr_comparison
+from viscorough_study.figures.mdr_lambda import plot_mdr_lambda
+from viscorough_study.figures.measured import plot_measured
+from viscorough_study.figures.media import plot_media
+from viscorough_study.figures.media_exponents import plot_media_exponents
+from viscorough_study.figures.other_solvers import plot_other_solvers
+from viscorough_study.figures.prefactors import NEAREST, plot_prefactors
+from viscorough_study.figures.sizes import plot_sizes
+from viscorough_study.figures.speed import plot_speed
+from viscorough_study.figures.surfaces import plot_surfaces
+from viscorough_study.figures.validation import plot_validation
+from viscorough_study.prefactors import prefactors, ranked, rows_of
+
+pytestmark = pytest.mark.filterwarnings("error")
+
+FROM_TABLES = {
+    plot_collapse: (tables.curves_of_sizes(), *tables.collapse_tables()),
+    plot_direct_integration: (tables.direct_table(),),
+    plot_failure_map: (tables.failure_table(LETTERS),),
+    plot_growth: (tables.methods_table(),),
+    plot_interface: (*tables.interface_tables_drawn(), tables.literature_table(), SHOWN),
+    plot_large: (tables.large_table(),),
+    plot_level_placement: (tables.level_placement_table(),),
+    plot_mdr_comparison: (tables.mdr_table(),),
+    plot_mdr_lambda: tables.mdr_lambda_tables(),
+    plot_media: (tables.media_table(),),
+    plot_media_exponents: (tables.media_table(),),
+    plot_other_solvers: (tables.other_solvers_table(),),
+    plot_sizes: (tables.sizes_table(), SHOWN),
+    plot_speed: (tables.methods_table(),),
+    plot_validation: (tables.validation_table(),),
+}
+
+
+def drawn(plot):
+    """The figure of the small tables of `FROM_TABLES`."""
+    return plot(*FROM_TABLES[plot])
+
+
+def close(line, expected):
+    np.testing.assert_allclose(line, expected, rtol=1e-9)
+
+
+@pytest.mark.parametrize("plot", FROM_TABLES)
+def test_figure_of_a_table_is_whole_and_that_of_no_rows_is_refused(plot):
+    arguments = list(FROM_TABLES[plot])
+    assert whole_on_page(plot(*arguments))
+    place = 1 if plot is plot_collapse else 0
+    if plot is plot_validation:
+        return
+    arguments[place] = arguments[place][:0]
+    with pytest.raises(ValueError, match=f"{plot.__name__}: .*(no rows|two sizes)"):
+        plot(*arguments)
+
+
+def test_figures_of_fits_are_whole(pooled, lines, scaling):
+    assert whole_on_page(plot_exponent(scaling, SHOWN, (0.4, 1.0)))
+    assert whole_on_page(plot_conventions(without_region(scaling, 0.4), SHOWN))
+    assert whole_on_page(plot_master_curve(pooled, lines, scaling, SHOWN, fraction_min=0.95))
+    assert whole_on_page(tables.measured_figure(pooled, scaling))
+    assert whole_on_page(plot_prefactors(prefactors(scaling, BASE_SURFACES), SHOWN))
+
+
+def test_surfaces_are_darker_where_higher():
+    examples = [(h, self_affine_disc(h, 33, seed=1).heights, 1 / 33) for h in (0.1, 0.5, 0.9)]
+    figure = plot_surfaces(examples)
+    shown = [axes for axes in figure.axes if axes.images]
+    ends = min(np.nanmin(heights) for _, heights, _ in examples), max(np.nanmax(heights) for _, heights, _ in examples)
+    for axes, (hurst, heights, _) in zip(shown, examples, strict=True):
+        (image,) = axes.images
+        np.testing.assert_array_equal(image.get_array().filled(np.nan), heights)
+        assert image.get_extent() == pytest.approx([-0.5, 0.5, -0.5, 0.5])
+        assert image.get_clim() == ends
+        assert axes.get_title() == f"$H={hurst:g}$"
+    grey = image.to_rgba(np.linspace(*ends, 20))[:, :3] @ (0.3, 0.6, 0.1)
+    assert (np.diff(grey) < 0).all()
+    assert whole_on_page(figure)
+
+
+@pytest.mark.parametrize("average", ["geometric", "arithmetic"])
+def test_master_curve_shows_both_sides_of_the_law(pooled, lines, scaling, average):
+    shown = SHOWN | {"average": average}
+    law, ratio = plot_master_curve(pooled, lines, scaling, shown, fraction_min=0.95).axes
+    (identity,) = dashed(law)
+    np.testing.assert_array_equal(identity.get_xdata(), identity.get_ydata())
+    np.testing.assert_array_equal(dashed(ratio)[0].get_ydata(), 1)
+    windows = fits(scaling, shown, source="discs", case_group="base").set_index("hurst")
+    for rank, ensemble in enumerate(pooled):
+        hurst, discs = ensemble["hurst"].item(), ensemble.sel(rms_convention="disc")
+        right, left = reference.rate_law(X, hurst, gamma=True), discs[f"velocity_{average}"].values
+        window = (windows.x_low[hurst] * 0.999 < X) & (windows.x_high[hurst] * 1.001 > X)
+        for (marks, _, bars), inside in zip(law.containers[2 * rank : 2 * rank + 2], (True, False), strict=True):
+            x, y = marks.get_data()
+            at = np.searchsorted(right, x * (1 - 1e-9))
+            close([x, y], [right[at], left[at]])
+            assert (window[at] == inside).all()
+            assert x.size >= 3
+            assert (to_rgb(marks.get_markerfacecolor()) != (1, 1, 1)) == inside
+            error = 2 * discs["velocity_spread"].values[at] / np.sqrt(discs["realizations_defined"].values[at])
+            ends = np.array([segment[:, 1] for segment in bars[0].get_segments()])
+            np.testing.assert_allclose(np.log(ends / y[:, None]), np.transpose([-error, error]), atol=1e-9)
+    for ensemble, line in zip(lines, [line for line in law.lines if line.get_zorder() == 3], strict=True):
+        kept = (ensemble["contact_count_median"].values[0] > 1) & (ensemble["fraction_defined"].values[0] == 1)
+        close(line.get_ydata(), ensemble[f"velocity_{average}"].values[0][kept])
+
+
+def test_master_curve_of_one_realization_without_region(discs, lines, scaling):
+    single = [ds.isel(realization=[0]) for ds in discs[::2]]
+    for ds in single:  # as the ensemble of one realization has it
+        ds["velocity_spread"] = ds["velocity_spread"] * np.nan
+        ds["realizations_defined"] = ds["realizations_defined"] * 0 + 1
+    figure = plot_master_curve(single, lines[:1], without_region(scaling, 0.4), SHOWN, fraction_min=0.95)
+    inside, outside = figure.axes[0].containers[:2]
+    assert inside[0].get_xdata().size == 0
+    assert outside[0].get_xdata().size > 3
+
+
+def test_exponent_shows_lines_discs_and_the_law(scaling):
+    (axes,) = plot_exponent(scaling, SHOWN, (0.4, 1.0)).axes
+    rows = fits(scaling, SHOWN, source="lines", case_group="base", rms_convention="line")
+    solid = next(line for line in axes.lines if line.get_color() == "black")
+    np.testing.assert_array_equal(solid.get_xydata(), rows[["hurst", "beta"]])
+    assert {*rows["beta_low"], *rows["beta_high"]} <= set(axes.collections[0].get_paths()[0].vertices[:, 1])
+    discs = fits(scaling, SHOWN, source="discs", case_group="base")
+    np.testing.assert_array_equal([line.get_xydata()[0] for line in markers(axes)], discs[["hurst", "beta"]])
+    ends = [container.lines[2][0].get_segments()[0][:, 1] for container in axes.containers]
+    close(ends, discs[["beta_low", "beta_high"]])
+    (law,) = dashed(axes)
+    close(law.get_ydata(), law.get_xdata() / (1 + law.get_xdata()))
+
+
+def test_exponent_of_what_has_no_region_and_intervals_beside_their_value(scaling):
+    (kept,) = markers(plot_exponent(without_region(scaling, 0.4), SHOWN, (0.4, 1.0)).axes[0])
+    assert kept.get_xdata().tolist() == [0.9]
+    assert not markers(plot_exponent(scaling[scaling["source"] == "lines"], SHOWN, (0.4, 1.0)).axes[0])
+    beside = scaling.assign(beta_low=scaling["beta"] + 0.1, beta_high=scaling["beta"] + 0.3)
+    axes = plot_exponent(beside, SHOWN, (0.4, 1.0)).axes[0]
+    close(axes.containers[0].lines[2][0].get_segments()[0][:, 1] - markers(axes)[0].get_ydata(), [0.1, 0.3])
+
+
+def test_conventions_have_a_row_for_each_change(scaling):
+    figure = plot_conventions(scaling, SHOWN)
+    grid = np.reshape(figure.axes, (2, len(HURST)))
+    labels = [text.get_text() for text in grid[0, 0].get_yticklabels()]
+    assert (labels[0], labels[2], labels[8]) == ("as in other figures", "$h$ of the square", "roll-off (control)")
+    changes = [{}, {"average": "arithmetic"}, {"rms_convention": "square"}]
+    changes += [{"window_rule": rule} for rule in ("lower_half", "upper_half", "kappa")]
+    changes += [{"gamma": "with"}, {"diameter_convention": "radius"}, {"case_group": "roll_off"}]
+    for axes, quantity in zip(grid, ("beta", "zeta"), strict=True):
+        for panel, hurst in zip(axes, HURST, strict=True):
+            rows = {int(line.get_ydata()[0]): line.get_xdata()[0] for line in markers(panel)}
+            for y, change in enumerate(changes):
+                wanted = SHOWN | {"source": "discs", "case_group": "base", "hurst": hurst} | change
+                (value,) = select(scaling, wanted)[quantity]
+                assert rows.get(y) == value if np.isfinite(value) else y not in rows
+    upright = [line for line in grid[1, 1].lines if len(set(line.get_xdata())) == 1 and line.get_zorder() == 1]
+    assert {line.get_xdata()[0] for line in upright} == {reference.zeta_viscous(0.9), reference.zeta_elastic(0.9)}
+    empty, other = plot_conventions(without_region(scaling, 0.4), SHOWN).axes[:2]
+    assert [text.get_text() for text in empty.texts] == ["no region (b)"] * 9
+    assert len(markers(other)) + len(other.texts) == 9
+    with pytest.raises(ValueError, match="no discs"):
+        plot_conventions(scaling[scaling["source"] == "lines"], SHOWN)
+
+
+def test_prefactors_are_ranked_and_all_combinations_are_ticks(scaling):
+    table = prefactors(scaling, BASE_SURFACES)
+    open_rows = left_open(table)
+    figure = plot_prefactors(table, SHOWN)
+    for axes, law in zip(figure.axes, ("eq4", "eq11"), strict=True):
+        labels = [text.get_text() for text in axes.get_yticklabels()]
+        assert len(labels) == NEAREST + 3
+        rank = ranked(open_rows, law).index({"case_group": "base"} | SHOWN) + 1
+        assert labels[-3].startswith(f"as in the other figures, rank {rank}:")
+        best = rows_of(table, ranked(open_rows, law)[0])
+        first = [line.get_xdata()[0] for line in markers(axes) if line.get_ydata()[0] < 0.5]
+        assert sorted(first) == pytest.approx(sorted(best[law]))
+        ticks = [line for line in axes.lines if line.get_marker() == "|" and len(line.get_xdata()) > 1]
+        assert sum(len(line.get_xdata()) for line in ticks) == len(open_rows)
+    with pytest.raises(ValueError, match="plot_prefactors: the table has no rows"):
+        plot_prefactors(table[:0], SHOWN)
+
+
+def test_measured_scans_stand_beside_the_generated_discs(pooled, scaling):
+    law, motion = tables.measured_figure(pooled, scaling).axes
+    for line in (line for line in law.lines if line.get_linewidth() == 3):  # over region (b), at the slope of the fit
+        (x0, y0), (x1, y1) = line.get_xydata()
+        rows = scaling[np.isclose(scaling["x_low"], x0) & np.isclose(scaling["x_high"], x1)]
+        assert np.isclose(np.log(y1 / y0) / np.log(x1 / x0), rows["beta"]).any()
+    assert len(motion.lines) == 8
+    close(motion.lines[0].get_ydata(), tables.measured_kinetics()["depth"][:13] * 1e6)
+    assert motion.get_title() == "(b) depth under 0.1, 1 N"
+    none = tables.measured_kinetics()[:0]
+    motion = plot_measured({"polished": pooled[0]}, pooled, scaling, none, SHOWN, fraction_min=0.95).axes[1]
+    assert motion.get_title() == "(b) depth: no forces were given"
+
+
+def test_collapse_makes_curves_of_a_law_horizontal():
+    whole, _, exponents = drawn(plot_collapse).axes
+    for rank in range(2):
+        for line in whole.lines[2 * rank : 2 * rank + 2]:
+            close(line.get_ydata(), np.exp(0.5) * SHIFT**-rank)
+    assert [line.get_xdata()[0] for line in whole.lines[:2]] == pytest.approx([1e-4 * 33**1.4, 1e-4 * 129**1.4])
+    bars = [line for line in exponents.lines if line.get_linewidth() == 4]
+    assert [tuple(np.round(bar.get_ydata(), 3)) for bar in bars] == [(-0.02, 0.02)] * 4
+    values = [line for line in exponents.lines if line.get_marker() in "os" and len(line.get_xdata()) == 1]
+    assert [line.get_ydata()[0] for line in values] == pytest.approx([0.03] * 8)
+
+
+def test_direct_integration_shows_ratios_the_law_and_the_largest_deviation():
+    table = tables.direct_table().assign(depth_ratio=[1.0, 0.9995, 1.0, 1.0])
+    first, second = plot_direct_integration(table).axes
+    assert (first.get_title(), second.get_title()) == ("sphere", "rough disc, $H=0.4$")
+    assert [[10, 1], [100, 0.9995]] in [line.tolist() for line in coordinates(first)]
+    assert [line.get_ydata()[0] for line in dashed(second)] == [1.1]
+    texts = [[text.get_text() for text in axes.texts] for axes in (first, second)]
+    assert texts == [["1.100", "largest deviation $5\\times 10^{-4}$"], ["1.100", "largest deviation 0"]]
+
+
+def test_interface_law_and_plateaus():
+    table = FROM_TABLES[plot_interface][0]
+    discs, lines, law, plateaus = drawn(plot_interface).axes
+    wanted = table[table["average"] == SHOWN["average"]]
+    assert len(discs.lines) == 3 * 3  # g, its law and its plateau for three Hurst exponents
+    assert len(lines.lines) == 2
+    for line in law.lines[:3]:
+        close(line.get_ydata(), 1.02)
+    ours = sorted(line.get_ydata()[0] for line in plateaus.lines if line.get_marker() not in ("_", "|", "None"))
+    shown = wanted[(wanted["source"] == "discs") | (wanted["case_group"] != "sizes")]
+    assert ours == pytest.approx(sorted(shown["u0"]))
+    (band,) = [one for one in plateaus.collections if len(one.get_facecolor())]
+    corners = {tuple(corner) for corner in band.get_paths()[0].vertices}
+    assert corners == {(0.4, 0.5), (0.4, 0.56), (0.9, 0.41), (0.9, 0.46)}
+    (stated,) = [line for line in dashed(plateaus) if line.get_marker() == "None"]
+    assert set(stated.get_ydata()) == {0.4}
+    assert [text.get_text() for text in plateaus.texts] == ["One 2007, γ of later fits", "One et al. 2013"]
+
+
+def test_sizes_have_a_marker_for_every_ensemble_with_a_fit():
+    """In the window of region (b) of discs and lines, and in the fixed one."""
+    figure, moving = drawn(plot_sizes), [0.3, 0.3, 0.31, 0.31]
+    for axes, expected in zip(figure.axes, ([0.01, *moving], moving, [0.35] * 6, [0.35] * 6), strict=True):
+        values = [line for line in axes.lines if line.get_marker() not in ("None", "", "_", "|")]
+        assert sorted(line.get_ydata()[0] for line in values) == expected
+    assert "4 to 8 discs" in figure.axes[0].get_title()
+    table = tables.sizes_table()
+    assert len(plot_sizes(table[table["window_rule"] == "default"], SHOWN).axes) == 2
+
+
+def test_validation_shows_errors_orders_and_limits():
+    for axes in drawn(plot_validation).axes:
+        *cases, limit = axes.lines
+        for line, scale in zip(cases, (0.5, 0.7, 0.2), strict=True):
+            close(line.get_xydata(), [(n, scale / n**2) for n in (33, 65, 129)])
+        assert cases[0].get_color() == cases[1].get_color() != cases[2].get_color()
+        assert (limit.get_ydata() == 1e-3).all()
+        assert {text.get_text() for text in axes.texts} == {"2.0 failed", "2.0"}
+    figure = plot_validation(tables.validation_table([33]))
+    assert [[text.get_text() for text in axes.texts] for axes in figure.axes] == [["failed"]] * 2
+
+
+def test_lines_are_compared_with_discs_by_means_scatter_and_correlations():
+    table = tables.mdr_table()
+    table = table.assign(stiffness_scatter=np.exp(table["stiffness_scatter"]))
+    panels = drawn(plot_mdr_comparison).axes
+    names = ("stiffness_ratio", "stiffness_scatter", "area_ratio", "gap_ratio", "correlation", "force_ratio")
+    for axes, name in zip(panels, names, strict=True):
+        for hurst, line in zip((0.4, 0.9), coordinates(axes), strict=False):
+            np.testing.assert_array_equal(line, table.loc[table["hurst"] == hurst, ["x", name]])
+    ends = {0: {0.5, 2.0}, 2: {5.0, 20.0}, 3: {0.25, 1.0}, 4: {-0.5, 0.5}}
+    for number, heights in ends.items():
+        assert all(set(band.get_paths()[0].vertices[:, 1]) == heights for band in panels[number].collections)
+
+
+def test_lambda_is_thick_in_its_region_and_unknown_differences_are_left_out():
+    of_lambda, _ = FROM_TABLES[plot_mdr_lambda]
+    values, ratios, differences = drawn(plot_mdr_lambda).axes
+    for axes, name in ((values, "lambda"), (ratios, "velocity_ratio")):
+        for hurst, whole, inside in zip((0.4, 0.9), axes.lines[0:4:2], axes.lines[1:4:2], strict=True):
+            rows = of_lambda[of_lambda["hurst"] == hurst]
+            np.testing.assert_array_equal(whole.get_xydata(), rows[["x", name]])
+            np.testing.assert_array_equal(inside.get_xydata(), rows.loc[rows["in_region"] == 1, ["x", name]])
+            assert inside.get_linewidth() == 2
+    marks = [line for line in differences.lines if line.get_marker() in "oDs"]
+    assert [line.get_ydata().item() for line in marks] == [-0.1, 0.0, -0.1, 0.0]
+
+
+@pytest.mark.parametrize(
+    ("plot", "names"), [(plot_media, ["velocity"]), (plot_media_exponents, ["exponent", "expected"])]
+)
+def test_every_medium_has_a_panel(plot, names):
+    (table,), figure = FROM_TABLES[plot], drawn(plot)
+    assert [axes.get_title() for axes in figure.axes[:2]] == ["Newtonian", "Standard linear solid"]
+    for axes, medium in zip(figure.axes, ("newtonian", "standard_linear_solid"), strict=False):
+        expected = [(hurst, name) for hurst in (0.4, 0.9) for name in names]
+        for line, (hurst, name) in zip(coordinates(axes), expected, strict=False):
+            rows = table[(table["medium"] == medium) & (table["hurst"] == hurst)]
+            np.testing.assert_array_equal(line, rows[["time", name]])
+
+
+def test_depth_of_all_media_and_guides_of_the_slopes_in_the_caption():
+    first, _, all_media = drawn(plot_media).axes
+    assert len(all_media.lines) == 4
+    np.testing.assert_array_equal(all_media.lines[0].get_xydata(), tables.media_table()[["x", "depth"]][:13])
+    for style, slopes in ((":", (1, 1)), ("--", (0.4 / 1.4, 0.9 / 1.9))):
+        guides = [line for line in first.lines if line.get_linestyle() == style and line.get_linewidth() == 0.6]
+        ends = [np.log(line.get_xydata()[[0, -1]]) for line in guides]
+        assert [np.divide(*(end[1] - end[0])[::-1]) for end in ends] == pytest.approx(slopes)
+
+
+def test_growth_has_the_exponents_of_the_discs_solved_in_time():
+    data = tables.methods_table()
+    automatic = data["method"] == "path, automatic levels"
+    late = data[automatic & (data["elements"] == 257)].assign(wall_s=120.0, error=1.0)
+    figure = plot_growth(pd.concat([data, late]))
+    assert legend_texts(figure.legends[0])[0] == "automatic levels, 1e-3: $N^{1.20}$"
+    close(coordinates(figure.axes[1])[0][:, 1], [65, 257, 513])
+    with pytest.raises(ValueError, match="plot_growth: the table has no rows"):
+        plot_growth(data[data["problem"] == "sphere"])
+
+
+def test_exponents_of_the_cost_of_one_disc_are_those_of_the_larger_half():
+    table = tables.large_table()
+    time, memory = (legend_texts(axes.get_legend()) for axes in drawn(plot_large).axes)
+    slope = np.log(table["processor"].iloc[3] / table["processor"].iloc[2]) / np.log(10)
+    assert time == ["measured (elements across)", "wall time on 2 threads", f"exponent {slope:.2f}"]
+    assert memory == ["measured (elements across)", "exponent 1.00"]
+
+
+def test_ratios_of_other_solvers_on_two_threads_are_hollow():
+    (axes,) = drawn(plot_other_solvers).axes
+    lines = coordinates(axes)
+    assert sorted(line[0, 0] for line in lines if len(line) == 1) == [1.0, 1.0, 2.5, 3.5]
+    ranges = sorted(tuple(line[:, 0]) for line in lines if len(line) == 2)
+    close(ranges, [(0.9 * ratio, 1.1 * ratio) for ratio in (1.0, 1.0, 2.5, 3.5)])
+    hollow = [line for line in axes.lines if line.get_markerfacecolor() == "none"]
+    assert [line.get_xdata()[0] for line in hollow] == [2.5]
+
+
+def test_levels_are_bars_of_their_time_hatched_where_they_miss_the_accuracy():
+    (axes,) = drawn(plot_level_placement).axes
+    assert [(bar.get_width(), bool(bar.get_hatch())) for bar in axes.patches] == [(1, False), (0.8, False), (20, True)]
+    assert [text.get_text() for text in axes.texts] == [
+        "50 ms, 40 levels, error $10^{-4}$",
+        "40 ms, 16 levels, error $9\\times 10^{-4}$",
+        "1000 ms, 512 levels, error 0.002",
+    ]

@@ -9,7 +9,7 @@ from viscorough.cli import cli, main
 
 
 def complaint(line, capsys, folder):
-    """The one line with which the command line refuses a line of arguments; no file of the folder is made or changed."""
+    """The one line that refuses a line of arguments; no file of the folder is made or changed."""
     arguments, before = shlex.split(line), _contents(folder)
     capsys.readouterr()
     code = main(arguments)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from support.curves import one_line
+from support.contract import refused
 from support.faults import namespace
 from viscorough.io.atomic import atomic_write, check_output, check_readable
 
@@ -35,7 +35,7 @@ def write_half(path, error):
         raise error
 
 
-@pytest.mark.parametrize("interruption", [KeyboardInterrupt, MemoryError, TypeError])
+@pytest.mark.parametrize("interruption", [KeyboardInterrupt, TypeError])
 def test_interrupted_writing_leaves_the_older_file(tmp_path, interruption):
     path = tmp_path / "curve"
     path.write_text("older")
@@ -47,9 +47,8 @@ def test_interrupted_writing_leaves_the_older_file(tmp_path, interruption):
 
 @pytest.mark.parametrize("error", [OSError(28, "No space left on device"), RuntimeError("NetCDF: HDF error")])
 def test_failed_writing_is_one_line(tmp_path, error):
-    with pytest.raises(OSError, match=r"a\.csv: not written") as raised:
+    with pytest.raises(OSError, match=r"a\.csv: not written .*; room on a writable disk is needed$"):
         write_half(tmp_path / "a.csv", error)
-    one_line(raised)
     assert os.listdir(tmp_path) == []
 
 
@@ -106,7 +105,7 @@ def test_file_of_a_live_process_in_another_container_is_left_alone(tmp_path):
     assert os.listdir(tmp_path) == ["a.csv"]
 
 
-@pytest.mark.parametrize("mode", [0o600, 0o664, 0o444])
+@pytest.mark.parametrize("mode", [0o600, 0o444])
 def test_file_that_is_replaced_keeps_its_permissions(tmp_path, mode):
     path = tmp_path / "curve"
     path.write_text("older")
@@ -124,22 +123,19 @@ def test_names_as_long_as_a_disk_allows(tmp_path):
         assert (tmp_path / name).read_text() == "content"
 
 
-def test_name_that_is_no_text_is_refused(tmp_path):
-    path = tmp_path / os.fsdecode(b"caf\xe9.nc")
-    with pytest.raises(ValueError, match="the name is no text in utf-8") as error:
-        check_output(path)
-    one_line(error)
-
-
 def test_paths_that_cannot_be_written(tmp_path):
     """A folder without permission to write is tested with the whole command, in a namespace without privileges."""
     (tmp_path / "folder").mkdir()
     os.mkfifo(tmp_path / "pipe")  # like /dev/null, it must never be replaced by a file
-    for path in (tmp_path / "none" / "a.nc", tmp_path / "folder", tmp_path / "pipe"):
-        with pytest.raises(ValueError, match=str(path)) as error:
-            check_output(path)
-        one_line(error)
-        with pytest.raises(ValueError, match=str(path)), atomic_write(path):
+    for name, what in {
+        "none/a.nc": "there is no folder",
+        "folder": "is not a regular file",
+        "pipe": "is not a regular file",
+        os.fsdecode(b"caf\xe9.nc"): "the name is no text in utf-8",
+    }.items():
+        with refused(what):
+            check_output(tmp_path / name)
+        with refused(what), atomic_write(tmp_path / name):
             pass
     assert sorted(os.listdir(tmp_path)) == ["folder", "pipe"]
 
@@ -150,8 +146,7 @@ def test_only_files_with_an_end_are_readable(tmp_path):
     (tmp_path / "file").write_text("")
     kinds = {tmp_path / "pipe": "a pipe", tmp_path / "link": "a pipe", tmp_path: "a folder", "/dev/zero": "a device"}
     for path, kind in kinds.items():
-        with pytest.raises(ValueError, match=rf"{path}: not readable \(it is {kind}\); a regular file is") as error:
+        with refused(rf"{path}: not readable \(it is {kind}\); a regular file is"):
             check_readable(path)
-        one_line(error)
     for path in (tmp_path / "file", tmp_path / "none", "a\0b"):
         check_readable(path)

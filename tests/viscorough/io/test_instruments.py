@@ -1,13 +1,12 @@
 """Files written by instruments and other programs; for their formats the extra `formats` is needed."""
 
-import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from support.curves import one_line
+from support.contract import refused
 from viscorough.errors import AccuracyWarning
 from viscorough.io.heights import read_heights
 
@@ -77,9 +76,8 @@ def test_channels(tmp_path):
     assert not np.allclose(first.heights, second.heights)
     assert (first.spacing, first.length_unit) == (0.5, "um")
     for channel, what in ((None, "--spacing is needed"), ("third", "no map is called 'third'; its maps are 'first'")):
-        with pytest.raises(ValueError, match=what) as error:
+        with refused(what):
             read_heights(tmp_path / "a.h5", channel=channel)
-        one_line(error)
 
 
 def test_bad_files_are_one_line(tmp_path):
@@ -90,16 +88,16 @@ def test_bad_files_are_one_line(tmp_path):
     (tmp_path / "lines.sdf").write_text("1.0 2.0\n1.5 2.5\n2.0 3.0\n")
     (tmp_path / "folder.sur").mkdir()
     for name in ("noise.x3p", "empty.opd", "cut.top", "lines.sdf", "folder.sur", "missing.plu"):
-        with pytest.raises(ValueError, match=name) as error:
+        with refused(name) as error:
             read_heights(tmp_path / name, 1.0)
-        assert len(one_line(error)) < 400
+        assert len(str(error.value)) < 400
 
 
-def test_without_the_extra_the_message_names_the_remedy(tmp_path):
+def test_without_the_extra_the_message_names_the_remedy(tmp_path, monkeypatch):
     (tmp_path / "a.x3p").write_bytes(b"PK")
-    script = "import sys; sys.modules['SurfaceTopography'] = None; import viscorough; viscorough.read_heights('a.x3p')"
-    done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert done.stderr.splitlines()[-1].endswith("pip install 'viscorough[formats]'")
+    monkeypatch.setitem(sys.modules, "SurfaceTopography.IO", None)  # as if it were not installed
+    with refused(r"pip install 'viscorough\[formats\]'"):
+        read_heights(tmp_path / "a.x3p")
 
 
 def test_contents_decide_where_a_suffix_is_shared(tmp_path):

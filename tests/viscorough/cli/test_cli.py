@@ -84,24 +84,6 @@ def test_sphere_follows_lee_and_radok(sphere):
     assert (abs(ds.velocity / velocity - 1) < 0.25 / across).all()
 
 
-def test_depths_are_met_exactly_and_in_order(here):
-    assert run("indent heights.npy --spacing 1 --depths '1e-3, 0.02,0.035' -o a.nc") == 0
-    ds = read_dataset("a.nc")
-    assert ds.depth.values.tolist() == [1e-3, 0.02, 0.035]
-    np.testing.assert_allclose(ds.force[0], ds.stiffness[0] * 1e-3, rtol=1e-9)
-    assert ds.contact_count[0] == 1
-
-
-def test_units_of_heights_go_through_to_the_kinetics(here):
-    heights = xr.Dataset({"z": (("y", "x"), sphere_heights(9), {"long_name": "height", "units": "um"})})
-    write_dataset(heights, "heights.nc")
-    assert run("indent heights.nc --spacing 1 -o curve.nc") == 0
-    assert run("kinetics curve.nc --force 1 --viscosity 1 -o curve.nc") == 0
-    ds = read_dataset("curve.nc")
-    units = {name: ds[name].units for name in ("depth", "force", "stiffness", "time", "velocity")}
-    assert units == {"depth": "um", "force": "um2", "stiffness": "um", "time": "s", "velocity": "um s-1"}
-
-
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-8])
 def test_tolerance_is_passed_on(here, tolerance):
     assert run(f"{INDENT} --tolerance {tolerance}") == 0
@@ -115,19 +97,15 @@ MISTAKES = [
     ("", "Missing command"),
     ("grow", "grow"),
     ("--colour", "--colour"),
-    ("indent", "HEIGHTS"),
     ("indent heights.npy --spacing 1", "--output"),
     ("indent missing.npy --spacing 1 -o out.nc", "missing.npy: not readable (No such file"),
-    (f"{INDENT} --until 1", "No such option '--until'"),
     (f"{INDENT} more.npy", "more.npy"),
     (f"{INDENT} --tolerance 0", "'0' is not a number above 0 and up to 0.1"),
     (f"{INDENT} --tolerance 1e-30", "tolerance"),
-    (f"{INDENT} --until-fraction 1.5", "up to 1"),
     (f"{INDENT} --depths 1,,2", "'' is not a number above 0"),
     (f"{INDENT} --depths 2,1", "1 follows 2; each number must be larger"),
     ("indent huge.npy --spacing 1e300 -o out.nc", "finite"),
     ("indent heights.npy --spacing 1 -o heights.npy", "replace the heights"),
-    ("indent heights.npy --spacing 1 -o none/out.nc", "there is no folder none"),
     ("indent heights.npy --spacing 1 -o folder", "folder"),
     ("kinetics curve.nc --force 1 --viscosity 1 -o pipe", "pipe"),
     ("kinetics missing.nc --force 1 --viscosity 1 -o out.nc", "missing.nc: not readable (No such file"),

@@ -76,12 +76,9 @@ def test_times_outside_of_the_range_are_marked_and_warned_about(capsys):
     [
         *[({name: None}, f"--{name}") for name in OPTIONS],
         ({"hurst": "0.05"}, "hurst of the penetration law: must be from 0.1 to 1"),
-        ({"rms": "0"}, "--rms"),
         ({"rms": "1 um"}, "--rms 1 um, --diameter 0.01: one has a unit; both or none is allowed"),
         ({"force": "1 N"}, "--force 1 N: has a unit, but the lengths have none"),
-        ({"force": "1 Pa"}, "cannot be converted to N"),
         ({"viscosity": "1 MPa s"}, "--viscosity 1 MPa s: has a unit, but the lengths have none"),
-        ({"times": "2,1"}, "each number must be larger"),
         ({"times": "1,2"}, "where the law holds; elsewhere indent a surface made by viscorough generate"),
         ({"output": "-o none/out.nc"}, "there is no folder none"),
         ({"medium": "none.yaml"}, "one of --viscosity and --medium is needed"),
@@ -94,11 +91,9 @@ def test_mistakes_are_one_line(here, capsys, changes, what):
 @pytest.mark.parametrize(
     ("text", "changes", "what"),
     [
-        ("kind: water", {}, "medium.yaml: kind 'water'; allowed: newtonian"),
         ("kind: newtonian\nviscosity: 1 Pa s", {}, "since the unit of length is not known"),
         ("kind: creep_table\nfile: J.csv", {}, "beyond the last time of the creep table"),
         ("kind: newtonian\nviscosity: 1.0e+6", {"output": "-o medium.yaml"}, "would replace the medium"),
-        ("", {"medium": "none.yaml"}, "none.yaml: not readable (No such file or directory)"),
     ],
 )
 def test_mistakes_in_media_are_one_line(here, capsys, text, changes, what):

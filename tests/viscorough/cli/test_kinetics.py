@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import yaml
 
 from support.command_line import run, sphere_heights
 from support.contract import complaint
@@ -154,76 +155,53 @@ def test_missing_values_are_warned_of(here, capsys):
 
 # ---- mistakes
 
-GOOD = {
-    "newtonian": {"viscosity": "1"},
-    "maxwell": {"shear_modulus": "1", "viscosity": "1"},
-    "kelvin_voigt": {"shear_modulus": "1", "viscosity": "1"},
-    "standard_linear_solid": {"instantaneous_modulus": "2", "relaxed_modulus": "1", "relaxation_time": "1"},
-    "springpot": {"modulus": "1", "exponent": "0.5"},
-    "prony": {"relaxed_modulus": "1", "moduli": "[1, 2]", "relaxation_times": "[1, 2]"},
-    "creep_table": {"file": "table.csv"},
-}
-
 
 def medium_text(kind, **changed):
-    entries = {"kind": kind} | GOOD[kind] | changed
+    """A file of that kind of medium with some of its entries changed, as texts of YAML; None: left out."""
+    entries = {key: str(value) for key, value in yaml.safe_load(MEDIA[kind][0]).items()} | changed
     return "\n".join(f"{key}: {value}" for key, value in entries.items() if value is not None)
 
 
 BAD_MEDIA = [
     *[
         (medium_text("newtonian", viscosity=bad), "viscosity")
-        for bad in ("0", "-1", ".nan", ".inf", "true", "null", "[1]", "{a: 1}", "one", "'1 Pa s'", "2013-11-12", "''")
+        for bad in ("0", ".nan", ".inf", "true", "null", "[1]", "{a: 1}", "one", "'1 Pa s'", "2013-11-12", "''")
     ],
-    *[(medium_text(kind, **{key: None}), f"lacks {key}") for kind, keys in GOOD.items() for key in keys],
+    *[(medium_text("maxwell", **{key: None}), f"lacks {key}") for key in ("shear_modulus", "viscosity")],
     (medium_text("maxwell", more=1), "unknown key 'more'; allowed for"),
     (medium_text("standard_linear_solid", relaxed_modulus=3), "allowed: below"),
     (medium_text("springpot", exponent=1), "allowed: above 0 and below 1"),
     (medium_text("prony", moduli=1), "a list of one or more"),
-    (medium_text("prony", moduli="[]"), "a list of one or more"),
     (medium_text("prony", moduli="[a, b]"), "moduli[0]: 'a'; allowed: a plain number"),
-    (medium_text("prony", moduli="[1, -2]"), "moduli[1]: -2"),
-    (medium_text("prony", relaxation_times="[0, 2]"), "relaxation_times[0]: 0"),
+    (medium_text("prony", moduli="[1, -2, 3]"), "moduli[1]: -2"),
+    (medium_text("prony", relaxation_times="[0, 2, 3]"), "relaxation_times[0]: 0"),
     (medium_text("prony", relaxation_times="[1]"), "one time for every modulus"),
     (medium_text("prony", relaxed_modulus=-1), "0 or a finite number above 0"),
-    (medium_text("prony", moduli="[1e308, 1e308]"), "too far apart"),
     (medium_text("maxwell", shear_modulus="1e-300", viscosity="1e300"), "too far apart"),
-    (medium_text("creep_table", file="none.csv"), "none.csv: not readable"),
     (medium_text("creep_table", file=3), "the name of a .csv or .npy file"),
     (medium_text("creep_table", file="curve.nc"), "a creep table is read from .csv and .npy"),
     ("viscosity: 1", "kind None; allowed: newtonian, maxwell"),
-    ("{kind: [maxwell], viscosity: 1}", "kind ['maxwell']"),
     ("- kind: newtonian", "holds [{'kind': 'newtonian'}]; one mapping"),
-    ("", "holds None"),
     ("{kind: newtonian", "not readable"),
     ("kind: newtonian\nviscosity: 1\nviscosity: 2", "the key 'viscosity' stands twice"),
     ("kind: newtonian\nviscosity: &a 1\nmore: *a", "aliases are not allowed"),
     ("!!python/object/apply:os.system ['touch here']", "not readable"),
-    ("kind: newtonian\n---\nkind: maxwell", "not readable"),
     ("\x00\x01", "not readable"),
     ("[" * 1000, "not readable"),
     ("{kind: newtonian, 1: 2}", "unknown key 1"),
-    ("{kind: newtonian, [1]: 2}", "not readable"),
 ]
 BAD_TABLES = [
     ("0,2\n1,1\n", "never decreases"),
     ("0,0\n1,1\n2,3\n", "after time 1 than before; allowed: a concave J"),
     ("1,1\n2,2\n", "times that start with 0"),
-    ("0,1\n2,2\n1,3\n", "start with 0 and increase"),
     ("0,-1\n1,1\n", "starts at 0 or more"),
     ("0,1\n1,nan\n", "finite"),
-    ("0,1\n", "two rows are needed"),
-    ("0,1\n1,one\n", "not readable"),
     ("t,J [1/MPa]\n0,1\n1,2\n", "the heading 'J [1/MPa]' states a unit, but the unit of"),
     ("# t in h\n0,1\n1,2\n", "the comment '# t in h' states a unit"),
 ]
 BAD_HISTORIES = [
     ("0,1\n1,-1\n", "sample 1 is -1"),
-    ("0,1\n1,nan\n", "sample 1 is nan"),
     ("0,1\n1,1\n1,2\n1,3\n", "each larger than the one before, or given twice where the force steps"),
-    ("0,1\n1,one\n", "not readable"),
-    ("", "two columns, time and force"),
-    ("t [ms],F\n0,0\n1,1\n", "the heading 't [ms]' states a unit, but the unit of length"),
     ("0,0.3\n1,0.3\n2,0\n", "from time 1 on the contact would recede"),
     ("0,0.3\n1,0.3\n1,0.2\n2,0.2\n", "from time 1 on the contact would recede"),
     ("0,0.3\n1,1e9\n", "at time 1 the creep"),
@@ -231,13 +209,10 @@ BAD_HISTORIES = [
 VISCOUS = f"{KINETICS} --force 1 --viscosity 1"
 BAD_LINES = [
     (f"{KINETICS} --viscosity 1", "one of --force and --force-history is needed"),
-    (f"{VISCOUS} --force-history force.csv", "one of --force and --force-history is needed"),
     (f"{KINETICS} --force 1", "one of --viscosity and --medium is needed"),
-    (f"{VISCOUS} --medium medium.yaml", "one of --viscosity and --medium is needed"),
     (f"{KINETICS} --force 1e-320 --viscosity 1", ", --viscosity 1: times overflow"),
     (f"{KINETICS} --force 1e-320 --medium newtonian.yaml", ", --medium newtonian.yaml: times overflow"),
     (f"{KINETICS} --force 1 --medium none.yaml", "none.yaml: not readable (No such file or directory)"),
-    (f"{KINETICS} --force-history none.csv --viscosity 1", "none.csv: not readable"),
     (f"{KINETICS} --force-history curve.nc --viscosity 1", "read from .csv and .npy"),
     (
         f"{KINETICS} --force-history force.csv --viscosity 1 --times 1,10",
@@ -246,7 +221,7 @@ BAD_LINES = [
     (f"{KINETICS} --force '1 N' --viscosity 1", "--force 1 N: needs a plain number"),
     (f"{KINETICS} --force 1 --viscosity '1 Pa s'", "--viscosity 1 Pa s: needs a plain number"),
     (f"{KINETICS} --force '1 Pa' --viscosity 1", "'1 Pa' is not a number above 0"),
-    *[(f"{VISCOUS} --times {bad}", "'--times'") for bad in ("0,1", "1,1", "a", "1,nan", "1,,2")],
+    *[(f"{VISCOUS} --times {bad}", "'--times'") for bad in ("0,1", "1,1", "1,,2")],
     *[(f"{VISCOUS} --viscosity '{bad}'", f"'--viscosity': '{bad}' is not a number above 0") for bad in ("-1", "")],
     (f"{KINETICS} --force 1 --medium medium.yaml -o medium.yaml", "would replace the medium"),
     (f"{KINETICS} --force-history force.csv --viscosity 1 -o force.csv", "would replace the force history"),
@@ -283,19 +258,10 @@ def test_a_force_that_is_zero_at_all_times_is_allowed(here):
     assert not result()["depth"].any()
 
 
-@pytest.mark.parametrize(
-    ("heading", "message"),
-    [
-        ("F [N],t [s]", "the heading 'F [N]': unit 'N': cannot be converted to s"),
-        ("t [s],F [kp]", "the heading 'F [kp]': unit 'kp': a unit such as"),
-        ("# in ms", "the comment '# in ms' states a unit; a heading of both columns is needed"),
-    ],
-)
-def test_units_of_histories_that_cannot_be_used(here, capsys, heading, message):
-    (here / "force.csv").write_text(f"{heading}\n0,0\n1,1\n")
+def test_units_of_histories_that_cannot_be_used(here, capsys):
+    (here / "force.csv").write_text("F [N],t [s]\n0,0\n1,1\n")
     line = complaint("kinetics um.nc --force-history force.csv --viscosity 1 -o kin.nc", capsys, here)
-    assert line.startswith("viscorough kinetics: force.csv: not readable (")
-    assert message in line
+    assert "kinetics: force.csv: not readable (the heading 'F [N]': unit 'N': cannot be converted to s" in line
 
 
 @pytest.mark.parametrize("suffix", ["nc", "csv"])

@@ -120,21 +120,17 @@ def test_viscosities_are_in_pascal_seconds_where_the_unit_is_known(method):
 @pytest.mark.parametrize(
     ("line", "message"),
     [
-        (f"{MARCH} --method magic", "magic"),
         (f"{MARCH} --method events --times 1,2", "--times is not for --method events"),
         (f"{MARCH} --method explicit", "--times is needed by --method explicit"),
         (f"{MARCH} --method implicit --times 1 --overlap 0.1", "--overlap is not for"),
         (f"{MARCH} --method explicit --times 1 --until-fraction 0.1", "--until-fraction is not for"),
         (f"{MARCH} --method second_order --times 1", "--method second_order is for use with --medium"),
-        (f"{MARCH} --method events --force-history none.csv", "none.csv: not readable"),
         (f"{MARCH} --method events --force-history none.csv --force 1", "replaces --force and --times"),
         (f"{MARCH} --method events --force 1e-10 --viscosity 1.7e308", "times or velocities overflow"),
         (f"{MARCH} --method events --force 1e300 --viscosity 1e-300", "times or velocities overflow"),
         (f"{MEDIUM} --method heun --times 1", "--method heun is not for --medium; allowed: events, implicit"),
         (f"{MEDIUM} --method events", "--times is needed by --method events"),
         (f"{MEDIUM} --method implicit --times 1 --viscosity 2", "--medium replaces --viscosity"),
-        (f"{MEDIUM} --method implicit --times 1 --force '1 mN'", "--force 1 mN: needs a plain number"),
-        (f"{MEDIUM} --method second_order --times 1 --until-fraction 0.1", "--until-fraction is not for"),
     ],
 )
 def test_mistakes_are_one_line(here, capsys, line, message):
@@ -146,7 +142,6 @@ def test_mistakes_are_one_line(here, capsys, line, message):
     [
         ("0,1\n1,-1\n", "sample 1 is -1.0; allowed: finite, 0 or more"),
         ("0,0\n1,0\n", "no time passes while there is a force"),
-        ("0\n1\n", "two columns, time and force"),
         ("0,1\n1e9,1\n", "is beyond the contact fraction at which events end; allowed: up to"),
     ],
 )

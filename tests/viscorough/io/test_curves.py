@@ -68,18 +68,6 @@ def test_curve_survives_a_file_exactly(tmp_path, levels):
     np.testing.assert_array_equal(content.variables["contact_fraction"].values, curve.contact_fraction)
 
 
-@pytest.mark.parametrize(
-    ("length_unit", "force"),
-    [("1", "1"), ("micrometre", "micrometre2"), ("1e-6 m", "(1e-6 m)2")],
-)
-def test_units_are_powers_of_the_length_unit(length_unit, force):
-    content = curve_to_content(random_curve(length_unit=length_unit))
-    assert curve_from_content(content).length_unit == length_unit
-    units = {name: variable.attributes["units"] for name, variable in content.variables.items()}
-    assert (units["depth"], units["stiffness"], units["force"]) == (length_unit, length_unit, force)
-    assert {units[name] for name in ("contact_count", "contact_fraction", "residual")} == {"1"}
-
-
 def test_stacked_curves_survive_files_exactly(tmp_path):
     curves = [
         random_curve(5),
@@ -101,20 +89,6 @@ def test_stacked_curves_survive_files_exactly(tmp_path):
         stack_curves([*curves, random_curve(length_unit="um")])
 
 
-@pytest.mark.parametrize(
-    ("changes", "what"),
-    [
-        ({"force": np.full(7, np.inf)}, "force"),
-        ({"depth": np.zeros(7)}, "depth"),
-        ({"stiffness": np.full(7, np.nan)}, "stiffness"),
-        ({"levels": 0}, "level"),
-    ],
-)
-def test_invalid_curves_cannot_be_made(changes, what):
-    with refused(f"loading curve.*{what}"):
-        random_curve(**changes)
-
-
 def test_contents_without_a_valid_curve_are_refused():
     good = curve_to_content(random_curve())
     depth = good.variables["depth"]
@@ -122,10 +96,7 @@ def test_contents_without_a_valid_curve_are_refused():
         r"no numbers stiffness\(level\)": Content({"depth": depth, "force": depth}, good.attributes),
         r"no numbers depth\(level\)": Content(good.variables | {"depth": depth._replace(dimensions=())}, {}),
         "no attribute elements": Content(good.variables, {}),
-        "there is no level": Content(
-            {name: variable._replace(values=variable.values[:0]) for name, variable in good.variables.items()},
-            good.attributes,
-        ),
+        "there is no level": Content({k: v._replace(values=v.values[:0]) for k, v in good.variables.items()}, {}),
     }.items():
         with refused(what):
             curve_from_content(content)
@@ -137,7 +108,7 @@ def test_contents_without_a_valid_curve_are_refused():
         ("depth", at(3, 0), "depth must"),
         ("force", at(-1, np.nan), "force must"),
         ("force", lambda values: values.astype(str), r"no numbers force\(level\)"),
-        *[(name, at(2, np.nan), name) for name in ("contact_fraction", "residual")],
+        ("residual", at(2, np.nan), "residual"),
         ("contact_count", lambda count: count + 0.5, "a whole number from 1 to 200"),
         ("contact_count", lambda count: count[::-1].astype(np.uint8), "contact_count must not decrease"),
         ("contact_fraction", lambda share: share + 0.3, "contact_fraction must be contact_count over 200 elements"),
@@ -152,14 +123,11 @@ def test_numbers_that_are_none_or_contradict_each_other_are_refused(name, change
     ("name", "change", "what"),
     [
         ("contact_count", at(0, 0), "a whole number from 1 to 1009"),
-        ("contact_count", at(-1, 1010), "a whole number from 1 to 1009"),
         ("contact_count", at(3, 1), "contact_count must not decrease"),
-        ("residual", at(3, -1e-9), "residual must be from 0 to the tolerance"),
         ("residual", at(3, 1e-3), "residual must be from 0 to the tolerance"),
         ("stiffness", at(3, 1e-3), "stiffness must not decrease"),
         ("force", lambda values: 1e6 * values, "force must rise with the depth"),
         ("force", lambda values: 1e-6 * values, "force must rise with the depth"),
-        ("depth", at(0, 1e-9), "force must rise with the depth"),
     ],
 )
 def test_numbers_that_no_contact_has_are_refused(name, change, what):
@@ -209,11 +177,9 @@ def test_units_agree_however_they_are_spelled(depth, force, stiffness):
             for unit in ("nm2", "um", "1", "furlongs of it")
         ],
         ({"force": None}, "force is in '1' and depth in 'um'; 'um2' is needed for force"),
-        ({"depth": "m"}, "force is in 'um2' and depth in 'm'; 'm2' is needed for force"),
         ({"depth": "N", "force": "N2", "stiffness": "N"}, "'N': not a unit of length"),
         ({"depth": "1", "force": "1"}, "stiffness is in 'um' and depth in '1'"),
         ({"contact_fraction": "percent"}, "contact_fraction is in 'percent'"),
-        ({"residual": "um"}, "residual is in 'um'"),
         ({"contact_count": 3.0}, "contact_count has the units 3.0; text is needed"),
     ],
 )

@@ -3,9 +3,7 @@
 import xarray as xr
 
 from support.cf import violations
-from support.contract import refused
 from viscorough.io.datasets import read_dataset, write_dataset
-from viscorough.io.netcdf import COMPRESSED_FROM
 
 
 def test_labels_of_a_dimension_survive_and_are_no_coordinate_variable(tmp_path):
@@ -17,15 +15,3 @@ def test_labels_of_a_dimension_survive_and_are_no_coordinate_variable(tmp_path):
     read = read_dataset(tmp_path / "labels.nc")
     assert read.sel(convention="square").beta == 0.2
     xr.testing.assert_equal(read, ds)
-
-
-def test_coordinates_have_no_fill_value_and_variables_need_units(tmp_path):
-    about = {"long_name": "depth", "units": "m"}
-    values = [float(number) for number in range(COMPRESSED_FROM)]
-    ds = xr.Dataset({"depth": ("level", values, about)}, {"level": ("level", values, about)}, {"title": "Depths"})
-    write_dataset(ds, tmp_path / "a.nc")
-    assert violations(tmp_path / "a.nc") == []
-    del ds["depth"].attrs["units"]
-    with refused("variable depth lacks units"):
-        write_dataset(ds, tmp_path / "b.nc")
-    assert not (tmp_path / "b.nc").exists()

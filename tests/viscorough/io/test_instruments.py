@@ -25,10 +25,8 @@ def topography(path, **options):
     [
         ("gwyddion-export-english.txt", (4, 3), (12.34e-6 / 3, 5678.9e-9 / 4), "m"),
         ("gwyddion-export-german.txt", (4, 3), (12.34e-6 / 3, 5678.9e-9 / 4), "m"),
-        ("matrix-6.txt", (3, 4), (10e-6 / 4, 10e-6 / 3), "m"),
         ("matrix-4-beginning.txt", (3, 75), (3.69862e-7, 3.69862e-7), "m"),
         ("xyz-2.txt", (4, 4), (1, 1), "1"),
-        ("nc-1.nc", (10, 5), (1, 1), "nm"),
         ("sdf-1.sdf", (4, 7), (1, 1), "um"),
         ("unnamed.ibw", (10, 10), (1, 1), "1"),
         ("top-1.top", (256, 256), (600 / 256, 600 / 256), "nm"),
@@ -43,8 +41,6 @@ def test_files_of_other_programs(name, shape, spacing, unit):
     assert indenter.length_unit == unit
     expected = np.ma.filled(np.ma.asarray(reference.heights(), dtype=float), np.nan).T
     np.testing.assert_allclose(indenter.heights, expected, rtol=1e-12)
-    if name != "xyz-2.txt":
-        assert np.isfinite(indenter.heights).all()
 
 
 @pytest.mark.parametrize("suffix", ["x3p", "gwy"])
@@ -83,11 +79,9 @@ def test_channels(tmp_path):
 def test_bad_files_are_one_line(tmp_path):
     pytest.importorskip("SurfaceTopography", reason=WITHOUT)
     (tmp_path / "noise.x3p").write_bytes(bytes(range(256)) * 4)
-    (tmp_path / "empty.opd").write_bytes(b"")
     (tmp_path / "cut.top").write_bytes((FILES / "top-1.top").read_bytes()[:9000])
     (tmp_path / "lines.sdf").write_text("1.0 2.0\n1.5 2.5\n2.0 3.0\n")
-    (tmp_path / "folder.sur").mkdir()
-    for name in ("noise.x3p", "empty.opd", "cut.top", "lines.sdf", "folder.sur", "missing.plu"):
+    for name in ("noise.x3p", "cut.top", "lines.sdf", "missing.plu"):
         with refused(name) as error:
             read_heights(tmp_path / name, 1.0)
         assert len(str(error.value)) < 400

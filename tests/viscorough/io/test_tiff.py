@@ -86,6 +86,9 @@ def test_units_and_calibration_of_imagej(tmp_path):
     assert (indenter.spacing, indenter.row_spacing) == pytest.approx((0.5, 0.25), rel=1e-12)
     with refused("--spacing is needed"):
         read_heights(imagej(tmp_path / "b.tif", unit="px"), unit="um")
+    tifffile.imwrite(tmp_path / "plain.tif", HEIGHTS, resolution=(72, 72), resolutionunit="INCH")
+    with refused("--spacing is needed"):
+        read_heights(tmp_path / "plain.tif", unit="um")
     path = imagej(tmp_path / "c.tif", unit="um", cf=0, c0=5.0, c1=2.0, vunit="nm")
     indenter = read_heights(path)
     np.testing.assert_allclose(indenter.heights, 5 + 2 * HEIGHTS.astype(float), rtol=1e-15)
@@ -105,38 +108,34 @@ def test_transformation_without_rotation(tmp_path):
         read_heights(tmp_path / "b.tif")
 
 
-def test_resolution_of_a_plain_picture_is_no_spacing(tmp_path):
-    tifffile.imwrite(tmp_path / "a.tif", HEIGHTS, resolution=(72, 72), resolutionunit="INCH")
-    assert read_heights(tmp_path / "a.tif", 0.5).spacing == 0.5
-    with refused("--spacing is needed"):
-        read_heights(tmp_path / "a.tif")
-
-
 def test_pages_are_chosen_by_number(tmp_path):
     tifffile.imwrite(tmp_path / "a.tif", np.stack([HEIGHTS, 2 * HEIGHTS]), photometric="minisblack")
     np.testing.assert_array_equal(read_heights(tmp_path / "a.tif", 1, channel="1").heights, 2 * HEIGHTS)
-    for channel, what in ((None, "2 pages; --channel 0 to 1"), ("2", "0 to 1 are allowed"), ("z", "0 to 1 are")):
-        with refused(what):
+    for channel in ("2", "z"):
+        with refused("0 to 1 are allowed"):
             read_heights(tmp_path / "a.tif", 1, channel=channel)
 
 
+BAD = [
+    ("colours.tif", "3 colours", np.zeros((5, 7, 3), "u1"), {"photometric": "rgb"}),
+    ("complex.tif", "complex64", HEIGHTS.astype("c8"), {}),
+    ("several.tif", "2 pages; --channel 0 to 1", np.zeros((2, 5, 7)), {"photometric": "minisblack"}),
+]
+
+
+@pytest.mark.parametrize(("name", "what", "stored", "options"), BAD)
+def test_pictures_that_are_no_map_are_refused(tmp_path, name, what, stored, options):
+    tifffile.imwrite(tmp_path / name, stored, **options)
+    with refused(f"{name}.*{what}"):
+        read_heights(tmp_path / name, 1)
+
+
 def test_bad_files_are_one_line(tmp_path):
-    geotiff(tmp_path / "fathoms.tif", PROJECTED, (3076, 9014), VERTICAL_METRES)
-    tifffile.imwrite(tmp_path / "colours.tif", np.zeros((5, 7, 3), "u1"), photometric="rgb")
-    tifffile.imwrite(tmp_path / "complex.tif", HEIGHTS.astype("c8"))
-    whole = geotiff(tmp_path / "whole.tif").read_bytes()
+    whole = geotiff(tmp_path / "fathoms.tif", PROJECTED, (3076, 9014), VERTICAL_METRES).read_bytes()
     (tmp_path / "cut.tif").write_bytes(whole[:-90])
-    (tmp_path / "no.tiff").write_bytes(b"II*\x00")
-    (tmp_path / "folder.tif").mkdir()
-    for name, what in (
-        ("fathoms.tif", "EPSG:9014"),
-        ("colours.tif", "3 colours"),
-        ("complex.tif", "complex64"),
-        *((name, "not readable") for name in ("cut.tif", "no.tiff", "folder.tif", "missing.tif")),
-    ):
-        with refused(what) as error:
-            read_heights(tmp_path / name, 1)
-        assert str(error.value).count(name) == 1
+    for name, what in {"fathoms": "EPSG:9014", "cut": "not readable", "missing": "not readable"}.items():
+        with refused(f"{name}.tif.*{what}"):
+            read_heights(tmp_path / f"{name}.tif", 1)
 
 
 def test_what_the_library_logs_is_not_printed_beside_the_error(tmp_path, monkeypatch, capsys):

@@ -95,14 +95,6 @@ def test_closing_lines_say_what_was_found_in_the_unit_that_is_known(here, capsys
         assert re.search(r" depth [\d.]+ um ", capsys.readouterr().out)
 
 
-def test_a_depth_of_the_curve_has_its_force(here):
-    of = values(contact("--depth 0.2,0.9"))
-    assert run("indent heights.npy --spacing 1 --depths 0.2,0.9 -o curve.nc") == 0
-    curve = values(netcdf.read("curve.nc"))
-    for name in ("depth", "force", "stiffness", "contact_fraction"):
-        np.testing.assert_allclose(of[name], curve[name], rtol=1e-3)
-
-
 def test_forces_with_a_modulus_are_newtons_where_the_unit_is_known(here):
     """30 µm² · 2 GPa = 0.06 N."""
     for given in (

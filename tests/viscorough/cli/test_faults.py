@@ -15,7 +15,7 @@ import pytest
 
 from support.command_line import VISCOROUGH, run, sphere_heights
 from support.contract import complaint
-from support.faults import DAMAGES, NO_LARGE_FILES, contents, namespace, no_privileges
+from support.faults import DAMAGES, contents, namespace, no_privileges
 from viscorough.io import netcdf
 from viscorough.io.curves import curve_from_content
 
@@ -58,11 +58,6 @@ def complaint_of_process(*arguments):
 
 
 # ---- full disk
-
-
-def test_full_disk_leaves_the_older_file():
-    line = complaint_of_process(sys.executable, "-c", NO_LARGE_FILES, "8000", VISCOROUGH, *INDENT.split())
-    assert line == "viscorough indent: out.nc: not written (File too large); room on a writable disk is needed\n"
 
 
 @pytest.mark.parametrize(("command", "room"), [(INDENT, 0), (KINETICS, 8192)])

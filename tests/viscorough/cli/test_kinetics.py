@@ -82,14 +82,6 @@ def test_file_holds_what_python_gives(here, kind, load, force):
         np.testing.assert_allclose(written["force"], force, rtol=1e-15)
 
 
-def test_newtonian_medium_is_the_viscosity(here):
-    motions = []
-    for medium in ("--medium newtonian.yaml", "--viscosity 30"):
-        assert run(f"{KINETICS} --force 2 {medium}") == 0
-        motions.append(result())
-    assert all((motions[0][name] == motions[1][name]).all() for name in ("time", "depth", "velocity"))
-
-
 @pytest.mark.parametrize(
     ("options", "medium", "expected"),
     [

@@ -69,17 +69,6 @@ def test_lines_of_a_map_are_many_and_say_what_they_are_not(capsys):
     assert run("kinetics one.csv --force 1 --viscosity 1 -o motion.nc") == 0
 
 
-def test_reduced_curve_of_a_generated_map_is_that_of_its_kind():
-    """Mean stiffness of 40 lines against that of the disc's, to the factor of two that a single surface allows."""
-    assert run("reduce map.npy --spacing 1 --realizations 40 -o curves.nc") == 0
-    force = 4 * 0.2 * 17 * np.array([0.03, 0.1])  # X in region (b)
-    curves = unstack_curves(netcdf.read("curves.nc"))
-    stiffness = np.mean([curve.at_force(force)[1] for curve in curves], axis=0)
-    assert run("indent map.npy --spacing 1 -o curve.nc") == 0
-    exact = curve_in("curve.nc").at_force(force)[1]
-    assert (np.abs(np.log(stiffness / exact)) < np.log(2)).all()
-
-
 @pytest.mark.parametrize(
     ("arguments", "what"),
     [

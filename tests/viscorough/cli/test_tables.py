@@ -1,10 +1,8 @@
 """Results as tables: by the suffix .csv of the output, and read again."""
 
 import numpy as np
-import pytest
 
 from support.command_line import run, sphere_heights
-from support.contract import complaint
 from viscorough.io import netcdf, tables
 
 
@@ -20,10 +18,3 @@ def test_tables_hold_the_same_as_netcdf_files(here):
         for column, variable in file.variables.items():
             np.testing.assert_array_equal(table.variables[column].values, variable.values)
             assert table.variables[column].attributes == variable.attributes
-
-
-@pytest.mark.parametrize("text", ["", "depth\n1.0\n"])
-def test_other_tables_are_refused_in_one_line(here, capsys, text):
-    (here / "curve.csv").write_text(text)
-    line = complaint("kinetics curve.csv --force 1 --viscosity 2 -o motion.nc", capsys, here)
-    assert line.startswith("viscorough kinetics: curve.csv: ")

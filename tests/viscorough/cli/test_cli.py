@@ -78,7 +78,6 @@ def test_tolerance_is_passed_on(here, tolerance):
 
 MISTAKES = [
     ("", "Missing command"),
-    ("grow", "grow"),
     ("--colour", "--colour"),
     ("indent heights.npy --spacing 1", "--output"),
     ("indent missing.npy --spacing 1 -o out.nc", "missing.npy: not readable (No such file"),
@@ -90,6 +89,7 @@ MISTAKES = [
     ("indent huge.npy --spacing 1e300 -o out.nc", "finite"),
     ("indent heights.npy --spacing 1 -o heights.npy", "replace the heights"),
     ("indent heights.npy --spacing 1 -o folder", "folder"),
+    ("indent heights.npy --spacing 1 -o curve.nc/out.nc", "curve.nc/out.nc: there is no folder curve.nc"),
     ("kinetics curve.nc --force 1 --viscosity 1 -o pipe", "pipe"),
     ("kinetics missing.nc --force 1 --viscosity 1 -o out.nc", "missing.nc: not readable (No such file"),
     ("kinetics heights.npy --force 1 --viscosity 1 -o out.nc", "heights.npy: not readable"),

@@ -114,11 +114,6 @@ def test_folder_that_may_not_be_written(here):
     assert line == "viscorough indent: out.nc: the folder . is not writable; a writable folder is needed\n"
 
 
-def test_file_in_the_place_of_a_folder(here, capsys):
-    line = complaint("indent heights.npy --spacing 1 -o curve.nc/out.nc", capsys, here)
-    assert "curve.nc/out.nc: there is no folder curve.nc" in line
-
-
 # ---- standard output and standard error that cannot be written
 
 

@@ -41,6 +41,7 @@ def test_line_is_read_back_by_reduce():
     line = read_line("made.nc")
     np.testing.assert_array_equal(line.heights, self_affine_line(0.7, 256, rms=0.2, length=128, seed=5).heights)
     assert (line.spacing, line.length_unit) == (pytest.approx(0.5, rel=1e-12), "um")
+    assert run("reduce made.nc -o curve.nc") == 0
     assert violations("made.nc") == []
 
 

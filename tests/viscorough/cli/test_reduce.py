@@ -46,14 +46,6 @@ def test_line_of_a_file():
     assert curve.contact_fraction[-2] < 0.5 <= curve.contact_fraction[-1]
 
 
-def test_generated_lines_need_no_spacing_and_keep_their_unit():
-    assert run("generate --hurst 0.6 --points 512 --rms 0.2 --diameter 128 --unit um --seed 3 -o line.nc") == 0
-    for spacing in ("", "--spacing 0.25"):
-        assert run(f"reduce line.nc {spacing} -o curve.nc") == 0
-        np.testing.assert_allclose(curve_in("curve.nc").force, mdr.reduce(LINE).force, rtol=1e-12)
-        assert curve_in("curve.nc").length_unit == "um"
-
-
 def test_lines_of_a_map_are_many_and_say_what_they_are_not(capsys):
     assert run("reduce map.npy --spacing 1 --realizations 3 --seed 7 -o curves.nc") == 0
     warning = capsys.readouterr().err

@@ -87,18 +87,6 @@ def test_heights_in_nanometres_beside_coordinates_in_micrometres(here, capsys):
     assert (curve.length_unit, netcdf.read("curve.nc").variables["force"].attributes["units"]) == ("nm", "nm2")
 
 
-@pytest.mark.parametrize("arguments", ["scan.nc", "metres.npy --spacing 5e-7,7.5e-7 --unit m"])
-@pytest.mark.parametrize("load", ["--force 5e-6 --viscosity 1e6", "--force '5 uN' --viscosity '1 MPa s'"])
-def test_kinetics_of_a_curve_with_a_viscosity_in_pascal_seconds(here, arguments, load):
-    """Times were wrong by 1e12: those of a curve in micrometres are the same as in metres."""
-    np.save("metres.npy", 1e-6 * ROUGH)
-    assert run(f"indent {arguments} --depths '0.05 um,0.2 um' -o curve.nc") == 0
-    assert run(f"kinetics curve.nc {load} -o kinetics.nc") == 0
-    force = right_curve().force  # over G, in square micrometres
-    time = netcdf.read("kinetics.nc").variables["time"].values
-    np.testing.assert_allclose(time, force * 1e-12 * 1e6 / 5e-6, rtol=1e-6)
-
-
 def test_tilt_is_told_and_removed(here, capsys):
     np.save("tilted.npy", ROUGH - ROUGH.mean() + 3 * X - 2 * Y)
     _, attributes = curve_of(

@@ -51,7 +51,6 @@ def test_content_survives_a_file_exactly(tmp_path):
         "count": Variable(("level",), np.arange(5, dtype=np.int32), METRES),
         "level": Variable(("level",), np.arange(5.0), METRES),
         "map": Variable(("y", "x"), random.random((2, 3)).astype(np.float32), METRES | {"valid": np.array([0.0, 1.0])}),
-        "rms": Variable((), np.array(0.1), METRES),
         "name": Variable(("y",), np.array(["first", "second"], dtype=object), {"long_name": "name"}),
     }
     netcdf.write(Content(variables, {"title": "All kinds", "scale": 2.5}), tmp_path / "a.nc")

@@ -24,21 +24,13 @@ def geotiff(path, *keys, heights=HEIGHTS, scale=(30.0, 20.0, 0.0), nodata=None, 
     return path
 
 
-def test_projected_geotiff(tmp_path):
-    path = geotiff(tmp_path / "a.tif", PROJECTED, METRES, VERTICAL_METRES, compression="zlib")
-    indenter = read_heights(path)
-    np.testing.assert_array_equal(indenter.heights, HEIGHTS)
-    assert (indenter.spacing, indenter.row_spacing, indenter.length_unit) == (30, 20, "m")
-
-
 def test_missing_values_of_gdal_are_nan(tmp_path):
     heights = np.round(100 * HEIGHTS).astype("i2")
     heights[1, 2] = -32768
-    indenter = read_heights(
-        geotiff(tmp_path / "a.tif", PROJECTED, METRES, VERTICAL_METRES, heights=heights, nodata="-32768")
-    )
-    assert np.isnan(indenter.heights[1, 2])
-    assert indenter.elements == heights.size - 1
+    keys = (PROJECTED, METRES, VERTICAL_METRES)
+    indenter = read_heights(geotiff(tmp_path / "a.tif", *keys, heights=heights, nodata="-32768", compression="zlib"))
+    np.testing.assert_array_equal(indenter.heights, np.where(heights == -32768, np.nan, heights))
+    assert (indenter.spacing, indenter.row_spacing, indenter.length_unit) == (30, 20, "m")
     lowest = np.where(HEIGHTS < 0.1, np.finfo("f4").min, HEIGHTS)
     path = geotiff(tmp_path / "b.tif", heights=lowest, nodata="-3.4028234663852886e+38")
     assert read_heights(path, unit="m").elements == np.count_nonzero(HEIGHTS >= 0.1)
@@ -52,14 +44,11 @@ def test_feet_and_survey_feet(tmp_path, code, metres):
         read_heights(path)
 
 
-def gdal_metadata(*items):
-    text = "".join(f'<Item name="a" sample="0" role="{role}">{value}</Item>' for role, value in items)
-    return (42112, "s", 0, f"<GDALMetadata>{text}</GDALMetadata>", True)
-
-
 def test_scale_and_offset_of_gdal_hold_for_heights_and_not_for_marks(tmp_path):
     stored = np.array([[10, 20, 30], [40, -99, 60]], dtype="i2")
-    tags = [gdal_metadata(("scale", 0.5), ("offset", -100), ("unittype", "m")), (NODATA, "s", 0, "-99", True)]
+    roles = {"scale": 0.5, "offset": -100, "unittype": "m"}
+    items = "".join(f'<Item name="a" sample="0" role="{role}">{value}</Item>' for role, value in roles.items())
+    tags = [(42112, "s", 0, f"<GDALMetadata>{items}</GDALMetadata>", True), (NODATA, "s", 0, "-99", True)]
     tifffile.imwrite(tmp_path / "a.tif", stored, extratags=tags)
     indenter = read_heights(tmp_path / "a.tif", spacing=1)
     np.testing.assert_array_equal(indenter.heights, [[-95, -90, -85], [-80, np.nan, -70]])

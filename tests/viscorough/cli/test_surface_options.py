@@ -1,7 +1,5 @@
 """Reading and preparing surfaces from the command line: right numbers or one line, never wrong numbers in silence."""
 
-import os
-
 import netCDF4
 import numpy as np
 import pytest
@@ -138,7 +136,6 @@ BAD = [
         for spacing in ("", "1,2,3", "1,-1", "1e-400", "1 V", "um", "1 um 2", "1 um", "2 um,3")
     ],
     ("scan.npy", "--spacing is needed"),
-    ("scan.npy --spacing 1,9", "1 between columns and 9 between rows"),
     *[(f"scan.npy --spacing 1 --unit '{unit}'", "--unit") for unit in ("", "V", "9**9**9", "-1 m")],
     *[(f"scan.npy --spacing 1 --nodata '{value}'", "--nodata") for value in ("a", "1,", "1e999")],
     *[(f"scan.npy --spacing 1 --crop '{crop}'", "--crop") for crop in ("1:2", "1:2,3:4,5:6", "-1:2,0:3")],
@@ -152,7 +149,7 @@ BAD = [
     ("ragged.txt --spacing 1", "line 2: 1 cells, 2 in line 1"),
     ("noise.tif --spacing 1", "noise.tif: not readable"),
     ("noise.x3p", "noise.x3p"),
-    ("pipe.txt", "pipe.txt: not readable (it is a pipe)"),
+    ("missing.txt", "missing.txt: not readable (No such file"),
 ]
 
 
@@ -161,5 +158,4 @@ def test_bad_input_is_one_line(here, capsys, arguments, what):
     (here / "ragged.txt").write_text("1 2\n3\n")
     (here / "noise.tif").write_bytes(b"II*\x00" + bytes(range(200)))
     (here / "noise.x3p").write_bytes(b"PK" + bytes(range(200)))
-    os.mkfifo("pipe.txt")
     assert what in complaint(f"indent {arguments} -o out.nc", capsys, here)

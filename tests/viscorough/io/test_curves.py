@@ -124,7 +124,6 @@ ALONE = [
     (values("contact_count", lambda count: count[::-1].astype(np.uint8)), "contact_count must not decrease"),
     (values("contact_fraction", lambda share: share + 0.3), "contact_fraction must be contact_count over 200 elements"),
     *[(attribute("elements", value), WHOLE) for value in ("many", np.array([1, 2]), 2.5, -1)],
-    (attribute("operator_applications", np.inf), WHOLE),
     *[(attribute("tolerance", value), FROM_0) for value in ("fine", np.array([1.0, 2.0]), np.nan)],
     *[(attribute("method", value), "text is needed") for value in (3, np.array(["a", "b"]))],
     (attribute("elements", 1), "a whole number from 1 to 1"),

@@ -10,14 +10,9 @@ from support.contract import refused
 from viscorough.errors import AccuracyWarning
 from viscorough.io.heights import read_heights
 
+SurfaceTopography = pytest.importorskip("SurfaceTopography", reason="the extra 'formats' is not installed")
 FILES = Path(__file__).with_name("instrument_files")
 pytestmark = pytest.mark.filterwarnings("ignore::viscorough.errors.AccuracyWarning")
-WITHOUT = "the extra 'formats' is not installed"
-
-
-def topography(path, **options):
-    surface_topography = pytest.importorskip("SurfaceTopography", reason=WITHOUT)
-    return surface_topography.read_topography(str(path), **options)
 
 
 @pytest.mark.parametrize(
@@ -34,7 +29,7 @@ def topography(path, **options):
 )
 def test_files_of_other_programs(name, shape, spacing, unit):
     """Heights, spacings and units, as SurfaceTopography reads them where it can: most of them are read without it."""
-    reference = topography(FILES / name)
+    reference = SurfaceTopography.read_topography(str(FILES / name))
     indenter = read_heights(FILES / name)
     assert indenter.heights.shape == shape
     assert (indenter.spacing, indenter.row_spacing) == pytest.approx(spacing, rel=1e-12)
@@ -46,10 +41,9 @@ def test_files_of_other_programs(name, shape, spacing, unit):
 @pytest.mark.parametrize("suffix", ["x3p", "gwy"])
 def test_formats_written_by_another_program(tmp_path, suffix):
     """Rows are along y, points that were not measured are nan, both spacings are read, in metres."""
-    surface_topography = pytest.importorskip("SurfaceTopography", reason=WITHOUT)
     heights = np.random.default_rng(1).random((6, 9)) * 1e-7
     measured = np.ma.masked_invalid(np.where(heights < 2e-8, np.nan, heights)) if suffix == "x3p" else heights
-    surface = surface_topography.Topography(measured.T, (9 * 2e-6, 6 * 3e-6), unit="m")
+    surface = SurfaceTopography.Topography(measured.T, (9 * 2e-6, 6 * 3e-6), unit="m")
     getattr(surface, f"to_{suffix}")(str(tmp_path / f"a.{suffix}"))
     indenter = read_heights(tmp_path / f"a.{suffix}")
     np.testing.assert_allclose(indenter.heights, np.ma.filled(measured, np.nan), rtol=1e-6)
@@ -58,9 +52,7 @@ def test_formats_written_by_another_program(tmp_path, suffix):
 
 
 def test_channels(tmp_path):
-    surface_topography = pytest.importorskip("SurfaceTopography", reason=WITHOUT)
-    h5py = pytest.importorskip("h5py", reason=WITHOUT)
-    assert surface_topography
+    h5py = pytest.importorskip("h5py")
     with h5py.File(tmp_path / "a.h5", "w") as file:
         for number, name in enumerate(("first", "second")):
             file[name] = np.random.default_rng(number).random((4, 4))
@@ -77,7 +69,6 @@ def test_channels(tmp_path):
 
 
 def test_bad_files_are_one_line(tmp_path):
-    pytest.importorskip("SurfaceTopography", reason=WITHOUT)
     (tmp_path / "noise.x3p").write_bytes(bytes(range(256)) * 4)
     (tmp_path / "cut.top").write_bytes((FILES / "top-1.top").read_bytes()[:9000])
     (tmp_path / "lines.sdf").write_text("1.0 2.0\n1.5 2.5\n2.0 3.0\n")
@@ -98,6 +89,5 @@ def test_contents_decide_where_a_suffix_is_shared(tmp_path):
     """Some instruments write binary files under .dat, which is read as text otherwise."""
     (tmp_path / "a.dat").write_text("1 2\n3 4\n")
     assert read_heights(tmp_path / "a.dat", 1.0).heights.tolist() == [[1, 2], [3, 4]]
-    topography(FILES / "unnamed.ibw")  # skips without the extra
     (tmp_path / "b.dat").write_bytes((FILES / "unnamed.ibw").read_bytes())
     assert read_heights(tmp_path / "b.dat").heights.shape == (10, 10)

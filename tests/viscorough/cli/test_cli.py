@@ -78,10 +78,8 @@ def test_tolerance_is_passed_on(here, tolerance):
 
 MISTAKES = [
     ("", "Missing command"),
-    ("--colour", "--colour"),
     ("indent heights.npy --spacing 1", "--output"),
     ("indent missing.npy --spacing 1 -o out.nc", "missing.npy: not readable (No such file"),
-    (f"{INDENT} more.npy", "more.npy"),
     (f"{INDENT} --tolerance 0", "'0' is not a number above 0 and up to 0.1"),
     (f"{INDENT} --tolerance 1e-30", "tolerance"),
     (f"{INDENT} --depths 1,,2", "'' is not a number above 0"),
@@ -91,8 +89,6 @@ MISTAKES = [
     ("indent heights.npy --spacing 1 -o folder", "folder"),
     ("indent heights.npy --spacing 1 -o curve.nc/out.nc", "curve.nc/out.nc: there is no folder curve.nc"),
     ("kinetics curve.nc --force 1 --viscosity 1 -o pipe", "pipe"),
-    ("kinetics missing.nc --force 1 --viscosity 1 -o out.nc", "missing.nc: not readable (No such file"),
-    ("kinetics heights.npy --force 1 --viscosity 1 -o out.nc", "heights.npy: not readable"),
     ("kinetics map.nc --force 1 --viscosity 1 -o out.nc", "map.nc: no numbers depth(level)"),
     (f"{KINETICS} --force 1e-300 --viscosity 1e300", "overflow"),
 ]

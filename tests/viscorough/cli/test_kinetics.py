@@ -47,6 +47,7 @@ def here(made, here):
     (here / "table.csv").write_text("t,J\n0,0.2\n1,0.5\n10,0.9\n")
     (here / "force.csv").write_text("t,F\n0,0\n1,0.2\n1,0.3\n9,0.3\n")
     (here / "newtonian.yaml").write_text(MEDIA["newtonian"][0])
+    (here / "table.yaml").write_text(MEDIA["creep_table"][0])
     (here / "medium.yaml").write_text(MEDIA["maxwell"][0])
     return here
 
@@ -83,27 +84,17 @@ def test_file_holds_what_python_gives(here, kind, load, force):
 
 
 @pytest.mark.parametrize(
-    ("options", "medium", "expected"),
+    ("options", "expected"),
     [
-        *[
-            (f"--force '{force}' --viscosity '{viscosity}' --times 1e-6,2e-6", "", (3e-3, 2e-9, [1e-6, 2e-6]))
-            for force, viscosity in (("3 mN", "2 kPa s"), ("3e-3", "2e3"))
-        ],
-        (
-            "--force '2 uN' --medium medium.yaml --times 1",
-            "{kind: maxwell, shear_modulus: 2 MPa, viscosity: 5e6}",
-            (2e-6, Maxwell(2e-6, 5e-6), [1.0]),
-        ),
-        (
-            "--force 1e-12 --medium medium.yaml --times 1",
-            MEDIA["creep_table"][0],  # compliances in 1/Pa
-            (1.0, MEDIA["creep_table"][1], [1.0]),
-        ),
+        ("--force '3 mN' --viscosity '2 kPa s' --times 1e-6,2e-6", (3e-3, 2e-9, [1e-6, 2e-6])),
+        ("--force 3e-3 --viscosity 2e3 --times 1e-6,2e-6", (3e-3, 2e-9, [1e-6, 2e-6])),
+        ("--force '2 uN' --medium mega.yaml --times 1", (2e-6, Maxwell(2e-6, 5e-6), [1.0])),
+        ("--force 1e-12 --medium table.yaml --times 1", (1.0, MEDIA["creep_table"][1], [1.0])),
     ],
 )
-def test_units_are_converted_where_the_unit_of_length_is_known(here, options, medium, expected):
-    """1 Pa is 1e-12 N/um²: 3 mN on 2 kPa s is as 3e-3 on 2e-9 in N and um."""
-    (here / "medium.yaml").write_text(medium)
+def test_units_are_converted_where_the_unit_of_length_is_known(here, options, expected):
+    """1 Pa is 1e-12 N/um²: 3 mN on 2 kPa s is as 3e-3 on 2e-9 in N and um; compliances are in 1/Pa."""
+    (here / "mega.yaml").write_text("{kind: maxwell, shear_modulus: 2 MPa, viscosity: 5e6}")
     assert run(f"kinetics um.nc -o kin.nc {options}") == 0
     np.testing.assert_allclose(result()["depth"], kinetics(loading("um.nc"), *expected).depth, rtol=1e-12)
     assert netcdf.read("kin.nc").variables["velocity"].attributes["units"] == "um s-1"
@@ -120,8 +111,7 @@ def test_units_in_headings_of_histories_are_converted(here, text):
 @pytest.mark.parametrize("text", ["t,J\n0,1e-6\n3600,2e-6\n", "t (h),J (1/MPa)\n0,1\n1,2\n"])
 def test_units_in_headings_of_creep_tables_are_converted(here, text):
     (here / "table.csv").write_text(text)
-    (here / "medium.yaml").write_text(MEDIA["creep_table"][0])
-    assert run("kinetics um.nc --force '1 uN' --medium medium.yaml --times 1800 -o kin.nc") == 0
+    assert run("kinetics um.nc --force '1 uN' --medium table.yaml --times 1800 -o kin.nc") == 0
     expected = kinetics(loading(), 1.0, viscosity=1.0, times=[1.5]).depth
     np.testing.assert_allclose(result()["depth"], expected, rtol=1e-12)
 
@@ -172,9 +162,7 @@ BAD_MEDIA = [
     ("kind: newtonian\nviscosity: 1\nviscosity: 2", "the key 'viscosity' stands twice"),
     ("kind: newtonian\nviscosity: &a 1\nmore: *a", "aliases are not allowed"),
     ("!!python/object/apply:os.system ['touch here']", "not readable"),
-    ("\x00\x01", "not readable"),
     ("[" * 1000, "not readable"),
-    ("{kind: newtonian, 1: 2}", "unknown key 1"),
 ]
 BAD_TABLES = [
     ("0,2\n1,1\n", "never decreases"),
@@ -220,14 +208,12 @@ BAD_LINES = [
     ],
 )
 def test_bad_files_are_one_line(here, capsys, file, text, message):
-    if file == "table.csv":
-        (here / "medium.yaml").write_text(MEDIA["creep_table"][0])
     (here / file).write_text(text)
     load = "--force-history force.csv" if file == "force.csv" else "--force 1"
-    line = complaint(f"{KINETICS} {load} --medium medium.yaml", capsys, here)
+    medium = "table.yaml" if file == "table.csv" else "medium.yaml"
+    line = complaint(f"{KINETICS} {load} --medium {medium}", capsys, here)
     assert message in line
-    if file == "medium.yaml":
-        assert line.startswith("viscorough kinetics: medium.yaml: ")
+    assert file != "medium.yaml" or line.startswith("viscorough kinetics: medium.yaml: ")
 
 
 @pytest.mark.parametrize(("line", "message"), BAD_LINES)

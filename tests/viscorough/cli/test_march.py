@@ -129,7 +129,6 @@ def test_viscosities_are_in_pascal_seconds_where_the_unit_is_known(method):
         (f"{MARCH} --method events --force 1e-10 --viscosity 1.7e308", "times or velocities overflow"),
         (f"{MARCH} --method events --force 1e300 --viscosity 1e-300", "times or velocities overflow"),
         (f"{MEDIUM} --method heun --times 1", "--method heun is not for --medium; allowed: events, implicit"),
-        (f"{MEDIUM} --method events", "--times is needed by --method events"),
         (f"{MEDIUM} --method implicit --times 1 --viscosity 2", "--medium replaces --viscosity"),
     ],
 )

@@ -45,7 +45,6 @@ def test_heights_of_netcdf(tmp_path):
 @pytest.mark.parametrize(
     ("heights", "what"),
     [
-        (np.zeros(3), "shape"),
         (np.zeros((2, 2), complex), "complex128"),
         (np.array([["a", "b"]]), "<U1"),
         (np.array([[None, 1]]), "not readable .*pickle"),

@@ -89,7 +89,6 @@ def test_positions_far_from_0_are_as_exact_as_their_precision():
         ({"unit": "V"}, {"unit": "um"}, "not a unit of length"),
         ({"y": None}, {}, "only the coordinate x"),
         ({}, {"channel": "phase"}, "none of them is the channel phase"),
-        ({"x": (1, 1, 1, 1)}, {}, "coordinate x is not uniform"),
         ({"x": (0, 1, np.nan, 3)}, {}, "coordinate x is not finite"),
         ({}, {"spacing": (1, 2, 3)}, "one distance, or the two"),
     ],

@@ -145,7 +145,7 @@ BAD_MEDIA = [
     ],
     *[(medium_text("maxwell", **{key: None}), f"lacks {key}") for key in ("shear_modulus", "viscosity")],
     (medium_text("maxwell", more=1), "unknown key 'more'; allowed for"),
-    (medium_text("standard_linear_solid", relaxed_modulus=3), "allowed: below"),
+    (medium_text("standard_linear_solid", relaxed_modulus=5), "allowed: below"),
     (medium_text("springpot", exponent=1), "allowed: above 0 and below 1"),
     (medium_text("springpot", exponent="half"), "exponent: 'half'; allowed: a plain number"),
     (medium_text("prony", moduli="[a, b]"), "moduli[0]: 'a'; allowed: a plain number"),

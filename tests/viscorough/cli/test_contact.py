@@ -139,7 +139,6 @@ MISTAKES = [
     (f"{CONTACT_UM} --force '1 mN'", "a force needs --shear-modulus or --young"),
     (f"{CONTACT_UM} --force '1 Pa' --young 1", POSITIVE),
     (f"{CONTACT} --force '1 mN' --shear-modulus 1", "the unit of length is not known"),
-    (f"{CONTACT} --depth '1 um'", "the unit of length is not known"),
     (f"{CONTACT} --depth 1e300", "up to which depths are allowed"),
     (f"{CONTACT} --force 1 --shear-modulus 1 --young 1", EXCLUDE),
     (f"{CONTACT} --force 1 --shear-modulus 1 --poisson 0.3", "--poisson is for use with --young"),

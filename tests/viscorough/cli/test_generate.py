@@ -71,7 +71,6 @@ def test_units_and_roll_off_are_passed_on(line, options):
 @pytest.mark.parametrize(
     ("line", "what"),
     [
-        (f"{DISC} --elements 2 {END}", "--elements"),
         (f"{DISC} --unit 1 --rms '2 um' {END}", "--rms 2 um: needs a plain number"),
         (f"{DISC} -o made.nc", "--seed"),
         (f"{DISC} --points 9 {END}", "one of --elements (a disc) and --points (a line) is needed"),

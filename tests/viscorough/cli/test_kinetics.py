@@ -158,7 +158,6 @@ BAD_MEDIA = [
     (medium_text("creep_table", file="curve.nc"), "a creep table is read from .csv and .npy"),
     ("viscosity: 1", "kind None; allowed: newtonian, maxwell"),
     ("- kind: newtonian", "holds [{'kind': 'newtonian'}]; one mapping"),
-    ("{kind: newtonian", "not readable"),
     ("kind: newtonian\nviscosity: 1\nviscosity: 2", "the key 'viscosity' stands twice"),
     ("kind: newtonian\nviscosity: &a 1\nmore: *a", "aliases are not allowed"),
     ("!!python/object/apply:os.system ['touch here']", "not readable"),
@@ -185,6 +184,7 @@ BAD_LINES = [
     (f"{KINETICS} --force 1", "one of --viscosity and --medium is needed"),
     (f"{KINETICS} --force 1e-320 --viscosity 1", ", --viscosity 1: times overflow"),
     (f"{KINETICS} --force 1e-320 --medium newtonian.yaml", ", --medium newtonian.yaml: times overflow"),
+    (f"{KINETICS} --force 1 --medium none.yaml", "none.yaml: not readable (No such file or directory)"),
     (f"{KINETICS} --force-history curve.nc --viscosity 1", "read from .csv and .npy"),
     (
         f"{KINETICS} --force-history force.csv --viscosity 1 --times 1,10",

@@ -169,7 +169,7 @@ INDENTERS = {
 }
 
 
-@pytest.mark.parametrize("tolerance", [1e-1, 1e-3, 1e-8])
+@pytest.mark.parametrize("tolerance", [1e-1, 1e-8])
 @pytest.mark.parametrize("kind", INDENTERS)
 def test_curves_that_the_solvers_compute_are_read(kind, tolerance):
     """To their tolerance they are convex, and contact grows; in single precision they are read as well."""

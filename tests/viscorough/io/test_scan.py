@@ -29,16 +29,13 @@ def netcdf_map(path, *, unit="um", x=(0, 0.5, 1.0, 1.5), y=(3, 2, 1), x_unit="um
     return path
 
 
-WITHOUT_UNITS = {"unit": None, "x_unit": None, "y_unit": None}
-
-
 @pytest.mark.parametrize(
     ("content", "arguments", "spacings", "unit"),
     [
         ({}, {}, (0.5, 1), "um"),
         ({"dimensions": ("x", "y")}, {}, (0.5, 1), "um"),
         ({"unit": "nm", "y": (1e-6, 2e-6, 3e-6), "y_unit": "m"}, {}, (500, 1000), "nm"),
-        (WITHOUT_UNITS, {"unit": "mm"}, (0.5, 1), "mm"),
+        ({"unit": None, "x_unit": None, "y_unit": None}, {"unit": "mm"}, (0.5, 1), "mm"),
         ({"x": range(4), "y": range(1, 4), "x_unit": None, "y_unit": None}, {"spacing": 7}, (7, 7), "um"),
         ({"unit": "nm"}, {"spacing": (units.quantity("0.5 um"), units.quantity("1e-6 m"))}, (500, 1000), "nm"),
     ],
@@ -85,6 +82,7 @@ def test_positions_far_from_0_are_as_exact_as_their_precision():
         ({"unit": None}, {}, "coordinates are in um, heights in no stated unit; --unit"),
         ({"x_unit": None, "y_unit": None}, {}, "coordinates in no stated unit; --spacing"),
         ({"x": range(4), "y": range(3), "x_unit": None, "y_unit": None}, {}, "--spacing is needed"),
+        ({"y_unit": None}, {}, "coordinates are in um and 1"),
         ({"y_unit": "s"}, {}, "not a unit of length"),
         ({"unit": "V"}, {"unit": "um"}, "not a unit of length"),
         ({"y": None}, {}, "only the coordinate x"),

@@ -154,10 +154,13 @@ BAD = [
     (f"# height conversion factor (-> m) =\n# dx=1 m, dy=1 m\n{SQUARE}", "not a length|number"),
     (f"# pixel size: 1,234 nm\n# unit: nm\n{SQUARE}", "1,234 is 1234 or 1.234"),
     (f"# dx: 1 nm\n# unit: nm\n{SQUARE}", "between rows is not stated"),
+    (f"# Width: 3 px\n# Height: 2 px\n{SQUARE}", "the table has 2 points there"),
+    (f"# Width: 9 um\n# Height: 2 um\n# dx=1 um\n# unit: um\n{SQUARE}", "extend over 9 um"),
 ]
 OFF_A_GRID = [
     ("0 0 1\n1 0 2\n3 1 3\n1.3 1.2 3\n", "steps lie between"),
     (f"{CORNERS}1 1 5\n", "stand twice"),
+    ("0 0\n1 0\n", "2 columns"),
     ("0 nan 1\n1 0 2\n", "finite"),
     ("".join(f"{i} {i} 1\n" for i in range(99)), "99 points on a grid of 99 by 99"),
 ]

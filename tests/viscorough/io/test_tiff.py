@@ -107,7 +107,6 @@ def test_pages_are_chosen_by_number(tmp_path):
 
 BAD = [
     ("colours.tif", "3 colours", np.zeros((5, 7, 3), "u1"), {"photometric": "rgb"}),
-    ("complex.tif", "complex64", HEIGHTS.astype("c8"), {}),
     ("several.tif", "2 pages; --channel 0 to 1", np.zeros((2, 5, 7)), {"photometric": "minisblack"}),
 ]
 

@@ -52,6 +52,7 @@ def test_every_value_of_a_byte_is_valid_unless_one_is_said_to_be_missing(tmp_pat
         ("f4", {"missing_value": 1e20}, [[1, 2], [3, NAN]]),
         ("f4", {"missing_value": 1e20, "fill_value": 2}, [[1, NAN], [3, NAN]]),
         ("f8", {"missing_value": [1.0, 3.0]}, [[NAN, 2], [NAN, 1e20]]),
+        ("f8", {"missing_value": "2"}, [[1, NAN], [3, 1e20]]),
         ("f8", {"valid_range": [2.0, 3.0]}, [[NAN, 2], [3, NAN]]),
         ("f4", {"valid_min": 2}, [[NAN, 2], [3, 1e20]]),
         ("f8", {"valid_max": 3.0, "scale_factor": 2.0, "add_offset": 1.0}, [[3, 5], [7, NAN]]),

@@ -1,12 +1,20 @@
-"""The installed command, and the heights of a sphere."""
+"""The installed command, the command line within this process, and the heights of a sphere."""
 
+import shlex
 import sys
 from pathlib import Path
 
 import numpy as np
 
+from viscorough.cli import main
+
 VISCOROUGH = Path(sys.executable).with_name("viscorough")
 RADIUS = 100.0
+
+
+def run(line):
+    """The exit code of a line of arguments."""
+    return main(shlex.split(line))
 
 
 def sphere_heights(points=61):

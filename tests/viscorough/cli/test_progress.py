@@ -1,15 +1,15 @@
-"""Progress on standard error: after a second, on terminals or where it is asked for, and erased at the end."""
+"""Progress on standard error: after a while, on terminals or where it is asked for, and erased at the end."""
 
 import time
 
 import pytest
 
 from viscorough.cli import progress
-from viscorough.cli.progress import progress_bar
 
 
 def shown(capsys, wanted, wait):
-    with progress_bar("viscorough indent", wanted) as report:
+    """What is shown in the middle and at the end of work that reports twice, `wait` seconds apart."""
+    with progress.progress_bar("viscorough indent", wanted) as report:
         report(0.25)
         time.sleep(wait)
         report(0.5)
@@ -17,27 +17,35 @@ def shown(capsys, wanted, wait):
     return middle, capsys.readouterr().err
 
 
-def test_after_a_second_share_and_time_left_are_shown_and_erased_at_the_end(capsys):
-    middle, end = shown(capsys, True, 1.05)
+@pytest.fixture
+def short_delay(monkeypatch):
+    monkeypatch.setattr(progress, "_DELAY", 0.1)
+
+
+@pytest.mark.usefixtures("short_delay")
+def test_after_a_while_share_and_time_left_are_shown_and_erased_at_the_end(capsys):
+    middle, end = shown(capsys, True, 0.25)
     assert "viscorough indent:  50 % |" in middle
     assert " left" in middle
     assert "\n" not in middle + end
     assert end.replace("\r", "").strip() == ""
 
 
-def test_what_is_quick_shows_nothing(capsys):
+def test_what_is_quick_shows_nothing(capsys, monkeypatch):
+    monkeypatch.setattr(progress, "_DELAY", 1000.0)
     assert "50 %" not in shown(capsys, True, 0.0)[0]
 
 
-def test_without_a_terminal_only_what_is_asked_for_is_shown(capsys):
-    for wanted in (None, False):
-        assert shown(capsys, wanted, 1.05) == ("", "")
+@pytest.mark.parametrize("wanted", [None, False])
+@pytest.mark.usefixtures("short_delay")
+def test_without_a_terminal_only_what_is_asked_for_is_shown(capsys, wanted):
+    assert shown(capsys, wanted, 0.25) == ("", "")
 
 
 @pytest.mark.parametrize("wanted", [None, True])
+@pytest.mark.usefixtures("short_delay")
 def test_where_standard_error_is_closed_slow_work_goes_on(monkeypatch, wanted):
-    monkeypatch.setattr(progress, "_DELAY", 0.0)
     monkeypatch.setattr("sys.stderr", None)
-    with progress_bar("viscorough indent", wanted) as report:
-        time.sleep(0.2)  # longer than the shortest time between two updates
+    with progress.progress_bar("viscorough indent", wanted) as report:
+        time.sleep(0.2)  # longer than the delay and than the shortest time between two updates
         report(0.5)

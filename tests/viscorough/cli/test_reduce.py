@@ -3,51 +3,49 @@
 import numpy as np
 import pytest
 
+from support.command_line import run
 from support.contract import complaint
 from viscorough import mdr
-from viscorough.cli import main
 from viscorough.indenter import Indenter
 from viscorough.io import netcdf
 from viscorough.io.curves import curve_from_content, unstack_curves
 from viscorough.surfaces import self_affine_disc, self_affine_line
 
 LINE = self_affine_line(0.6, 512, rms=0.2, length=128.0, seed=3)
-DISC = self_affine_disc(0.6, 33, rms=0.2, diameter=33.0, seed=3)
+DISC = self_affine_disc(0.6, 17, rms=0.2, diameter=17.0, seed=3)
 
 
 @pytest.fixture(autouse=True)
-def here(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+def here(here):
     np.save("line.npy", LINE.heights)
     np.save("map.npy", DISC.heights)
     np.save("flat.npy", np.zeros((5, 5)))
     np.save("text.npy", np.array(["a"]))
-    return tmp_path
+    return here
 
 
-def test_line_of_a_file(here):
-    assert main(["reduce", "line.npy", "--spacing", "0.25", "--until-fraction", "0.5", "-o", "curve.nc"]) == 0
-    curve, wanted = curve_from_content(netcdf.read(here / "curve.nc")), mdr.reduce(LINE, until_fraction=0.5)
-    np.testing.assert_array_equal(curve.force, wanted.force)
+def line_file(units, x):
+    """Write line.nc with the heights 0, 1 and 0.5, and positions where they are given."""
+    attributes = {"long_name": "length"}
+    heights = np.array([0.0, 1.0, 0.5])
+    variables = {"heights": netcdf.Variable(("x",), heights, attributes | {"units": units[0]})}
+    if x is not None:
+        variables["x"] = netcdf.Variable(("x",), np.array(x, dtype=float), attributes | {"units": units[1]})
+    netcdf.write(netcdf.Content(variables, {}), "line.nc")
+    return heights
+
+
+def test_line_of_a_file():
+    assert run("reduce line.npy --spacing 0.25 --until-fraction 0.5 -o curve.nc") == 0
+    curve = curve_from_content(netcdf.read("curve.nc"))
+    np.testing.assert_array_equal(curve.force, mdr.reduce(LINE, until_fraction=0.5).force)
     assert curve.contact_fraction[-2] < 0.5 <= curve.contact_fraction[-1]
 
 
-def test_generated_lines_need_no_spacing_and_keep_their_unit(here):
-    options = ["--hurst", "0.6", "--points", "512", "--rms", "0.2", "--diameter", "128", "--unit", "um", "--seed", "3"]
-    assert main(["generate", *options, "-o", "line.nc"]) == 0
-    assert main(["reduce", "line.nc", "-o", "curve.nc"]) == 0
-    assert main(["reduce", "line.nc", "--spacing", "0.25", "-o", "again.nc"]) == 0
-    curve, again = (curve_from_content(netcdf.read(here / name)) for name in ("curve.nc", "again.nc"))
-    assert curve.length_unit == "um"
-    np.testing.assert_allclose(curve.force, mdr.reduce(LINE).force, rtol=1e-12)
-    np.testing.assert_allclose(curve.force, again.force, rtol=1e-12)
-
-
-def test_lines_of_a_map_are_many_and_say_what_they_are_not(here, capsys):
-    options = ["--spacing", "1", "--realizations", "3", "--seed", "7"]
-    assert main(["reduce", "map.npy", *options, "-o", "curves.nc"]) == 0
+def test_lines_of_a_map_are_many_and_say_what_they_are_not(capsys):
+    assert run("reduce map.npy --spacing 1 --realizations 3 --seed 7 -o curves.nc") == 0
     warning = capsys.readouterr().err
-    content = netcdf.read(here / "curves.nc")
+    content = netcdf.read("curves.nc")
     assert "not the curve of this surface" in warning
     assert content.attributes["warnings"] in warning
     curves = unstack_curves(content)
@@ -55,82 +53,53 @@ def test_lines_of_a_map_are_many_and_say_what_they_are_not(here, capsys):
     for index, curve in enumerate(curves):
         wanted = mdr.reduce(mdr.line_of_map(Indenter(DISC.heights, 1.0), [7, index]))
         np.testing.assert_array_equal(curve.depth, wanted.depth)
-    assert main(["reduce", "map.npy", "--spacing", "1", "--seed", "7", "-o", "one.csv"]) == 0
-    assert main(["kinetics", "one.csv", "--force", "1", "--viscosity", "1", "-o", "motion.nc"]) == 0
-
-
-def test_reduced_curve_of_a_generated_map_is_that_of_its_kind(here):
-    """Mean stiffness of 40 lines against that of the disc's, to the factor of two that a single surface allows."""
-    assert main(["reduce", "map.npy", "--spacing", "1", "--realizations", "40", "-o", "curves.nc"]) == 0
-    force = 4 * 0.2 * 33 * np.array([0.03, 0.1])  # X in region (b)
-    curves = unstack_curves(netcdf.read(here / "curves.nc"))
-    stiffness = np.mean([curve.at_force(force)[1] for curve in curves], axis=0)
-    assert main(["indent", "map.npy", "--spacing", "1", "-o", "curve.nc"]) == 0
-    exact = curve_from_content(netcdf.read(here / "curve.nc")).at_force(force)[1]
-    assert (np.abs(np.log(stiffness / exact)) < np.log(2)).all()
+    assert run("reduce map.npy --spacing 1 --seed 7 -o one.csv") == 0
+    assert run("kinetics one.csv --force 1 --viscosity 1 -o motion.nc") == 0
 
 
 @pytest.mark.parametrize(
     ("arguments", "what"),
     [
-        (["line.npy"], "line.npy: the distance between neighbouring points is not stated; --spacing is needed"),
-        (["line.npy", "--spacing", "1", "--realizations", "2"], "--realizations and --seed are for maps"),
-        (["line.npy", "--spacing", "1", "--seed", "2"], "--realizations and --seed are for maps"),
-        (["line.npy", "--spacing", "0"], "--spacing"),
-        (["line.npy", "--spacing", "1", "--until-fraction", "2"], "--until-fraction"),
-        (["map.npy", "--spacing", "1", "--realizations", "0"], "--realizations"),
-        (["flat.npy", "--spacing", "1"], "the map is flat"),
-        (["text.npy", "--spacing", "1"], "a line is needed"),
-        (["none.npy", "--spacing", "1"], "none.npy: not readable (No such file"),
-        (["line.npy", "--spacing", "1", "-o", "line.npy"], "would replace the heights"),
-        (["map.npy", "--spacing", "1", "--realizations", "2", "-o", "a.csv"], "several curves are no table"),
+        ("line.npy", "line.npy: the distance between neighbouring points is not stated; --spacing is needed"),
+        ("line.npy --spacing 1 --realizations 2", "--realizations and --seed are for maps"),
+        ("map.npy --spacing 1 --realizations 0", "--realizations"),
+        ("flat.npy --spacing 1", "the map is flat"),
+        ("text.npy --spacing 1", "a line is needed"),
+        ("line.npy --spacing 1 -o line.npy", "would replace the heights"),
+        ("map.npy --spacing 1 --realizations 2 -o a.csv", "several curves are no table"),
     ],
 )
 def test_mistakes_are_one_line(here, capsys, arguments, what):
-    output = [] if "-o" in arguments else ["-o", "out.nc"]
-    assert what in complaint(["reduce", *arguments, *output], capsys, here)
+    assert what in complaint(f"reduce -o out.nc {arguments}", capsys, here)
 
 
 @pytest.mark.parametrize(
     ("positions", "unit", "spacing", "what"),
     [
-        ([0, 1, 3], "um", None, "coordinate x is not uniform: its steps lie between 1 and 2"),
-        ([0, 1, 2], "N", None, "unit 'N': not a unit of length"),
-        ([0, 0.5, 1], "1", None, "heights are in um, coordinates in no stated unit; --spacing is needed"),
-        ([0, 1, 2], "1", None, "the distance between neighbouring points is not stated; --spacing is needed"),
-        ([0, 1, 2], "um", "2", "--spacing 2 um contradicts the file, in which columns are 1 um apart"),
-        ([0, np.nan, 2], "um", None, "coordinate x is not finite everywhere"),
+        ([0, 1, 3], "um", "", "coordinate x is not uniform: its steps lie between 1 and 2"),
+        ([0, 0.5, 1], "1", "", "heights are in um, coordinates in no stated unit; --spacing is needed"),
+        ([0, 1, 2], "1", "", "the distance between neighbouring points is not stated; --spacing is needed"),
+        ([0, 1, 2], "um", "--spacing 2", "--spacing 2 um contradicts the file, in which columns are 1 um apart"),
     ],
 )
 def test_coordinates_that_contradict_are_refused(here, capsys, positions, unit, spacing, what):
-    variables = {
-        "heights": netcdf.Variable(("x",), np.arange(3.0), {"long_name": "height", "units": "um"}),
-        "x": netcdf.Variable(("x",), np.array(positions, dtype=float), {"long_name": "position", "units": unit}),
-    }
-    netcdf.write(netcdf.Content(variables, {}), here / "line.nc")
-    options = [] if spacing is None else ["--spacing", spacing]
-    assert what in complaint(["reduce", "line.nc", *options, "-o", "out.nc"], capsys, here)
+    line_file(("um", unit), positions)
+    assert what in complaint(f"reduce line.nc {spacing} -o out.nc", capsys, here)
 
 
 @pytest.mark.parametrize(
-    ("units", "x", "arguments"),
+    ("units", "x", "options"),
     [
-        (("um", "m"), [0, 2e-6, 4e-6], []),
-        (("µm", "um"), [0, 2, 4], []),
-        (("um", "um"), [4, 2, 0], ["--spacing", "2"]),
-        (("um", None), [0, 1, 2], ["--spacing", "2e-3 mm"]),
-        (("um", None), None, ["--spacing", "2"]),
-        (("1", None), None, ["--spacing", "2 um", "--unit", "um"]),
+        (("um", "m"), [0, 2e-6, 4e-6], ""),
+        (("um", "um"), [4, 2, 0], "--spacing 2"),
+        (("um", "1"), [0, 1, 2], "--spacing '2e-3 mm'"),
+        (("um", None), None, "--spacing 2"),
+        (("1", None), None, "--spacing '2 um' --unit um"),
     ],
 )
-def test_spacing_of_a_line_is_in_the_unit_of_its_heights(here, units, x, arguments):
-    heights = np.array([0.0, 1.0, 0.5])
-    variables = {"heights": netcdf.Variable(("x",), heights, {"long_name": "height", "units": units[0]})}
-    if x is not None:
-        attributes = {"long_name": "position", "units": units[1] or "1"}
-        variables["x"] = netcdf.Variable(("x",), np.array(x, dtype=float), attributes)
-    netcdf.write(netcdf.Content(variables, {}), here / "line.nc")
-    assert main(["reduce", "line.nc", *arguments, "-o", "curve.nc"]) == 0
-    curve = curve_from_content(netcdf.read(here / "curve.nc"))
+def test_spacing_of_a_line_is_in_the_unit_of_its_heights(units, x, options):
+    heights = line_file(units, x)
+    assert run(f"reduce line.nc {options} -o curve.nc") == 0
+    curve = curve_from_content(netcdf.read("curve.nc"))
     assert curve.length_unit == "um"
     np.testing.assert_allclose(curve.force, mdr.reduce(Indenter(heights, 2.0)).force, rtol=1e-14)

@@ -1,6 +1,7 @@
 """Files are replaced when their content is complete, and not touched otherwise."""
 
 import os
+import shutil
 import subprocess
 import sys
 import textwrap
@@ -8,16 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from support.curves import one_line
+from support.contract import refused
 from support.faults import namespace
 from viscorough.io.atomic import atomic_write, check_output, check_readable
-
-
-def test_permissions_are_those_of_any_new_file(tmp_path):
-    with atomic_write(tmp_path / "new") as temporary:
-        temporary.write_text("")
-    (tmp_path / "plain").write_text("")
-    assert (tmp_path / "new").stat().st_mode == (tmp_path / "plain").stat().st_mode
 
 
 def test_target_of_a_link_is_replaced_and_not_the_link(tmp_path):
@@ -35,7 +29,7 @@ def write_half(path, error):
         raise error
 
 
-@pytest.mark.parametrize("interruption", [KeyboardInterrupt, MemoryError, TypeError])
+@pytest.mark.parametrize("interruption", [KeyboardInterrupt, TypeError])
 def test_interrupted_writing_leaves_the_older_file(tmp_path, interruption):
     path = tmp_path / "curve"
     path.write_text("older")
@@ -47,9 +41,8 @@ def test_interrupted_writing_leaves_the_older_file(tmp_path, interruption):
 
 @pytest.mark.parametrize("error", [OSError(28, "No space left on device"), RuntimeError("NetCDF: HDF error")])
 def test_failed_writing_is_one_line(tmp_path, error):
-    with pytest.raises(OSError, match=r"a\.csv: not written") as raised:
+    with pytest.raises(OSError, match=r"a\.csv: not written .*; room on a writable disk is needed$"):
         write_half(tmp_path / "a.csv", error)
-    one_line(raised)
     assert os.listdir(tmp_path) == []
 
 
@@ -106,40 +99,39 @@ def test_file_of_a_live_process_in_another_container_is_left_alone(tmp_path):
     assert os.listdir(tmp_path) == ["a.csv"]
 
 
-@pytest.mark.parametrize("mode", [0o600, 0o664, 0o444])
-def test_file_that_is_replaced_keeps_its_permissions(tmp_path, mode):
-    path = tmp_path / "curve"
-    path.write_text("older")
-    path.chmod(mode)
+@pytest.mark.parametrize("mode", [None, 0o600, 0o444])
+def test_a_file_that_is_replaced_keeps_its_permissions_and_a_new_one_has_those_of_any(tmp_path, mode):
+    path, plain = tmp_path / "curve", tmp_path / "plain"
+    plain.write_text("older")
+    if mode is not None:
+        plain.chmod(mode)
+        shutil.copy(plain, path)
     with atomic_write(path) as temporary:
         temporary.write_text("newer")
     assert path.read_text() == "newer"
-    assert path.stat().st_mode & 0o7777 == mode
+    assert path.stat().st_mode == plain.stat().st_mode
 
 
-def test_names_as_long_as_a_disk_allows(tmp_path):
-    for name in ("é" * 120, "a" * 255):
-        with atomic_write(tmp_path / name) as temporary:
-            temporary.write_text("content")
-        assert (tmp_path / name).read_text() == "content"
-
-
-def test_name_that_is_no_text_is_refused(tmp_path):
-    path = tmp_path / os.fsdecode(b"caf\xe9.nc")
-    with pytest.raises(ValueError, match="the name is no text in utf-8") as error:
-        check_output(path)
-    one_line(error)
+@pytest.mark.parametrize("name", ["é" * 120, "a" * 255])
+def test_names_as_long_as_a_disk_allows(tmp_path, name):
+    with atomic_write(tmp_path / name) as temporary:
+        temporary.write_text("content")
+    assert (tmp_path / name).read_text() == "content"
 
 
 def test_paths_that_cannot_be_written(tmp_path):
     """A folder without permission to write is tested with the whole command, in a namespace without privileges."""
     (tmp_path / "folder").mkdir()
     os.mkfifo(tmp_path / "pipe")  # like /dev/null, it must never be replaced by a file
-    for path in (tmp_path / "none" / "a.nc", tmp_path / "folder", tmp_path / "pipe"):
-        with pytest.raises(ValueError, match=str(path)) as error:
-            check_output(path)
-        one_line(error)
-        with pytest.raises(ValueError, match=str(path)), atomic_write(path):
+    for name, what in {
+        "none/a.nc": "there is no folder",
+        "folder": "is not a regular file",
+        "pipe": "is not a regular file",
+        os.fsdecode(b"caf\xe9.nc"): "the name is no text in utf-8",
+    }.items():
+        with refused(what):
+            check_output(tmp_path / name)
+        with refused(what), atomic_write(tmp_path / name):
             pass
     assert sorted(os.listdir(tmp_path)) == ["folder", "pipe"]
 
@@ -150,8 +142,7 @@ def test_only_files_with_an_end_are_readable(tmp_path):
     (tmp_path / "file").write_text("")
     kinds = {tmp_path / "pipe": "a pipe", tmp_path / "link": "a pipe", tmp_path: "a folder", "/dev/zero": "a device"}
     for path, kind in kinds.items():
-        with pytest.raises(ValueError, match=rf"{path}: not readable \(it is {kind}\); a regular file is") as error:
+        with refused(rf"{path}: not readable \(it is {kind}\); a regular file is"):
             check_readable(path)
-        one_line(error)
     for path in (tmp_path / "file", tmp_path / "none", "a\0b"):
         check_readable(path)

@@ -1,24 +1,18 @@
 """Files written by instruments and other programs; for their formats the extra `formats` is needed."""
 
-import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from support.curves import one_line
+from support.contract import refused
 from viscorough.errors import AccuracyWarning
 from viscorough.io.heights import read_heights
 
+SurfaceTopography = pytest.importorskip("SurfaceTopography", reason="the extra 'formats' is not installed")
 FILES = Path(__file__).with_name("instrument_files")
 pytestmark = pytest.mark.filterwarnings("ignore::viscorough.errors.AccuracyWarning")
-WITHOUT = "the extra 'formats' is not installed"
-
-
-def topography(path, **options):
-    surface_topography = pytest.importorskip("SurfaceTopography", reason=WITHOUT)
-    return surface_topography.read_topography(str(path), **options)
 
 
 @pytest.mark.parametrize(
@@ -26,10 +20,7 @@ def topography(path, **options):
     [
         ("gwyddion-export-english.txt", (4, 3), (12.34e-6 / 3, 5678.9e-9 / 4), "m"),
         ("gwyddion-export-german.txt", (4, 3), (12.34e-6 / 3, 5678.9e-9 / 4), "m"),
-        ("matrix-6.txt", (3, 4), (10e-6 / 4, 10e-6 / 3), "m"),
         ("matrix-4-beginning.txt", (3, 75), (3.69862e-7, 3.69862e-7), "m"),
-        ("xyz-2.txt", (4, 4), (1, 1), "1"),
-        ("nc-1.nc", (10, 5), (1, 1), "nm"),
         ("sdf-1.sdf", (4, 7), (1, 1), "um"),
         ("unnamed.ibw", (10, 10), (1, 1), "1"),
         ("top-1.top", (256, 256), (600 / 256, 600 / 256), "nm"),
@@ -37,24 +28,21 @@ def topography(path, **options):
 )
 def test_files_of_other_programs(name, shape, spacing, unit):
     """Heights, spacings and units, as SurfaceTopography reads them where it can: most of them are read without it."""
-    reference = topography(FILES / name)
+    reference = SurfaceTopography.read_topography(str(FILES / name))
     indenter = read_heights(FILES / name)
     assert indenter.heights.shape == shape
     assert (indenter.spacing, indenter.row_spacing) == pytest.approx(spacing, rel=1e-12)
     assert indenter.length_unit == unit
     expected = np.ma.filled(np.ma.asarray(reference.heights(), dtype=float), np.nan).T
     np.testing.assert_allclose(indenter.heights, expected, rtol=1e-12)
-    if name != "xyz-2.txt":
-        assert np.isfinite(indenter.heights).all()
 
 
 @pytest.mark.parametrize("suffix", ["x3p", "gwy"])
 def test_formats_written_by_another_program(tmp_path, suffix):
     """Rows are along y, points that were not measured are nan, both spacings are read, in metres."""
-    surface_topography = pytest.importorskip("SurfaceTopography", reason=WITHOUT)
     heights = np.random.default_rng(1).random((6, 9)) * 1e-7
     measured = np.ma.masked_invalid(np.where(heights < 2e-8, np.nan, heights)) if suffix == "x3p" else heights
-    surface = surface_topography.Topography(measured.T, (9 * 2e-6, 6 * 3e-6), unit="m")
+    surface = SurfaceTopography.Topography(measured.T, (9 * 2e-6, 6 * 3e-6), unit="m")
     getattr(surface, f"to_{suffix}")(str(tmp_path / f"a.{suffix}"))
     indenter = read_heights(tmp_path / f"a.{suffix}")
     np.testing.assert_allclose(indenter.heights, np.ma.filled(measured, np.nan), rtol=1e-6)
@@ -63,9 +51,7 @@ def test_formats_written_by_another_program(tmp_path, suffix):
 
 
 def test_channels(tmp_path):
-    surface_topography = pytest.importorskip("SurfaceTopography", reason=WITHOUT)
-    h5py = pytest.importorskip("h5py", reason=WITHOUT)
-    assert surface_topography
+    h5py = pytest.importorskip("h5py")
     with h5py.File(tmp_path / "a.h5", "w") as file:
         for number, name in enumerate(("first", "second")):
             file[name] = np.random.default_rng(number).random((4, 4))
@@ -77,35 +63,30 @@ def test_channels(tmp_path):
     assert not np.allclose(first.heights, second.heights)
     assert (first.spacing, first.length_unit) == (0.5, "um")
     for channel, what in ((None, "--spacing is needed"), ("third", "no map is called 'third'; its maps are 'first'")):
-        with pytest.raises(ValueError, match=what) as error:
+        with refused(what):
             read_heights(tmp_path / "a.h5", channel=channel)
-        one_line(error)
 
 
 def test_bad_files_are_one_line(tmp_path):
-    pytest.importorskip("SurfaceTopography", reason=WITHOUT)
     (tmp_path / "noise.x3p").write_bytes(bytes(range(256)) * 4)
-    (tmp_path / "empty.opd").write_bytes(b"")
     (tmp_path / "cut.top").write_bytes((FILES / "top-1.top").read_bytes()[:9000])
     (tmp_path / "lines.sdf").write_text("1.0 2.0\n1.5 2.5\n2.0 3.0\n")
-    (tmp_path / "folder.sur").mkdir()
-    for name in ("noise.x3p", "empty.opd", "cut.top", "lines.sdf", "folder.sur", "missing.plu"):
-        with pytest.raises(ValueError, match=name) as error:
+    for name in ("noise.x3p", "cut.top", "lines.sdf", "missing.plu"):
+        with refused(name) as error:
             read_heights(tmp_path / name, 1.0)
-        assert len(one_line(error)) < 400
+        assert len(str(error.value)) < 400
 
 
-def test_without_the_extra_the_message_names_the_remedy(tmp_path):
+def test_without_the_extra_the_message_names_the_remedy(tmp_path, monkeypatch):
     (tmp_path / "a.x3p").write_bytes(b"PK")
-    script = "import sys; sys.modules['SurfaceTopography'] = None; import viscorough; viscorough.read_heights('a.x3p')"
-    done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert done.stderr.splitlines()[-1].endswith("pip install 'viscorough[formats]'")
+    monkeypatch.setitem(sys.modules, "SurfaceTopography.IO", None)  # as if it were not installed
+    with refused(r"pip install 'viscorough\[formats\]'"):
+        read_heights(tmp_path / "a.x3p")
 
 
 def test_contents_decide_where_a_suffix_is_shared(tmp_path):
     """Some instruments write binary files under .dat, which is read as text otherwise."""
     (tmp_path / "a.dat").write_text("1 2\n3 4\n")
     assert read_heights(tmp_path / "a.dat", 1.0).heights.tolist() == [[1, 2], [3, 4]]
-    topography(FILES / "unnamed.ibw")  # skips without the extra
     (tmp_path / "b.dat").write_bytes((FILES / "unnamed.ibw").read_bytes())
     assert read_heights(tmp_path / "b.dat").heights.shape == (10, 10)

@@ -5,7 +5,8 @@ import csv
 import numpy as np
 import pytest
 
-from support.curves import assert_same_curve, one_line, random_curve
+from support.contract import refused
+from support.curves import assert_same_curve, random_curve
 from viscorough.io import tables
 from viscorough.io.curves import curve_from_content, curve_to_content
 from viscorough.io.netcdf import Content, Variable
@@ -16,7 +17,7 @@ def path(tmp_path):
     return tmp_path / "curve.csv"
 
 
-@pytest.mark.parametrize("unit", ["m", "1", "(1e-6 m)"])
+@pytest.mark.parametrize("unit", ["1", "(1e-6 m)"])
 def test_curve_survives_a_table_exactly(path, unit):
     curve = random_curve(length_unit=unit)
     tables.write(curve_to_content(curve).with_attributes(heights='a "ψ"\n#.npy'), path)
@@ -39,25 +40,21 @@ def test_table_is_plain_csv_with_units_in_its_header(path):
 
 def test_missing_values_are_empty_fields(path):
     attributes = {"long_name": "velocity", "units": "m s-1"}
-    columns = {
-        name: Variable(("level",), np.array([value, np.nan]), attributes)
-        for name, value in zip("vw", (1.5, 2.0), strict=True)
-    }
+    columns = {name: Variable(("level",), np.array([1.5, np.nan]), attributes) for name in "vw"}
     tables.write(Content(columns, {}), path)
-    assert path.read_text(encoding="utf-8").endswith("v (m s-1),w (m s-1)\n1.5,2.0\n,\n")
+    assert path.read_text(encoding="utf-8").endswith("v (m s-1),w (m s-1)\n1.5,1.5\n,\n")
     assert np.isnan(tables.read(path).variables["w"].values).tolist() == [False, True]
 
 
 def test_maps_are_no_tables(path):
     attributes = {"long_name": "height", "units": "m"}
     content = Content({"heights": Variable(("y", "x"), np.zeros((2, 2)), attributes)}, {})
-    with pytest.raises(ValueError, match=r"no table of one dimension; a NetCDF file \(\.nc\) is needed") as error:
+    with refused(r"no table of one dimension; a NetCDF file \(\.nc\) is needed"):
         tables.write(content, path)
-    one_line(error)
     assert not path.exists()
 
 
-@pytest.mark.parametrize("heading", ["depth (um)", "depth [um]", "depth[um]", "depth  (um)", " depth (um) "])
+@pytest.mark.parametrize("heading", ["depth [um]", "depth[um]", " depth  (um) "])
 def test_units_in_other_brackets_are_read(path, heading):
     path.write_text(f"{heading},force (um2)\n1.0,2.0\n", encoding="utf-8")
     variables = tables.read(path).variables
@@ -67,31 +64,15 @@ def test_units_in_other_brackets_are_read(path, heading):
 @pytest.mark.parametrize(
     "text",
     [
-        *[
-            f"{heading},force\n1.0,2.0\n"
-            for heading in ("depth/um", "depth in um", "depth um", "depth (um", "um)", "force")
-        ],
-        *["depth,force\n1.0,2.0\n#N/A,3.0\n2.0,4.0\n", "depth (um);force (um2)\n1,0;2,0\n", "depth\tforce\n1\t2\n"],
+        *[f"{heading},force\n1.0,2.0\n" for heading in ("depth/um", "depth in um", "depth (um", "um)", "force")],
+        *["depth,force\n1.0,2.0\n#N/A,3.0\n2.0,4.0\n", "depth (um);force (um2)\n1,0;2,0\n", "a b\n1.0\n"],
+        *["", "# title: only\n", "depth\n", "depth,force\n1.0\n", "depth\none\n", 'depth\n"1.0\n', "\0\n1\n"],
     ],
-)
-def test_other_headings_and_marks_are_refused_in_one_line(path, text):
-    path.write_text(text, encoding="utf-8")
-    with pytest.raises(ValueError, match=r"curve\.csv: not readable \(") as error:
-        tables.read(path)
-    assert "NoneType" not in one_line(error)
-
-
-@pytest.mark.parametrize(
-    "text",
-    ["", "# title: only\n", "depth\n", "depth,force\n1.0\n", "depth\none\n", "a b\n1.0\n", 'depth\n"1.0\n', "\0\n1\n"],
 )
 def test_other_texts_are_refused_in_one_line(path, text):
     path.write_text(text, encoding="utf-8")
-    with pytest.raises(
-        ValueError, match=r"curve\.csv: not readable \(.*\); a whole table of viscorough is needed"
-    ) as e:
+    with refused(r"curve\.csv: not readable \((?!.*NoneType).*\); a whole table of viscorough is needed"):
         tables.read(path)
-    one_line(e)
 
 
 def test_attributes_that_no_netcdf_file_could_hold_are_texts_or_ignored(path):

@@ -4,9 +4,7 @@ import netCDF4
 import numpy as np
 import pytest
 
-from support.curves import one_line
-from viscorough.arrays import read_only
-from viscorough.indenter import Indenter
+from support.contract import refused
 from viscorough.io import netcdf
 from viscorough.io.heights import read_heights
 
@@ -31,7 +29,7 @@ def read(path):
     return netcdf.read(path).variables["z"].values
 
 
-@pytest.mark.parametrize("kind", ["f4", "f8", "i2", "u2", "i4", "u4", "i8", "u8"])
+@pytest.mark.parametrize("kind", ["f4", "f8", "i2", "u4", "i8"])
 def test_what_was_not_written_is_missing(tmp_path, kind):
     path = stored(tmp_path / "a.nc", kind, [[1, None], [3, 4]])
     np.testing.assert_array_equal(read(path), [[1, NAN], [3, 4]])
@@ -53,36 +51,25 @@ def test_every_value_of_a_byte_is_valid_unless_one_is_said_to_be_missing(tmp_pat
         # 1e20 in double precision is no number of single precision
         ("f4", {"missing_value": 1e20}, [[1, 2], [3, NAN]]),
         ("f4", {"missing_value": 1e20, "fill_value": 2}, [[1, NAN], [3, NAN]]),
-        ("f8", {"missing_value": np.float32(2)}, [[1, NAN], [3, 1e20]]),
         ("f8", {"missing_value": [1.0, 3.0]}, [[NAN, 2], [NAN, 1e20]]),
         ("f8", {"missing_value": "2"}, [[1, NAN], [3, 1e20]]),
         ("f8", {"valid_range": [2.0, 3.0]}, [[NAN, 2], [3, NAN]]),
         ("f4", {"valid_min": 2}, [[NAN, 2], [3, 1e20]]),
-        ("f4", {"valid_max": 3.0}, [[1, 2], [3, NAN]]),
         ("f8", {"valid_max": 3.0, "scale_factor": 2.0, "add_offset": 1.0}, [[3, 5], [7, NAN]]),
-    ],
-)
-def test_missing_values_of_numbers_with_a_point(tmp_path, kind, attributes, expected):
-    path = stored(tmp_path / "a.nc", kind, [[1, 2], [3, 1e20]], **attributes)
-    np.testing.assert_array_equal(read(path), np.array(expected).astype(kind))
-    np.testing.assert_array_equal(read_heights(path, 1.0).heights, np.array(expected).astype(kind))
-
-
-@pytest.mark.parametrize(
-    ("kind", "attributes", "expected"),
-    [
         ("i2", {"missing_value": 9.0}, [[1, 2], [3, NAN]]),
         ("i2", {"missing_value": 99_999}, [[1, 2], [3, 9]]),
-        ("i2", {"fill_value": 9, "scale_factor": 0.5}, [[0.5, 1], [1.5, NAN]]),
         ("i2", {"valid_max": np.int16(3), "scale_factor": 0.5}, [[0.5, 1], [1.5, NAN]]),
         ("i2", {"valid_max": 1.0, "scale_factor": 0.5}, [[0.5, 1], [NAN, NAN]]),  # finer: of unpacked values
         ("i2", {"valid_range": np.array([2, 3], np.int16), "add_offset": 10.0}, [[NAN, 12], [13, NAN]]),
         ("u2", {"missing_value": np.int32(-9)}, [[1, 2], [3, 9]]),
     ],
 )
-def test_missing_values_of_whole_numbers(tmp_path, kind, attributes, expected):
-    path = stored(tmp_path / "a.nc", kind, [[1, 2], [3, 9]], **attributes)
+def test_missing_values(tmp_path, kind, attributes, expected):
+    """Numbers with a point and whole numbers: the last one stored is 1e20, or 9."""
+    path = stored(tmp_path / "a.nc", kind, [[1, 2], [3, 1e20 if kind.startswith("f") else 9]], **attributes)
+    expected = np.array(expected).astype(kind if kind.startswith("f") else float)
     np.testing.assert_array_equal(read(path), expected)
+    np.testing.assert_array_equal(read_heights(path, 1.0).heights, expected)
 
 
 def test_unsigned_numbers_that_are_stored_as_signed_ones(tmp_path):
@@ -94,45 +81,22 @@ def test_unsigned_numbers_that_are_stored_as_signed_ones(tmp_path):
     ("attributes", "what"),
     [
         ({"missing_value": "none"}, "attribute missing_value of z is 'none', not a number"),
-        ({"scale_factor": "two"}, "attribute scale_factor of z is 'two', not a number"),
         ({"scale_factor": [1.0, 2.0]}, r"attribute scale_factor of z is array\(\[1., 2.\]\), not a number"),
         ({"valid_range": "0 5"}, "attribute valid_range of z is '0 5', not two numbers"),
-        ({"valid_range": [0.0, 1.0, 2.0]}, "not two numbers"),
         ({"valid_min": [0.0, 1.0]}, "attribute valid_min of z is .* not a number"),
     ],
 )
 def test_attributes_that_are_no_numbers_are_refused(tmp_path, attributes, what):
     path = stored(tmp_path / "a.nc", "f8", [[1, 2], [3, 9]], **attributes)
-    for function in (netcdf.read, lambda path: read_heights(path, 1.0)):
-        with pytest.raises(ValueError, match=f"a.nc: not readable .*{what}") as error:
-            function(path)
-        one_line(error)
+    with refused(f"a.nc: not readable .*{what}"):
+        read(path)
 
 
 def test_whole_numbers_that_double_precision_lacks_are_refused_also_beside_missing_ones(tmp_path):
-    path = stored(tmp_path / "a.nc", "u8", [[2**60, None]])
-    with pytest.raises(ValueError, match=r"whole numbers must not exceed 2\*\*53"):
-        read_heights(path, 1.0)
+    with refused(r"whole numbers must not exceed 2\*\*53"):
+        read_heights(stored(tmp_path / "a.nc", "u8", [[2**60, None]]), 1.0)
 
 
 def test_attributes_of_storage_are_not_those_of_what_was_read(tmp_path):
     path = stored(tmp_path / "a.nc", "i2", [[1, 2]], valid_max=np.int16(1), scale_factor=0.5, long_name="height")
     assert netcdf.read(path).variables["z"].attributes == {"long_name": "height"}
-
-
-def test_text_is_read_as_it_is(tmp_path):
-    with netCDF4.Dataset(tmp_path / "a.nc", "w") as file:
-        file.createDimension("x", 2)
-        file.createVariable("method", str, ("x",))[:] = np.array(["a", "bc"], object)
-        file.createVariable("letters", "S1", ("x",))[:] = np.array([b"d", b"e"])
-    variables = netcdf.read(tmp_path / "a.nc").variables
-    assert variables["method"].values.tolist() == ["a", "bc"]
-    assert variables["letters"].values.tolist() == [b"d", b"e"]
-
-
-def test_masks_of_files_and_of_arrays_mean_the_same(tmp_path):
-    path = stored(tmp_path / "a.nc", "f8", [[1, None], [3, 4]])
-    with netCDF4.Dataset(path) as file:
-        array = file["z"][...]
-    np.testing.assert_array_equal(Indenter(array, 1.0).heights, read_heights(path, 1.0).heights)
-    np.testing.assert_array_equal(read_only(array), read(path))

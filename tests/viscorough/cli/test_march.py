@@ -1,0 +1,157 @@
+"""`viscorough march`: agreement with kinetics, force histories, media, units, and what is refused."""
+
+import importlib
+from contextlib import nullcontext
+
+import numpy as np
+import pytest
+
+from support.command_line import run
+from support.contract import complaint
+from viscorough.contact.loading_path import indent
+from viscorough.indenter import Indenter
+from viscorough.io import netcdf
+from viscorough.surfaces import self_affine_disc
+
+HEIGHTS = self_affine_disc(0.7, 13, rms=0.02, diameter=13.0, seed=3).heights
+MARCH = "march heights.npy --spacing 1 -o march.nc"
+MEDIUM = f"{MARCH} --medium medium.yaml"
+
+
+@pytest.fixture(autouse=True)
+def here(here):
+    np.save("heights.npy", HEIGHTS)
+    (here / "medium.yaml").write_text("kind: maxwell\nshear_modulus: 2.0\nviscosity: 3.0\n")
+    (here / "pulse.csv").write_text("time,force\n0,0\n1,0.2\n2,0.02\n3,0.02\n")
+    return here
+
+
+def values(file):
+    return {name: variable.values for name, variable in netcdf.read(file).variables.items()}
+
+
+@pytest.mark.parametrize(
+    ("medium", "method", "tolerance"),
+    [
+        *[("--medium medium.yaml", *case) for case in (("events", 1e-8), ("second_order", 1e-2), ("implicit", 0.1))],
+        ("--viscosity 3", "implicit", 1e-5),
+        ("--viscosity 3", "explicit --overlap 1e-3", 5e-3),
+    ],
+)
+def test_marching_agrees_with_kinetics(medium, method, tolerance):
+    motion = f"--force 0.1 {medium} --times 0.25,0.5,0.75,1,1.25,1.5"
+    assert run(f"{MARCH} --method {method} {motion}") == 0
+    assert run("indent heights.npy --spacing 1 --tolerance 1e-9 --until-fraction 1 -o curve.nc") == 0
+    assert run(f"kinetics curve.nc {motion} -o kin.nc") == 0
+    marched, expected = values("march.nc"), values("kin.nc")
+    np.testing.assert_allclose(marched["depth"][-6:], expected["depth"], rtol=tolerance)
+    if "medium" in medium:
+        assert marched["time"][0] == 0
+        assert set(marched) == {"time", "depth", "force", "contact_count"}
+    elif method == "implicit":
+        np.testing.assert_allclose(marched["velocity"], expected["velocity"], rtol=1e-4)
+    else:
+        assert 0 < marched["overlap"].max() <= 1.001e-3
+
+
+def test_events_under_a_constant_force_are_those_of_the_curve():
+    assert run(f"{MARCH} --method events --force 2 --viscosity 4") == 0
+    events = values("march.nc")
+    curve = indent(Indenter(HEIGHTS, 1.0), tolerance=1e-11, depths=events["depth"][1::15])
+    np.testing.assert_allclose(events["time"][1::15], curve.force * 4 / 2, rtol=1e-9)
+    assert netcdf.read("march.nc").attributes["method"] == "events"
+
+
+@pytest.mark.parametrize(
+    ("method", "tolerance"),
+    [("events", 1e-9), ("implicit", 1e-5), ("explicit --overlap 1e-3", 5e-3), ("heun --overlap 1e-3", 5e-3)],
+)
+def test_marching_under_a_force_history(here, method, tolerance):
+    """A ramp, a rest and a pulse."""
+    (here / "force.csv").write_text("time,force\n1,0\n2,1e0\n4,1\n5,0\n9,0\n9.5,6\n10,0\n")
+    assert run(f"{MARCH} --viscosity 4 --method {method} --force-history force.csv") == 0
+    of = values("march.nc")
+    np.testing.assert_array_equal(of["time"], [1, 2, 4, 5, 9, 9.5, 10])
+    np.testing.assert_array_equal(of["force"], [0, 1, 1, 0, 0, 6, 0])
+    assert of["depth"][0] == 0
+    assert of["depth"][3] == of["depth"][4], "at rest"
+    elastic = indent(Indenter(HEIGHTS, 1.0), tolerance=1e-11, depths=np.unique(of["depth"][1:]))
+    np.testing.assert_allclose(elastic.force, np.array([0.5, 2.5, 3, 4.5, 6]) / 4, rtol=3 * tolerance)
+    forced = of["force"] > 0
+    np.testing.assert_array_equal(of["velocity"][~forced], 0)
+    levels = np.searchsorted(elastic.depth, of["depth"][forced])
+    np.testing.assert_allclose(of["velocity"][forced], of["force"][forced] / (4 * elastic.stiffness[levels]), rtol=0.02)
+
+
+@pytest.mark.parametrize("medium", ["--medium medium.yaml", ""])
+def test_steps_show_their_progress(monkeypatch, medium):
+    shares = []
+    module = importlib.import_module("viscorough.cli.march")
+    monkeypatch.setattr(module, "progress_bar", lambda label, wanted: nullcontext(shares.append))
+    assert run(f"{MARCH} --method implicit --times 1,2 {medium}") == 0
+    assert shares[-2:] == pytest.approx([1 - 1 / len(shares), 1])
+
+
+def test_marching_goes_on_where_contact_recedes(here, capsys):
+    assert run("indent heights.npy --spacing 1 --until-fraction 1 -o curve.nc") == 0
+    history = "--medium medium.yaml --force-history pulse.csv"
+    assert "would recede" in complaint(f"kinetics curve.nc {history} -o kin.nc", capsys, here)
+    assert "the contact recedes" in complaint(f"{MARCH} --method events {history}", capsys, here)
+    assert run(f"{MARCH} --method second_order {history}") == 0
+    content = netcdf.read("march.nc")
+    assert content.attributes["receding_from"] == 2.0
+    count, force = (content.variables[name].values for name in ("contact_count", "force"))
+    np.testing.assert_array_equal(force, [0, 0.2, 0.02, 0.02])
+    assert count[2] < count[1]
+
+
+@pytest.mark.parametrize("method", ["events", "implicit --times 0.1,0.2"])
+def test_viscosities_are_in_pascal_seconds_where_the_unit_is_known(method):
+    """The same surface in metres and in micrometres."""
+    np.save("metres.npy", 1e-6 * HEIGHTS)
+    common = f"--method {method} --force '1 N' --viscosity '2e12 Pa s'"
+    assert run(f"march heights.npy --spacing 1 --unit um {common} -o um.nc") == 0
+    assert run(f"march metres.npy --spacing 1e-6 --unit m {common} -o m.nc") == 0
+    um, m = values("um.nc"), values("m.nc")
+    np.testing.assert_allclose(um["time"], m["time"], rtol=1e-9, atol=1e-9 * m["time"][-1])
+    np.testing.assert_allclose(um["depth"] * 1e-6, m["depth"], rtol=1e-6, atol=1e-9 * m["depth"][-1])
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        (f"{MARCH} --method events --times 1,2", "--times is not for --method events"),
+        (f"{MARCH} --method explicit", "--times is needed by --method explicit"),
+        (f"{MARCH} --method implicit --times 1 --overlap 0.1", "--overlap is not for"),
+        (f"{MARCH} --method explicit --times 1 --until-fraction 0.1", "--until-fraction is not for"),
+        (f"{MARCH} --method second_order --times 1", "--method second_order is for use with --medium"),
+        (f"{MARCH} --method events --force-history none.csv --force 1", "replaces --force and --times"),
+        (f"{MARCH} --method events --force 1e-10 --viscosity 1.7e308", "times or velocities overflow"),
+        (f"{MARCH} --method events --force 1e300 --viscosity 1e-300", "times or velocities overflow"),
+        (f"{MEDIUM} --method heun --times 1", "--method heun is not for --medium; allowed: events, implicit"),
+        (f"{MEDIUM} --method implicit --times 1 --viscosity 2", "--medium replaces --viscosity"),
+    ],
+)
+def test_mistakes_are_one_line(here, capsys, line, message):
+    assert message in complaint(line, capsys, here)
+
+
+@pytest.mark.parametrize(
+    ("history", "message"),
+    [
+        ("0,1\n1,-1\n", "sample 1 is -1.0; allowed: finite, 0 or more"),
+        ("0,0\n1,0\n", "no time passes while there is a force"),
+        ("0,1\n1e9,1\n", "is beyond the contact fraction at which events end; allowed: up to"),
+    ],
+)
+def test_bad_histories_are_one_line(here, capsys, history, message):
+    (here / "force.csv").write_text(history)
+    line = f"{MARCH} --method events --until-fraction 0.05 --force-history force.csv"
+    assert message in complaint(line, capsys, here)
+
+
+@pytest.mark.parametrize("output", ["pulse.csv", "link.csv"])
+def test_output_does_not_replace_the_force_history(here, capsys, output):
+    (here / "link.csv").symlink_to("pulse.csv")
+    line = f"march heights.npy --spacing 1 --method implicit --force-history pulse.csv -o {output}"
+    assert "would replace the force history" in complaint(line, capsys, here)

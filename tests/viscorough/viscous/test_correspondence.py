@@ -6,38 +6,19 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from support.curves import curve_of_body, curve_of_levels
 from viscorough import reference
 from viscorough.contact.loading_path import indent
-from viscorough.loading_curve import LoadingCurve
 from viscorough.surfaces import self_affine_disc
 from viscorough.viscous.correspondence import kinetics
 
 RADIUS, SLOPE, VISCOSITY = 1.7, 0.4, 30.0
-
-
-def curve_of(depth, force, stiffness, contact_count, scale=1.0):
-    return LoadingCurve(
-        depth=scale * depth,
-        force=scale**2 * force,
-        stiffness=scale * stiffness,
-        contact_count=contact_count,
-        elements=10**6,
-        method="by hand",
-        tolerance=1e-9,
-        operator_applications=0,
-        residual=np.zeros(len(depth)),
-    )
-
-
-def curve_of_body(body, scale=1.0):
-    """Levels over six decades of depth; ten elements join at each, so that at_force interpolates smoothly."""
-    depth = np.geomspace(1e-5, 10, 61)
-    return curve_of(depth, body.force(depth), body.stiffness(depth), 10 * np.arange(1, 62), scale)
+DEPTHS = np.geomspace(1e-5, 10, 61)
 
 
 @pytest.fixture
 def sphere_curve():
-    return curve_of_body(reference.sphere(RADIUS))
+    return curve_of_body(reference.sphere(RADIUS), DEPTHS)
 
 
 def exact_sphere_depth(impulse):
@@ -53,33 +34,13 @@ def exact_sphere_depth(impulse):
     ],
 )
 def test_constant_force_follows_lee_and_radok(body, penetration, shape):
-    curve = curve_of_body(body(shape))
+    curve = curve_of_body(body(shape), DEPTHS)
     force = 2.5
     for times in (None, np.geomspace(1e-3, 100, 40)):
         result = kinetics(curve, force, VISCOSITY, times)
         depth, velocity = penetration(result.time, shape, force, VISCOSITY)
         np.testing.assert_allclose(result.depth, depth, rtol=1e-12)
         np.testing.assert_allclose(result.velocity, velocity, rtol=1e-11)
-
-
-def test_kinetics_is_eq_2(sphere_curve):
-    """vt/h = X/κ with X = Ft/(4ηhL), whatever the force and the viscosity."""
-    height, diameter = 0.2, 3.0
-    x, kappa = sphere_curve.normalised(height, diameter)
-    for force, viscosity in [(2.0, 5.0), (7e-4, 1e6)]:
-        result = kinetics(sphere_curve, force, viscosity)
-        np.testing.assert_allclose(force * result.time / (4 * viscosity * height * diameter), x, rtol=1e-13)
-        np.testing.assert_allclose(result.velocity * result.time / height, x / kappa, rtol=1e-13)
-
-
-def test_ramp(sphere_curve):
-    """F = ct from rest: I = ct²/2."""
-    force_rate, times = 0.8, np.linspace(0, 5, 11)
-    result = kinetics(sphere_curve, force_rate * times, VISCOSITY, times)
-    depth = exact_sphere_depth(force_rate * times**2 / 2)
-    np.testing.assert_allclose(result.depth, depth, rtol=1e-12, atol=0)
-    assert result.velocity[0] == 0
-    np.testing.assert_allclose(result.velocity[1:], 4 / 3 * depth[1:] / times[1:], rtol=1e-11)
 
 
 def test_pulses_and_rests(sphere_curve):
@@ -120,39 +81,14 @@ def test_varying_force_against_time_integration(sphere_curve):
         assert velocity(times[i + 1], depth) == pytest.approx(result.velocity[i + 1], rel=1e-9)
 
 
-def test_dashpots_from_contact_to_contact():
-    """Dashpots of damping d under a constant force, integrated from contact to contact: v = F/(nd) while n touch."""
-    gaps = np.cumsum([0, 0.3, 0.1, 0.7, 0.2, 1.1])
-    dashpot, force = 4 * VISCOSITY * 0.05, 0.6
-    times, depths, velocities = [], [], []
-    time = 0.0
-    for n, (start, end) in enumerate(zip(gaps, np.append(gaps[1:], 3.0), strict=True), start=1):
-        velocity = force / (n * dashpot)
-        for share in (0.01, 0.5, 0.99):
-            times.append(time + share * (end - start) / velocity)
-            depths.append(start + share * (end - start))
-            velocities.append(velocity)
-        time += (end - start) / velocity
-
-    level = np.append(gaps[1:], 3.0) - 0.03  # one level in each straight part
-    count = np.arange(1, 7)
-    curve = curve_of(level, 0.2 * np.maximum(level[:, None] - gaps, 0).sum(axis=1), 0.2 * count, count)
-    inside = np.array(times) <= kinetics(curve, force, VISCOSITY).time[-1]
-    result = kinetics(curve, force, VISCOSITY, np.array(times)[inside])
-    assert inside.sum() == len(times) - 1
-    np.testing.assert_allclose(result.depth, np.array(depths)[inside], rtol=1e-13)
-    np.testing.assert_allclose(result.velocity, np.array(velocities)[inside], rtol=1e-13)
-
-
-@pytest.mark.parametrize("length", [1e-12, 1.0, 1e12])
-@pytest.mark.parametrize("clock", [1e-12, 1e12])
+@pytest.mark.parametrize(("length", "clock"), [(1e-12, 1e12), (1e12, 1e-12)])
 def test_invariance_under_change_of_units(length, clock, sphere_curve):
     """The same motion in other units of length, time and viscosity, from which that of the force follows."""
     viscosity_unit = 1e-12
     times = np.linspace(0, 4, 9)
     force = np.array([0, 1, 2, 0, 0, 3, 1, 1, 0.5])
     expected = kinetics(sphere_curve, force, VISCOSITY, times)
-    curve = curve_of_body(reference.sphere(RADIUS), scale=length)
+    curve = curve_of_body(reference.sphere(RADIUS * length), DEPTHS * length)
     result = kinetics(curve, force * viscosity_unit * length**2 / clock, VISCOSITY * viscosity_unit, times * clock)
     np.testing.assert_allclose(result.time, times * clock, rtol=1e-15)
     np.testing.assert_allclose(result.depth, expected.depth * length, rtol=1e-12)
@@ -187,7 +123,7 @@ def test_before_the_first_level(sphere_curve):
     np.testing.assert_array_equal(rested.depth[:2], 0)
     np.testing.assert_array_equal(rested.velocity[:2], 0)
 
-    one = curve_of(np.array([0.5]), np.array([1.0]), np.array([2.0]), np.array([1]))
+    one = curve_of_levels([0.5], [1.0], [2.0], [1])
     result = kinetics(one, 4.0, 10.0, [0, 0.1, 2.5])
     np.testing.assert_allclose(result.depth, [0, 0.02, 0.5], rtol=1e-14)
     np.testing.assert_allclose(result.velocity, 0.2, rtol=1e-14)
@@ -197,20 +133,12 @@ def test_before_the_first_level(sphere_curve):
     ("arguments", "allowed"),
     [
         ({"viscosity": 0.0}, "viscosity: 0.0; allowed: a finite number above 0"),
-        ({"viscosity": -1.0}, "above 0"),
-        ({"viscosity": np.nan}, "above 0"),
         ({"viscosity": [1.0]}, "a finite number"),
         ({"force": 0.0}, "constant force: 0.0; allowed: a finite number above 0"),
-        ({"force": -2.0}, "above 0"),
-        ({"force": np.inf}, "a finite number"),
         ({"force": [1.0, 2.0], "times": None}, "needs the time of each sample"),
         ({"force": [1.0, 2.0]}, "one per time"),
         ({"force": [1.0, -1e-9, 2.0]}, "sample 1 is -1e-09; allowed: finite, 0 or more"),
-        ({"force": [1.0, np.nan, 2.0]}, "sample 1 is nan"),
         ({"times": [0.0, 2.0, 1.0]}, "each larger than the one before"),
-        ({"times": [0.0, 1.0, 1.0]}, "each larger than the one before"),
-        ({"times": [0.0, np.inf]}, "finite"),
-        ({"times": []}, "one row"),
         ({"times": [[0.0, 1.0]]}, "one row"),
         ({"times": [-1.0, 1.0]}, "start at -1; allowed: from 0 on"),
         ({"times": [0.0, 1e9]}, "allowed: up to"),
@@ -222,13 +150,6 @@ def test_refusals(arguments, allowed, sphere_curve):
     with pytest.raises(ValueError, match=r"^[^\n]+$") as refusal:
         kinetics(sphere_curve, **call)
     assert allowed in str(refusal.value)
-
-
-def test_refusal_names_the_largest_impulse(sphere_curve):
-    limit = VISCOSITY * sphere_curve.force[-1]
-    kinetics(sphere_curve, 1.0, VISCOSITY, [limit])
-    with pytest.raises(ValueError, match=f"allowed: up to {limit:.6g}"):
-        kinetics(sphere_curve, 1.0, VISCOSITY, [1.0001 * limit])
 
 
 def test_the_remedy_of_a_short_curve_is_one():

@@ -30,16 +30,13 @@ def test_rms_slope_and_element_of_a_map_with_two_spacings():
 @pytest.mark.parametrize(
     ("arguments", "what"),
     [
-        (((1.0, 2.0), 2.0), "must be one number or a pair"),
         (((1.0, 2.0, 3.0),), "must be one number or a pair"),
         (("1,2",), "must be a positive number"),
+        ((np.nan,), "spacing: must be positive"),
         (((1.0, -2.0),), "must be positive and finite, not -2"),
         ((1.0, 0), "row_spacing: must be positive and finite, not 0"),
-        ((1.0, "two"), "row_spacing: must be a positive number, not 'two'"),
         ((1.0, 5.1), "differ by more than a factor of 5"),
-        (((5.0 + 1e-6, 1.0),), "differ by more than a factor of 5"),
         ((1e-300, 1e300), "differ by more than a factor of 5"),
-        ((1.0, None, ""), "length_unit: must be a text"),
         ((1.0, None, 3), "length_unit: must be a text"),
     ],
 )
@@ -69,14 +66,6 @@ def test_rms_slope_that_overflows_is_infinite():
             assert Indenter(np.array([[0.0, 1e100]]), spacing).rms_slope == np.inf
 
 
-@pytest.mark.parametrize("change", [lambda heights: heights.__imul__(2), lambda heights: heights.fill(0)])
-def test_heights_do_not_change_with_those_that_were_given(change):
-    given = np.arange(4.0).reshape(2, 2)
-    indenter = Indenter(given, 1.0)
-    change(given)
-    np.testing.assert_array_equal(indenter.heights, [[0, 1], [2, 3]])
-
-
 @pytest.mark.parametrize("dtype", [float, np.float32, int])
 def test_masked_heights_lie_outside_the_indenter(dtype):
     heights = np.ma.array([[1, 2], [3, 4]], mask=[[0, 1], [0, 0]], dtype=dtype)
@@ -86,16 +75,6 @@ def test_masked_heights_lie_outside_the_indenter(dtype):
         assert indenter.elements == 3
         np.testing.assert_array_equal(indenter.initial_gap, [[3, np.nan], [1, 0]])
         assert indent(indenter, until_fraction=1).elements == 3
-
-
-def test_masked_points_of_a_line_and_maps_without_any_point_are_refused():
-    with pytest.raises(ValueError, match="must not be nan on a line"):
-        Indenter(np.ma.array([1.0, 2.0], mask=[0, 1]), 1.0)
-    for dtype in (float, int):
-        with pytest.raises(ValueError, match="at least one element"):
-            Indenter(np.ma.masked_all((2, 2), dtype), 1.0)
-    with pytest.raises(ValueError, match="not bool"):
-        Indenter(np.ma.array([[True, False]], mask=[[0, 1]]), 1.0)
 
 
 @pytest.mark.parametrize("dtype", [np.float16, np.float32])
@@ -121,13 +100,22 @@ def test_gaps_are_computed_in_double_precision(dtype):
         (np.ma.array([[0, 2**60]], mask=[[1, 0]]), r"whole numbers must not exceed 2\*\*53"),
         (np.array([[1e308, -1e308]]), "must differ by at most"),
         (np.array([[np.longdouble("1e400"), 0]]), "some are infinite"),
+        (np.zeros((2, 2, 2)), "one or two dimensions, not"),
+        ([["a"]], "real numbers"),
+        (np.ones((2, 2), complex), "real numbers"),
+        (np.ma.array([[True, False]], mask=[[0, 1]]), "not bool"),
+        (np.ones((0, 3)), "at least one element"),
+        (np.ma.masked_all((2, 2), int), "at least one element"),
+        (np.full((2, 2), np.nan), "at least one element"),
+        ([[0, -np.inf]], "finite"),
+        ([0, np.nan], "must not be nan on a line"),
+        (np.ma.array([1.0, 2.0], mask=[0, 1]), "must not be nan on a line"),
     ],
-    ids=["uint64", "int64", "masked", "range", "long double"],
 )
-def test_heights_that_double_precision_does_not_hold_are_refused(heights, what):
-    for given in (heights, heights[0]):
-        with pytest.raises(ValueError, match=what):
-            Indenter(given, 1.0)
+def test_heights_that_make_no_indenter_are_refused(heights, what):
+    with pytest.raises(ValueError, match=what) as error:
+        Indenter(heights, 1.0)
+    assert "\n" not in str(error.value)
 
 
 def test_largest_whole_numbers_are_kept():

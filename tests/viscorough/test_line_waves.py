@@ -1,4 +1,4 @@
-"""Random waves of lines: known answers of the generator, the formula in numpy, statistics of a million waves."""
+"""Random waves of lines: known answers of the generator, the formula in numpy, statistics of many waves."""
 
 import numpy as np
 import pytest
@@ -8,7 +8,7 @@ from viscorough import line_waves
 from viscorough.line_waves import fill_packed_spectrum, key_of, random_words, shortest_wave, waves
 
 KEY = key_of(np.random.SeedSequence(7))
-MANY = 2**20
+MANY = 2**18
 
 
 # Known answers of philox2x32 with ten rounds, from Random123's tests (tests/kat_vectors): counter (two words), key.
@@ -54,7 +54,7 @@ def test_single_precision_is_the_formula(fixed):
 
 
 def test_coefficients_are_independent_and_gaussian():
-    """Real and imaginary parts of a million waves; a false alarm has a chance of 1e-4 or less at each line."""
+    """Real and imaginary parts of many waves; a false alarm has a chance of 1e-4 or less at each line."""
     parts, _ = drawn(MANY, fixed=False)
     normal = parts.astype(float).ravel()
     assert stats.kstest(normal, "norm").pvalue > 1e-4
@@ -74,7 +74,7 @@ def test_coefficients_are_independent_and_gaussian():
 
 def test_every_bit_is_random():
     """Bits of neighbouring counters and of neighbouring keys agree half of the time."""
-    words = np.empty((3, 2, MANY // 16), np.uint32)
+    words = np.empty((3, 2, MANY // 4), np.uint32)
     for row, key, first in ((0, KEY, 1), (1, KEY, 2), (2, KEY ^ np.array([1, 0], np.uint64), 1)):
         random_words(first, key, *words[row])
     for other in (np.zeros_like(words[0]), words[1], words[2]):
@@ -84,7 +84,7 @@ def test_every_bit_is_random():
 
 
 @pytest.mark.parametrize("fixed", [False, True])
-@pytest.mark.parametrize("half", [1, 2, 3, 4, 2047, 2048, 2049, 5000])
+@pytest.mark.parametrize("half", [1, 2, 3, 2048, 2049, 5000])
 def test_packed_spectrum(half, fixed):
     """Spectrum of y_2j + i y_2j+1 by numpy, of a real line with the waves of the formula; parts of blocks, too."""
     amplitude = np.arange(half + 1.0) ** 0.3
@@ -109,7 +109,7 @@ def test_shortest_wave_has_the_mean_power_of_others():
     assert abs(np.mean(np.sign(fixed))) < 4 / np.sqrt(len(keys))
 
 
-@pytest.mark.parametrize("shape", [(1, 7), (3, 5), (40, 50)])
+@pytest.mark.parametrize("shape", [(1, 7), (40, 50)])
 def test_twiddle(shape):
     ones = np.ones(shape, np.complex64)
     line_waves.twiddle(ones.view(np.float32), np.float32(2.5))

@@ -24,11 +24,6 @@ def indenter(heights, **options):
     return Indenter(heights, DX, DY, **options)
 
 
-def test_nothing_is_done_unless_asked_for():
-    surface = indenter(ROUGH)
-    assert prepare(surface) is surface
-
-
 def test_nodata_crop_and_flip():
     heights = ROUGH.copy()
     heights[3, 4], heights[20, 30], heights[0, 0] = -9999, 1e38, 77
@@ -61,21 +56,12 @@ def test_detrended_heights_have_no_mean_and_no_tilt(form):
         np.testing.assert_allclose(prepare(indenter(PLANE), detrend="plane").heights, 0, atol=1e-13)
 
 
-@pytest.mark.parametrize("radius", [18.0, 40.0, 1e4, -30.0])
+@pytest.mark.parametrize("radius", [18.0, 1e4, -30.0])
 def test_detrend_sphere_is_exact_for_spheres(radius):
     """Caps up to a polar angle of 54°; a negative radius stands for a hollow."""
     sphere = np.sign(radius) * np.sqrt(radius**2 - X**2 - Y**2)
     residual = prepare(indenter(sphere + 0.2 * X + 5), detrend="sphere").heights
     np.testing.assert_allclose(residual, 0, atol=1e-9 * abs(radius))
-
-
-def test_detrend_sphere_keeps_the_roughness():
-    rough = self_affine_disc(0.8, 65, rms=1e-2, diameter=65.0, seed=2)
-    x = np.arange(65) - 32.0
-    form = -(x**2 + x[:, None] ** 2) / 400
-    residual = prepare(Indenter(rough.heights + form, 1.0), detrend="sphere").heights
-    alone = prepare(rough, detrend="sphere").heights
-    assert np.nanmax(abs(residual - alone)) < 1e-2 * np.nanstd(alone) + np.abs(form).max() * 1e-2
 
 
 def test_a_sphere_smaller_than_the_map_is_refused():
@@ -96,32 +82,21 @@ def test_harmonic_fill_is_exact_for_harmonic_heights():
     np.testing.assert_allclose(filled, np.where(outside, np.nan, heights), atol=1e-10)
 
 
-def test_filled_heights_lie_between_those_around():
-    holes = np.where(ROUGH > 1, np.nan, ROUGH)
-    holes[0] = holes[-1] = holes[:, 0] = holes[:, -1] = 0
-    filled = prepare(indenter(holes), fill="harmonic")
-    assert filled.elements == holes.size
-    assert np.nanmin(holes) <= filled.heights.min()
-    assert filled.heights.max() <= np.nanmax(holes)
-
-
 @pytest.mark.parametrize(
     ("options", "what"),
     [
         ({"detrend": "cubic"}, "allowed: none, mean, plane, sphere"),
         ({"fill": "mean"}, "none, harmonic"),
         ({"crop": ((0, 42), (0, 3))}, "crop to columns 0:42; within 0:41"),
-        ({"crop": ((0, 3), (5, 5))}, "crop to rows 5:5"),
         ({"nodata": 1.0}, "no height is left"),
     ],
 )
 def test_what_cannot_be_prepared_is_refused(options, what):
+    surface = indenter(np.ones((ROWS, COLUMNS)))
     with pytest.raises(ValueError, match=what) as error:
-        prepare(indenter(np.ones((ROWS, COLUMNS))), **options)
+        prepare(surface, **options)
     one_line(error)
-
-
-def test_lines_are_not_prepared():
+    assert prepare(surface) is surface
     with pytest.raises(ValueError, match="two-dimensional"):
         prepare(Indenter(np.arange(3.0), 1.0), flip=True)
 
@@ -154,7 +129,7 @@ def test_enclosed_holes_are_counted():
     assert doubts(prepare(indenter(holes), fill="harmonic")) == []
 
 
-@pytest.mark.parametrize(("mark", "points"), [(-9999, 3), (-32768, 1), (1e38, 2), (3.4028235e38, 1), (1000, 4)])
+@pytest.mark.parametrize(("mark", "points"), [(-9999, 3), (3.4028235e38, 1), (1000, 4)])
 def test_marks_of_missing_points_are_told(mark, points):
     heights = ROUGH.copy()
     heights.flat[:points] = mark

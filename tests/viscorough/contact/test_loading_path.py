@@ -199,6 +199,7 @@ def test_first_level_is_one_element_in_contact():
     stiffness = np.pi * 4 * disc.spacing / influence_coefficient(0.0, 0.0)
     assert curve.contact_count[0] == 1
     assert curve.stiffness[0] == pytest.approx(stiffness, rel=1e-12)
+    assert curve.stiffness[0] == pytest.approx(4 * reference.one_element_stiffness(65), rel=1e-12)
     assert curve.force[0] == pytest.approx(stiffness * curve.depth[0], rel=1e-12)
 
 

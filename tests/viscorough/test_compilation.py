@@ -5,7 +5,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import textwrap
 from pathlib import Path
 
 import numba
@@ -39,14 +38,16 @@ def test_compiled_functions_of_other_packages_are_left_alone():
         assert getattr(caching, name).__module__ == "numba.core.caching", "numba itself is changed"
 
 
-def test_function_without_a_source_file_is_compiled_without_a_cache():
+@pytest.mark.parametrize("environment", [{}, {"NUMBA_DISABLE_JIT": "1"}], ids=["compiled", "numba disabled"])
+def test_function_without_a_source_file_is_compiled_without_a_cache(environment):
     """numba itself refuses to compile such a function with a cache."""
-    script = textwrap.dedent("""
-        from viscorough.compilation import njit, vectorize
-        assert njit(lambda x: x + 1)(1.0) == 2
-        assert vectorize("float64(float64)")(lambda x: x + 1)(1.0) == 2
-    """)
-    assert run(script).stderr == ""
+    script = "from viscorough.compilation import njit; assert njit(fastmath=True)(lambda x: x + 1)(1.0) == 2"
+    assert run(script, **environment).stderr == ""
+
+
+def test_vectorized_function_without_a_source_file_broadcasts():
+    add = vectorize("float64(float64, float64)")(eval("lambda x, y: x + y"))
+    np.testing.assert_array_equal(add(np.arange(3.0)[:, None], np.arange(2.0)), [[0, 1], [1, 2], [2, 3]])
 
 
 SPHERE = """
@@ -85,11 +86,6 @@ def test_package_and_home_that_may_not_be_written(tmp_path):
     assert done.stderr
 
 
-def test_functions_run_without_compilation_where_numba_is_disabled():
-    script = "from viscorough.compilation import njit; assert njit(fastmath=True)(lambda x: x + 1)(1) == 2"
-    run(script, NUMBA_DISABLE_JIT="1")
-
-
 def test_functions_are_kept_on_disk(tmp_path):
     (tmp_path / "ours.py").write_text(
         "from viscorough.compilation import njit\n@njit(fastmath=True)\ndef double(x):\n    return 2 * x\n"
@@ -97,11 +93,6 @@ def test_functions_are_kept_on_disk(tmp_path):
     script = "import ours; assert ours.double(2.0) == 4; print(sum(ours.double.stats.cache_hits.values()))"
     options = {"PYTHONPATH": str(tmp_path), "NUMBA_CACHE_DIR": str(tmp_path / "cache")}
     assert [run(script, **options).stdout for _ in range(2)] == ["0\n", "1\n"]
-
-
-def test_vectorized_function_broadcasts():
-    add = vectorize("float64(float64, float64)")(lambda x, y: x + y)
-    np.testing.assert_array_equal(add(np.arange(3.0)[:, None], np.arange(2.0)), [[0, 1], [1, 2], [2, 3]])
 
 
 class Interrupt(event.Listener):

@@ -1,19 +1,15 @@
 """Compiled functions of this package are protected, those of other packages are not affected."""
 
 import os
-import shutil
 import signal
 import subprocess
 import sys
-from pathlib import Path
 
 import numba
 import numpy as np
 import pytest
 from numba.core import caching, event
 
-import viscorough
-from support.faults import no_privileges
 from viscorough.compilation import njit, vectorize
 from viscorough.interrupts import uninterrupted
 
@@ -67,23 +63,6 @@ def test_where_compiled_code_cannot_be_kept_one_line_says_so(before, tmp_path):
     assert len(done.stderr.splitlines()) == 1, done.stderr
     assert "compiled code cannot be kept on disk" in done.stderr
     assert "set NUMBA_CACHE_DIR to a folder that is writable" in done.stderr
-
-
-def test_package_and_home_that_may_not_be_written(tmp_path):
-    """As in a container that runs under the number of a user whom it does not know."""
-    ignore = shutil.ignore_patterns("__pycache__")
-    shutil.copytree(Path(viscorough.__file__).parent, tmp_path / "viscorough", ignore=ignore)
-    for folder in (tmp_path, *tmp_path.rglob("")):
-        folder.chmod(0o555)
-    environment = os.environ | {"PYTHONPATH": str(tmp_path), "HOME": str(tmp_path), "PYTHONDONTWRITEBYTECODE": "1"}
-    environment.pop("NUMBA_CACHE_DIR", None)
-    environment.pop("XDG_CACHE_HOME", None)
-    command = [*no_privileges(), sys.executable, "-c", f"{SPHERE}print(viscorough.__file__)"]
-    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    assert done.stdout.splitlines()[1].startswith(str(tmp_path))
-    assert [line for line in done.stderr.splitlines() if "cannot be kept" in line] == done.stderr.splitlines()
-    assert done.stderr
 
 
 def test_functions_are_kept_on_disk(tmp_path):

@@ -1,6 +1,5 @@
 """Rigid indenters: heights of any real type, copied and kept; masks; numbers that do not fit."""
 
-
 import numpy as np
 import pytest
 

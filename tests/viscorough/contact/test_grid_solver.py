@@ -117,18 +117,6 @@ def test_a_box_gives_the_solution_of_the_whole_grid():
     assert whole.tangent_sum == pytest.approx(part.tangent_sum, rel=1e-7)
 
 
-def test_boxes_grow_with_the_depth_and_all_operator_applications_are_counted():
-    disc = self_affine_disc(0.9, 65, seed=4)
-    solver = ContactSolver(disc, 1e-6, SolverOptions(dense_contacts=0, dense_interactions=0))
-    contact, applications, sizes = solver.unloaded_state(), 0, []
-    for depth in (0.02, 0.1, 0.6):
-        contact = solver.advance_reduced(contact, depth)
-        assert solver.operator_applications > applications
-        applications = solver.operator_applications
-        sizes.append(contact.fields.pressure.size)
-    assert sizes[0] < sizes[1] <= sizes[2] == (65 + 2 * REACH) ** 2
-
-
 @pytest.mark.parametrize("options", [DOUBLE, SolverOptions(preconditioner="sparse", release_step=0.0),
                                      SolverOptions(preconditioner="none", release_step=0.0),
                                      SolverOptions(warm_start="pressure")])  # fmt: skip

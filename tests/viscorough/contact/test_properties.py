@@ -1,7 +1,7 @@
 """Properties that hold for every indenter, on random small maps, for both the dense and the grid solver.
 
-Neither more depth nor more or higher elements can lower the force, and contact only grows: the inverse of the influence
-matrix has no positive entry off its diagonal (computed up to 25 × 25 elements).
+Complementarity, with an influence matrix whose inverse has no positive entry off its diagonal (computed up to 25 × 25
+elements), implies that neither more depth nor more or higher elements lower the force.
 """
 
 from dataclasses import replace
@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
 from support.influence import influence_matrix
-from viscorough.contact.influence import influence_coefficient
 from viscorough.contact.loading_path import indent
 from viscorough.contact.options import SolverOptions
 from viscorough.contact.solver import ContactSolver
@@ -31,7 +30,7 @@ OPTIONS = {
     "grid": SolverOptions(dense_contacts=0, dense_interactions=0),
 }
 both_routes = pytest.mark.parametrize("route", OPTIONS)
-some = settings(max_examples=40, deadline=None, derandomize=True)
+some = settings(max_examples=60, deadline=None, derandomize=True)
 
 shapes = array_shapes(min_dims=2, max_dims=2, max_side=12)
 heights = st.floats(-4, 0, width=16) | st.integers(-3, 0) | st.just(np.nan)
@@ -60,23 +59,11 @@ def press(indenter, depths, route):
 
 
 # ---- the curve of one indenter ---------------------------------------------------------------------------------------
-@both_routes
-@given(pressings())
-@some
-def test_force_is_increasing_and_convex(route, pressing):
-    """Contact grows with depth, so that every secant lies between the stiffnesses at its ends."""
-    indenter, depths = pressing
-    curve = press(indenter, depths, route)
-    secant = np.diff(curve.force, prepend=0) / np.diff(depths, prepend=0)
-    assert np.all(secant > 0)
-    assert np.all(secant <= curve.stiffness * (1 + STIFFNESS))
-    assert np.all(secant[1:] >= curve.stiffness[:-1] * (1 - STIFFNESS))
-    assert np.all(np.diff(curve.contact_count) >= 0)
 
 
 @both_routes
 @given(pressings())
-@some
+@settings(some, max_examples=100)
 def test_complementarity_and_the_flat_punch_of_the_contact_set(route, pressing):
     """No tension, no overlap, no gap in contact, and no element that loses contact.
 
@@ -107,31 +94,6 @@ def test_complementarity_and_the_flat_punch_of_the_contact_set(route, pressing):
         tangent = np.linalg.solve(matrix[np.ix_(inside, inside)], np.ones(inside.sum()))
         np.testing.assert_allclose(curve.stiffness[i], scale * tangent.sum(), rtol=STIFFNESS)
         np.testing.assert_allclose(curve.force[i], scale * tangent @ (depth - initial_gap[inside]), rtol=FORCE)
-
-
-@both_routes
-@given(pressings())
-@some
-def test_bounded_by_flat_punches(route, pressing):
-    """The highest element alone carries less, a flat punch of the indenter's outline more."""
-    indenter, depths = pressing
-    curve = press(indenter, depths, route)
-    place = np.nonzero(np.isfinite(indenter.heights))
-    tangents = (
-        4
-        * np.pi
-        * indenter.element_side
-        * np.linalg.solve(influence_matrix(*place, indenter.aspect), np.ones(place[0].size))
-    )
-    one, full = 4 * np.pi * indenter.element_side / influence_coefficient(0.0, 0.0, indenter.aspect), tangents.sum()
-    for ratio in (curve.force / depths, curve.stiffness):
-        assert np.all(ratio >= one * (1 - STIFFNESS))
-        assert np.all(ratio <= full * (1 + STIFFNESS))
-    # If all elements were bonded to the half-space, some would be in tension: less force, but the same at full contact.
-    bonded = full * depths - tangents @ indenter.initial_gap[place]
-    assert np.all(curve.force >= bonded - FORCE * full * depths)
-    closed = curve.contact_count == indenter.elements
-    np.testing.assert_allclose(curve.force[closed], bonded[closed], rtol=FORCE)
 
 
 # ---- one indenter and another ----------------------------------------------------------------------------------------
@@ -165,21 +127,6 @@ def test_scaling_laws(route, pressing, height_decades, size_decades):
     larger = press(Indenter(size * indenter.heights, spacings), size * depths, route)
     np.testing.assert_allclose(larger.force, size**2 * curve.force, rtol=FORCE)
     np.testing.assert_allclose(larger.stiffness, size * curve.stiffness, rtol=STIFFNESS)
-
-
-@both_routes
-@given(pressings(), st.floats(0, 1), st.floats(0, 1), seeds)
-@some
-def test_lower_and_fewer_elements_carry_no_more(route, pressing, lowered, removed, seed):
-    """At a given depth, below a highest element that stays."""
-    indenter, depths = pressing
-    random = np.random.default_rng(seed)
-    heights = indenter.heights - np.where(random.random(indenter.heights.shape) < lowered, random.random(), 0)
-    heights[random.random(heights.shape) < removed] = np.nan
-    highest = np.nanargmax(indenter.heights)
-    heights.flat[highest] = indenter.heights.flat[highest]
-    part, whole = press(replace(indenter, heights=heights), depths, route), press(indenter, depths, route)
-    assert np.all(part.force <= whole.force * (1 + FORCE))
 
 
 # ---- penetration in time ---------------------------------------------------------------------------------------------

@@ -43,3 +43,14 @@ def one_line(error):
     assert text
     assert "\n" not in text
     return text
+
+
+def curve_of_levels(depth, force, stiffness, contact_count, tolerance=1e-9):
+    """A LoadingCurve of these levels, made by hand."""
+    levels = (np.asarray(values) for values in (depth, force, stiffness, contact_count))
+    return LoadingCurve(*levels, 10**6, "by hand", tolerance, 0, np.zeros(len(depth)))
+
+
+def curve_of_body(body, depth):
+    """The curve of a body of revolution; ten elements join at each level, so that at_force interpolates smoothly."""
+    return curve_of_levels(depth, body.force(depth), body.stiffness(depth), 10 * np.arange(1, depth.size + 1))

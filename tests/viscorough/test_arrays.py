@@ -5,6 +5,7 @@ import pytest
 
 from support.curves import random_curve
 from viscorough.arrays import read_only
+from viscorough.contact.one_contact import contact_at
 from viscorough.indenter import Indenter
 from viscorough.viscous.correspondence import impulses, kinetics
 from viscorough.viscous.events import march_events
@@ -13,9 +14,7 @@ from viscorough.viscous.stepping import march_steps
 HILL = Indenter([[0.0, 1.0], [0.5, 0.2]], 1.0)
 
 
-@pytest.mark.parametrize(
-    "values", [np.arange(3.0), np.arange(6.0)[::2], [0.0, 2.0], (1, 2), np.broadcast_to(1.0, 3)], ids=repr
-)
+@pytest.mark.parametrize("values", [np.arange(6.0)[::2], (1, 2), np.broadcast_to(1.0, 3)], ids=repr)
 def test_values_are_copied(values):
     kept = read_only(values)
     np.testing.assert_array_equal(kept, values)
@@ -36,9 +35,8 @@ def test_only_what_nobody_can_change_is_not_copied():
 @pytest.mark.parametrize("dtype", [float, np.float32, int])
 def test_masked_entries_are_nan(dtype):
     masked = np.ma.array([[1, 2], [3, 4]], mask=[[0, 1], [0, 0]], dtype=dtype)
-    expected = [[1, np.nan], [3, 4]]
-    for values in (masked, list(masked), tuple(masked)):
-        np.testing.assert_array_equal(read_only(values), expected)
+    for values in (masked, list(masked)):
+        np.testing.assert_array_equal(read_only(values), [[1, np.nan], [3, 4]])
     np.testing.assert_array_equal(read_only(masked[1]), [3, 4])
     assert read_only(masked[1]).dtype == dtype, "where nothing is masked the type stays"
 
@@ -57,6 +55,7 @@ def arrays_of(result):
         impulses(1.0, [1.0, 2.0]),
         march_events(HILL),
         march_steps(HILL, np.array([0.1, 1.0])),
+        contact_at(HILL, depth=0.1),
     ],
     ids=lambda result: type(result).__name__,
 )
@@ -70,20 +69,13 @@ def test_arrays_of_inputs_and_results_are_read_only(result):
 
 def test_results_do_not_change_with_what_they_were_made_from():
     """Scaling the motion would rescale the curve, whose depth it shares."""
-    arguments = {name: np.arange(1.0, 4.0) for name in ("depth", "force", "stiffness", "contact_count", "residual")}
-    curve = random_curve(**arguments)
-    arguments["depth"] *= 2
-    np.testing.assert_array_equal(curve.depth, [1, 2, 3])
-
-    times, force = np.array([0.0, 1.0]), np.array([1.0, 1.0])
-    motion, history = kinetics(curve, force, 1.0, times), impulses(force, times)
-    impulse = np.array([0.1, 0.2])
-    steps = march_steps(HILL, impulse)
-    for array in (times, force, impulse):
+    heights, depth, times, force, impulse = (np.array([1.0, 2.0]) for _ in range(5))
+    line, curve = Indenter(heights, 1.0), random_curve(2, depth=depth)
+    history, steps = impulses(force, times), march_steps(HILL, impulse)
+    for array in (heights, depth, times, force, impulse):
         array *= 2
-    np.testing.assert_array_equal(motion.time, [0, 1])
-    np.testing.assert_array_equal(history.force, [1, 1])
-    np.testing.assert_array_equal(steps.impulse, [0.1, 0.2])
+    for kept in (line.heights, curve.depth, history.times, history.force, steps.impulse):
+        np.testing.assert_array_equal(kept, [1, 2])
 
 
 def test_masked_samples_of_a_force_are_refused():

@@ -1,7 +1,5 @@
 """Rigid indenters: heights of any real type, copied and kept; masks; numbers that do not fit."""
 
-import warnings
-
 import numpy as np
 import pytest
 
@@ -10,13 +8,7 @@ from viscorough.indenter import Indenter
 from viscorough.mdr import reduce
 
 
-def test_rms_slope_of_a_plane():
-    x, y = np.mgrid[:5, :7]
-    assert Indenter(0.6 * x + 1.6 * y, 2.0).rms_slope == pytest.approx(np.hypot(0.3, 0.8))
-    assert Indenter(np.array([[1.0]]), 1.0).rms_slope == 0
-
-
-def test_rms_slope_and_element_of_a_map_with_two_spacings():
+def test_rms_slope_and_element_of_a_plane():
     y, x = np.mgrid[:5, :7]
     heights = 0.6 * x + 1.6 * y
     for indenter in (Indenter(heights, (2.0, 4.0)), Indenter(heights, 2.0, 4.0), Indenter(heights.T, (4.0, 2.0))):
@@ -24,22 +16,27 @@ def test_rms_slope_and_element_of_a_map_with_two_spacings():
         assert indenter.element_side == pytest.approx(np.sqrt(8))
     assert (indenter.spacing, indenter.row_spacing, indenter.aspect) == (4.0, 2.0, 0.5)
     assert Indenter(heights, (5**0.5, 5**-0.5)).aspect == pytest.approx(1 / 5)
-    assert Indenter(heights, 0.3).row_spacing == Indenter(heights, 0.3).element_side == 0.3
+    for one_spacing in (heights, heights[0]):
+        assert Indenter(one_spacing, 0.3).row_spacing == Indenter(one_spacing, 0.3).element_side == 0.3
+    assert Indenter(np.array([[1.0]]), 1.0).rms_slope == 0
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("spacing", [1e-200, 1e-300])
+def test_rms_slope_that_overflows_is_infinite(spacing):
+    assert Indenter(np.array([[0.0, 1e100]]), spacing).rms_slope == np.inf
 
 
 @pytest.mark.parametrize(
     ("arguments", "what"),
     [
-        (((1.0, 2.0), 2.0), "must be one number or a pair"),
         (((1.0, 2.0, 3.0),), "must be one number or a pair"),
         (("1,2",), "must be a positive number"),
+        ((np.nan,), "spacing: must be positive"),
         (((1.0, -2.0),), "must be positive and finite, not -2"),
         ((1.0, 0), "row_spacing: must be positive and finite, not 0"),
-        ((1.0, "two"), "row_spacing: must be a positive number, not 'two'"),
         ((1.0, 5.1), "differ by more than a factor of 5"),
-        (((5.0 + 1e-6, 1.0),), "differ by more than a factor of 5"),
         ((1e-300, 1e300), "differ by more than a factor of 5"),
-        ((1.0, None, ""), "length_unit: must be a text"),
         ((1.0, None, 3), "length_unit: must be a text"),
     ],
 )
@@ -47,55 +44,19 @@ def test_spacings_and_units_out_of_range_are_refused(arguments, what):
     with pytest.raises(ValueError, match=what) as error:
         Indenter(np.zeros((2, 2)), *arguments)
     assert "\n" not in str(error.value)
-
-
-def test_a_line_has_one_spacing():
-    assert Indenter(np.zeros(3), 2.0).row_spacing == 2.0
     with pytest.raises(ValueError, match="a line has no rows"):
         Indenter(np.zeros(3), (2.0, 3.0))
-
-
-def test_curves_are_in_the_unit_of_the_indenter():
-    heights = np.arange(4.0).reshape(2, 2)
-    assert indent(Indenter(heights, 1.0, length_unit="um")).length_unit == "um"
-    assert reduce(Indenter(heights.ravel(), 1.0, length_unit="nm")).length_unit == "nm"
-    assert indent(Indenter(heights, 1.0)).length_unit == "1"
-
-
-def test_rms_slope_that_overflows_is_infinite():
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        for spacing in (1e-200, 1e-300):
-            assert Indenter(np.array([[0.0, 1e100]]), spacing).rms_slope == np.inf
-
-
-@pytest.mark.parametrize("change", [lambda heights: heights.__imul__(2), lambda heights: heights.fill(0)])
-def test_heights_do_not_change_with_those_that_were_given(change):
-    given = np.arange(4.0).reshape(2, 2)
-    indenter = Indenter(given, 1.0)
-    change(given)
-    np.testing.assert_array_equal(indenter.heights, [[0, 1], [2, 3]])
 
 
 @pytest.mark.parametrize("dtype", [float, np.float32, int])
 def test_masked_heights_lie_outside_the_indenter(dtype):
     heights = np.ma.array([[1, 2], [3, 4]], mask=[[0, 1], [0, 0]], dtype=dtype)
-    heights.data[0, 1] = 10**6  # the fill value must not become the peak
-    for given in (heights, list(heights)):
-        indenter = Indenter(given, 1.0)
-        assert indenter.elements == 3
-        np.testing.assert_array_equal(indenter.initial_gap, [[3, np.nan], [1, 0]])
-        assert indent(indenter, until_fraction=1).elements == 3
-
-
-def test_masked_points_of_a_line_and_maps_without_any_point_are_refused():
-    with pytest.raises(ValueError, match="must not be nan on a line"):
-        Indenter(np.ma.array([1.0, 2.0], mask=[0, 1]), 1.0)
-    for dtype in (float, int):
-        with pytest.raises(ValueError, match="at least one element"):
-            Indenter(np.ma.masked_all((2, 2), dtype), 1.0)
-    with pytest.raises(ValueError, match="not bool"):
-        Indenter(np.ma.array([[True, False]], mask=[[0, 1]]), 1.0)
+    heights.data[0, 1] = 2**60  # the fill value must neither become the peak nor be too large
+    indenter = Indenter(heights, 1.0, length_unit="um")
+    assert indenter.elements == 3
+    np.testing.assert_array_equal(indenter.initial_gap, [[3, np.nan], [1, 0]])
+    curve = indent(indenter, until_fraction=1)
+    assert (curve.elements, curve.length_unit) == (3, "um")
 
 
 @pytest.mark.parametrize("dtype", [np.float16, np.float32])
@@ -121,15 +82,19 @@ def test_gaps_are_computed_in_double_precision(dtype):
         (np.ma.array([[0, 2**60]], mask=[[1, 0]]), r"whole numbers must not exceed 2\*\*53"),
         (np.array([[1e308, -1e308]]), "must differ by at most"),
         (np.array([[np.longdouble("1e400"), 0]]), "some are infinite"),
+        (np.zeros((2, 2, 2)), "one or two dimensions, not"),
+        ([["a"]], "real numbers"),
+        (np.ones((2, 2), complex), "real numbers"),
+        (np.ma.array([[True, False]], mask=[[0, 1]]), "not bool"),
+        (np.ones((0, 3)), "at least one element"),
+        (np.ma.masked_all((2, 2), int), "at least one element"),
+        (np.full((2, 2), np.nan), "at least one element"),
+        ([[0, -np.inf]], "finite"),
+        ([0, np.nan], "must not be nan on a line"),
+        (np.ma.array([1.0, 2.0], mask=[0, 1]), "must not be nan on a line"),
     ],
-    ids=["uint64", "int64", "masked", "range", "long double"],
 )
-def test_heights_that_double_precision_does_not_hold_are_refused(heights, what):
-    for given in (heights, heights[0]):
-        with pytest.raises(ValueError, match=what):
-            Indenter(given, 1.0)
-
-
-def test_largest_whole_numbers_are_kept():
-    heights = np.ma.array([[0, 2**53, 2**63]], np.uint64, mask=[[0, 0, 1]])
-    np.testing.assert_array_equal(Indenter(heights, 1.0).initial_gap, [[2.0**53, 0, np.nan]])
+def test_heights_that_make_no_indenter_are_refused(heights, what):
+    with pytest.raises(ValueError, match=what) as error:
+        Indenter(heights, 1.0)
+    assert "\n" not in str(error.value)

@@ -19,10 +19,10 @@ WAVES = POINTS // 2 - 1  # without the shortest one, which is real
 EXCESS = 10
 
 
-@pytest.fixture(scope="module", params=[np.float32, np.float64])
-def heights(request):
+@pytest.fixture(scope="module")
+def heights():
     """Realizations of rms height 1, shape (REALIZATIONS, POINTS)."""
-    lines, key = SelfAffineLines(HURST, POINTS, dtype=request.param), line_key(HURST)
+    lines, key = SelfAffineLines(HURST, POINTS), line_key(HURST)
     seeds = (realization_seed(2013, *key, number) for number in range(REALIZATIONS))
     return np.array([lines.heights(seed) for seed in seeds], dtype=float)
 

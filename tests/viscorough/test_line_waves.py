@@ -1,4 +1,4 @@
-"""Random waves of lines: known answers of the generator, the formula in numpy, statistics of a million waves."""
+"""Random waves of lines: known answers of the generator, the formula in numpy, statistics of many waves."""
 
 import numpy as np
 import pytest
@@ -8,31 +8,26 @@ from viscorough import line_waves
 from viscorough.line_waves import fill_packed_spectrum, key_of, random_words, shortest_wave, waves
 
 KEY = key_of(np.random.SeedSequence(7))
-MANY = 2**20
+MANY = 2**18
 
 
-# Known answers of philox2x32 with ten rounds, from Random123's tests (tests/kat_vectors): counter (two words), key.
-@pytest.mark.parametrize(
-    ("counter", "key", "answer"),
-    [
+def test_known_answers():
+    """Of philox2x32 with ten rounds, from Random123's tests (tests/kat_vectors): counter (two words), key, answer."""
+    for counter, key, answer in (
         ((0, 0), 0, (0xFF1DAE59, 0x6CD10DF2)),
         ((0xFFFFFFFF, 0xFFFFFFFF), 0xFFFFFFFF, (0x2C3F628B, 0xAB4FD7AD)),
         ((0x243F6A88, 0x85A308D3), 0x13198A2E, (0xDD7CE038, 0xF62A4C12)),
-    ],
-)
-def test_known_answers(counter, key, answer):
-    low, high = np.empty((2, 1), np.uint32)
-    random_words(counter[0], np.array([key, counter[1]], np.uint64), low, high)
-    assert (low[0], high[0]) == answer
+    ):
+        low, high = np.empty((2, 1), np.uint32)
+        random_words(counter[0], np.array([key, counter[1]], np.uint64), low, high)
+        assert (low[0], high[0]) == answer
 
 
 def test_waves_depend_on_their_number_and_key_alone():
-    """Whatever is computed with them."""
     together = waves(1, KEY, np.ones(50), fixed=False)
-    for first, count in ((1, 1), (7, 20), (50, 1)):
-        np.testing.assert_array_equal(
-            waves(first, KEY, np.ones(count), fixed=False), together[first - 1 : first - 1 + count]
-        )
+    for first, last in ((1, 1), (7, 26), (50, 50)):
+        alone = waves(first, KEY, np.ones(last - first + 1), fixed=False)
+        np.testing.assert_array_equal(alone, together[first - 1 : last])
     other = waves(1, key_of(np.random.SeedSequence(8)), np.ones(50), fixed=False)
     assert len(np.intersect1d(together, other)) == 0
 
@@ -54,15 +49,14 @@ def test_single_precision_is_the_formula(fixed):
 
 
 def test_coefficients_are_independent_and_gaussian():
-    """Real and imaginary parts of a million waves; a false alarm has a chance of 1e-4 or less at each line."""
+    """Real and imaginary parts of many waves; a false alarm has a chance of 1e-4 or less at each line."""
     parts, _ = drawn(MANY, fixed=False)
     normal = parts.astype(float).ravel()
     assert stats.kstest(normal, "norm").pvalue > 1e-4
     for power, moment, variance in ((1, 0, 1), (2, 1, 2), (3, 0, 15), (4, 3, 96), (6, 15, 10170)):
         assert abs(np.mean(normal**power) - moment) < 4 * np.sqrt(variance / normal.size)
-    for bound in (3, 4, 4.5):
-        expected = 2 * stats.norm.sf(bound) * normal.size
-        assert abs(np.sum(abs(normal) > bound) - expected) < 4 * np.sqrt(expected) + 1
+    expected = 2 * stats.norm.sf(4) * normal.size
+    assert abs(np.sum(abs(normal) > 4) - expected) < 4 * np.sqrt(expected) + 1
     real, imag = parts.astype(float)
     pairs = [(real, imag), (real**2 - 1, imag**2 - 1)]
     for lag in (1, 2, 1024, MANY // 2):
@@ -74,7 +68,7 @@ def test_coefficients_are_independent_and_gaussian():
 
 def test_every_bit_is_random():
     """Bits of neighbouring counters and of neighbouring keys agree half of the time."""
-    words = np.empty((3, 2, MANY // 16), np.uint32)
+    words = np.empty((3, 2, MANY // 4), np.uint32)
     for row, key, first in ((0, KEY, 1), (1, KEY, 2), (2, KEY ^ np.array([1, 0], np.uint64), 1)):
         random_words(first, key, *words[row])
     for other in (np.zeros_like(words[0]), words[1], words[2]):
@@ -84,7 +78,7 @@ def test_every_bit_is_random():
 
 
 @pytest.mark.parametrize("fixed", [False, True])
-@pytest.mark.parametrize("half", [1, 2, 3, 4, 2047, 2048, 2049, 5000])
+@pytest.mark.parametrize("half", [1, 2, 3, 2048, 2049, 5000])
 def test_packed_spectrum(half, fixed):
     """Spectrum of y_2j + i y_2j+1 by numpy, of a real line with the waves of the formula; parts of blocks, too."""
     amplitude = np.arange(half + 1.0) ** 0.3
@@ -109,7 +103,7 @@ def test_shortest_wave_has_the_mean_power_of_others():
     assert abs(np.mean(np.sign(fixed))) < 4 / np.sqrt(len(keys))
 
 
-@pytest.mark.parametrize("shape", [(1, 7), (3, 5), (40, 50)])
+@pytest.mark.parametrize("shape", [(1, 7), (40, 50)])
 def test_twiddle(shape):
     ones = np.ones(shape, np.complex64)
     line_waves.twiddle(ones.view(np.float32), np.float32(2.5))

@@ -24,7 +24,7 @@ def by_numpy(points, hurst, seed, *, fixed):
 
 @pytest.mark.parametrize("amplitudes", ["random", "fixed"])
 # the smallest, odd ones, twice a prime, the square of a prime, and several blocks of waves
-@pytest.mark.parametrize("points", [2, 3, 4, 6, 8, 257, 1000, 2 * 1009, 101**2, 2**15, 2 * 3 * 7 * 11 * 13, 50_001])
+@pytest.mark.parametrize("points", [2, 3, 4, 6, 257, 1000, 2 * 1009, 101**2, 2**15, 2 * 3 * 7 * 11 * 13, 50_001])
 def test_lines_of_any_length_are_numpys(points, amplitudes):
     exact = by_numpy(points, 0.6, 4, fixed=amplitudes == "fixed")
     for dtype, atol in ((np.float32, 4e-6), (np.float64, 1e-12)):
@@ -45,6 +45,9 @@ def test_any_order_has_the_same_heights(points, dtype):
 
     line = self_affine_line(0.4, points, rms=0.2, length=3.0, dtype=dtype, seed=1)
     np.testing.assert_array_equal(line.heights, first)
+    assert line.heights.dtype == dtype
+    assert line.spacing == lines.spacing == 3.0 / points
+    assert np.std(line.heights, dtype=float) == pytest.approx(0.2, rel=1e-6 if dtype == np.float32 else 1e-12)
     curve = reduce_heights(lines.heights_in_any_order(1), lines.spacing, until_force=10.0)
     expected = reduce(line, until_force=10.0)
     np.testing.assert_array_equal(curve.contact_count, expected.contact_count)
@@ -60,7 +63,7 @@ def test_lines_kept_are_not_overwritten():
     np.testing.assert_array_equal(kept, copy)
 
 
-@pytest.mark.parametrize("points", [2 * 499_979, 1_000_000])
+@pytest.mark.parametrize("points", [2 * 99_991, 200_000])
 def test_single_precision_is_accurate_on_long_lines(points):
     """Also where half the number of points is prime; the largest error, relative to the rms height."""
     single, double = (SelfAffineLines(0.8, points, dtype=dtype).heights(3) for dtype in (np.float32, np.float64))

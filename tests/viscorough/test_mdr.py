@@ -36,23 +36,22 @@ def assert_exact(curve, line):
     assert curve.depth[0] > 0
 
 
-@pytest.mark.parametrize("dtype", [np.float32, np.float64])
-@pytest.mark.parametrize("hurst", [0.0, 0.5, 1.0])
+@pytest.mark.parametrize(("hurst", "dtype"), [(0.0, np.float32), (1.0, np.float64)])
 def test_levels_are_exact(hurst, dtype):
     line = self_affine_line(hurst, 3000, rms=0.3, length=7.0, seed=5, dtype=dtype)
     curve = reduce(line)
     assert_exact(curve, line)
     assert curve.contact_count[-1] == curve.elements == 3000
-    assert curve.method == "reduction"
-    assert curve.operator_applications == 0
-    assert not curve.residual.any()
-    assert curve.residual.shape == curve.depth.shape
+    assert (curve.method, curve.operator_applications) == ("reduction", 0)
+    np.testing.assert_array_equal(curve.residual, np.zeros(curve.depth.size))
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 def test_compiled_binning_agrees_with_numpy(dtype):
     heights = self_affine_line(0.6, 5001, seed=6, dtype=dtype).heights
     edges, counts, sums = _binned_gaps(heights, 64)
+    ratio = edges[1:] / edges[:-1]
+    assert 1 + 0.99 / 128 < ratio[edges[:-1] > 0].min() <= ratio.max() <= 1 + 1 / 64
     highest = float(heights.max())
     gaps = highest - heights.astype(float)
     place = np.searchsorted(edges[1:-1], gaps, side="right")
@@ -64,14 +63,6 @@ def test_compiled_binning_agrees_with_numpy(dtype):
     _bin_gaps(heights[:500], highest, np.uint64(46), key, compiled)
     _bin_gaps.py_func(heights[:500], highest, np.uint64(46), key, plain)
     np.testing.assert_array_equal(compiled, plain)
-
-
-def test_bins_divide_octaves():
-    edges, *_ = _binned_gaps(np.array([0.0, -1.0]), 64)
-    ratio = edges[1:] / edges[:-1]
-    assert ratio.min() > 1 + 0.99 / 128
-    assert ratio.max() <= 1 + 1 / 64
-    assert np.sum((edges >= 0.25) & (edges < 0.5)) == 64
 
 
 @pytest.mark.parametrize("points", [100, 20_000])
@@ -108,7 +99,7 @@ def test_few_points_are_exact_everywhere(gaps):
         elements=st.floats(-1000, 1000, width=32, allow_subnormal=False) | st.sampled_from([0.0, 1.0, 1.5]),
     )
 )
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=80, deadline=None)
 @example(np.array([0.0, -0.0], dtype=np.float32))
 def test_any_line(heights):
     """Ties, plateaus, spikes, one point, zeros of either sign."""
@@ -119,27 +110,16 @@ def test_any_line(heights):
     assert_exact(curve, line)
 
 
-def test_ties():
-    line = Indenter(-np.repeat([0.0, 1e-6, 1.0], [3, 2, 1000]), 1.0)
-    curve = reduce(line)
+def test_flat_line():
+    line = Indenter(np.full(50, 3.0), 0.2)
+    curve = reduce(line, until_force=100.0)
     assert_exact(curve, line)
-    assert curve.contact_count[0] == 3
-    np.testing.assert_array_equal(np.unique(curve.contact_count), [3, 5, 1005])
-    below = curve.force[0] * np.array([1e-9, 0.5])
-    np.testing.assert_allclose(curve.at_force(below)[0], below / 12, rtol=1e-14)
-
-
-@pytest.mark.parametrize("points", [1, 2, 50])
-def test_flat_line(points):
-    curve = reduce(Indenter(np.full(points, 3.0), 0.2), until_force=100.0)
-    np.testing.assert_allclose(curve.force, 4 * 0.2 * points * curve.depth)
     np.testing.assert_allclose(curve.depth[:2], [0.1, 0.2])
     assert curve.force[-1] == 100.0
-    assert np.all(curve.contact_count == points)
+    assert reduce(line, until_fraction=0.1).depth.size == 2
     depth, stiffness = curve.at_force(np.array([1e-6, 0.1, 77.0]))
-    np.testing.assert_allclose(depth, np.array([1e-6, 0.1, 77.0]) / (0.8 * points))
-    np.testing.assert_allclose(stiffness, 0.8 * points)
-    assert reduce(Indenter(np.full(points, 3.0), 0.2), until_fraction=0.1).depth.size == 2
+    np.testing.assert_allclose(depth, np.array([1e-6, 0.1, 77.0]) / (0.8 * 50))
+    np.testing.assert_allclose(stiffness, 0.8 * 50)
 
 
 def test_curve_stops_at_fraction_or_force():
@@ -163,11 +143,9 @@ def test_curve_stops_at_fraction_or_force():
 def test_heights_of_any_real_type():
     heights = np.array([3, 1, 0, 2])
     expected = reduce(Indenter(heights.astype(float), 1.0))
-    for other in (heights, heights.astype(np.float16), heights.astype(">f8"), heights.astype(np.longdouble)):
+    others = heights, heights.astype(np.float16), heights.astype(">f8"), heights.astype(np.longdouble)
+    for other in (*others, np.repeat(heights.astype(float), 2)[::2]):
         np.testing.assert_array_equal(reduce(Indenter(other, 1.0)).force, expected.force)
-    strided = np.zeros(8)
-    strided[::2] = heights
-    np.testing.assert_array_equal(reduce(Indenter(strided[::2], 1.0)).force, expected.force)
 
 
 # MDR profiles g(x) of z = r²/2R and z = r tan θ, and F/G with E* = 4G (R = 1, tan θ = 1)
@@ -185,7 +163,7 @@ def test_round_indenters_at_second_order(shape):
     The bins are wide enough that the same depths are levels on every grid.
     """
     profile, exact_force = ROUND[shape]
-    halves = 3 ** np.arange(5, 10)
+    halves = 3 ** np.arange(5, 9)
     errors = []
     for half in halves:
         x = np.arange(-half, half + 1) / half
@@ -196,17 +174,15 @@ def test_round_indenters_at_second_order(shape):
         errors.append(np.sqrt(np.mean(error**2)))
     order = -np.polyfit(np.log(halves), np.log(errors), 1)[0]
     assert order == pytest.approx(2, abs=0.1)
-    assert errors[-1] < 1e-7
+    assert errors[-1] < 1e-6
 
 
 @pytest.mark.parametrize(
     ("options", "message"),
     [
         ({"until_fraction": 0}, "reduce: until_fraction must lie in"),
-        ({"until_fraction": 1.01}, "reduce: until_fraction must lie in"),
         ({"until_fraction": np.nan}, "reduce: until_fraction must lie in"),
         ({"until_force": 0}, "reduce: until_force must be positive"),
-        ({"until_force": np.inf}, "reduce: until_force must be positive"),
         ({"bins_per_octave": 48}, "reduce: bins_per_octave must be a power of 2"),
     ],
 )
@@ -216,16 +192,12 @@ def test_bad_options(options, message):
     assert "\n" not in str(error.value)
 
 
-@pytest.mark.parametrize("place", [0, 500, -1])
-@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
-def test_heights_without_bins_are_refused(value, place):
+@pytest.mark.parametrize(("place", "value"), [(0, np.nan), (500, np.inf), (-1, -np.inf)])
+def test_heights_without_bins_are_refused(place, value):
     heights = np.random.default_rng(1).random(1000, np.float32)
     heights[place] = value
     with pytest.raises(ValueError, match="reduce: heights must be finite"):
         reduce_heights(heights, 1.0)
-
-
-def test_maps_are_refused():
     with pytest.raises(ValueError, match="one-dimensional"):
         reduce(Indenter(np.zeros((3, 3)), 1.0))
 
@@ -240,8 +212,7 @@ def octave_means(heights):
     return np.array([power[a:b].sum() for a, b in zip(edges, 2 * edges, strict=True)])
 
 
-@pytest.mark.parametrize("hurst", [0.2, 0.5, 0.9])
-@pytest.mark.parametrize("outline", ["square", "disc"])
+@pytest.mark.parametrize(("hurst", "outline"), [(0.2, "disc"), (0.9, "square"), (0.9, "disc")])
 def test_line_of_a_map_has_its_spectrum_whatever_its_edges(hurst, outline):
     """That of the whole periodic square has it exactly; without the window short waves at H = 0.9 are 50 times off."""
     n, lines, exact = 256, [], []
@@ -254,37 +225,24 @@ def test_line_of_a_map_has_its_spectrum_whatever_its_edges(hurst, outline):
     np.testing.assert_allclose(ratio, 1, atol=0.25)
 
 
-def test_line_of_a_map_has_its_rms_height_unit_and_length():
+@pytest.mark.parametrize("scale", [1e-300, 0.5, 1.7e308])
+def test_line_of_a_map_has_its_rms_height_unit_and_length(scale):
     map_ = np.pad(self_affine_square(0.7, 64, seed=1)[:40], 3, constant_values=np.nan)
-    line = line_of_map(Indenter(map_, 0.5, row_spacing=1.0, length_unit="um"), 3)
+    line = line_of_map(Indenter(map_, scale, row_spacing=scale / 2, length_unit="um"), 3)
     assert line.heights.std() == pytest.approx(np.nanstd(map_), rel=1e-12)
-    assert (line.length_unit, line.spacing) == ("um", 1.0)
-    assert line.heights.shape == (46,)  # 46 rows 1 apart are longer than 70 columns 0.5 apart
+    assert (line.length_unit, line.spacing) == ("um", scale)
+    assert line.heights.shape == (70,)  # 70 columns are longer than 46 rows half as far apart
+    other = line_of_map(Indenter(map_, 1.0, row_spacing=0.5), 3)
+    np.testing.assert_array_equal(line.heights, other.heights)
+    assert line_of_map(Indenter(map_.T, 1.0), [3, 4]).heights.shape == (70,)
 
 
-@pytest.mark.parametrize("scale", [1e-300, 1.7e308])
-def test_heights_of_the_line_do_not_depend_on_the_scale_of_the_spacing(scale):
-    map_ = self_affine_square(0.7, 16, seed=1)
-    lines = [line_of_map(Indenter(map_, spacing, row_spacing=spacing / 2), 3).heights for spacing in (1.0, scale)]
-    np.testing.assert_array_equal(*lines)
-
-
-def test_lines_of_maps_follow_the_seed():
-    map_ = Indenter(self_affine_square(0.7, 32, seed=1), 1.0)
-    first, again, other = (line_of_map(map_, seed).heights for seed in ([0, 5], [0, 5], [0, 6]))
-    np.testing.assert_array_equal(first, again)
-    assert abs(np.corrcoef(first, other)[0, 1]) < 0.9
-
-
-@pytest.mark.parametrize(
-    ("heights", "what"),
-    [
-        (np.zeros((8, 8)), "the map is flat"),
-        (1e300 * np.eye(8), "its squares overflow"),
-        (np.eye(1), "the map is flat"),
-        (np.zeros(8), "must be two-dimensional"),
-    ],
-)
-def test_maps_without_a_spectrum_are_refused(heights, what):
-    with pytest.raises(ValueError, match=what):
-        line_of_map(Indenter(heights, 1.0), 1)
+def test_maps_without_a_spectrum_are_refused():
+    flat, steep, line = np.zeros((8, 8)), 1e300 * np.eye(8), np.zeros(8)
+    for heights, what in (
+        (flat, "the map is flat"),
+        (steep, "its squares overflow"),
+        (line, "must be two-dimensional"),
+    ):
+        with pytest.raises(ValueError, match=what):
+            line_of_map(Indenter(heights, 1.0), 1)

@@ -24,25 +24,15 @@ def indenter(heights, **options):
     return Indenter(heights, DX, DY, **options)
 
 
-def test_nothing_is_done_unless_asked_for():
-    surface = indenter(ROUGH)
-    assert prepare(surface) is surface
-
-
 def test_nodata_crop_and_flip():
-    heights = ROUGH.copy()
-    heights[3, 4], heights[20, 30], heights[0, 0] = -9999, 1e38, 77
-    surface = prepare(indenter(heights, length_unit="nm"), nodata=(-9999, 1e38), crop=((2, 40), (3, 25)), flip=True)
+    heights = ROUGH.astype("f4")
+    heights[3, 4], heights[20, 30], heights[0, 0] = 1e-3 - 9999, 1e38, 77  # the first one is rounded
+    options = {"nodata": (1e-3 - 9999, 1e38), "crop": ((2, 40), (3, 25)), "flip": True}
+    surface = prepare(indenter(heights, length_unit="nm"), **options)
     expected = heights[3:25, 2:40].copy()
     expected[0, 2] = expected[17, 28] = np.nan
     np.testing.assert_array_equal(surface.heights, -expected)
     assert (surface.spacing, surface.row_spacing, surface.length_unit) == (DX, DY, "nm")
-
-
-def test_nodata_in_single_precision_is_compared_there():
-    heights = np.zeros((2, 3), "f4")
-    heights[0, 1] = 1e-3 - 9999
-    assert prepare(indenter(heights), nodata=1e-3 - 9999).elements == 5
 
 
 @pytest.mark.parametrize("form", ["mean", "plane"])
@@ -50,38 +40,22 @@ def test_detrended_heights_have_no_mean_and_no_tilt(form):
     heights = ROUGH + PLANE
     heights[5:9, 20:] = np.nan
     residual = prepare(indenter(heights), detrend=form).heights
-    known = np.isfinite(residual)
-    np.testing.assert_array_equal(known, np.isfinite(heights))
-    assert residual[known].mean() == pytest.approx(0, abs=1e-12)
-    if form == "mean":
-        np.testing.assert_allclose(residual, heights - np.nanmean(heights), atol=1e-12)
-    else:
-        for position in (X, Y):
-            assert (residual * np.broadcast_to(position, residual.shape))[known].mean() == pytest.approx(0, abs=1e-11)
-        np.testing.assert_allclose(prepare(indenter(PLANE), detrend="plane").heights, 0, atol=1e-13)
+    known = np.isfinite(heights)
+    np.testing.assert_array_equal(np.isfinite(residual), known)
+    for weight in [1] if form == "mean" else [1, X, Y]:
+        assert (residual * weight)[known].mean() == pytest.approx(0, abs=1e-11)
+    removed = prepare(indenter(heights - residual), detrend=form).heights
+    np.testing.assert_allclose(removed[known], 0, atol=1e-12)
 
 
-@pytest.mark.parametrize("radius", [18.0, 40.0, 1e4, -30.0])
+@pytest.mark.parametrize("radius", [18.0, 1e4, -30.0])
 def test_detrend_sphere_is_exact_for_spheres(radius):
     """Caps up to a polar angle of 54°; a negative radius stands for a hollow."""
     sphere = np.sign(radius) * np.sqrt(radius**2 - X**2 - Y**2)
     residual = prepare(indenter(sphere + 0.2 * X + 5), detrend="sphere").heights
     np.testing.assert_allclose(residual, 0, atol=1e-9 * abs(radius))
-
-
-def test_detrend_sphere_keeps_the_roughness():
-    rough = self_affine_disc(0.8, 65, rms=1e-2, diameter=65.0, seed=2)
-    x = np.arange(65) - 32.0
-    form = -(x**2 + x[:, None] ** 2) / 400
-    residual = prepare(Indenter(rough.heights + form, 1.0), detrend="sphere").heights
-    alone = prepare(rough, detrend="sphere").heights
-    assert np.nanmax(abs(residual - alone)) < 1e-2 * np.nanstd(alone) + np.abs(form).max() * 1e-2
-
-
-def test_a_sphere_smaller_than_the_map_is_refused():
-    form = -(np.hypot(X, Y) ** 2)
     with pytest.raises(ValueError, match="crop to a cap"):
-        prepare(indenter(form), detrend="sphere")
+        prepare(indenter(-(np.hypot(X, Y) ** 2)), detrend="sphere")
 
 
 def test_harmonic_fill_is_exact_for_harmonic_heights():
@@ -96,32 +70,21 @@ def test_harmonic_fill_is_exact_for_harmonic_heights():
     np.testing.assert_allclose(filled, np.where(outside, np.nan, heights), atol=1e-10)
 
 
-def test_filled_heights_lie_between_those_around():
-    holes = np.where(ROUGH > 1, np.nan, ROUGH)
-    holes[0] = holes[-1] = holes[:, 0] = holes[:, -1] = 0
-    filled = prepare(indenter(holes), fill="harmonic")
-    assert filled.elements == holes.size
-    assert np.nanmin(holes) <= filled.heights.min()
-    assert filled.heights.max() <= np.nanmax(holes)
-
-
 @pytest.mark.parametrize(
     ("options", "what"),
     [
         ({"detrend": "cubic"}, "allowed: none, mean, plane, sphere"),
         ({"fill": "mean"}, "none, harmonic"),
         ({"crop": ((0, 42), (0, 3))}, "crop to columns 0:42; within 0:41"),
-        ({"crop": ((0, 3), (5, 5))}, "crop to rows 5:5"),
         ({"nodata": 1.0}, "no height is left"),
     ],
 )
 def test_what_cannot_be_prepared_is_refused(options, what):
+    surface = indenter(np.ones((ROWS, COLUMNS)))
     with pytest.raises(ValueError, match=what) as error:
-        prepare(indenter(np.ones((ROWS, COLUMNS))), **options)
+        prepare(surface, **options)
     one_line(error)
-
-
-def test_lines_are_not_prepared():
+    assert prepare(surface) is surface
     with pytest.raises(ValueError, match="two-dimensional"):
         prepare(Indenter(np.arange(3.0), 1.0), flip=True)
 
@@ -129,9 +92,8 @@ def test_lines_are_not_prepared():
 # ---- doubts
 
 
-@pytest.mark.parametrize("hurst", [0.1, 0.5, 0.9])
-def test_random_discs_and_smooth_bodies_raise_no_doubt(hurst):
-    for seed in range(5):
+def test_random_discs_and_smooth_bodies_raise_no_doubt():
+    for seed, hurst in enumerate((0.1, 0.5, 0.9)):
         assert doubts(self_affine_disc(hurst, 65, seed=seed)) == []
     for body in (-np.hypot(X, Y), -(np.hypot(X, Y) ** 2) / 99, np.zeros((ROWS, COLUMNS)), np.rint(ROUGH)):
         assert doubts(indenter(body)) == []
@@ -154,7 +116,7 @@ def test_enclosed_holes_are_counted():
     assert doubts(prepare(indenter(holes), fill="harmonic")) == []
 
 
-@pytest.mark.parametrize(("mark", "points"), [(-9999, 3), (-32768, 1), (1e38, 2), (3.4028235e38, 1), (1000, 4)])
+@pytest.mark.parametrize(("mark", "points"), [(-9999, 3), (3.4028235e38, 1), (1000, 4)])
 def test_marks_of_missing_points_are_told(mark, points):
     heights = ROUGH.copy()
     heights.flat[:points] = mark
@@ -165,8 +127,7 @@ def test_marks_of_missing_points_are_told(mark, points):
 
 
 def test_spikes_are_told():
-    surface = self_affine_disc(0.8, 65, rms=1.0, diameter=65.0, seed=1)
-    heights = surface.heights.copy()
+    heights = self_affine_disc(0.8, 65, rms=1.0, diameter=65.0, seed=1).heights.copy()
     heights[30, 30] += 40
     heights[10, 31] += 30
     (text,) = doubts(Indenter(heights, 1.0))

@@ -1,7 +1,6 @@
 """Results in a few lines of text, and as tables of HTML."""
 
 import numpy as np
-import pytest
 
 from support.curves import random_curve
 from support.page import Page
@@ -12,15 +11,8 @@ from viscorough.viscous.correspondence import Kinetics
 
 
 def test_curve_in_three_lines():
-    curve = random_curve(
-        length_unit="um",
-        depth=[0.5, 2],
-        force=[1, 3],
-        stiffness=[1, 2],
-        contact_count=[1, 504],
-        residual=[0, 0],
-        elements=1008,
-    )
+    levels = {"depth": [0.5, 2], "force": [1, 3], "stiffness": [1, 2], "contact_count": [1, 504], "residual": [0, 0]}
+    curve = random_curve(**levels, length_unit="um", elements=1008)
     assert str(curve).splitlines() == [
         "Loading curve by boundary elements: 2 levels, 1008 elements",
         "depth u 0.5 to 2 um, force F/G 1 to 3 um2, stiffness k/G 1 to 2 um",
@@ -48,21 +40,9 @@ def test_motion_in_four_lines():
     assert "1 to 0.5" in motion._repr_html_()
 
 
-def test_single_level_without_a_unit():
-    curve = random_curve(1, depth=[0.5], length_unit="1")
-    assert "\ndepth u 0.5, force F/G " in str(curve)
-    assert "1 level, " in str(curve)
-
-
-def test_signs_of_html_are_escaped():
-    assert "<b>" not in html_table("a <b>", [("<b>", "<b>")])
-
-
-@pytest.mark.parametrize(("unit", "squared"), [("m", "m2"), ("1", "1"), ("1e-6 m", "(1e-6 m)2"), ("µm", "(µm)2")])
-def test_powers_of_units(unit, squared):
-    assert unit_power(unit, 2) == squared
-    assert (unit_power(unit, 1), unit_power(unit, 0)) == (unit, "1")
-
-
-def test_numbers_with_units():
+def test_units_and_numbers():
+    for unit, squared in (("m", "m2"), ("1", "1"), ("1e-6 m", "(1e-6 m)2")):
+        assert unit_power(unit, 2) == squared
+        assert (unit_power(unit, 1), unit_power(unit, 0)) == (unit, "1")
     assert (span([1.0, 20000.0], "m"), span([3.0]), with_unit(1e-7 / 3, "s")) == ("1 to 2e+04 m", "3", "3.333e-08 s")
+    assert "<b>" not in html_table("a <b>", [("<b>", "<b>")])

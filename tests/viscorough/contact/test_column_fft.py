@@ -7,8 +7,8 @@ from viscorough.contact.column_fft import ColumnConvolution, good_length
 
 
 @pytest.mark.parametrize("precision", [np.float32, np.float64])
-@pytest.mark.parametrize("columns", [1, 64, 72, 73, 137])  # one block, one with extra columns, more than one
-@pytest.mark.parametrize("length", [4, 8, 12, 16, 32, 36, 64, 96, 108, 128, 216, 384])
+@pytest.mark.parametrize("columns", [1, 72, 137])  # one block, one with extra columns, more than one
+@pytest.mark.parametrize("length", [4, 8, 12, 32, 36, 64, 108, 384])
 def test_convolution_is_that_of_library_transforms(length, columns, precision):
     rng = np.random.default_rng(length)
     rows = length // 2 + 1

@@ -17,9 +17,9 @@ SIZE = (ROWS + 2 * REACH) * WIDTH
 INNER = np.s_[REACH:-REACH, REACH:-REACH]
 
 
-@pytest.fixture(params=[1, 3])
-def loops(request):
-    return GridLoops(request.param)
+@pytest.fixture
+def loops():
+    return GridLoops(3)
 
 
 @pytest.fixture
@@ -60,7 +60,7 @@ def test_places_of_a_set(loops, inside, places, slots):
 
 
 @pytest.mark.parametrize("share", [0.02, 0.6])
-@pytest.mark.parametrize("columns", [1, 4, 60])
+@pytest.mark.parametrize("columns", [1, 60])
 def test_places_of_a_set_wherever_rows_and_blocks_end(columns, share, random):
     """Flags are read eight at a time, and neither rows nor blocks end at multiples of eight."""
     width, stride = columns + 2 * REACH, columns + 3
@@ -82,9 +82,13 @@ def test_indices_beyond_32_bits_are_64_bits_wide(loops):
 
 
 def test_sums_over_a_set(loops, field, places, slots):
-    pressure, left, right = field(), field(ROWS * STRIDE), field(ROWS * STRIDE)
+    pressure, gap, preconditioned = field(), field(), field()
+    direction, deflection = field(ROWS * STRIDE), field(ROWS * STRIDE)
     assert loops.total(pressure, places) == pytest.approx(pressure[places].sum(), rel=1e-9)
-    assert loops.inner_product(left, right, slots) == pytest.approx(left[slots] @ right[slots], rel=1e-9)
+    d, by_d = direction[slots], deflection[slots]
+    assert loops.inner_product(direction, deflection, slots) == pytest.approx(d @ by_d, rel=1e-9)
+    sums = loops.direction_sums(direction, deflection, preconditioned, gap, places, slots)
+    np.testing.assert_allclose(sums, [preconditioned[places] @ by_d, d @ gap[places], d @ by_d], rtol=1e-9)
 
 
 def test_energies(loops, field, places):
@@ -137,7 +141,7 @@ def test_elements_that_left_are_found_in_every_block(loops, inside, places, whic
     assert loops.difference(after, inside).size == 0
 
 
-def test_steps_on_a_set(loops, field, places, slots):
+def test_steps(loops, field, places, slots):
     direction, preconditioned, pressure = field(ROWS * STRIDE), field(), field()
     expected = direction.copy()
     expected[slots] = 0.3 * direction[slots] - preconditioned[places]
@@ -149,12 +153,11 @@ def test_steps_on_a_set(loops, field, places, slots):
     loops.update_pressure(0.7, direction, pressure, places, slots)
     np.testing.assert_allclose(pressure, expected, rtol=1e-14, atol=1e-15)
 
-
-def test_sums_of_a_direction(loops, field, places, slots):
-    direction, deflection, preconditioned, gap = field(ROWS * STRIDE), field(ROWS * STRIDE), field(), field()
-    d, by_d = direction[slots], deflection[slots]
-    sums = loops.direction_sums(direction, deflection, preconditioned, gap, places, slots)
-    np.testing.assert_allclose(sums, [preconditioned[places] @ by_d, d @ gap[places], d @ by_d], rtol=1e-9)
+    gap, deflection = field(), direction.reshape(ROWS, STRIDE)[:, :COLUMNS]
+    expected = gap.copy()
+    expected.reshape(-1, WIDTH)[INNER] += 0.3 * deflection
+    loops.update_gap(0.3, deflection, gap)
+    np.testing.assert_allclose(gap, expected, rtol=1e-14, atol=1e-15)
 
 
 def test_unloaded_elements_under_tension_are_found_in_every_block(loops, field, places, slots):
@@ -165,17 +168,11 @@ def test_unloaded_elements_under_tension_are_found_in_every_block(loops, field, 
     assert 0 < found.size < places.size
 
 
-def test_a_field_is_filled(loops, field):
-    filled = field()
-    loops.fill(filled, 3.0)
-    assert np.all(filled == 3.0)
-
-
-def test_a_field_is_shifted(loops, field):
-    grid = field(ROWS * STRIDE).reshape(ROWS, STRIDE)[:, :COLUMNS]
-    shifted = np.zeros(SIZE)
+def test_a_field_is_filled_and_another_one_shifted_into_it(loops, field):
+    grid, shifted = field(ROWS * STRIDE).reshape(ROWS, STRIDE)[:, :COLUMNS], field()
+    loops.fill(shifted, 3.0)
     loops.shifted(grid, 0.3, shifted.reshape(-1, WIDTH)[INNER])
-    np.testing.assert_array_equal(shifted, np.pad(grid - 0.3, REACH).ravel())
+    np.testing.assert_array_equal(shifted, np.pad(grid - 0.3, REACH, constant_values=3.0).ravel())
 
 
 @pytest.fixture
@@ -250,48 +247,33 @@ def test_fields(loops, field):
     np.testing.assert_allclose(combined_gap, 0.1 * change + 0.2 * last_change + 0.3 * tangent_gap + 0.4, atol=1e-14)
 
 
-def test_gap_after_a_step(loops, field):
-    gap, deflection = field(), field(ROWS * STRIDE).reshape(ROWS, STRIDE)[:, :COLUMNS]
-    expected = gap.copy()
-    expected.reshape(-1, WIDTH)[INNER] += 0.3 * deflection
-    loops.update_gap(0.3, deflection, gap)
-    np.testing.assert_allclose(gap, expected, rtol=1e-14, atol=1e-15)
-
-
-def test_elements_under_tension_leave_and_the_direction_is_the_change_of_pressure(loops, field, inside, places, slots):
-    pressure, direction = np.where(inside, abs(field()), 0.0), np.zeros(ROWS * STRIDE)
-    direction[slots] = field(slots.size)
-    leaving = pressure[places] + 0.5 * direction[slots] < 0
-    assert leaving[:BLOCK].any()
-    assert leaving[BLOCK:].any()
-    last_pressure = pressure.copy()
-    loops.step_and_release(
-        0.5, direction, pressure, inside, places, slots, load_redistribution_stencil(1.0), WIDTH, STRIDE
-    )
-    np.testing.assert_array_equal(inside[places], ~leaving)
-    np.testing.assert_array_equal(pressure[places[leaving]], 0)
-    assert np.all(pressure[places] >= 0)
-    np.testing.assert_allclose(direction[slots], (pressure - last_pressure)[places], atol=1e-13)
-    assert np.count_nonzero(pressure) == np.count_nonzero(~leaving)
-
-
-def test_neighbours_of_an_element_that_leaves_share_its_load_also_across_bands(inside, places, slots):
+def test_neighbours_of_an_element_that_leaves_share_its_load_also_across_bands(field, inside, places, slots):
     """Bands of rows are processed on several threads: elements around their edges must not be forgotten or doubled."""
+    last_pressure, step = np.where(inside, 2.0, 0.0), np.zeros(ROWS * STRIDE)
+    step[slots] = np.clip(field(slots.size), -1, 1)
+    step[slots[::5]] = -4.2
+    stepped = last_pressure.copy()
+    stepped[places] += 0.5 * step[slots]
+    stencil, leaving = load_redistribution_stencil(1.0), stepped < 0
+    assert leaving[places[:BLOCK]].any()
+    assert leaving[places[BLOCK:]].any()
+    shares = np.where(leaving, stepped, 0.0).reshape(-1, WIDTH)
+    change = sum(
+        stencil[row + 1, column + 1] * np.roll(shares, (row, column), axis=(0, 1))
+        for row in (-1, 0, 1)
+        for column in (-1, 0, 1)
+    ).ravel()
     results = []
     for threads in (1, 3):
-        members, pressure = inside.copy(), np.where(inside, 1.0, 0.0)
-        pressure[places[::5]] = -0.1
-        last_pressure, direction = pressure.copy(), np.zeros(ROWS * STRIDE)
-        stencil = load_redistribution_stencil(1.0)
-        GridLoops(threads).step_and_release(0.0, direction, pressure, members, places, slots, stencil, WIDTH, STRIDE)
-        shares = np.where(last_pressure < 0, last_pressure, 0.0).reshape(-1, WIDTH)
-        change = sum(
-            stencil[row + 1, column + 1] * np.roll(shares, (row, column), axis=(0, 1))
-            for row in (-1, 0, 1)
-            for column in (-1, 0, 1)
-        ).ravel()
-        expected = np.where(members, last_pressure + change, 0.0)
-        np.testing.assert_allclose(pressure, expected, atol=1e-13)
+        members, pressure, direction = inside.copy(), last_pressure.copy(), step.copy()
+        GridLoops(threads).step_and_release(0.5, direction, pressure, members, places, slots, stencil, WIDTH, STRIDE)
+        np.testing.assert_array_equal(members, inside & ~leaving)
+        np.testing.assert_allclose(pressure, np.where(members, stepped + change, 0.0), atol=1e-13)
         np.testing.assert_allclose(direction[slots], (pressure - last_pressure)[places], atol=1e-13)
         results.append(pressure)
     np.testing.assert_array_equal(*results)
+
+    step[slots[::5]] = -400.0  # neighbours lose half of their pressure at most
+    members, pressure = inside.copy(), last_pressure.copy()
+    GridLoops(3).step_and_release(0.5, step, pressure, members, places, slots, stencil, WIDTH, STRIDE)
+    assert (pressure[members] > 0).all()

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from support.influence import influence_matrix
 from viscorough.contact.grid_solver import GridSolver
-from viscorough.contact.influence import influence_coefficient
 from viscorough.contact.loading_path import indent
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.preconditioner import REACH
@@ -16,10 +16,6 @@ from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
 
 DOUBLE = SolverOptions(precision="double", exact_gap_below=0.0)
-
-
-def influence_matrix(row, column):
-    return influence_coefficient(np.subtract.outer(row, row) * 1.0, np.subtract.outer(column, column) * 1.0)
 
 
 def whole_grid(indenter, tolerance, options=DEFAULT):
@@ -34,7 +30,7 @@ def contact_on(grid, indenter, depth):
     return grid.solve(replace(start, fields=grid.fields(start)), depth)
 
 
-@pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-8])
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-8])
 def test_solution_meets_complementarity_and_its_residual(tolerance):
     disc = self_affine_disc(0.7, 25, seed=3)
     elements, _, grid = whole_grid(disc, tolerance)
@@ -48,8 +44,8 @@ def test_solution_meets_complementarity_and_its_residual(tolerance):
     np.testing.assert_allclose(contact.fields.gap_at(slice(None)), gap, atol=contact.fields.gap_change.rounding)
 
 
-@pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-6])
-@pytest.mark.parametrize("hurst", [0.1, 0.5, 0.9])
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-6])
+@pytest.mark.parametrize("hurst", [0.1, 0.9])
 def test_tangent_has_an_energy_error_within_the_limit(hurst, tolerance):
     """|q − q*|/|q*| in energy is at most √tolerance and at most 0.01; its square is the relative error of k."""
     disc = self_affine_disc(hurst, 33, seed=5)
@@ -67,45 +63,41 @@ def test_tangent_has_an_energy_error_within_the_limit(hurst, tolerance):
         assert total == pytest.approx(exact.sum(), rel=allowed**2)
 
 
-def test_rounding_bound_holds_from_level_to_level():
-    """In single precision without recomputation the error of the gap grows, and its bound with it."""
-    disc = self_affine_disc(0.6, 25, seed=2)
-    never = SolverOptions(exact_gap_below=0.0, max_iterations=500)
-    elements, _, grid = whole_grid(disc, 1e-3, never)
-    matrix = influence_matrix(elements.row, elements.column)
-    contact = contact_on(grid, disc, 0.2)
-    bounds = []
-    for depth in (0.3, 0.4, 0.5, 0.6, 0.7):
-        contact = grid.solve(contact, depth)
-        pressure = np.zeros(elements.count)
-        pressure[contact.members] = contact.reduced_pressure
-        gap = matrix @ pressure - depth + elements.initial_gap
-        bounds.append(contact.fields.gap_change.rounding)
-        assert np.abs(contact.fields.gap_at(slice(None)) - gap).max() <= bounds[-1]
-        tangent = np.zeros(elements.count)
-        tangent[contact.members] = contact.tangent
-        tangent_gap = contact.fields.tangent_gap.values[contact.fields.place]
-        error = np.abs(tangent_gap - (matrix @ tangent - 1)).max()
-        assert error <= contact.fields.tangent_gap.rounding
-    assert 0 < bounds[0] < bounds[-1] < 1e-3
+# In single precision without recomputation the error of the gap grows, and its bound with it. Where initial gaps are of
+# very different size, single precision must not lose what small depths change in large gaps.
+ROUNDED = {
+    "never recomputed": (
+        self_affine_disc(0.6, 25, seed=2),
+        np.linspace(0.2, 0.7, 6),
+        SolverOptions(exact_gap_below=0.0, max_iterations=500),
+    ),
+    "elements far below the others": (
+        Indenter(-(10.0 ** np.random.default_rng(1).uniform(-6, 0, (14, 14))), 1.0),
+        np.append(1e-5, np.geomspace(3e-5, 3, 11)),
+        DEFAULT,
+    ),
+}
 
 
-def test_rounding_bounds_hold_for_elements_far_below_the_others():
-    """Initial gaps of very different size: single precision must not lose what small depths change in large gaps."""
-    indenter = Indenter(-(10.0 ** np.random.default_rng(1).uniform(-6, 0, (14, 14))), 1.0)
-    elements, _, grid = whole_grid(indenter, 1e-3)
+@pytest.mark.parametrize("name", ROUNDED)
+def test_rounding_bounds_hold_from_level_to_level(name):
+    indenter, depths, options = ROUNDED[name]
+    elements, _, grid = whole_grid(indenter, 1e-3, options)
     matrix = influence_matrix(elements.row, elements.column)
-    contact = contact_on(grid, indenter, 1e-5)
-    for depth in np.geomspace(3e-5, 3, 11):
+    contact, bounds = contact_on(grid, indenter, depths[0]), []
+    for depth in depths[1:]:
         contact = grid.solve(contact, depth)
         fields, loads = contact.fields, contact.member_loads()
         pressure, tangent = np.zeros((2, elements.count))
         pressure[loads.members], tangent[loads.members] = loads.pressure, loads.tangent
-        change = matrix @ pressure - depth
-        assert np.abs(fields.gap_change.values[fields.place] - change).max() <= fields.gap_change.rounding
-        tangent_gap = matrix @ tangent - 1
-        assert np.abs(fields.tangent_gap.values[fields.place] - tangent_gap).max() <= fields.tangent_gap.rounding
-    assert contact.count > 0.8 * elements.count
+        for stored, exact in (
+            (fields.gap_change, matrix @ pressure - depth),
+            (fields.tangent_gap, matrix @ tangent - 1),
+        ):
+            assert np.abs(stored.values[fields.place] - exact).max() <= stored.rounding
+        bounds.append(fields.gap_change.rounding)
+    assert contact.count > 0.2 * elements.count
+    assert 0 < bounds[0] < bounds[-1] < 1e-3 * depths[-1]
 
 
 def test_a_box_gives_the_solution_of_the_whole_grid():
@@ -123,18 +115,6 @@ def test_a_box_gives_the_solution_of_the_whole_grid():
     np.testing.assert_array_equal(whole.members, part.members)
     np.testing.assert_allclose(whole.reduced_pressure, part.reduced_pressure, atol=1e-7 * depth)
     assert whole.tangent_sum == pytest.approx(part.tangent_sum, rel=1e-7)
-
-
-def test_boxes_grow_with_the_depth_and_all_operator_applications_are_counted():
-    disc = self_affine_disc(0.9, 65, seed=4)
-    solver = ContactSolver(disc, 1e-6, SolverOptions(dense_contacts=0, dense_interactions=0))
-    contact, applications, sizes = solver.unloaded_state(), 0, []
-    for depth in (0.02, 0.1, 0.6):
-        contact = solver.advance_reduced(contact, depth)
-        assert solver.operator_applications > applications
-        applications = solver.operator_applications
-        sizes.append(contact.fields.pressure.size)
-    assert sizes[0] < sizes[1] <= sizes[2] == (65 + 2 * REACH) ** 2
 
 
 @pytest.mark.parametrize("options", [DOUBLE, SolverOptions(preconditioner="sparse", release_step=0.0),

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import nnls
 
+from support.influence import influence_matrix
 from viscorough import reference
 from viscorough.contact.influence import influence_coefficient
 from viscorough.contact.loading_path import indent
@@ -23,63 +24,58 @@ def observed_order(elements, errors):
 
 def dense_complementarity(indenter, depth):
     """Force and stiffness over G by non-negative least squares with the Cholesky factor of the dense matrix."""
-    place = np.argwhere(np.isfinite(indenter.heights)).astype(float)
-    gap = indenter.initial_gap[np.isfinite(indenter.heights)]
-    matrix = influence_coefficient(*(place[:, None] - place[None]).transpose(2, 0, 1), indenter.aspect)
+    place = np.nonzero(np.isfinite(indenter.heights))
+    matrix = influence_matrix(*place, indenter.aspect)
     factor = np.linalg.cholesky(matrix)
-    pressure, _ = nnls(factor.T, np.linalg.solve(factor, depth - gap), maxiter=10_000)
+    pressure, _ = nnls(factor.T, np.linalg.solve(factor, depth - indenter.initial_gap[place]), maxiter=10_000)
     inside = pressure > 0
     tangent = np.linalg.solve(matrix[np.ix_(inside, inside)], np.ones(inside.sum()))
     scale = 4 * np.pi * indenter.element_side
     return scale * pressure.sum(), scale * tangent.sum(), inside.sum()
 
 
+def grid_size(n, aspect):
+    """Odd numbers of rows and columns of about n² elements of aspect dy/dx on a square."""
+    return (2 * round(n * stretch / 2) + 1 for stretch in (aspect**-0.5, aspect**0.5))
+
+
 # ---- exact solutions (E* = 4G), with observed orders -----------------------------------------------------------------
 @pytest.mark.parametrize(
-    "shape",
-    [reference.sphere(2.0), reference.cone(0.2), reference.PowerLawBody(1.0, 4.0)],
-    ids=["sphere", "cone", "r⁴"],
+    ("shape", "aspect"),
+    [
+        (reference.sphere(2.0), 1.0),
+        (reference.cone(0.2), 1.0),
+        (reference.PowerLawBody(1.0, 4.0), 1.0),
+        (reference.sphere(2.0), 0.5),
+        (reference.sphere(2.0), 5.0),
+    ],
+    ids=["sphere", "cone", "r⁴", "sphere on wide rectangles", "sphere on tall rectangles"],
 )
-def test_bodies_of_revolution_converge_at_second_order(shape):
-    """Mean error over depths, since that at one depth depends on how the contact's edge cuts the grid."""
+def test_bodies_of_revolution_converge(shape, aspect):
+    """At second order the force, at first order the contact radius and the stiffness.
+
+    Mean errors over depths, since that at one depth depends on how the contact's edge cuts the grid.
+    """
     depths = np.linspace(0.1, 0.2, 9)
-    elements, errors = np.array([33, 65, 129, 257]), []
-    for n in elements:
-        curve = indent(shape.indenter(n, width=2), tolerance=1e-6, depths=depths)
-        errors.append(np.abs(curve.force / shape.force(depths) - 1).mean())
-    assert observed_order(elements, errors) > 1.7
-    assert errors[-1] < 5e-5
-
-
-def test_sphere_contact_area_and_stiffness_converge():
-    shape, depths = reference.sphere(2.0), np.linspace(0.1, 0.2, 9)
-    elements, areas, stiffnesses = np.array([33, 65, 129, 257]), [], []
-    for n in elements:
-        curve = indent(shape.indenter(n, width=2), tolerance=1e-6, depths=depths)
-        radius = np.sqrt(curve.contact_count * (2 / n) ** 2 / np.pi)
-        areas.append(np.abs(radius / shape.contact_radius(depths) - 1).mean())
-        stiffnesses.append(np.abs(curve.stiffness / shape.stiffness(depths) - 1).mean())
-    assert observed_order(elements, areas) > 0.7
-    assert observed_order(elements, stiffnesses) > 0.7
-    assert areas[-1] < 1e-2
-    assert stiffnesses[-1] < 1e-2
-
-
-@pytest.mark.parametrize("aspect", [0.5, 2.0, 5.0])
-def test_sphere_on_rectangles_converges_at_second_order(aspect):
-    """Elements of this aspect dy/dx, about as many as on the grids of squares above."""
-    shape, depths = reference.sphere(2.0), np.linspace(0.1, 0.2, 9)
     elements, errors = np.array([33, 65, 129]), []
     for n in elements:
-        rows, columns = (2 * round(n * stretch / 2) + 1 for stretch in (aspect**-0.5, aspect**0.5))
-        curve = indent(shape.indenter(columns, width=2, rows=rows), tolerance=1e-6, depths=depths)
-        errors.append(np.abs(curve.force / shape.force(depths) - 1).mean())
-    assert observed_order(elements, errors) > 1.7
-    assert errors[-1] < 4e-4
+        rows, columns = grid_size(n, aspect)
+        indenter = shape.indenter(columns, width=2, rows=rows)
+        curve = indent(indenter, tolerance=1e-6, depths=depths)
+        radius = np.sqrt(curve.contact_count / np.pi) * indenter.element_side
+        values = curve.force, curve.stiffness, radius
+        exact = shape.force(depths), shape.stiffness(depths), shape.contact_radius(depths)
+        errors.append(np.abs(np.divide(values, exact) - 1).mean(axis=1))
+    force, stiffness, radius = np.transpose(errors)
+    assert observed_order(elements, force) > 1.7
+    assert observed_order(elements, stiffness) > 0.7
+    assert observed_order(elements, radius) > 0.7
+    assert force[-1] < 2e-4
+    assert max(stiffness[-1], radius[-1]) < 1e-2
 
 
-# Elements along the short and the long side of a rectangle of sides 1 and 2: squares, and both ways stretched.
-@pytest.mark.parametrize(("short", "long"), [(1, 2), (1, 1), (2, 1), (1, 5)])
+# Elements along the short and the long side of a rectangle of sides 1 and 2: the elements are stretched.
+@pytest.mark.parametrize(("short", "long"), [(1, 1), (1, 5)])
 def test_flat_rectangle_tends_to_its_exact_stiffness(short, long):
     """k = 0.531918 · 4πG · (short side), of first order; extrapolated from two grids."""
     stiffness = []
@@ -89,49 +85,25 @@ def test_flat_rectangle_tends_to_its_exact_stiffness(short, long):
     assert 2 * stiffness[1] - stiffness[0] == pytest.approx(0.531918, rel=2e-3)
 
 
-@pytest.mark.parametrize("aspect", [0.5, 2.0, 5.0])
-def test_flat_ellipse_on_rectangles_converges(aspect):
+@pytest.mark.parametrize(("aspect", "ratio"), [(1.0, 1.0), (1.0, 0.5), (0.5, 0.5), (5.0, 0.5)])
+def test_flat_ellipse_converges_at_first_order(aspect, ratio):
     """Mean error over sizes, since that of one ellipse depends on how its edge cuts the grid."""
     elements, errors, majors = np.array([33, 65, 129]), [], np.linspace(0.8, 1.0, 7)
     for n in elements:
-        rows, columns = (2 * round(n * stretch / 2) + 1 for stretch in (aspect**-0.5, aspect**0.5))
+        rows, columns = grid_size(n, aspect)
         x, y = ((np.arange(m) - (m - 1) / 2) * 2 / m for m in (columns, rows))
-        maps = [np.where((2 * y[:, None]) ** 2 + x**2 <= major**2, 0.0, np.nan) for major in majors]
-        punches = [Indenter(heights, (2 / columns, 2 / rows)) for heights in maps]
-        stiffness = np.array([indent(punch, tolerance=1e-4).stiffness[0] for punch in punches])
-        errors.append(np.sqrt(np.mean((stiffness / reference.flat_ellipse_stiffness(majors, majors / 2) - 1) ** 2)))
+        maps = [np.where((y[:, None] / ratio) ** 2 + x**2 <= major**2, 0.0, np.nan) for major in majors]
+        curves = [indent(Indenter(heights, (2 / columns, 2 / rows)), tolerance=1e-4) for heights in maps]
+        stiffness = np.array([curve.stiffness[0] for curve in curves])
+        errors.append(np.sqrt(np.mean((stiffness / reference.flat_ellipse_stiffness(majors, ratio * majors) - 1) ** 2)))
+    assert curves[0].force == pytest.approx(curves[0].stiffness * curves[0].depth, rel=1e-9)
+    assert len(curves[0].depth) == 1
     assert 0.6 < observed_order(elements, errors) < 1.6
     assert errors[-1] < 6e-3
 
 
-def test_one_rough_body_on_squares_and_on_rectangles():
-    """The same smooth heights on squares, and every third row of them: on fine grids they carry the same force."""
-    for n in (60, 120):
-        x, y = (np.arange(n) + 0.5) / n, (np.arange(3 * n) + 0.5) / n
-        waves = np.cos(2 * np.pi * x) + np.cos(2 * np.pi * y[:, None] / 3) + 0.3 * np.cos(4 * np.pi * (x + y[:, None]))
-        depths = np.array([0.5, 1.5, 3.0])
-        squares = indent(Indenter(waves, 1 / n), tolerance=1e-6, depths=depths)
-        rectangles = indent(Indenter(waves[1::3], (1 / n, 3 / n)), tolerance=1e-6, depths=depths)
-        np.testing.assert_allclose(rectangles.force, squares.force, rtol=1e-2)
-
-
-@pytest.mark.parametrize("aspect", [1.0, 0.5])
-def test_flat_ellipse_converges_at_first_order(aspect):
-    exact = reference.flat_ellipse_stiffness(1.0, aspect)
-    elements, errors = np.array([65, 129, 257]), []
-    for n in elements:
-        x = (np.arange(n) - (n - 1) / 2) * 2 / n
-        heights = np.where(x[:, None] ** 2 + (x[None, :] / aspect) ** 2 <= 1, 0.0, np.nan)
-        curve = indent(Indenter(heights, 2 / n), tolerance=1e-6)
-        assert len(curve.depth) == 1
-        assert curve.force[0] == pytest.approx(curve.stiffness[0] * curve.depth[0], rel=1e-9)
-        errors.append(curve.stiffness[0] / exact - 1)
-    assert 0.6 < observed_order(elements, errors) < 1.6
-    assert abs(errors[-1]) < 2e-2
-
-
 # ---- against the dense complementarity problem -----------------------------------------------------------------------
-@pytest.mark.parametrize(("hurst", "row_spacing"), [(0.1, 1.0), (0.5, 1.0), (0.9, 1.0), (0.5, 0.2), (0.5, 2.0)])
+@pytest.mark.parametrize(("hurst", "row_spacing"), [(0.1, 1.0), (0.9, 1.0), (0.5, 0.2), (0.5, 2.0)])
 def test_path_solves_the_dense_problem(hurst, row_spacing):
     disc = Indenter(self_affine_disc(hurst, 21, seed=5).heights, 1.0, row_spacing)
     depths = np.nanmax(disc.initial_gap) * np.array([0.1, 0.3, 0.6, 0.9, 1.4])
@@ -154,17 +126,7 @@ def test_error_of_force_is_of_second_order_in_the_tolerance():
         assert np.abs(curve.force / exact - 1).max() < 0.1 * tolerance
 
 
-def test_loose_tolerance_gives_nearly_the_dense_solution():
-    """Force and contact count of a level against those of the dense complementarity problem."""
-    disc = self_affine_disc(0.6, 33, seed=2)
-    depth = 0.5 * np.nanmax(disc.initial_gap)
-    force, _, count = dense_complementarity(disc, depth)
-    loose = indent(disc, tolerance=1e-2, depths=[depth])
-    assert loose.force[0] == pytest.approx(force, rel=1e-3)
-    assert abs(loose.contact_count[0] - count) <= 0.1 * count
-
-
-@pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 1e-9])
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-9])
 def test_residual_is_bounded_and_stiffness_accurate_from_level_to_level(tolerance):
     """Rounding errors add up; the reported residual bounds them at every level. The stiffness meets the tolerance."""
     disc = self_affine_disc(0.8, 65, seed=6)
@@ -178,8 +140,7 @@ def test_residual_is_bounded_and_stiffness_accurate_from_level_to_level(toleranc
         # Levels of a dense solution are exact: their residual is given as zero.
         left = residual_of(disc.initial_gap / disc.spacing, pressure, contact.depth / disc.spacing)
         assert left <= max(contact.residual, 1e-12)
-        matrix = influence_coefficient((row[:, None] - row).astype(float), (column[:, None] - column).astype(float))
-        exact = np.linalg.solve(matrix, np.ones(row.size)).sum()
+        exact = np.linalg.solve(influence_matrix(row, column), np.ones(row.size)).sum()
         assert contact.tangent_sum == pytest.approx(exact, rel=max(tolerance, 1e-11))
     assert contact.fields is not None
 
@@ -214,17 +175,6 @@ def test_levels_are_fewer_for_a_larger_tolerance():
     assert len(indent(disc, tolerance=3e-2).depth) < 0.7 * len(indent(disc, tolerance=1e-4).depth)
 
 
-def test_curve_is_convex_and_contact_only_grows():
-    curve = indent(self_affine_disc(0.5, 65, seed=9), tolerance=1e-3)
-    assert np.all(np.diff(curve.depth) > 0)
-    assert np.all(np.diff(curve.force) > 0)
-    assert np.all(np.diff(curve.stiffness) >= 0)
-    assert np.all(np.diff(curve.contact_count) >= 0)
-    chord = np.diff(curve.force) / np.diff(curve.depth)
-    assert np.all(chord >= curve.stiffness[:-1] * (1 - 1e-6))
-    assert np.all(chord <= curve.stiffness[1:] * (1 + 1e-6))
-
-
 def test_stops_at_fraction_or_force():
     disc = self_affine_disc(0.8, 65, seed=4)
     by_fraction = indent(disc, until_fraction=0.3)
@@ -249,22 +199,8 @@ def test_first_level_is_one_element_in_contact():
     stiffness = np.pi * 4 * disc.spacing / influence_coefficient(0.0, 0.0)
     assert curve.contact_count[0] == 1
     assert curve.stiffness[0] == pytest.approx(stiffness, rel=1e-12)
+    assert curve.stiffness[0] == pytest.approx(4 * reference.one_element_stiffness(65), rel=1e-12)
     assert curve.force[0] == pytest.approx(stiffness * curve.depth[0], rel=1e-12)
-
-
-def test_scaling_symmetry_and_cropping():
-    disc = self_affine_disc(0.7, 33, seed=6)
-    depths = np.nanmax(disc.initial_gap) * np.array([0.2, 0.7])
-    curve = indent(disc, tolerance=1e-9, depths=depths)
-    for heights, spacing in ((1e12, 1e-12), (1e-12, 1e12), (1e12, 1e12)):
-        scaled = indent(
-            Indenter(disc.heights * heights, disc.spacing * spacing), tolerance=1e-9, depths=depths * heights
-        )
-        np.testing.assert_allclose(scaled.force, curve.force * heights * spacing, rtol=1e-10)
-        np.testing.assert_allclose(scaled.stiffness, curve.stiffness * spacing, rtol=1e-10)
-    padded = np.pad(disc.heights.T[::-1], ((3, 8), (0, 5)), constant_values=np.nan)
-    turned = indent(Indenter(padded, disc.spacing), tolerance=1e-9, depths=depths)
-    np.testing.assert_allclose(turned.force, curve.force, rtol=1e-8)
 
 
 @pytest.mark.parametrize(
@@ -296,19 +232,13 @@ def test_small_and_tied_indenters(heights):
         ({"until_fraction": 1.5}, "until"),
         ({"until_force": -1.0}, "until_force"),
         ({"depths": [0.2, 0.1]}, "increasing"),
-        ({"depths": [0.0, 0.1]}, "positive"),
-        ({"depths": [np.nan]}, "finite"),
         ({"depths": []}, "finite"),
+        ({"indenter": Indenter(np.zeros(5), 1.0)}, "two-dimensional"),
     ],
 )
 def test_refuses(arguments, message):
     with pytest.raises(ValueError, match=message):
-        indent(self_affine_disc(0.5, 9, seed=1), **arguments)
-
-
-def test_refuses_lines():
-    with pytest.raises(ValueError, match="two-dimensional"):
-        indent(Indenter(np.zeros(5), 1.0))
+        indent(**({"indenter": self_affine_disc(0.5, 9, seed=1)} | arguments))
 
 
 def test_raises_when_it_does_not_converge():
@@ -317,30 +247,23 @@ def test_raises_when_it_does_not_converge():
         indent(self_affine_disc(0.5, 33, seed=1), tolerance=1e-8, depths=[1.0], options=few)
 
 
-@pytest.mark.parametrize(("hurst", "elements"), [(0.9, 65), (0.9, 129)])
-def test_levels_before_the_start_only_lead_there(hurst, elements):
-    disc = self_affine_disc(hurst, elements, seed=4)
+def test_levels_before_the_start_only_lead_there():
+    disc = self_affine_disc(0.9, 65, seed=4)
     curve = indent(disc, tolerance=1e-3, start_fraction=0.1, until_fraction=0.4)
     assert (np.diff(curve.depth) > 0).all()
     assert (np.diff(curve.force) > 0).all()
     assert np.count_nonzero(curve.contact_fraction < 0.05) < 12
 
 
-@pytest.mark.parametrize(
-    ("indenter", "start", "until"),
-    [
-        (self_affine_disc(0.5, 65, seed=4), 0.1, 0.4),
-        (Indenter(-np.add.outer((np.arange(24) - 11.5) ** 2, (np.arange(24) - 11.5) ** 2) / 200, 1.0), 0.7, 0.95),
-        (Indenter(-np.add.outer((np.arange(33) - 15.7) ** 2, (np.arange(33) - 16.2) ** 2) / 200, 1.0), 0.7, 0.95),
-    ],
-    ids=["disc", "paraboloid", "paraboloid off the grid"],
-)
-def test_levels_increase_and_are_finite_whatever_the_start(indenter, start, until):
-    curve = indent(indenter, tolerance=1e-3, start_fraction=start, until_fraction=until)
+@pytest.mark.parametrize(("across", "centre"), [(24, (11.5, 11.5)), (33, (15.7, 16.2))])
+def test_levels_of_a_paraboloid_increase_and_are_finite_whatever_the_start(across, centre):
+    squares = np.square(np.arange(across) - np.array(centre)[:, None])
+    paraboloid = Indenter(-np.add.outer(*squares) / 200, 1.0)
+    curve = indent(paraboloid, tolerance=1e-3, start_fraction=0.7, until_fraction=0.95)
     for values in (curve.depth, curve.force):
         assert np.isfinite(values).all()
         assert (np.diff(values, prepend=0) > 0).all()
-    assert curve.contact_fraction[-1] >= until
+    assert curve.contact_fraction[-1] >= 0.95
 
 
 def test_the_last_interval_of_a_small_curve_is_as_accurate_as_the_others():

@@ -3,6 +3,7 @@
 import os
 import threading
 import time
+from functools import partial
 
 import numpy as np
 import pytest
@@ -15,37 +16,32 @@ from viscorough.contact.state import elements_of
 from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
 
-THREADS = (1, 2, 3)
+THREADS = (1, 3)
 
 
 @pytest.mark.parametrize("threads", [*THREADS, 1000])
-@pytest.mark.parametrize("size", [0, 1, 9, 10, 11, 20, 95])
+@pytest.mark.parametrize("size", [0, 1, 10, 11, 95])
 def test_blocks_cover_the_range_and_results_are_in_order(size, threads):
     blocks = run_blocks(lambda start, stop: (start, stop), size, threads, block=10)
     assert [i for start, stop in blocks for i in range(start, stop)] == list(range(size))
     assert all(stop - start <= 10 for start, stop in blocks)
 
 
-@pytest.mark.parametrize("size", [11, 25, 31, 95])
-def test_blocks_are_an_even_number_of_about_one_size(size):
-    sizes = run_blocks(lambda start, stop: stop - start, size, 1, block=10)
-    assert len(sizes) % 2 == 0
-    assert max(sizes) - min(sizes) < len(sizes)
+def test_blocks_are_an_even_number_of_about_one_size():
+    for size in (11, 25, 95):
+        sizes = run_blocks(lambda start, stop: stop - start, size, 1, block=10)
+        assert len(sizes) % 2 == 0
+        assert max(sizes) - min(sizes) < len(sizes)
+    *sizes, _ = run_blocks(lambda start, stop: stop - start, 95, 2, block=12, multiple=4)
+    assert set(sizes) == {12}
 
 
-@pytest.mark.parametrize("shape", [(5,), (3, 7), (2, 40, 33)])
-@pytest.mark.parametrize("dtype", [np.float32, np.float64])
-def test_aligned_zeros_start_a_line_of_the_cache(shape, dtype):
-    for _ in range(5):
+def test_aligned_zeros_start_a_line_of_the_cache():
+    for shape, dtype in (((5,), np.float32), ((3, 7), np.float64), ((2, 40, 33), np.float32)):
         zeros = aligned_zeros(shape, dtype)
         assert (zeros.shape, zeros.dtype) == (shape, dtype)
         assert zeros.ctypes.data % 64 == 0
         assert not zeros.any()
-
-
-def test_blocks_are_multiples_but_for_the_last_one():
-    *sizes, _ = run_blocks(lambda start, stop: stop - start, 95, 2, block=12, multiple=4)
-    assert set(sizes) == {12}
 
 
 def test_blocks_run_at_the_same_time():
@@ -53,7 +49,7 @@ def test_blocks_run_at_the_same_time():
     run_blocks(lambda start, stop: barrier.wait(timeout=10), 3, 3, block=1)
 
 
-@pytest.mark.parametrize("threads", THREADS)
+@pytest.mark.parametrize("threads", [1, 3])
 def test_errors_in_a_block_are_raised(threads):
     with pytest.raises(ZeroDivisionError):
         run_blocks(lambda start, stop: 1 / (start - 50), 100, threads, block=10)
@@ -92,7 +88,7 @@ def test_buffers_in_use_are_different_ones():
         assert third is first or third is second
 
 
-@pytest.mark.parametrize("shape", [(400, 700), (3, 100_000), (17, 20_000)])
+@pytest.mark.parametrize("shape", [(400, 700), (3, 100_000)])
 @pytest.mark.parametrize("precision", [np.float32, np.float64])
 def test_the_half_space_is_the_same(shape, precision):
     load = np.random.default_rng(1).random(shape)
@@ -118,11 +114,11 @@ def test_elements_have_the_same_ranks(digits):
 @pytest.fixture(scope="module")
 def disc():
     """A disc of several blocks."""
-    return self_affine_disc(0.8, 601, seed=1)
+    return self_affine_disc(0.8, 401, seed=1)
 
 
 def test_a_curve_is_the_same(disc):
-    one, *others = (indent(disc, until_fraction=0.2, threads=threads) for threads in THREADS)
+    one, *others = (indent(disc, until_fraction=0.1, threads=threads) for threads in THREADS)
     for other in others:
         for name in ("depth", "force", "stiffness", "contact_count", "residual"):
             np.testing.assert_array_equal(getattr(other, name), getattr(one, name))
@@ -135,8 +131,8 @@ def test_a_contact_in_double_precision_is_the_same(disc):
         np.testing.assert_array_equal(other.gap, one.gap)
 
 
-@pytest.mark.parametrize("threads", [0, -1, 1.0, "two", None, True, 1025])
-@pytest.mark.parametrize("compute", [indent, lambda *args, **kwargs: contact_at(*args, depth=1.0, **kwargs)])
-def test_numbers_of_threads_that_are_none(compute, threads):
-    with pytest.raises(ValueError, match="threads must be a whole number from 1 to 1024, not "):
-        compute(Indenter(np.zeros((3, 3)), 1.0), threads=threads)
+@pytest.mark.parametrize("threads", [0, 1.0, None, True, 1025])
+def test_numbers_of_threads_that_are_none(threads):
+    for compute in (indent, partial(contact_at, depth=1.0)):
+        with pytest.raises(ValueError, match="threads must be a whole number from 1 to 1024, not "):
+            compute(Indenter(np.zeros((3, 3)), 1.0), threads=threads)

@@ -22,8 +22,7 @@ def terraces():
     return Indenter(-0.1 * ((row // 7 + column // 5) % 4), 1.0)
 
 
-@pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-6, 1e-10])
-@pytest.mark.parametrize("hurst", [0.2, 0.8])
+@pytest.mark.parametrize(("hurst", "tolerance"), [(0.2, 1e-2), (0.8, 1e-3), (0.8, 1e-6), (0.2, 1e-10)])
 def test_levels_stand_at_the_forces(hurst, tolerance):
     disc = self_affine_disc(hurst, 65, seed=2)
     curve = indent(disc, forces=FORCES, tolerance=tolerance)
@@ -57,19 +56,6 @@ def test_a_lower_terrace_beside_the_contact_is_met(tolerance):
     for contact in contacts:
         assert np.nanmin(contact.gap) >= -tolerance * contact.depth
     np.testing.assert_allclose([contact.depth for contact in contacts], curve.depth, rtol=tolerance)
-
-
-def test_a_flat_indenter_is_a_straight_line():
-    disc = Indenter(np.where(np.isfinite(self_affine_disc(0.5, 33, seed=1).heights), 0.25, np.nan), 0.1)
-    curve = indent(disc, forces=[1e-6, 1.0, 1e6])
-    np.testing.assert_allclose(curve.force / curve.depth, curve.stiffness, rtol=1e-6)
-    np.testing.assert_array_equal(curve.contact_count, curve.elements)
-
-
-def test_a_sphere_has_the_depths_of_hertz():
-    sphere, forces = reference.sphere(2.0), np.array([0.1, 0.3])
-    curve = indent(sphere.indenter(129, width=2), forces=forces, tolerance=1e-5)
-    np.testing.assert_allclose(sphere.force(curve.depth), forces, rtol=2e-3)
 
 
 def test_the_last_correction_is_as_small_as_the_tolerance_asks():
@@ -112,9 +98,7 @@ def test_progress_is_reported_up_to_the_end():
     ("arguments", "message"),
     [
         ({"forces": []}, "forces must be a list of finite numbers"),
-        ({"forces": [1.0, 1.0]}, "forces must be positive and strictly increasing"),
         ({"forces": [0.0, 1.0]}, "forces must be positive and strictly increasing"),
-        ({"forces": [1.0, np.inf]}, "forces must be a list of finite numbers"),
         ({"forces": [1.0], "depths": [1.0]}, "depths and forces exclude each other"),
     ],
 )

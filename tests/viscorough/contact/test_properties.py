@@ -1,7 +1,7 @@
-"""Properties that hold for every indenter, on random small maps and lines, for both the dense and the grid solver.
+"""Properties that hold for every indenter, on random small maps, for both the dense and the grid solver.
 
-Neither more depth nor more or higher elements can lower the force, and contact only grows: the inverse of the influence
-matrix has no positive entry off its diagonal (computed up to 25 × 25 elements).
+Complementarity, with an influence matrix whose inverse has no positive entry off its diagonal (computed up to 25 × 25
+elements), implies that neither more depth nor more or higher elements lower the force.
 """
 
 from dataclasses import replace
@@ -12,12 +12,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
-from viscorough.contact.influence import influence_coefficient
+from support.influence import influence_matrix
 from viscorough.contact.loading_path import indent
 from viscorough.contact.options import SolverOptions
 from viscorough.contact.solver import ContactSolver
 from viscorough.indenter import Indenter
-from viscorough.mdr import reduce
 from viscorough.surfaces import self_affine_disc
 from viscorough.viscous.correspondence import kinetics
 from viscorough.viscous.events import march_events
@@ -43,11 +42,6 @@ spacings = st.just((0.3, 0.3)) | st.sampled_from([(0.3, 0.5), (0.3, 0.06), (0.1,
 indenters = st.builds(Indenter, maps.filter(lambda array: np.isfinite(array).any()), spacings) | st.builds(
     self_affine_disc, st.floats(0, 1), st.integers(9, 17), seed=seeds
 )
-lines = st.builds(
-    Indenter,
-    arrays(float, st.integers(1, 40), elements=st.floats(-1000, 1000, width=32) | st.integers(-2, 2)),
-    st.just(0.3),
-)
 
 
 @st.composite
@@ -64,60 +58,28 @@ def press(indenter, depths, route):
     return curve
 
 
-def influence_matrix(row, column, indenter):
-    return influence_coefficient(np.subtract.outer(row, row), np.subtract.outer(column, column), indenter.aspect)
-
-
 # ---- the curve of one indenter ---------------------------------------------------------------------------------------
-@both_routes
-@given(pressings())
-@some
-def test_force_is_increasing_and_convex(route, pressing):
-    """Contact grows with depth, so that every secant lies between the stiffnesses at its ends."""
-    indenter, depths = pressing
-    curve = press(indenter, depths, route)
-    secant = np.diff(curve.force, prepend=0) / np.diff(depths, prepend=0)
-    assert np.all(secant > 0)
-    assert np.all(secant <= curve.stiffness * (1 + STIFFNESS))
-    assert np.all(secant[1:] >= curve.stiffness[:-1] * (1 - STIFFNESS))
-    assert np.all(np.diff(curve.contact_count) >= 0)
 
 
 @both_routes
 @given(pressings())
-@some
-def test_stiffness_is_that_of_a_flat_punch_of_the_contact_set(route, pressing):
-    """k/G = 4π d Σq with K q = 1 on the set, and F/G = 4π d Σ q (u − g)."""
+@settings(some, max_examples=100)
+def test_complementarity_and_the_flat_punch_of_the_contact_set(route, pressing):
+    """No tension, no overlap, no gap in contact, and no element that loses contact.
+
+    k/G = 4π d Σq with K q = 1 on the set, and F/G = 4π d Σ q (u − g).
+    """
     indenter, depths = pressing
     curve = press(indenter, depths, route)
     solver = ContactSolver(indenter, TOLERANCE, OPTIONS[route])
-    contact = solver.unloaded_state()
-    for i, depth in enumerate(depths):
-        contact = solver.advance(contact, depth)
-        row, column = (place[contact.members] for place in solver.elements.map_place)
-        tangent = np.linalg.solve(influence_matrix(row, column, indenter), np.ones(row.size))
-        scale = 4 * np.pi * indenter.element_side
-        assert contact.count == curve.contact_count[i]
-        np.testing.assert_allclose(curve.stiffness[i], scale * tangent.sum(), rtol=STIFFNESS)
-        force = scale * tangent @ (depth - indenter.initial_gap[row, column])
-        np.testing.assert_allclose(curve.force[i], force, rtol=FORCE)
-
-
-@both_routes
-@given(pressings())
-@some
-def test_complementarity(route, pressing):
-    """No tension, no overlap, no gap in contact, and no element that loses contact."""
-    indenter, depths = pressing
-    solver = ContactSolver(indenter, TOLERANCE, OPTIONS[route])
-    place = solver.elements.map_place
-    matrix = influence_matrix(*place, indenter) * indenter.element_side / (4 * np.pi)
+    place, scale = solver.elements.map_place, 4 * np.pi * indenter.element_side
+    matrix, initial_gap = influence_matrix(*place, indenter.aspect), indenter.initial_gap[place]
     contact, inside = solver.unloaded_state(), np.zeros(indenter.elements, dtype=bool)
-    for depth in depths:
+    for i, depth in enumerate(depths):
         contact = solver.advance(contact, depth)
         pressure, solver_gap = np.zeros(indenter.elements), solver.gap(contact)
         pressure[contact.members] = contact.pressure
-        gap = matrix @ pressure - depth + indenter.initial_gap[place]
+        gap = matrix @ pressure * indenter.element_side / (4 * np.pi) - depth + initial_gap
         limit = TOLERANCE * depth
         # The solver adds up its steps in single precision: the rounding error must stay far below the tolerance.
         np.testing.assert_allclose(solver_gap, gap, rtol=0, atol=0.05 * limit)
@@ -128,27 +90,10 @@ def test_complementarity(route, pressing):
         assert np.all(solver_gap >= -limit)
         assert np.all(np.abs(solver_gap[inside]) <= limit)
 
-
-@both_routes
-@given(pressings())
-@some
-def test_bounded_by_flat_punches(route, pressing):
-    """The highest element alone carries less, a flat punch of the indenter's outline more."""
-    indenter, depths = pressing
-    curve = press(indenter, depths, route)
-    place = np.nonzero(np.isfinite(indenter.heights))
-    tangents = (
-        4 * np.pi * indenter.element_side * np.linalg.solve(influence_matrix(*place, indenter), np.ones(place[0].size))
-    )
-    one, full = 4 * np.pi * indenter.element_side / influence_coefficient(0.0, 0.0, indenter.aspect), tangents.sum()
-    for ratio in (curve.force / depths, curve.stiffness):
-        assert np.all(ratio >= one * (1 - STIFFNESS))
-        assert np.all(ratio <= full * (1 + STIFFNESS))
-    # If all elements were bonded to the half-space, some would be in tension: less force, but the same at full contact.
-    bonded = full * depths - tangents @ indenter.initial_gap[place]
-    assert np.all(curve.force >= bonded - FORCE * full * depths)
-    closed = curve.contact_count == indenter.elements
-    np.testing.assert_allclose(curve.force[closed], bonded[closed], rtol=FORCE)
+        assert inside.sum() == curve.contact_count[i]
+        tangent = np.linalg.solve(matrix[np.ix_(inside, inside)], np.ones(inside.sum()))
+        np.testing.assert_allclose(curve.stiffness[i], scale * tangent.sum(), rtol=STIFFNESS)
+        np.testing.assert_allclose(curve.force[i], scale * tangent @ (depth - initial_gap[inside]), rtol=FORCE)
 
 
 # ---- one indenter and another ----------------------------------------------------------------------------------------
@@ -168,7 +113,7 @@ def test_orientation_does_not_matter(route, pressing, turned):
 
 
 @both_routes
-@given(pressings(), st.floats(-6, 6), st.floats(-6, 6))
+@given(pressings(), st.floats(-12, 12), st.floats(-12, 12))
 @some
 def test_scaling_laws(route, pressing, height_decades, size_decades):
     """Force is linear in heights, and of second order in all lengths; stiffness is linear in the size alone."""
@@ -182,51 +127,6 @@ def test_scaling_laws(route, pressing, height_decades, size_decades):
     larger = press(Indenter(size * indenter.heights, spacings), size * depths, route)
     np.testing.assert_allclose(larger.force, size**2 * curve.force, rtol=FORCE)
     np.testing.assert_allclose(larger.stiffness, size * curve.stiffness, rtol=STIFFNESS)
-
-
-@both_routes
-@given(pressings(), st.floats(0, 1), seeds)
-@some
-def test_a_part_carries_no_more_than_the_whole(route, pressing, share, seed):
-    """Added elements, none higher than the highest, never lower the force at a given depth."""
-    indenter, depths = pressing
-    removed = np.random.default_rng(seed).random(indenter.heights.shape) < share
-    removed.flat[np.nanargmax(indenter.heights)] = False
-    part = press(replace(indenter, heights=np.where(removed, np.nan, indenter.heights)), depths, route)
-    whole = press(indenter, depths, route)
-    assert np.all(part.force <= whole.force * (1 + FORCE))
-
-
-@both_routes
-@given(pressings(), seeds, st.floats(0, 1))
-@some
-def test_a_raised_element_carries_no_less(route, pressing, which, share):
-    """Any element made higher, to the highest at most, never lowers the force at a given depth."""
-    indenter, depths = pressing
-    place = np.flatnonzero(np.isfinite(indenter.heights))
-    raised = indenter.heights.copy()
-    raised.flat[place[which % place.size]] += share * indenter.initial_gap.flat[place[which % place.size]]
-    before = press(indenter, depths, route)
-    after = press(replace(indenter, heights=raised), depths, route)
-    assert np.all(after.force >= before.force * (1 - FORCE))
-
-
-# ---- reduced lines ---------------------------------------------------------------------------------------------------
-@given(lines)
-@settings(some, max_examples=100)
-def test_reduced_line_is_bounded(line):
-    """Springs in parallel: one at least, all at most, all of them and no others at full contact."""
-    curve, length = reduce(line), line.spacing * line.heights.size
-    assert np.all(np.diff(curve.force) > 0)
-    assert np.all(np.diff(curve.stiffness) >= 0)
-    assert np.all(curve.stiffness >= 4 * line.spacing)
-    assert np.all(curve.stiffness <= 4 * length * (1 + 1e-12))
-    assert np.all(curve.force >= 4 * line.spacing * curve.depth * (1 - 1e-12))
-    assert np.all(curve.force <= 4 * length * curve.depth * (1 + 1e-12))
-    full = 4 * length * (curve.depth - line.initial_gap.mean())
-    rounding = 1e-12 * length * curve.depth
-    assert np.all(curve.force >= full - rounding)
-    assert abs(curve.force[-1] - full[-1]) <= rounding[-1]
 
 
 # ---- penetration in time ---------------------------------------------------------------------------------------------
@@ -250,20 +150,6 @@ def test_indenter_never_rises_and_rests_without_force(pressing, earlier, later, 
     resting = slice(len(earlier), len(earlier) + 1 + rest)
     np.testing.assert_array_equal(result.depth[resting], result.depth[len(earlier)])
     np.testing.assert_array_equal(result.velocity[resting], 0)
-
-
-@given(pressings(), *[st.floats(-6, 6)] * 2)
-@some
-def test_depth_is_a_function_of_force_times_time_over_viscosity(pressing, force_decades, viscosity_decades):
-    """Under another constant force, and in another viscosity, the depths are the same at other times."""
-    indenter, depths = pressing
-    curve = press(indenter, depths, "dense")
-    times = np.linspace(0, curve.force[-1], 30)[1:]
-    expected = kinetics(curve, 1.0, 1.0, times).depth
-    force, viscosity = 10**force_decades, 10**viscosity_decades
-    depth = kinetics(curve, force, viscosity, times * viscosity / force).depth
-    np.testing.assert_allclose(depth, expected, rtol=1e-12)
-    assert np.isfinite(depth[-1])
 
 
 @given(indenters, seeds)

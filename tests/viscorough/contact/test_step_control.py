@@ -50,7 +50,7 @@ def boss_on_a_plate(across=24, radius=7):
     return Indenter(boss + 1e-3 * np.random.default_rng(0).random(boss.shape), 1.0)
 
 
-@pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-4, 1e-5])
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-4])
 @pytest.mark.parametrize("start_fraction", [0.0, 0.2])
 def test_a_kink_is_resolved(tolerance, start_fraction):
     boss = boss_on_a_plate()
@@ -83,15 +83,11 @@ def test_the_bound_is_relaxed_only_where_a_small_error_is_predicted(indenter, de
 
 def test_touches_before_a_dense_solution_are_not_predicted():
     """Contacts are solved ahead, so that one on the grid may come before a dense one: the bound alone decides."""
-    indenter, depths, options = (
-        self_affine_disc(0.5, 33, seed=1),
-        (0.3, 0.35),
-        (SolverOptions(dense_contacts=0), DEFAULT),
-    )
-    solvers = (ContactSolver(indenter, 1e-6, of_solver) for of_solver in options)
-    before, after = (
-        solver.advance_reduced(solver.unloaded_state(), depth) for solver, depth in zip(solvers, depths, strict=True)
-    )
+    indenter, contacts = self_affine_disc(0.5, 33, seed=1), []
+    for depth, options in ((0.3, SolverOptions(dense_contacts=0)), (0.35, DEFAULT)):
+        solver = ContactSolver(indenter, 1e-6, options)
+        contacts.append(solver.advance_reduced(solver.unloaded_state(), depth))
+    before, after = contacts
     assert before.fields is not None
     assert after.fields is None
     bound = interpolation_bound(Level.of(before), Level.of(after)) / 1e-3

@@ -11,7 +11,7 @@ from viscorough.indenter import Indenter
 
 ON_THE_GRID = SolverOptions(dense_contacts=0, dense_interactions=0)
 DENSE = SolverOptions(dense_contacts=1000)
-SHAPES = [(1, 170), (2, 85), (3, 57), (4, 43), (9, 38)]
+SHAPES = [(1, 170), (2, 85), (3, 57), (9, 38)]
 
 
 def strip(shape):
@@ -23,7 +23,7 @@ def contact_of(heights, depth, options=ON_THE_GRID):
     return solver.elements, solver.advance(solver.unloaded_state(), depth)
 
 
-@pytest.mark.parametrize("shape", [*SHAPES, *[shape[::-1] for shape in SHAPES]])
+@pytest.mark.parametrize("shape", SHAPES)
 def test_pressure_is_that_of_a_dense_solver(shape):
     heights, depth = strip(shape), 1.2
     elements, contact = contact_of(heights, depth)
@@ -48,11 +48,10 @@ def test_neither_orientation_nor_place_on_the_map_matters(shape):
         assert same.stiffness == pytest.approx(contact.stiffness, rel=1e-6)
 
 
-@pytest.mark.parametrize("spacings", [(1.0, 4.0), (1.0, 0.3)])
-def test_orientation_of_a_strip_of_rectangles_does_not_matter(spacings):
+def test_orientation_of_a_strip_of_rectangles_does_not_matter():
     """The grid of a tall strip is transposed, and with it the aspect of the elements."""
     contacts = []
-    for heights, sides in ((strip((3, 57)), spacings), (strip((3, 57)).T, spacings[::-1])):
+    for heights, sides in ((strip((3, 57)), (1.0, 4.0)), (strip((3, 57)).T, (4.0, 1.0))):
         solver = ContactSolver(Indenter(heights, sides), 1e-6, ON_THE_GRID)
         contacts.append(solver.advance(solver.unloaded_state(), 0.8))
     assert contacts[0].force == pytest.approx(contacts[1].force, rel=1e-9)

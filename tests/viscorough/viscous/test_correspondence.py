@@ -4,111 +4,75 @@ import re
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
+from scipy.integrate import quad, solve_ivp
 
+from support.curves import curve_of_body, curve_of_levels
+from support.media import MEDIA
 from viscorough import reference
 from viscorough.contact.loading_path import indent
-from viscorough.loading_curve import LoadingCurve
 from viscorough.surfaces import self_affine_disc
-from viscorough.viscous.correspondence import kinetics
+from viscorough.viscous.correspondence import impulses, kinetics
+from viscorough.viscous.media import Newtonian
 
-RADIUS, SLOPE, VISCOSITY = 1.7, 0.4, 30.0
-
-
-def curve_of(depth, force, stiffness, contact_count, scale=1.0):
-    return LoadingCurve(
-        depth=scale * depth,
-        force=scale**2 * force,
-        stiffness=scale * stiffness,
-        contact_count=contact_count,
-        elements=10**6,
-        method="by hand",
-        tolerance=1e-9,
-        operator_applications=0,
-        residual=np.zeros(len(depth)),
-    )
+RADIUS, VISCOSITY, FORCE = 1.7, 30.0, 0.03
+DEPTHS = np.geomspace(1e-6, 10, 71)
 
 
-def curve_of_body(body, scale=1.0):
-    """Levels over six decades of depth; ten elements join at each, so that at_force interpolates smoothly."""
-    depth = np.geomspace(1e-5, 10, 61)
-    return curve_of(depth, body.force(depth), body.stiffness(depth), 10 * np.arange(1, 62), scale)
+@pytest.fixture(scope="module")
+def curve():
+    return curve_of_body(reference.sphere(RADIUS), DEPTHS)
 
 
-@pytest.fixture
-def sphere_curve():
-    return curve_of_body(reference.sphere(RADIUS))
+def depth_of_sphere(creep):
+    """Lee and Radok, u^(3/2) = 3Φ/(16√R); Φ = ∫F dt/η in a viscous medium."""
+    return (3 * creep / (16 * np.sqrt(RADIUS))) ** (2 / 3)
 
 
-def exact_sphere_depth(impulse):
-    """Lee and Radok with the impulse in place of Ft."""
-    return (3 * impulse / (16 * VISCOSITY * np.sqrt(RADIUS))) ** (2 / 3)
+# ---- a viscous medium
 
 
 @pytest.mark.parametrize(
     ("body", "penetration", "shape"),
     [
         (reference.sphere, reference.sphere_penetration, RADIUS),
-        (reference.cone, reference.cone_penetration, SLOPE),
+        (reference.cone, reference.cone_penetration, 0.4),
     ],
 )
 def test_constant_force_follows_lee_and_radok(body, penetration, shape):
-    curve = curve_of_body(body(shape))
-    force = 2.5
     for times in (None, np.geomspace(1e-3, 100, 40)):
-        result = kinetics(curve, force, VISCOSITY, times)
-        depth, velocity = penetration(result.time, shape, force, VISCOSITY)
+        result = kinetics(curve_of_body(body(shape), DEPTHS), 2.5, VISCOSITY, times)
+        depth, velocity = penetration(result.time, shape, 2.5, VISCOSITY)
         np.testing.assert_allclose(result.depth, depth, rtol=1e-12)
         np.testing.assert_allclose(result.velocity, velocity, rtol=1e-11)
 
 
-def test_kinetics_is_eq_2(sphere_curve):
-    """vt/h = X/κ with X = Ft/(4ηhL), whatever the force and the viscosity."""
-    height, diameter = 0.2, 3.0
-    x, kappa = sphere_curve.normalised(height, diameter)
-    for force, viscosity in [(2.0, 5.0), (7e-4, 1e6)]:
-        result = kinetics(sphere_curve, force, viscosity)
-        np.testing.assert_allclose(force * result.time / (4 * viscosity * height * diameter), x, rtol=1e-13)
-        np.testing.assert_allclose(result.velocity * result.time / height, x / kappa, rtol=1e-13)
-
-
-def test_ramp(sphere_curve):
-    """F = ct from rest: I = ct²/2."""
-    force_rate, times = 0.8, np.linspace(0, 5, 11)
-    result = kinetics(sphere_curve, force_rate * times, VISCOSITY, times)
-    depth = exact_sphere_depth(force_rate * times**2 / 2)
-    np.testing.assert_allclose(result.depth, depth, rtol=1e-12, atol=0)
-    assert result.velocity[0] == 0
-    np.testing.assert_allclose(result.velocity[1:], 4 / 3 * depth[1:] / times[1:], rtol=1e-11)
-
-
-def test_pulses_and_rests(sphere_curve):
+def test_pulses_and_rests(curve):
     """Three triangular pulses separated by rests, during which nothing moves."""
     times = np.arange(13.0)
     force = np.array([0, 3, 0, 0, 0, 1, 0, 0, 0, 5, 0, 0, 0.0])
-    result = kinetics(sphere_curve, force, VISCOSITY, times)
+    result = kinetics(curve, force, VISCOSITY, times)
     impulse = np.array([0, 1.5, 3, 3, 3, 3.5, 4, 4, 4, 6.5, 9, 9, 9])
-    np.testing.assert_allclose(result.depth, exact_sphere_depth(impulse), rtol=1e-12, atol=0)
+    np.testing.assert_allclose(result.depth, depth_of_sphere(impulse / VISCOSITY), rtol=1e-12, atol=0)
     assert (result.velocity[force == 0] == 0).all()
     assert (result.velocity[force > 0] > 0).all()
     for rest in ([2, 3, 4], [6, 7, 8], [10, 11, 12]):
         assert np.ptp(result.depth[rest]) == 0
 
 
-def test_step_of_force(sphere_curve):
+def test_step_of_force(curve):
     """The force doubles within one rounding of the time: the depth is continuous, the velocity doubles."""
     before = 2.0
     after = np.nextafter(before, 3)
-    result = kinetics(sphere_curve, [1, 1, 2, 2], VISCOSITY, [0, before, after, 5])
-    np.testing.assert_allclose(result.depth, exact_sphere_depth(np.array([0, 2, 2, 8])), rtol=1e-12, atol=0)
+    result = kinetics(curve, [1, 1, 2, 2], VISCOSITY, [0, before, after, 5])
+    np.testing.assert_allclose(result.depth, depth_of_sphere(np.array([0, 2, 2, 8]) / VISCOSITY), rtol=1e-12, atol=0)
     assert result.velocity[2] == pytest.approx(2 * result.velocity[1], rel=1e-12)
 
 
-def test_varying_force_against_time_integration(sphere_curve):
+def test_varying_force_against_time_integration(curve):
     """du/dt = F(t)/(8η√(Ru)), a flat punch of the present contact radius, integrated in time without the impulse."""
     times = np.linspace(0, 6, 25)
     force = np.random.default_rng(3).uniform(0, 4, times.size)
-    result = kinetics(sphere_curve, force, VISCOSITY, times)
+    result = kinetics(curve, force, VISCOSITY, times)
 
     def velocity(t, u):
         return np.interp(t, times, force) / (8 * VISCOSITY * np.sqrt(RADIUS * u))
@@ -120,115 +84,52 @@ def test_varying_force_against_time_integration(sphere_curve):
         assert velocity(times[i + 1], depth) == pytest.approx(result.velocity[i + 1], rel=1e-9)
 
 
-def test_dashpots_from_contact_to_contact():
-    """Dashpots of damping d under a constant force, integrated from contact to contact: v = F/(nd) while n touch."""
-    gaps = np.cumsum([0, 0.3, 0.1, 0.7, 0.2, 1.1])
-    dashpot, force = 4 * VISCOSITY * 0.05, 0.6
-    times, depths, velocities = [], [], []
-    time = 0.0
-    for n, (start, end) in enumerate(zip(gaps, np.append(gaps[1:], 3.0), strict=True), start=1):
-        velocity = force / (n * dashpot)
-        for share in (0.01, 0.5, 0.99):
-            times.append(time + share * (end - start) / velocity)
-            depths.append(start + share * (end - start))
-            velocities.append(velocity)
-        time += (end - start) / velocity
-
-    level = np.append(gaps[1:], 3.0) - 0.03  # one level in each straight part
-    count = np.arange(1, 7)
-    curve = curve_of(level, 0.2 * np.maximum(level[:, None] - gaps, 0).sum(axis=1), 0.2 * count, count)
-    inside = np.array(times) <= kinetics(curve, force, VISCOSITY).time[-1]
-    result = kinetics(curve, force, VISCOSITY, np.array(times)[inside])
-    assert inside.sum() == len(times) - 1
-    np.testing.assert_allclose(result.depth, np.array(depths)[inside], rtol=1e-13)
-    np.testing.assert_allclose(result.velocity, np.array(velocities)[inside], rtol=1e-13)
-
-
-@pytest.mark.parametrize("length", [1e-12, 1.0, 1e12])
-@pytest.mark.parametrize("clock", [1e-12, 1e12])
-def test_invariance_under_change_of_units(length, clock, sphere_curve):
+@pytest.mark.parametrize(("length", "clock"), [(1e-12, 1e12), (1e12, 1e-12)])
+def test_invariance_under_change_of_units(length, clock, curve):
     """The same motion in other units of length, time and viscosity, from which that of the force follows."""
     viscosity_unit = 1e-12
     times = np.linspace(0, 4, 9)
     force = np.array([0, 1, 2, 0, 0, 3, 1, 1, 0.5])
-    expected = kinetics(sphere_curve, force, VISCOSITY, times)
-    curve = curve_of_body(reference.sphere(RADIUS), scale=length)
-    result = kinetics(curve, force * viscosity_unit * length**2 / clock, VISCOSITY * viscosity_unit, times * clock)
+    expected = kinetics(curve, force, VISCOSITY, times)
+    other = curve_of_body(reference.sphere(RADIUS * length), DEPTHS * length)
+    result = kinetics(other, force * viscosity_unit * length**2 / clock, VISCOSITY * viscosity_unit, times * clock)
     np.testing.assert_allclose(result.time, times * clock, rtol=1e-15)
     np.testing.assert_allclose(result.depth, expected.depth * length, rtol=1e-12)
     np.testing.assert_allclose(result.velocity, expected.velocity * length / clock, rtol=1e-11)
 
 
-def test_times_of_the_levels_reproduce_the_levels(sphere_curve):
+def test_times_of_the_levels_reproduce_the_levels(curve):
     """Rounding of F·t/η, up or down, moves no level beyond the ends of the curve."""
     for force in np.random.default_rng(5).uniform(0.1, 10, 50):
-        levels = kinetics(sphere_curve, force, VISCOSITY)
-        again = kinetics(sphere_curve, force, VISCOSITY, levels.time)
+        levels = kinetics(curve, force, VISCOSITY)
+        again = kinetics(curve, force, VISCOSITY, levels.time)
         np.testing.assert_allclose(again.depth, levels.depth, rtol=1e-13)
         np.testing.assert_allclose(again.velocity, levels.velocity, rtol=1e-12)
 
 
-def test_sum_of_many_samples_reaches_the_last_level(sphere_curve):
+def test_sum_of_many_samples_reaches_the_last_level(curve):
     for force in (1 / 3, 0.7, 1e9):
-        times = np.linspace(0, VISCOSITY * sphere_curve.force[-1] / force, 100_001)
-        result = kinetics(sphere_curve, np.full(times.size, force), VISCOSITY, times)
-        assert result.depth[-1] == pytest.approx(sphere_curve.depth[-1], rel=1e-9)
+        times = np.linspace(0, VISCOSITY * curve.force[-1] / force, 100_001)
+        result = kinetics(curve, np.full(times.size, force), VISCOSITY, times)
+        assert result.depth[-1] == pytest.approx(curve.depth[-1], rel=1e-9)
 
 
-def test_before_the_first_level(sphere_curve):
+def test_before_the_first_level(curve):
     """At zero force the depth is zero. Between there and the first level the curve of a round body is undetermined, and
     of one element is a straight line.
     """
     times = np.array([0, 1e-12, 1])
-    result = kinetics(sphere_curve, 1.0, VISCOSITY, times)
+    result = kinetics(curve, 1.0, VISCOSITY, times)
     np.testing.assert_array_equal(np.isnan(result.depth), [False, True, False])
     np.testing.assert_array_equal(np.isnan(result.velocity), [True, True, False])
-    rested = kinetics(sphere_curve, [0, 0, 1], VISCOSITY, times)
+    rested = kinetics(curve, [0, 0, 1], VISCOSITY, times)
     np.testing.assert_array_equal(rested.depth[:2], 0)
     np.testing.assert_array_equal(rested.velocity[:2], 0)
 
-    one = curve_of(np.array([0.5]), np.array([1.0]), np.array([2.0]), np.array([1]))
+    one = curve_of_levels([0.5], [1.0], [2.0], [1])
     result = kinetics(one, 4.0, 10.0, [0, 0.1, 2.5])
     np.testing.assert_allclose(result.depth, [0, 0.02, 0.5], rtol=1e-14)
     np.testing.assert_allclose(result.velocity, 0.2, rtol=1e-14)
-
-
-@pytest.mark.parametrize(
-    ("arguments", "allowed"),
-    [
-        ({"viscosity": 0.0}, "viscosity: 0.0; allowed: a finite number above 0"),
-        ({"viscosity": -1.0}, "above 0"),
-        ({"viscosity": np.nan}, "above 0"),
-        ({"viscosity": [1.0]}, "a finite number"),
-        ({"force": 0.0}, "constant force: 0.0; allowed: a finite number above 0"),
-        ({"force": -2.0}, "above 0"),
-        ({"force": np.inf}, "a finite number"),
-        ({"force": [1.0, 2.0], "times": None}, "needs the time of each sample"),
-        ({"force": [1.0, 2.0]}, "one per time"),
-        ({"force": [1.0, -1e-9, 2.0]}, "sample 1 is -1e-09; allowed: finite, 0 or more"),
-        ({"force": [1.0, np.nan, 2.0]}, "sample 1 is nan"),
-        ({"times": [0.0, 2.0, 1.0]}, "each larger than the one before"),
-        ({"times": [0.0, 1.0, 1.0]}, "each larger than the one before"),
-        ({"times": [0.0, np.inf]}, "finite"),
-        ({"times": []}, "one row"),
-        ({"times": [[0.0, 1.0]]}, "one row"),
-        ({"times": [-1.0, 1.0]}, "start at -1; allowed: from 0 on"),
-        ({"times": [0.0, 1e9]}, "allowed: up to"),
-        ({"force": [0.0, 1e9, 0.0]}, "allowed: up to"),
-    ],
-)
-def test_refusals(arguments, allowed, sphere_curve):
-    call = {"force": 1.0, "viscosity": VISCOSITY, "times": [0.0, 1.0, 2.0]} | arguments
-    with pytest.raises(ValueError, match=r"^[^\n]+$") as refusal:
-        kinetics(sphere_curve, **call)
-    assert allowed in str(refusal.value)
-
-
-def test_refusal_names_the_largest_impulse(sphere_curve):
-    limit = VISCOSITY * sphere_curve.force[-1]
-    kinetics(sphere_curve, 1.0, VISCOSITY, [limit])
-    with pytest.raises(ValueError, match=f"allowed: up to {limit:.6g}"):
-        kinetics(sphere_curve, 1.0, VISCOSITY, [1.0001 * limit])
 
 
 def test_the_remedy_of_a_short_curve_is_one():
@@ -240,3 +141,106 @@ def test_the_remedy_of_a_short_curve_is_one():
     force = float(re.search(r"level at F/G = (\S+) \(forces\)", str(error.value))[1])
     longer = indent(disc, forces=[*curve.force, force])
     assert np.isfinite(kinetics(longer, 3.0, 2.0, [40.0]).depth).all()
+
+
+# ---- media
+
+
+@pytest.mark.parametrize("name", MEDIA)
+def test_constant_force_in_any_medium(curve, name):
+    """Given as one number, and as samples."""
+    medium, times = MEDIA[name], np.geomspace(1e-3, 90, 40)
+    result = kinetics(curve, FORCE, medium, times)
+    depth = depth_of_sphere(FORCE * medium.creep_compliance(times))
+    np.testing.assert_allclose(result.depth, depth, rtol=1e-11)
+    velocity = FORCE * medium.creep_rate(times) / (8 * np.sqrt(RADIUS * depth))
+    np.testing.assert_allclose(result.velocity, velocity, rtol=1e-10)
+    sampled = kinetics(curve, np.full(41, FORCE), medium, np.append(0, times))
+    np.testing.assert_allclose(sampled.depth[1:], depth, rtol=1e-11)
+    np.testing.assert_allclose(sampled.velocity[1:-1], velocity[:-1], rtol=1e-9)
+
+
+@pytest.mark.parametrize("name", MEDIA)
+def test_history_with_a_step_at_other_times(curve, name):
+    """A ramp, a step and a hold; output times that are no samples, the time of the step among them."""
+    medium = MEDIA[name]
+    history = impulses([0.0, 0.02, 0.03, 0.03], [0.0, 2.0, 2.0, 8.0])
+    times = np.array([0.5, 1.7, 2.0, 3.0, 8.0])
+    result = kinetics(curve, history, medium, times)
+    if name == "table":
+        creep = 0.01 * medium.creep_integral(np.maximum(times - 2, 0), times)
+    else:
+        creep = [0.01 * quad(medium.creep_compliance, max(t - 2, 0), t, epsrel=1e-10)[0] for t in times]
+    creep += np.where(times >= 2, 0.01 * medium.creep_compliance(np.maximum(times - 2, 0)), 0)
+    np.testing.assert_array_equal(result.time, times)
+    np.testing.assert_allclose(result.depth, depth_of_sphere(creep), rtol=1e-7)
+    whole = kinetics(curve, history, medium)
+    assert whole.time.tolist() == [0, 2, 2, 8]
+    assert whole.depth[2] == pytest.approx(result.depth[2], rel=1e-14)
+    assert whole.depth[1] <= whole.depth[2]
+    assert whole.depth[0] == whole.velocity[0] == 0
+
+
+@pytest.mark.parametrize("name", MEDIA)
+def test_default_times_are_those_of_the_levels(curve, name):
+    medium = MEDIA[name]
+    result = kinetics(curve, FORCE, medium)
+    reached = FORCE * medium.creep_compliance(result.time)
+    depths = result.depth[result.time > 0]
+    assert np.isin(depths, curve.depth).all()
+    assert (np.diff(result.time) > 0).all()
+    np.testing.assert_allclose(result.depth, depth_of_sphere(reached), rtol=1e-11)
+    again = kinetics(curve, FORCE, medium, result.time)
+    np.testing.assert_allclose(again.velocity, result.velocity, rtol=1e-6)
+    at_once = medium.creep_compliance(0.0) > 0
+    assert (result.time[0] == 0) == at_once
+    if name == "solid":  # it stops at F/G∞, before the last levels
+        limit = depth_of_sphere(FORCE / 1.5)
+        assert result.depth[-1] == curve.depth[curve.depth < limit][-1]
+
+
+def test_newtonian_is_what_a_viscosity_is(curve):
+    times, force = np.linspace(0, 5, 20), np.linspace(0, 1, 20)
+    by_name = kinetics(curve, force, Newtonian(30.0), times)
+    for other in (kinetics(curve, force, 30.0, times), kinetics(curve, force, times=times, viscosity=30.0)):
+        assert (other.depth == by_name.depth).all()
+        assert (other.velocity == by_name.velocity).all()
+    assert (kinetics(curve, 2.0, Newtonian(30.0)).time == curve.force * 30.0 / 2.0).all()
+
+
+# ---- refusals
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"medium": 0.0}, "viscosity: 0.0; allowed: a finite number above 0"),
+        ({"medium": "maxwell"}, "viscosity: maxwell; allowed"),
+        ({"viscosity": 3.0}, "one of medium and viscosity is needed"),
+        ({"force": 0.0}, "constant force: 0.0; allowed: a finite number above 0"),
+        ({"force": 1e9}, "at time 0 the creep ∫J dF is 2.5e+08, beyond the curve's last level"),
+        ({"force": 1e-9, "times": None}, "has no level between F/G 2.5e-10, at once, and 6.66667e-10, in the end"),
+        ({"force": [1.0, 2.0], "times": None}, "needs the time of each sample"),
+        ({"force": [1.0, 2.0]}, "one per time"),
+        ({"force": [1.0, -1e-9, 2.0]}, "sample 1 is -1e-09; allowed: finite, 0 or more"),
+        ({"force": [0.01, 0.02, 1e9]}, "at time 2 the creep"),
+        ({"force": [0.03, 0.01, 0.01]}, "from time 0.468839 on"),
+        ({"force": [1, 1, 1], "times": [1.0, 1.0, 1.0]}, "or given twice where the force steps"),
+        ({"force": impulses([0.01, 0.02], [0.0, 1.0])}, "within those of the force history, 0 to 1"),
+        ({"times": [0.0, 2.0, 1.0]}, "each larger than the one before"),
+        ({"times": [[0.0, 1.0]]}, "one row"),
+        ({"times": [-1.0, 1.0]}, "start at -1; allowed: from 0 on"),
+        ({"medium": VISCOSITY, "times": [0.0, 1e9]}, "allowed: up to"),
+        ({"medium": VISCOSITY, "force": [0.0, 1e9, 0.0]}, "allowed: up to"),
+        ({"medium": MEDIA["table"], "times": [101.0]}, "allowed: up to the last time of the table, 100"),
+        (
+            {"medium": MEDIA["table"], "force": [0.01, 0.01], "times": [0.0, 101.0]},
+            "allowed: up to the last time of the table, 100",
+        ),
+    ],
+)
+def test_refusals(curve, arguments, message):
+    call = {"force": FORCE, "medium": MEDIA["solid"], "times": [0.0, 1.0, 2.0]} | arguments
+    with pytest.raises(ValueError, match=r"^[^\n]+$") as refusal:
+        kinetics(curve, **call)
+    assert message in str(refusal.value)

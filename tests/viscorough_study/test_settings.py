@@ -26,7 +26,10 @@ WRONG = [
     ({"discs": {"elements": "many"}}, "discs.elements is 'many'; allowed: a whole number from 9 up to 4097"),
     ({"discs": {"elements": 33.0}}, "discs.elements is 33.0; allowed: a whole number"),
     ({"discs": {"realizations": True}}, "discs.realizations is True; allowed: a whole number"),
-    ({"discs": {"hurst": [0.4, 1.2]}}, "discs.hurst[1] is 1.2; allowed: a number from 0 up to 1 (Hurst exponent H)"),
+    (
+        {"discs": {"hurst": [0.4, 1.2]}},
+        "discs.hurst[1] is 1.2; allowed: a number from 0 up to 1 of at most 4 decimals (Hurst",
+    ),
     ({"discs": {"hurst": []}}, "discs.hurst is []; allowed: a list of at least 1"),
     ({"discs": None}, "discs is empty; allowed: keys with values"),
     ({"discs": [1, 2]}, "discs is [1, 2]; allowed: keys with values"),
@@ -52,7 +55,7 @@ WRONG = [
     ({"variants": {"cases": [{"name": "Bad 1", "period": 2.0}]}}, "variants.cases[0].name is 'Bad 1'; allowed: text"),
     (
         {"variants": {"cases": [{"name": "sizes", "period": 2.0}]}},
-        "name sizes in variants.cases is taken; allowed",
+        "variants.cases[0].name is 'sizes'; allowed: text (its name in file names",
     ),
     (
         {"variants": {"cases": [{"name": "wider\n", "period": 2.0}]}},
@@ -81,7 +84,10 @@ WRONG = [
         {"measured": [{"name": "mine", "files": ["a.npy"], "preparation": {"detrend": "cubic"}}]},
         "measured[0].preparation.detrend is 'cubic'; allowed: one of none, mean, plane, sphere",
     ),
-    ({"lines": {"hurst": [0.4, 0.40000000001]}}, "lines.hurst has 0.40000000001; allowed: at most four decimals"),
+    (
+        {"lines": {"hurst": [0.4, 0.40000000001]}},
+        "lines.hurst[1] is 0.40000000001; allowed: a number from 0 up to 1 of at most 4 decimals",
+    ),
     ({"discs": {"hurst": [0.4, 0.4]}}, "discs.hurst: 0.4 occurs twice; allowed: once"),
     (
         {"sizes": {"discs": [{"elements": 17, "realizations": 2}]}},
@@ -89,7 +95,10 @@ WRONG = [
     ),
     ({"sizes": {"lines": 2 * [{"points": 64, "realizations": 2}]}}, "points in sizes.lines: 64 occurs twice"),
     ({"discs": {"hurst": [0.4, 0.33]}}, "discs.hurst has 0.33, lines.hurst has not"),
-    ({"lines": {"hurst": [0.12345]}}, "lines.hurst has 0.12345; allowed: at most four decimals"),
+    (
+        {"lines": {"hurst": [0.12345]}},
+        "lines.hurst[0] is 0.12345; allowed: a number from 0 up to 1 of at most 4 decimals",
+    ),
     ({"ensemble": {"x_low": 40.0}}, "ensemble.x_low and x_high: 40.0 and 30.0 are less than a decade"),
     ({"sizes": {"windows": [[0.01, 0.02]]}}, "sizes.windows[0]: 0.01 and 0.02 are less than a decade"),
     ({"reduction": {"x_low": 3.0}}, "reduction.x_low is 3.0; allowed: a number from 1e-15 up to 0.1"),

@@ -1,12 +1,13 @@
 """The tables of measured surfaces: the scans, the power laws of their groups, and their kinetics."""
 
 import json
+from itertools import product
 
 import pandas as pd
 
 from viscorough.io.curves import unstack_curves
-from viscorough.viscous.correspondence import kinetics
 from viscorough_study.fit_table import fit_rows
+from viscorough_study.media_kinetics import motion_on_curve
 
 KINETICS = {
     "scan": ("name of the scan", None),
@@ -39,14 +40,10 @@ def _motions(curve, media, forces, times):
 
     Times at which the curve ends before the depth is reached are left out.
     """
-    for name, medium in media.items():
-        compliance = medium.creep_compliance(times)
-        for force in forces:
-            reached = times[force * compliance <= curve.force[-1]]
-            if reached.size:
-                motion = kinetics(curve, force, medium, reached)
-                columns = {"time": motion.time, "depth": motion.depth, "velocity": motion.velocity}
-                yield pd.DataFrame(columns).assign(medium=name, force=force)
+    for (name, medium), force in product(media.items(), forces):
+        if motion := motion_on_curve(curve, force, medium, times):
+            columns = {"time": motion.time, "depth": motion.depth, "velocity": motion.velocity}
+            yield pd.DataFrame(columns).assign(medium=name, force=force)
 
 
 def group_fits(groups, **how):

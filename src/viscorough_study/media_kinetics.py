@@ -81,15 +81,19 @@ def media_tables(ensembles, media, *, force, times, stiffness_range, resamples, 
 
 def _motions(curves, rms, medium, force, times):
     """u/h and vt/h of all realizations, shape (realizations, times); nan where a curve has ended."""
-    depth, velocity = (np.full((len(curves), times.size), np.nan) for _ in range(2))
-    compliance = medium.creep_compliance(times)
+    depth, velocity = np.full((2, len(curves), times.size), np.nan)
     for i, (curve, height) in enumerate(zip(curves, rms, strict=True)):
-        reached = force * compliance <= curve.force[-1]
-        if reached.any():
-            motion = kinetics(curve, force, medium, times[reached])
-            depth[i, reached] = motion.depth / height
-            velocity[i, reached] = motion.velocity * motion.time / height
+        if motion := motion_on_curve(curve, force, medium, times):
+            end = motion.time.size  # the creep compliance grows with time
+            depth[i, :end] = motion.depth / height
+            velocity[i, :end] = motion.velocity * motion.time / height
     return depth, velocity
+
+
+def motion_on_curve(curve, force, medium, times):
+    """Kinetics under a constant force at the times at which the depth is on the loading curve; None without any."""
+    reached = times[force * medium.creep_compliance(times) <= curve.force[-1]]
+    return kinetics(curve, force, medium, reached) if reached.size else None
 
 
 def _means(time, x, creep_exponent, depth, velocity, beta):

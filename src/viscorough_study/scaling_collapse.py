@@ -22,7 +22,7 @@ from scipy.special import zeta
 
 from viscorough.reference import COMPLETE_CONTACT_STIFFNESS, exponent_beta
 from viscorough_study.discs import punch_stiffness
-from viscorough_study.pool import elements_across, ensembles_on_grids, select
+from viscorough_study.pool import elements_across, ensembles, select
 from viscorough_study.power_law import log_means
 
 QUANTITIES = {"whole": "vt/h", "interface": "vt/h less X/κ_c of the punch"}
@@ -138,7 +138,9 @@ def grids(pool, source, *, average, rms_convention, elements_min, fraction_min, 
     generator = np.random.default_rng(seed)
     convention = "line" if source == "lines" else rms_convention
     part = select(pool, group=group).sel(rms_convention=convention)
-    for (hurst, elements), ensemble in sorted(ensembles_on_grids(part.expand_dims("rms_convention")).items()):
+    for (hurst, elements), ensemble in sorted(
+        ensembles(part.expand_dims("rms_convention"), "hurst", "elements").items()
+    ):
         ensemble = ensemble.isel(rms_convention=0)
         enough = np.flatnonzero(ensemble["contact_count_median"].values >= elements_min)
         defined = ensemble["fraction_defined"].values >= fraction_min

@@ -259,7 +259,7 @@ def test_exponents_of_combinations_are_compared():
 
 def test_change_of_exponents_with_the_grid_is_judged_in_windows_of_fixed_x():
     found = evidence()
-    verdicts = {case.name: case.verdict for case in no_grid(found, 0.03)}
+    verdicts = {case.case: case.verdict for case in no_grid(found, 0.03)}
     assert verdicts == {
         "H = 0.4, X = 0.01 to 0.1": "reproduced",
         "H = 0.6, X = 0.01 to 0.1": "undecided",
@@ -327,7 +327,7 @@ def test_slope_of_the_last_region_is_over_the_end_of_the_curves():
     found = evidence()
     for decades, verdict in ((0.25, "reproduced"), (3.0, "not reproduced")):
         changed = dataclasses.replace(found, rules=found.rules | {"end_decades": decades})
-        assert {case.verdict for case in last_region(changed, 0.05) if "slope" in case.name} == {verdict}
+        assert {case.verdict for case in last_region(changed, 0.05) if "slope" in case.case} == {verdict}
 
 
 def test_slope_and_prefactor_of_the_last_region_are_those_of_the_curve_there():

@@ -99,14 +99,13 @@ class Grid:
 
 def curve_table(found, x_high):
     """Curves of all grids up to x_high, with the columns of `CURVES`; found : as of `grids`."""
-    parts = []
+    parts = [pd.DataFrame(columns=list(CURVES))]
     for hurst, of_hurst in found.items():
         for one, quantity in product(of_hurst, QUANTITIES):
-            curve = one.curve(quantity, "spectrum" if hurst > 0 else "resolved", x_high)
-            if curve is not None:
+            if curve := one.curve(quantity, "spectrum" if hurst > 0 else "resolved", x_high):
                 values = {"x": np.exp(curve[0]), "velocity": np.exp(curve[1][0])}
                 parts.append(pd.DataFrame({"hurst": hurst, "number": one.number, "quantity": quantity, **values}))
-    return pd.concat(parts, ignore_index=True) if parts else pd.DataFrame(columns=list(CURVES))
+    return pd.concat(parts[1:] or parts, ignore_index=True)
 
 
 def variance_share(hurst, number, source):
@@ -163,13 +162,10 @@ def collapse_table(found, source, *, x_high, tolerance):
     found : of `grids`; x_high : ends of the range, X; tolerance : of β
     """
     rows = []
-    heights = ["resolved"] if source == "controls" else list(HEIGHTS)
-    for hurst, of_hurst in found.items():
-        for quantity in QUANTITIES:
-            for height in heights if hurst > 0 else ["resolved"]:
-                for end in x_high:
-                    about = {"source": source, "hurst": hurst, "quantity": quantity, "height": height, "x_high": end}
-                    rows.append(about | collapse(of_hurst, hurst, quantity, height, end, tolerance=tolerance))
+    for (hurst, of_hurst), quantity, height, end in product(found.items(), QUANTITIES, HEIGHTS, x_high):
+        if height == "resolved" or (hurst > 0 and source != "controls"):
+            about = {"source": source, "hurst": hurst, "quantity": quantity, "height": height, "x_high": end}
+            rows.append(about | collapse(of_hurst, hurst, quantity, height, end, tolerance=tolerance))
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 

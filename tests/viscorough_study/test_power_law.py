@@ -8,7 +8,7 @@ from scipy.stats import binom
 from support.study import LIMITS, ensemble_of, three_regions
 from viscorough import reference
 from viscorough_study.ensembles import abscissa
-from viscorough_study.power_law import find_region, fit_power_law, local_slope, named_windows
+from viscorough_study.power_law import find_region, fit_power_law, local_slopes, named_windows
 
 x = abscissa(1e-7, 10, 20)
 HALF_WIDTH = LIMITS["slope_half_width"]
@@ -29,12 +29,12 @@ def scattered(beta, prefactor, realizations, seed, *, slope_scatter=0.03, scatte
 
 
 def test_local_slope_of_the_three_regions():
-    slope = local_slope(x, x / three_regions(x), HALF_WIDTH)
+    slope = local_slopes(np.log(x), np.log(x / three_regions(x)), HALF_WIDTH * np.log(10))
     low, high = (1e-6 / 1.2) ** (1 / 0.6), 1.2 ** (-1 / 0.6)
     inner = (x > 2 * low) & (x < high / 2)
     np.testing.assert_allclose(slope[inner], 0.4, atol=1e-12)
     np.testing.assert_allclose(slope[x > 2 * high], 1, atol=1e-12)
-    assert np.isnan(local_slope(x, np.full(x.size, np.nan), HALF_WIDTH)).all()
+    assert np.isnan(local_slopes(np.log(x), np.full(x.size, np.nan), HALF_WIDTH)).all()
 
 
 def test_region_of_a_three_region_curve():

@@ -26,7 +26,10 @@ WRONG = [
     ({"discs": {"elements": "many"}}, "discs.elements is 'many'; allowed: a whole number from 9 up to 4097"),
     ({"discs": {"elements": 33.0}}, "discs.elements is 33.0; allowed: a whole number"),
     ({"discs": {"realizations": True}}, "discs.realizations is True; allowed: a whole number"),
-    ({"discs": {"hurst": [0.4, 1.2]}}, "discs.hurst[1] is 1.2; allowed: a number from 0 up to 1 (Hurst exponent H)"),
+    (
+        {"discs": {"hurst": [0.4, 1.2]}},
+        "discs.hurst[1] is 1.2; allowed: a number from 0 up to 1 of at most 4 decimals (Hurst",
+    ),
     ({"discs": {"hurst": []}}, "discs.hurst is []; allowed: a list of at least 1"),
     ({"discs": None}, "discs is empty; allowed: keys with values"),
     ({"indentation": {"tolerance": "1e-3"}}, "write numbers as 1.0e-3, with a point"),
@@ -53,7 +56,10 @@ WRONG = [
     ({"media": {"cases": [FLUID | {"kind": "honey"}]}}, "media.cases[0].kind is 'honey'; allowed: one of newt"),
     ({"media": {"times": {"low": 1.0, "high": 2.0}}}, "media.times.low and high: 1.0 and 2.0 are less than a decade"),
     ({"measured": [{"name": "mine", "files": []}]}, "measured[0].files is []; allowed: a list of at least 1"),
-    ({"lines": {"hurst": [0.4, 0.40000000001]}}, "lines.hurst has 0.40000000001; allowed: at most four decimals"),
+    (
+        {"lines": {"hurst": [0.4, 0.40000000001]}},
+        "lines.hurst[1] is 0.40000000001; allowed: a number from 0 up to 1 of",
+    ),
     ({"sizes": {"discs": [{"elements": 17, "realizations": 2}]}}, "roll_off_wavelength 0.125 of sizes.control is too"),
     ({"discs": {"hurst": [0.4, 0.33]}}, "discs.hurst has 0.33, lines.hurst has not"),
     ({"discs": {"short_until_x": 0.5}}, "discs.short_until_x: curves that end at X = 0.5 miss a part of verdicts"),

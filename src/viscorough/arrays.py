@@ -1,4 +1,4 @@
-"""Arrays that an object keeps: copies that cannot be changed, in which masked entries are nan."""
+"""Arrays that an object keeps: copies that cannot be changed, in which masked entries are nan; increasing numbers."""
 
 import dataclasses
 
@@ -26,6 +26,24 @@ def keep_read_only(instance):
     for field in dataclasses.fields(instance):
         if field.type is np.ndarray:
             object.__setattr__(instance, field.name, read_only(getattr(instance, field.name)))
+
+
+def increasing(name, values, *, above_zero=False, steps=None):
+    """The values as a row of floats. Raises ValueError, which starts with the name, unless they increase.
+
+    steps : what steps where two neighbouring values, times, are equal; None where that is not allowed
+    """
+    values = read_only(values)
+    if values.dtype.kind in "iuf" and values.ndim == 1 and values.size and np.isfinite(values).all():
+        values = values.astype(float)
+        rises = np.diff(values)
+        is_increasing = (rises > 0).all() or (
+            steps is not None and (rises >= 0).all() and (rises[1:] + rises[:-1] > 0).all()
+        )
+        if is_increasing and (values[0] > 0 or not above_zero):
+            return values
+    allowed = f"one row of finite numbers{' above 0' if above_zero else ''}, each larger than the one before"
+    raise ValueError(f"{name}: allowed is {allowed}{f', or given twice where {steps} steps' if steps else ''}")
 
 
 def _cannot_change(array):

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from viscorough.arrays import keep_read_only
+from viscorough.arrays import increasing, keep_read_only
 from viscorough.calibrated_law import PenetrationLaw, penetration_law
 from viscorough.indenter import positive
 from viscorough.summaries import html_table, span
@@ -78,9 +78,7 @@ def estimate(hurst, rms, diameter, force, medium, times):
     """
     law, medium = penetration_law(hurst), medium_of(medium)
     rms, diameter, force = positive("rms", rms), positive("diameter", diameter), positive("force", force)
-    times = np.atleast_1d(np.asarray(times, dtype=float))
-    if times.ndim != 1 or times.size == 0 or not (np.diff(times, prepend=0) > 0).all() or not np.isfinite(times).all():
-        raise ValueError("times: allowed is one row of finite numbers above 0, each larger than the one before")
+    times = increasing("times", np.atleast_1d(times), above_zero=True)
     compliance, rate = medium.creep_compliance(times), medium.creep_rate(times)
     if np.isnan(compliance).any():
         raise ValueError(

@@ -8,10 +8,11 @@ is straight, so that interpolation is exact. Later, levels are placed where inte
 
 import numpy as np
 
+from viscorough.arrays import increasing
 from viscorough.contact.dense import ROUNDING
 from viscorough.contact.options import DEFAULT
 from viscorough.contact.prescribed_force import ForceSearch
-from viscorough.contact.solver import ContactSolver, check_solvable, increasing
+from viscorough.contact.solver import ContactSolver, check_solvable
 from viscorough.contact.step_control import Level, StepControl, division
 from viscorough.loading_curve import LoadingCurve
 
@@ -72,18 +73,15 @@ def indent(
         raise ValueError(f"indent: start_fraction must be from 0 to below until_fraction, not {start_fraction!r}")
     if not until_force > 0:
         raise ValueError(f"indent: until_force must be positive, not {until_force!r}")
-    if depths is not None:
-        depths = increasing("indent: depths", depths)
-    if forces is not None:
-        forces = increasing("indent: forces", forces)
     progress = progress or (lambda done: None)
     if depths is not None:
+        depths = increasing("indent: depths", np.atleast_1d(depths), above_zero=True)
         solver = ContactSolver(indenter, tolerance, options, threads, largest_depth=depths[-1])
         levels = _levels_at_depths(solver, depths, progress)
     elif forces is not None:
-        solver = ContactSolver(
-            indenter, tolerance / 2, options, threads
-        )  # the correction to the force takes the other half
+        forces = increasing("indent: forces", np.atleast_1d(forces), above_zero=True)
+        # The correction to the force takes the other half of the tolerance.
+        solver = ContactSolver(indenter, tolerance / 2, options, threads)
         levels = _levels_at_forces(solver, forces, progress)
     else:
         solver = ContactSolver(indenter, tolerance, options, threads)

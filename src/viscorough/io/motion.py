@@ -97,9 +97,8 @@ def medium_motion_to_content(motion):
     attributes = {
         "title": "Penetration of a rigid indenter into a viscoelastic half-space, integrated directly in time"
     }
-    receding = getattr(motion, "receding_from", np.nan)
-    if np.isfinite(receding):
-        attributes["receding_from"] = float(receding)
+    if np.isfinite(motion.receding_from):
+        attributes["receding_from"] = motion.receding_from
         attributes["comment"] = (
             "From the time receding_from on the contact recedes; no elastic contact corresponds to it."
         )

@@ -25,7 +25,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from viscorough.arrays import keep_read_only, read_only
+from viscorough.arrays import increasing, keep_read_only, read_only
 from viscorough.summaries import html_table, span
 from viscorough.viscous.creep_response import creep_response
 from viscorough.viscous.media import Newtonian, medium_of
@@ -185,7 +185,7 @@ def resampled(force, times):
         return history, np.arange(history.times.size)
     if times is force.times:
         return force, np.arange(force.times.size)
-    times = _increasing(times)
+    times = increasing("times", times)
     if times[0] < force.times[0] or times[-1] > force.times[-1]:
         raise ValueError(
             f"times: from {times[0]:g} to {times[-1]:g}; allowed: within those of the force history, "
@@ -208,7 +208,7 @@ def impulses(force, times):
     correspondence excludes.
     """
     constant = np.ndim(force) == 0
-    times = _increasing(times, twice=not constant)
+    times = increasing("times", times, steps=None if constant else "the force")
     if constant:
         if times[0] < 0:
             raise ValueError(f"times: start at {times[0]:g}; allowed: from 0 on, where a constant force begins")
@@ -217,20 +217,6 @@ def impulses(force, times):
         force = _samples(force, times)
         impulse = np.append(0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(times)))
     return ForceHistory(*map(read_only, (times, force, impulse)))
-
-
-def _increasing(times, *, twice=False):
-    """The times as an array. Raises ValueError unless they increase; with `twice`, two at a time may be equal."""
-    times = read_only(times)
-    allowed = "one row of finite numbers, each larger than the one before"
-    if times.dtype.kind not in "iuf":
-        raise ValueError(f"times: allowed is {allowed}")
-    times = times.astype(float)
-    if times.ndim == 1 and times.size > 0 and np.isfinite(times).all():
-        steps = np.diff(times)
-        if (steps > 0).all() or (twice and (steps >= 0).all() and (steps[1:] + steps[:-1] > 0).all()):
-            return times
-    raise ValueError(f"times: allowed is {allowed}{', or given twice where the force steps' if twice else ''}")
 
 
 def _samples(force, times):

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from viscorough.arrays import read_only
+from viscorough.arrays import increasing, read_only
 from viscorough.viscous.creep_response import branch_states
 from viscorough.viscous.media import CreepTable, medium_of
 from viscorough.viscous.spectra import zero_of_increasing
@@ -66,10 +66,7 @@ def force_under_depth(curve, depth, medium, times):
 
 
 def _depth_samples(curve, depth, times):
-    times, depth = (read_only(values).astype(float) for values in (times, depth))
-    steps = np.diff(times) if times.ndim == 1 else np.array([-1.0])
-    if times.size == 0 or not np.isfinite(times).all() or (steps < 0).any() or (steps[1:] + steps[:-1] <= 0).any():
-        raise ValueError("times: allowed is one row of finite, increasing numbers, or twice where the depth steps")
+    times, depth = increasing("times", times, steps="the depth"), read_only(depth).astype(float)
     if depth.shape != times.shape:
         raise ValueError(f"depth: samples of shape {depth.shape}; allowed: one per time, shape {times.shape}")
     if not (np.isfinite(depth).all() and (np.diff(depth, prepend=0) >= 0).all()):

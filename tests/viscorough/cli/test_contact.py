@@ -189,7 +189,7 @@ MISTAKES = [
     (f"{CONTACT} --force 1 --young 1 --poisson nan", "is not a number above -1 and up to 0.5"),
     (f"{CONTACT} --force 1 --young stiff", POSITIVE),
     (f"{CONTACT} --force 1e-300 --young 1e300", "must be positive"),
-    (f"{CONTACT} --force 1e300 --young 1e-300", "must be a list of finite numbers"),
+    (f"{CONTACT} --force 1e300 --young 1e-300", "one row of finite numbers above 0"),
     (f"{CONTACT} --force 1 --tolerance 1", "is not a number above 0 and up to 0.1"),
     *[
         (f"{CONTACT} --force 1 --threads {n}", f"'--threads': {n} is not in the range 1<=x<=1024")

@@ -89,11 +89,11 @@ def test_maps_on_rectangular_elements(options):
     [
         ({}, "either depth or force must be given"),
         ({"depth": 1.0, "force": 1.0}, "either depth or force must be given"),
-        ({"depth": 0.0}, "depth must be positive"),
-        ({"force": -1.0}, "force must be positive"),
-        ({"force": np.nan}, "force must be a list of finite numbers"),
-        ({"force": [2.0, 1.0]}, "force must be positive and strictly increasing"),
-        ({"depth": []}, "depth must be a list"),
+        ({"depth": 0.0}, "depth: allowed is one row of finite numbers above 0"),
+        ({"force": -1.0}, "force: allowed is one row of finite numbers above 0"),
+        ({"force": np.nan}, "force: allowed is one row of finite numbers"),
+        ({"force": [2.0, 1.0]}, "force: allowed is one row of finite numbers above 0"),
+        ({"depth": []}, "depth: allowed is one row"),
         ({"depth": 1.0, "tolerance": 1.0}, "tolerance must be between"),
     ],
 )

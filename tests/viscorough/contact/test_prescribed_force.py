@@ -111,10 +111,10 @@ def test_progress_is_reported_up_to_the_end():
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({"forces": []}, "forces must be a list of finite numbers"),
-        ({"forces": [1.0, 1.0]}, "forces must be positive and strictly increasing"),
-        ({"forces": [0.0, 1.0]}, "forces must be positive and strictly increasing"),
-        ({"forces": [1.0, np.inf]}, "forces must be a list of finite numbers"),
+        ({"forces": []}, "forces: allowed is one row of finite numbers"),
+        ({"forces": [1.0, 1.0]}, "forces: allowed is one row of finite numbers above 0"),
+        ({"forces": [0.0, 1.0]}, "forces: allowed is one row of finite numbers above 0"),
+        ({"forces": [1.0, np.inf]}, "forces: allowed is one row of finite numbers"),
         ({"forces": [1.0], "depths": [1.0]}, "depths and forces exclude each other"),
     ],
 )

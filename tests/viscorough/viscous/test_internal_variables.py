@@ -205,8 +205,8 @@ def test_sphere_under_force_follows_lee_and_radok(name):
     [
         ({"medium": Springpot(1.0, 0.5)}, "Springpot; allowed: media of springs and dashpots"),
         ({"medium": 3.0}, "float; allowed: media of springs and dashpots"),
-        ({"times": [0.0, 0.0, 0.0]}, "finite, increasing numbers, or twice"),
-        ({"times": [0.0, 2.0, 1.0]}, "increasing"),
+        ({"times": [0.0, 0.0, 0.0]}, "one row of finite numbers, each larger"),
+        ({"times": [0.0, 2.0, 1.0]}, "each larger"),
         ({"times": [0.0, np.nan, 1.0]}, "finite"),
         ({"times": []}, "one row"),
         ({"force": [1.0, 1.0]}, r"force of shape \(2,\); allowed: one per time"),

@@ -73,8 +73,8 @@ def test_newtonian_force_is_that_of_the_moving_punch(curve):
         ({"depth": [-0.1, 0.1, 0.1]}, "sample 0 is -0.1"),
         ({"depth": [0.1, 0.2]}, r"one per time, shape \(3,\)"),
         ({"depth": [0.1, 0.2, 2.0]}, "depth: 2 is beyond the curve's last level; allowed: up to 1"),
-        ({"times": [0.0, 1.0, 0.5]}, "increasing numbers, or twice"),
-        ({"times": [1.0, 1.0, 1.0]}, "increasing numbers, or twice"),
+        ({"times": [0.0, 1.0, 0.5]}, "or given twice where the depth steps"),
+        ({"times": [1.0, 1.0, 1.0]}, "or given twice where the depth steps"),
         ({"times": [0.0, 1.0, np.inf]}, "finite"),
     ],
 )

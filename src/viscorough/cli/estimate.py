@@ -10,7 +10,7 @@ from viscorough.cli.options import (
     Increasing,
     PositiveNumber,
     Quantity,
-    check_not_an_input,
+    check_output,
     number_in,
     printable_name,
     write_output,
@@ -47,16 +47,13 @@ def estimate(hurst, rms, diameter, force, viscosity, medium, times, output):
     import numpy as np
 
     from viscorough.estimates import estimate
-    from viscorough.io.atomic import check_output
     from viscorough.io.media import read_medium
     from viscorough.io.motion import estimate_to_content
 
     if (viscosity is None) == (medium is None):
         raise click.UsageError("one of --viscosity and --medium is needed")
     if output:
-        check_output(output)
-    if output and medium:
-        check_not_an_input(output, medium, "medium")
+        check_output(output, medium=medium)
     unit = _length_unit(rms, diameter, {"--force": force, "--viscosity": viscosity})
     lengths = number_in("m", rms, unit, "--rms"), number_in("m", diameter, unit, "--diameter")
     force = number_in("N", force, unit, "--force")

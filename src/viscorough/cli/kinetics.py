@@ -10,7 +10,7 @@ from viscorough.cli.options import (
     FILE,
     Increasing,
     Quantity,
-    check_not_an_input,
+    check_output,
     number_in,
     output_option,
     printable_name,
@@ -66,15 +66,12 @@ def kinetics(curve, force, force_history, viscosity, medium, times, output):
     if (viscosity is None) == (medium is None):
         raise click.UsageError("one of --viscosity and --medium is needed")
 
-    from viscorough.io.atomic import check_output
     from viscorough.io.curves import curve_from_content
+    from viscorough.io.motion import force_history_in
     from viscorough.viscous import correspondence
     from viscorough.viscous.media import Newtonian
 
-    check_output(output)
-    for file, kind in ((force_history, "force history"), (medium, "medium")):
-        if file is not None:
-            check_not_an_input(output, file, kind)
+    check_output(output, force_history=force_history, medium=medium)
     content = read_content(curve)
     check_incompressible(content, curve)
     try:
@@ -84,7 +81,7 @@ def kinetics(curve, force, force_history, viscosity, medium, times, output):
         text = str(error)
         raise ValueError(text if medium and text.startswith(str(medium)) else f"{curve}: {text}") from error
     if force_history is not None:
-        history, about["force"] = _history(force_history, loading.length_unit), printable_name(force_history)
+        history, about["force"] = force_history_in(force_history, loading.length_unit), printable_name(force_history)
     else:
         history = about["force"] = number_in("N", force, loading.length_unit, "--force")
     motion = correspondence.kinetics(loading, history, law, times)
@@ -120,18 +117,6 @@ def _medium(viscosity, medium, length_unit):
         "correspondence": "depth at a time is the elastic one at F/G = impulse / viscosity, which is force * time / "
         f"viscosity for a constant force, velocity is force / (viscosity * k/G) there; {_EXACT}",
     }
-
-
-def _history(path, length_unit):
-    """The ForceHistory in a file. Raises ValueError if it holds none."""
-    from viscorough.io.motion import read_force_history
-    from viscorough.viscous.correspondence import impulses
-
-    times, force = read_force_history(path, length_unit)
-    try:
-        return impulses(force, times)
-    except ValueError as error:
-        raise ValueError(f"{path}: {error}") from error
 
 
 def _check_that_levels_follow_each_other(motion, options):

@@ -14,21 +14,21 @@ from viscorough.interrupts import on_interrupt
 
 
 class PositiveNumber(click.ParamType):
-    """A finite number above 0 and not above `maximum`."""
+    """A finite number above 0, or another number, and not above `maximum`."""
 
     name = "number"
 
-    def __init__(self, maximum=float("inf")):
-        self.maximum = maximum
+    def __init__(self, maximum=float("inf"), above=0):
+        self.maximum, self.above = maximum, above
 
     def convert(self, value, param, ctx):
         try:
             number = float(value)
         except ValueError:
             number = float("nan")
-        if not (0 < number <= self.maximum and number < float("inf")):
+        if not (self.above < number <= self.maximum and number < float("inf")):
             limit = "finite" if self.maximum == float("inf") else f"up to {self.maximum:g}"
-            self.fail(f"{value!r} is not a number above 0 and {limit}", param, ctx)
+            self.fail(f"{value!r} is not a number above {self.above} and {limit}", param, ctx)
         return number
 
 
@@ -46,21 +46,16 @@ class Quantity(click.ParamType):
     def convert(self, value, param, ctx):
         from viscorough import units
 
-        if isinstance(value, units.Quantity):
-            return value
+        number, reason = 0, ""
         try:
-            stated = units.quantity(value) if isinstance(value, str) else units.Quantity(float(value))
+            stated = units.quantity(value)
             number = stated.to(self.unit)
         except ValueError as error:
-            reason = str(error) if str(error).startswith("unit ") else ""
-            self.fail(self._needed(value, reason), param, ctx)
+            reason = f" ({error})" if str(error).startswith("unit ") else ""
         if not 0 < number < float("inf"):
-            self.fail(self._needed(value), param, ctx)
+            text = f"{value!r} is not a number above 0 and finite, plain or with a unit such as {self.unit}"
+            self.fail(f"{text}{reason}", param, ctx)
         return stated
-
-    def _needed(self, value, reason=""):
-        text = f"{value!r} is not a number above 0 and finite, plain or with a unit such as {self.unit}"
-        return f"{text} ({reason})" if reason else text
 
 
 def number_in(unit, quantity, length_unit, option):
@@ -76,16 +71,25 @@ def number_in(unit, quantity, length_unit, option):
 
 
 class Increasing(click.ParamType):
-    """Numbers separated by commas, each larger than the one before, the first above 0."""
+    """Numbers above 0 separated by commas, each larger than the one before.
+
+    unit : what all of them, or none, may have; they are converted to viscorough.units.Quantity then, else to floats
+    """
 
     name = "a,b,c"
 
+    def __init__(self, unit=None):
+        self.unit = unit
+
     def convert(self, value, param, ctx):
-        numbers = [PositiveNumber().convert(entry.strip(), param, ctx) for entry in value.split(",")]
-        for last, number in pairwise(numbers):
-            if number <= last:
-                self.fail(f"{number!r} follows {last!r}; each number must be larger than the one before", param, ctx)
-        return numbers
+        entry_type = Quantity(self.unit) if self.unit else PositiveNumber()
+        entries = [entry_type.convert(entry.strip(), param, ctx) for entry in value.split(",")]
+        if self.unit and len({bool(entry.unit) for entry in entries}) == 2:
+            self.fail(f"{value!r}: some numbers have a unit; all or none of them may have one", param, ctx)
+        for last, entry in pairwise(entries):
+            if (entry.to(self.unit) <= last.to(self.unit)) if self.unit else (entry <= last):
+                self.fail(f"{entry} follows {last}; each number must be larger than the one before", param, ctx)
+        return entries
 
 
 FILE = click.Path(path_type=Path)
@@ -112,10 +116,17 @@ threads_option = click.option(
 )
 
 
-def check_not_an_input(output, file, kind):
-    """Raise ValueError if the output would replace a file that is read; `kind` says what it holds."""
-    if output.exists() and file.exists() and output.samefile(file):
-        raise ValueError(f"{output}: would replace the {kind}; another name is needed")
+def check_output(output, **inputs):
+    """Raise ValueError unless the output can be written and would replace no file that is read.
+
+    inputs : files that are read, or None, by what they hold
+    """
+    from viscorough.io import atomic
+
+    atomic.check_output(output)
+    for kind, file in inputs.items():
+        if file and output.exists() and file.exists() and output.samefile(file):
+            raise ValueError(f"{output}: would replace the {kind.replace('_', ' ')}; another name is needed")
 
 
 def printable_name(file):

@@ -5,6 +5,7 @@ import numpy as np
 from viscorough.io.columns import read_columns
 from viscorough.io.curves import level_attributes
 from viscorough.io.netcdf import Content, Variable
+from viscorough.viscous.correspondence import impulses
 
 
 def with_motion(content, time, velocity):
@@ -136,6 +137,15 @@ def read_force_history(path, length_unit="1"):
     checked by viscous.correspondence.impulses.
     """
     return read_columns(path, "a force history", {"time": "s", "force": "N"}, length_unit)
+
+
+def force_history_in(path, length_unit="1"):
+    """The ForceHistory in a file, as of `read_force_history`. Raises a one-line ValueError if it holds none."""
+    times, force = read_force_history(path, length_unit)
+    try:
+        return impulses(force, times)
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from error
 
 
 def kinetics_to_content(motion, force, length_unit="1"):

@@ -21,11 +21,13 @@ def read_only(values):
     return array
 
 
-def keep_read_only(instance):
-    """Replace every array field of a frozen dataclass by `read_only` of it; for its __post_init__."""
-    for field in dataclasses.fields(instance):
-        if field.type is np.ndarray:
-            object.__setattr__(instance, field.name, read_only(getattr(instance, field.name)))
+class ReadOnlyArrays:
+    """A frozen dataclass, every array field of which is replaced by `read_only` of it."""
+
+    def __post_init__(self):
+        for field in dataclasses.fields(self):
+            if field.type is np.ndarray:
+                object.__setattr__(self, field.name, read_only(getattr(self, field.name)))
 
 
 def increasing(name, values, *, above_zero=False, steps=None):

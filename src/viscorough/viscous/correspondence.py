@@ -25,8 +25,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from viscorough.arrays import increasing, keep_read_only, read_only
-from viscorough.summaries import html_table, span
+from viscorough.arrays import ReadOnlyArrays, increasing, read_only
+from viscorough.summaries import Summarised, span
 from viscorough.viscous.creep_response import creep_response
 from viscorough.viscous.media import Newtonian, medium_of
 from viscorough.viscous.spectra import zero_of_increasing
@@ -36,7 +36,7 @@ _ROUNDING = 1e-10  # relative; the rounding error of an impulse summed over a mi
 
 
 @dataclass(frozen=True)
-class Kinetics:
+class Kinetics(ReadOnlyArrays, Summarised):
     """Penetration over time; read-only arrays of shape (times,), in the units of curve, force and viscosity.
 
     time : t
@@ -48,21 +48,10 @@ class Kinetics:
     depth: np.ndarray
     velocity: np.ndarray
 
-    def __post_init__(self):
-        keep_read_only(self)
-
-    def __str__(self):
-        title, *rows = self._summary()
-        return "\n".join([title, *(f"{name} {text}" for name, text in rows)])
-
-    def _repr_html_(self):
-        title, *rows = self._summary()
-        return html_table(title, rows)
-
     def _summary(self):
-        """A title, and (quantity, its first and last value)."""
-        motion = ("depth u", span(self.depth)), ("velocity v", span(self.velocity))
-        return f"Penetration at {self.time.size} times", ("time t", span(self.time)), *motion
+        """What it is; the first and last time, depth and velocity."""
+        spans = ("time t", self.time), ("depth u", self.depth), ("velocity v", self.velocity)
+        return f"Penetration at {self.time.size} times", *([(name, span(values))] for name, values in spans)
 
 
 class ForceHistory(NamedTuple):

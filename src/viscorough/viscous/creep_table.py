@@ -5,13 +5,13 @@ from functools import cached_property
 
 import numpy as np
 
-from viscorough.arrays import keep_read_only, read_only
+from viscorough.arrays import ReadOnlyArrays, read_only
 
 _ROUNDING = 1e-9  # relative; slopes of tables with ten digits may increase by as much
 
 
 @dataclass(frozen=True)
-class CreepTable:
+class CreepTable(ReadOnlyArrays):
     """A measured creep compliance, linear between its points.
 
     times : 0 and increasing; compliances : J at these times, J(0+) first; arrays of shape (points,), copied
@@ -25,7 +25,7 @@ class CreepTable:
     compliances: np.ndarray
 
     def __post_init__(self):
-        keep_read_only(self)
+        super().__post_init__()
         times, values = self.times, self.compliances
         if times.ndim != 1 or times.shape != values.shape or times.size < 2:
             raise ValueError(

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscorough import memory
-from viscorough.arrays import keep_read_only
+from viscorough.arrays import ReadOnlyArrays
 from viscorough.compilation import njit
 from viscorough.contact.growing_cholesky import append_element, solve_flat_punch
 from viscorough.errors import ConvergenceError
@@ -20,7 +20,7 @@ from viscorough.viscous.elements import elements_of_map
 
 
 @dataclass(frozen=True)
-class Events:
+class Events(ReadOnlyArrays):
     """The penetration of an indenter from contact event to contact event; read-only arrays of shape (events,).
 
     impulse : ∫F dt/η at which the contact set grew [length²]
@@ -37,9 +37,6 @@ class Events:
     contact_count: np.ndarray
     elements: int
     length_unit: str = "1"
-
-    def __post_init__(self):
-        keep_read_only(self)
 
     def depth_at(self, impulse):
         """Depth [length] at impulses ∫F dt/η [length²] of any shape; linear between events and beyond the last one."""

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
-from viscorough.arrays import increasing, keep_read_only, read_only
+from viscorough.arrays import ReadOnlyArrays, increasing, read_only
 from viscorough.errors import ConvergenceError
 from viscorough.viscous.elements import elements_of_map
 
@@ -25,7 +25,7 @@ _ROUNDING = 1e-12  # of gaps, relative to the depth
 
 
 @dataclass(frozen=True)
-class MediumMotion:
+class MediumMotion(ReadOnlyArrays):
     """Motion of an indenter in a viscoelastic half-space; read-only arrays of shape (times,).
 
     time : t; depth : u [length]; force : F; contact_count : elements in contact
@@ -43,9 +43,6 @@ class MediumMotion:
     pressure: np.ndarray
     length_unit: str = "1"
     receding_from: float = np.nan
-
-    def __post_init__(self):
-        keep_read_only(self)
 
 
 def march_medium(indenter, medium, times, *, force=None, depth=None, scheme="second_order", progress=None):

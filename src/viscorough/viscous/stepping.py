@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from viscorough.arrays import increasing, keep_read_only
+from viscorough.arrays import ReadOnlyArrays, increasing
 from viscorough.contact.grid_solver import GridSolver
 from viscorough.contact.options import DEFAULT
 from viscorough.contact.solver import ContactSolver
@@ -30,7 +30,7 @@ _IMPULSE_ACCURACY, _MAX_NEWTON_ITERATIONS = 0.1, 50
 
 
 @dataclass(frozen=True)
-class Steps:
+class Steps(ReadOnlyArrays):
     """The penetration of an indenter at given impulses; read-only arrays of shape (impulses,).
 
     impulse : ∫F dt/η [length²]
@@ -49,9 +49,6 @@ class Steps:
     overlap: np.ndarray
     steps: int
     length_unit: str = "1"
-
-    def __post_init__(self):
-        keep_read_only(self)
 
 
 def march_steps(indenter, impulses, *, scheme="explicit", overlap=np.inf, tolerance=1e-6, progress=None):

@@ -188,7 +188,7 @@ MISTAKES = [
     (f"{CONTACT} --force 1 --young 1 --poisson -1", "is not a number above -1 and up to 0.5"),
     (f"{CONTACT} --force 1 --young 1 --poisson nan", "is not a number above -1 and up to 0.5"),
     (f"{CONTACT} --force 1 --young stiff", POSITIVE),
-    (f"{CONTACT} --force 1e-300 --young 1e300", "must be positive"),
+    (f"{CONTACT} --force 1e-300 --young 1e300", "one row of finite numbers above 0"),
     (f"{CONTACT} --force 1e300 --young 1e-300", "one row of finite numbers above 0"),
     (f"{CONTACT} --force 1 --tolerance 1", "is not a number above 0 and up to 0.1"),
     *[

@@ -8,13 +8,12 @@ import sys
 import textwrap
 from pathlib import Path
 
-import numpy as np
 import pytest
 from numba.core import event
 
 import viscorough
 from support.faults import no_privileges
-from viscorough.compilation import njit, vectorize
+from viscorough.compilation import njit
 from viscorough.interrupts import uninterrupted
 
 OTHER_PACKAGE = """
@@ -80,9 +79,8 @@ def test_compiled_functions_of_other_packages_are_left_alone(tmp_path):
 def test_function_without_a_source_file_is_compiled_without_a_cache():
     """numba itself refuses to compile such a function with a cache."""
     script = textwrap.dedent("""
-        from viscorough.compilation import njit, vectorize
+        from viscorough.compilation import njit
         assert njit(lambda x: x + 1)(1.0) == 2
-        assert vectorize("float64(float64)")(lambda x: x + 1)(1.0) == 2
     """)
     assert run(script).stderr == ""
 
@@ -141,11 +139,6 @@ def test_functions_are_kept_on_disk(tmp_path):
     script = "import ours; assert ours.double(2.0) == 4; print(sum(ours.double.stats.cache_hits.values()))"
     options = {"PYTHONPATH": str(tmp_path), "NUMBA_CACHE_DIR": str(tmp_path / "cache")}
     assert [run(script, **options).stdout for _ in range(2)] == ["0\n", "1\n"]
-
-
-def test_vectorized_function_broadcasts():
-    add = vectorize("float64(float64, float64)")(lambda x, y: x + y)
-    np.testing.assert_array_equal(add(np.arange(3.0)[:, None], np.arange(2.0)), [[0, 1], [1, 2], [2, 3]])
 
 
 class Interrupt(event.Listener):

@@ -3,8 +3,9 @@
 import click
 
 from viscorough.cli.elasticity import elastic_constants_options, elasticity, lengths
+from viscorough.cli.files import write_output
 from viscorough.cli.messages import announce
-from viscorough.cli.options import Increasing, PositiveNumber, output_option, threads_option, write_output
+from viscorough.cli.options import Increasing, PositiveNumber, output_option, threads_option
 from viscorough.cli.progress import progress_bar, progress_option
 from viscorough.cli.surface_options import heights_input, read_indenter
 from viscorough.summaries import unit_power, with_unit

@@ -4,17 +4,9 @@ import warnings
 
 import click
 
+from viscorough.cli.files import check_output, printable_name, write_output
 from viscorough.cli.messages import announce
-from viscorough.cli.options import (
-    FILE,
-    Increasing,
-    PositiveNumber,
-    Quantity,
-    check_output,
-    number_in,
-    printable_name,
-    write_output,
-)
+from viscorough.cli.options import FILE, Increasing, PositiveNumber, Quantity, number_in
 from viscorough.errors import AccuracyWarning
 
 

@@ -2,8 +2,9 @@
 
 import click
 
+from viscorough.cli.files import check_output, write_output
 from viscorough.cli.messages import announce
-from viscorough.cli.options import PositiveNumber, Quantity, check_output, number_in, output_option, write_output
+from viscorough.cli.options import PositiveNumber, Quantity, number_in, output_option
 
 
 @click.command(short_help="A random self-affine disc or line.")

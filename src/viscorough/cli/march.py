@@ -2,17 +2,16 @@
 
 import click
 
+from viscorough.cli.files import check_output, printable_name, write_output
 from viscorough.cli.messages import announce
 from viscorough.cli.options import (
     FILE,
     Increasing,
     PositiveNumber,
     Quantity,
-    check_output,
+    force_history_option,
     number_in,
     output_option,
-    printable_name,
-    write_output,
 )
 from viscorough.cli.progress import progress_bar, progress_option
 from viscorough.cli.surface_options import heights_input, read_indenter
@@ -36,12 +35,7 @@ _OF_MEDIA = ("events", "implicit", "second_order")  # methods that integrate vis
 @click.option("--viscosity", type=Quantity("Pa s"), help="Shear viscosity  [default: 1]")
 @click.option("--medium", type=FILE, metavar="MEDIUM.yaml", help="Medium, as for kinetics, instead of --viscosity.")
 @click.option("--times", type=Increasing(), help="Ends of the time steps; for events with --medium, times of output.")
-@click.option(
-    "--force-history",
-    type=FILE,
-    metavar="FORCE.csv",
-    help="Two columns, times and forces, instead of --force and --times: F >= 0, linear in between.",
-)
+@force_history_option
 @click.option(
     "--overlap",
     type=PositiveNumber(1),

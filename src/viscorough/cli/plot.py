@@ -2,8 +2,9 @@
 
 import click
 
+from viscorough.cli.files import check_output, read_content
 from viscorough.cli.messages import announce
-from viscorough.cli.options import FILE, check_output, read_content
+from viscorough.cli.options import FILE
 
 
 @click.command(short_help="A figure of a curve, a motion, a contact or a surface.")

@@ -4,8 +4,9 @@ import warnings
 
 import click
 
+from viscorough.cli.files import check_output, printable_name, write_output
 from viscorough.cli.messages import announce
-from viscorough.cli.options import PositiveNumber, check_output, output_option, printable_name, write_output
+from viscorough.cli.options import PositiveNumber, output_option
 from viscorough.cli.progress import progress_bar, progress_option
 from viscorough.cli.surface_options import heights_input, read_indenter
 from viscorough.errors import AccuracyWarning

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import click
 
-from viscorough.cli.options import FILE, check_opens, check_output, printable_name
+from viscorough.cli.files import check_opens, check_output, printable_name
+from viscorough.cli.options import FILE
 from viscorough.errors import AccuracyWarning
 
 _STEEP_SLOPE = 0.3  # rms slope above which the theory of small slopes is doubtful, so that users are warned

@@ -62,7 +62,7 @@ def medium_from_mapping(mapping, length_unit="1", *, folder=Path()):
         raise ValueError(f"unknown key {_shown(unknown[0])}; allowed for {kind}: {', '.join(keys)}")
     if missing := [key for key in keys if key not in mapping]:
         raise ValueError(f"lacks {', '.join(missing)}; {kind} needs {', '.join(keys)}")
-    if make is CreepTable:
+    if make is media.CreepTable:
         medium = _table(folder, mapping["file"], length_unit)
     else:
         medium = make(**{key: _values(key, mapping[key], keys[key], length_unit) for key in keys})

@@ -48,6 +48,20 @@ def increasing(name, values, *, above_zero=False, steps=None):
     raise ValueError(f"{name}: allowed is {allowed}{f', or given twice where {steps} steps' if steps else ''}")
 
 
+def samples(name, values, times, reason=""):
+    """A load at the times, as floats. Raises ValueError unless there is a finite one from 0 on for each of them.
+
+    reason : why it must be, for the message
+    """
+    values = read_only(values).astype(float)
+    if values.shape != times.shape:
+        raise ValueError(f"{name}: samples of shape {values.shape}; allowed: one per time, shape {times.shape}")
+    if not (allowed := np.isfinite(values) & (values >= 0)).all():
+        where = int(np.argmin(allowed))
+        raise ValueError(f"{name}: sample {where} is {values[where]}; allowed: finite, 0 or more{reason}")
+    return values
+
+
 def _cannot_change(array):
     """Whether an array and all arrays that it is a view of are read-only."""
     while isinstance(array, np.ndarray):

@@ -25,7 +25,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from viscorough.arrays import ReadOnlyArrays, increasing, read_only
+from viscorough.arrays import ReadOnlyArrays, increasing, read_only, samples
 from viscorough.summaries import Summarised, span
 from viscorough.viscous.creep_response import creep_response
 from viscorough.viscous.media import Newtonian, medium_of
@@ -203,22 +203,9 @@ def impulses(force, times):
             raise ValueError(f"times: start at {times[0]:g}; allowed: from 0 on, where a constant force begins")
         force, impulse = np.full(times.shape, float(force)), force * times
     else:
-        force = _samples(force, times)
+        force = samples("force", force, times, " (without adhesion a pull opens the contact)")
         impulse = np.append(0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(times)))
     return ForceHistory(*map(read_only, (times, force, impulse)))
-
-
-def _samples(force, times):
-    force = read_only(force).astype(float)
-    if force.shape != times.shape:
-        raise ValueError(f"force: samples of shape {force.shape}; allowed: one per time, shape {times.shape}")
-    if not (np.isfinite(force) & (force >= 0)).all():
-        where = int(np.argmin(np.isfinite(force) & (force >= 0)))
-        raise ValueError(
-            f"force: sample {where} is {force[where]}; "
-            "allowed: finite, 0 or more (without adhesion a pull opens the contact)"
-        )
-    return force
 
 
 def _at_impulse(curve, elastic_force, viscosity):

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
-from viscorough.arrays import ReadOnlyArrays, increasing, read_only
+from viscorough.arrays import ReadOnlyArrays, increasing, samples
 from viscorough.errors import ConvergenceError
 from viscorough.viscous.elements import elements_of_map
 
@@ -101,13 +101,8 @@ def load_samples(caller, times, force, depth):
     if (force is None) == (depth is None):
         raise ValueError(f"{caller}: one of force and depth is needed")
     name, load = ("force", force) if depth is None else ("depth", depth)
-    times, load = increasing(f"{caller}: times", times, steps=f"the {name}"), read_only(load).astype(float)
-    if load.shape != times.shape:
-        raise ValueError(f"{caller}: {name} of shape {load.shape}; allowed: one per time, shape {times.shape}")
-    if not (np.isfinite(load) & (load >= 0)).all():
-        where = int(np.argmin(np.isfinite(load) & (load >= 0)))
-        raise ValueError(f"{caller}: {name} {where} is {load[where]}; allowed: finite, 0 or more")
-    return times, load
+    times = increasing(f"{caller}: times", times, steps=f"the {name}")
+    return times, samples(f"{caller}: {name}", load, times)
 
 
 class _State:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from viscorough.arrays import increasing, read_only
+from viscorough.arrays import increasing, read_only, samples
 from viscorough.viscous.creep_response import branch_states
 from viscorough.viscous.media import CreepTable, medium_of
 from viscorough.viscous.spectra import zero_of_increasing
@@ -66,13 +66,12 @@ def force_under_depth(curve, depth, medium, times):
 
 
 def _depth_samples(curve, depth, times):
-    times, depth = increasing("times", times, steps="the depth"), read_only(depth).astype(float)
-    if depth.shape != times.shape:
-        raise ValueError(f"depth: samples of shape {depth.shape}; allowed: one per time, shape {times.shape}")
-    if not (np.isfinite(depth).all() and (np.diff(depth, prepend=0) >= 0).all()):
-        where = int(np.argmin(np.isfinite(depth) & (np.diff(depth, prepend=0) >= 0)))
+    times = increasing("times", times, steps="the depth")
+    depth = samples("depth", depth, times)
+    if not (rises := np.diff(depth, prepend=0) >= 0).all():
+        where = int(np.argmin(rises))
         raise ValueError(
-            f"depth: sample {where} is {depth[where]:g}; allowed: finite depths from 0 on that do not decrease, "
+            f"depth: sample {where} is {depth[where]:g}; allowed: depths that do not decrease, "
             "under which the contact does not recede (march_medium goes on there)"
         )
     if depth[-1] > curve.depth[-1] * (1 + 1e-12):

@@ -1,4 +1,4 @@
-"""Arrays that an object keeps: copies that cannot be changed, in which masked entries are nan."""
+"""Arrays that an object keeps: copies that cannot be changed, in which masked entries are nan; increasing numbers."""
 
 import dataclasses
 
@@ -21,11 +21,45 @@ def read_only(values):
     return array
 
 
-def keep_read_only(instance):
-    """Replace every array field of a frozen dataclass by `read_only` of it; for its __post_init__."""
-    for field in dataclasses.fields(instance):
-        if field.type is np.ndarray:
-            object.__setattr__(instance, field.name, read_only(getattr(instance, field.name)))
+class ReadOnlyArrays:
+    """A frozen dataclass, every array field of which is replaced by `read_only` of it."""
+
+    def __post_init__(self):
+        for field in dataclasses.fields(self):
+            if field.type is np.ndarray:
+                object.__setattr__(self, field.name, read_only(getattr(self, field.name)))
+
+
+def increasing(name, values, *, above_zero=False, steps=None):
+    """The values as a row of floats. Raises ValueError, which starts with the name, unless they increase.
+
+    steps : what steps where two neighbouring values, times, are equal; None where that is not allowed
+    """
+    values = read_only(values)
+    if values.dtype.kind in "iuf" and values.ndim == 1 and values.size and np.isfinite(values).all():
+        values = values.astype(float)
+        rises = np.diff(values)
+        is_increasing = (rises > 0).all() or (
+            steps is not None and (rises >= 0).all() and (rises[1:] + rises[:-1] > 0).all()
+        )
+        if is_increasing and (values[0] > 0 or not above_zero):
+            return values
+    allowed = f"one row of finite numbers{' above 0' if above_zero else ''}, each larger than the one before"
+    raise ValueError(f"{name}: allowed is {allowed}{f', or given twice where {steps} steps' if steps else ''}")
+
+
+def samples(name, values, times, reason=""):
+    """A load at the times, as floats. Raises ValueError unless there is a finite one from 0 on for each of them.
+
+    reason : why it must be, for the message
+    """
+    values = read_only(values).astype(float)
+    if values.shape != times.shape:
+        raise ValueError(f"{name}: samples of shape {values.shape}; allowed: one per time, shape {times.shape}")
+    if not (allowed := np.isfinite(values) & (values >= 0)).all():
+        where = int(np.argmin(allowed))
+        raise ValueError(f"{name}: sample {where} is {values[where]}; allowed: finite, 0 or more{reason}")
+    return values
 
 
 def _cannot_change(array):

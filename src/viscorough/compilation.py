@@ -86,26 +86,3 @@ def njit(function=None, **options):
     compiled._cache = _cache(function)
     compiled.compile = uninterrupted()(compiled.compile)
     return compiled
-
-
-def vectorize(*signatures):
-    """Decorator: numba.vectorize for these signatures, cached on disk; compiled or loaded at the first call."""
-
-    def decorated(function):
-        @functools.cache
-        def compiled():
-            ufunc = numba.vectorize(function)
-            ufunc._dispatcher.cache = _cache(function)
-            with uninterrupted():
-                for signature in signatures:
-                    ufunc.add(signature)
-            ufunc.disable_compile()
-            return ufunc
-
-        @functools.wraps(function)
-        def call(*arrays):
-            return compiled()(*arrays)
-
-        return call
-
-    return decorated

@@ -5,8 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from viscorough.arrays import keep_read_only
-from viscorough.summaries import html_table, unit_power, with_unit
+from viscorough.arrays import ReadOnlyArrays
+from viscorough.summaries import Summarised, unit_power, with_unit
 
 # Neighbours of an element that belong to its patch: those that share a side, or a corner too.
 _CONNECTIVITIES = (4, 8)
@@ -24,7 +24,7 @@ class Patches(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Contact:
+class Contact(ReadOnlyArrays, Summarised):
     """The contact of a rigid indenter with an elastic half-space at one depth, as `contact_at` returns it.
 
     pressure : p/G, G the shear modulus of the incompressible half-space; zero outside the contact, nan outside the
@@ -55,32 +55,20 @@ class Contact:
     row_spacing: float
     length_unit: str = "1"
 
-    def __post_init__(self):
-        keep_read_only(self)
-
-    def __str__(self):
-        """Three lines: what it is, depth, force and stiffness, and contact and pressure."""
-        title, *rows = self._summary()
-        lines = [", ".join(f"{name} {text}" for name, text in part) for part in (rows[:3], rows[3:])]
-        return "\n".join([title, *lines])
-
-    def _repr_html_(self):
-        """A table of the same, which notebooks show."""
-        title, *rows = self._summary()
-        return html_table(title, rows)
-
     def _summary(self):
-        """A title, and (quantity, its value)."""
+        """What it is; depth, force and stiffness; contact and pressure."""
         unit, area = self.length_unit, unit_power(self.length_unit, 2)
-        return (
-            f"Contact of {self.contact_count} of {self.elements} elements",
+        motion = [
             ("depth u", with_unit(self.depth, unit)),
             ("force F/G", with_unit(self.force, area)),
             ("stiffness k/G", with_unit(self.stiffness, unit)),
+        ]
+        contact = [
             ("contact area", f"{with_unit(self.contact_area, area)} ({100 * self.contact_fraction:.3g} %)"),
             ("mean p/G", with_unit(self.mean_pressure)),
             ("largest p/G", with_unit(self.largest_pressure)),
-        )
+        ]
+        return f"Contact of {self.contact_count} of {self.elements} elements", motion, contact
 
     @property
     def elements(self):

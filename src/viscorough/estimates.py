@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from viscorough.arrays import keep_read_only
+from viscorough.arrays import ReadOnlyArrays, increasing
 from viscorough.calibrated_law import PenetrationLaw, penetration_law
 from viscorough.indenter import positive
 from viscorough.summaries import html_table, span
@@ -18,7 +18,7 @@ from viscorough.viscous.media import medium_of
 
 
 @dataclass(frozen=True)
-class Estimate:
+class Estimate(ReadOnlyArrays):
     """Depth and velocity over time by the penetration law; arrays of shape (times,), nan where the law does not hold.
 
     time : t; x : X = F·J(t)/(4hL)
@@ -36,9 +36,6 @@ class Estimate:
     velocity_low: np.ndarray
     velocity_high: np.ndarray
     law: PenetrationLaw
-
-    def __post_init__(self):
-        keep_read_only(self)
 
     @property
     def where(self):
@@ -78,9 +75,7 @@ def estimate(hurst, rms, diameter, force, medium, times):
     """
     law, medium = penetration_law(hurst), medium_of(medium)
     rms, diameter, force = positive("rms", rms), positive("diameter", diameter), positive("force", force)
-    times = np.atleast_1d(np.asarray(times, dtype=float))
-    if times.ndim != 1 or times.size == 0 or not (np.diff(times, prepend=0) > 0).all() or not np.isfinite(times).all():
-        raise ValueError("times: allowed is one row of finite numbers above 0, each larger than the one before")
+    times = increasing("times", np.atleast_1d(times), above_zero=True)
     compliance, rate = medium.creep_compliance(times), medium.creep_rate(times)
     if np.isnan(compliance).any():
         raise ValueError(
@@ -94,14 +89,8 @@ def estimate(hurst, rms, diameter, force, medium, times):
             f"times: X = F·J(t)/(4hL) is {span(x)}; allowed: {law.x_low:.3g} to {law.x_high:.3g}, where the law holds; "
             "elsewhere indent a surface made by viscorough generate"
         )
-    values = {name: np.full(times.shape, np.nan) for name in ("depth", "velocity")}
-    values |= {
-        f"{name}_{end}": np.full(times.shape, np.nan) for name in ("depth", "velocity") for end in ("low", "high")
-    }
-    per_time = rms * rate[inside] / compliance[inside]
-    values["depth"][inside] = rms * law.depth(x[inside])
-    values["velocity"][inside] = per_time * law.velocity(x[inside])
-    for i, end in enumerate(("low", "high")):
-        values[f"depth_{end}"][inside] = rms * law.depth_interval(x[inside])[i]
-        values[f"velocity_{end}"][inside] = per_time * law.velocity_interval(x[inside])[i]
-    return Estimate(times, x, **values, law=law)
+    per_time, covered = rms * rate[inside] / compliance[inside], x[inside]
+    values = np.full((6, times.size), np.nan)
+    values[:3, inside] = rms * np.array([law.depth(covered), *law.depth_interval(covered)])
+    values[3:, inside] = per_time * np.array([law.velocity(covered), *law.velocity_interval(covered)])
+    return Estimate(times, x, *values, law)

@@ -8,15 +8,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from viscorough.arrays import keep_read_only
-from viscorough.summaries import html_table, span, unit_power
+from viscorough.arrays import ReadOnlyArrays
+from viscorough.summaries import Summarised, span, unit_power
 
 # Relative rounding error of forces and depths that is allowed for.
 _ROUNDING = 1e-12
 
 
 @dataclass(frozen=True)
-class LoadingCurve:
+class LoadingCurve(ReadOnlyArrays, Summarised):
     """Depth, force and tangent stiffness of a rigid indenter pressed into an elastic half-space, at successive levels.
 
     depth : u, shape (levels,), strictly increasing and positive [length]
@@ -47,7 +47,7 @@ class LoadingCurve:
     length_unit: str = "1"
 
     def __post_init__(self):
-        keep_read_only(self)
+        super().__post_init__()
         if self.depth.size == 0:
             raise ValueError("loading curve: there is no level; at least one is needed")
         for name in ("depth", "force"):
@@ -57,26 +57,16 @@ class LoadingCurve:
         if not (np.isfinite(self.stiffness).all() and (self.stiffness > 0).all()):
             raise ValueError("loading curve: stiffness must be finite and positive")
 
-    def __str__(self):
-        """Three lines: what it is, the range of depths, forces and stiffnesses, and of the contact fraction."""
-        title, *rows = self._summary()
-        return f"{title}\n" + ", ".join(f"{name} {text}" for name, text in rows[:3]) + f"\n{rows[3][0]} {rows[3][1]}"
-
-    def _repr_html_(self):
-        """A table of the same, which notebooks show."""
-        title, *rows = self._summary()
-        return html_table(title, rows)
-
     def _summary(self):
-        """A title, and (quantity, its values at the first and the last level)."""
+        """What it is; the range of depths, forces and stiffnesses; that of the contact fraction."""
         unit, levels = self.length_unit, self.depth.size
-        return (
-            f"Loading curve by {self.method}: {levels} level{'s' * (levels > 1)}, {self.elements} elements",
+        title = f"Loading curve by {self.method}: {levels} level{'s' * (levels > 1)}, {self.elements} elements"
+        ranges = [
             ("depth u", span(self.depth, unit)),
             ("force F/G", span(self.force, unit_power(unit, 2))),
             ("stiffness k/G", span(self.stiffness, unit)),
-            ("contact fraction", span(self.contact_fraction)),
-        )
+        ]
+        return title, ranges, [("contact fraction", span(self.contact_fraction))]
 
     @property
     def contact_fraction(self):

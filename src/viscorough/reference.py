@@ -21,7 +21,7 @@ from scipy.optimize import brentq
 from scipy.special import ellipk
 from scipy.special import gamma as gamma_function
 
-from viscorough.indenter import Indenter
+from viscorough.indenter import Indenter, positive
 
 UNIT_SQUARE_DEFLECTION = 4 * np.log(1 + np.sqrt(2))  # K₀₀ = πE*u/(pd), u at the centre of a loaded square
 COMPLETE_CONTACT_STIFFNESS = 1.0  # κ of the whole disc as a flat punch, k = 2E*·L/2; region (c): vt/h = X
@@ -45,7 +45,7 @@ class PowerLawBody:
 
     def __post_init__(self):
         for name in ("coefficient", "exponent"):
-            _require_positive(f"{name} of a power-law body", getattr(self, name))
+            positive(f"{name} of a power-law body", getattr(self, name))
 
     def mdr_profile(self, x):
         """One-dimensional profile g(x) = κ_n c |x|ⁿ with κ_n = √π Γ(n/2+1)/Γ((n+1)/2); same unit as x."""
@@ -87,7 +87,7 @@ class PowerLawBody:
 
 def sphere(radius):
     """Sphere z = r²/(2R), R = `radius`: F = (4/3)E*√R u^(3/2), a = √(Ru) (Hertz)."""
-    _require_positive("radius of a sphere", radius)
+    positive("radius of a sphere", radius)
     return PowerLawBody(1 / (2 * radius), 2)
 
 
@@ -237,8 +237,3 @@ def one_element_stiffness(elements_across):
 def _element_centres(number, width):
     """Centres of equal elements that fill an interval of the given width around 0, shape (number,)."""
     return (np.arange(number) - (number - 1) / 2) * width / number
-
-
-def _require_positive(name, value):
-    if not (np.isfinite(value) and value > 0):
-        raise ValueError(f"{name}: {value}; allowed: finite and above 0")

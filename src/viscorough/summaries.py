@@ -1,6 +1,20 @@
 """Short texts about a result: lines for print, and a small table of HTML for notebooks."""
 
 from html import escape
+from itertools import chain
+
+
+class Summarised:
+    """A result with the method `_summary`, which gives a title, and rows of (quantity, text), one for each line."""
+
+    def __str__(self):
+        title, *lines = self._summary()
+        return "\n".join([title, *(", ".join(f"{name} {text}" for name, text in line) for line in lines)])
+
+    def _repr_html_(self):
+        """A table of the same, which notebooks show."""
+        title, *lines = self._summary()
+        return html_table(title, chain(*lines))
 
 
 def span(values, unit="1"):

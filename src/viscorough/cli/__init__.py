@@ -15,12 +15,12 @@ import click
 
 from viscorough.cli.contact import contact
 from viscorough.cli.estimate import estimate
+from viscorough.cli.files import warning_texts
 from viscorough.cli.generate import generate
 from viscorough.cli.indent import indent
 from viscorough.cli.kinetics import kinetics
 from viscorough.cli.march import march
 from viscorough.cli.messages import complain, discard_what_cannot_be_written, escape_letters_without_code, report
-from viscorough.cli.options import warning_texts
 from viscorough.cli.plot import plot
 from viscorough.cli.reduce import reduce
 from viscorough.errors import ConvergenceError

@@ -2,14 +2,10 @@
 
 import click
 
-from viscorough.cli.elasticity import IncreasingQuantities, elastic_constants_options, elasticity, lengths
+from viscorough.cli.elasticity import elastic_constants_options, elasticity, lengths
+from viscorough.cli.files import write_output
 from viscorough.cli.messages import announce
-from viscorough.cli.options import (
-    PositiveNumber,
-    output_option,
-    threads_option,
-    write_output,
-)
+from viscorough.cli.options import Increasing, PositiveNumber, output_option, threads_option
 from viscorough.cli.progress import progress_bar, progress_option
 from viscorough.cli.surface_options import heights_input, read_indenter
 from viscorough.summaries import unit_power, with_unit
@@ -18,8 +14,8 @@ from viscorough.summaries import unit_power, with_unit
 @click.command(short_help="Pressure, gap and contact at a given force or depth.")
 @heights_input()
 @output_option("FIELDS.nc", table=False)
-@click.option("--force", type=IncreasingQuantities("N"), help="Force, or several: F/G, or F with a modulus.")
-@click.option("--depth", type=IncreasingQuantities("m"), help="Depth from first contact, or several.")
+@click.option("--force", type=Increasing("N"), help="Force, or several: F/G, or F with a modulus.")
+@click.option("--depth", type=Increasing("m"), help="Depth from first contact, or several.")
 @elastic_constants_options
 @click.option("--tolerance", type=PositiveNumber(0.1), default=1e-3, show_default=True, help="Relative accuracy.")
 @threads_option

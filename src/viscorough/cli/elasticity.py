@@ -1,55 +1,18 @@
 """Options for the half-space's elastic constants, and what forces are in terms of the solver's F/G."""
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import click
 
-from viscorough.cli.options import Quantity, number_in
-
-
-class IncreasingQuantities(click.ParamType):
-    """Quantities separated by commas, all plain or all with units, each larger than the one before.
-
-    Converted to a list of viscorough.units.Quantity.
-    """
-
-    name = "a,b,c"
-
-    def __init__(self, unit):
-        self.unit = unit
-
-    def convert(self, value, param, ctx):
-        entries = [entry.strip() for entry in value.split(",")]
-        quantities = [Quantity(self.unit).convert(entry, param, ctx) for entry in entries]
-        if len({bool(quantity.unit) for quantity in quantities}) == 2:
-            self.fail(f"{value!r}: some numbers have a unit; all or none of them may have one", param, ctx)
-        for last, quantity in pairwise(quantities):
-            if quantity.to(self.unit) <= last.to(self.unit):
-                text = "each number must be larger than the one before"
-                self.fail(f"{quantity!s} follows {last!s}; {text}", param, ctx)
-        return quantities
-
-
-class PoissonRatio(click.ParamType):
-    """A number above -1 and not above 0.5."""
-
-    name = "number"
-
-    def convert(self, value, param, ctx):
-        try:
-            number = float(value)
-        except ValueError:
-            number = float("nan")
-        if not -1 < number <= 0.5:
-            self.fail(f"{value!r} is not a number above -1 and up to 0.5", param, ctx)
-        return number
+from viscorough.cli.options import PositiveNumber, Quantity, number_in
 
 
 def elastic_constants_options(command):
     """Add --shear-modulus, --young and --poisson to a command."""
     for option in (
-        click.option("--poisson", type=PoissonRatio(), help="Poisson ratio, with --young  [default: 0.5]"),
+        click.option(
+            "--poisson", type=PositiveNumber(0.5, above=-1), help="Poisson ratio, with --young  [default: 0.5]"
+        ),
         click.option("--young", type=Quantity("Pa"), help="Young's modulus of the half-space, instead of G."),
         click.option("--shear-modulus", type=Quantity("Pa"), help="Shear modulus G of the incompressible half-space."),
     ):

@@ -4,17 +4,9 @@ import warnings
 
 import click
 
+from viscorough.cli.files import check_output, printable_name, write_output
 from viscorough.cli.messages import announce
-from viscorough.cli.options import (
-    FILE,
-    Increasing,
-    PositiveNumber,
-    Quantity,
-    check_not_an_input,
-    number_in,
-    printable_name,
-    write_output,
-)
+from viscorough.cli.options import FILE, Increasing, PositiveNumber, Quantity, number_in
 from viscorough.errors import AccuracyWarning
 
 
@@ -47,16 +39,13 @@ def estimate(hurst, rms, diameter, force, viscosity, medium, times, output):
     import numpy as np
 
     from viscorough.estimates import estimate
-    from viscorough.io.atomic import check_output
     from viscorough.io.media import read_medium
     from viscorough.io.motion import estimate_to_content
 
     if (viscosity is None) == (medium is None):
         raise click.UsageError("one of --viscosity and --medium is needed")
     if output:
-        check_output(output)
-    if output and medium:
-        check_not_an_input(output, medium, "medium")
+        check_output(output, medium=medium)
     unit = _length_unit(rms, diameter, {"--force": force, "--viscosity": viscosity})
     lengths = number_in("m", rms, unit, "--rms"), number_in("m", diameter, unit, "--diameter")
     force = number_in("N", force, unit, "--force")

@@ -2,8 +2,9 @@
 
 import click
 
+from viscorough.cli.files import check_output, write_output
 from viscorough.cli.messages import announce
-from viscorough.cli.options import PositiveNumber, Quantity, number_in, output_option, write_output
+from viscorough.cli.options import PositiveNumber, Quantity, number_in, output_option
 
 
 @click.command(short_help="A random self-affine disc or line.")
@@ -42,7 +43,6 @@ def generate(hurst, elements, points, rms, diameter, unit, seed, roll_off, plate
     from dataclasses import replace
 
     from viscorough import surfaces, units
-    from viscorough.io.atomic import check_output
     from viscorough.io.surfaces import surface_to_content
 
     check_output(output)

@@ -2,15 +2,10 @@
 
 import click
 
-from viscorough.cli.elasticity import IncreasingQuantities, elastic_constants_options, elasticity, lengths
+from viscorough.cli.elasticity import elastic_constants_options, elasticity, lengths
+from viscorough.cli.files import write_output
 from viscorough.cli.messages import announce
-from viscorough.cli.options import (
-    PositiveNumber,
-    Quantity,
-    output_option,
-    threads_option,
-    write_output,
-)
+from viscorough.cli.options import Increasing, PositiveNumber, Quantity, output_option, threads_option
 from viscorough.cli.progress import progress_bar, progress_option
 from viscorough.cli.surface_options import heights_input, read_indenter
 from viscorough.summaries import with_unit
@@ -20,9 +15,9 @@ from viscorough.summaries import with_unit
 @heights_input()
 @output_option("CURVE.nc")
 @click.option(
-    "--depths", type=IncreasingQuantities("m"), help="Levels at exactly these depths  [default: as the tolerance needs]"
+    "--depths", type=Increasing("m"), help="Levels at exactly these depths  [default: as the tolerance needs]"
 )
-@click.option("--forces", type=IncreasingQuantities("N"), help="Levels at exactly these F/G, or F with a modulus.")
+@click.option("--forces", type=Increasing("N"), help="Levels at exactly these F/G, or F with a modulus.")
 @click.option("--tolerance", type=PositiveNumber(0.1), default=1e-3, show_default=True, help="Relative accuracy.")
 @click.option("--until-fraction", type=PositiveNumber(1), help="Contact fraction at which to stop  [default: 0.9]")
 @click.option("--until-force", type=Quantity("N"), help="F/G, or F with a modulus, at which to stop.")

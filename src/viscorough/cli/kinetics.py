@@ -5,18 +5,9 @@ import warnings
 import click
 
 from viscorough.cli.elasticity import check_incompressible
+from viscorough.cli.files import check_output, printable_name, read_content, write_output
 from viscorough.cli.messages import announce
-from viscorough.cli.options import (
-    FILE,
-    Increasing,
-    Quantity,
-    check_not_an_input,
-    number_in,
-    output_option,
-    printable_name,
-    read_content,
-    write_output,
-)
+from viscorough.cli.options import FILE, Increasing, Quantity, force_history_option, number_in, output_option
 from viscorough.errors import AccuracyWarning
 from viscorough.summaries import with_unit
 
@@ -26,12 +17,7 @@ _EXACT = "exact for every topography, without 1/Gamma(2 - alpha)"
 @click.command(short_help="Penetration over time in any linear viscoelastic half-space.")
 @click.argument("curve", type=FILE, metavar="CURVE.nc")
 @click.option("--force", type=Quantity("N"), help="Constant force F, applied at time 0.")
-@click.option(
-    "--force-history",
-    type=FILE,
-    metavar="FORCE.csv",
-    help="Two columns, times and forces, instead of --force: F >= 0, linear in between; a time given twice is a step.",
-)
+@force_history_option
 @click.option("--viscosity", type=Quantity("Pa s"), help="Shear viscosity of a Newtonian half-space.")
 @click.option("--medium", type=FILE, metavar="MEDIUM.yaml", help="Medium of the half-space, instead of --viscosity.")
 @click.option("--times", type=Increasing(), help="Times of the output  [default: of levels, or of the history]")
@@ -66,15 +52,12 @@ def kinetics(curve, force, force_history, viscosity, medium, times, output):
     if (viscosity is None) == (medium is None):
         raise click.UsageError("one of --viscosity and --medium is needed")
 
-    from viscorough.io.atomic import check_output
     from viscorough.io.curves import curve_from_content
+    from viscorough.io.motion import force_history_in
     from viscorough.viscous import correspondence
     from viscorough.viscous.media import Newtonian
 
-    check_output(output)
-    for file, kind in ((force_history, "force history"), (medium, "medium")):
-        if file is not None:
-            check_not_an_input(output, file, kind)
+    check_output(output, force_history=force_history, medium=medium)
     content = read_content(curve)
     check_incompressible(content, curve)
     try:
@@ -84,7 +67,7 @@ def kinetics(curve, force, force_history, viscosity, medium, times, output):
         text = str(error)
         raise ValueError(text if medium and text.startswith(str(medium)) else f"{curve}: {text}") from error
     if force_history is not None:
-        history, about["force"] = _history(force_history, loading.length_unit), printable_name(force_history)
+        history, about["force"] = force_history_in(force_history, loading.length_unit), printable_name(force_history)
     else:
         history = about["force"] = number_in("N", force, loading.length_unit, "--force")
     motion = correspondence.kinetics(loading, history, law, times)
@@ -100,9 +83,8 @@ def kinetics(curve, force, force_history, viscosity, medium, times, output):
 
 def _medium(viscosity, medium, length_unit):
     """The medium in N and the unit of length of the curve, and attributes of the output."""
-    from viscorough import units
-    from viscorough.io.media import read_medium, scaled
-    from viscorough.viscous.media import CreepTable, Newtonian
+    from viscorough.io.media import medium_from_mapping, read_medium
+    from viscorough.viscous.media import CreepTable
 
     if viscosity is None:
         law = read_medium(medium, length_unit)
@@ -114,24 +96,11 @@ def _medium(viscosity, medium, length_unit):
             f"derivative over k/G there; {_EXACT}"
         }
     number = number_in("Pa s", viscosity, length_unit, "--viscosity")
-    law = Newtonian(number) if length_unit == "1" else scaled(Newtonian(number), units.metres(length_unit) ** 2)
-    return law, {
+    return medium_from_mapping({"kind": "newtonian", "viscosity": number}, length_unit), {
         "viscosity": number,
         "correspondence": "depth at a time is the elastic one at F/G = impulse / viscosity, which is force * time / "
         f"viscosity for a constant force, velocity is force / (viscosity * k/G) there; {_EXACT}",
     }
-
-
-def _history(path, length_unit):
-    """The ForceHistory in a file. Raises ValueError if it holds none."""
-    from viscorough.io.motion import read_force_history
-    from viscorough.viscous.correspondence import impulses
-
-    times, force = read_force_history(path, length_unit)
-    try:
-        return impulses(force, times)
-    except ValueError as error:
-        raise ValueError(f"{path}: {error}") from error
 
 
 def _check_that_levels_follow_each_other(motion, options):

@@ -2,17 +2,16 @@
 
 import click
 
+from viscorough.cli.files import check_output, printable_name, write_output
 from viscorough.cli.messages import announce
 from viscorough.cli.options import (
     FILE,
     Increasing,
     PositiveNumber,
     Quantity,
-    check_not_an_input,
+    force_history_option,
     number_in,
     output_option,
-    printable_name,
-    write_output,
 )
 from viscorough.cli.progress import progress_bar, progress_option
 from viscorough.cli.surface_options import heights_input, read_indenter
@@ -36,12 +35,7 @@ _OF_MEDIA = ("events", "implicit", "second_order")  # methods that integrate vis
 @click.option("--viscosity", type=Quantity("Pa s"), help="Shear viscosity  [default: 1]")
 @click.option("--medium", type=FILE, metavar="MEDIUM.yaml", help="Medium, as for kinetics, instead of --viscosity.")
 @click.option("--times", type=Increasing(), help="Ends of the time steps; for events with --medium, times of output.")
-@click.option(
-    "--force-history",
-    type=FILE,
-    metavar="FORCE.csv",
-    help="Two columns, times and forces, instead of --force and --times: F >= 0, linear in between.",
-)
+@force_history_option
 @click.option(
     "--overlap",
     type=PositiveNumber(1),
@@ -76,21 +70,22 @@ def march(
     if medium and viscosity:
         raise click.UsageError("--medium replaces --viscosity; they exclude each other")
     _check_options_of_method(method, bool(medium), bool(force_history), times, overlap, until_fraction)
-    for file, kind in ((force_history, "force history"), (medium, "medium")):
-        if file:
-            check_not_an_input(output, file, kind)
+    check_output(output, force_history=force_history, medium=medium)
     indenter = read_indenter(surface, output)
-    force = 1.0 if force is None else number_in("N", force, indenter.length_unit, "--force")
-    with progress_bar("viscorough march", progress) as report:
-        options = {"until_fraction": until_fraction, "progress": report}
-        if medium:
-            content, about = _in_medium(indenter, method, medium, force, times, force_history, **options)
-        else:
-            number, viscosity = _viscosity(viscosity, indenter.length_unit)
-            options["overlap"] = overlap
-            content = _in_viscous_medium(indenter, method, viscosity, force, times, force_history, **options)
-            about = {"viscosity": number}
+    unit = indenter.length_unit
+    force = 1.0 if force is None else number_in("N", force, unit, "--force")
+    viscosity = 1.0 if viscosity is None else number_in("Pa s", viscosity, unit, "--viscosity")
+    about = {"medium": printable_name(medium)} if medium else {"viscosity": viscosity}
     about["force"] = printable_name(force_history) if force_history else force
+    history = _read_history(force_history, unit) if force_history else None
+    options = {} if until_fraction is None else {"until_fraction": until_fraction}
+    options |= {} if overlap is None else {"overlap": overlap}
+    with progress_bar("viscorough march", progress) as report:
+        if medium:
+            content = _in_medium(indenter, method, medium, force, times, history, progress=report, **options)
+        else:
+            options |= {} if method == "events" else {"progress": report}
+            content = _in_viscous_medium(indenter, method, viscosity, force, times, history, **options)
     write_output(content, output, method=method, **about, **surface.attributes(indenter))
     time, depths, count = (content.variables[name].values for name in ("time", "depth", "contact_count"))
     depth = with_unit(depths[-1], indenter.length_unit, 6)
@@ -113,76 +108,50 @@ def _check_options_of_method(method, has_medium, has_history, times, overlap, un
         raise click.UsageError(f"--until-fraction is not for --method {method}; allowed: events")
 
 
-def _viscosity(viscosity, length_unit):
-    """The viscosity as stated, in Pa s where the unit of length is known, and in N s per square of that unit."""
-    from viscorough import units
-
-    number = 1.0 if viscosity is None else number_in("Pa s", viscosity, length_unit, "--viscosity")
-    return number, number if length_unit == "1" else number * units.metres(length_unit) ** 2
-
-
-def _in_viscous_medium(indenter, method, viscosity, force, times, force_history, **options):
-    """Content of the output for a Newtonian medium; viscosity in N s per square of the unit of length."""
+def _in_viscous_medium(indenter, method, viscosity, force, times, history, **options):
+    """Content of the output for a Newtonian medium; viscosity in Pa s where the unit of length is known."""
     import numpy as np
 
+    from viscorough import units
     from viscorough.io import motion
+    from viscorough.viscous.events import march_events
+    from viscorough.viscous.stepping import march_steps
 
-    if force_history:
-        history = _read_history(force_history, indenter.length_unit)
-        steps = np.unique(history.impulse[history.impulse > 0]) / viscosity
-        integrated = _integrate(indenter, method, steps, **options)
-        return motion.integration_under_history(integrated, history, viscosity)
+    if indenter.length_unit != units.UNKNOWN:
+        viscosity *= units.metres(indenter.length_unit) ** 2
     per_time = force / viscosity
-    integrated = _integrate(indenter, method, None if times is None else per_time * np.array(times), **options)
+    if method == "events":
+        integrated = march_events(indenter, **options)
+    else:
+        steps = np.unique(history.impulse[history.impulse > 0]) / viscosity if history else per_time * np.array(times)
+        integrated = march_steps(indenter, steps, scheme=method, **options)
+    if history:
+        return motion.integration_under_history(integrated, history, viscosity)
     return motion.integration_to_content(integrated, per_time)
 
 
-def _in_medium(indenter, method, medium, force, times, force_history, *, until_fraction, progress):
-    """Content of the output for a viscoelastic medium, and attributes that describe it."""
+def _in_medium(indenter, method, medium, force, times, history, **options):
+    """Content of the output for a viscoelastic medium."""
     from viscorough.io import motion
     from viscorough.io.media import read_medium
     from viscorough.viscous.internal_variable_events import march_medium_events
     from viscorough.viscous.internal_variables import march_medium
 
     law = read_medium(medium, indenter.length_unit)
-    if force_history:
-        history = _read_history(force_history, indenter.length_unit)
-        times, forces = history.times, history.force
-    else:
-        times, forces = [0.0, *times], [force] * (1 + len(times))
+    times, forces = history[:2] if history else ([0.0, *times], [force] * (1 + len(times)))
     if method == "events":
-        options = {"until_fraction": until_fraction or 1.0, "progress": progress}
         moved = march_medium_events(indenter, law, times, force=forces, **options)
     else:
         scheme = "backward_euler" if method == "implicit" else method
-        moved = march_medium(indenter, law, times, force=forces, scheme=scheme, progress=progress)
-    return motion.medium_motion_to_content(moved), {"medium": printable_name(medium)}
+        moved = march_medium(indenter, law, times, force=forces, scheme=scheme, **options)
+    return motion.medium_motion_to_content(moved)
 
 
 def _read_history(path, length_unit):
     """The ForceHistory in a file. Raises ValueError if the file holds none, or if the force is zero at all times."""
-    from viscorough.io.motion import read_force_history
-    from viscorough.viscous.correspondence import impulses
+    from viscorough.io.motion import force_history_in
 
-    times, force = read_force_history(path, length_unit)
-    try:
-        history = impulses(force, times)
-        if not history.impulse[-1] > 0:
-            raise ValueError("no time passes while there is a force; allowed: a force above zero for some time")
-    except ValueError as error:
-        raise ValueError(f"{path}: {error}") from error
+    history = force_history_in(path, length_unit)
+    if not history.impulse[-1] > 0:
+        raise ValueError(f"{path}: no time passes while there is a force; allowed: a force above zero for some time")
     return history
-
-
-def _integrate(indenter, method, steps, *, overlap, until_fraction, progress):
-    """Events or Steps of a direct integration.
-
-    steps : impulse/viscosity at the ends of the steps [length²]; not used by the method events
-    """
-    from viscorough.viscous.events import march_events
-    from viscorough.viscous.stepping import march_steps
-
-    if method == "events":
-        return march_events(indenter, until_fraction=until_fraction or 1.0)
-    options = {} if overlap is None else {"overlap": overlap}
-    return march_steps(indenter, steps, scheme=method, progress=progress, **options)

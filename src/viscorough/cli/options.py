@@ -1,34 +1,27 @@
-"""What the commands of the command line share: types of options, and reading and writing of files."""
+"""Types of options, and options, that the commands of the command line share."""
 
-import contextlib
-import os
-import threading
 from itertools import pairwise
 from pathlib import Path
-from signal import default_int_handler
 
 import click
 
-from viscorough.cli.messages import complain
-from viscorough.interrupts import on_interrupt
-
 
 class PositiveNumber(click.ParamType):
-    """A finite number above 0 and not above `maximum`."""
+    """A finite number above 0, or another number, and not above `maximum`."""
 
     name = "number"
 
-    def __init__(self, maximum=float("inf")):
-        self.maximum = maximum
+    def __init__(self, maximum=float("inf"), above=0):
+        self.maximum, self.above = maximum, above
 
     def convert(self, value, param, ctx):
         try:
             number = float(value)
         except ValueError:
             number = float("nan")
-        if not (0 < number <= self.maximum and number < float("inf")):
+        if not (self.above < number <= self.maximum and number < float("inf")):
             limit = "finite" if self.maximum == float("inf") else f"up to {self.maximum:g}"
-            self.fail(f"{value!r} is not a number above 0 and {limit}", param, ctx)
+            self.fail(f"{value!r} is not a number above {self.above} and {limit}", param, ctx)
         return number
 
 
@@ -46,21 +39,16 @@ class Quantity(click.ParamType):
     def convert(self, value, param, ctx):
         from viscorough import units
 
-        if isinstance(value, units.Quantity):
-            return value
+        number, reason = 0, ""
         try:
-            stated = units.quantity(value) if isinstance(value, str) else units.Quantity(float(value))
+            stated = units.quantity(value)
             number = stated.to(self.unit)
         except ValueError as error:
-            reason = str(error) if str(error).startswith("unit ") else ""
-            self.fail(self._needed(value, reason), param, ctx)
+            reason = f" ({error})" if str(error).startswith("unit ") else ""
         if not 0 < number < float("inf"):
-            self.fail(self._needed(value), param, ctx)
+            text = f"{value!r} is not a number above 0 and finite, plain or with a unit such as {self.unit}"
+            self.fail(f"{text}{reason}", param, ctx)
         return stated
-
-    def _needed(self, value, reason=""):
-        text = f"{value!r} is not a number above 0 and finite, plain or with a unit such as {self.unit}"
-        return f"{text} ({reason})" if reason else text
 
 
 def number_in(unit, quantity, length_unit, option):
@@ -76,16 +64,25 @@ def number_in(unit, quantity, length_unit, option):
 
 
 class Increasing(click.ParamType):
-    """Numbers separated by commas, each larger than the one before, the first above 0."""
+    """Numbers above 0 separated by commas, each larger than the one before.
+
+    unit : what all of them, or none, may have; they are converted to viscorough.units.Quantity then, else to floats
+    """
 
     name = "a,b,c"
 
+    def __init__(self, unit=None):
+        self.unit = unit
+
     def convert(self, value, param, ctx):
-        numbers = [PositiveNumber().convert(entry.strip(), param, ctx) for entry in value.split(",")]
-        for last, number in pairwise(numbers):
-            if number <= last:
-                self.fail(f"{number!r} follows {last!r}; each number must be larger than the one before", param, ctx)
-        return numbers
+        entry_type = Quantity(self.unit) if self.unit else PositiveNumber()
+        entries = [entry_type.convert(entry.strip(), param, ctx) for entry in value.split(",")]
+        if self.unit and len({bool(entry.unit) for entry in entries}) == 2:
+            self.fail(f"{value!r}: some numbers have a unit; all or none of them may have one", param, ctx)
+        for last, entry in pairwise(entries):
+            if (entry.to(self.unit) <= last.to(self.unit)) if self.unit else (entry <= last):
+                self.fail(f"{entry} follows {last}; each number must be larger than the one before", param, ctx)
+        return entries
 
 
 FILE = click.Path(path_type=Path)
@@ -103,6 +100,12 @@ def output_option(metavar, table=True):
     return click.option("-o", "--output", type=FILE, required=True, metavar=metavar, help=text, callback=check)
 
 
+force_history_option = click.option(
+    "--force-history",
+    type=FILE,
+    metavar="FORCE.csv",
+    help="Two columns, times and forces, instead of --force: F >= 0, linear in between; a time given twice is a step.",
+)
 threads_option = click.option(
     "--threads",
     type=click.IntRange(1, 1024),
@@ -110,73 +113,3 @@ threads_option = click.option(
     show_default=True,
     help="Threads of the processor; the result does not depend on them.",
 )
-
-
-def check_not_an_input(output, file, kind):
-    """Raise ValueError if the output would replace a file that is read; `kind` says what it holds."""
-    if output.exists() and file.exists() and output.samefile(file):
-        raise ValueError(f"{output}: would replace the {kind}; another name is needed")
-
-
-def printable_name(file):
-    """Name of a file, for an attribute: bytes that are not letters appear with backslashes."""
-    return file.name.encode(errors="backslashreplace").decode()
-
-
-@contextlib.contextmanager
-def time_limit(path, seconds=60):
-    """Context in which a NetCDF file is opened; if that takes too long, the process ends with one line and exit code 2.
-
-    Damage can make the HDF5 library run without end, where Python cannot interrupt it. Opening takes milliseconds.
-    """
-
-    def end():
-        text = f"{path}: not opened within {seconds:g} s, as can happen if it is damaged; a whole NetCDF file is needed"
-        complain(command, text)
-        os._exit(2)
-
-    command = click.get_current_context().command_path
-    timer = threading.Timer(seconds, end)
-    timer.daemon = True
-    timer.start()
-    try:
-        yield
-    finally:
-        timer.cancel()
-
-
-def check_opens(path):
-    """Raise a one-line ValueError unless the NetCDF file can be opened, within a time limit."""
-    from viscorough.io import netcdf
-
-    with time_limit(path), netcdf.opened(path):
-        pass
-
-
-def read_content(path):
-    """The io.netcdf.Content of a NetCDF file, or of a table (.csv) that a command wrote."""
-    from viscorough.io import netcdf, tables
-
-    if tables.is_table(path):
-        return tables.read(path)
-    check_opens(path)
-    return netcdf.read(path)
-
-
-def write_output(content, output, **attributes):
-    """Write an io.netcdf.Content with attributes added, as NetCDF, or as a table if the name ends in .csv.
-
-    The attribute `warnings` holds the warnings given so far.
-    """
-    from viscorough.io import netcdf, tables
-
-    if texts := warning_texts(click.get_current_context().obj):
-        attributes["warnings"] = "; ".join(texts)
-    with on_interrupt(default_int_handler):  # raises KeyboardInterrupt, so that no temporary file is left
-        write = tables.write if tables.is_table(output) else netcdf.write
-        write(content.with_attributes(**attributes), output)
-
-
-def warning_texts(caught):
-    """The texts of the different warnings, each on one line."""
-    return list(dict.fromkeys(" ".join(str(warning.message).split()) for warning in caught))

@@ -2,8 +2,9 @@
 
 import click
 
+from viscorough.cli.files import check_output, read_content
 from viscorough.cli.messages import announce
-from viscorough.cli.options import FILE, check_not_an_input, read_content
+from viscorough.cli.options import FILE
 
 
 @click.command(short_help="A figure of a curve, a motion, a contact or a surface.")
@@ -24,10 +25,8 @@ def plot(file, output):
         from viscorough import plotting
     except ModuleNotFoundError as error:
         raise click.ClickException('matplotlib is not installed; pip install "viscorough[plot]" installs it') from error
-    from viscorough.io.atomic import check_output
 
-    check_output(output)
-    check_not_an_input(output, file, "results")
+    check_output(output, results=file)
     content = read_content(file)
     try:
         plotting.plot(content, output)

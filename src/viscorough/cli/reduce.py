@@ -4,14 +4,9 @@ import warnings
 
 import click
 
+from viscorough.cli.files import check_output, printable_name, write_output
 from viscorough.cli.messages import announce
-from viscorough.cli.options import (
-    PositiveNumber,
-    check_not_an_input,
-    output_option,
-    printable_name,
-    write_output,
-)
+from viscorough.cli.options import PositiveNumber, output_option
 from viscorough.cli.progress import progress_bar, progress_option
 from viscorough.cli.surface_options import heights_input, read_indenter
 from viscorough.errors import AccuracyWarning
@@ -50,13 +45,11 @@ def reduce(surface, until_fraction, realizations, seed, output, progress):
         viscorough reduce map.nc --realizations 100 -o curves.nc
     """
     from viscorough import mdr
-    from viscorough.io.atomic import check_output
     from viscorough.io.curves import curve_to_content, stack_curves
     from viscorough.io.surfaces import dimensions_of_heights, read_line
 
     line_or_map = surface.path
-    check_output(output)
-    check_not_an_input(output, line_or_map, "heights")
+    check_output(output, heights=line_or_map)
     options = {"until_fraction": until_fraction or 1.0}
     about = {"heights": printable_name(line_or_map)}
     if dimensions_of_heights(line_or_map) == 1:

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import click
 
-from viscorough.cli.options import FILE, check_not_an_input, check_opens, printable_name
+from viscorough.cli.files import check_opens, check_output, printable_name
+from viscorough.cli.options import FILE
 from viscorough.errors import AccuracyWarning
 
 _STEEP_SLOPE = 0.3  # rms slope above which the theory of small slopes is doubtful, so that users are warned
@@ -147,12 +148,10 @@ def read_indenter(surface, output):
 
     Raises ValueError for an output that cannot be written and for invalid heights; steep ones give an AccuracyWarning.
     """
-    from viscorough.io.atomic import check_output
     from viscorough.io.heights import read_heights
 
     path = surface.path
-    check_output(output)
-    check_not_an_input(output, path, "heights")
+    check_output(output, heights=path)
     if path.suffix == ".nc":
         check_opens(path)
     indenter = read_heights(path, surface.spacing, unit=surface.unit, channel=surface.channel, **surface.preparation)

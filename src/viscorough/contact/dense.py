@@ -21,7 +21,7 @@ ROUNDING = 1e-12
 _MAX_ITERATIONS = 100
 # The first set is without elements that touch in this last part of a step from the unloaded state, and less of smaller
 # steps: the load of those that touch before bends the surface away from them.
-_LATE = 0.5
+LATE = 0.5
 # A depth beyond all measure, finite because compiled loops may assume that numbers are.
 _NEVER = 1e300
 
@@ -79,7 +79,7 @@ def solve(elements, contact, depth, candidates, max_count):
 
     Only the `candidates` elements of lowest rank have an initial gap below the depth. As gaps are convex functions of
     the depth, only those of them can join the contact that overlap the surface after the step P + Δu q. The first set
-    consists of the last one and of those that do not touch late in the step (grid_solver).
+    consists of the last one and of those that do not touch late in the step (LATE).
     Raises ConvergenceError if the set still changes after the largest number of iterations.
     """
     if candidates > max_count and not 0 < contact.count < max_count:
@@ -89,7 +89,7 @@ def solve(elements, contact, depth, candidates, max_count):
     gap = deflection - contact.reduced_depth + elements.initial_gap[others]
     # Rounding must not decide: an element whose gap or pressure is zero to rounding keeps its state.
     overlap = -ROUNDING * depth
-    is_early = gap + depth_step * (1 - _LATE * depth_step / depth) * (rate - 1) < overlap
+    is_early = gap + depth_step * (1 - LATE * depth_step / depth) * (rate - 1) < overlap
     members = np.sort(np.append(contact.members, others[is_early]))
     possible = np.append(contact.members, others[gap + depth_step * (rate - 1) < overlap])
     for _ in range(_MAX_ITERATIONS):

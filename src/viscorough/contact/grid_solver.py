@@ -13,13 +13,11 @@ from dataclasses import replace
 import numpy as np
 
 from viscorough.contact.contact_search import ContactSearch
+from viscorough.contact.dense import LATE
 from viscorough.contact.grid_loops import GridLoops, field_to_fill
 from viscorough.contact.state import BoundedField, ContactState, GridFields
 from viscorough.contact.tangent_start import Loads, initial_tangent
 
-# Elements are not in the first set that would touch in the last part of the step, since the load of those that join
-# before bends the surface away from them: this share of a step from the unloaded state, and less of smaller steps.
-_LATE = 0.5
 # A box with more than this many times as many rows as columns is transposed: the operator works on blocks of columns,
 # which few columns do not fill.
 _TALL = 4
@@ -86,7 +84,7 @@ class GridSolver:
         """Pressure, e − g and contact set at a depth as predicted from GridFields at the last depth."""
         inner, precision, depth_step = self._search.inner, self._search.precision, depth - last_depth
         predicted = [field_to_fill(self.initial_gap.size, dtype, inner) for dtype in (precision, precision, bool)]
-        steps = [precision(step) for step in (depth_step, depth_step * (1 - _LATE * depth_step / depth))]
+        steps = [precision(step) for step in (depth_step, depth_step * (1 - LATE * depth_step / depth))]
         fields = before.pressure, before.tangent, before.gap_change.values, before.tangent_gap.values, self.initial_gap
         self._loops.predict(*(field[inner] for field in predicted), *steps, *(field[inner] for field in fields))
         rounding = before.gap_change.rounding + depth_step * before.tangent_gap.rounding

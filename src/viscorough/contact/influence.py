@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from viscorough.compilation import njit, vectorize
+from viscorough.compilation import njit
 
 # Beyond this distance (in sides of an element or of its parts) the series below is more accurate than the difference
 # of logarithms.
@@ -24,7 +24,8 @@ def influence_coefficient(row, column, aspect=1.0):
     Returns K [1] of the broadcast shape.
     """
     height, width, *parts = _sides_and_parts(aspect)
-    return _potential(row * height, column * width, *parts)
+    x, y = np.broadcast_arrays(row * height, column * width)
+    return _potentials(x.astype(float).ravel(), y.astype(float).ravel(), *parts).reshape(x.shape)
 
 
 def influence_table(row, column, aspect=1.0):
@@ -49,7 +50,16 @@ def _sides_and_parts(aspect):
     return height, width, height / parts[0], width / parts[1], *parts
 
 
-@vectorize("float64(float64, float64, float64, float64, float64, float64)")
+@njit
+def _potentials(x, y, part_length, part_width, parts_x, parts_y):
+    """`_potential` at pairs of x and y, shape (n,)."""
+    potentials = np.empty(x.size)
+    for i in range(x.size):
+        potentials[i] = _potential(x[i], y[i], part_length, part_width, parts_x, parts_y)
+    return potentials
+
+
+@njit
 def _potential(x, y, part_length, part_width, parts_x, parts_y):
     """∫∫ dA/r at (x, y) from the centre of a rectangle of area 1.
 

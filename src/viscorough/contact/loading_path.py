@@ -8,18 +8,17 @@ is straight, so that interpolation is exact. Later, levels are placed where inte
 
 import numpy as np
 
+from viscorough.arrays import increasing
 from viscorough.contact.dense import ROUNDING
 from viscorough.contact.options import DEFAULT
 from viscorough.contact.prescribed_force import ForceSearch
-from viscorough.contact.solver import ContactSolver, check_solvable, increasing
-from viscorough.contact.step_control import Level, StepControl, division
+from viscorough.contact.solver import ContactSolver, check_solvable
+from viscorough.contact.step_control import ContactsAhead, Level, StepControl, division
 from viscorough.loading_curve import LoadingCurve
 
 # The approach to the start fraction takes steps of this ratio of depths up to this share of it; they become shorter
 # until their ratio is the last number.
 _APPROACH_DEPTH_RATIO, _APPROACH_SHARE, _APPROACH_MIN_RATIO = 4.0, 0.7, 1.02
-# Contacts that are kept at larger depths than the last level, the nearest ones; each takes the memory of its fields.
-_MOST_AHEAD = 2
 # Exponent of the share of the contact, or of the force, in the estimated share of the computation.
 _PROGRESS_EXPONENT = 0.5
 
@@ -72,18 +71,15 @@ def indent(
         raise ValueError(f"indent: start_fraction must be from 0 to below until_fraction, not {start_fraction!r}")
     if not until_force > 0:
         raise ValueError(f"indent: until_force must be positive, not {until_force!r}")
-    if depths is not None:
-        depths = increasing("indent: depths", depths)
-    if forces is not None:
-        forces = increasing("indent: forces", forces)
     progress = progress or (lambda done: None)
     if depths is not None:
+        depths = increasing("indent: depths", np.atleast_1d(depths), above_zero=True)
         solver = ContactSolver(indenter, tolerance, options, threads, largest_depth=depths[-1])
         levels = _levels_at_depths(solver, depths, progress)
     elif forces is not None:
-        solver = ContactSolver(
-            indenter, tolerance / 2, options, threads
-        )  # the correction to the force takes the other half
+        forces = increasing("indent: forces", np.atleast_1d(forces), above_zero=True)
+        # The correction to the force takes the other half of the tolerance.
+        solver = ContactSolver(indenter, tolerance / 2, options, threads)
         levels = _levels_at_forces(solver, forces, progress)
     else:
         solver = ContactSolver(indenter, tolerance, options, threads)
@@ -132,7 +128,7 @@ class _LoadingPath:
         self._until_pressure_sum = (1 + ROUNDING) * until_force / solver.units.force
         self._contact = solver.first_contact()
         self._levels = [Level.of(self._contact)]
-        self._ahead = []  # contacts already solved at larger depths, the nearest one last
+        self._ahead = ContactsAhead()
 
     def levels_from(self, start_fraction):
         """All levels; only a few of them below the start fraction."""
@@ -157,8 +153,7 @@ class _LoadingPath:
             contact = self._solver.advance_reduced(self._contact, self._contact.reduced_depth * ratio)
             # A contact beyond the start is kept for later: the interval that contains the start must be a short one.
             if contact.count >= start_count or contact.pressure_sum > self._until_pressure_sum:
-                self._ahead.append(contact)
-                del self._ahead[:-_MOST_AHEAD]
+                self._ahead.keep(contact)
             else:
                 self._add(contact)
             if self._ahead:  # then levels approach the nearest of these contacts
@@ -176,7 +171,7 @@ class _LoadingPath:
             self._levels.pop()  # more elements touch at exactly that depth
         self._levels += [Level(*event) for event in zip(*columns, strict=True)]
         nearest = self._control.min_ratio * self._contact.reduced_depth
-        self._ahead = [contact for contact in self._ahead if contact.reduced_depth > nearest]
+        self._ahead = ContactsAhead(contact for contact in self._ahead if contact.reduced_depth > nearest)
 
     def _step_to_the_end(self):
         ratio = self._control.first_ratio(self._levels)
@@ -187,8 +182,7 @@ class _LoadingPath:
             excess = self._control.excess(self._contact, self._ahead[-1])
             if self._control.is_too_long(step, excess):
                 divided = division(Level.of(self._contact), Level.of(self._ahead[-1]))
-                self._ahead.append(self._solver.advance_reduced(self._contact, divided))
-                del self._ahead[:-_MOST_AHEAD]
+                self._ahead.keep(self._solver.advance_reduced(self._contact, divided))
                 continue
             self._add(self._ahead.pop())
             ratio = self._control.next_ratio(step, excess)

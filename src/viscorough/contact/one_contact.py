@@ -2,9 +2,10 @@
 
 import numpy as np
 
+from viscorough.arrays import increasing
 from viscorough.contact.options import DEFAULT
 from viscorough.contact.prescribed_force import ForceSearch
-from viscorough.contact.solver import ContactSolver, check_solvable, increasing
+from viscorough.contact.solver import ContactSolver, check_solvable
 from viscorough.contact_maps import Contact
 
 _SHARE_OF_APPROACH = 0.6  # of the time for a force, which the contacts up to it take
@@ -33,17 +34,17 @@ def contact_at(indenter, *, depth=None, force=None, tolerance=1e-3, progress=Non
     if (depth is None) == (force is None):
         raise ValueError("contact_at: either depth or force must be given")
     by_depth = force is None
-    values = increasing(f"contact_at: {'depth' if by_depth else 'force'}", depth if by_depth else force)
+    given = depth if by_depth else force
+    values = increasing(f"contact_at: {'depth' if by_depth else 'force'}", np.atleast_1d(given), above_zero=True)
     # Pressures that add up to the force exactly take the other half of the tolerance.
     solver = ContactSolver(indenter, tolerance / 2, options, threads)
     progress = progress or (lambda done: None)
     states = _states_at_depths(solver, values) if by_depth else _states_at_forces(solver, values, progress)
     contacts = []
-    for state, value in zip(states, values, strict=True):
-        given = {"depth": float(value)} if by_depth else {"force": float(value)}
-        contacts.append(_contact(indenter, tolerance, solver, state, **given))
+    for state, value in zip(states, values.tolist(), strict=True):
+        contacts.append(_contact(indenter, tolerance, solver, state, {"depth" if by_depth else "force": value}))
         progress(len(contacts) / values.size)
-    return contacts if np.ndim(force if depth is None else depth) else contacts[0]
+    return contacts if np.ndim(given) else contacts[0]
 
 
 def _states_at_depths(solver, depths):
@@ -62,7 +63,7 @@ def _states_at_forces(solver, forces, progress):
         )
 
 
-def _contact(indenter, tolerance, solver, state, **given):
+def _contact(indenter, tolerance, solver, state, given):
     """The Contact of a ContactState, with the depth or force that was given instead of its rounded value."""
     place = solver.elements.map_place
     pressure, gap = np.full((2, *indenter.heights.shape), np.nan)

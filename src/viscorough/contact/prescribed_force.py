@@ -9,14 +9,12 @@ The last, small correction follows the tangent.
 import numpy as np
 
 from viscorough.contact.dense import ROUNDING
-from viscorough.contact.step_control import Level, interpolate
+from viscorough.contact.step_control import ContactsAhead, Level, interpolate
 from viscorough.errors import ConvergenceError
 
 # Largest ratio of successive depths before the force is exceeded.
 _MAX_DEPTH_RATIO = 4.0
 _MAX_ATTEMPTS = 100
-# Contacts that are kept beyond the force, the nearest ones; each takes the memory of its fields.
-_MOST_ABOVE = 2
 _TINY = 1e-300
 
 
@@ -26,7 +24,7 @@ class ForceSearch:
     def __init__(self, solver):
         self._solver = solver
         self._first = self._below = solver.first_contact()
-        self._above = []  # contacts at larger forces, the nearest one last
+        self._above = ContactsAhead()
 
     def contact_at(self, force, progress=lambda share: None):
         """The ContactState at F/G [length²], a larger one than at the last call.
@@ -52,8 +50,7 @@ class ForceSearch:
             if contact.pressure_sum <= target:
                 self._below = contact
             else:
-                self._above.append(contact)
-                del self._above[:-_MOST_ABOVE]
+                self._above.keep(contact)
             if self._is_near(contact, other, target):
                 depth = contact.reduced_depth + (target - contact.pressure_sum) / contact.tangent_sum
                 settled = self._solver.settled(contact, depth, target)

@@ -39,16 +39,6 @@ def check_solvable(name, indenter, tolerance, threads=1):
     require_threads(name, threads)
 
 
-def increasing(name, values):
-    """Depths or forces as an array. Raises ValueError, which starts with the name, unless positive and increasing."""
-    values = np.atleast_1d(np.asarray(values, dtype=float))
-    if values.ndim != 1 or values.size == 0 or not np.all(np.isfinite(values)):
-        raise ValueError(f"{name} must be a list of finite numbers")
-    if values[0] <= 0 or np.any(np.diff(values) <= 0):
-        raise ValueError(f"{name} must be positive and strictly increasing")
-    return values
-
-
 class ContactSolver:
     """Solves the contact of one indenter at increasing depths, to a residual of `tolerance` times the depth.
 

@@ -36,6 +36,7 @@ _NEGLIGIBLE_BOUND = 0.15
 # Smallest share of an interval's force at which the bound is evaluated: the logarithm of the force must not overflow.
 _SMALLEST_SHARE = 1e-3
 _TINY = 1e-30
+_MOST_AHEAD = 2
 
 
 @dataclass(frozen=True)
@@ -52,6 +53,15 @@ class Level:
     def of(cls, contact):
         """The level of a contact."""
         return cls(contact.reduced_depth, contact.pressure_sum, contact.tangent_sum, contact.count, contact.residual)
+
+
+class ContactsAhead(list):
+    """Contacts already solved beyond the one that is wanted, the nearest last; few, as each takes memory."""
+
+    def keep(self, contact):
+        """Add a contact nearer than all others."""
+        self.append(contact)
+        del self[:-_MOST_AHEAD]
 
 
 class StepControl:

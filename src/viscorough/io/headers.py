@@ -107,37 +107,31 @@ def read_header(lines, shape, delimiter, decimal):
                 f"header {line!r}: of which lengths is not stated; 'x units', 'y units', 'z units' are allowed"
             )
 
-    def unit_among(*roles, more=()):
+    def unit_among(*roles, of_column=""):
         texts = [_unit_text(value) for role in roles for _, _, value in stated[role]]
-        return _agreed([text for text in [*texts, *more] if not units.counts_points(text)])
+        return _agreed([text for text in [*texts, of_column] if not units.counts_points(text)])
 
     factor, unit = 1.0, ""
     for line, bracket, value in stated["factor"]:
-        ((factor, _), *_), unit = _lengths(line, "", value, comma), bracket.replace("->", "").strip()
-    own = unit_among("unit z", more=[units_of_columns[name] for name in "z" if units_of_columns.get(name)])
-    general = unit_among("unit")
-    in_points = [units.counts_points(units_of_columns.get(axis, "")) for axis in "xy"]
+        factor, unit = _lengths(line, "", value, comma)[0][0], bracket.replace("->", "").strip()
+    own, general = unit_among("unit z", of_column=units_of_columns.get("z", "")), unit_among("unit")
+    of_positions = [units_of_columns.get(axis, "") for axis in "xy"]
     lateral = [
-        unit_among(f"unit {axis}", "unit xy", more=[text for text in [units_of_columns.get(axis)] if text])
-        for axis in "xy"
+        unit_among(f"unit {axis}", "unit xy", of_column=text) for axis, text in zip("xy", of_positions, strict=True)
     ]
     spacing, spacing_unit = _spacing(stated, shape, lateral, comma)
     different = lateral[0] != lateral[1] and ("" in lateral or units.metres(lateral[0]) != units.metres(lateral[1]))
     if different and spacing is None:
         raise ValueError(f"x is in {lateral[0] or 'no unit'}, y in {lateral[1] or 'no unit'}; one unit is needed")
-    lateral_unit = "px" if any(in_points) else lateral[0] or "1"
+    lateral_unit = "px" if any(map(units.counts_points, of_positions)) else lateral[0] or "1"
     return Header(spacing, spacing_unit, lateral_unit, unit or own or general or "1", factor, columns)
 
 
 def _has_unit_of_unknown_meaning(line, value):
     """Whether a statement gives a unit of length to something unknown, such as "foo units: um"."""
-    key = re.split(r"[:=]", line)[0].lower()
-    if not re.search(r"(?:units?|einheit(?:en)?|unités?)\W*$", key):
-        return False
-    try:
-        return not units.counts_points(_unit_text(value)) and bool(units.length_unit(_unit_text(value)))
-    except ValueError:
-        return False
+    key, unit = re.split(r"[:=]", line)[0].lower(), _unit_text(value)
+    is_unit = re.search(r"(?:units?|einheit(?:en)?|unités?)\W*$", key) and not units.counts_points(unit)
+    return bool(is_unit) and _is_unit(unit)
 
 
 def _statements(lines):

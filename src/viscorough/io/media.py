@@ -10,29 +10,21 @@ from viscorough import units
 from viscorough.io.atomic import check_readable, reason
 from viscorough.io.columns import read_columns
 from viscorough.io.unique_keys import UniqueKeys
-from viscorough.viscous.media import (
-    CreepTable,
-    KelvinVoigt,
-    Maxwell,
-    Newtonian,
-    Prony,
-    Springpot,
-    StandardLinearSolid,
-)
+from viscorough.viscous import media
 
 MODULUS, VISCOSITY, TIME, PLAIN = "Pa", "Pa s", "s", ""
 # Kinds of media, and their keys with the units that numbers in them may have. The keys are fields of the class.
 KINDS = {
-    "newtonian": (Newtonian, {"viscosity": VISCOSITY}),
-    "maxwell": (Maxwell, {"shear_modulus": MODULUS, "viscosity": VISCOSITY}),
-    "kelvin_voigt": (KelvinVoigt, {"shear_modulus": MODULUS, "viscosity": VISCOSITY}),
+    "newtonian": (media.Newtonian, {"viscosity": VISCOSITY}),
+    "maxwell": (media.Maxwell, {"shear_modulus": MODULUS, "viscosity": VISCOSITY}),
+    "kelvin_voigt": (media.KelvinVoigt, {"shear_modulus": MODULUS, "viscosity": VISCOSITY}),
     "standard_linear_solid": (
-        StandardLinearSolid,
+        media.StandardLinearSolid,
         {"instantaneous_modulus": MODULUS, "relaxed_modulus": MODULUS, "relaxation_time": TIME},
     ),
-    "prony": (Prony, {"relaxed_modulus": MODULUS, "moduli": MODULUS, "relaxation_times": TIME}),
-    "springpot": (Springpot, {"modulus": PLAIN, "exponent": PLAIN}),
-    "creep_table": (CreepTable, {"file": None}),
+    "prony": (media.Prony, {"relaxed_modulus": MODULUS, "moduli": MODULUS, "relaxation_times": TIME}),
+    "springpot": (media.Springpot, {"modulus": PLAIN, "exponent": PLAIN}),
+    "creep_table": (media.CreepTable, {"file": None}),
 }
 _MODULI = {"viscosity", "shear_modulus", "instantaneous_modulus", "relaxed_modulus", "moduli", "modulus"}
 _LARGEST_FILE = 1_000_000  # bytes
@@ -70,7 +62,7 @@ def medium_from_mapping(mapping, length_unit="1", *, folder=Path()):
         raise ValueError(f"unknown key {_shown(unknown[0])}; allowed for {kind}: {', '.join(keys)}")
     if missing := [key for key in keys if key not in mapping]:
         raise ValueError(f"lacks {', '.join(missing)}; {kind} needs {', '.join(keys)}")
-    if make is CreepTable:
+    if make is media.CreepTable:
         medium = _table(folder, mapping["file"], length_unit)
     else:
         medium = make(**{key: _values(key, mapping[key], keys[key], length_unit) for key in keys})
@@ -81,8 +73,8 @@ def scaled(medium, factor):
     """The medium with its moduli and viscosities multiplied by a factor, as to other units of length."""
     if factor == 1:
         return medium
-    if isinstance(medium, CreepTable):
-        return CreepTable(medium.times, medium.compliances / factor)
+    if isinstance(medium, media.CreepTable):
+        return media.CreepTable(medium.times, medium.compliances / factor)
     changed = {}
     for field in dataclasses.fields(medium):
         value = getattr(medium, field.name)
@@ -91,9 +83,7 @@ def scaled(medium, factor):
     return dataclasses.replace(medium, **changed)
 
 
-class _Loader(UniqueKeys):
-    """YAML without anchors."""
-
+class _WithoutAliases(UniqueKeys):
     def compose_node(self, parent, index):
         if self.check_event(yaml.AliasEvent):
             raise yaml.YAMLError("aliases are not allowed")
@@ -106,7 +96,7 @@ def _mapping(path):
     try:
         if Path(path).stat().st_size > _LARGEST_FILE:
             raise ValueError("it is too large")
-        content = yaml.load(Path(path).read_bytes(), Loader=_Loader)
+        content = yaml.load(Path(path).read_bytes(), Loader=_WithoutAliases)
     except (OSError, ValueError, yaml.YAMLError, RecursionError, AttributeError, TypeError, LookupError) as error:
         raise ValueError(f"{path}: not readable ({reason(error)[:200]}); {wanted}") from error
     if not isinstance(content, dict):
@@ -136,7 +126,7 @@ def _table(folder, name, length_unit):
     if not isinstance(name, str) or not name or "\0" in name:
         raise ValueError(f"file: {_shown(name)}; allowed: the name of a .csv or .npy file")
     columns = {"time": TIME, "compliance": "1/Pa"}
-    return CreepTable(*read_columns(folder / name, "a creep table", columns, length_unit))
+    return media.CreepTable(*read_columns(folder / name, "a creep table", columns, length_unit))
 
 
 def _shown(value):

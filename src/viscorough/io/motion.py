@@ -5,6 +5,7 @@ import numpy as np
 from viscorough.io.columns import read_columns
 from viscorough.io.curves import level_attributes
 from viscorough.io.netcdf import Content, Variable
+from viscorough.viscous.correspondence import impulses
 
 
 def with_motion(content, time, velocity):
@@ -19,12 +20,29 @@ def with_motion(content, time, velocity):
 
 def _with_time_and_velocity(content, time, velocity):
     unit = content.variables["depth"].attributes.get("units", "1")
-    unit = "s-1" if unit == "1" else f"{unit} s-1"
-    added = {
-        "time": Variable(("level",), time, {"long_name": "time since the force was applied", "units": "s"}),
-        "velocity": Variable(("level",), velocity, {"long_name": "velocity of penetration du/dt", "units": unit}),
-    }
+    added = {"time": _time(time), "velocity": _over_levels(velocity, "velocity of penetration du/dt", _per_time(unit))}
     return Content(content.variables | added, content.attributes)
+
+
+def _over_levels(values, long_name, unit):
+    return Variable(("level",), values, {"long_name": long_name, "units": unit})
+
+
+def _time(values):
+    return _over_levels(values, "time since the force was applied", "s")
+
+
+def _force(values, length_unit):
+    return _over_levels(values, "force F at that time", "1" if length_unit == "1" else "N")
+
+
+def _per_time(unit):
+    return "s-1" if unit == "1" else f"{unit} s-1"
+
+
+def _of_levels(length_unit, **values):
+    """Variables of curves.OVER_LEVELS."""
+    return {name: Variable(("level",), array, level_attributes(name, length_unit)) for name, array in values.items()}
 
 
 def integration_to_content(integration, force_per_viscosity):
@@ -32,14 +50,10 @@ def integration_to_content(integration, force_per_viscosity):
 
     force_per_viscosity : F/η; the time is the impulse over the viscosity, divided by it
     """
-    variables = {
-        name: Variable(("level",), getattr(integration, name), level_attributes(name, integration.length_unit))
-        for name in ("depth", "contact_count")
-    }
-    overlap = {"long_name": "largest overlap of indenter and surface, over depth", "units": "1"}
-    variables["overlap"] = Variable(
-        ("level",), getattr(integration, "overlap", np.zeros_like(integration.depth)), overlap
-    )
+    depth, count = integration.depth, integration.contact_count
+    variables = _of_levels(integration.length_unit, depth=depth, contact_count=count)
+    overlap = getattr(integration, "overlap", np.zeros_like(depth))
+    variables["overlap"] = _over_levels(overlap, "largest overlap of indenter and surface, over depth", "1")
     content = Content(variables, {"title": "Penetration of a rigid indenter, integrated directly in time"})
     return with_motion(content, integration.impulse / force_per_viscosity, force_per_viscosity / integration.resistance)
 
@@ -64,17 +78,8 @@ def integration_under_history(integration, history, viscosity):
     else:
         i = np.searchsorted(integration.impulse, reached * (1 - 1e-12))
         depth = np.where(reached > 0, integration.depth[i], 0.0)
-    variables = {
-        "depth": Variable(("level",), depth, level_attributes("depth", length_unit)),
-        "contact_count": Variable(
-            ("level",), integration.contact_count[i], level_attributes("contact_count", length_unit)
-        ),
-        "force": Variable(
-            ("level",),
-            history.force,
-            {"long_name": "force F at that time", "units": "1" if length_unit == "1" else "N"},
-        ),
-    }
+    variables = _of_levels(length_unit, depth=depth, contact_count=integration.contact_count[i])
+    variables["force"] = _force(history.force, length_unit)
     title = "Penetration of a rigid indenter under a force history, integrated directly in time"
     velocity = history.force / (viscosity * integration.resistance[i])
     return with_motion(Content(variables, {"title": title}), history.times, velocity)
@@ -83,48 +88,31 @@ def integration_under_history(integration, history, viscosity):
 def medium_motion_to_content(motion):
     """A direct integration in a viscoelastic medium as a Content over its times.
 
-    motion : viscous.internal_variables.MediumMotion or viscous.internal_variable_events.MediumEvents
+    motion : viscous.internal_variables.MediumMotion
     """
-    force_unit = "1" if motion.length_unit == "1" else "N"
-    variables = {
-        "time": Variable(("level",), motion.time, {"long_name": "time since the force was applied", "units": "s"}),
-        "depth": Variable(("level",), motion.depth, level_attributes("depth", motion.length_unit)),
-        "force": Variable(("level",), motion.force, {"long_name": "force F at that time", "units": force_unit}),
-        "contact_count": Variable(
-            ("level",), motion.contact_count, level_attributes("contact_count", motion.length_unit)
-        ),
-    }
-    attributes = {
-        "title": "Penetration of a rigid indenter into a viscoelastic half-space, integrated directly in time"
-    }
-    receding = getattr(motion, "receding_from", np.nan)
-    if np.isfinite(receding):
-        attributes["receding_from"] = float(receding)
-        attributes["comment"] = (
-            "From the time receding_from on the contact recedes; no elastic contact corresponds to it."
-        )
+    unit = motion.length_unit
+    variables = {"time": _time(motion.time), **_of_levels(unit, depth=motion.depth)}
+    variables |= {"force": _force(motion.force, unit), **_of_levels(unit, contact_count=motion.contact_count)}
+    title = "Penetration of a rigid indenter into a viscoelastic half-space, integrated directly in time"
+    attributes = {"title": title}
+    if np.isfinite(motion.receding_from):
+        text = "From the time receding_from on the contact recedes; no elastic contact corresponds to it."
+        attributes |= {"receding_from": motion.receding_from, "comment": text}
     return Content(variables, attributes)
 
 
 def estimate_to_content(estimate, length_unit="1"):
     """An estimates.Estimate as a Content; values are nan at times at which the law does not hold."""
-    velocity_unit = "s-1" if length_unit == "1" else f"{length_unit} s-1"
-    described = {
-        "time": ("time since the force was applied", "s"),
-        "x": ("dimensionless force X = F J(t)/(4 h L)", "1"),
-        **{
-            f"{name}{end}": (f"{text}{meaning}", unit)
-            for name, text, unit in (
-                ("depth", "depth of penetration u", length_unit),
-                ("velocity", "velocity of penetration du/dt", velocity_unit),
-            )
-            for end, meaning in {"": "", "_low": ", lower end of 95 %", "_high": ", upper end of 95 %"}.items()
-        },
-    }
     variables = {
-        name: Variable(("level",), getattr(estimate, name), {"long_name": text, "units": unit})
-        for name, (text, unit) in described.items()
+        "time": _time(estimate.time),
+        "x": _over_levels(estimate.x, "dimensionless force X = F J(t)/(4 h L)", "1"),
     }
+    for name, text, unit in (
+        ("depth", "depth of penetration u", length_unit),
+        ("velocity", "velocity of penetration du/dt", _per_time(length_unit)),
+    ):
+        for end, meaning in {"": "", "_low": ", lower end of 95 %", "_high": ", upper end of 95 %"}.items():
+            variables[name + end] = _over_levels(getattr(estimate, name + end), text + meaning, unit)
     return Content(variables, {"title": "Penetration of a self-affine indenter by the calibrated law, no simulation"})
 
 
@@ -139,16 +127,21 @@ def read_force_history(path, length_unit="1"):
     return read_columns(path, "a force history", {"time": "s", "force": "N"}, length_unit)
 
 
+def force_history_in(path, length_unit="1"):
+    """The ForceHistory in a file, as of `read_force_history`. Raises a one-line ValueError if it holds none."""
+    times, force = read_force_history(path, length_unit)
+    try:
+        return impulses(force, times)
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from error
+
+
 def kinetics_to_content(motion, force, length_unit="1"):
     """A viscous.correspondence.Kinetics as a Content over its times; `force` is F there, or a constant.
 
     Where a depth is undetermined (before the curve's first level) or a velocity infinite, the value is missing.
     """
     force = np.broadcast_to(np.asarray(force, dtype=float), motion.time.shape)
-    unit = "1" if length_unit == "1" else "N"
-    variables = {
-        "depth": Variable(("level",), motion.depth, level_attributes("depth", length_unit)),
-        "force": Variable(("level",), force, {"long_name": "force F at that time", "units": unit}),
-    }
+    variables = _of_levels(length_unit, depth=motion.depth) | {"force": _force(force, length_unit)}
     velocity = np.where(np.isinf(motion.velocity), np.nan, motion.velocity)
     return _with_time_and_velocity(Content(variables, {}), motion.time, velocity)

@@ -8,7 +8,6 @@ and nothing is left out but comments.
 
 import io
 import re
-from typing import NamedTuple
 
 import numpy as np
 
@@ -39,13 +38,6 @@ _ESRI_KEY = re.compile(
 _LEAST_LABELS = 6  # evenly spaced numbers that are taken for positions rather than heights
 
 
-class _Rows(NamedTuple):
-    """Rows of a table: the numbers of their lines in the file, and the lines without comments."""
-
-    numbers: list
-    lines: list
-
-
 def read_text(path):
     """The Scan in a text file. Raises a one-line ValueError if it holds no map of heights, or none for certain."""
     text = _decoded(path)
@@ -60,12 +52,13 @@ def read_text(path):
         raise ValueError(f"no row of numbers{''.join(almost[:1])}; a matrix of heights, or columns x, y, z, is needed")
     rows, comments, separated = _rows(lines, first)
     delimiter, decimal = _punctuation(rows)
-    if (above := _first_row_without_points(lines, first, delimiter, rows.lines[0])) < first:
+    cells = next(iter(rows.values())).split(delimiter)
+    if (above := _first_row_without_points(lines, first, delimiter, len(cells))) < first:
         first = above
         rows, comments, separated = _rows(lines, first, delimiter == ";")
     table = _table(rows, delimiter, decimal)
     esri = _esri(lines[:first])
-    _check_above(lines[:first], delimiter, {table.shape[1], len(rows.lines[0].split(delimiter))}, esri)
+    _check_above(lines[:first], delimiter, {table.shape[1], len(cells)}, esri)
     if esri:
         return _esri_scan(table, esri)
     header = read_header([*lines[:first], *comments], table.shape, delimiter, decimal)
@@ -127,9 +120,9 @@ def _is_row(line):
     return all(_FIELD.fullmatch(part) for cell in cells for part in cell.split(","))
 
 
-def _first_row_without_points(lines, first, delimiter, row):
+def _first_row_without_points(lines, first, delimiter, wanted):
     """Number of the first of the rows just above `first` in which every point is missing; `first` if there is none."""
-    wanted, missing = len(row.split(delimiter)), re.compile(f"(?:{_MISSING})?", re.IGNORECASE)
+    missing = re.compile(f"(?:{_MISSING})?", re.IGNORECASE)
     for number in range(first - 1, -1, -1):
         line = _REMARK.sub("", lines[number]).strip(" ")
         cells = [cell.strip(' "') for cell in line.split(delimiter)]
@@ -141,42 +134,42 @@ def _first_row_without_points(lines, first, delimiter, row):
 
 
 def _rows(lines, first, has_semicolons=None):
-    """(_Rows, comments beside and below them, line of the first row that empty lines separate from those above, or 0).
+    """({number of a line: row}, comments, line of the first row that empty lines separate from those above, or 0).
 
-    Empty lines separate nothing where there are as many above every row.
+    Comments beside rows are removed from them; those that are returned have lines of their own. Empty lines separate
+    nothing where there are as many above every row.
 
     Raises ValueError for a comment between rows that states something, as between two maps.
     """
     has_semicolons = ";" in lines[first] if has_semicolons is None else has_semicolons
     has_tabs = "\t" in lines[first].strip(" ")
     starts_row = (";",) * has_semicolons + ("\t",) * has_tabs
-    numbers, kept, comments, between = [], [], [], []
+    rows, comments = {}, {}
     empty = [0]  # number of empty lines above each row, and below the last one
     for number, line in enumerate(lines[first:], first + 1):
         if not line.strip(" ") or (not line.strip() and not has_tabs):
             empty[-1] += 1
         elif _COMMENT.match(line) and not line.lstrip(" ").startswith(starts_row):
-            comments.append(line)
-            between.append((number, len(numbers)))
+            comments[number] = line
         else:
-            numbers.append(number)
-            kept.append(line)
+            line = _REMARK.sub("", line) if "#" in line or "%" in line else line
+            rows[number] = (_without_quotes(number, line) if '"' in line else line).strip(" ")
             empty.append(0)
-    kept = [_REMARK.sub("", line) if "#" in line or "%" in line else line for line in kept]
-    kept = [_without_quotes(number, line) if '"' in line else line for number, line in zip(numbers, kept, strict=True)]
-    for (number, before), comment in zip(between, comments, strict=True):
-        if before < len(numbers) and states(comment):
+    last, least = max(rows), min(empty[1:-1], default=0)
+    for number, comment in comments.items():
+        if number < last and states(comment):
             raise ValueError(f"line {number} ({comment[:40]!r}) stands between rows; one map is needed")
-    separated = [number for number, above in zip(numbers[1:], empty[1:], strict=False) if above != min(empty[1:-1])]
-    return _Rows(numbers, [line.strip(" ") for line in kept]), comments, separated[0] if separated else 0
+    following = zip([*rows][1:], empty[1:], strict=False)
+    separated = next((number for number, above in following if above != least), 0)
+    return rows, [*comments.values()], separated
 
 
 def _punctuation(rows):
     """(delimiter, decimal mark) of rows; the delimiter is None for white space. Raises ValueError if not certain."""
-    body = "\n".join(rows.lines)
+    body = "\n".join(rows.values())
     comma, point = "," in body, "." in body
     delimiter = ";" if ";" in body else "\t" if "\t" in body else None
-    where = f"line {rows.numbers[0]} ({rows.lines[0][:40]!r})"
+    where = next(f"line {number} ({line[:40]!r})" for number, line in rows.items())
     if delimiter is not None:
         if comma and point:
             raise ValueError(f"{where}: decimal points and decimal commas; one of them is needed")
@@ -194,7 +187,7 @@ def _punctuation(rows):
         raise ValueError(f"{where}: commas with and without spaces; decimal points, or semicolons, are needed")
     if tight and parted:
         return None, ","
-    if tight and (re.search(r"(?<!\d)0\d", body) or all(line.count(",") == 1 for line in rows.lines)):
+    if tight and (re.search(r"(?<!\d)0\d", body) or all(line.count(",") == 1 for line in rows.values())):
         readings = "one column with decimal commas, or columns of whole numbers"
         raise ValueError(f"{where}: {readings}; decimal points, or semicolons, are needed")
     return ",", "."
@@ -213,7 +206,7 @@ def _without_quotes(number, line):
 
 def _table(rows, delimiter, decimal):
     """The rows as an array of two dimensions; missing values are nan. Raises ValueError that names the line."""
-    text = "\n".join(rows.lines)
+    text = "\n".join(rows.values())
     if decimal == ",":
         text = text.replace(",", ".")
     odd = text.encode(errors="replace").translate(None, _PLAIN)
@@ -228,7 +221,7 @@ def _table(rows, delimiter, decimal):
         with np.errstate(over="ignore"):
             return np.loadtxt(io.StringIO(text), delimiter=delimiter, ndmin=2, comments=None)
     except ValueError as error:
-        raise ValueError(_fault(rows.numbers, text.split("\n"), delimiter) or reason(error)) from error
+        raise ValueError(_fault([*rows], text.split("\n"), delimiter) or reason(error)) from error
 
 
 def _fill_empty_cells(text, delimiter):

@@ -25,8 +25,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from viscorough.arrays import keep_read_only, read_only
-from viscorough.summaries import html_table, span
+from viscorough.arrays import ReadOnlyArrays, increasing, read_only, samples
+from viscorough.summaries import Summarised, span
 from viscorough.viscous.creep_response import creep_response
 from viscorough.viscous.media import Newtonian, medium_of
 from viscorough.viscous.spectra import zero_of_increasing
@@ -36,7 +36,7 @@ _ROUNDING = 1e-10  # relative; the rounding error of an impulse summed over a mi
 
 
 @dataclass(frozen=True)
-class Kinetics:
+class Kinetics(ReadOnlyArrays, Summarised):
     """Penetration over time; read-only arrays of shape (times,), in the units of curve, force and viscosity.
 
     time : t
@@ -48,21 +48,10 @@ class Kinetics:
     depth: np.ndarray
     velocity: np.ndarray
 
-    def __post_init__(self):
-        keep_read_only(self)
-
-    def __str__(self):
-        title, *rows = self._summary()
-        return "\n".join([title, *(f"{name} {text}" for name, text in rows)])
-
-    def _repr_html_(self):
-        title, *rows = self._summary()
-        return html_table(title, rows)
-
     def _summary(self):
-        """A title, and (quantity, its first and last value)."""
-        motion = ("depth u", span(self.depth)), ("velocity v", span(self.velocity))
-        return f"Penetration at {self.time.size} times", ("time t", span(self.time)), *motion
+        """What it is; the first and last time, depth and velocity."""
+        spans = ("time t", self.time), ("depth u", self.depth), ("velocity v", self.velocity)
+        return f"Penetration at {self.time.size} times", *([(name, span(values))] for name, values in spans)
 
 
 class ForceHistory(NamedTuple):
@@ -185,7 +174,7 @@ def resampled(force, times):
         return history, np.arange(history.times.size)
     if times is force.times:
         return force, np.arange(force.times.size)
-    times = _increasing(times)
+    times = increasing("times", times)
     if times[0] < force.times[0] or times[-1] > force.times[-1]:
         raise ValueError(
             f"times: from {times[0]:g} to {times[-1]:g}; allowed: within those of the force history, "
@@ -208,42 +197,15 @@ def impulses(force, times):
     correspondence excludes.
     """
     constant = np.ndim(force) == 0
-    times = _increasing(times, twice=not constant)
+    times = increasing("times", times, steps=None if constant else "the force")
     if constant:
         if times[0] < 0:
             raise ValueError(f"times: start at {times[0]:g}; allowed: from 0 on, where a constant force begins")
         force, impulse = np.full(times.shape, float(force)), force * times
     else:
-        force = _samples(force, times)
+        force = samples("force", force, times, " (without adhesion a pull opens the contact)")
         impulse = np.append(0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(times)))
     return ForceHistory(*map(read_only, (times, force, impulse)))
-
-
-def _increasing(times, *, twice=False):
-    """The times as an array. Raises ValueError unless they increase; with `twice`, two at a time may be equal."""
-    times = read_only(times)
-    allowed = "one row of finite numbers, each larger than the one before"
-    if times.dtype.kind not in "iuf":
-        raise ValueError(f"times: allowed is {allowed}")
-    times = times.astype(float)
-    if times.ndim == 1 and times.size > 0 and np.isfinite(times).all():
-        steps = np.diff(times)
-        if (steps > 0).all() or (twice and (steps >= 0).all() and (steps[1:] + steps[:-1] > 0).all()):
-            return times
-    raise ValueError(f"times: allowed is {allowed}{', or given twice where the force steps' if twice else ''}")
-
-
-def _samples(force, times):
-    force = read_only(force).astype(float)
-    if force.shape != times.shape:
-        raise ValueError(f"force: samples of shape {force.shape}; allowed: one per time, shape {times.shape}")
-    if not (np.isfinite(force) & (force >= 0)).all():
-        where = int(np.argmin(np.isfinite(force) & (force >= 0)))
-        raise ValueError(
-            f"force: sample {where} is {force[where]}; "
-            "allowed: finite, 0 or more (without adhesion a pull opens the contact)"
-        )
-    return force
 
 
 def _at_impulse(curve, elastic_force, viscosity):

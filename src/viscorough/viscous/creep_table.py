@@ -5,13 +5,13 @@ from functools import cached_property
 
 import numpy as np
 
-from viscorough.arrays import keep_read_only
+from viscorough.arrays import ReadOnlyArrays, read_only
 
 _ROUNDING = 1e-9  # relative; slopes of tables with ten digits may increase by as much
 
 
 @dataclass(frozen=True)
-class CreepTable:
+class CreepTable(ReadOnlyArrays):
     """A measured creep compliance, linear between its points.
 
     times : 0 and increasing; compliances : J at these times, J(0+) first; arrays of shape (points,), copied
@@ -25,22 +25,19 @@ class CreepTable:
     compliances: np.ndarray
 
     def __post_init__(self):
-        keep_read_only(self)
+        super().__post_init__()
         times, values = self.times, self.compliances
         if times.ndim != 1 or times.shape != values.shape or times.size < 2:
             raise ValueError(
                 f"CreepTable: shapes {times.shape} and {values.shape}; allowed: two rows of equal length, 2+"
             )
-        if times.dtype.kind not in "iuf" or values.dtype.kind not in "iuf":
-            raise ValueError("CreepTable: allowed are real numbers")
-        if not (np.isfinite(times).all() and np.isfinite(values).all()):
-            raise ValueError("CreepTable: allowed are finite numbers")
+        if not all(array.dtype.kind in "iuf" and np.isfinite(array).all() for array in (times, values)):
+            raise ValueError("CreepTable: allowed are finite real numbers")
         for name, array in (("times", times), ("compliances", values)):
-            object.__setattr__(self, name, array.astype(float))
-            getattr(self, name).flags.writeable = False
+            object.__setattr__(self, name, read_only(array.astype(float)))
         if times[0] != 0 or not (np.diff(times) > 0).all():
             raise ValueError("CreepTable: allowed are times that start with 0 and increase")
-        slopes = np.diff(self.compliances) / np.diff(self.times)
+        slopes = self._slopes
         if not (values[0] >= 0 and (slopes >= 0).all() and values[-1] > 0 and np.isfinite(slopes).all()):
             raise ValueError("CreepTable: allowed is a compliance that starts at 0 or more, grows and never decreases")
         if (steeper := slopes[1:] > slopes[:-1] * (1 + _ROUNDING)).any():

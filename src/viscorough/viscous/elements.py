@@ -1,32 +1,33 @@
-"""The elements of a rough map and their influence on each other, for direct integration with internal variables."""
+"""The elements of a rough map and their influence on each other, for direct integration in time."""
+
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from viscorough import memory
 from viscorough.contact.halfspace import Halfspace
-from viscorough.contact.influence import influence_table
+from viscorough.contact.state import Elements
 
 
-class Elements:
+@dataclass(frozen=True)
+class MapElements(Elements):
     """Elements of an indenter, in the order of their rows; pressures and deflections are arrays of shape (elements,).
 
-    row, column : their places on the grid
-    initial_gap : [length]; influence : K by distance in rows and columns
-    scale : 4π d, d the side of an element, with which the force is 4π d ΣQ for Q = p d/(4π)
-
-    Raises ValueError unless the heights are two-dimensional.
+    initial_gap : [length]; shape : rows and columns of the heights
+    side : d, the side of the square with the area of an element [length]
     """
 
-    def __init__(self, indenter, caller):
-        if indenter.heights.ndim != 2:
-            raise ValueError(f"{caller}: the indenter's heights must be two-dimensional")
-        self.row, self.column = np.nonzero(np.isfinite(indenter.heights))
-        self.initial_gap = indenter.initial_gap[self.row, self.column].astype(float)
-        distance = [np.arange(n, dtype=float) for n in indenter.heights.shape]
-        self.influence = influence_table(*distance, indenter.aspect)
-        self.scale = 4 * np.pi * indenter.element_side
-        self.count, self.shape = self.initial_gap.size, indenter.heights.shape
-        self._side, self._operator = indenter.element_side, Halfspace(*self.shape, aspect=indenter.aspect)
+    side: float
+
+    @property
+    def scale(self):
+        """4π d, with which the force is 4π d ΣQ for Q = p d/(4π)."""
+        return 4 * np.pi * self.side
+
+    @cached_property
+    def _operator(self):
+        return Halfspace(*self.shape, aspect=self.aspect)
 
     def deflection(self, load):
         """K times a load at all elements."""
@@ -42,5 +43,14 @@ class Elements:
     def pressure_map(self, load):
         """Pressure p = 4π Q/d on the grid, nan where there is no element."""
         pressure = np.full(self.shape, np.nan)
-        pressure[self.row, self.column] = 4 * np.pi / self._side * load
+        pressure[self.row, self.column] = 4 * np.pi / self.side * load
         return pressure
+
+
+def elements_of_map(indenter, caller):
+    """The MapElements of an indenter. Raises ValueError, which starts with the caller, unless it is a map."""
+    if indenter.heights.ndim != 2:
+        raise ValueError(f"{caller}: the indenter's heights must be two-dimensional")
+    row, column = np.nonzero(np.isfinite(indenter.heights))
+    gap = indenter.initial_gap[row, column]
+    return MapElements(row, column, gap, (0, 0), indenter.heights.shape, indenter.aspect, indenter.element_side)

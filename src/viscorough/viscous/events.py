@@ -11,16 +11,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscorough import memory
-from viscorough.arrays import keep_read_only
+from viscorough.arrays import ReadOnlyArrays
 from viscorough.compilation import njit
 from viscorough.contact.growing_cholesky import append_element, solve_flat_punch
-from viscorough.contact.influence import influence_table
 from viscorough.errors import ConvergenceError
 from viscorough.interrupts import uninterrupted
+from viscorough.viscous.elements import elements_of_map
 
 
 @dataclass(frozen=True)
-class Events:
+class Events(ReadOnlyArrays):
     """The penetration of an indenter from contact event to contact event; read-only arrays of shape (events,).
 
     impulse : ∫F dt/η at which the contact set grew [length²]
@@ -37,9 +37,6 @@ class Events:
     contact_count: np.ndarray
     elements: int
     length_unit: str = "1"
-
-    def __post_init__(self):
-        keep_read_only(self)
 
     def depth_at(self, impulse):
         """Depth [length] at impulses ∫F dt/η [length²] of any shape; linear between events and beyond the last one."""
@@ -65,25 +62,21 @@ def march_events(indenter, *, until_fraction=1.0):
     Raises ValueError for arguments out of range, MemoryError if that memory is not available, ConvergenceError if an
     element comes under tension: contact could then open, which it cannot without adhesion and with F ≥ 0.
     """
-    if indenter.heights.ndim != 2:
-        raise ValueError("march_events: the indenter's heights must be two-dimensional")
+    elements = elements_of_map(indenter, "march_events")
     if not 0 < until_fraction <= 1:
         raise ValueError(f"march_events: until_fraction must lie in (0, 1], not {until_fraction!r}")
-    row, column = np.nonzero(np.isfinite(indenter.heights))
-    gap = indenter.initial_gap[row, column].astype(float)
-    order = np.argsort(gap, kind="stable")
-    distance = [np.arange(n, dtype=float) for n in indenter.heights.shape]
-    influence = influence_table(*distance, indenter.aspect)
+    order = np.argsort(elements.initial_gap, kind="stable")
+    row, column, gap = (values[order] for values in (elements.row, elements.column, elements.initial_gap))
     most = max(1, int(np.ceil(until_fraction * gap.size)))
     memory.require(8 * most**2, f"march_events: the factor for {most} elements in contact")
     with uninterrupted():
-        impulse, depth, resistance, tension_index = _march(influence, row[order], column[order], gap[order], most)
+        impulse, depth, resistance, tension_index = _march(elements.influence, row, column, gap, most)
     if tension_index >= 0:
         raise ConvergenceError(
             f"march_events: tension on element {tension_index} of the contact set; contact would open"
         )
-    scale = 4 * np.pi * indenter.element_side
-    return Events(scale * impulse, depth, scale * resistance, np.arange(1, most + 1), gap.size, indenter.length_unit)
+    impulse, resistance = elements.scale * impulse, elements.scale * resistance
+    return Events(impulse, depth, resistance, np.arange(1, most + 1), gap.size, indenter.length_unit)
 
 
 @njit(fastmath=True)

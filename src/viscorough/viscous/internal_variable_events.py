@@ -15,39 +15,25 @@ import numpy as np
 from scipy.linalg import expm
 
 from viscorough import memory
-from viscorough.arrays import keep_read_only
 from viscorough.contact.growing_cholesky import append_element, solve_flat_punch
 from viscorough.errors import ConvergenceError
-from viscorough.viscous.elements import Elements
-from viscorough.viscous.internal_variables import load_samples
+from viscorough.viscous.elements import elements_of_map
+from viscorough.viscous.internal_variables import MediumMotion, branch_factors, load_samples
 
 _TENSION = 1e-9  # relative to the largest pressure
 _ROUNDING = 1e-12  # of the motion in a step in which nothing moves
 _MAX_NEWTON_ITERATIONS = 60
 
 
-@dataclass(frozen=True)
-class MediumEvents:
-    """Motion of an indenter in a viscoelastic half-space, with all contact events; read-only arrays.
+@dataclass(frozen=True, kw_only=True)
+class MediumEvents(MediumMotion):
+    """Motion of an indenter in a viscoelastic half-space, with all contact events.
 
-    time, depth [length], force, contact_count : at the times given, shape (times,)
-    event_time, event_depth : at which the contact set grew, from the second element on, shape (events,)
-    elements : number of elements of the indenter
-    pressure : p at the last time, after a step of the force there, on the grid of the heights, nan outside the indenter
+    event_time, event_depth : at which the contact set grew, from the second element on; read-only, shape (events,)
     """
 
-    time: np.ndarray
-    depth: np.ndarray
-    force: np.ndarray
-    contact_count: np.ndarray
     event_time: np.ndarray
     event_depth: np.ndarray
-    elements: int
-    pressure: np.ndarray
-    length_unit: str = "1"
-
-    def __post_init__(self):
-        keep_read_only(self)
 
 
 def march_medium_events(indenter, medium, times, *, force=None, depth=None, until_fraction=1.0, progress=None):
@@ -65,15 +51,13 @@ def march_medium_events(indenter, medium, times, *, force=None, depth=None, unti
     if not 0 < until_fraction <= 1:
         raise ValueError(f"march_medium_events: until_fraction must lie in (0, 1], not {until_fraction!r}")
     times, load = load_samples("march_medium_events", times, force, depth)
-    elements = Elements(indenter, "march_medium_events")
+    elements = elements_of_map(indenter, "march_medium_events")
     contact = _GrowingContact(elements, medium.relaxation, int(np.ceil(until_fraction * elements.count)))
     law = _ByForce(medium.relaxation, elements.scale) if depth is None else _ByDepth(medium.relaxation)
     rows = []
     for k in range(times.size):
-        if k == 0:
-            _advance(contact, law, times[0], 0.0, (0.0, load[0]))
-        else:
-            _advance(contact, law, times[k - 1], times[k] - times[k - 1], (load[k - 1], load[k]))
+        start = times[max(k - 1, 0)]  # before the first sample there is no load
+        _advance(contact, law, start, times[k] - start, (load[k - 1] if k else 0.0, load[k]))
         force_now = load[k] if depth is None else elements.scale * contact.pressure.sum()
         rows.append((contact.depth, force_now, contact.count))
         if progress:
@@ -83,17 +67,14 @@ def march_medium_events(indenter, medium, times, *, force=None, depth=None, unti
     pressure = contact.pressure
     if depth is None and medium.relaxation.viscosity:  # the dashpot carries a step of the force at the last time
         pressure = pressure + (load[-1] / elements.scale - pressure.sum()) * contact.punch_share
-    pressure = elements.pressure_map(pressure)
-    moved = times, depths, forces, counts.astype(int), event_time, event_depth
-    return MediumEvents(*moved, elements.count, pressure, indenter.length_unit)
+    moved = times, depths, forces, counts.astype(int), elements.count, elements.pressure_map(pressure)
+    events = {"event_time": event_time, "event_depth": event_depth}
+    return MediumEvents(*moved, indenter.length_unit, **events)
 
 
 def _advance(contact, law, start, length, loads):
     """From one sample to the next, through the contact events in between; a step of the load if the length is 0."""
-    slope = (loads[1] - loads[0]) / length if length else 0.0
-    jump = loads[1] - loads[0] if length == 0 else 0.0
-    contact.end_depth = loads[1]
-    law.begin(contact, length, jump, slope)
+    law.begin(length, *loads)
     if law.end_motion < law.motion(0.0) - _ROUNDING * abs(law.end_motion):
         raise ValueError(
             f"march_medium_events: from a time between {start:.6g} and {start + length:.6g} on the contact recedes; "
@@ -103,7 +84,7 @@ def _advance(contact, law, start, length, loads):
     while (event := law.motion(passed) + contact.depth_to_next * law.motion_per_depth(contact)) < law.end_motion:
         share = law.reach(event, passed)
         contact.follow(law, passed, share)
-        contact.add_next(start + (share * length if length else 0.0))
+        contact.add_next(start + share * length)
         passed = share
     contact.follow(law, passed, 1.0)
 
@@ -115,34 +96,28 @@ class _ByForce:
         self._medium, self._scale = relaxation, scale
         self._state = np.zeros(1 + relaxation.moduli.size)  # Y and the sums W_i of the internal variables
 
-    def begin(self, contact, length, jump, slope):
+    def begin(self, length, load, end_load):
         viscosity, relaxed, moduli, times = self._medium
-        self.length = length
+        self.length, size = length, self._state.size
         if length == 0:  # everything springs at once, or, with a dashpot, nothing
-            spring = 0.0 if viscosity else jump / self._scale / self._medium.instantaneous_modulus
-            self._force_rate = 0.0
-            self._start, self._change = self._state, np.full(self._state.size, spring)
-            self._matrix = None
-            self._state = self._start + self._change
+            spring = 0.0 if viscosity else (end_load - load) / self._scale / self._medium.instantaneous_modulus
+            self._matrix, self._start, self._change = None, self._state, np.full(size, spring)
+        elif viscosity:
+            # η Y' = F − G∞ Y; a second unknown would be F itself, which is linear: F₀ comes from the state.
+            slope = (end_load - load) / length
+            rates = [-relaxed / viscosity, 1 / viscosity, 0], [0, 0, slope / self._scale], [0, 0, 0]
+            self._matrix = np.array(rates)
+            self._augmented = np.array([self._state[0], (end_load - slope * length) / self._scale, 1.0])
         else:
-            size = self._state.size
+            # From the derivative of ΣQ: G₀ Y' = F' + Σ G_i W_i/τ_i, and W_i' = Y' − W_i/τ_i.
+            force_rate = (end_load - load) / length / self._scale
             self._matrix = np.zeros((size + 1, size + 1))
-            if viscosity:
-                # η Y' = F − G∞ Y; a second unknown would be F itself, which is linear: F₀ comes from the state.
-                self._matrix = np.zeros((3, 3))
-                self._matrix[0] = [-relaxed / viscosity, 1 / viscosity, 0]
-                self._matrix[1, 2] = slope / self._scale
-                begin = (contact.end_depth - slope * length) / self._scale
-                self._augmented = np.array([self._state[0], begin, 1.0])
-            else:
-                # From the derivative of ΣQ: G₀ Y' = F' + Σ G_i W_i/τ_i, and W_i' = Y' − W_i/τ_i.
-                rate = (
-                    np.concatenate([[0.0], moduli / times, [slope / self._scale]]) / self._medium.instantaneous_modulus
-                )
-                self._matrix[:size] = rate
-                self._matrix[1:size, 1:size] -= np.diag(1 / times)
-                self._augmented = np.append(self._state, 1.0)
-            self._state = self.state(1.0)
+            self._matrix[:size] = (
+                np.concatenate([[0.0], moduli / times, [force_rate]]) / self._medium.instantaneous_modulus
+            )
+            self._matrix[1:size, 1:size] -= np.diag(1 / times)
+            self._augmented = np.append(self._state, 1.0)
+        self._state = self.state(1.0)
         self.end_motion = self._state[0]
 
     def state(self, share):
@@ -191,13 +166,11 @@ class _ByDepth:
     """The depth itself as the motion, linear in time, from 0 to 1 in a step."""
 
     def __init__(self, relaxation):
-        self._medium, self._depth = relaxation, 0.0
+        self._medium = relaxation
 
-    def begin(self, contact, length, jump, slope):
-        self.length, self._begin = length, self._depth
-        self.end_motion = contact.end_depth
-        self._depth = contact.end_depth
-        if self._medium.viscosity and length == 0 and jump:
+    def begin(self, length, load, end_load):
+        self.length, self._begin, self.end_motion = length, load, end_load
+        if self._medium.viscosity and length == 0 and load != end_load:
             raise ValueError(
                 "march_medium_events: a step of depth takes an infinite force in this medium; allowed: ramps"
             )
@@ -213,10 +186,9 @@ class _ByDepth:
 
     def internal(self, before, punch_share, first, last):
         """As of _ByForce, with q in place of q/Σq."""
-        x = (last - first) * self.length / self._medium.times
-        mean = np.divide(-np.expm1(-x), x, out=np.ones_like(x), where=x > 0)
+        decay, mean = branch_factors((last - first) * self.length / self._medium.times, "second_order")
         change = self.motion(last) - self.motion(first)
-        after = before * np.exp(-x)[:, None] + punch_share * (mean * change)[:, None]
+        after = before * decay[:, None] + punch_share * (mean * change)[:, None]
         rate = (self.end_motion - self._begin) / self.length if self.length else 0.0
         return punch_share * change, after, punch_share * rate
 
@@ -249,13 +221,11 @@ class _GrowingContact:
         self.count = count + 1
         if time is not None:
             self.events.append((time, self.depth))
-        self._inside = np.zeros(elements.count, bool)
-        self._inside[self._members[: self.count]] = True
+        members = self._members[: self.count]
+        self._inside, self._load = np.zeros(elements.count, bool), np.zeros(elements.count)
+        self._inside[members], self._load[members] = True, self._tangent[: self.count]
         self.gap[self._inside] = 0.0
-        load = np.zeros(elements.count)
-        load[self._members[: self.count]] = self._tangent[: self.count]
-        self._load = load
-        self._closing = 1 - elements.deflection(load)
+        self._closing = 1 - elements.deflection(self._load)
         self._find_next()
 
     @property

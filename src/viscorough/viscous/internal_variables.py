@@ -15,9 +15,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
-from viscorough.arrays import keep_read_only, read_only
+from viscorough.arrays import ReadOnlyArrays, increasing, samples
 from viscorough.errors import ConvergenceError
-from viscorough.viscous.elements import Elements
+from viscorough.viscous.elements import elements_of_map
 
 MEDIUM_SCHEMES = ("backward_euler", "second_order")
 _MAX_ITERATIONS, _ADDED_AT_ONCE = 300, 8
@@ -25,7 +25,7 @@ _ROUNDING = 1e-12  # of gaps, relative to the depth
 
 
 @dataclass(frozen=True)
-class MediumMotion:
+class MediumMotion(ReadOnlyArrays):
     """Motion of an indenter in a viscoelastic half-space; read-only arrays of shape (times,).
 
     time : t; depth : u [length]; force : F; contact_count : elements in contact
@@ -41,11 +41,8 @@ class MediumMotion:
     contact_count: np.ndarray
     elements: int
     pressure: np.ndarray
-    receding_from: float
     length_unit: str = "1"
-
-    def __post_init__(self):
-        keep_read_only(self)
+    receding_from: float = np.nan
 
 
 def march_medium(indenter, medium, times, *, force=None, depth=None, scheme="second_order", progress=None):
@@ -70,7 +67,7 @@ def march_medium(indenter, medium, times, *, force=None, depth=None, scheme="sec
     if scheme not in MEDIUM_SCHEMES:
         raise ValueError(f"march_medium: scheme must be one of {', '.join(MEDIUM_SCHEMES)}, not {scheme!r}")
     times, load = load_samples("march_medium", times, force, depth)
-    elements = Elements(indenter, "march_medium")
+    elements = elements_of_map(indenter, "march_medium")
     state = _State(elements, medium.relaxation)
     contact = _ContactProblem(elements)
     by_depth, rows, receding, rate = force is None, [], np.nan, 0.0
@@ -96,7 +93,7 @@ def march_medium(indenter, medium, times, *, force=None, depth=None, scheme="sec
             progress(len(rows) / times.size)
     depths, forces, counts = np.array(rows).T
     moved = times, depths, forces, counts.astype(int), elements.count, elements.pressure_map(pressure)
-    return MediumMotion(*moved, float(receding), indenter.length_unit)
+    return MediumMotion(*moved, indenter.length_unit, float(receding))
 
 
 def load_samples(caller, times, force, depth):
@@ -104,16 +101,8 @@ def load_samples(caller, times, force, depth):
     if (force is None) == (depth is None):
         raise ValueError(f"{caller}: one of force and depth is needed")
     name, load = ("force", force) if depth is None else ("depth", depth)
-    times, load = (read_only(values).astype(float) for values in (times, load))
-    steps = np.diff(times) if times.ndim == 1 else np.array([-1.0])
-    if times.size == 0 or not np.isfinite(times).all() or (steps < 0).any() or (steps[1:] + steps[:-1] <= 0).any():
-        raise ValueError(f"{caller}: times: allowed is one row of finite, increasing numbers, or twice where it steps")
-    if load.shape != times.shape:
-        raise ValueError(f"{caller}: {name} of shape {load.shape}; allowed: one per time, shape {times.shape}")
-    if not (np.isfinite(load) & (load >= 0)).all():
-        where = int(np.argmin(np.isfinite(load) & (load >= 0)))
-        raise ValueError(f"{caller}: {name} {where} is {load[where]}; allowed: finite, 0 or more")
-    return times, load
+    times = increasing(f"{caller}: times", times, steps=f"the {name}")
+    return times, samples(f"{caller}: {name}", load, times)
 
 
 class _State:
@@ -130,7 +119,7 @@ class _State:
     def advance(self, contact, length, scheme, load, *, by_depth):
         """One step, at whose end Q = `kept` + c (y − y₀): a contact problem in Q alone."""
         relaxed, moduli = self._relaxation.relaxed_modulus, self._relaxation.moduli[:, None]
-        decay, gain = _branch_factors(length / self._relaxation.times, scheme)
+        decay, gain = branch_factors(length / self._relaxation.times, scheme)
         stiffness = (moduli[:, 0] * gain).sum() + _dashpot_stiffness(self._relaxation, length, scheme)
         kept = relaxed * self.motion + (moduli * decay[:, None] * self._branches).sum(axis=0)
         # c times the gap is e + K Q − c u, with e that of a surface which nothing presses from now on.
@@ -160,7 +149,7 @@ class _State:
         return contact.solve_among(members, -self._elements.deflection(kept), wanted, by_depth=by_depth)
 
 
-def _branch_factors(x, scheme):
+def branch_factors(x, scheme):
     """Factors of w₀ and of y − y₀ in the internal variables w at the end of a step of x = h/τ."""
     if scheme == "backward_euler":
         return 1 / (1 + x), 1 / (1 + x)

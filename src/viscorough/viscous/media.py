@@ -4,7 +4,7 @@ The half-space is incompressible at all times. Moduli are in one unit, times in 
 and compliances in the inverse of the modulus. All media are passive: J does not decrease and is concave.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 from numbers import Real
 
@@ -19,6 +19,10 @@ _NONE = np.array([])
 
 class _Exponential:
     """A medium of springs and dashpots, which has discrete spectra: `relaxation` and `retardation`."""
+
+    def __post_init__(self):
+        _keep_positive(self)
+        self._check_spectra()
 
     def creep_compliance(self, time):
         """J at times t ≥ 0, any shape; J(0+) at time 0."""
@@ -60,10 +64,6 @@ class Newtonian(_Exponential):
 
     viscosity: float
 
-    def __post_init__(self):
-        _keep_positive(self, "viscosity")
-        self._check_spectra()
-
     @cached_property
     def relaxation(self):
         return RelaxationSpectrum(self.viscosity, 0.0, _NONE, _NONE)
@@ -74,43 +74,36 @@ class Newtonian(_Exponential):
 
 
 @dataclass(frozen=True)
-class Maxwell(_Exponential):
+class _SpringAndDashpot(_Exponential):
+    shear_modulus: float
+    viscosity: float
+
+    @property
+    def _time(self):
+        """η/G, shape (1,)."""
+        return np.array([self.viscosity]) / self.shear_modulus
+
+
+class Maxwell(_SpringAndDashpot):
     """A spring and a dashpot in series: J = 1/G + t/η, ψ = G exp(−t/τ), τ = η/G.
 
     shear_modulus : G; viscosity : η. Raises ValueError unless both are finite numbers above 0.
     """
 
-    shear_modulus: float
-    viscosity: float
-
-    def __post_init__(self):
-        _keep_positive(self, "shear_modulus", "viscosity")
-        self._check_spectra()
-
     @cached_property
     def relaxation(self):
-        return RelaxationSpectrum(
-            0.0, 0.0, np.array([self.shear_modulus]), np.array([self.viscosity]) / self.shear_modulus
-        )
+        return RelaxationSpectrum(0.0, 0.0, np.array([self.shear_modulus]), self._time)
 
     @cached_property
     def retardation(self):
         return RetardationSpectrum(_inverse(self.shear_modulus), _inverse(self.viscosity), _NONE, _NONE)
 
 
-@dataclass(frozen=True)
-class KelvinVoigt(_Exponential):
+class KelvinVoigt(_SpringAndDashpot):
     """A spring and a dashpot side by side: J = (1 − exp(−t/θ))/G, θ = η/G, ψ = G + η δ(t).
 
     shear_modulus : G; viscosity : η. Raises ValueError unless both are finite numbers above 0.
     """
-
-    shear_modulus: float
-    viscosity: float
-
-    def __post_init__(self):
-        _keep_positive(self, "shear_modulus", "viscosity")
-        self._check_spectra()
 
     @cached_property
     def relaxation(self):
@@ -118,8 +111,7 @@ class KelvinVoigt(_Exponential):
 
     @cached_property
     def retardation(self):
-        times = np.array([self.viscosity]) / self.shear_modulus
-        return RetardationSpectrum(0.0, 0.0, np.array([_inverse(self.shear_modulus)]), times)
+        return RetardationSpectrum(0.0, 0.0, np.array([_inverse(self.shear_modulus)]), self._time)
 
 
 @dataclass(frozen=True)
@@ -135,7 +127,7 @@ class StandardLinearSolid(_Exponential):
     relaxation_time: float
 
     def __post_init__(self):
-        _keep_positive(self, "instantaneous_modulus", "relaxed_modulus", "relaxation_time")
+        _keep_positive(self)
         if not self.relaxed_modulus < self.instantaneous_modulus:
             raise ValueError(
                 f"StandardLinearSolid: relaxed_modulus {self.relaxed_modulus:g}; "
@@ -212,7 +204,7 @@ class Springpot:
     exponent: float
 
     def __post_init__(self):
-        _keep_positive(self, "modulus", "exponent")
+        _keep_positive(self)
         if not self.exponent < 1:
             text = "allowed: above 0 and below 1 (1 is a Newtonian medium)"
             raise ValueError(f"Springpot: exponent {self.exponent:g}; {text}")
@@ -261,9 +253,9 @@ def _power_increment(start, end, power):
     return np.where(start > 0, increment, end**power)
 
 
-def _keep_positive(medium, *names):
-    for name in names:
-        object.__setattr__(medium, name, _number(medium, name, getattr(medium, name)))
+def _keep_positive(medium):
+    for field in fields(medium):
+        object.__setattr__(medium, field.name, _number(medium, field.name, getattr(medium, field.name)))
 
 
 def _number(medium, name, value, *, zero=False):

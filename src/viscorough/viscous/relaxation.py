@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from viscorough.arrays import read_only
+from viscorough.arrays import increasing, read_only, samples
 from viscorough.viscous.creep_response import branch_states
 from viscorough.viscous.media import CreepTable, medium_of
 from viscorough.viscous.spectra import zero_of_increasing
@@ -66,16 +66,12 @@ def force_under_depth(curve, depth, medium, times):
 
 
 def _depth_samples(curve, depth, times):
-    times, depth = (read_only(values).astype(float) for values in (times, depth))
-    steps = np.diff(times) if times.ndim == 1 else np.array([-1.0])
-    if times.size == 0 or not np.isfinite(times).all() or (steps < 0).any() or (steps[1:] + steps[:-1] <= 0).any():
-        raise ValueError("times: allowed is one row of finite, increasing numbers, or twice where the depth steps")
-    if depth.shape != times.shape:
-        raise ValueError(f"depth: samples of shape {depth.shape}; allowed: one per time, shape {times.shape}")
-    if not (np.isfinite(depth).all() and (np.diff(depth, prepend=0) >= 0).all()):
-        where = int(np.argmin(np.isfinite(depth) & (np.diff(depth, prepend=0) >= 0)))
+    times = increasing("times", times, steps="the depth")
+    depth = samples("depth", depth, times)
+    if not (rises := np.diff(depth, prepend=0) >= 0).all():
+        where = int(np.argmin(rises))
         raise ValueError(
-            f"depth: sample {where} is {depth[where]:g}; allowed: finite depths from 0 on that do not decrease, "
+            f"depth: sample {where} is {depth[where]:g}; allowed: depths that do not decrease, "
             "under which the contact does not recede (march_medium goes on there)"
         )
     if depth[-1] > curve.depth[-1] * (1 + 1e-12):

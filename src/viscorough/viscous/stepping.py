@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from viscorough.arrays import keep_read_only, read_only
+from viscorough.arrays import ReadOnlyArrays, increasing
 from viscorough.contact.grid_solver import GridSolver
 from viscorough.contact.options import DEFAULT
 from viscorough.contact.solver import ContactSolver
@@ -29,7 +29,7 @@ _IMPULSE_ACCURACY, _MAX_NEWTON_ITERATIONS = 0.1, 50
 
 
 @dataclass(frozen=True)
-class Steps:
+class Steps(ReadOnlyArrays):
     """The penetration of an indenter at given impulses; read-only arrays of shape (impulses,).
 
     impulse : ∫F dt/η [length²]
@@ -48,9 +48,6 @@ class Steps:
     overlap: np.ndarray
     steps: int
     length_unit: str = "1"
-
-    def __post_init__(self):
-        keep_read_only(self)
 
 
 def march_steps(indenter, impulses, *, scheme="explicit", overlap=np.inf, tolerance=1e-6, progress=None):
@@ -75,15 +72,11 @@ def march_steps(indenter, impulses, *, scheme="explicit", overlap=np.inf, tolera
     Returns Steps. Warns (AccuracyWarning) where the indenter overlaps the surface by more than 1 % of the depth.
     Raises ValueError for arguments out of range, ConvergenceError if a contact problem is not solved.
     """
-    impulses = np.atleast_1d(read_only(impulses).astype(float))
     if indenter.heights.ndim != 2:
         raise ValueError("march_steps: the indenter's heights must be two-dimensional")
     if scheme not in SCHEMES:
         raise ValueError(f"march_steps: scheme must be one of {', '.join(SCHEMES)}, not {scheme!r}")
-    if impulses.ndim != 1 or not impulses.size or not np.all(np.isfinite(impulses)):
-        raise ValueError("march_steps: impulses must be a list of finite numbers")
-    if impulses[0] <= 0 or np.any(np.diff(impulses) <= 0):
-        raise ValueError("march_steps: impulses must be positive and strictly increasing")
+    impulses = increasing("march_steps: impulses", np.atleast_1d(impulses), above_zero=True)
     if not overlap > 0:
         raise ValueError(f"march_steps: overlap must be positive, not {overlap!r}")
     integrator = {"explicit": _Explicit, "heun": _Heun, "implicit": _Implicit}[scheme](indenter, tolerance)

@@ -220,7 +220,7 @@ def test_file_that_cannot_be_opened_in_time_is_one_line():
     script = textwrap.dedent("""
         import time
         import click
-        from viscorough.cli.options import time_limit
+        from viscorough.cli.files import time_limit
         with click.Context(click.Command("kinetics"), info_name="viscorough kinetics"):
             with time_limit("a.nc", 5):
                 pass

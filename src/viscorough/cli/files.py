@@ -1,0 +1,88 @@
+"""Files that the commands of the command line read and write."""
+
+import contextlib
+import os
+import threading
+from signal import default_int_handler
+
+import click
+
+from viscorough.cli.messages import complain
+from viscorough.interrupts import on_interrupt
+
+
+def check_output(output, **inputs):
+    """Raise ValueError unless the output can be written and would replace no file that is read.
+
+    inputs : files that are read, or None, by what they hold
+    """
+    from viscorough.io import atomic
+
+    atomic.check_output(output)
+    for kind, file in inputs.items():
+        if file and output.exists() and file.exists() and output.samefile(file):
+            raise ValueError(f"{output}: would replace the {kind.replace('_', ' ')}; another name is needed")
+
+
+def printable_name(file):
+    """Name of a file, for an attribute: bytes that are not letters appear with backslashes."""
+    return file.name.encode(errors="backslashreplace").decode()
+
+
+@contextlib.contextmanager
+def time_limit(path, seconds=60):
+    """Context in which a NetCDF file is opened; if that takes too long, the process ends with one line and exit code 2.
+
+    Damage can make the HDF5 library run without end, where Python cannot interrupt it. Opening takes milliseconds.
+    """
+
+    def end():
+        text = f"{path}: not opened within {seconds:g} s, as can happen if it is damaged; a whole NetCDF file is needed"
+        complain(command, text)
+        os._exit(2)
+
+    command = click.get_current_context().command_path
+    timer = threading.Timer(seconds, end)
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
+
+
+def check_opens(path):
+    """Raise a one-line ValueError unless the NetCDF file can be opened, within a time limit."""
+    from viscorough.io import netcdf
+
+    with time_limit(path), netcdf.opened(path):
+        pass
+
+
+def read_content(path):
+    """The io.netcdf.Content of a NetCDF file, or of a table (.csv) that a command wrote."""
+    from viscorough.io import netcdf, tables
+
+    if tables.is_table(path):
+        return tables.read(path)
+    check_opens(path)
+    return netcdf.read(path)
+
+
+def write_output(content, output, **attributes):
+    """Write an io.netcdf.Content with attributes added, as NetCDF, or as a table if the name ends in .csv.
+
+    The attribute `warnings` holds the warnings given so far.
+    """
+    from viscorough.io import netcdf, tables
+
+    if texts := warning_texts(click.get_current_context().obj):
+        attributes["warnings"] = "; ".join(texts)
+    with on_interrupt(default_int_handler):  # raises KeyboardInterrupt, so that no temporary file is left
+        write = tables.write if tables.is_table(output) else netcdf.write
+        write(content.with_attributes(**attributes), output)
+
+
+def warning_texts(caught):
+    """The texts of the different warnings, each on one line."""
+    return list(dict.fromkeys(" ".join(str(warning.message).split()) for warning in caught))

@@ -99,7 +99,6 @@ test: environment docs
 
 bench: environment
 	$(BIN)/python benchmarks/curves.py --output results/benchmarks.json
-	$(BIN)/python benchmarks/strips.py --output results/strips.json
 	$(BIN)/python benchmarks/large_map.py --output results/large_map.json
 	$(BIN)/python benchmarks/rectangles.py --output results/rectangles.json
 	$(BIN)/python benchmarks/lines.py --output results/lines.json

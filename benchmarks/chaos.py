@@ -59,6 +59,25 @@ def remove_results(folder):
         shutil.rmtree(folder / name, ignore_errors=True)
 
 
+def wait_for(condition, what, seconds=120):
+    """The condition's value as soon as it is true."""
+    end = time.monotonic() + seconds
+    while not (value := condition()):
+        if time.monotonic() > end:
+            raise click.ClickException(f"{what} does not happen within {seconds} s")
+        time.sleep(0.2)
+    return value
+
+
+@contextlib.contextmanager
+def workplace(folder):
+    """A new folder, which is kept, or a temporary one if it is None; absolute."""
+    if folder:
+        folder.mkdir(parents=True)
+    with contextlib.nullcontext(folder) if folder else tempfile.TemporaryDirectory() as place:
+        yield Path(place).resolve()
+
+
 @contextlib.contextmanager
 def started(folder, *arguments, log="chaos.log", mode="w"):
     """Snakemake in its own session, all of whose processes are killed afterwards; it writes to a log in the folder."""
@@ -223,12 +242,9 @@ def chaos(folder, kills, seed):
     help="New folder to work in, which is kept  [default: a temporary one]",
 )
 def main(kills, seed, output, folder):
-    if folder:
-        folder.mkdir(parents=True)
-    place = contextlib.nullcontext(folder) if folder else tempfile.TemporaryDirectory()
-    with place as working:
+    with workplace(folder) as working:
         about = {"machine": timing.machine(), "viscorough": viscorough.__version__, "seed": seed}
-        result = about | chaos(Path(working).resolve(), kills, seed)
+        result = about | chaos(working, kills, seed)
     write_json(result, output)
     click.echo("{recovered} of {runs} runs recovered from {kills} kills in {seconds:.0f} s".format(**result))
     click.echo(f"written to {output}")

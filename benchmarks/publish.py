@@ -86,8 +86,8 @@ def verdicts():
     table = published_claims()
     text = markdown(table, read_claims())
     for name, sentence in (("resampled", other_surfaces), ("seeds", other_seeds)):
-        if (file := ROOT / f"docs/{name}.json").is_file():
-            text += "\n" + sentence(overall(table), json.loads(file.read_text(encoding="utf-8"))["verdicts"])
+        others = json.loads((ROOT / f"docs/{name}.json").read_text(encoding="utf-8"))["verdicts"]
+        text += "\n" + sentence(overall(table), others)
     return text
 
 
@@ -172,27 +172,13 @@ def other_solver_times():
     return "\n".join(lines) + "\n"
 
 
-def speed_chart(project=ROOT):
-    """The chart of speed against accuracy with its caption, in Markdown; nothing before it is published."""
-    if not (project / "docs/speed.png").is_file():
-        return ""
-    caption = (
-        "*Error of the velocity over wall time, of a rough disc and of a sphere, by the elastic path of this package, "
-    )
-    caption = textwrap.fill(caption + "by time steps and by the MDR (`make speed`).*", 120)
-    return f"![Speed against accuracy of the main methods](docs/speed.png)\n\n{caption}\n"
-
-
 def infinite_grid():
     """Exponents of infinitely fine grids of docs/results/infinite_grid.csv, as a table in Markdown.
 
     By Hurst exponent, with the correction to scaling, h over all waves of the spectrum; in brackets the least and the
     largest end of the 95 % intervals in all ranges of X.
     """
-    file = ROOT / "docs/results/infinite_grid.csv"
-    if not file.is_file():
-        return "Not published yet.\n"
-    table = pd.read_csv(file).query("law == 'corrected' and height == 'spectrum'")
+    table = pd.read_csv(ROOT / "docs/results/infinite_grid.csv").query("law == 'corrected' and height == 'spectrum'")
     columns = list(table.groupby(["source", "quantity"], sort=False))
     names = [f"{source}, {INTERFACE_QUANTITIES[quantity]}" for (source, quantity), _ in columns]
     lines = [f"| *H* | *H*/(1 + *H*) | {' | '.join(names)} |", "|---" * (2 + len(names)) + "|"]
@@ -257,22 +243,20 @@ def published_results(records):
                 text += [f"![{name}](results/{file})", ""]
         others = [f"[{file}](results/{file})" for file in files if not file.endswith(".png")]
         text += ["Files:", *(f"- {link}" for link in others), ""]
-    return "\n".join(text) or "None yet.\n"
+    return "\n".join(text)
 
 
 def tables():
     """{(page, name): text} of what stands between marks in README.md and in pages of docs/."""
-    records = ROOT / "docs/results/published.json"
-    known = json.loads(records.read_text(encoding="utf-8")) if records.is_file() else {}
+    records = json.loads((ROOT / "docs/results/published.json").read_text(encoding="utf-8"))
     return {
         ("README.md", "verdicts"): verdict_lines(),
         ("README.md", "time"): time_sentence(),
-        ("README.md", "speed chart"): speed_chart(),
         ("docs/verdicts.md", "verdicts"): verdicts(),
         ("docs/performance.md", "other solvers"): other_solver_times(),
         ("docs/scaling.md", "infinite grid"): infinite_grid(),
         ("docs/theory.md", "interface law"): interface_law(),
-        ("docs/published.md", "results"): published_results(known),
+        ("docs/published.md", "results"): published_results(records),
     }
 
 

@@ -13,20 +13,16 @@ scatter twice as much as their realizations allow, and the scatter between them 
 """
 
 import shutil
-import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
 import click
 import numpy as np
 import pandas as pd
+from verdicts_again import claims, report
 
 from viscorough.io.datasets import read_dataset, write_dataset
-from viscorough_study.tables import write_json
-from viscorough_study.verdicts import overall
 
-ROOT = Path(__file__).resolve().parents[1]
 RULES = "fit_scaling", "match_lines", "measure_plateaus", "compare_prefactors", "compare_zeta_laws", "judge_claims"
 
 
@@ -40,17 +36,12 @@ def drawn(pool, random):
     return pool.isel(realization=chosen).assign_coords(about)
 
 
-def claims(results, folder, settings, cores, random):
-    """Table of claims of a draw, made in a folder."""
+def draw_again(results, folder, random):
+    """Copy the tables of a run to a folder, and its ensembles with other draws."""
     shutil.copytree(results / "tables", folder / "results/tables")
     (folder / "results/ensembles").mkdir()
     for name in ("discs.nc", "lines.nc"):
         write_dataset(drawn(read_dataset(results / "ensembles" / name), random), folder / "results/ensembles" / name)
-    command = [sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile"), "--directory", str(folder)]
-    command += ["--configfile", str(settings)] if settings else []
-    command += ["--cores", str(cores), "--quiet", "all", "--allowed-rules", *RULES, "--forcerun", *RULES]
-    subprocess.run([*command, "--", "results/tables/claims.csv"], check=True)
-    return pd.read_csv(folder / "results/tables/claims.csv", keep_default_na=False, na_values=[""])
 
 
 @click.command(help=__doc__.splitlines()[0])
@@ -66,18 +57,10 @@ def main(results, settings, draws, seed, cores, output):
     random, tables = np.random.default_rng(seed), {}
     for draw in range(1, draws + 1):
         with tempfile.TemporaryDirectory() as folder:
-            tables[draw] = claims(results, Path(folder), settings and settings.resolve(), cores, random)
+            draw_again(results, Path(folder), random)
+            tables[draw] = claims(folder, settings, cores, "--allowed-rules", *RULES, "--forcerun", *RULES)
         click.echo(f"draw {draw} of {draws}")
-    output.parent.mkdir(parents=True, exist_ok=True)
-    pd.concat(tables, names=["draw"]).droplevel(1).to_csv(output.with_suffix(".csv"))
-    verdicts = {draw: overall(table) for draw, table in tables.items()}
-    write_json({"verdicts": verdicts}, output)
-    verdicts = pd.DataFrame(verdicts)
-    moved = verdicts[verdicts.nunique(axis=1) > 1]
-    for claim, row in moved.iterrows():
-        numbers = row.value_counts().items()
-        click.echo(f"{claim}: {', '.join(f'{verdict} in {number}' for verdict, number in numbers)}")
-    click.echo(f"{len(moved)} of {len(verdicts)} verdicts change with the draw; written to {output}")
+    report(tables, "draw", output)
 
 
 if __name__ == "__main__":

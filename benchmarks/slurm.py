@@ -17,7 +17,6 @@ import signal
 import socket
 import subprocess
 import sys
-import tempfile
 import time
 from collections import Counter
 from importlib.metadata import version
@@ -25,7 +24,7 @@ from pathlib import Path
 
 import click
 import psutil
-from chaos import HANGS, compare, contents, copy_project, jobs_done, remove_results, started
+from chaos import HANGS, compare, contents, copy_project, jobs_done, remove_results, started, wait_for, workplace
 
 import viscorough
 from viscorough_study.performance import timing
@@ -88,16 +87,6 @@ def install():
 
 def output(*command):
     return subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
-
-
-def wait_for(condition, what, seconds=120):
-    """The condition's value as soon as it is true."""
-    end = time.monotonic() + seconds
-    while not (value := condition()):
-        if time.monotonic() > end:
-            raise click.ClickException(f"{what} does not happen within {seconds} s")
-        time.sleep(0.2)
-    return value
 
 
 # ---- a cluster of one machine
@@ -278,11 +267,7 @@ def compare_runs(folder):
 def main(target, folder):
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # as an exception, so that the daemons are ended
     install()
-    if folder:
-        folder.mkdir(parents=True)
-    place = contextlib.nullcontext(folder) if folder else tempfile.TemporaryDirectory()
-    with place as working:
-        working = Path(working).resolve()
+    with workplace(folder) as working:
         working.chmod(0o755)  # munged requires that all users can reach its socket
         result = {"machine": timing.machine(), "viscorough": viscorough.__version__, **compare_runs(working)}
     write_json(result, target)

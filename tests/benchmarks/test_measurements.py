@@ -14,7 +14,6 @@ import members
 import numpy as np
 import pytest
 import rectangles
-import strips
 from click.testing import CliRunner
 
 from support.workflow import merged, read_settings
@@ -116,23 +115,3 @@ def test_rectangles_are_compared_with_squares_on_the_same_map():
     assert costs["1"]["over_squares"] == 1
     assert all(cost["levels"] > 100 for cost in costs.values())
     assert [bool(np.isnan(heights).any()) for heights in rectangles.maps().values()] == [False, False, True, True]
-
-
-@pytest.mark.parametrize("kind", strips.KINDS)
-def test_strips_are_compared_with_a_square_at_equal_contact(kind):
-    for shape in ((20, 20), (200, 2)):
-        cost = strips.cost(kind, shape)
-        assert cost["last_contact_fraction"] == pytest.approx(strips.FRACTIONS[-1], abs=0.03)
-        assert cost["peak_bytes"] >= cost["before_bytes"] > 0
-
-
-def test_strips_have_as_many_elements_as_the_square(monkeypatch):
-    elements = [rows * columns for rows, columns in strips.SHAPES]
-    assert elements == pytest.approx([elements[0]] * len(elements), rel=0.01)
-    monkeypatch.setattr(
-        strips,
-        "in_a_process",
-        lambda script, function, kind, shape: dict.fromkeys(("processor_s", "peak_bytes"), float(shape[1])),
-    )
-    costs = strips.measured(2)["paraboloid"]
-    assert costs["2 x 50000"]["processor_s_over_square"] == pytest.approx(50_000 / 316)

@@ -15,12 +15,13 @@ from support.documentation import README, ROOT, read
 from support.study import CLAIMS
 
 PUBLISHED_CLAIMS = publish.published_claims()
+TABLES = publish.tables()
 
 
-@pytest.mark.parametrize(("page", "name"), publish.tables())
+@pytest.mark.parametrize(("page", "name"), TABLES)
 def test_pages_have_the_published_tables(page, name):
     between = re.search(rf"<!-- {name}: .*? -->\n\n(.*?)\n<!-- end of {name} -->", read(ROOT / page), re.DOTALL)[1]
-    assert between == publish.tables()[page, name]
+    assert between == TABLES[page, name]
 
 
 def test_readme_has_every_claim_on_physics_and_first_the_time():

@@ -1,0 +1,38 @@
+"""Verdicts of several runs, with other seeds or other surfaces; for seeds.py and resampled_verdicts.py."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import click
+import pandas as pd
+
+from viscorough_study.performance import timing
+from viscorough_study.tables import write_json
+from viscorough_study.verdicts import overall
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+def claims(folder, settings, cores, *arguments):
+    """Table of claims of a run in a folder, with settings beside config/config.yaml or None."""
+    command = [sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile"), "--directory", str(folder)]
+    command += ["--configfile", str(settings.resolve())] if settings else []
+    command += ["--cores", str(cores), "--quiet", "all", *arguments]
+    subprocess.run([*command, "--", "results/tables/claims.csv"], check=True)
+    return pd.read_csv(Path(folder) / "results/tables/claims.csv", keep_default_na=False, na_values=[""])
+
+
+def report(tables, what, output):
+    """Write the verdicts of {run: table of claims}, and the tables as CSV; returns {claim: verdicts} that change.
+
+    what : seed or draw, which the runs differ in
+    """
+    verdicts = pd.DataFrame({run: overall(table) for run, table in tables.items()})
+    moved = {claim: row.tolist() for claim, row in verdicts[verdicts.nunique(axis=1) > 1].iterrows()}
+    write_json({"machine": timing.machine(), "moved": moved, "verdicts": verdicts.to_dict()}, output)
+    pd.concat(tables, names=[what]).droplevel(1).to_csv(output.with_suffix(".csv"))
+    for claim, outcomes in moved.items():
+        click.echo(f"{claim}: {', '.join(outcomes)}")
+    click.echo(f"{len(moved)} of {len(verdicts)} verdicts change with the {what}; written to {output}")
+    return moved

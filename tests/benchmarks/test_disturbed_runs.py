@@ -1,0 +1,78 @@
+"""What `make chaos` and `make test-slurm` compare, and how they disturb runs, without a whole run."""
+
+import subprocess
+import sys
+
+import chaos
+import numpy as np
+import pytest
+import slurm
+
+
+@pytest.fixture
+def results(tmp_path):
+    """Two folders with equal results, whose measured times differ."""
+    for folder, seconds in (("one", "1.0"), ("two", "2.0")):
+        for name in ("tables/claims.csv", "figures/fig1.pdf"):
+            (tmp_path / folder / "results" / name).parent.mkdir(parents=True)
+            (tmp_path / folder / "results" / name).write_text(name)
+        for name in ("tables/equal_error.csv", "index.html", "logs/a/b.log", "benchmarks/a.tsv", "methods/rough.csv"):
+            (tmp_path / folder / "results" / name).parent.mkdir(parents=True, exist_ok=True)
+            (tmp_path / folder / "results" / name).write_text(seconds)
+    return tmp_path / "one", tmp_path / "two"
+
+
+def test_measured_times_may_differ_and_nothing_else(results):
+    one, two = results
+    expected = chaos.contents(one)
+    assert len(expected) == 7
+    assert chaos.compare(chaos.contents(two), expected) == []
+    (two / "results/tables/claims.csv").write_text("else")
+    (two / "results/index.html").unlink()
+    (two / "results/tables/claims.csv.part").touch()
+    lines = ["index.html: is missing", "tables/claims.csv.part: is left over", "tables/claims.csv: differs"]
+    assert chaos.compare(chaos.contents(two), expected) == lines
+
+
+@pytest.fixture
+def run(tmp_path, monkeypatch):
+    """Snakemake in a folder whose only rule waits, for ever."""
+    (tmp_path / "Snakefile").write_text('rule wait:\n    output: "never"\n    shell: "sleep 600"\n')
+    (tmp_path / "src").mkdir()
+    monkeypatch.setattr(chaos, "SNAKEMAKE", [sys.executable, "-m", "snakemake", "--cores", "1"])
+    with chaos.started(tmp_path) as run:
+        chaos.wait_for(lambda: "rule wait" in (tmp_path / "chaos.log").read_text(), "start of the job")
+        yield run
+
+
+@pytest.mark.parametrize(("seed", "what"), [(1, "whole run"), (3, "interrupt")])
+def test_a_run_is_killed_or_interrupted(tmp_path, run, seed, what):
+    assert chaos.disturb(run, np.random.default_rng(seed)) == what
+    assert run.wait(60) != 0
+    assert "ends with" in chaos.verdict(tmp_path, run)
+
+
+def test_jobs_of_a_cluster_are_counted_with_their_ends(tmp_path):
+    """A requeued job ends twice; jobs of another copy are not counted."""
+    job = "JobId={} UserId=root(0) JobState={} Partition=test WorkDir={} ProcCnt=1\n"
+    rows = [(1, "CANCELLED", "/run"), (2, "NODE_FAIL", "/run"), (2, "COMPLETED", "/run"), (3, "COMPLETED", "/other")]
+    (tmp_path / "jobs").write_text("".join(job.format(*row) for row in rows))
+    ends = {"CANCELLED": 1, "NODE_FAIL": 1, "COMPLETED": 1}
+    assert slurm.ended(tmp_path, "/run") == {"jobs_submitted": 2, "ends_of_jobs": ends}
+
+
+def test_settings_of_a_cluster_are_complete(tmp_path):
+    ports = slurm.free_ports(2)
+    assert len(set(ports)) == 2
+    about = {"node": "here", "folder": tmp_path, "ports": ports, "cpus": 2, "memory": 1000}
+    lines = slurm.SLURM_CONF.format(**about).splitlines()
+    assert f"SlurmdPort={ports[1]}" in lines
+    assert "NodeName=here NodeAddr=127.0.0.1 CPUs=2 RealMemory=1000 State=UNKNOWN" in lines
+
+
+def test_processes_of_a_cluster_are_ended():
+    """Those with its settings in their environment."""
+    with subprocess.Popen(["sleep", "600"], env={"SLURM_CONF": "/of/this/test", "PATH": "/usr/bin:/bin"}) as process:
+        slurm.wait_for(lambda: list(slurm.processes("/of/this/test")), "start of a process")
+        slurm.stop("/of/this/test")
+        assert process.wait(10) != 0

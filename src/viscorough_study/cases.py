@@ -93,19 +93,18 @@ def _size_discs(settings):
     sizes = settings["sizes"]
     ends = {"until_x": sizes["until_x"], "short_until_x": sizes["until_x"], "whole_curves": 0}  # all at the same X
     shared = {"pool": "size_discs", "indentation": settings["indentation"] | ends}
-    surface, control = settings["surface"] | UNIT_DISC, sizes["control"]
-    powers = [
-        grid | {"spawn_key": seeds.size_disc_key(hurst, grid["elements"]), "surface": surface | {"hurst": hurst}}
-        for hurst, grid in itertools.product(sizes["hurst"], sizes["discs"])
-    ]
-    controls = [
-        grid | {"spawn_key": seeds.size_control_key(control["hurst"], grid["elements"]), "surface": surface | control}
-        for grid in sizes["discs"]
-    ]
-    return {
-        group: shared | _of_several([{"name": group} | one for one in ensembles], sizes["batch"], group)
-        for group, ensembles in (("sizes", powers), ("controls", controls))
-    }
+    surface, powers = settings["surface"] | UNIT_DISC, [{"hurst": hurst} for hurst in sizes["hurst"]]
+    cases = {}
+    for group, changes, key in (
+        ("sizes", powers, seeds.size_disc_key),
+        ("controls", [sizes["control"]], seeds.size_control_key),
+    ):
+        ensembles = [
+            {"name": group, "spawn_key": key(one["hurst"], grid["elements"]), "surface": surface | one, **grid}
+            for one, grid in itertools.product(changes, sizes["discs"])
+        ]
+        cases[group] = shared | _of_several(ensembles, sizes["batch"], group)
+    return cases
 
 
 def _of_several(ensembles, batch, group):

@@ -39,26 +39,21 @@ def on_abscissae(curves, rms, diameter, x):
 
     κ = k/(4GL) at F/G = 4hLX (Eq. 3); nan beyond the last level of a curve. Between levels ln(count) is linear in
     ln F, and below the first level the count is that of the first level.
-    Raises ValueError for no curves, rms heights or abscissae out of range.
+    Raises ValueError for no curves, or rms heights out of range.
     """
-    x = np.asarray(x, dtype=float)
     if not curves:
         raise ValueError("on_abscissae: there is no loading curve; at least one is needed")
     diameters = np.broadcast_to(diameter, len(curves))
-    if not ((diameters > 0) & (diameters < np.inf)).all():
-        raise ValueError(f"on_abscissae: diameter must be positive and finite, not {diameter}")
-    if x.ndim != 1 or x.size == 0 or not (x[0] > 0 and np.all(np.diff(x) > 0) and x[-1] < np.inf):
-        raise ValueError("on_abscissae: x must be one-dimensional, positive and strictly increasing")
     heights = np.empty((len(rms), len(curves)))
     for row, (name, values) in zip(heights, rms.items(), strict=True):
         if np.shape(values) not in ((), row.shape) or not np.all(np.isfinite(values) & (np.asarray(values) > 0)):
             raise ValueError(f"on_abscissae: rms[{name!r}] must be {len(curves)} positive numbers, or one for all")
         row[:] = values
 
-    stiffness = np.empty((*heights.shape, x.size))
+    stiffness = np.empty((*heights.shape, len(x)))
     count = np.empty_like(stiffness)
     for i, (curve, length) in enumerate(zip(curves, diameters, strict=True)):
-        force = 4 * length * heights[:, i, None] * x
+        force = 4 * length * heights[:, i, None] * np.asarray(x)
         stiffness[:, i] = curve.at_force(force)[1] / (4 * length)
         count[:, i] = np.exp(np.interp(np.log(force), np.log(curve.force), np.log(curve.contact_count)))
     count[np.isnan(stiffness)] = np.nan

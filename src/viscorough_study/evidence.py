@@ -149,13 +149,13 @@ def opposite(met):
 class Case:
     """Outcome of one case of a claim.
 
-    name : Hurst exponent or part that the case is about; expected : what the paper says, nan if it is not a number
+    case : Hurst exponent or part that the case is about; expected : what the paper says, nan if it is not a number
     value, low, high : the quantity and its 95 % interval, nan where it has no statistical scatter
     least, largest : smallest and largest value over grids, windows, times or realizations, nan where there is one value
     convention : in which the claim holds where it does not in those of the figures
     """
 
-    name: str
+    case: str
     value: float
     low: float
     high: float

@@ -2,8 +2,6 @@
 
 import html
 
-import pandas as pd
-
 _PAGE = """<!DOCTYPE html>
 <html lang="en">
 <head>
@@ -17,7 +15,7 @@ h1 {{ font-size: 1.3em; }}
 table {{ border-collapse: collapse; }}
 th, td {{ padding: .2em .7em; text-align: left; vertical-align: top; border-bottom: 1px solid #ddd; }}
 th {{ position: sticky; top: 0; background: #f4f4f4; }}
-td.number {{ text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }}
+{numbers} {{ text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }}
 dt {{ font-weight: 600; }}
 dd {{ margin: 0 0 .3em 1.5em; }}
 </style>
@@ -26,12 +24,7 @@ dd {{ margin: 0 0 .3em 1.5em; }}
 <h1>{title}</h1>
 <p>{rows} rows. Numbers have four digits here, and all of their digits in <code>{csv}</code> beside this file.</p>
 <div class="wide" tabindex="0">
-<table>
-<thead><tr>{header}</tr></thead>
-<tbody>
-{body}
-</tbody>
-</table>
+{table}
 </div>
 <h2>Columns</h2>
 <dl>
@@ -47,12 +40,10 @@ def html_table(table, columns, title, csv_name):
 
     columns : {column: (long_name, units)}; csv_name : of the file with all digits, which the page names
     """
-    kinds = [' class="number"' if table[name].dtype.kind in "iuf" else "" for name in columns]
-    rows = zip(*(table[name].tolist() for name in columns), strict=True)
-    body = (
-        "<tr>" + "".join(f"<td{kind}>{_cell(value)}</td>" for kind, value in zip(kinds, row, strict=True)) + "</tr>"
-        for row in rows
-    )
+    shown = table[list(columns)].rename_axis(columns=None)
+    for name in shown.select_dtypes(bool):
+        shown[name] = shown[name].map({True: "yes", False: "no"})
+    numbers = [f"td:nth-child({place})" for place, kind in enumerate(shown.dtypes, 1) if kind.kind in "iuf"]
     meanings = (
         f"<dt>{html.escape(name)}</dt><dd>{html.escape(long_name)}{_unit(units)}</dd>"
         for name, (long_name, units) in columns.items()
@@ -61,18 +52,10 @@ def html_table(table, columns, title, csv_name):
         title=html.escape(title),
         csv=html.escape(csv_name),
         rows=len(table),
-        header="".join(f'<th scope="col">{html.escape(name)}</th>' for name in columns),
-        body="\n".join(body),
+        numbers=", ".join(numbers) or "td.number",
+        table=shown.to_html(index=False, border=0, na_rep="", float_format="{:.4g}".format),
         columns="\n".join(meanings),
     )
-
-
-def _cell(value):
-    if pd.isna(value):
-        return ""
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    return f"{value:.4g}" if isinstance(value, float) else html.escape(str(value))
 
 
 def _unit(units):

@@ -17,7 +17,7 @@ from viscorough.reference import COMPLETE_CONTACT_STIFFNESS
 from viscorough_study.conventions import FITTED
 from viscorough_study.discs import punch_stiffness
 from viscorough_study.intervals import described, percentile_interval, three_columns, with_interval
-from viscorough_study.pool import elements_across, ensembles_on_grids, select
+from viscorough_study.pool import elements_across, ensembles, select
 from viscorough_study.power_law import log_means
 
 LAW_ELEMENTS_MIN = 5  # median of the elements in contact from which on the law is fitted; with one, the slope is 1
@@ -64,7 +64,7 @@ def ensembles_of(pool, source, case_group, hursts=None):
     found, pool = [], select(pool, group=case_group)
     if hursts is not None:
         pool = pool.isel(realization=np.flatnonzero(np.isin(pool["hurst"], list(hursts))))
-    for (hurst, elements), ensemble in ensembles_on_grids(pool).items():
+    for (hurst, elements), ensemble in ensembles(pool, "hurst", "elements").items():
         number = elements if source == "lines" else elements_across(elements)
         punch = COMPLETE_CONTACT_STIFFNESS if source == "lines" else punch_stiffness(number)
         about = {"source": source, "case_group": case_group, "hurst": hurst, "across": number}

@@ -75,3 +75,13 @@ def deviation_interval(deviation, freedom):
     """A standard deviation of normal samples and its interval by the distribution of χ²: (value, low, high)."""
     ends = deviation * np.sqrt(freedom / stats.chi2.ppf([0.975, 0.025], freedom)) if freedom else NO_INTERVAL
     return deviation, *ends
+
+
+def difference(first, second):
+    """The second of two independent quantities less the first, (value, low, high), from the intervals of both."""
+    value = second[0] - first[0]
+    below, above = (
+        np.hypot(second[0] - second[1], first[2] - first[0]),
+        np.hypot(second[2] - second[0], first[0] - first[1]),
+    )
+    return value, value - below, value + above

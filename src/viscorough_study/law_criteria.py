@@ -12,7 +12,7 @@ import pandas as pd
 from viscorough import reference
 from viscorough_study.conventions import FITTED, NAMES, in_every_reading, in_words, left_open, of_source, select
 from viscorough_study.evidence import hurst_name, judged
-from viscorough_study.intervals import UNDEFINED, deviation_interval, interval, percentile_interval
+from viscorough_study.intervals import UNDEFINED, deviation_interval, difference, interval, percentile_interval
 from viscorough_study.power_law import fit_power_law, in_window, log_means
 from viscorough_study.region_criteria import combinations_case
 
@@ -72,12 +72,9 @@ def _differences(evidence, conventions):
     """β of lines minus β of discs with its 95 % interval: value, low, high and realizations by H."""
     discs, lines = (evidence.fits(source, **conventions) for source in ("discs", "lines"))
     lines = lines.reindex(discs.index)
-    difference = lines["beta"] - discs["beta"]
-    below = np.hypot(lines["beta"] - lines["beta_low"], discs["beta_high"] - discs["beta"])
-    above = np.hypot(lines["beta_high"] - lines["beta"], discs["beta"] - discs["beta_low"])
+    values = difference(interval(discs, "beta"), interval(lines, "beta"))
     number = np.minimum(lines["realizations"], discs["realizations"])
-    columns = {"value": difference, "low": difference - below, "high": difference + above, "realizations": number}
-    return pd.DataFrame(columns)
+    return pd.DataFrame(dict(zip(("value", "low", "high"), values, strict=True)) | {"realizations": number})
 
 
 def hurst_only(evidence, tolerance):

@@ -17,7 +17,7 @@ from viscorough.contact.one_contact import contact_at
 from viscorough.indenter import Indenter
 from viscorough.mdr import line_of_surface, reduce
 from viscorough.surfaces import cut_disc, self_affine_square
-from viscorough_study.intervals import described, mean_with_interval
+from viscorough_study.intervals import described, mean_with_interval, three_columns
 from viscorough_study.seeds import mdr_comparison_key, realization_seed
 
 COLUMNS = {
@@ -37,7 +37,6 @@ COLUMNS = {
     "chance": ("correlations of as many unrelated pairs are within ± this in 95 % of all cases", "1"),
     "realizations": ("realizations", "1"),
 }
-_MUST_BE_DEFINED = 9  # columns from `stiffness` to `force_ratio`
 FORCE_MARGIN = 1.01  # by which the curve of a disc reaches beyond the last force compared, so that it is defined there
 
 
@@ -49,24 +48,20 @@ def compare_reduction(hursts, elements, realizations, x, *, tolerance, seed, pro
     tolerance : of the loading curves of the discs; seed : root of the surfaces' seeds; progress : wraps the loop
     Abscissae that some curve does not reach are left out.
     """
-    force, rows = 4 * x, []  # F/G = 4hLX with h = L = 1
+    force, tables = 4 * x, []  # F/G = 4hLX with h = L = 1
     with_gap = is_power_of_ten(x)
     for hurst in hursts:
-        compared, gaps = [], []
+        compared = []
         for number in progress(range(realizations)):
             seed_of_both = realization_seed(seed, *mdr_comparison_key(hurst, number))
             disc, line = _disc_and_line(hurst, elements, *seed_of_both.spawn(2))
             disc_curve = indent(disc, tolerance=tolerance, until_force=FORCE_MARGIN * force[-1])
-            line_curve = reduce(line)
-            compared.append(_compare(disc_curve, line_curve, force))
-            curves = disc_curve, line_curve
-            gaps.append(
-                [mean_gaps(*pair, force[with_gap], tolerance) for pair in zip((disc, line), curves, strict=True)]
-            )
-        of_gaps = np.full((4, x.size), np.nan)
-        of_gaps[:, with_gap] = _of_gaps(np.log(gaps))
-        rows += _rows(hurst, x, np.array(compared), of_gaps)
-    return pd.DataFrame(rows, columns=list(COLUMNS))
+            line_curve, gaps = reduce(line), np.full((2, x.size), np.nan)
+            for row, pair in zip(gaps, ((disc, disc_curve), (line, line_curve)), strict=True):
+                row[with_gap] = np.log(mean_gaps(*pair, force[with_gap], tolerance))
+            compared.append([*_compare(disc_curve, line_curve, force), gaps])
+        tables.append(_table(hurst, x, np.array(compared)))
+    return pd.concat(tables, ignore_index=True)
 
 
 def _disc_and_line(hurst, elements, surface_seed, line_seed):
@@ -114,28 +109,27 @@ def mean_gaps(indenter, curve, force, tolerance):
     return gaps
 
 
-def _of_gaps(gaps):
-    """Columns of the mean gap; gaps : their logarithms, shape (realizations, disc and line, abscissae)."""
-    return [np.exp(gaps[:, 0].mean(axis=0)), *np.exp(mean_with_interval(gaps[:, 1] - gaps[:, 0]))]
+def _table(hurst, x, compared):
+    """Rows of one Hurst exponent at which all but the gaps are defined.
 
-
-def _rows(hurst, x, compared, of_gaps):
-    """Rows of one Hurst exponent; compared : results of _compare, shape (realizations, 3, 2, abscissae)."""
-    stiffness, fraction, force = np.moveaxis(compared, 1, 0)
+    compared : results of _compare and ln of the mean gaps, shape (realizations, 4, disc and line, abscissae)
+    """
+    stiffness, fraction, force, gap = np.moveaxis(compared, 1, 0)
     number = len(compared)
-    ratio = stiffness[:, 1] - stiffness[:, 0]
     with np.errstate(invalid="ignore", divide="ignore"):  # nan where all realizations have the same κ
         correlation = [np.corrcoef(stiffness[:, 0, i], stiffness[:, 1, i])[0, 1] for i in range(x.size)]
-    chance = np.tanh(1.96 / np.sqrt(number - 3)) if number > 3 else 1.0  # by Fisher's transform
-    columns = [
-        np.exp(stiffness[:, 0].mean(axis=0)),
-        *np.exp(mean_with_interval(ratio)),
-        ratio.std(axis=0, ddof=1),
-        *np.exp(mean_with_interval(fraction[:, 1] - fraction[:, 0])),
-        np.exp((force[:, 1] - force[:, 0]).mean(axis=0)),
-        *of_gaps,
-        correlation,
-        np.full(x.size, chance),
-    ]
-    rows = zip(x, np.transpose(columns), strict=True)
-    return [(hurst, at, *values, number) for at, values in rows if np.isfinite(values[:_MUST_BE_DEFINED]).all()]
+    columns = {
+        "hurst": hurst,
+        "x": x,
+        "stiffness": np.exp(stiffness[:, 0].mean(axis=0)),
+        "stiffness_scatter": (stiffness[:, 1] - stiffness[:, 0]).std(axis=0, ddof=1),
+        "force_ratio": np.exp((force[:, 1] - force[:, 0]).mean(axis=0)),
+        "gap": np.exp(gap[:, 0].mean(axis=0)),
+        "correlation": correlation,
+        "chance": np.tanh(1.96 / np.sqrt(number - 3)) if number > 3 else 1.0,  # by Fisher's transform
+        "realizations": number,
+    }
+    for name, values in (("stiffness_ratio", stiffness), ("area_ratio", fraction), ("gap_ratio", gap)):
+        columns |= three_columns(name, np.exp(mean_with_interval(values[:, 1] - values[:, 0])))
+    table = pd.DataFrame(columns)[list(COLUMNS)]
+    return table[np.isfinite(table.loc[:, "stiffness":"force_ratio"]).all(axis=1)]

@@ -21,18 +21,14 @@ LAMBDA_COLUMNS = {
     "in_region": ("1 in region (b) of the discs, else 0", "1"),
     **described("lambda", "λ of the line that has the velocity of the discs at this X (Eq. 13)"),
     **described("velocity_ratio", "vt/h of the lines with the best single λ over that of the discs"),
-    "velocity_ratio_pi": ("the same with λ = π, lines of the rms height of the discs", "1"),
 }
 SUMMARY_COLUMNS = {
     "hurst": ("Hurst exponent H", "1"),
     "x_low": ("lower end of region (b) of the discs in X", "1"),
     "x_high": ("upper end of region (b) of the discs in X", "1"),
-    "x_end": ("X up to which all curves are defined, end of the whole curve", "1"),
-    "lambda_range": ("largest over least λ(X) in region (b)", "1"),
     **described("drift", "λ at the upper over λ at the lower end of region (b), by a power law through λ(X)"),
     **described("lambda_best", "λ with the smallest largest error of vt/h over region (b)"),
     "error_region": ("largest error of ln(vt/h) over region (b) with this λ", "1"),
-    "error_region_pi": ("the same with λ = π", "1"),
     **described("error_trend", "error of ln(vt/h) at the upper end of region (b) with this λ, by a power law"),
     **described("error_whole", "largest error of ln(vt/h) from the start of region (b) to the end of the curve"),
     "discs": ("number of discs", "1"),
@@ -94,10 +90,9 @@ def _of_abscissae(match, best, window, chosen):
     """Rows of the chosen abscissae."""
     x = match.x[chosen]
     of_lambda, ratio = match.lambda_at(x), np.exp(match.deviation(best, chosen))
-    with_pi = np.exp(match.deviation(np.zeros_like(best), chosen)[0])
     rows = []
     for i, at in enumerate(x):
-        row = {"x": at, "in_region": int(in_window(at, window)), "velocity_ratio_pi": with_pi[i]}
+        row = {"x": at, "in_region": int(in_window(at, window))}
         row |= three_columns("lambda", match.with_interval(of_lambda[:, i]))
         rows.append(row | three_columns("velocity_ratio", match.with_interval(ratio[:, i])))
     return rows
@@ -108,16 +103,12 @@ def _summary(match, best, window, chosen):
     region, whole = in_window(match.x, window), chosen & (match.x >= window[0])
     stretch = match.stretch_at(match.x[region])
     error, of_whole = (match.deviation(best, part) for part in (region, whole))
-    with_pi = match.deviation(np.zeros_like(best), region)[0]
     return {
         "x_low": window[0],
         "x_high": window[1],
-        "x_end": match.x[chosen][-1],
-        "lambda_range": np.exp(2 * np.ptp(stretch[0])),
         **three_columns("drift", match.with_interval(np.exp(2 * _rise(match.x[region], stretch)))),
         **three_columns("lambda_best", match.with_interval(np.pi * np.exp(2 * best))),
         "error_region": np.abs(error[0]).max(),
-        "error_region_pi": np.abs(with_pi).max(),
         **three_columns("error_trend", match.with_interval(_rise(match.x[region], error) / 2)),
         **three_columns("error_whole", match.with_interval(np.abs(of_whole).max(axis=1))),
     }

@@ -13,7 +13,7 @@ from viscorough.io.media import medium_from_mapping
 from viscorough.reference import exponent_beta
 from viscorough.viscous.correspondence import kinetics
 from viscorough_study.intervals import described, three_columns
-from viscorough_study.power_law import fit_power_law, local_slope
+from viscorough_study.power_law import fit_power_law, local_slopes
 
 COLUMNS = {
     "medium": ("name of the medium", None),
@@ -81,21 +81,26 @@ def media_tables(ensembles, media, *, force, times, stiffness_range, resamples, 
 
 def _motions(curves, rms, medium, force, times):
     """u/h and vt/h of all realizations, shape (realizations, times); nan where a curve has ended."""
-    depth, velocity = (np.full((len(curves), times.size), np.nan) for _ in range(2))
-    compliance = medium.creep_compliance(times)
+    depth, velocity = np.full((2, len(curves), times.size), np.nan)
     for i, (curve, height) in enumerate(zip(curves, rms, strict=True)):
-        reached = force * compliance <= curve.force[-1]
-        if reached.any():
-            motion = kinetics(curve, force, medium, times[reached])
-            depth[i, reached] = motion.depth / height
-            velocity[i, reached] = motion.velocity * motion.time / height
+        if motion := motion_on_curve(curve, force, medium, times):
+            end = motion.time.size  # the creep compliance grows with time
+            depth[i, :end] = motion.depth / height
+            velocity[i, :end] = motion.velocity * motion.time / height
     return depth, velocity
+
+
+def motion_on_curve(curve, force, medium, times):
+    """Kinetics under a constant force at the times at which the depth is on the loading curve; None without any."""
+    reached = times[force * medium.creep_compliance(times) <= curve.force[-1]]
+    return kinetics(curve, force, medium, reached) if reached.size else None
 
 
 def _means(time, x, creep_exponent, depth, velocity, beta):
     """Geometric means; depth, velocity : shape (realizations, times), at times at which all are defined and move."""
     log_depth, log_velocity = np.log(depth), np.log(velocity)
     mean, number = log_velocity.mean(axis=0), len(velocity)
+    log_time, half_width = np.log(time), HALF_WIDTH * np.log(10)
     return pd.DataFrame(
         {
             "time": time,
@@ -103,9 +108,9 @@ def _means(time, x, creep_exponent, depth, velocity, beta):
             "depth": np.exp(log_depth.mean(axis=0)),
             "velocity": np.exp(mean),
             "velocity_error": 2 * log_velocity.std(axis=0, ddof=1) / np.sqrt(number),
-            "exponent": local_slope(time, np.exp(mean), HALF_WIDTH),
+            "exponent": local_slopes(log_time, mean, half_width),
             "creep_exponent": creep_exponent,
-            "expected": local_slope(time, creep_exponent * x**beta, HALF_WIDTH),
+            "expected": local_slopes(log_time, np.log(creep_exponent * x**beta), half_width),
             "realizations": number,
         }
     )

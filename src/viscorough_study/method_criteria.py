@@ -4,7 +4,7 @@ import numpy as np
 
 from viscorough.surfaces import cut_disc
 from viscorough_study.evidence import judged, opposite
-from viscorough_study.intervals import NO_INTERVAL, UNDEFINED
+from viscorough_study.intervals import NO_INTERVAL, UNDEFINED, difference
 
 WEEKS_IN_MINUTES = 7 * 24 * 60  # the unit of several weeks in that of a few minutes
 SMALL_ERROR = 0.01  # of the velocity, with which a contact problem for every change of the contact is compared
@@ -29,10 +29,7 @@ def line_spectrum(evidence, tolerance):
         yield judged("λ over H", UNDEFINED, np.nan, None)
         return
     logarithms = np.log(fits.drop(columns="realizations").to_numpy())
-    (first, first_low, first_high), (last, last_low, last_high) = logarithms[0], logarithms[-1]
-    ratio = last - first
-    below, above = np.hypot(last - last_low, first_high - first), np.hypot(last_high - last, first - first_low)
-    logarithmic, widest = (ratio, ratio - below, ratio + above), np.log1p(tolerance)
+    logarithmic, widest = difference(logarithms[0], logarithms[-1]), np.log1p(tolerance)
     number = min(fits["realizations"].min(), evidence.fits("lines")["realizations"].min())
     met = opposite(evidence.within(logarithmic, -widest, widest, realizations=number))
     name = f"λ at H = {fits.index[-1]:g} over λ at H = {fits.index[0]:g}; least and largest λ/π"

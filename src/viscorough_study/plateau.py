@@ -11,6 +11,7 @@ passes power laws, both with the scatter of the real realizations: shares of syn
 import numpy as np
 
 from viscorough_study.intervals import described, resampled_means, three_columns, with_interval
+from viscorough_study.power_law import local_slopes
 
 ROUNDING = 1e-9  # relative difference up to which distances on the logarithmic axis count as equal
 COLUMNS = {
@@ -33,20 +34,16 @@ COLUMNS = {
 RESAMPLES_OF_DRAWS = 100  # bootstrap samples of each synthetic ensemble
 
 
-def local_slopes(log_x, log_y, half_width):
-    """Abscissae and slopes d ln y/d ln X of straight lines through all points within half_width to either side.
+def inner_slopes(log_x, log_y, half_width):
+    """Abscissae that have points over the whole width of `local_slopes`, and the slopes there.
 
     log_x : ln X, equally spaced, shape (abscissae,); log_y : ln y, shape (curves, abscissae), without nan
-    Only abscissae are returned that have points over the whole width: shapes (inner,) and (curves, inner).
-    Raises ValueError if there is none.
+    Returns arrays of shapes (inner,) and (curves, inner). Raises ValueError if there is no such abscissa.
     """
     reach = int(half_width / (log_x[1] - log_x[0]) + ROUNDING)
     if reach < 1 or log_x.size <= 2 * reach:
-        raise ValueError(f"local_slopes: {log_x.size} abscissae are too few for lines of {2 * reach + 1} points")
-    offsets = (log_x[1] - log_x[0]) * np.arange(-reach, reach + 1)
-    weights = offsets / (offsets @ offsets)
-    windows = np.lib.stride_tricks.sliding_window_view(log_y, offsets.size, axis=-1)
-    return log_x[reach:-reach], windows @ weights
+        raise ValueError(f"inner_slopes: {log_x.size} abscissae are too few for lines of {2 * reach + 1} points")
+    return log_x[reach:-reach], local_slopes(log_x, log_y, half_width)[:, reach:-reach]
 
 
 def longest_plateau(slopes, tolerance):
@@ -70,7 +67,7 @@ def longest_plateau(slopes, tolerance):
 def plateau(log_x, log_y, *, half_width, tolerance, resamples, random):
     """The plateau of the mean of realizations, with 95 % bootstrap intervals over them.
 
-    log_x, log_y, half_width : as in `local_slopes`, log_y of the realizations; random : numpy.random.Generator
+    log_x, log_y, half_width : as in `inner_slopes`, log_y of the realizations; random : numpy.random.Generator
     Returns a dict: decades, decades_low, decades_high; slope, slope_low, slope_high, the mean slope over the plateau;
     x_low, x_high, its ends in X.
 
@@ -78,7 +75,7 @@ def plateau(log_x, log_y, *, half_width, tolerance, resamples, random):
     curves pass that have no power law, but of power laws that scatter much some fail, as `shares` tells.
     """
     number = len(log_y)
-    inner, slopes = local_slopes(log_x, resampled_means(log_y, resamples, random), half_width)
+    inner, slopes = inner_slopes(log_x, resampled_means(log_y, resamples, random), half_width)
     step = (inner[1] - inner[0]) / np.log(10)
     steps, start = longest_plateau(slopes, tolerance)
     run = slice(start[0], start[0] + steps[0] + 1)

@@ -71,26 +71,18 @@ def select(pool, **wanted):
     return pool.isel(realization=np.flatnonzero(chosen))
 
 
-def ensembles(pool, name):
-    """{value of a coordinate: ensemble of its realizations}, in the order of the pool.
+def ensembles(pool, *names):
+    """{value of a coordinate, or values of several: ensemble of its realizations}, in the order of the pool.
 
     The ensembles have averages over their realizations (viscorough_study.ensembles). Their case and diameter are
     numbers where all realizations agree, else coordinates of the realizations.
     Raises ValueError unless all realizations of an ensemble have one Hurst exponent.
     """
-    values = pool[name].values.tolist()
-    return {value: _ensemble(select(pool, **{name: value}), value) for value in dict.fromkeys(values)}
-
-
-def ensembles_on_grids(pool):
-    """{(Hurst exponent, elements): ensemble} of realizations on grids from coarse to fine, in the order of the pool."""
-    grids = zip(pool["hurst"].values.tolist(), pool["elements"].values.tolist(), strict=True)
-    return {
-        (hurst, elements): _ensemble(
-            select(pool, hurst=hurst, elements=elements), f"H = {hurst:g}, {elements} elements"
-        )
-        for hurst, elements in dict.fromkeys(grids)
-    }
+    found = {}
+    for values in dict.fromkeys(zip(*(pool[name].values.tolist() for name in names), strict=True)):
+        key = values if len(names) > 1 else values[0]
+        found[key] = _ensemble(select(pool, **dict(zip(names, values, strict=True))), key)
+    return found
 
 
 def _ensemble(part, about):

@@ -20,20 +20,19 @@ ROUNDING = 1e-9  # relative difference up to which abscissae and numbers of deca
 # ---- windows
 
 
-def local_slope(x, y, half_width):
-    """d ln y / d ln X, shape (abscissae,): least-squares line through the abscissae within half_width decades.
+def local_slopes(log_x, log_y, half_width):
+    """d ln y/d ln X of least-squares lines through the abscissae within half_width to either side; of log_y's shape.
 
-    Undefined (nan) values of y are left out; nan where fewer than two remain.
+    log_x : ln X, shape (abscissae,); log_y : ln y, shape (abscissae,) or (curves, abscissae)
+    Abscissae at which a curve is undefined (nan) are left out; nan where fewer than two remain.
     """
-    log_x, defined = np.log(x), np.isfinite(y)
-    log_y = np.log(np.where(defined, y, 1))
-    near = (np.abs(log_x[:, None] - log_x) <= half_width * np.log(10) * (1 + ROUNDING)) & defined
+    defined = np.atleast_2d(np.isfinite(log_y)).all(axis=0)
+    near = (np.abs(log_x[:, None] - log_x) <= half_width * (1 + ROUNDING)) & defined
     number = near.sum(axis=1)
     centre = near @ log_x / np.maximum(number, 1)
     offset = np.where(near, log_x - centre[:, None], 0)
-    slope = np.full(len(log_x), np.nan)
-    np.divide(offset @ log_y, (offset**2).sum(axis=1), out=slope, where=number > 1)
-    return slope
+    slopes = np.full(log_y.shape, np.nan)
+    return np.divide(np.where(defined, log_y, 0) @ offset.T, (offset**2).sum(axis=1), out=slopes, where=number > 1)
 
 
 def find_region(mean, *, elements_min, stiffness_max, slope_max, slope_half_width, fraction_min, decades_min):
@@ -51,8 +50,8 @@ def find_region(mean, *, elements_min, stiffness_max, slope_max, slope_half_widt
     The limits and the values advised for them are in config/README.md, section Scaling.
     There is no region (b) if no such run spans decades_min decades.
     """
-    x = mean["x"].values
-    allowed = local_slope(x, mean["velocity_geometric"].values, slope_half_width) <= slope_max
+    log_x, log_velocity = np.log(mean["x"].values), np.log(mean["velocity_geometric"].values)
+    allowed = local_slopes(log_x, log_velocity, slope_half_width * np.log(10)) <= slope_max
     allowed &= mean["contact_count_median"].values >= elements_min
     return _longest_run(mean, allowed, (0, stiffness_max), fraction_min, decades_min)
 

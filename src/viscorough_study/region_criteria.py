@@ -15,7 +15,7 @@ from viscorough_study.intervals import (
     resampled_means,
     with_interval,
 )
-from viscorough_study.plateau import local_slopes
+from viscorough_study.plateau import inner_slopes
 
 ROUNDING = 1e-9  # relative difference up to which numbers of decades count as equal
 LEFT_REGION = 2.0  # κ over that of one element, at which a curve has left region (a)
@@ -168,7 +168,7 @@ def complete_contact(evidence, tolerance):
     for hurst, ensemble in evidence.whole.items():
         defined = ensemble["fraction_defined"].values == 1
         log_x, mean = np.log(ensemble["x"].values[defined]), np.log(ensemble["velocity_geometric"].values[defined])
-        inner, (slopes,) = local_slopes(log_x, mean[None], evidence.limits["slope_half_width"] * np.log(10))
+        inner, (slopes,) = inner_slopes(log_x, mean[None], evidence.limits["slope_half_width"] * np.log(10))
         below = np.flatnonzero(slopes < 1 - SLOPE_OF_LINE)
         if not below.size or below[-1] + 1 == slopes.size:
             yield judged(hurst_name(hurst), UNDEFINED, 1.0, None)

@@ -32,16 +32,14 @@ def rule_costs(folder):
     jobs = pd.DataFrame([_time_and_memory(path) for path in paths], columns=["s", "memory"])
     jobs["rule"] = [Path(path.relative_to(folder).parts[0]).stem for path in paths]
     jobs["share"] = _shares(np.array([path.stat().st_mtime for path in paths]), jobs["s"].to_numpy())
-    by_rule = jobs.groupby("rule")
-    table = pd.DataFrame(
-        {
-            "jobs": by_rule.size(),
-            "seconds": by_rule["s"].sum().round(1),
-            "share_s": by_rule["share"].sum().round(2),
-            "longest_s": by_rule["s"].max().round(1),
-            "memory_mb": by_rule["memory"].max().round(),
-        }
+    table = jobs.groupby("rule").agg(
+        jobs=("s", "size"),
+        seconds=("s", "sum"),
+        share_s=("share", "sum"),
+        longest_s=("s", "max"),
+        memory_mb=("memory", "max"),
     )
+    table = table.round({"seconds": 1, "share_s": 2, "longest_s": 1, "memory_mb": 0})
     return table.sort_values("seconds", ascending=False).reset_index()[list(COLUMNS)]
 
 

@@ -22,7 +22,7 @@ from scipy.special import zeta
 
 from viscorough.reference import COMPLETE_CONTACT_STIFFNESS, exponent_beta
 from viscorough_study.discs import punch_stiffness
-from viscorough_study.pool import elements_across, ensembles_on_grids, select
+from viscorough_study.pool import elements_across, ensembles, select
 from viscorough_study.power_law import log_means
 
 QUANTITIES = {"whole": "vt/h", "interface": "vt/h less X/κ_c of the punch"}
@@ -99,14 +99,13 @@ class Grid:
 
 def curve_table(found, x_high):
     """Curves of all grids up to x_high, with the columns of `CURVES`; found : as of `grids`."""
-    parts = []
+    parts = [pd.DataFrame(columns=list(CURVES))]
     for hurst, of_hurst in found.items():
         for one, quantity in product(of_hurst, QUANTITIES):
-            curve = one.curve(quantity, "spectrum" if hurst > 0 else "resolved", x_high)
-            if curve is not None:
+            if curve := one.curve(quantity, "spectrum" if hurst > 0 else "resolved", x_high):
                 values = {"x": np.exp(curve[0]), "velocity": np.exp(curve[1][0])}
                 parts.append(pd.DataFrame({"hurst": hurst, "number": one.number, "quantity": quantity, **values}))
-    return pd.concat(parts, ignore_index=True) if parts else pd.DataFrame(columns=list(CURVES))
+    return pd.concat(parts[1:] or parts, ignore_index=True)
 
 
 def variance_share(hurst, number, source):
@@ -138,7 +137,9 @@ def grids(pool, source, *, average, rms_convention, elements_min, fraction_min, 
     generator = np.random.default_rng(seed)
     convention = "line" if source == "lines" else rms_convention
     part = select(pool, group=group).sel(rms_convention=convention)
-    for (hurst, elements), ensemble in sorted(ensembles_on_grids(part.expand_dims("rms_convention")).items()):
+    for (hurst, elements), ensemble in sorted(
+        ensembles(part.expand_dims("rms_convention"), "hurst", "elements").items()
+    ):
         ensemble = ensemble.isel(rms_convention=0)
         enough = np.flatnonzero(ensemble["contact_count_median"].values >= elements_min)
         defined = ensemble["fraction_defined"].values >= fraction_min
@@ -161,13 +162,10 @@ def collapse_table(found, source, *, x_high, tolerance):
     found : of `grids`; x_high : ends of the range, X; tolerance : of β
     """
     rows = []
-    heights = ["resolved"] if source == "controls" else list(HEIGHTS)
-    for hurst, of_hurst in found.items():
-        for quantity in QUANTITIES:
-            for height in heights if hurst > 0 else ["resolved"]:
-                for end in x_high:
-                    about = {"source": source, "hurst": hurst, "quantity": quantity, "height": height, "x_high": end}
-                    rows.append(about | collapse(of_hurst, hurst, quantity, height, end, tolerance=tolerance))
+    for (hurst, of_hurst), quantity, height, end in product(found.items(), QUANTITIES, HEIGHTS, x_high):
+        if height == "resolved" or (hurst > 0 and source != "controls"):
+            about = {"source": source, "hurst": hurst, "quantity": quantity, "height": height, "x_high": end}
+            rows.append(about | collapse(of_hurst, hurst, quantity, height, end, tolerance=tolerance))
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 

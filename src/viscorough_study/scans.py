@@ -2,6 +2,7 @@
 
 import hashlib
 import re
+from glob import glob
 from pathlib import Path
 
 from viscorough_study.settings import SettingsError
@@ -16,7 +17,9 @@ def scans(entries):
     found = {}
     for entry in entries:
         for pattern in entry["files"]:
-            files = sorted(str(path) for path in _matching(pattern))
+            files = sorted(
+                str(Path(file)) for file in glob(pattern, recursive=True, include_hidden=True) if Path(file).is_file()
+            )
             if not files:
                 raise SettingsError(
                     f"measured: no file {pattern} of {entry['name']}; allowed: files or patterns of files"
@@ -30,14 +33,6 @@ def scans(entries):
                 shared |= {"preparation": entry.get("preparation", {}), "forces": entry.get("forces", [])}
                 found[name] = shared | _content(file) | {"group": entry["name"], "file": file}
     return found
-
-
-def _matching(pattern):
-    """Files that match a pattern, which may be absolute."""
-    path = Path(pattern)
-    base = Path(path.anchor) if path.is_absolute() else Path()
-    relative = path.relative_to(path.anchor) if path.is_absolute() else path
-    return [file for file in base.glob(str(relative)) if file.is_file()]
 
 
 def _content(file):

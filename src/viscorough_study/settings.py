@@ -1,13 +1,34 @@
-"""The check of the settings, by their schema and against each other: one line for the first error."""
+"""The check of the settings, by their schema and against each other: one line for the first error.
+
+Beside the keywords of JSON schemas, the schema has `eachOnce`, of a list whose entries differ, or, with the name of a
+key, whose mappings differ in that key; and `decimals`, the most that a number may have, so that different Hurst
+exponents have different file names.
+"""
 
 import difflib
 import math
+from itertools import chain
 
 import jsonschema
 
-# Groups of cases that every run has, and which variants can therefore not be called (viscorough_study.cases).
-GROUPS = ("base", "controls", "lines", "sizes")
-_RANGES = ("ensemble", "reduction")  # sections with a range of X
+_KINDS = {
+    "integer": "a whole number",
+    "number": "a number",
+    "string": "text",
+    "array": "a list",
+    "boolean": "true or false",
+    "object": "keys with values",
+    "null": "null",
+}
+_BOUNDS = {
+    "minimum": "from {}",
+    "exclusiveMinimum": "above {}",
+    "maximum": "up to {}",
+    "minItems": "of at least {}",
+    "maxItems": "of at most {}",
+    "minProperties": "of at least {}",
+    "decimals": "of at most {} decimals",
+}
 
 
 class SettingsError(ValueError):
@@ -21,10 +42,12 @@ def check_settings(settings, schema):
     """
     standard = jsonschema.Draft202012Validator
     checker = standard.TYPE_CHECKER.redefine_many({"integer": _is_whole, "number": _is_finite})
-    validator = jsonschema.validators.extend(standard, type_checker=checker)
+    keywords = {"eachOnce": _each_once, "decimals": _decimals}
+    validator = jsonschema.validators.extend(standard, keywords, type_checker=checker)
     error = jsonschema.exceptions.best_match(validator(schema).iter_errors(settings))
-    complaint = _schema_complaint(error) if error else _contradiction(settings)
-    if complaint:
+    checks = (_disc_without_line, _unlike_lengths, _decreasing_task, _too_short_wave, _empty_range, _too_short_curve)
+    contradictions = chain.from_iterable(check(settings) for check in (*checks, _wrong_medium))
+    if complaint := _schema_complaint(error) if error else next(contradictions, None):
         raise SettingsError(complaint)
 
 
@@ -36,160 +59,94 @@ def _is_finite(_, value):
     return (_is_whole(_, value) or isinstance(value, float)) and math.isfinite(value)  # YAML has .inf and .nan
 
 
+def _each_once(_, key, entries, __):
+    if isinstance(entries, list):
+        values = [entry.get(key) if isinstance(entry, dict) else entry for entry in entries]
+        for value in (value for value in values if values.count(value) > 1):
+            yield jsonschema.ValidationError(f"{value} occurs twice; allowed: once")
+
+
+def _decimals(_, number, value, __):
+    if _is_finite(_, value) and value != round(value, number):
+        yield jsonschema.ValidationError("too many decimals")
+
+
 # ---- against the schema
-
-
-def _dotted(path):
-    """A key as the documentation writes it, such as discs.combinations[0].force."""
-    return "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path).lstrip(".") or "settings"
-
-
-def _in_one_line(text):
-    return text[:60] if text.isprintable() else repr(text)[:60]
 
 
 def _schema_complaint(error):
     """One line on an error of jsonschema."""
-    key = _dotted(error.absolute_path)
-    within = f" in {key}" if error.absolute_path else ""
+    key = error.json_path[2:]  # without "$."
+    within = f" in {key}" if key else ""
     if error.validator == "additionalProperties":
         known = sorted(error.schema["properties"])
-        unknown = _in_one_line(sorted(map(str, set(error.instance) - set(known)))[0])
+        unknown = min(map(str, set(error.instance) - set(known)))
+        unknown = (unknown if unknown.isprintable() else repr(unknown))[:60]
         close = difflib.get_close_matches(unknown, known, 1)
         hint = f"did you mean {close[0]}?" if close else f"allowed: {', '.join(known)}"
         return f"unknown key {unknown}{within}; {hint}"
     if error.validator == "required":
         missing = next(name for name in error.validator_value if name not in error.instance)
         return f"{missing}{within} is missing; needed: {', '.join(error.validator_value)}"
+    if error.validator == "eachOnce":
+        return (f"{error.validator_value}{within}" if error.validator_value is not True else key) + f": {error.message}"
     value = "empty" if error.instance is None else f"{error.instance!r}"[:60]
     hint = ""
     if isinstance(error.instance, str) and "number" in str(error.schema.get("type")):
         hint = "; this is text: write numbers as 1.0e-3, with a point"
-    return f"{key} is {value}; allowed: {_allowed(error.schema)}{hint}"
+    return f"{key or 'settings'} is {value}; allowed: {_allowed(error.schema)}{hint}"
 
 
 def _allowed(rule):
     """What a schema allows, in words."""
-    kinds = {"integer": "a whole number", "number": "a number", "string": "text", "array": "a list"}
-    kinds |= {"boolean": "true or false", "object": "keys with values", "null": "null"}
     types = rule.get("type", [])
-    words = " or ".join(kinds[kind] for kind in ([types] if isinstance(types, str) else types))
+    words = " or ".join(_KINDS[kind] for kind in ([types] if isinstance(types, str) else types))
     words += f"one of {', '.join(rule['enum'])}" if "enum" in rule else ""
-    bounds = {"minimum": "from {}", "exclusiveMinimum": "above {}", "maximum": "up to {}"}
-    bounds |= {"minItems": "of at least {}", "maxItems": "of at most {}", "minProperties": "of at least {}"}
-    words += "".join(f" {text.format(rule[name])}" for name, text in bounds.items() if name in rule)
+    words += "".join(f" {text.format(rule[name])}" for name, text in _BOUNDS.items() if name in rule)
     words += f" {rule['unit']}" if rule.get("unit", "1") != "1" and "enum" not in rule else ""
     return f"{words} ({rule['description']})"
 
 
-# ---- against each other
-
-
-def _contradiction(settings):
-    """One line on settings that are allowed one by one but not together, or None."""
-    checks = (_reserved, _repeated, _too_precise, _disc_without_line, _too_rough, _too_smooth)
-    checks += (_decreasing_task, _too_short_wave, _empty_range, _too_short_curve, _wrong_medium)
-    return next(filter(None, (check(settings) for check in checks)), None)
-
-
-def _reserved(settings):
-    for variant in settings["variants"]["cases"]:
-        if variant["name"] in GROUPS:
-            return f"name {variant['name']} in variants.cases is taken; allowed: any but {', '.join(GROUPS)}"
-    return None
-
-
-def _repeated(settings):
-    discs, sizes, methods = settings["discs"], settings["sizes"], settings["methods"]
-    lists = {
-        "discs.hurst": discs["hurst"],
-        "lines.hurst": settings["lines"]["hurst"],
-        "number in discs.combinations": [combination["number"] for combination in discs["combinations"]],
-        "name in variants.cases": [variant["name"] for variant in settings["variants"]["cases"]],
-        "validation.elements": settings["validation"]["elements"],
-        **{f"methods.{key}": methods[key] for key in ("groups", "hurst", "bodies")},
-        "methods.elements": methods["elements"],
-        "methods.bodies_elements": methods["bodies_elements"],
-        "name in measured": [group["name"] for group in settings["measured"]],
-        "name in media.cases": [case["name"] for case in settings["media"]["cases"]],
-        "name in methods.tasks": [task["name"] for task in methods["tasks"]],
-        "stability.grids": settings["stability"]["grids"],
-        "sizes.hurst": sizes["hurst"],
-        "elements in sizes.discs": [grid["elements"] for grid in sizes["discs"]],
-        "points in sizes.lines": [grid["points"] for grid in sizes["lines"]],
-        "large.elements": settings["large"]["elements"],
-    }
-    for key, values in lists.items():
-        for value in values:
-            if values.count(value) > 1:
-                return f"{key}: {value} occurs twice; allowed: once"
-    return None
-
-
-def _too_precise(settings):
-    exponents = {f"{part}.hurst": settings[part]["hurst"] for part in ("discs", "lines", "methods", "sizes")}
-    exponents["sizes.control.hurst"] = [settings["sizes"]["control"]["hurst"]]
-    for key, values in exponents.items():
-        for hurst in values:
-            if hurst != round(hurst, 4):  # so that different exponents have different file names
-                return f"{key} has {hurst}; allowed: at most four decimals"
-    return None
+# ---- against each other: one line on settings that are allowed one by one but not together
 
 
 def _disc_without_line(settings):
     for hurst in settings["discs"]["hurst"]:
         if hurst not in settings["lines"]["hurst"]:
-            return (
-                f"discs.hurst has {hurst}, lines.hurst has not; allowed: exponents of lines.hurst (lambda needs both)"
-            )
-    return None
+            yield f"discs.hurst has {hurst}, lines.hurst has not; allowed: exponents of lines.hurst (lambda needs both)"
 
 
-def _too_rough(settings):
-    for combination in settings["discs"]["combinations"]:
-        if not combination["rms"] < combination["diameter"] / 100:
-            where = f"combination {combination['number']} of discs.combinations"
-            return f"rms {combination['rms']} in {where} is too large; allowed: below diameter/100"
-    return None
-
-
-def _too_smooth(settings):
-    for combination in settings["discs"]["combinations"]:
-        if combination["rms"] < combination["diameter"] * 1e-12:
-            where = f"combination {combination['number']} of discs.combinations"
-            return f"rms {combination['rms']} in {where} is too small; allowed: from 1e-12 of the diameter"
-    return None
+def _unlike_lengths(settings):
+    for one in settings["discs"]["combinations"]:
+        if not one["diameter"] * 1e-12 <= one["rms"] < one["diameter"] / 100:
+            where = f"combination {one['number']} of discs.combinations"
+            yield f"rms {one['rms']} in {where} is out of range; allowed: below diameter/100, from 1e-12 of it"
 
 
 def _decreasing_task(settings):
     for task in settings["methods"]["tasks"]:
-        first, last = task["fractions"]
+        (first, last), where = task["fractions"], f"fractions of {task['name']} in methods.tasks"
         if first > last:
-            return f"fractions of {task['name']} in methods.tasks decrease; allowed: the first not above the second"
+            yield f"{where} decrease; allowed: the first not above the second"
         if task["levels"] > 1 and last < 1.1 * first:
-            return (
-                f"fractions of {task['name']} in methods.tasks are too close; allowed: the second from 1.1 of the first"
-            )
-    return None
+            yield f"{where} are too close; allowed: the second from 1.1 of the first"
 
 
 def _too_short_wave(settings):
     sizes = settings["sizes"]
-    control = {
-        "name": "sizes.control",
-        "elements": min(grid["elements"] for grid in sizes["discs"]),
-        **sizes["control"],
-    }
-    for changed in [{"name": "surface"}, *settings["variants"]["cases"], control]:
+    coarsest = {"name": "sizes.control", "elements": min(grid["elements"] for grid in sizes["discs"])}
+    for changed in [{"name": "surface"}, *settings["variants"]["cases"], coarsest | sizes["control"]]:
         surface = {"elements": settings["discs"]["elements"]} | settings["surface"] | changed
         wavelength = surface["roll_off_wavelength"]
         if wavelength is not None and wavelength * surface["elements"] < 4:
-            return f"roll_off_wavelength {wavelength} of {changed['name']} is too short; allowed: from four elements"
-    return None
+            yield f"roll_off_wavelength {wavelength} of {changed['name']} is too short; allowed: from four elements"
 
 
 def _empty_range(settings):
-    ranges = {f"{part}.x_low and x_high": (settings[part]["x_low"], settings[part]["x_high"]) for part in _RANGES}
+    ranges = {
+        f"{section}.x_low and x_high": (settings[section]["x_low"], settings[section]["x_high"])
+        for section in ("ensemble", "reduction")
+    }
     for section in ("indentation", "sizes"):
         ends = settings["ensemble"]["x_low"], settings[section]["until_x"]
         ranges[f"ensemble.x_low and {section}.until_x"] = ends
@@ -197,23 +154,18 @@ def _empty_range(settings):
     ranges["media.times.low and high"] = settings["media"]["times"]["low"], settings["media"]["times"]["high"]
     for name, (low, high) in ranges.items():
         if high < 9.99 * low:  # rounded
-            return f"{name}: {low} and {high} are less than a decade; allowed: from one decade"
+            yield f"{name}: {low} and {high} are less than a decade; allowed: from one decade"
     low, high = settings["scaling"]["stiffness_range"]
     if not low < high:
-        return f"scaling.stiffness_range: {low} and {high} are no range; allowed: the first below the second"
-    return None
+        yield f"scaling.stiffness_range: {low} and {high} are no range; allowed: the first below the second"
 
 
 def _too_short_curve(settings):
     end = settings["verdicts"]["plateau_range"][1] * 10 ** settings["scaling"]["slope_half_width"]
-    for key, until_x in (
-        ("discs.short_until_x", settings["discs"]["short_until_x"]),
-        ("indentation.until_x", settings["indentation"]["until_x"]),
-    ):
-        if until_x < end:
+    for section, name in (("discs", "short_until_x"), ("indentation", "until_x")):
+        if (until_x := settings[section][name]) < end:
             what = "verdicts.plateau_range and half a slope's width"
-            return f"{key}: curves that end at X = {until_x} miss a part of {what}; allowed: from {end:.4g}"
-    return None
+            yield f"{section}.{name}: curves that end at X = {until_x} miss a part of {what}; allowed: from {end:.4g}"
 
 
 def _wrong_medium(settings):
@@ -223,5 +175,4 @@ def _wrong_medium(settings):
         try:
             medium_from_mapping({key: value for key, value in case.items() if key != "name"})
         except ValueError as error:
-            return f"{case['name']} in media.cases: {error}"
-    return None
+            yield f"{case['name']} in media.cases: {error}"

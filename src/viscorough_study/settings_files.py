@@ -12,19 +12,8 @@ from pathlib import Path
 import yaml
 
 from viscorough.io.atomic import check_readable
+from viscorough.io.unique_keys import UniqueKeys
 from viscorough_study.settings import SettingsError
-
-
-class _UniqueKeys(yaml.SafeLoader):
-    """Refuses a key that occurs twice in a mapping, of which YAML would keep the last."""
-
-    def construct_mapping(self, node, deep=False):
-        seen = set()
-        for key, _ in node.value:
-            if isinstance(key, yaml.ScalarNode) and key.value in seen:
-                raise yaml.MarkedYAMLError(problem=f"key {key.value} for the second time", problem_mark=key.start_mark)
-            seen.add(str(key.value))
-        return super().construct_mapping(node, deep)
 
 
 def read_settings_file(path):
@@ -35,7 +24,7 @@ def read_settings_file(path):
         raise SettingsError(str(error)) from None
     try:
         text = Path(path).read_bytes().decode("utf-8-sig")
-        settings = yaml.load(text, _UniqueKeys)
+        settings = yaml.load(text, UniqueKeys)
     except OSError as error:
         raise SettingsError(f"{path}: not readable ({error.strerror})") from None
     except UnicodeDecodeError as error:

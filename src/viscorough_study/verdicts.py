@@ -12,7 +12,7 @@ said at viscorough_study.evidence.Evidence.within.
 """
 
 from collections import Counter
-from dataclasses import astuple
+from dataclasses import asdict
 from inspect import getmembers, isfunction, signature
 
 import numpy as np
@@ -79,14 +79,8 @@ def judge(claims, evidence):
             raise ValueError(f"claim {name}: no criterion computes it; known are {', '.join(JUDGES)}")
         stated = {key: claim[key] for key in ("kind", "where", "tolerance", "criterion", "reason", "figure")}
         cases = JUDGES[name](evidence, claim["tolerance"])
-        rows += [{"claim": name, **stated, **_columns(case)} for case in cases]
+        rows += [{"claim": name, **stated, **asdict(case)} for case in cases]
     return pd.DataFrame(rows, columns=list(COLUMNS))
-
-
-def _columns(case):
-    """Columns of a case."""
-    names = ("case", "value", "low", "high", "least", "largest", "expected", "verdict", "convention")
-    return dict(zip(names, astuple(case), strict=True))
 
 
 def is_trial(elements_across, paper_elements_across):

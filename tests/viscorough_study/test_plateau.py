@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from support.study import ensemble_of
-from viscorough_study.plateau import COLUMNS, local_slopes, longest_plateau, plateau, plateau_row, shares
+from viscorough_study.plateau import COLUMNS, inner_slopes, longest_plateau, plateau, plateau_row, shares
 
 X = 10.0 ** np.linspace(-4, 1, 101)
 HALF_WIDTH = 0.25 * np.log(10)
@@ -25,12 +25,12 @@ def control(x):
 
 def test_slopes_are_those_of_straight_lines():
     log_x = np.log(X)
-    inner, slopes = local_slopes(log_x, np.array([0.3 * log_x + 1, log_x**2]), HALF_WIDTH)
+    inner, slopes = inner_slopes(log_x, np.array([0.3 * log_x + 1, log_x**2]), HALF_WIDTH)
     np.testing.assert_allclose(inner, log_x[5:-5])
     np.testing.assert_allclose(slopes[0], 0.3, rtol=1e-12)
     np.testing.assert_allclose(slopes[1], 2 * inner, atol=1e-12)
-    with pytest.raises(ValueError, match="local_slopes: 5 abscissae are too few"):
-        local_slopes(log_x[:5], log_x[None, :5], HALF_WIDTH)
+    with pytest.raises(ValueError, match="inner_slopes: 5 abscissae are too few"):
+        inner_slopes(log_x[:5], log_x[None, :5], HALF_WIDTH)
 
 
 def test_longest_run_within_the_tolerance():

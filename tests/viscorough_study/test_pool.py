@@ -9,7 +9,7 @@ from support.study import aggregate, line_curve
 from viscorough.io.curves import stack_curves
 from viscorough.io.netcdf import Variable
 from viscorough_study.ensembles import abscissa
-from viscorough_study.pool import ensembles, ensembles_on_grids, pool_batches, select
+from viscorough_study.pool import ensembles, pool_batches, select
 
 X = abscissa(1e-3, 3, 10)
 RMS = np.linspace(0.8, 1.2, 12)
@@ -82,7 +82,7 @@ def test_a_batch_of_several_ensembles(curves):
     assert mixed["elements"].values.tolist() == [40, 40, 3, 3]
     assert mixed["hurst"].values.tolist() == [0.5, 0.5, 0.7, 0.7]
     assert [one["name"] for one in json.loads(mixed.attrs["settings"])["sizes"]["ensembles"]] == ["a", "b", "c"]
-    assert list(ensembles_on_grids(mixed)) == [(0.5, 40), (0.7, 3)]
-    found = ensembles_on_grids(mixed)[0.5, 40]
+    assert list(ensembles(mixed, "hurst", "elements")) == [(0.5, 40), (0.7, 3)]
+    found = ensembles(mixed, "hurst", "elements")[0.5, 40]
     whole = aggregate(curves[:2], {"line": np.ones(2)}, 1.0, X, hurst=0.5, case="a")
     np.testing.assert_array_equal(found["stiffness"], whole["stiffness"])

@@ -6,8 +6,7 @@ from viscorough_study.ensembles import abscissa
 from viscorough_study.fit_table import COLUMNS
 from viscorough_study.job_log import log_to
 from viscorough_study.measured import COLUMNS as SCANS
-from viscorough_study.measured_kinetics import COLUMNS as KINETICS
-from viscorough_study.measured_tables import group_fits, scans_and_kinetics
+from viscorough_study.measured_tables import KINETICS, group_fits, scans_and_kinetics
 from viscorough_study.media_kinetics import named_media
 from viscorough_study.pool import ensembles
 from viscorough_study.tables import write_table

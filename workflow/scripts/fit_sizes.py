@@ -7,7 +7,7 @@ from viscorough_study.fit_table import COLUMNS, fit_rows
 from viscorough_study.grid_trends import COLUMNS as TRENDS
 from viscorough_study.grid_trends import fixed_window_rows, trends
 from viscorough_study.job_log import log_to, progress
-from viscorough_study.pool import ensembles_on_grids, select
+from viscorough_study.pool import ensembles, select
 from viscorough_study.tables import write_table
 
 
@@ -23,7 +23,10 @@ def main(
     fixed |= {name: conventions[name] for name in ("average", "rms_convention")}
     discs, lines, rows = read_dataset(discs), read_dataset(lines), []
     for source, group, pool in (("discs", "sizes", discs), ("discs", "controls", discs), ("lines", "sizes", lines)):
-        about, grids = {"source": source, "case_group": group}, ensembles_on_grids(select(pool, group=group)).values()
+        about, grids = (
+            {"source": source, "case_group": group},
+            ensembles(select(pool, group=group), "hurst", "elements").values(),
+        )
         for ensemble in progress(grids, len(grids), f"{source}, {group}"):
             fits = fit_rows(ensemble, **about, seed=seed, **fit)
             fits += fixed_window_rows(ensemble, windows, about, **fixed)

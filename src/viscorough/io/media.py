@@ -9,6 +9,7 @@ import yaml
 from viscorough import units
 from viscorough.io.atomic import check_readable, reason
 from viscorough.io.columns import read_columns
+from viscorough.io.unique_keys import UniqueKeys
 from viscorough.viscous.media import (
     CreepTable,
     KelvinVoigt,
@@ -90,19 +91,13 @@ def scaled(medium, factor):
     return dataclasses.replace(medium, **changed)
 
 
-class _Loader(yaml.SafeLoader):
-    """YAML without anchors, and with a fault where a key stands twice."""
+class _Loader(UniqueKeys):
+    """YAML without anchors."""
 
     def compose_node(self, parent, index):
         if self.check_event(yaml.AliasEvent):
             raise yaml.YAMLError("aliases are not allowed")
         return super().compose_node(parent, index)
-
-    def construct_mapping(self, node, deep=False):
-        keys = [key.value for key, _ in node.value]
-        if twice := [key for key in keys if keys.count(key) > 1]:
-            raise yaml.YAMLError(f"the key {_shown(twice[0])} stands twice")
-        return super().construct_mapping(node, deep)
 
 
 def _mapping(path):

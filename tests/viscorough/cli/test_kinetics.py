@@ -212,7 +212,7 @@ BAD_MEDIA = {
     "a number": ("3", "holds 3"),
     "empty": ("", "holds None"),
     "no YAML": ("{kind: newtonian", "not readable"),
-    "a key twice": ("kind: newtonian\nviscosity: 1\nviscosity: 2", "the key 'viscosity' stands twice"),
+    "a key twice": ("kind: newtonian\nviscosity: 1\nviscosity: 2", "key viscosity for the second time"),
     "an alias": ("kind: newtonian\nviscosity: &a 1\nmore: *a", "aliases are not allowed"),
     "a python object": ("!!python/object/apply:os.system ['touch here']", "not readable"),
     "a tag": ("kind: !!binary x", "not readable"),

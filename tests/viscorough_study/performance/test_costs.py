@@ -3,8 +3,6 @@
 import pandas as pd
 import pytest
 
-import pytest
-
 from viscorough_study.performance.costs import fastest, pareto_front
 from viscorough_study.performance.equal_error import COLUMNS, equal_error
 

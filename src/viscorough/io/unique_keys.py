@@ -1,0 +1,15 @@
+"""YAML in which a key that occurs twice in a mapping is a fault: YAML itself would keep the last."""
+
+import yaml
+
+
+class UniqueKeys(yaml.SafeLoader):
+    """A loader of yaml.load; raises a MarkedYAMLError at the second of two equal keys."""
+
+    def construct_mapping(self, node, deep=False):
+        seen = set()
+        for key, _ in node.value:
+            if isinstance(key, yaml.ScalarNode) and key.value in seen:
+                raise yaml.MarkedYAMLError(problem=f"key {key.value} for the second time", problem_mark=key.start_mark)
+            seen.add(str(key.value))
+        return super().construct_mapping(node, deep)

@@ -14,7 +14,6 @@ import zlib
 
 import numpy as np
 
-# The stream 7 was that of a table which is no longer made; no other may have its number.
 ROOT_KEY = ()
 
 
@@ -51,6 +50,9 @@ def solver_race_key(task, hurst):
 def failure_map_key():
     """Indenters of the stress-test cases."""
     return _key(6)
+
+
+# 7 was the stream of a table which is no longer made; no other one may have it.
 
 
 def size_disc_key(hurst, elements):

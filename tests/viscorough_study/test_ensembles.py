@@ -96,7 +96,6 @@ def test_averages_are_over_the_realizations_defined(gaps):
         ({"curves": []}, "at least one"),
         ({"rms": {"disc": -1.0}}, r"rms\['disc'\]"),
         ({"rms": {"disc": [1.0, 2.0]}}, r"rms\['disc'\]"),
-        ({"diameter": 0.0}, "diameter"),
     ],
 )
 def test_aggregate_refuses(change, message):

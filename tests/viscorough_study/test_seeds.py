@@ -30,7 +30,7 @@ def test_published_keys_do_not_change():
 
 
 def test_every_stream_has_its_own_number():
-    assert [key[0] for key in KEYS] == [number for number in range(1, 15) if number != 7]  # 7 is of a former table
+    assert [key[0] for key in KEYS] == [number for number in range(1, 15) if number != 7]
 
 
 def test_neighbouring_hurst_exponents_have_their_own_keys():

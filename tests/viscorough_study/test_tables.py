@@ -1,16 +1,13 @@
-"""Tables in CSV and NetCDF files and as pages of HTML."""
+"""Tables in CSV and NetCDF files."""
 
 import os
-import re
 
 import numpy as np
 import pandas as pd
 import pytest
 
 from support.cf import violations
-from support.study import ROOT
 from viscorough.io.datasets import read_dataset
-from viscorough_study.html_table import html_table
 from viscorough_study.tables import write_table
 
 
@@ -37,32 +34,3 @@ def test_table_without_rows_keeps_what_its_columns_hold(tmp_path):
     files = [tmp_path / f"fits.{kind}" for kind in ("csv", "nc")]
     write_table(pd.DataFrame(columns=list(columns)), *files, columns=columns, dimension="fit", title="Fits")
     assert violations(files[1]) == []
-
-
-# ---- as pages
-
-
-def cells(page):
-    """The texts of the cells of every row."""
-    rows = re.findall("<tr.*?</tr>", page, re.DOTALL)
-    return [[re.sub("<.*?>", "", cell) for cell in re.findall("<t[hd].*?</t[hd]>", row, re.DOTALL)] for row in rows]
-
-
-def page_of(table, columns, folder, title="Fits"):
-    files = folder / "fits.csv", folder / "fits.nc"
-    write_table(table, *files, columns=columns, dimension="fit", title=title)
-    return html_table((ROOT / "workflow/page/table.html.jinja").read_text(), *files)
-
-
-def test_every_row_and_column_is_shown(tmp_path):
-    table = pd.DataFrame(
-        {"name": ["a<b", "c & d"], "beta": [1 / 3, np.nan], "count": [12345678, 0], "passed": [True, False]}
-    )
-    columns = {"name": ("which", None), "beta": ("exponent", "1"), "count": ("how many", "m"), "passed": ("yes?", "1")}
-    page = page_of(table, columns, tmp_path, "Fits <1>")
-    rows = [["a&lt;b", "0.3333", "12345678", "yes"], ["c &amp; d", "", "0", "no"]]
-    assert [[cell.strip() for cell in row] for row in cells(page)] == [list(columns), *rows]
-    for text in ("Fits &lt;1&gt;", "2 rows", "fits.csv", "how many [m]", "exponent"):
-        assert text in page
-    assert "http" not in page, "it opens offline"
-    assert cells(page_of(table[["beta"]][:0], {"beta": ("exponent", "1")}, tmp_path)) == [["beta"]]

@@ -87,14 +87,3 @@ def test_no_wave_of_the_next_realization_is_that_of_any_other_wave(directions):
     common = WAVES - np.minimum(np.arange(2 * WAVES), 2 * WAVES - np.arange(2 * WAVES))
     enough = common > WAVES // 4
     assert largest_exponential(shifted[:, enough] / common[enough])
-
-
-def test_waves_are_independent(directions, strengths):
-    """Over all realizations."""
-    pairs = np.triu_indices(WAVES, 1)
-    for other in (directions, directions.conj()):
-        products = abs(directions.T @ other) ** 2 / REALIZATIONS
-        assert largest_exponential(products[pairs])
-        assert np.mean(products[pairs]) == pytest.approx(1, abs=0.05)
-    products = strengths.T @ strengths / (np.pi**2 / 6 * np.sqrt(REALIZATIONS))
-    assert abs(products[pairs]).max() < 6

@@ -47,21 +47,6 @@ def test_an_element_that_loses_contact_in_a_dense_solution_is_an_error():
     assert solver.advance_reduced(contact, 0.51).count >= contact.count
 
 
-def test_events_are_the_dense_contacts_at_their_depths():
-    disc = self_affine_disc(0.7, 17, seed=2)
-    solver = ContactSolver(disc, 1e-10, ROUTES["dense"])
-    start = solver.advance_reduced(solver.unloaded_state(), solver.elements.initial_gap[1])
-    events, last = solver.follow_events(start, 40, np.inf)
-    assert (np.diff(events.depth) > 0).all()
-    assert events.count.tolist() == list(range(2, 41))[: events.count.size]
-    for depth, pressure_sum, tangent_sum in zip(events.depth, events.pressure_sum, events.tangent_sum, strict=True):
-        # Just beyond the event, where the element that touched carries load.
-        contact = solver.advance_reduced(solver.unloaded_state(), depth * (1 + 1e-9))
-        assert contact.pressure_sum == pytest.approx(pressure_sum, rel=1e-7)
-        assert contact.tangent_sum == pytest.approx(tangent_sum, rel=1e-9)
-    assert (last.reduced_depth, last.count) == (events.depth[-1], events.count[-1])
-
-
 def test_events_end_at_the_force_and_ties_are_one_event():
     disc = self_affine_disc(0.7, 17, seed=2)
     solver = ContactSolver(disc, 1e-10)

@@ -67,15 +67,6 @@ def test_closed_forms():
     np.testing.assert_allclose(solid.relaxation_modulus(t), 1.5 + 2.5 * np.exp(-t / 0.3), rtol=1e-15)
 
 
-def test_prony_of_one_branch_is_the_solid_and_without_a_spring_the_maxwell_medium():
-    solid, series = StandardLinearSolid(4.0, 1.5, 0.3), Prony(1.5, [2.5], [0.3])
-    np.testing.assert_allclose(series.creep_compliance(TIMES), solid.creep_compliance(TIMES), rtol=1e-14)
-    np.testing.assert_allclose(series.creep_rate(TIMES), solid.creep_rate(TIMES), rtol=1e-13, atol=1e-100)
-    np.testing.assert_allclose(
-        Prony(0, [2.0], [2.5]).creep_compliance(TIMES), Maxwell(2.0, 5.0).creep_compliance(TIMES), rtol=1e-14
-    )
-
-
 def test_prony_against_a_known_pair():
     """1 + s/(1 + s) + 2s/(1 + 2s) = 0 at s = (−3 ± √3)/6, the zeros of 1 + 6s + 6s²."""
     retardation = Prony(1.0, [1.0, 1.0], [1.0, 2.0]).retardation

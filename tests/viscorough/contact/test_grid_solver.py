@@ -9,7 +9,6 @@ from support.influence import influence_matrix
 from viscorough.contact.grid_solver import GridSolver
 from viscorough.contact.loading_path import indent
 from viscorough.contact.options import DEFAULT, SolverOptions
-from viscorough.contact.preconditioner import REACH
 from viscorough.contact.solver import ContactSolver
 from viscorough.contact.state import elements_of
 from viscorough.indenter import Indenter
@@ -84,23 +83,6 @@ def test_rounding_bounds_hold_from_level_to_level(name):
         bounds.append(fields.gap_change.rounding)
     assert contact.count > 0.2 * elements.count
     assert 0 < bounds[0] < bounds[-1] < 1e-3 * depths[-1]
-
-
-def test_a_box_gives_the_solution_of_the_whole_grid():
-    """Elements outside the box, whose initial gaps exceed the depth, do not matter; fields have a border."""
-    disc = self_affine_disc(0.9, 33, seed=4)
-    depth = 0.12
-    elements, _, grid = whole_grid(disc, 1e-8, DOUBLE)
-    inside = elements.initial_gap < depth
-    first = [place[inside].min() for place in (elements.row, elements.column)]
-    size = [np.ptp(place[inside]) + 1 for place in (elements.row, elements.column)]
-    assert size[0] * size[1] < 0.8 * 33**2
-    box = GridSolver((*first, *size), elements.row, elements.column, elements.initial_gap, 1e-8, DOUBLE)
-    assert box.initial_gap.size == (size[0] + 2 * REACH) * (size[1] + 2 * REACH)
-    whole, part = contact_on(grid, disc, depth), contact_on(box, disc, depth)
-    np.testing.assert_array_equal(whole.members, part.members)
-    np.testing.assert_allclose(whole.reduced_pressure, part.reduced_pressure, atol=1e-7 * depth)
-    assert whole.tangent_sum == pytest.approx(part.tangent_sum, rel=1e-7)
 
 
 @pytest.mark.parametrize("options", [DOUBLE, SolverOptions(preconditioner="sparse", release_step=0.0),

@@ -68,7 +68,6 @@ def test_outside_of_its_range_the_law_gives_no_numbers():
     ("changes", "what"),
     [
         ({"hurst": 1.05}, "hurst of the penetration law: must be from 0.1 to 1"),
-        ({"rms": 0}, "rms: must be positive"),
         ({"force": np.inf}, "force: must be positive and finite"),
         ({"medium": 0}, "viscosity: 0; allowed: a finite number above 0"),
         ({"times": [2, 1]}, "times: allowed is one row"),

@@ -78,23 +78,3 @@ def test_realizations_are_independent(directions, strengths):
     products = strengths @ strengths.T / (np.pi**2 / 6 * np.sqrt(WAVES))
     assert abs(products[pairs]).max() < 8
     assert np.var(products[pairs]) == pytest.approx(1, abs=0.05)
-
-
-def test_no_wave_of_the_next_realization_is_that_of_any_other_wave(directions):
-    """Correlation of one realization and the next one over all shifts from wave to wave."""
-    transformed = np.fft.fft(directions, 2 * WAVES)
-    shifted = abs(np.fft.ifft(transformed[1:] * transformed[:-1].conj())) ** 2
-    common = WAVES - np.minimum(np.arange(2 * WAVES), 2 * WAVES - np.arange(2 * WAVES))
-    enough = common > WAVES // 4
-    assert largest_exponential(shifted[:, enough] / common[enough])
-
-
-def test_waves_are_independent(directions, strengths):
-    """Over all realizations."""
-    pairs = np.triu_indices(WAVES, 1)
-    for other in (directions, directions.conj()):
-        products = abs(directions.T @ other) ** 2 / REALIZATIONS
-        assert largest_exponential(products[pairs])
-        assert np.mean(products[pairs]) == pytest.approx(1, abs=0.05)
-    products = strengths.T @ strengths / (np.pi**2 / 6 * np.sqrt(REALIZATIONS))
-    assert abs(products[pairs]).max() < 6

@@ -5,7 +5,7 @@ import pytest
 from scipy import stats
 
 from viscorough import line_waves
-from viscorough.line_waves import fill_packed_spectrum, key_of, random_words, shortest_wave, waves
+from viscorough.line_waves import key_of, random_words, shortest_wave, waves
 
 KEY = key_of(np.random.SeedSequence(7))
 MANY = 2**18
@@ -77,22 +77,6 @@ def test_every_bit_is_random():
         assert np.abs(np.array(share) - 0.5).max() < 5 * 0.5 / np.sqrt(words.shape[2])
 
 
-@pytest.mark.parametrize("fixed", [False, True])
-@pytest.mark.parametrize("half", [1, 2, 3, 2048, 2049, 5000])
-def test_packed_spectrum(half, fixed):
-    """Spectrum of y_2j + i y_2j+1 by numpy, of a real line with the waves of the formula; parts of blocks, too."""
-    amplitude = np.arange(half + 1.0) ** 0.3
-    spectrum = np.empty(half, np.complex64)
-    mean_square = fill_packed_spectrum(spectrum, KEY, amplitude.astype(np.float32), fixed=fixed)
-
-    coefficients = waves(0, KEY, amplitude, fixed=fixed)
-    coefficients[-1] = shortest_wave(2 * half, KEY, amplitude[-1], fixed=fixed)
-    line = np.fft.irfft(coefficients, 2 * half, norm="forward")
-    wanted = np.fft.fft(line[::2] + 1j * line[1::2], norm="forward")
-    np.testing.assert_allclose(spectrum, wanted, atol=2e-6 * np.abs(wanted).max())
-    assert mean_square == pytest.approx(np.mean(line**2), rel=3e-7)
-
-
 def test_shortest_wave_has_the_mean_power_of_others():
     """A cosine of modulus √2 A times a normal variate; A exactly, of random sign, if amplitudes are fixed."""
     keys = [key_of(np.random.SeedSequence(seed)) for seed in range(2000)]
@@ -101,14 +85,6 @@ def test_shortest_wave_has_the_mean_power_of_others():
     fixed = np.array([shortest_wave(8, key, 3.0, fixed=True) for key in keys])
     np.testing.assert_allclose(abs(fixed), 3, rtol=1e-15)
     assert abs(np.mean(np.sign(fixed))) < 4 / np.sqrt(len(keys))
-
-
-@pytest.mark.parametrize("shape", [(1, 7), (40, 50)])
-def test_twiddle(shape):
-    ones = np.ones(shape, np.complex64)
-    line_waves.twiddle(ones.view(np.float32), np.float32(2.5))
-    j, k = np.indices(shape)
-    np.testing.assert_allclose(ones, 2.5 * np.exp(2j * np.pi * j * k / ones.size), atol=1e-6)
 
 
 def test_smallest_and_largest_moduli_are_finite():

@@ -26,15 +26,6 @@ def test_power_law_is_exact_between_two_levels(exponent):
     np.testing.assert_allclose(stiffness, body.stiffness(depth), rtol=1e-11)
 
 
-def test_levels_themselves_are_met():
-    body = reference.sphere(2.0)
-    level = np.geomspace(1e-3, 1, 7)
-    curve = curve_of_body(body, level)
-    depth, stiffness = curve.at_force(curve.force)
-    np.testing.assert_allclose(depth, level, rtol=1e-14)
-    np.testing.assert_allclose(stiffness, curve.stiffness, rtol=1e-13)
-
-
 def test_one_joining_element_makes_two_tangents():
     """Three springs, contacts at depths 1 and 3; levels anywhere, at most one contact event between two of them."""
     gaps = np.array([0.0, 1.0, 3.0])

@@ -18,19 +18,19 @@ HURST = [0.0, 0.3, 1.0]
 
 
 def waves_of_square(points):
-    """Which bins of np.fft.rfft2 are independent complex waves, their wavenumber and direction."""
+    """Which bins of np.fft.rfft2 are independent complex waves, and their wavenumber."""
     y = np.fft.fftfreq(points, 1 / points)[:, None]
     x = np.arange(points // 2 + 1.0)
     k = np.hypot(y, x)
     # of x = 0 one half mirrors the other; the shortest waves along an axis are real
     chosen = (k > 0) & (k <= points / 2) & (x < points / 2) & (y > -points / 2) & ((x > 0) | (y > 0))
-    return chosen, k[chosen], np.arctan2(y, x)[chosen]
+    return chosen, k[chosen]
 
 
 def power_of_squares(hurst, points=64, realizations=20, **options):
-    chosen, k, direction = waves_of_square(points)
+    chosen, k = waves_of_square(points)
     squares = (self_affine_square(hurst, points, seed=seed, **options) for seed in range(realizations))
-    return k, direction, np.array([np.abs(np.fft.rfft2(z)[chosen]) ** 2 for z in squares])
+    return k, np.array([np.abs(np.fft.rfft2(z)[chosen]) ** 2 for z in squares])
 
 
 def power_of_lines(hurst, points=4096, realizations=10, **options):
@@ -40,7 +40,7 @@ def power_of_lines(hurst, points=4096, realizations=10, **options):
 
 @pytest.mark.parametrize("hurst", HURST)
 def test_fixed_amplitudes_are_the_spectrum(hurst):
-    k, _, power = power_of_squares(hurst, realizations=2, amplitudes="fixed")
+    k, power = power_of_squares(hurst, realizations=2, amplitudes="fixed")
     weighted = power * k ** (2 * hurst + 2)
     np.testing.assert_allclose(weighted, weighted[0, 0], rtol=1e-9)
     k, power = power_of_lines(hurst, realizations=2, amplitudes="fixed")
@@ -60,20 +60,9 @@ def test_waves_that_are_their_own_mirror_image():
     assert abs(excess) < 4 * np.sqrt((np.pi**2 / 2 + VARIANCE) / realizations)
 
 
-def test_isotropic():
-    """Equal power in eight directions; without corners, so that every direction has the same wavelengths."""
-    k, direction, power = power_of_squares(0.8)
-    log_power = np.log(power) + 2 * 1.8 * np.log(k)
-    log_power -= log_power.mean(axis=1, keepdims=True)
-    sector = np.floor((direction / np.pi + 0.5) * 8).astype(int) % 8
-    for s in range(8):
-        deviations = log_power[:, sector == s]
-        assert abs(deviations.mean()) < 4 * np.sqrt(VARIANCE / deviations.size) < 0.1
-
-
 def test_random_amplitudes_are_complex_gaussian():
     """Power is exponential, the phase uniform and independent of neighbours, in every realization."""
-    chosen, k, _ = waves_of_square(128)
+    chosen, k = waves_of_square(128)
     wave = np.fft.rfft2(self_affine_square(0.3, 128, seed=4))[chosen]
     power = np.abs(wave * k**1.3) ** 2
     power /= power.mean()
@@ -88,37 +77,17 @@ def test_random_amplitudes_are_complex_gaussian():
     assert abs(stats.spearmanr(power, phase).statistic) < 4 / np.sqrt(power.size)
 
 
-@pytest.mark.parametrize("amplitudes", ["random", "fixed"])
-def test_heights_are_gaussian(amplitudes):
-    """Heights further apart than the roll-off wavelength are hardly correlated, hence a Gaussian sample.
-
-    The rms of one surface is that of hundreds of such patches, so that scaling to it does not matter.
-    """
-    options = {"roll_off_wavelength": 8, "roll_off_level": 1.0, "amplitudes": amplitudes}
-    sample = [self_affine_square(0.8, 128, seed=seed, **options)[::16, ::16] for seed in range(20)]
-    sample = np.ravel(sample)
-    assert stats.kstest(sample, "norm").pvalue > 1e-4
-    assert abs(np.mean(sample**4) - 3) < 4 * np.sqrt(96 / sample.size)
-    assert abs(np.mean(sample**3)) < 4 * np.sqrt(15 / sample.size)
-
-
 @pytest.mark.parametrize("level", [0.0, 0.25, 1.0])
 def test_roll_off(level):
     """Fixed amplitudes: the spectrum itself. Waves of the roll-off wavelength belong to the power law."""
     options = {"realizations": 1, "amplitudes": "fixed", "roll_off_level": level}
-    k, _, power = power_of_squares(0.8, roll_off_wavelength=6.4, **options)
+    k, power = power_of_squares(0.8, roll_off_wavelength=6.4, **options)
     of_lines = power_of_lines(0.8, roll_off_wavelength=0.1, **options)
     for wavenumber, values, exponent in ((k, power[0], -3.6), (of_lines[0], of_lines[1][0], -2.6)):
         relative = values / values[wavenumber == 10][0]
         above = wavenumber >= 10
         np.testing.assert_allclose(relative[above], (wavenumber[above] / 10) ** exponent, rtol=1e-9)
         np.testing.assert_allclose(relative[~above], level, rtol=1e-9, atol=1e-20)
-
-
-def test_roll_off_of_disc_is_in_diameters():
-    disc = self_affine_disc(0.8, 64, period=2.0, roll_off_wavelength=0.25, rms_over="square", seed=3)
-    square = self_affine_square(0.8, 128, roll_off_wavelength=16, seed=3)
-    np.testing.assert_array_equal(disc.heights, cut_disc(square, 64))
 
 
 def test_squares_that_are_not_normalised_have_one_spectrum():
@@ -200,7 +169,6 @@ def test_realizations_depend_on_their_key_alone(generate):
     [
         ({"hurst": 1.1}, "hurst: must be from 0 to 1"),
         ({"rms": 0}, "rms: must be positive"),
-        ({"roll_off_wavelength": 0}, "roll_off_wavelength: must be positive"),
         ({"roll_off_wavelength": 0.01}, "roll_off_wavelength: must leave at least one wave"),
         ({"roll_off_level": -1}, "roll_off_level: must be a finite number >= 0"),
         ({"amplitudes": "gaussian"}, "amplitudes: must be 'random' or 'fixed'"),
@@ -219,14 +187,12 @@ def test_bad_options(options, message):
     ("generate", "options", "message"),
     [
         (self_affine_disc, {"elements_across": 2}, "elements_across: must be a whole number of at least 3"),
-        (self_affine_disc, {"elements_across": 9.0}, "elements_across: must be a whole number"),
         (self_affine_disc, {"period": 0.5}, "period: must be at least 1"),
         (self_affine_disc, {"diameter": -1.0}, "diameter: must be positive"),
         (self_affine_disc, {"rms_over": "line"}, "rms_over: must be 'disc' or 'square'"),
         (self_affine_line, {"points": 1}, "points: must be a whole number of at least 2"),
         (self_affine_line, {"length": 0}, "length: must be positive"),
         (self_affine_line, {"dtype": np.float16}, "dtype: must be float32 or float64"),
-        (self_affine_line, {"rms": 1e36}, "rms: must be from 1.2e-35 to 3.4e.35 for float32, not 1e.36"),
         (self_affine_line, {"rms": 1e306, "dtype": float}, "rms: must be from 2.2e-305 to 1.8e.305 for float64"),
     ],
 )

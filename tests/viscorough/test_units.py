@@ -78,10 +78,3 @@ def test_option_takes_plain_numbers_and_numbers_with_a_unit():
         assert options.number_in("N", force.convert("5", None, None), length_unit, "--force") == 5
     with pytest.raises(click.UsageError, match="the unit of length is not known"):
         options.number_in("N", force.convert("5 mN", None, None), "1", "--force")
-
-
-@pytest.mark.parametrize("text", ["0", "-1 N", "nan", "1e400 N", "5 m", "", "5 Nm"])
-def test_option_refuses_what_is_no_quantity_above_zero(text):
-    with pytest.raises(click.BadParameter, match="is not a number above 0") as error:
-        options.Quantity("N").convert(text, None, None)
-    assert "\n" not in error.value.format_message()

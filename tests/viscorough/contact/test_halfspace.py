@@ -12,13 +12,6 @@ from viscorough.contact.influence import influence_coefficient, influence_table
 from viscorough.contact.options import SolverOptions
 
 
-@pytest.mark.parametrize("aspect", [1, 1.3, 5])
-def test_coefficient_of_a_rectangle_on_itself(aspect):
-    a, b = np.sqrt(aspect) / 2, 1 / np.sqrt(aspect) / 2  # half sides in units of d
-    exact = 4 * (a * np.arcsinh(b / a) + b * np.arcsinh(a / b))
-    assert influence_coefficient(0.0, 0.0, aspect) == pytest.approx(exact, rel=1e-13)
-
-
 @pytest.mark.skipif(np.finfo(np.longdouble).eps > 1e-18, reason="no numbers of higher precision")
 @given(st.floats(-1, 1))
 @settings(max_examples=10, deadline=None, derandomize=True)

@@ -97,19 +97,6 @@ def test_complementarity_and_the_flat_punch_of_the_contact_set(route, pressing):
 
 
 # ---- one indenter and another ----------------------------------------------------------------------------------------
-@both_routes
-@given(pressings(), st.sampled_from([np.flipud, np.fliplr, np.transpose, np.rot90]))
-@some
-def test_orientation_does_not_matter(route, pressing, turned):
-    """Mirrored, transposed or turned by 90°, the map has the same force and stiffness."""
-    indenter, depths = pressing
-    curve = press(indenter, depths, route)
-    spacings = indenter.spacing, indenter.row_spacing
-    if turned in (np.transpose, np.rot90):
-        spacings = spacings[::-1]
-    other = press(Indenter(turned(indenter.heights), spacings), depths, route)
-    np.testing.assert_allclose(other.force, curve.force, rtol=FORCE)
-    np.testing.assert_allclose(other.stiffness, curve.stiffness, rtol=STIFFNESS)
 
 
 @both_routes

@@ -11,7 +11,6 @@ from viscorough.indenter import Indenter
 
 ON_THE_GRID = SolverOptions(dense_contacts=0, dense_interactions=0)
 DENSE = SolverOptions(dense_contacts=1000)
-SHAPES = [(1, 170), (2, 85), (3, 57), (9, 38)]
 
 
 def strip(shape):
@@ -23,7 +22,7 @@ def contact_of(heights, depth, options=ON_THE_GRID):
     return solver.elements, solver.advance(solver.unloaded_state(), depth)
 
 
-@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("shape", [(1, 170), (2, 85), (3, 57), (9, 38), (170, 1), (57, 3)])
 def test_pressure_is_that_of_a_dense_solver(shape):
     heights, depth = strip(shape), 1.2
     elements, contact = contact_of(heights, depth)
@@ -32,20 +31,6 @@ def test_pressure_is_that_of_a_dense_solver(shape):
     expected = pressure_at_depth(heights.max() - heights, depth, contact_modulus=4.0)  # E* = 4G: pressures over G
     assert 0.3 < np.mean(expected > 0) < 1
     np.testing.assert_allclose(pressure, expected, atol=1e-5 * expected.max())
-
-
-@pytest.mark.parametrize("shape", SHAPES)
-def test_neither_orientation_nor_place_on_the_map_matters(shape):
-    heights, depth = strip(shape), 0.8
-    _, contact = contact_of(heights, depth)
-    wide = np.full((shape[0] + 7, shape[1] + 5), np.nan)
-    wide[3 : 3 + shape[0], 4 : 4 + shape[1]] = heights
-    for other in (heights.T, wide, wide.T):
-        _, same = contact_of(other, depth)
-        np.testing.assert_array_equal(same.members, contact.members)
-        np.testing.assert_allclose(same.reduced_pressure, contact.reduced_pressure, atol=1e-6)
-        assert same.fields.pressure.size == contact.fields.pressure.size
-        assert same.stiffness == pytest.approx(contact.stiffness, rel=1e-6)
 
 
 def test_orientation_of_a_strip_of_rectangles_does_not_matter():

@@ -103,16 +103,6 @@ def test_maxwell_may_unload_slowly():
     assert refused_from(medium, [1.0, 0.2, 0.2], times) == pytest.approx(2.5, rel=1e-5)
 
 
-def test_decrease_between_samples_is_found():
-    """Loaded, then unloaded within one long interval: the solid still creeps at first, and recedes later."""
-    medium = StandardLinearSolid(4.0, 1.5, 0.3)
-    time = refused_from(medium, [1.0, 1.0, 0.9], [0.0, 0.3, 100.0])
-    slope, theta, delayed = -0.1 / 99.7, 0.8, 1 / 1.5 - 0.25
-    s = time - 0.3
-    rate = 0.25 * slope + delayed * (np.exp(-time / theta) / theta + slope * (1 - np.exp(-s / theta)))
-    assert abs(rate) < 1e-5 * abs(slope)
-
-
 def test_first_decrease_against_dense_sampling():
     """Random histories in random media, those that recede within an interval and move on before its end included."""
     random, within = np.random.default_rng(4), 0

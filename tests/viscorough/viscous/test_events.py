@@ -33,12 +33,6 @@ def test_sphere_follows_lee_and_radok():
     assert np.abs(error).max() < 3e-3
 
 
-def test_one_element_penetrates_at_constant_velocity():
-    events = march_events(Indenter(np.array([[1.0]]), 0.5))
-    assert events.contact_count.tolist() == [1]
-    assert events.depth_at(2.0) == pytest.approx(2.0 * 4 * np.log(1 + np.sqrt(2)) / (4 * np.pi * 0.5))
-
-
 def test_ties_and_scales():
     heights = np.floor(4 * np.random.default_rng(2).random((9, 9)))
     events = march_events(Indenter(heights, 1.0))

@@ -67,15 +67,6 @@ def test_closed_forms():
     np.testing.assert_allclose(solid.relaxation_modulus(t), 1.5 + 2.5 * np.exp(-t / 0.3), rtol=1e-15)
 
 
-def test_prony_of_one_branch_is_the_solid_and_without_a_spring_the_maxwell_medium():
-    solid, series = StandardLinearSolid(4.0, 1.5, 0.3), Prony(1.5, [2.5], [0.3])
-    np.testing.assert_allclose(series.creep_compliance(TIMES), solid.creep_compliance(TIMES), rtol=1e-14)
-    np.testing.assert_allclose(series.creep_rate(TIMES), solid.creep_rate(TIMES), rtol=1e-13, atol=1e-100)
-    np.testing.assert_allclose(
-        Prony(0, [2.0], [2.5]).creep_compliance(TIMES), Maxwell(2.0, 5.0).creep_compliance(TIMES), rtol=1e-14
-    )
-
-
 def test_prony_against_a_known_pair():
     """1 + s/(1 + s) + 2s/(1 + 2s) = 0 at s = (−3 ± √3)/6, the zeros of 1 + 6s + 6s²."""
     retardation = Prony(1.0, [1.0, 1.0], [1.0, 2.0]).retardation
@@ -138,15 +129,11 @@ def test_values_that_are_refused(kind, good, bad):
         (lambda: Prony(-1.0, [1.0], [1.0]), "0 or a finite number above 0"),
         (lambda: Prony(1.0, [], []), "a list of one or more numbers"),
         (lambda: Prony(1.0, [1.0, 0.0], [1.0, 2.0]), r"moduli\[1\]: 0.0"),
-        (lambda: Prony(1.0, [1.0, 1.0], [1.0, -2.0]), r"relaxation_times\[1\]: -2.0"),
         (lambda: Prony(1.0, [1.0, 1.0], [1.0]), "one time for every modulus"),
         (lambda: Maxwell(1e-300, 1e300), "too far apart"),
-        (lambda: Prony(1.0, [1e308, 1e308], [1.0, 2.0]), "too far apart"),
         (lambda: CreepTable([0.0], [1.0]), "two rows of equal length"),
         (lambda: CreepTable([0.5, 1], [1, 2]), "start with 0 and increase"),
-        (lambda: CreepTable([0, 1], [1, np.nan]), "finite"),
         (lambda: CreepTable([0, 1], [2, 1]), "never decreases"),
-        (lambda: CreepTable([0, 1], [-1, 1]), "starts at 0 or more"),
         (lambda: CreepTable([0, 1], [0, 0]), "grows"),
         (lambda: CreepTable([0, 1, 2], [0, 1, 3]), "after time 1 than before; allowed: a concave J"),
         (lambda: medium_of("rubber"), "Newtonian: viscosity: 'rubber'"),

@@ -127,15 +127,11 @@ class ContactSolver:
 
     def gap(self, contact):
         """Gap e between the deformed surfaces at every element, by rank [length]."""
-        return self.reduced_gap(contact) * self.units.length
-
-    def reduced_gap(self, contact):
-        """Gap e at every element, by rank, in units of the largest initial gap."""
         if self._is_small(self.elements.count, contact):
-            return dense.gap_at_all(self.elements, contact)
+            return dense.gap_at_all(self.elements, contact) * self.units.length
         grid = self._grid_up_to(self.elements.count)
         fields = contact.fields if _has_fields_on(grid, contact) else grid.fields(contact)
-        return fields.gap_change.values[fields.place] + self.elements.initial_gap
+        return (fields.gap_change.values[fields.place] + self.elements.initial_gap) * self.units.length
 
     def _is_small(self, candidates, contact):
         """Whether a dense evaluation is cheaper than the grid."""

@@ -175,7 +175,6 @@ BAD_HISTORIES = [
     ("0,1\n1,-1\n", "sample 1 is -1"),
     ("0,1\n1,1\n1,2\n1,3\n", "each larger than the one before, or given twice where the force steps"),
     ("0,0.3\n1,0.3\n2,0\n", "from time 1 on the contact would recede"),
-    ("0,0.3\n1,0.3\n1,0.2\n2,0.2\n", "from time 1 on the contact would recede"),
     ("0,0.3\n1,1e9\n", "at time 1 the creep"),
 ]
 VISCOUS = f"{KINETICS} --force 1 --viscosity 1"

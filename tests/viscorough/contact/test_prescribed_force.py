@@ -80,23 +80,25 @@ def test_few_depths_are_solved(monkeypatch):
 
 
 def test_progress_is_reported_up_to_the_end():
-    disc = self_affine_disc(0.8, 33, seed=3)
-    for arguments in ({"forces": [0.1, 1.0, 2.0]}, {"depths": [0.1, 1.0, 2.0]}, {"until_fraction": 0.5}):
+    values = [0.1, 1.0, 2.0]
+    for function, arguments in (
+        (indent, {"forces": values}),
+        (indent, {"depths": values}),
+        (indent, {"until_fraction": 0.5}),
+        (contact_at, {"force": values}),
+    ):
         shares = []
-        indent(disc, progress=shares.append, **arguments)
+        function(self_affine_disc(0.8, 33, seed=3), progress=shares.append, **arguments)
         assert shares == sorted(shares)
-        assert shares[0] > 0
+        assert 0 < shares[0] < 1
         assert shares[-1] == 1
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
+def test_invalid_forces_are_refused():
+    for arguments, message in (
         ({"forces": []}, "forces must be a list of finite numbers"),
         ({"forces": [0.0, 1.0]}, "forces must be positive and strictly increasing"),
         ({"forces": [1.0], "depths": [1.0]}, "depths and forces exclude each other"),
-    ],
-)
-def test_invalid_forces_are_refused(arguments, message):
-    with pytest.raises(ValueError, match=f"indent: {message}"):
-        indent(self_affine_disc(0.5, 9, seed=1), **arguments)
+    ):
+        with pytest.raises(ValueError, match=f"indent: {message}"):
+            indent(self_affine_disc(0.5, 9, seed=1), **arguments)

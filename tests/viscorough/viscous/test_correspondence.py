@@ -229,7 +229,6 @@ def test_newtonian_is_what_a_viscosity_is(curve):
         ({"times": [[0.0, 1.0]]}, "one row"),
         ({"times": [-1.0, 1.0]}, "start at -1; allowed: from 0 on"),
         ({"medium": VISCOSITY, "times": [0.0, 1e9]}, "allowed: up to"),
-        ({"medium": VISCOSITY, "force": [0.0, 1e9, 0.0]}, "allowed: up to"),
         ({"medium": MEDIA["table"], "times": [101.0]}, "allowed: up to the last time of the table, 100"),
         ({"medium": MEDIA["table"], "force": [0.01, 0.01], "times": [0.0, 101.0]}, "last time of the table, 100"),
     ],

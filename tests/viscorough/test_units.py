@@ -13,7 +13,6 @@ LENGTHS = {
     **dict.fromkeys(["um", "µm", "μm", "micron", "micrometer", "1e-6 m", "(1e-6 m)", " um\n"], ("um", 1e-6)),
     **dict.fromkeys(["nm", "nanometre", "10 angstrom"], ("nm", 1e-9)),
     **dict.fromkeys(["Å", "Angstrom"], ("1e-10 m", 1e-10)),
-    "mm": ("mm", 1e-3),
     "inch": ("0.0254 m", 0.0254),
 }
 

@@ -227,6 +227,7 @@ def test_newtonian_is_what_a_viscosity_is(curve):
         ({"force": impulses([0.01, 0.02], [0.0, 1.0])}, "within those of the force history, 0 to 1"),
         ({"times": [0.0, 2.0, 1.0]}, "each larger than the one before"),
         ({"times": [[0.0, 1.0]]}, "one row"),
+        ({"times": ["0", "1", "2"]}, "finite numbers"),
         ({"times": [-1.0, 1.0]}, "start at -1; allowed: from 0 on"),
         ({"medium": VISCOSITY, "times": [0.0, 1e9]}, "allowed: up to"),
         ({"medium": MEDIA["table"], "times": [101.0]}, "allowed: up to the last time of the table, 100"),

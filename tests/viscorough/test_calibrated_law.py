@@ -7,15 +7,8 @@ from scipy.integrate import quad
 
 import viscorough
 from support.study import ROOT, SHOWN, evidence
-from viscorough.calibrated_law import (
-    COLUMNS,
-    X_HIGH,
-    X_LOW,
-    calibration,
-    interface_calibration,
-    interface_depth,
-    interface_velocity,
-)
+from viscorough import calibrated_law
+from viscorough.calibrated_law import X_HIGH, X_LOW, interface_depth, interface_velocity
 from viscorough_study import interface
 from viscorough_study.fit_table import calibrated
 
@@ -47,8 +40,8 @@ def test_depth_of_the_interface_is_its_integral(x):
 
 
 def test_numbers_are_the_calibrated_ones():
-    table, beyond = calibration(), interface_calibration()
-    assert set(table) == set(COLUMNS) - {"source"}
+    table, beyond = calibrated_law.calibration(), calibrated_law.interface_calibration()
+    assert set(table) == set(calibrated_law.COLUMNS) - {"source"}
     assert table["hurst"].tolist() == beyond["hurst"].tolist() == HURST
     assert np.all(table["beta_low"] < table["beta"])
     assert np.all(table["beta"] < table["beta_high"])
@@ -137,6 +130,6 @@ def test_intervals_contain_the_law_and_follow_from_their_ends():
 def test_calibration_takes_rows_in_the_conventions_shown():
     scaling = evidence().tables["scaling"]
     table = calibrated(scaling, scaling.assign(elements=51433), SHOWN, 257)
-    assert list(table) == list(COLUMNS)
+    assert list(table) == list(calibrated_law.COLUMNS)
     assert table["source"].tolist() == ["discs"] * 3 + ["lines"] * 3
     np.testing.assert_allclose(table.loc[table["hurst"] == 0.6, "beta"], 0.375, atol=1e-6)

@@ -37,14 +37,10 @@ def test_newtonian_media_follow_the_law():
     times = np.array([0.005, 0.02])
     found = viscorough.estimate(0.6, RMS, DIAMETER, 3 * PER_X, Newtonian(3.0), times)
     np.testing.assert_allclose(found.x, times)
-    np.testing.assert_allclose(found.velocity, RMS / times * law.velocity(times), rtol=1e-14)
-    np.testing.assert_allclose(found.depth, RMS * law.depth(times), rtol=1e-14)
-    np.testing.assert_allclose(
-        [found.velocity_low, found.velocity_high], RMS / times * np.array(law.velocity_interval(times)), rtol=1e-14
-    )
-    np.testing.assert_allclose(
-        [found.depth_low, found.depth_high], RMS * np.array(law.depth_interval(times)), rtol=1e-14
-    )
+    for name, scale in (("velocity", RMS / times), ("depth", RMS)):
+        values = [getattr(found, name), getattr(found, f"{name}_low"), getattr(found, f"{name}_high")]
+        expected = [getattr(law, name)(times), *getattr(law, f"{name}_interval")(times)]
+        np.testing.assert_allclose(values, scale * np.array(expected), rtol=1e-14)
 
 
 @pytest.mark.parametrize("medium", [Maxwell(100.0, 1.0), StandardLinearSolid(100.0, 20.0, 0.3)])
@@ -64,20 +60,24 @@ def test_outside_of_its_range_the_law_gives_no_numbers():
     assert "X is above the range" in found._repr_html_()
 
 
-@pytest.mark.parametrize(
-    ("changes", "what"),
-    [
+def test_values_outside_their_ranges_are_refused():
+    for changes, what in (
         ({"hurst": 1.05}, "hurst of the penetration law: must be from 0.1 to 1"),
         ({"force": np.inf}, "force: must be positive and finite"),
         ({"medium": 0}, "viscosity: 0; allowed: a finite number above 0"),
         ({"times": [2, 1]}, "times: allowed is one row"),
         ({"times": [50.0]}, "X = F·J(t)/(4hL) is 50; allowed: 0.001 to 30"),
         ({"force": 1e300, "rms": 1e-300}, "is inf; allowed"),
-    ],
-)
-def test_values_outside_their_ranges_are_refused(changes, what):
-    values = {"hurst": 0.6, "rms": RMS, "diameter": DIAMETER, "force": PER_X, "medium": 1.0, "times": [0.02]} | changes
-    with pytest.raises(ValueError) as error:  # noqa: PT011
-        estimate(**values)
-    assert what in str(error.value)
-    assert "\n" not in str(error.value)
+    ):
+        values = {
+            "hurst": 0.6,
+            "rms": RMS,
+            "diameter": DIAMETER,
+            "force": PER_X,
+            "medium": 1.0,
+            "times": [0.02],
+        } | changes
+        with pytest.raises(ValueError) as error:  # noqa: PT011
+            estimate(**values)
+        assert what in str(error.value)
+        assert "\n" not in str(error.value)

@@ -48,33 +48,16 @@ def test_single_precision_is_the_formula(fixed):
     assert square == pytest.approx(np.sum(abs(exact) ** 2), rel=1e-5)
 
 
-def test_coefficients_are_independent_and_gaussian():
+def test_coefficients_are_gaussian():
     """Real and imaginary parts of many waves; a false alarm has a chance of 1e-4 or less at each line."""
     parts, _ = drawn(MANY, fixed=False)
     normal = parts.astype(float).ravel()
     assert stats.kstest(normal, "norm").pvalue > 1e-4
     for power, moment, variance in ((1, 0, 1), (2, 1, 2), (3, 0, 15), (4, 3, 96), (6, 15, 10170)):
         assert abs(np.mean(normal**power) - moment) < 4 * np.sqrt(variance / normal.size)
-    expected = 2 * stats.norm.sf(4) * normal.size
-    assert abs(np.sum(abs(normal) > 4) - expected) < 4 * np.sqrt(expected) + 1
     real, imag = parts.astype(float)
-    pairs = [(real, imag), (real**2 - 1, imag**2 - 1)]
-    for lag in (1, 2, 1024, MANY // 2):
-        pairs += [(x[lag:], y[:-lag]) for x, y in ((real, real), (imag, imag), (real, imag), (imag, real))]
-        pairs += [(real[lag:] ** 2 - 1, real[:-lag] ** 2 - 1)]
-    for x, y in pairs:
+    for x, y in ((real, imag), (real**2 - 1, imag**2 - 1), (real[1:], real[:-1]), (real[1:], imag[:-1])):
         assert abs(np.mean(x * y)) < 5 * np.sqrt(np.var(x) * np.var(y) / x.size)
-
-
-def test_every_bit_is_random():
-    """Bits of neighbouring counters and of neighbouring keys agree half of the time."""
-    words = np.empty((3, 2, MANY // 4), np.uint32)
-    for row, key, first in ((0, KEY, 1), (1, KEY, 2), (2, KEY ^ np.array([1, 0], np.uint64), 1)):
-        random_words(first, key, *words[row])
-    for other in (np.zeros_like(words[0]), words[1], words[2]):
-        agree = ~(words[0] ^ other)
-        share = [np.mean(agree >> np.uint32(bit) & np.uint32(1), axis=1) for bit in range(32)]
-        assert np.abs(np.array(share) - 0.5).max() < 5 * 0.5 / np.sqrt(words.shape[2])
 
 
 def test_shortest_wave_has_the_mean_power_of_others():

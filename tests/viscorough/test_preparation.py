@@ -70,20 +70,17 @@ def test_harmonic_fill_is_exact_for_harmonic_heights():
     np.testing.assert_allclose(filled, np.where(outside, np.nan, heights), atol=1e-10)
 
 
-@pytest.mark.parametrize(
-    ("options", "what"),
-    [
+def test_what_cannot_be_prepared_is_refused():
+    surface = indenter(np.ones((ROWS, COLUMNS)))
+    for options, what in (
         ({"detrend": "cubic"}, "allowed: none, mean, plane, sphere"),
         ({"fill": "mean"}, "none, harmonic"),
         ({"crop": ((0, 42), (0, 3))}, "crop to columns 0:42; within 0:41"),
         ({"nodata": 1.0}, "no height is left"),
-    ],
-)
-def test_what_cannot_be_prepared_is_refused(options, what):
-    surface = indenter(np.ones((ROWS, COLUMNS)))
-    with pytest.raises(ValueError, match=what) as error:
-        prepare(surface, **options)
-    one_line(error)
+    ):
+        with pytest.raises(ValueError, match=what) as error:
+            prepare(surface, **options)
+        one_line(error)
     assert prepare(surface) is surface
     with pytest.raises(ValueError, match="two-dimensional"):
         prepare(Indenter(np.arange(3.0), 1.0), flip=True)

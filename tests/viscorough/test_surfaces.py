@@ -164,28 +164,24 @@ def test_realizations_depend_on_their_key_alone(generate):
     np.testing.assert_array_equal(generate(seed=5).heights, generate(seed=np.random.SeedSequence(5)).heights)
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
+def test_bad_options():
+    for options, message in (
         ({"hurst": 1.1}, "hurst: must be from 0 to 1"),
         ({"rms": 0}, "rms: must be positive"),
         ({"roll_off_wavelength": 0.01}, "roll_off_wavelength: must leave at least one wave"),
         ({"roll_off_level": -1}, "roll_off_level: must be a finite number >= 0"),
         ({"amplitudes": "gaussian"}, "amplitudes: must be 'random' or 'fixed'"),
         ({"seed": None}, "seed: must be a whole number"),
-    ],
-)
-def test_bad_options(options, message):
-    for generate in (self_affine_disc, self_affine_line):
-        arguments = {"hurst": 0.5, "seed": 1} | options
-        with pytest.raises(ValueError, match=message) as error:
-            generate(arguments.pop("hurst"), 33, **arguments)
-        assert "\n" not in str(error.value)
+    ):
+        for generate in (self_affine_disc, self_affine_line):
+            arguments = {"hurst": 0.5, "seed": 1} | options
+            with pytest.raises(ValueError, match=message) as error:
+                generate(arguments.pop("hurst"), 33, **arguments)
+            assert "\n" not in str(error.value)
 
 
-@pytest.mark.parametrize(
-    ("generate", "options", "message"),
-    [
+def test_bad_discs_and_lines():
+    for generate, options, message in (
         (self_affine_disc, {"elements_across": 2}, "elements_across: must be a whole number of at least 3"),
         (self_affine_disc, {"period": 0.5}, "period: must be at least 1"),
         (self_affine_disc, {"diameter": -1.0}, "diameter: must be positive"),
@@ -194,9 +190,7 @@ def test_bad_options(options, message):
         (self_affine_line, {"length": 0}, "length: must be positive"),
         (self_affine_line, {"dtype": np.float16}, "dtype: must be float32 or float64"),
         (self_affine_line, {"rms": 1e306, "dtype": float}, "rms: must be from 2.2e-305 to 1.8e.305 for float64"),
-    ],
-)
-def test_bad_discs_and_lines(generate, options, message):
-    size = {"elements_across": 9} if generate is self_affine_disc else {"points": 9}
-    with pytest.raises(ValueError, match=message):
-        generate(0.5, **size | {"seed": 1} | options)
+    ):
+        size = {"elements_across": 9} if generate is self_affine_disc else {"points": 9}
+        with pytest.raises(ValueError, match=message):
+            generate(0.5, **size | {"seed": 1} | options)

@@ -3,19 +3,16 @@
 import subprocess
 import sys
 
-import click
 import pytest
 
 from support.curves import one_line
 from viscorough import units
-from viscorough.cli import options
 
 LENGTHS = {
     **dict.fromkeys(["m", "meter", "metres"], ("m", 1.0)),
     **dict.fromkeys(["um", "µm", "μm", "micron", "micrometer", "1e-6 m", "(1e-6 m)", " um\n"], ("um", 1e-6)),
     **dict.fromkeys(["nm", "nanometre", "10 angstrom"], ("nm", 1e-9)),
     **dict.fromkeys(["Å", "Angstrom"], ("1e-10 m", 1e-10)),
-    "mm": ("mm", 1e-3),
     "inch": ("0.0254 m", 0.0254),
 }
 
@@ -69,12 +66,3 @@ def test_common_units_do_without_pint():
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert "viscorough.units" in done.stdout
     assert "pint" not in done.stdout
-
-
-def test_option_takes_plain_numbers_and_numbers_with_a_unit():
-    force = options.Quantity("N")
-    assert options.number_in("N", force.convert("5 mN", None, None), "um", "--force") == 5e-3
-    for length_unit in ("1", "um"):
-        assert options.number_in("N", force.convert("5", None, None), length_unit, "--force") == 5
-    with pytest.raises(click.UsageError, match="the unit of length is not known"):
-        options.number_in("N", force.convert("5 mN", None, None), "1", "--force")

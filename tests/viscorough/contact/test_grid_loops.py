@@ -17,6 +17,13 @@ SIZE = (ROWS + 2 * REACH) * WIDTH
 INNER = np.s_[REACH:-REACH, REACH:-REACH]
 
 
+# A set of more places than those of a block, its flat field, and its slots in a load array of ROWS x STRIDE.
+INSIDE = np.pad(np.random.default_rng(1).random((ROWS, COLUMNS)) < 0.7, REACH).ravel()
+PLACES = np.flatnonzero(INSIDE).astype(np.uint32)
+SLOTS = ((PLACES // WIDTH - REACH) * STRIDE + PLACES % WIDTH - REACH).astype(np.uint32)
+assert PLACES.size > BLOCK + 1000
+
+
 @pytest.fixture
 def loops():
     return GridLoops(3)
@@ -24,27 +31,7 @@ def loops():
 
 @pytest.fixture
 def random():
-    return np.random.default_rng(1)
-
-
-@pytest.fixture
-def inside(random):
-    """A set of more places than those of a block, flat field."""
-    members = np.pad(random.random((ROWS, COLUMNS)) < 0.7, REACH).ravel()
-    assert np.count_nonzero(members) > BLOCK + 1000
-    return members
-
-
-@pytest.fixture
-def places(inside):
-    return np.flatnonzero(inside).astype(np.uint32)
-
-
-@pytest.fixture
-def slots(places):
-    """Of the places in a load array of ROWS x STRIDE."""
-    row, column = np.divmod(places.astype(int), WIDTH)
-    return ((row - REACH) * STRIDE + column - REACH).astype(np.uint32)
+    return np.random.default_rng(2)
 
 
 @pytest.fixture
@@ -53,8 +40,8 @@ def field(random):
     return lambda size=SIZE: random.standard_normal(size)
 
 
-def test_places_of_a_set(loops, inside, places, slots):
-    for found, expected in zip(loops.contact_places(inside, WIDTH, STRIDE), (places, slots), strict=True):
+def test_places_of_a_set(loops):
+    for found, expected in zip(loops.contact_places(INSIDE, WIDTH, STRIDE), (PLACES, SLOTS), strict=True):
         np.testing.assert_array_equal(found, expected)
         assert found.dtype == np.uint32
 
@@ -81,76 +68,76 @@ def test_indices_beyond_32_bits_are_64_bits_wide(loops):
     np.testing.assert_array_equal(slots, [6 * (2**32 // 20 + 1), 13 * (2**32 // 20 + 1)])
 
 
-def test_sums_over_a_set(loops, field, places, slots):
+def test_sums_over_a_set(loops, field):
     pressure, gap, preconditioned = field(), field(), field()
     direction, deflection = field(ROWS * STRIDE), field(ROWS * STRIDE)
-    assert loops.total(pressure, places) == pytest.approx(pressure[places].sum(), rel=1e-9)
-    d, by_d = direction[slots], deflection[slots]
-    assert loops.inner_product(direction, deflection, slots) == pytest.approx(d @ by_d, rel=1e-9)
-    sums = loops.direction_sums(direction, deflection, preconditioned, gap, places, slots)
-    np.testing.assert_allclose(sums, [preconditioned[places] @ by_d, d @ gap[places], d @ by_d], rtol=1e-9)
+    assert loops.total(pressure, PLACES) == pytest.approx(pressure[PLACES].sum(), rel=1e-9)
+    d, by_d = direction[SLOTS], deflection[SLOTS]
+    assert loops.inner_product(direction, deflection, SLOTS) == pytest.approx(d @ by_d, rel=1e-9)
+    sums = loops.direction_sums(direction, deflection, preconditioned, gap, PLACES, SLOTS)
+    np.testing.assert_allclose(sums, [preconditioned[PLACES] @ by_d, d @ gap[PLACES], d @ by_d], rtol=1e-9)
 
 
-def test_energies(loops, field, places):
+def test_energies(loops, field):
     fields, depths = [field() for _ in range(6)], (0.3, 0.2)
-    pressure, change, last, last_change, tangent, tangent_gap = (values[places] for values in fields)
+    pressure, change, last, last_change, tangent, tangent_gap = (values[PLACES] for values in fields)
     loads = np.array([pressure, last, tangent])
     deflections = np.array([change + depths[0], last_change + depths[1], tangent_gap + 1])
-    energy, sums = loops.energies(depths, *fields, places=places)
+    energy, sums = loops.energies(depths, *fields, places=PLACES)
     np.testing.assert_allclose(energy, loads @ deflections.T, rtol=1e-9)
     np.testing.assert_allclose(sums, loads.sum(axis=1), rtol=1e-9)
 
 
-def test_sums_over_elements_that_join(loops, field, places):
+def test_sums_over_elements_that_join(loops, field):
     change, initial_gap, tangent_gap = field(), field(), field()
-    pressure, tangent, share = abs(field(places.size)), abs(field(places.size)), np.array([0.2, 0.7])
-    slope, gap = np.minimum(tangent_gap, -1e-30)[places], np.maximum(change + initial_gap, 0)[places]
+    pressure, tangent, share = abs(field(PLACES.size)), abs(field(PLACES.size)), np.array([0.2, 0.7])
+    slope, gap = np.minimum(tangent_gap, -1e-30)[PLACES], np.maximum(change + initial_gap, 0)[PLACES]
     touch = np.clip(np.maximum(-gap / slope / 0.4, 1 - pressure / tangent / 0.4), 0, 1)
     assert np.mean((touch > 0) & (touch < 1)) > 0.05
     expected = [slope @ slope, slope**2 @ (1 - touch), *(slope**2 @ np.maximum(s - touch, 0) for s in share)]
-    sums = loops.touch_sums(change, initial_gap, tangent_gap, places, pressure, tangent, 0.4, share)
+    sums = loops.touch_sums(change, initial_gap, tangent_gap, PLACES, pressure, tangent, 0.4, share)
     np.testing.assert_allclose(sums, expected, rtol=1e-9)
 
 
 @pytest.mark.parametrize("which", [0, -1])
-def test_extremes_are_found_in_every_block(loops, field, places, slots, which):
+def test_extremes_are_found_in_every_block(loops, field, which):
     change, initial_gap, gap = field(), field(), np.zeros(SIZE)
-    change[places[which]] = -100.0
-    assert loops.gap_on_set(change, initial_gap, places, gap) == abs(-100.0 + initial_gap[places[which]])
-    np.testing.assert_array_equal(gap[places], (change + initial_gap)[places])
-    assert loops.gather_on_set(change, places, gap) == 100.0
-    np.testing.assert_array_equal(gap[places], change[places])
-    assert loops.largest_overlap(change, initial_gap) == 100.0 - initial_gap[places[which]]
+    change[PLACES[which]] = -100.0
+    assert loops.gap_on_set(change, initial_gap, PLACES, gap) == abs(-100.0 + initial_gap[PLACES[which]])
+    np.testing.assert_array_equal(gap[PLACES], (change + initial_gap)[PLACES])
+    assert loops.gather_on_set(change, PLACES, gap) == 100.0
+    np.testing.assert_array_equal(gap[PLACES], change[PLACES])
+    assert loops.largest_overlap(change, initial_gap) == 100.0 - initial_gap[PLACES[which]]
 
     pressure, direction = abs(field()), np.zeros(ROWS * STRIDE)
     assert loops.lowest(pressure) >= 0
-    assert not loops.step_causes_tension(0.5, direction, pressure, places, slots)
-    assert not loops.update_pressure(0.5, direction, pressure, places, slots)
-    direction[slots[which]] = -100.0
-    assert loops.step_causes_tension(0.5, direction, pressure, places, slots)
-    assert loops.update_pressure(0.5, direction, pressure, places, slots)
-    assert loops.lowest(pressure) == pressure[places[which]] < 0
+    assert not loops.step_causes_tension(0.5, direction, pressure, PLACES, SLOTS)
+    assert not loops.update_pressure(0.5, direction, pressure, PLACES, SLOTS)
+    direction[SLOTS[which]] = -100.0
+    assert loops.step_causes_tension(0.5, direction, pressure, PLACES, SLOTS)
+    assert loops.update_pressure(0.5, direction, pressure, PLACES, SLOTS)
+    assert loops.lowest(pressure) == pressure[PLACES[which]] < 0
 
 
 @pytest.mark.parametrize("which", [0, -1])
-def test_elements_that_left_are_found_in_every_block(loops, inside, places, which):
-    after = inside.copy()
-    assert loops.difference(inside, after).size == 0
-    after[places[which]] = False
-    assert loops.difference(inside, after) == places[which]
-    assert loops.difference(after, inside).size == 0
+def test_elements_that_left_are_found_in_every_block(loops, which):
+    after = INSIDE.copy()
+    assert loops.difference(INSIDE, after).size == 0
+    after[PLACES[which]] = False
+    assert loops.difference(INSIDE, after) == PLACES[which]
+    assert loops.difference(after, INSIDE).size == 0
 
 
-def test_steps(loops, field, places, slots):
+def test_steps(loops, field):
     direction, preconditioned, pressure = field(ROWS * STRIDE), field(), field()
     expected = direction.copy()
-    expected[slots] = 0.3 * direction[slots] - preconditioned[places]
-    loops.update_search_direction(direction, preconditioned, 0.3, places, slots)
+    expected[SLOTS] = 0.3 * direction[SLOTS] - preconditioned[PLACES]
+    loops.update_search_direction(direction, preconditioned, 0.3, PLACES, SLOTS)
     np.testing.assert_allclose(direction, expected, rtol=1e-14, atol=1e-15)
 
     expected = pressure.copy()
-    expected[places] += 0.7 * direction[slots]
-    loops.update_pressure(0.7, direction, pressure, places, slots)
+    expected[PLACES] += 0.7 * direction[SLOTS]
+    loops.update_pressure(0.7, direction, pressure, PLACES, SLOTS)
     np.testing.assert_allclose(pressure, expected, rtol=1e-14, atol=1e-15)
 
     gap, deflection = field(), direction.reshape(ROWS, STRIDE)[:, :COLUMNS]
@@ -160,12 +147,12 @@ def test_steps(loops, field, places, slots):
     np.testing.assert_allclose(gap, expected, rtol=1e-14, atol=1e-15)
 
 
-def test_unloaded_elements_under_tension_are_found_in_every_block(loops, field, places, slots):
+def test_unloaded_elements_under_tension_are_found_in_every_block(loops, field):
     direction, pressure = field(ROWS * STRIDE), field()
     pressure[::3] = 0
-    found = loops.unloaded_under_tension(direction, pressure, places, slots)
-    np.testing.assert_array_equal(found, places[(pressure[places] == 0) & (direction[slots] < 0)])
-    assert 0 < found.size < places.size
+    found = loops.unloaded_under_tension(direction, pressure, PLACES, SLOTS)
+    np.testing.assert_array_equal(found, PLACES[(pressure[PLACES] == 0) & (direction[SLOTS] < 0)])
+    assert 0 < found.size < PLACES.size
 
 
 def test_a_field_is_filled_and_another_one_shifted_into_it(loops, field):
@@ -247,16 +234,16 @@ def test_fields(loops, field):
     np.testing.assert_allclose(combined_gap, 0.1 * change + 0.2 * last_change + 0.3 * tangent_gap + 0.4, atol=1e-14)
 
 
-def test_neighbours_of_an_element_that_leaves_share_its_load_also_across_bands(field, inside, places, slots):
+def test_neighbours_of_an_element_that_leaves_share_its_load_also_across_bands(field):
     """Bands of rows are processed on several threads: elements around their edges must not be forgotten or doubled."""
-    last_pressure, step = np.where(inside, 2.0, 0.0), np.zeros(ROWS * STRIDE)
-    step[slots] = np.clip(field(slots.size), -1, 1)
-    step[slots[::5]] = -4.2
+    last_pressure, step = np.where(INSIDE, 2.0, 0.0), np.zeros(ROWS * STRIDE)
+    step[SLOTS] = np.clip(field(SLOTS.size), -1, 1)
+    step[SLOTS[::5]] = -4.2
     stepped = last_pressure.copy()
-    stepped[places] += 0.5 * step[slots]
+    stepped[PLACES] += 0.5 * step[SLOTS]
     stencil, leaving = load_redistribution_stencil(1.0), stepped < 0
-    assert leaving[places[:BLOCK]].any()
-    assert leaving[places[BLOCK:]].any()
+    assert leaving[PLACES[:BLOCK]].any()
+    assert leaving[PLACES[BLOCK:]].any()
     shares = np.where(leaving, stepped, 0.0).reshape(-1, WIDTH)
     change = sum(
         stencil[row + 1, column + 1] * np.roll(shares, (row, column), axis=(0, 1))
@@ -265,15 +252,15 @@ def test_neighbours_of_an_element_that_leaves_share_its_load_also_across_bands(f
     ).ravel()
     results = []
     for threads in (1, 3):
-        members, pressure, direction = inside.copy(), last_pressure.copy(), step.copy()
-        GridLoops(threads).step_and_release(0.5, direction, pressure, members, places, slots, stencil, WIDTH, STRIDE)
-        np.testing.assert_array_equal(members, inside & ~leaving)
+        members, pressure, direction = INSIDE.copy(), last_pressure.copy(), step.copy()
+        GridLoops(threads).step_and_release(0.5, direction, pressure, members, PLACES, SLOTS, stencil, WIDTH, STRIDE)
+        np.testing.assert_array_equal(members, INSIDE & ~leaving)
         np.testing.assert_allclose(pressure, np.where(members, stepped + change, 0.0), atol=1e-13)
-        np.testing.assert_allclose(direction[slots], (pressure - last_pressure)[places], atol=1e-13)
+        np.testing.assert_allclose(direction[SLOTS], (pressure - last_pressure)[PLACES], atol=1e-13)
         results.append(pressure)
     np.testing.assert_array_equal(*results)
 
-    step[slots[::5]] = -400.0  # neighbours lose half of their pressure at most
-    members, pressure = inside.copy(), last_pressure.copy()
-    GridLoops(3).step_and_release(0.5, step, pressure, members, places, slots, stencil, WIDTH, STRIDE)
+    step[SLOTS[::5]] = -400.0  # neighbours lose half of their pressure at most
+    members, pressure = INSIDE.copy(), last_pressure.copy()
+    GridLoops(3).step_and_release(0.5, step, pressure, members, PLACES, SLOTS, stencil, WIDTH, STRIDE)
     assert (pressure[members] > 0).all()

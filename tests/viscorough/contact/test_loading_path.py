@@ -213,20 +213,17 @@ def test_small_and_tied_indenters(heights):
 
 
 # ---- refusals --------------------------------------------------------------------------------------------------------
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
+def test_refuses():
+    for arguments, message in (
         ({"tolerance": 0.0}, "tolerance"),
         ({"until_fraction": 1.5}, "until"),
         ({"until_force": -1.0}, "until_force"),
         ({"depths": [0.2, 0.1]}, "increasing"),
         ({"depths": []}, "finite"),
         ({"indenter": Indenter(np.zeros(5), 1.0)}, "two-dimensional"),
-    ],
-)
-def test_refuses(arguments, message):
-    with pytest.raises(ValueError, match=message):
-        indent(**({"indenter": self_affine_disc(0.5, 9, seed=1)} | arguments))
+    ):
+        with pytest.raises(ValueError, match=message):
+            indent(**({"indenter": self_affine_disc(0.5, 9, seed=1)} | arguments))
 
 
 def test_raises_when_it_does_not_converge():

@@ -66,27 +66,13 @@ def test_one_value_gives_one_contact_in_the_unit_of_the_indenter_and_several_a_l
     assert (one.length_unit, one.spacing, one.row_spacing) == ("um", DISC.spacing, DISC.spacing)
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
+def test_invalid_arguments_are_refused():
+    for arguments, message in (
         ({"depth": 1.0, "force": 1.0}, "either depth or force must be given"),
-        ({"force": np.nan}, "force must be a list of finite numbers"),
         ({"force": [2.0, 1.0]}, "force must be positive and strictly increasing"),
         ({"depth": []}, "depth must be a list"),
         ({"depth": 1.0, "tolerance": 1.0}, "tolerance must be between"),
         ({"indenter": Indenter(np.zeros(5), 1.0), "depth": 1.0}, "the indenter's heights must be two-dimensional"),
-    ],
-)
-def test_invalid_arguments_are_refused(arguments, message):
-    with pytest.raises(ValueError, match=f"contact_at: {message}"):
-        contact_at(**({"indenter": DISC} | arguments))
-
-
-def test_progress_grows_to_one():
-    disc = self_affine_disc(0.7, 65, seed=1)
-    seen = []
-    contact_at(disc, force=[0.5, 1.0], progress=seen.append)
-    assert len(seen) > 4
-    assert (np.diff(seen) >= 0).all()
-    assert seen[-1] == 1
-    assert 0.5 in seen
+    ):
+        with pytest.raises(ValueError, match=f"contact_at: {message}"):
+            contact_at(**({"indenter": DISC} | arguments))

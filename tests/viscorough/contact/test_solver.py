@@ -57,17 +57,14 @@ def test_events_end_at_the_force_and_ties_are_one_event():
     assert last.count == 9
 
 
-@pytest.mark.parametrize(
-    ("wrong", "message"),
-    [
+def test_invalid_options_are_refused():
+    for wrong, message in (
         ({"precision": "half"}, "precision: must be one of single, double, not 'half'"),
         ({"operator_rounding": np.nan}, "operator_rounding: must not be negative"),
         ({"max_iterations": 0}, "max_iterations: must be at least 1"),
-    ],
-)
-def test_invalid_options_are_refused(wrong, message):
-    with pytest.raises(ValueError, match=message):
-        SolverOptions(**wrong)
+    ):
+        with pytest.raises(ValueError, match=message):
+            SolverOptions(**wrong)
 
 
 def test_a_known_largest_depth_makes_grids_smaller_and_limits_nothing():

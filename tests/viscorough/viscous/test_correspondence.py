@@ -203,9 +203,8 @@ def test_newtonian_is_what_a_viscosity_is(curve):
     times, force = np.linspace(0, 5, 20), np.linspace(0, 1, 20)
     by_name = kinetics(curve, force, Newtonian(30.0), times)
     for other in (kinetics(curve, force, 30.0, times), kinetics(curve, force, times=times, viscosity=30.0)):
-        assert (other.depth == by_name.depth).all()
-        assert (other.velocity == by_name.velocity).all()
-    assert (kinetics(curve, 2.0, Newtonian(30.0)).time == curve.force * 30.0 / 2.0).all()
+        np.testing.assert_array_equal([other.depth, other.velocity], [by_name.depth, by_name.velocity])
+    np.testing.assert_array_equal(kinetics(curve, 2.0, Newtonian(30.0)).time, curve.force * 30.0 / 2.0)
 
 
 # ---- refusals
@@ -221,7 +220,6 @@ def test_newtonian_is_what_a_viscosity_is(curve):
         ({"force": 1e9}, "at time 0 the creep ∫J dF is 2.5e+08, beyond the curve's last level"),
         ({"force": 1e-9, "times": None}, "has no level between F/G 2.5e-10, at once, and 6.66667e-10, in the end"),
         ({"force": [1.0, 2.0], "times": None}, "needs the time of each sample"),
-        ({"force": [1.0, 2.0]}, "one per time"),
         ({"force": [1.0, -1e-9, 2.0]}, "sample 1 is -1e-09; allowed: finite, 0 or more"),
         ({"force": [0.01, 0.02, 1e9]}, "at time 2 the creep"),
         ({"force": [0.03, 0.01, 0.01]}, "from time 0.468839 on"),
@@ -229,14 +227,11 @@ def test_newtonian_is_what_a_viscosity_is(curve):
         ({"force": impulses([0.01, 0.02], [0.0, 1.0])}, "within those of the force history, 0 to 1"),
         ({"times": [0.0, 2.0, 1.0]}, "each larger than the one before"),
         ({"times": [[0.0, 1.0]]}, "one row"),
+        ({"times": ["0", "1", "2"]}, "finite numbers"),
         ({"times": [-1.0, 1.0]}, "start at -1; allowed: from 0 on"),
         ({"medium": VISCOSITY, "times": [0.0, 1e9]}, "allowed: up to"),
-        ({"medium": VISCOSITY, "force": [0.0, 1e9, 0.0]}, "allowed: up to"),
         ({"medium": MEDIA["table"], "times": [101.0]}, "allowed: up to the last time of the table, 100"),
-        (
-            {"medium": MEDIA["table"], "force": [0.01, 0.01], "times": [0.0, 101.0]},
-            "allowed: up to the last time of the table, 100",
-        ),
+        ({"medium": MEDIA["table"], "force": [0.01, 0.01], "times": [0.0, 101.0]}, "last time of the table, 100"),
     ],
 )
 def test_refusals(curve, arguments, message):

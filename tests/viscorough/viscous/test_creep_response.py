@@ -66,15 +66,6 @@ def test_rate_is_that_of_ramps_and_steps(name):
         assert rate[sample] == pytest.approx(exact, rel=1e-11)
 
 
-@pytest.mark.parametrize("name", MEDIA)
-def test_more_samples_change_nothing(name):
-    """Samples on the line between others: the recursion and the sums are exact, not of an order."""
-    coarse, _ = creep_response(MEDIA[name], impulses([1.0, 3.0], [0.0, 7.0]))
-    times = np.linspace(0, 7, 501)
-    fine, _ = creep_response(MEDIA[name], impulses(1 + 2 * times / 7, times))
-    assert fine[-1] == pytest.approx(coarse[-1], rel=1e-12)
-
-
 def test_short_and_long_times_lose_no_digits():
     """Steps of 1e-12 and 1e12 retardation times: Φ of a step is J(t), and its rate J'(t)."""
     for medium in (KelvinVoigt(2.0, 5.0), Prony(1.0, [1e10, 1.0], [1e-8, 1e8])):

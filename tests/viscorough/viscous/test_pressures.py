@@ -94,14 +94,12 @@ def test_a_step_and_its_hold_are_exact_in_the_sum(disc):
         assert np.nanmin(pressure) >= 0
 
 
-@pytest.mark.parametrize(
-    ("medium", "force", "time", "message"),
-    [
-        (CreepTable([0, 1], [0, 1]), 1.0, 1.0, "CreepTable; allowed: media whose relaxation is known"),
-        (Maxwell(1.0, 1.0), impulses([1.0, 1.0], [0.0, 1.0]), 2.0, "time: 2.0; allowed: within those of the force"),
-        (Maxwell(1.0, 2.0), impulses([1.0, 0.0], [0.0, 1.0]), 1.0, "from time 0 on the contact would recede"),
-    ],
-)
-def test_refusals(disc, medium, force, time, message):
-    with pytest.raises(ValueError, match=rf"^[^\n]*{message}[^\n]*$"):
-        pressure_at(disc, medium, force, time)
+def test_refusals(disc):
+    medium, force = Maxwell(1.0, 2.0), impulses([1.0, 1.0], [0.0, 1.0])
+    for arguments, message in (
+        ((CreepTable([0, 1], [0, 1]), 1.0, 1.0), "CreepTable; allowed: media whose relaxation is known"),
+        ((medium, force, 2.0), "time: 2.0; allowed: within those of the force"),
+        ((medium, impulses([1.0, 0.0], [0.0, 1.0]), 1.0), "from time 0 on the contact would recede"),
+    ):
+        with pytest.raises(ValueError, match=rf"^[^\n]*{message}[^\n]*$"):
+            pressure_at(disc, *arguments)

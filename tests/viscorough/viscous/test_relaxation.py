@@ -43,18 +43,15 @@ def test_a_ramp_and_its_hold(curve, name):
         assert result.force[k] == pytest.approx(expected, rel=3e-4, abs=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
+def test_refusals(curve):
+    for arguments, message in (
         ({"medium": CreepTable([0, 1], [0, 1])}, "CreepTable; allowed: media whose relaxation is known"),
         ({"medium": KelvinVoigt(1.0, 1.0), "depth": [0, 0, 0.1]}, "steps at time 1, which takes an infinite force"),
         ({"depth": [0.1, 0.2, 0.1]}, "sample 2 is 0.1; allowed: finite depths from 0 on that do not decrease"),
         ({"depth": [0.1, 0.2]}, r"one per time, shape \(3,\)"),
         ({"depth": [0.1, 0.2, 2.0]}, "depth: 2 is beyond the curve's last level; allowed: up to 1"),
         ({"times": [0.0, 1.0, 0.5]}, "increasing numbers, or twice"),
-    ],
-)
-def test_refusals(curve, arguments, message):
-    call = {"depth": [0.1, 0.2, 0.3], "medium": MEDIA["solid"], "times": [0.0, 1.0, 1.0]} | arguments
-    with pytest.raises(ValueError, match=rf"^[^\n]*{message}[^\n]*$"):
-        force_under_depth(curve, **call)
+    ):
+        call = {"depth": [0.1, 0.2, 0.3], "medium": MEDIA["solid"], "times": [0.0, 1.0, 1.0]} | arguments
+        with pytest.raises(ValueError, match=rf"^[^\n]*{message}[^\n]*$"):
+            force_under_depth(curve, **call)

@@ -46,19 +46,3 @@ def test_a_fault_is_caught_missed_or_undecided(fault, tmp_path, monkeypatch):
 def test_what_does_not_fit_is_reported(fault, tmp_path, change, problem):
     assert planted.problems(fault, tmp_path / "clean") == []
     assert problem in planted.problems(replace(fault, **change), tmp_path / "clean")[0]
-
-
-def test_compiled_code_of_importers_is_removed(tmp_path):
-    source = tmp_path / "src"
-    (source / "__pycache__").mkdir(parents=True)
-    modules = {
-        "low": "from viscorough.compilation import njit\nX = 1\n",
-        "middle": "from low import X\n",
-        "high": "import middle\n",
-        "other": "X = 1\n",
-    }
-    for name, text in modules.items():
-        (source / f"{name}.py").write_text(text)
-        (source / f"__pycache__/{name}.f-1.py311.nbi").touch()
-    planted.plant(planted.Fault("one", "src/low.py", "X = 1", "X = 2", (), ""), tmp_path)
-    assert [path.name for path in (source / "__pycache__").iterdir()] == ["other.f-1.py311.nbi"]

@@ -19,22 +19,11 @@ TIMES = {"s": 1.0, "ms": 1e-3, "min": 60.0, "h": 3600.0, "µs": 1e-6}
 FORCES = {"N": 1.0, "mN": 1e-3, "kN": 1e3, "µN": 1e-6}
 COMPLIANCES = {"1/Pa": 1.0, "1/MPa": 1e-6, "Pa^-1": 1.0, "1/GPa": 1e-9}
 LENGTHS = {"um": 1e-6, "nm": 1e-9, "m": 1.0, "mm": 1e-3}
-HEADINGS = {"no heading": "", "t,F": "t,{f}", "time,value": "time,value"}
-ODD_HEADINGS = {
-    "[u]": "t [{u}],{f} [{v}]",
-    "(u)": "t ({u}),{f} ({v})",
-    "/u": "t/{u},{f}/({v})",
-    "in u": "t in {u},{f} in {v}",
-    "# [u]": "# t [{u}],{f} [{v}]",
-    "German [u]": "Zeit [{u}],Wert [{v}]",
-    "[u], no space": "t[{u}],{f}[{v}]",
-}
-BAD_HEADINGS = {
-    "swapped units": "t [{v}],{f} [{u}]",
-    "another unit": "t [{u}],{f} [K]",
-    "pixels": "t [px],{f} [{v}]",
-    "unit unknown": "t [{u}],{f} [abc]",
-}
+HEADINGS = ("", "t,{f}", "time,value")
+ODD_HEADINGS = ("t [{u}],{f} [{v}]", "t ({u}),{f} ({v})", "t/{u},{f}/({v})", "t in {u},{f} in {v}")
+ODD_HEADINGS += ("# t [{u}],{f} [{v}]", "Zeit [{u}],Wert [{v}]", "t[{u}],{f}[{v}]")
+# Units swapped, another one, one of pixels, one that nobody knows
+BAD_HEADINGS = ("t [{v}],{f} [{u}]", "t [{u}],{f} [K]", "t [px],{f} [{v}]", "t [{u}],{f} [abc]")
 
 
 def two_columns(random):
@@ -63,29 +52,22 @@ def two_columns(random):
 
 ABOUT = ("# elements: 99", "# operator_applications: 7", "# tolerance: 0.001", '# method: "loading path"')
 COUNTS = ",contact_count,contact_fraction,residual"
-CURVE = {"clear": "depth ({u}),force ({u}2),stiffness ({u})"}
-ODD_CURVES = {
-    "brackets": "depth [{u}],force [{u}2],stiffness [{u}]",
-    "powers ^": "depth ({u}),force ({u}^2),stiffness ({u})",
-    "powers **": "depth ({u}),force ({u}**2),stiffness ({u})",
-    "converted force": "depth ({u}),force (m2),stiffness ({u})",
-}
-BAD_CURVES = {
-    "another force": "depth ({u}),force ({o}2),stiffness ({u})",
-    "another stiffness": "depth ({u}),force ({u}2),stiffness ({o})",
-    "force in N": "depth ({u}),force (N),stiffness ({u})",
-    "pixels": "depth (px),force (px2),stiffness (px)",
-    "no unit of force": "depth ({u}),force,stiffness ({u})",
-}
+CLEAR = "depth ({u}),force ({u}2),stiffness ({u})"
+CONVERTED = "depth ({u}),force (m2),stiffness ({u})"
+ODD_CURVES = ("depth [{u}],force [{u}2],stiffness [{u}]", "depth ({u}),force ({u}^2),stiffness ({u})")
+ODD_CURVES += ("depth ({u}),force ({u}**2),stiffness ({u})", CONVERTED)
+BAD_CURVES = ("depth ({u}),force ({o}2),stiffness ({u})", "depth ({u}),force ({u}2),stiffness ({o})")
+BAD_CURVES += ("depth ({u}),force (N),stiffness ({u})", "depth ({u}),force,stiffness ({u})")
+BAD_CURVES += ("depth (px),force (px2),stiffness (px)",)
 
 
 def curve(random):
     """A loading curve as viscorough writes it, with units that agree or contradict each other."""
     draft = Draft("curve", random)
-    heading = draft.pick(CURVE, ODD_CURVES, BAD_CURVES, odd=0.6)
+    heading = draft.pick([CLEAR], ODD_CURVES, BAD_CURVES, odd=0.6)
     u, o = draft.random.permutation(list(LENGTHS))[:2]
     depth = np.arange(1.0, draft.random.integers(3, 9))
-    force = depth**2 / 2 * (LENGTHS[u] ** 2 if draft.traits == ["converted force"] else 1)
+    force = depth**2 / 2 * (LENGTHS[u] ** 2 if heading == CONVERTED else 1)
     lines = [*ABOUT, heading.format(u=u, o=o) + COUNTS]
     for level, (d, f) in enumerate(zip(depth.tolist(), force.tolist(), strict=True), 1):
         lines.append(f"{d!r},{f!r},{d!r},{level},{level / 99!r},0.0")
@@ -98,7 +80,7 @@ def curve(random):
 
 def read_history(path):
     """Times and forces, as the command line reads them."""
-    heading = CURVE["clear"].format(u="m")
+    heading = CLEAR.format(u="m")
     (path.parent / "loading.csv").write_text("\n".join([*ABOUT, heading + COUNTS, "1e12,1e12,1.0,99,1.0,0.0", ""]))
     names = [str(path.parent / "loading.csv"), "--force-history", str(path), "--viscosity", "1", "-o"]
     with contextlib.redirect_stderr(io.StringIO()) as said, contextlib.redirect_stdout(io.StringIO()):

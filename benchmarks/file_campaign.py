@@ -26,13 +26,13 @@ import time
 import traceback
 import warnings
 from collections import Counter
-from importlib.metadata import version
 from pathlib import Path
 
 import binary_files
 import click
 import column_files
 import numpy as np
+import pandas as pd
 import point_files
 import text_files
 from file_cases import generators
@@ -186,7 +186,7 @@ def main(files, seed, only, keep, output):
             if only is not None:
                 click.echo(f"{case.kind}, {', '.join(case.traits)}; arguments {case.options}\n{word}: {why}")
                 click.echo(f"truth: {case.heights}, spacing {case.spacing}, unit {case.unit} m")
-    about = {"machine": timing.machine(), "version": version("viscorough"), "seed": seed, "files": len(numbers)}
+    about = {"machine": timing.machine(), "viscorough": viscorough.__version__, "seed": seed, "files": len(numbers)}
     about["seconds"] = round(time.perf_counter() - began, 1)
     if output:
         write_json(about | {"counts": counts, "refusals": dict(refusals.most_common()), "failures": failures}, output)
@@ -199,11 +199,9 @@ def main(files, seed, only, keep, output):
 
 def table(counts):
     """Counts by kind of file as a table of text."""
-    words = (READ, REFUSED, UNREAD, WRONG)
-    rows = [("kind of file", *words)]
-    rows += [(kind, *(str(counts[kind][word]) for word in words)) for kind in sorted(counts)]
-    rows.append(("all", *(str(sum(count[word] for count in counts.values())) for word in words)))
-    return "\n".join(f"{row[0]:20}" + "".join(f"{cell:>28}" for cell in row[1:]) for row in rows)
+    rows = pd.DataFrame(counts, index=[READ, REFUSED, UNREAD, WRONG]).fillna(0).astype(int).T.sort_index()
+    rows.loc["all"] = rows.sum()
+    return rows.to_string()
 
 
 if __name__ == "__main__":

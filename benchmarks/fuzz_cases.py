@@ -17,6 +17,7 @@ import numpy as np
 import point_files
 import text_files
 
+from viscorough.cli import cli
 from viscorough.io import netcdf
 from viscorough.io.curves import curve_to_content
 from viscorough.io.motion import with_motion
@@ -305,35 +306,26 @@ FIGURES = [*["out.png"] * 40, "out.svg", "out.nc", "out", "none/out.png", "folde
 WHOLE = ["3", "9", "64", "0", "-1", "1.5", "99999999", "", "nan"]
 METHODS = [*["events", "explicit", "heun", "implicit", "second_order"] * 4, "magic", ""]
 QUANTITIES = [NUMBERS, ["1 N", "5 mN", "2 MPa", "3 um", "1e-3 m", "1 kg", "2 ", "1 N,2", "1 mN,2 mN"]]
-LEVELS = [SERIES, QUANTITIES]
-HISTORIES = ["force.csv", "force.npy", "older.nc", "none.csv", "folder", "pipe"]
-MEDIUM_FILES = ["medium.yaml", "medium.yaml", "older.nc", "none.yaml", "force.csv", "folder", "pipe"]
-SPACINGS = ["1", "0.5", "1,2", "2,0.5", "1,9", "1 um", "500 nm,0.5 um", "1 V", ",", "1,2,3"]
-CONSTANTS = {"--shear-modulus": QUANTITIES, "--young": QUANTITIES, "--poisson": [["0.3", "0.5"], NUMBERS]}
-PREPARATION = {
+# Values of options, by the name of the option or else of its type in the command line
+VALUES_OF = {
+    "--force-history": ["force.csv", "force.npy", "older.nc", "none.csv", "folder", "pipe"],
+    "--medium": ["medium.yaml", "medium.yaml", "older.nc", "none.yaml", "force.csv", "folder", "pipe"],
+    "--spacing": [*["1", "0.5"] * 6, "1,2", "2,0.5", "1,9", "1 um", "500 nm,0.5 um", "1 V", ",", "1,2,3"],
     "--unit": ["um", "nm", "m", "1", "kg", "", "1e-6 m", "µm", "9**9**9", "\x00"],
     "--channel": ["0", "1", "z", "heights", "", "λ"],
     "--nodata": ["0", "-9999", "1e38", "nan", "", "0,1,2", "a"],
     "--crop": ["0:2,0:2", "0:1,0:1", "1:3,0:2", "2:1,0:1", "0:99,0:99", "", "a"],
-    "--detrend": ["none", "mean", "plane", "sphere", "cubic"],
-    "--fill": ["none", "harmonic", "linear"],
+    "PositiveNumber": SHARES,
+    "PoissonRatio": [["0.3", "0.5"], NUMBERS],
+    "Quantity": QUANTITIES,
+    "Increasing": SERIES,
+    "IncreasingQuantities": [SERIES, QUANTITIES],
+    "IntRange": ["3", "9", "64", "0", "-1", "1.5", "99999999", "", "nan"],
 }
-SOLVED = {"--tolerance": SHARES, "--threads": WHOLE, **CONSTANTS}
-LOADED = {"--force": NUMBERS, "--viscosity": NUMBERS, "--force-history": HISTORIES}
+LEFT_OUT = {"-o", "--progress"}  # every command has the first, and the second may print
 OPTIONS = {
-    "indent": SOLVED
-    | PREPARATION
-    | {"--depths": LEVELS, "--forces": LEVELS, "--until-fraction": SHARES, "--until-force": QUANTITIES},
-    "contact": SOLVED | {"--force": LEVELS, "--depth": LEVELS},
-    "kinetics": LOADED | {"--medium": MEDIUM_FILES},  # these exclude those that it has, or repeat them
-    "march": LOADED | {"--times": SERIES, "--overlap": SHARES, "--until-fraction": SHARES},
-    "reduce": PREPARATION | {"--until-fraction": SHARES, "--realizations": ["2", "5", "0", "a"], "--seed": WHOLE},
-    "plot": {},
-    "generate": {
-        **{"--elements": WHOLE, "--points": WHOLE, "--seed": WHOLE},
-        **{"--roll-off": SHARES, "--unit": PREPARATION["--unit"], "--rms": NUMBERS},
-    },
-    "estimate": {"--rms": NUMBERS, "--times": SERIES, "--viscosity": NUMBERS, "--medium": MEDIUM_FILES},
+    name: [option for option in command.params if option.opts[0][0] == "-" and option.opts[0] not in LEFT_OUT]
+    for name, command in cli.commands.items()
 }
 # {command: options that it mostly has}
 USUAL = {
@@ -354,6 +346,15 @@ READ |= {"plot": ["curve.nc", "heights.nc", "curve.csv"]}
 ODD = ["--help", "--version", "--colour", "more.npy", "--", "-o", "\x00", "--tolerance=1e-2", "--force"]
 
 
+def option(random, parameter):
+    """An option of the command line with a value."""
+    name, kind = parameter.opts[0], parameter.type
+    if parameter.is_flag:
+        return [name]
+    choices = [*getattr(kind, "choices", ()), ""] * 2
+    return [name, drawn(random, VALUES_OF.get(name, VALUES_OF.get(type(kind).__name__, [*choices, NUMBERS])))]
+
+
 def arguments_of(random):
     """A command line: mostly complete, some with missing, repeated or unknown arguments."""
     command = one_of(random, sorted(OPTIONS))
@@ -361,7 +362,7 @@ def arguments_of(random):
     file = [one_of(random, odd_files if random.random() < 0.05 else READ[command])] if command in READ else []
     given = [["-o", one_of(random, FIGURES if command == "plot" else OUTPUTS)]]
     if command in ("indent", "contact", "march", "reduce") and (file[0].endswith(".npy") or random.random() < 0.3):
-        given.append(["--spacing", drawn(random, [*["1", "0.5"] * 8, NUMBERS, SPACINGS])])
+        given.append(["--spacing", drawn(random, [*[VALUES_OF["--spacing"]] * 9, NUMBERS])])
     if command == "march":
         given += method_of_march(random)
     given += [[name, drawn(random, values)] for name, values in USUAL.get(command, {}).items()]
@@ -369,14 +370,10 @@ def arguments_of(random):
         given.append(one_of(random, [["--force-history", "force.csv"], *[["--force", drawn(random, NUMBERS)]] * 2]))
         given.append(one_of(random, [["--medium", "medium.yaml"], ["--viscosity", drawn(random, NUMBERS)]]))
         given += [["--times", drawn(random, SERIES)]] if random.random() < 0.25 else []
-    if command != "kinetics" or random.random() < 0.05:
-        names = random.choice(
-            sorted(OPTIONS[command]), min(one_of(random, [0, 0, 1, 2]), len(OPTIONS[command])), replace=False
-        )
-        given += [[str(name), drawn(random, OPTIONS[command][name])] for name in names]
-    given += [["--flip"]] if command == "indent" and random.random() < 0.05 else []
-    given = [option for option in given if random.random() > 0.02]
-    arguments = [command, *file, *[text for option in given for text in option]]
+    if OPTIONS[command] and (command != "kinetics" or random.random() < 0.05):  # whose options exclude each other
+        given += [option(random, one_of(random, OPTIONS[command])) for _ in range(one_of(random, [0, 0, 1, 2]))]
+    given = [words for words in given if random.random() > 0.02]
+    arguments = [command, *file, *[text for words in given for text in words]]
     if random.random() < 0.05:
         arguments.insert(random.integers(len(arguments) + 1), one_of(random, ODD))
     return arguments

@@ -1,7 +1,5 @@
 """Random text files with the points x, y, z of a grid, and ESRI ASCII grids; for file_campaign.py."""
 
-import re
-
 import numpy as np
 from file_cases import UNITS, Draft, distances, map_shape, missing_points
 from text_files import SWAPPED, are_plain, encoded, printed
@@ -185,24 +183,18 @@ def esri(random):
 
 def _esri_body(form, cells):
     """((rows, columns) as the file states them, lines of numbers)."""
-    body, (rows, columns) = [" ".join(row) for row in cells], (len(cells), len(cells[0]))
-    if form == "a leading space":
-        body = [f" {row}" for row in body]
-    elif form == "wrapped":
-        half = -(-columns // 2)
-        body = [" ".join(part) for row in cells for part in (row[:half], row[half:])]
-    elif form == "one line":
-        body = [" ".join(body)]
-    elif form == "decimal commas":
-        body = [row.replace(".", ",") for row in body]
-    elif form == "lines contradict":  # though the number of numbers is right
-        if rows % columns and columns % rows:
-            return (columns, rows), body
-        body = [*body[:-2], " ".join(cells[-2][:-1]), " ".join([cells[-2][-1], *cells[-1]])]
-    elif form == "too few rows":
-        body = body[:-1]
-    elif form == "too many rows":
-        body = [*body, body[-1]]
-    elif form == "a row lacks a number":
-        body = [re.sub(r"\S+ ", "", body[0], count=1), *body[1:]]
-    return (rows, columns), body
+    rows, columns = counts = len(cells), len(cells[0])
+    if form == "lines contradict" and rows % columns and columns % rows:  # though the number of numbers is right
+        counts = columns, rows
+    body, half = [" ".join(row) for row in cells], -(-columns // 2)
+    bodies = {
+        "a leading space": [f" {row}" for row in body],
+        "wrapped": [" ".join(part) for row in cells for part in (row[:half], row[half:])],
+        "one line": [" ".join(body)],
+        "decimal commas": [row.replace(".", ",") for row in body],
+        "lines contradict": [*body[:-2], " ".join(cells[-2][:-1]), " ".join([cells[-2][-1], *cells[-1]])],
+        "too few rows": body[:-1],
+        "too many rows": [*body, body[-1]],
+        "a row lacks a number": [" ".join(cells[0][1:]), *body[1:]],
+    }
+    return counts, body if counts != (rows, columns) else bodies.get(form, body)

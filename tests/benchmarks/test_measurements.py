@@ -2,9 +2,6 @@
 
 import json
 import pkgutil
-import sys
-import time
-from types import SimpleNamespace
 
 import curves
 import large_map
@@ -53,23 +50,6 @@ def test_every_part_takes_time_and_is_restored():
     assert row["ratio"] > 1
 
 
-def test_stopwatch_counts_the_time_within(monkeypatch):
-    def work():
-        end = time.process_time() + 0.02
-        while time.process_time() < end:
-            pass
-
-    module = SimpleNamespace(work=work)
-    monkeypatch.setitem(sys.modules, "stand_in", module)
-    with curves.stopwatch({"work": ["stand_in.work"]}) as seconds:
-        start = time.process_time()
-        module.work()
-        module.work()
-        whole = time.process_time() - start
-        work()  # not through the module: not counted
-    assert 0.04 <= seconds["work"] <= whole  # a busy machine may make both longer
-
-
 def test_columns_by_ducc0_are_the_same_convolution():
     rows, length = 17, curves.good_length(32)
     spectrum = np.random.default_rng(1).random((length // 2 + 1, 5))
@@ -113,5 +93,3 @@ def test_rectangles_are_compared_with_squares_on_the_same_map():
     costs = rectangles.costs(np.random.default_rng(1).random((24, 24)), 2)
     assert list(costs) == ["1", "2", "0.5", "5", "0.2"]
     assert costs["1"]["over_squares"] == 1
-    assert all(cost["levels"] > 100 for cost in costs.values())
-    assert [bool(np.isnan(heights).any()) for heights in rectangles.maps().values()] == [False, False, True, True]

@@ -2,22 +2,18 @@
 
 from dataclasses import replace
 
+import planted_faults as planted
 import pytest
 
 
-@pytest.fixture(scope="module")
-def planted(script):
-    return script("planted_faults")
-
-
-def test_every_fault_can_be_planted_and_has_its_tests(planted):
+def test_every_fault_can_be_planted_and_has_its_tests():
     faults = planted.read_faults()
     assert len(faults) >= 20
     assert [line for fault in faults for line in planted.problems(fault)] == []
 
 
 @pytest.fixture
-def fault(planted, tmp_path):
+def fault(tmp_path):
     """A fault in a project of one module and one test."""
     (tmp_path / "clean").mkdir()
     (tmp_path / "clean/half.py").write_text("def half(x):\n    return x / 2\n")
@@ -25,42 +21,28 @@ def fault(planted, tmp_path):
     return planted.Fault("half", "half.py", "x / 2", "x / 3", ("test_half.py::test_half",), "halves are thirds")
 
 
-def verdict(planted, fault, tmp_path):
+def verdict(fault, tmp_path):
     return planted.outcome(fault, tmp_path / "clean", tmp_path / "planted", 60)["verdict"]
 
 
-def test_a_fault_is_caught_missed_or_undecided(planted, fault, tmp_path, monkeypatch):
+def test_a_fault_is_caught_missed_or_undecided(fault, tmp_path, monkeypatch):
     monkeypatch.setenv("PYTEST_ADDOPTS", "--rootdir .")
-    assert verdict(planted, fault, tmp_path) == "caught"
-    assert verdict(planted, replace(fault, new="x / 2.0"), tmp_path) == "missed"
-    assert verdict(planted, replace(fault, tests=("absent.py",)), tmp_path) == "tests did not run"
+    assert verdict(fault, tmp_path) == "caught"
+    assert verdict(replace(fault, new="x / 2.0"), tmp_path) == "missed"
+    assert verdict(replace(fault, tests=("absent.py",)), tmp_path) == "tests did not run"
     assert (tmp_path / "clean/half.py").read_text() == "def half(x):\n    return x / 2\n"
     assert not (tmp_path / "planted").exists()
 
 
-def test_what_does_not_fit_is_reported(planted, fault, tmp_path):
-    folder = tmp_path / "clean"
-    assert planted.problems(fault, folder) == []
-    assert "stands 0 times" in planted.problems(replace(fault, old="x / 4"), folder)[0]
-    assert "stands 2 times" in planted.problems(replace(fault, old="x"), folder)[0]
-    assert "is the old one" in planted.problems(replace(fault, new="x / 2"), folder)[0]
-    assert (
-        "no test test_half.py::test_third"
-        in planted.problems(replace(fault, tests=("test_half.py::test_third",)), folder)[0]
-    )
-
-
-def test_compiled_code_of_importers_is_removed(planted, tmp_path):
-    source = tmp_path / "src"
-    (source / "__pycache__").mkdir(parents=True)
-    modules = {
-        "low": "from viscorough.compilation import njit\nX = 1\n",
-        "middle": "from low import X\n",
-        "high": "import middle\n",
-        "other": "X = 1\n",
-    }
-    for name, text in modules.items():
-        (source / f"{name}.py").write_text(text)
-        (source / f"__pycache__/{name}.f-1.py311.nbi").touch()
-    planted.plant(planted.Fault("one", "src/low.py", "X = 1", "X = 2", (), ""), tmp_path)
-    assert [path.name for path in (source / "__pycache__").iterdir()] == ["other.f-1.py311.nbi"]
+@pytest.mark.parametrize(
+    ("change", "problem"),
+    [
+        ({"old": "x / 4"}, "stands 0 times"),
+        ({"old": "x"}, "stands 2 times"),
+        ({"new": "x / 2"}, "is the old one"),
+        ({"tests": ("test_half.py::test_third",)}, "no test test_half.py::test_third"),
+    ],
+)
+def test_what_does_not_fit_is_reported(fault, tmp_path, change, problem):
+    assert planted.problems(fault, tmp_path / "clean") == []
+    assert problem in planted.problems(replace(fault, **change), tmp_path / "clean")[0]

@@ -26,12 +26,9 @@ def test_pages_have_the_published_tables(page, name):
 
 def test_readme_has_every_claim_on_physics_and_first_the_time():
     physics = [claim["title"] for claim in CLAIMS.values() if claim["kind"] == "physics"]
-    rows = [line for line in publish.verdict_lines().splitlines()[2:] if line.startswith("|")]
-    assert sorted(title.strip() for row in rows for title in row.split("|")[2].split(";")) == sorted(physics)
+    assert all(publish.verdict_lines().count(title) == 1 for title in physics)
     assert list(dict.fromkeys(PUBLISHED_CLAIMS["claim"])) == list(CLAIMS)
-    minutes = pd.read_csv(ROOT / publish.DEFAULT_COSTS)["share_s"].sum() / 60
-    assert publish.time_sentence().startswith(f"**Several weeks in the paper, {minutes:.1f} minutes here**")
-    assert read(README).index("**Several weeks") < read(README).index("## ")
+    assert read(README).index(publish.time_sentence()) < read(README).index("## ")
 
 
 def test_sentences_on_other_scales_and_draws(monkeypatch):
@@ -73,11 +70,10 @@ def test_publishing(results, project):
     publish.copy_results(results, project, ["paper"], "abc")
     publish.copy_results(results, project, ["large"], "def")
     records = json.loads((project / "docs/results/published.json").read_text())
-    assert {path.name for path in (project / "docs/results").iterdir()} == {*records, "published.json"}
-    assert set(records) == {name.split("/")[-1] for name in publish.PUBLISHED["paper"] + publish.PUBLISHED["large"]}
+    names = {name.split("/")[-1] for name in publish.PUBLISHED["paper"] + publish.PUBLISHED["large"]}
+    assert {path.name for path in (project / "docs/results").iterdir()} - {"published.json"} == set(records) == names
     assert records["rule_costs.csv"]["date"] == "2000-01-01"
-    for name, command, commit in (("large.csv", "make large", "def"), ("rule_costs.csv", "make paper", "abc")):
-        assert (records[name]["command"], records[name]["commit"]) == (command, commit)
+    assert (records["large.csv"]["command"], records["large.csv"]["commit"]) == ("make large", "def")
     for name, target in publish.KEPT["paper"].items():
         assert (project / target).read_text() == (results / name).read_text()
 
@@ -109,12 +105,10 @@ def test_times_of_other_solvers_are_kept_with_their_origin(tmp_path):
 
 def test_published_files_say_where_they_come_from():
     folder = ROOT / "docs/results"
-    assert set(json.loads(read(folder / "published.json"))) == {path.name for path in folder.iterdir()} - {
-        "published.json"
-    }
+    names = {path.name for path in folder.iterdir()} - {"published.json"}
+    assert set(json.loads(read(folder / "published.json"))) == names
     assert sum(path.stat().st_size for path in folder.iterdir()) <= 3e6
-    for name in publish.PICTURES:
-        assert (folder / name).read_bytes() == (ROOT / "docs" / name).read_bytes()
+    assert all((folder / name).read_bytes() == (ROOT / "docs" / name).read_bytes() for name in publish.PICTURES)
 
 
 def test_every_published_file_is_made_by_a_rule_or_a_benchmark():

@@ -75,12 +75,17 @@ def test_power_of_time_of_a_power_law(medium, times, creep, exponent):
 
 
 def test_no_power_of_time_where_the_medium_has_none():
-    """The creep exponent of a standard linear solid changes over the window, of a relaxed one there is no window."""
+    """The creep exponent of a standard linear solid changes over the window, of a relaxed one there is no window.
+
+    Of a power law in X, the exponent in time is that of J and of the change of d ln J/d ln t.
+    """
     ensembles = {0.5: ([power_law_curve(1.0)] * 2, [1e-3, 1e-3], 1.0)}
     media = {"solid": StandardLinearSolid(1e6, 1e5, 1.0), "spring": StandardLinearSolid(1e6, 1e5, 1e-6)}
     how = FIT | {"stiffness_range": [0.0, 10.0]}
     _, fits = media_tables(ensembles, media, force=1e-3, times=abscissa(1e-2, 1e2, 20), **how)
     solid, spring = fits.to_dict("records")
     assert solid["creep_largest"] - solid["creep_least"] > 0.4
+    assert solid["exponent"] == pytest.approx(solid["expected"], abs=2e-3)
+    assert abs(solid["expected"] - 0.4 * solid["creep_exponent"]) > 0.1
     assert spring["decades"] == 0
     assert np.isnan(spring["exponent"])

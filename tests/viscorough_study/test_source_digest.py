@@ -123,7 +123,8 @@ def test_scripts_of_the_workflow():
         modules = used(script)
         assert ("viscorough/contact/column_fft.py" in modules) == (script in boundary_elements), script
         assert any(name.startswith("viscorough_study/figures/") for name in modules) == (script == "plot"), script
-    assert "viscorough/mdr.py" in used("indent_lines")
+    of_lines = {"indent_lines", "compare_reduction", "validate", "map_failures", "measure_methods"}
+    assert {path.stem for path in SCRIPTS.glob("*.py") if "viscorough/mdr.py" in used(path.stem)} == of_lines
 
 
 def test_a_figure_is_drawn_by_its_own_module():

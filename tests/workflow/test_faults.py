@@ -9,15 +9,14 @@ import time
 
 import pytest
 
-from support.faults import DAMAGES, NO_LARGE_FILES, contents, no_privileges
+from support.faults import DAMAGES, NO_LARGE_FILES, contents
 from support.workflow import HANGS, TEST, command, copy_project, environment, made_once, settings_file, snakemake
 from viscorough.io import netcdf
 
 SETTINGS = (*TEST, "faults.yaml")
 TARGET = "results/ensembles/lines.nc"
 CURVES = "results/curves/lines/h04000/0000-0001.nc"
-NEW_FOLDER = "results/curves/lines/sizes"
-NEW = f"{NEW_FOLDER}/0000-0001.nc"  # not needed for the target
+NEW = "results/curves/lines/sizes/0000-0001.nc"  # not needed for the target
 
 
 @pytest.fixture
@@ -97,21 +96,6 @@ def test_second_run_in_a_folder_ends_and_the_first_is_not_disturbed(lines):
     assert "Error: Directory cannot be locked." in shown
     assert "Traceback" not in shown
     assert first.returncode == 0, finished
-    assert contents(lines / "results") == before
-
-
-# ---- places that cannot be written
-
-
-def test_results_that_may_not_be_written(lines):
-    before = contents(lines / "results")
-    (lines / NEW_FOLDER).parent.chmod(0o555)
-    try:
-        shown = failure(lines, "--", NEW, before=no_privileges())
-    finally:
-        (lines / NEW_FOLDER).parent.chmod(0o755)
-    assert shown.endswith(f"Permission denied: '{NEW_FOLDER}'")
-    assert "Traceback" not in shown
     assert contents(lines / "results") == before
 
 

@@ -1,13 +1,11 @@
 """What a changed setting or a changed source reruns, and what it leaves."""
 
 import ast
-import os
 import re
 
 import pytest
 
-from support.workflow import SCRIPTS, TEST, copy_sources, jobs, plan, settings_file, snakemake
-from viscorough_study.source_digest import SourceDigests
+from support.workflow import TEST, copy_sources, jobs, plan, settings_file, snakemake
 
 FITS_AND_FIGURES = {"match_lines", "fit_scaling", "judge_claims", "compare_prefactors", "compare_zeta_laws"}
 FITS_AND_FIGURES |= {"tabulate_calibration", "tabulate_literature", "plot_mdr_lambda", "plot_kinetics", "plot_exponent"}
@@ -65,6 +63,8 @@ OF_FEW_STEPS = MEDIA | INTERFACE | SPEED | {"measure_plateaus", "judge_claims", 
 OF_FEW_STEPS |= {"validate", "check_validation", "plot_validation", "compare_direct", "plot_direct"}
 OF_FEW_STEPS |= {"map_failures", "plot_failure_map", "compare_level_placement", "plot_level_placement"}
 POOLED = {"pool_curves", "measure_plateaus"}
+OF_SURFACES = FITS_AND_FIGURES | INTERFACE | MEDIA | SIZES | POOLED
+OF_SURFACES |= {"indent_discs", "generate_example_discs", "plot_surfaces"}
 
 
 @pytest.mark.parametrize(
@@ -79,21 +79,9 @@ POOLED = {"pool_curves", "measure_plateaus"}
             {"lines": {"points": 2048}},
             (FITS_AND_FIGURES | INTERFACE | {"indent_lines", "pool_curves"}) - {"compare_zeta_laws"},
         ),
-        (
-            {"discs": {"tolerance": 2e-3}},
-            FITS_AND_FIGURES | INTERFACE | MEDIA | POOLED | {"indent_discs", "compare_reduction", "plot_reduction"},
-        ),
-        (
-            {"surface": {"period": 1.5}},  # not of the variant that has its own period, nor of lines
-            FITS_AND_FIGURES
-            | INTERFACE
-            | MEDIA
-            | SIZES
-            | POOLED
-            | {"indent_discs", "generate_example_discs", "plot_surfaces"},
-        ),
+        ({"surface": {"period": 1.5}}, OF_SURFACES),  # not of the variant that has its own period, nor of lines
     ],
-    ids=["few steps", "scaling", "figures", "ensemble", "lines", "discs", "surface"],
+    ids=["few steps", "scaling", "figures", "ensemble", "lines", "surface"],
 )
 def test_a_changed_setting_reruns_what_uses_it(finished_once, tmp_path, changed, rerun):
     planned = plan(finished_once, *TEST, settings_file(tmp_path, "changed", **changed))
@@ -119,7 +107,7 @@ def test_more_realizations_keep_those_that_are_there(finished_once, tmp_path):
 
 
 def test_reworded_docstrings_and_comments_rerun_nothing(editable):
-    """In every module of both packages, in every script and in the rules."""
+    """In every module of both packages, in every script and in the rules; nor do the times of the files count."""
     files = [path for folder in ("src", "workflow/scripts") for path in (editable / folder).rglob("*.py")]
     assert len(files) > 80
     rules = sorted((editable / "workflow/rules").glob("*.smk"))
@@ -138,36 +126,6 @@ def test_a_changed_line_of_the_column_convolution_reruns_what_uses_boundary_elem
     assert set(plan(editable, *TEST)) == BOUNDARY_ELEMENTS | FITS_AND_FIGURES | SIZES | after
 
 
-@pytest.mark.parametrize(
-    ("module", "scripts"),
-    [
-        (
-            "viscorough_study/power_law.py",
-            {"fit_scaling", "measure_plateaus", "fit_sizes", "fit_collapse", "compute_media", "evaluate_measured"}
-            | {"match_lines", "fit_interface", "compare_zeta_laws", "judge_claims", "make_page"}
-            | {"tabulate_calibration"},  # names of windows
-        ),
-        (
-            "viscorough/mdr.py",
-            {"indent_lines", "compare_reduction", "validate", "map_failures", "measure_methods"}
-            | {"check_validation", "make_page", "tabulate_methods"},  # names and columns
-        ),
-    ],
-)
-def test_a_changed_module_concerns_exactly_the_scripts_that_use_it(tmp_path, module, scripts):
-    """A statement is added to every function of the module."""
-    copy_sources(tmp_path)
-
-    def digests():
-        sources = SourceDigests(tmp_path / "src")
-        return {path.stem: sources.digest(path) for path in SCRIPTS.glob("*.py")}
-
-    before = digests()
-    edit(tmp_path / "src" / module, with_another_statement)
-    after = digests()
-    assert {script for script in before if before[script] != after[script]} == scripts
-
-
 def test_a_changed_script_or_figure_reruns_its_rule_and_what_depends_on_it(editable):
     script = editable / "workflow/scripts/compare_direct.py"
     edit(script, lambda text: text.replace("Direct integration and", "Integration and"))
@@ -177,10 +135,3 @@ def test_a_changed_script_or_figure_reruns_its_rule_and_what_depends_on_it(edita
 
 def test_forcing_one_rule(finished_once):
     assert plan(finished_once, *TEST, "--forcerun", "plot_exponent") == dict.fromkeys(("plot_exponent", *LAST), 1)
-
-
-def test_an_older_checkout_of_the_same_sources_reruns_nothing(finished):
-    """The times of the sources do not count, such as those that git sets."""
-    for path in (finished / "workflow/scripts").glob("*.py"):
-        os.utime(path)
-    assert plan(finished, *TEST) == {}

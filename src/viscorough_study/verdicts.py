@@ -18,14 +18,7 @@ from inspect import getmembers, isfunction, signature
 import numpy as np
 import pandas as pd
 
-from viscorough_study import (
-    form_criteria,
-    law_criteria,
-    mdr_criteria,
-    method_criteria,
-    region_criteria,
-    zeta_criteria,
-)
+from viscorough_study import form_criteria, law_criteria, mdr_criteria, method_criteria, region_criteria, zeta_criteria
 from viscorough_study.evidence import VERDICTS
 
 MODULES = form_criteria, region_criteria, law_criteria, zeta_criteria, method_criteria, mdr_criteria

@@ -23,10 +23,8 @@ def main(
     fixed |= {name: conventions[name] for name in ("average", "rms_convention")}
     discs, lines, rows = read_dataset(discs), read_dataset(lines), []
     for source, group, pool in (("discs", "sizes", discs), ("discs", "controls", discs), ("lines", "sizes", lines)):
-        about, grids = (
-            {"source": source, "case_group": group},
-            ensembles(select(pool, group=group), "hurst", "elements").values(),
-        )
+        about = {"source": source, "case_group": group}
+        grids = ensembles(select(pool, group=group), "hurst", "elements").values()
         for ensemble in progress(grids, len(grids), f"{source}, {group}"):
             fits = fit_rows(ensemble, **about, seed=seed, **fit)
             fits += fixed_window_rows(ensemble, windows, about, **fixed)

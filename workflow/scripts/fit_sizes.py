@@ -26,8 +26,7 @@ def main(
         about = {"source": source, "case_group": group}
         grids = ensembles(select(pool, group=group), "hurst", "elements").values()
         for ensemble in progress(grids, len(grids), f"{source}, {group}"):
-            fits = fit_rows(ensemble, **about, seed=seed, **fit)
-            fits += fixed_window_rows(ensemble, windows, about, **fixed)
+            fits = fit_rows(ensemble, **about, seed=seed, **fit) + fixed_window_rows(ensemble, windows, about, **fixed)
             rows += [row | {"elements": ensemble["elements"].item()} for row in fits]
     columns = COLUMNS | {"elements": ("elements of an indenter: of a disc, points of a line", "1")}
     table = pd.DataFrame(rows, columns=list(columns))

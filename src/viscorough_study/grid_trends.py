@@ -92,14 +92,8 @@ def _trend(grids, expected, tolerance):
     slope = _slope(*(grids[name].to_numpy() for name in ("elements", "beta", "beta_low", "beta_high")))
     finest = grids.iloc[-1]
     beta = interval(finest, "beta")
-    return (
-        len(grids),
-        finest["elements"],
-        *beta,
-        expected,
-        *slope,
-        _finding(np.subtract(beta, expected), slope, tolerance),
-    )
+    finding = _finding(np.subtract(beta, expected), slope, tolerance)
+    return len(grids), finest["elements"], *beta, expected, *slope, finding
 
 
 def _slope(elements, beta, low, high):

@@ -80,8 +80,6 @@ def deviation_interval(deviation, freedom):
 def difference(first, second):
     """The second of two independent quantities less the first, (value, low, high), from the intervals of both."""
     value = second[0] - first[0]
-    below, above = (
-        np.hypot(second[0] - second[1], first[2] - first[0]),
-        np.hypot(second[2] - second[0], first[0] - first[1]),
-    )
+    below = np.hypot(second[0] - second[1], first[2] - first[0])
+    above = np.hypot(second[2] - second[0], first[0] - first[1])
     return value, value - below, value + above

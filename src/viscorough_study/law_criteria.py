@@ -108,15 +108,24 @@ def realizations(evidence, tolerance):
     The interval is that of the standard deviation of a normal distribution, by the distribution of χ².
     """
     number = evidence.said("boundary_elements", "realizations_fig4")
+
+    def half_width(_, ensemble, window):
+        slopes = _slopes(ensemble, window)
+        return deviation_interval(1.96 * slopes.std(ddof=1) / np.sqrt(number), slopes.size - 1), slopes.size
+
+    return _cases_in_regions(evidence, half_width, np.nan, (-np.inf, tolerance))
+
+
+def _cases_in_regions(evidence, values_of, expected, allowed):
+    """Cases of a quantity in region (b) of the pooled discs, one for each Hurst exponent; undecided without a region.
+
+    values_of : function of H, ensemble and window; returns value and interval, and the realizations behind them
+    """
     for hurst, ensemble in evidence.pooled.items():
         window = evidence.regions[hurst]
-        if window is None:
-            yield judged(hurst_name(hurst), UNDEFINED, np.nan, None)
-            continue
-        slopes = _slopes(ensemble, window)
-        half_width = 1.96 * slopes.std(ddof=1) / np.sqrt(number)
-        values, about = deviation_interval(half_width, slopes.size - 1), {"cases": len(evidence.pooled)}
-        yield evidence.case(hurst_name(hurst), values, np.nan, (-np.inf, tolerance), **about, realizations=slopes.size)
+        values, number = (UNDEFINED, 0) if window is None else values_of(hurst, ensemble, window)
+        about = {"realizations": number, "cases": len(evidence.pooled)}
+        yield evidence.case(hurst_name(hurst), values, expected, allowed, **about)
 
 
 def _slopes(ensemble, window):
@@ -174,13 +183,10 @@ def _cases_at_centre(evidence, tolerance, ratio):
     ratio : function of H, ensemble, fit of region (b), centre and bootstrap; returns the value and its samples
     """
     bootstrap = {"average": evidence.conventions["average"], "resamples": evidence.resamples, "seed": evidence.seed}
-    for hurst, ensemble in evidence.pooled.items():
-        window = evidence.regions[hurst]
-        if window is None:
-            yield judged(hurst_name(hurst), UNDEFINED, 1.0, None)
-            continue
+
+    def values_of(hurst, ensemble, window):
         fit = fit_power_law(ensemble["x"].values, ensemble["velocity"].values, window, **bootstrap)
         value, samples = ratio(hurst, ensemble, fit, np.sqrt(np.prod(window)), bootstrap)
-        values = value, *percentile_interval(samples, fit.realizations)
-        of_all = {"realizations": fit.realizations, "cases": len(evidence.pooled)}
-        yield evidence.case(hurst_name(hurst), values, 1.0, (1 - tolerance, 1 + tolerance), **of_all)
+        return (value, *percentile_interval(samples, fit.realizations)), fit.realizations
+
+    return _cases_in_regions(evidence, values_of, 1.0, (1 - tolerance, 1 + tolerance))

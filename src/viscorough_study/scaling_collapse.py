@@ -137,9 +137,8 @@ def grids(pool, source, *, average, rms_convention, elements_min, fraction_min, 
     generator = np.random.default_rng(seed)
     convention = "line" if source == "lines" else rms_convention
     part = select(pool, group=group).sel(rms_convention=convention)
-    for (hurst, elements), ensemble in sorted(
-        ensembles(part.expand_dims("rms_convention"), "hurst", "elements").items()
-    ):
+    on_grids = ensembles(part.expand_dims("rms_convention"), "hurst", "elements")
+    for (hurst, elements), ensemble in sorted(on_grids.items()):
         ensemble = ensemble.isel(rms_convention=0)
         enough = np.flatnonzero(ensemble["contact_count_median"].values >= elements_min)
         defined = ensemble["fraction_defined"].values >= fraction_min

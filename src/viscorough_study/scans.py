@@ -17,9 +17,8 @@ def scans(entries):
     found = {}
     for entry in entries:
         for pattern in entry["files"]:
-            files = sorted(
-                str(Path(file)) for file in glob(pattern, recursive=True, include_hidden=True) if Path(file).is_file()
-            )
+            matching = map(Path, glob(pattern, recursive=True, include_hidden=True))
+            files = sorted(str(path) for path in matching if path.is_file())
             if not files:
                 raise SettingsError(
                     f"measured: no file {pattern} of {entry['name']}; allowed: files or patterns of files"

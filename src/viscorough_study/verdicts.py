@@ -18,14 +18,7 @@ from inspect import getmembers, isfunction, signature
 import numpy as np
 import pandas as pd
 
-from viscorough_study import (
-    form_criteria,
-    law_criteria,
-    mdr_criteria,
-    method_criteria,
-    region_criteria,
-    zeta_criteria,
-)
+from viscorough_study import form_criteria, law_criteria, mdr_criteria, method_criteria, region_criteria, zeta_criteria
 from viscorough_study.evidence import VERDICTS
 
 MODULES = form_criteria, region_criteria, law_criteria, zeta_criteria, method_criteria, mdr_criteria
@@ -99,16 +92,10 @@ def attributes_of_scale(evidence):
     across, paper = evidence.across, evidence.said("boundary_elements", "elements_across")
     realizations = min(ensemble.sizes["realization"] for ensemble in evidence.pooled.values())
     trial = is_trial(across, paper)
-    words = (
-        f"at least {realizations} discs of {across} elements across for every Hurst exponent (paper: {paper} across)"
-    )
-    return {
-        "elements_across": across,
-        "paper_elements_across": paper,
-        "realizations": realizations,
-        "trial": int(trial),
-        "scale": words + "; too coarse for a power law, the verdicts mean nothing" * trial,
-    }
+    words = f"at least {realizations} discs of {across} elements across for every Hurst exponent"
+    words += f" (paper: {paper} across)" + "; too coarse for a power law, the verdicts mean nothing" * trial
+    counts = {"elements_across": across, "paper_elements_across": paper, "realizations": realizations}
+    return counts | {"trial": int(trial), "scale": words}
 
 
 def overall(table):

@@ -28,7 +28,6 @@ LAWS = {  # {name: (ζ as a function of H, whether the law has the factor 1/Γ(2
     "Eq. 11, with Γ": (reference.zeta_viscous, True),
 }
 LAST = list(LAWS)[-1]  # from which the others are told apart
-MEASURES = ("deviation", "common factor", "spread")
 COLUMNS = {
     "hurst_min": ("lowest Hurst exponent allowed", "1"),
     "quantity": ("what is compared with the law: zeta, or curve", ""),
@@ -66,12 +65,16 @@ def _rows(ensembles, windows, **how):
     number = min((ensemble.sizes["realization"] for ensemble in ensembles.values()), default=0)
     common, rows = _common_window(windows), []
     for quantity, ratios in (("zeta", _zeta_ratios), ("curve", _curve_ratios)):
-        samples = ratios(ensembles, windows, **how)
+        samples = ratios(ensembles, windows, **how) or dict.fromkeys(LAWS, np.full((2, 1, 1), np.nan))
         ends = common if quantity == "curve" and common is not None else (np.nan, np.nan)
-        measures = {law: _measures(samples[law]) if samples else None for law in LAWS}
-        for law, measure, values in _with_differences(measures):
-            value = UNDEFINED if values is None else with_interval(values, number)
-            rows.append((quantity, law, measure, *value, *ends, len(ensembles), number))
+        measures = {law: _measures(samples[law]) for law in LAWS}
+        for law in list(LAWS)[:-1]:
+            less = {name: measures[law][name] - measures[LAST][name] for name in ("deviation", "spread")}
+            measures[difference(law)] = less
+        for law, of_law in measures.items():
+            for measure, values in of_law.items():
+                value = with_interval(values, number)
+                rows.append((quantity, law, measure, *value, *ends, len(ensembles), number))
     return rows
 
 
@@ -85,17 +88,6 @@ def value_of(table, quantity, law, measure, hurst_min=0.0):
 def difference(law):
     """Name of the difference between a law and Eq. 11; positive if Eq. 11 is nearer."""
     return f"{law} minus {LAST}"
-
-
-def _with_differences(measures):
-    """(law, measure, samples) of all laws, then of the differences between the other laws and the last."""
-    for law, values in measures.items():
-        for measure in MEASURES:
-            yield law, measure, None if values is None else values[measure]
-    for law in list(measures)[:-1]:
-        for measure in ("deviation", "spread"):
-            missing = measures[law] is None
-            yield difference(law), measure, None if missing else measures[law][measure] - measures[LAST][measure]
 
 
 def _measures(logarithms):

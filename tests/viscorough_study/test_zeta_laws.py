@@ -10,8 +10,9 @@ from scipy.special import gamma as gamma_function
 
 from support.study import BOOTSTRAP, HURST, LIMITS, evidence, evidence_with_factors
 from viscorough import reference
-from viscorough_study.zeta_laws import COLUMNS, LAWS, MEASURES, difference, value_of, zeta_laws
+from viscorough_study.zeta_laws import COLUMNS, LAWS, difference, value_of, zeta_laws
 
+MEASURES = "deviation", "common factor", "spread"
 FOUR, VISCOUS, ELEVEN = LAWS  # Eq. 4 without and with Γ, Eq. 11 with Γ
 
 

@@ -21,13 +21,10 @@ def main(discs, lines, csv, nc, trends_csv, trends_nc, *, seed, fit, windows, co
     fixed |= {name: conventions[name] for name in ("average", "rms_convention")}
     discs, lines, rows = read_dataset(discs), read_dataset(lines), []
     for source, group, pool in (("discs", "sizes", discs), ("discs", "controls", discs), ("lines", "sizes", lines)):
-        about, grids = (
-            {"source": source, "case_group": group},
-            ensembles(select(pool, group=group), "hurst", "elements").values(),
-        )
+        about = {"source": source, "case_group": group}
+        grids = ensembles(select(pool, group=group), "hurst", "elements").values()
         for ensemble in progress(grids, len(grids), f"{source}, {group}"):
-            fits = fit_rows(ensemble, **about, seed=seed, **fit)
-            fits += fixed_window_rows(ensemble, windows, about, **fixed)
+            fits = fit_rows(ensemble, **about, seed=seed, **fit) + fixed_window_rows(ensemble, windows, about, **fixed)
             rows += [row | {"elements": ensemble["elements"].item()} for row in fits]
     columns = COLUMNS | {"elements": ("elements of an indenter: of a disc, points of a line", "1")}
     table = pd.DataFrame(rows, columns=list(columns))

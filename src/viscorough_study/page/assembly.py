@@ -34,6 +34,7 @@ def page(
         captions,
         conventions,
         calculator=with_law(*calculator),
+        alternative=content.ALTERNATIVE_TEXTS,
         readable=readable,
         scale=scale,
         answers=answers.answers(results),

@@ -49,6 +49,7 @@ include: "workflow/rules/stability.smk"
 include: "workflow/rules/sizes.smk"
 include: "workflow/rules/media.smk"
 include: "workflow/rules/measured.smk"
+include: "workflow/rules/table_pages.smk"
 
 
 onstart:
@@ -61,67 +62,27 @@ rule curves:
         curves_of_pool("lines"),
 
 
-rule figure_1:
-    input:
-        rules.plot_surfaces.output,
+for number, name in enumerate(("surfaces", "kinetics", "master_curve", "exponent"), 1):
 
-
-rule figure_2:
-    input:
-        rules.plot_kinetics.output,
-
-
-rule figure_3:
-    input:
-        rules.plot_master_curve.output,
-
-
-rule figure_4:
-    input:
-        rules.plot_exponent.output,
+    rule:
+        name:
+            f"figure_{number}"
+        input:
+            getattr(rules, f"plot_{name}").output,
 
 
 rule figures:
     input:
-        rules.plot_surfaces.output,
-        rules.plot_kinetics.output,
-        rules.plot_master_curve.output,
-        rules.plot_exponent.output,
-        rules.plot_conventions.output,
-        rules.plot_prefactors.output,
-        rules.plot_interface.output,
-        rules.plot_reduction.output,
-        rules.plot_mdr_lambda.output,
-        rules.plot_direct.output,
-        rules.plot_validation.output,
-        rules.plot_speed.output,
-        rules.plot_failure_map.output,
-        rules.plot_level_placement.output,
-        rules.plot_media.output,
-        rules.plot_media_exponents.output,
-        rules.plot_sizes.output,
-        rules.plot_collapse.output,
+        [one.output for one in plots_of("all")],
 
 
 rule tables:
     input:
-        rules.fit_scaling.output,
-        rules.validate.output,
-        rules.judge_claims.output,
-        rules.tabulate_calibration.output,
-        rules.compare_prefactors.output,
-        rules.compare_zeta_laws.output,
-        rules.tabulate_literature.output,
-        rules.fit_interface.output,
-        rules.compare_reduction.output,
-        rules.match_lines.output,
-        rules.compare_direct.output,
-        rules.tabulate_methods.output,
-        rules.map_failures.output,
-        rules.compare_level_placement.output,
-        rules.compute_media.output,
-        rules.fit_sizes.output,
-        rules.fit_collapse.output,
+        expand(
+            "results/tables/{table}.{kind}",
+            table=[table for table in tables_of("all") if table != "rule_costs"],
+            kind=("csv", "nc"),
+        ),
 
 
 rule validation:
@@ -131,24 +92,18 @@ rule validation:
 
 rule measured:
     input:
-        rules.evaluate_measured.output if MEASURED else [],
-        rules.plot_measured.output if MEASURED else [],
+        [one.output for one in (*plots_of("measured"), rules.show_tables_of_measured)] if MEASURED else [],
 
 
 rule speed:
     input:
-        rules.tabulate_methods.output,
-        rules.plot_speed.output,
-        rules.plot_all_methods.output,
-        rules.plot_growth.output,
-        rules.plot_other_solvers.output,
-        rules.plot_level_placement.output,
+        [one.output for one in (rules.plot_speed, rules.plot_level_placement, *plots_of("speed"))],
+        rules.show_tables_of_speed.output,
 
 
 rule stability:
     input:
         rules.plot_failure_map.output,
-        rules.plot_failure_curves.output,
 
 
 rule sizes:
@@ -160,6 +115,7 @@ rule sizes:
 rule large:
     input:
         rules.plot_large.output,
+        rules.show_tables_of_large.output,
 
 
 include: "workflow/rules/rule_costs.smk"
@@ -179,6 +135,7 @@ rule all:
         rules.validation.input,
         rules.measured.input,
         rules.costs.input,
+        rules.show_tables_of_all.output,
         rules.make_page.output,
 
 

@@ -35,7 +35,7 @@ SNAKEMAKE = [sys.executable, "-m", "snakemake", "--cores", "2", "--nocolor", "--
 # their ends as often as their beginnings.
 LONGEST_WAIT = 1 / 3
 # Beside logs and benchmarks: files that hold measured times, under these names with any suffix.
-TIMED = {"methods", "level_placement", "rule_costs", "speed", "all_methods", "index"}
+TIMED = {"methods", "level_placement", "rule_costs", "speed", "index"}
 HANGS = 600  # seconds after which a run is taken to hang
 
 

@@ -55,7 +55,6 @@ CHANGED = {
     "stability.csv": Changed(
         "failure_map.csv", reworded=dict.fromkeys(("group", "difficulty", "method", "verdict", "reason"), CASES)
     ),
-    "stability_curves.csv": Changed("failure_curves.csv", reworded={"curve": CASES, "method": CASES}),
 }
 VARIABLES = {"operators": "operator_applications"}  # of loading curves, in OLD and in NEW
 POOLS = {"discs": ("discs", "size_discs"), "lines": ("lines", "size_lines")}  # of NEW, for each kind of ensemble

@@ -38,19 +38,17 @@ PUBLISHED = {
     "paper": (
         *("figures/fig1_surfaces.png", "figures/fig2_kinetics.png", "figures/fig3_master_curve.png"),
         *("figures/fig4_exponent.png", "figures/conventions.png", "figures/validation.png", "tables/scaling.csv"),
-        *("figures/interface.png", "tables/interface.csv", "tables/interface_slopes.csv"),
+        *("figures/interface.png", "tables/interface.csv"),
         *("tables/validation.csv", "tables/direct.csv", "tables/reduction.csv", "tables/rule_costs.csv"),
         *("figures/reduction.png", "figures/mdr_lambda.png", "tables/mdr_lambda.csv", "tables/mdr_summary.csv"),
         *("tables/mdr_exponents.csv", "tables/plateaus.csv", "tables/literature.csv"),
     ),
     "speed": (
-        *("figures/speed.png", "figures/all_methods.png", "figures/growth.png", "figures/other_solvers.png"),
+        *("figures/speed.png", "figures/growth.png", "figures/other_solvers.png"),
         *("figures/level_placement.png", "tables/methods.csv", "tables/other_solvers.csv"),
         "tables/level_placement.csv",
     ),
-    "stability": (
-        *("figures/failure_map.png", "figures/failure_curves.png", "tables/failure_map.csv", "campaign.json"),
-    ),
+    "stability": ("figures/failure_map.png", "tables/failure_map.csv", "campaign.json"),
     "sizes": (
         "figures/sizes.png",
         "figures/collapse.png",
@@ -58,7 +56,6 @@ PUBLISHED = {
         "tables/sizes_trends.csv",
         "tables/collapse.csv",
         "tables/infinite_grid.csv",
-        "tables/needed_grids.csv",
     ),
     "large": ("figures/large.png", "tables/large.csv"),
     "reproduce": (),

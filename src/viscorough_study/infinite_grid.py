@@ -18,7 +18,6 @@ from viscorough_study.scaling_collapse import COLUMNS as OF_COLLAPSE
 from viscorough_study.scaling_collapse import HEIGHTS, QUANTITIES
 
 OMEGA = np.round(np.arange(0.2, 1.51, 0.1), 1)  # exponents of the correction that are tried
-ERRORS = (0.05, 0.02, 0.01)  # of β, for which the grid needed is estimated
 FINDINGS = ("agrees", "departs", "undecided")
 PLACES = ("inside the range tried", "interval reaches an end", "at an end")  # of ω among those of OMEGA
 COLUMNS = {
@@ -45,22 +44,6 @@ COLUMNS = {
     "finding": (
         "agrees: the intervals in all ranges lie within the tolerance of H/(1 + H), departs: outside, else undecided; "
         "undecided, too, where ω is at an end of the range tried, so that the data do not tell the correction",
-        "",
-    ),
-}
-NEEDED = {
-    "source": COLUMNS["source"],
-    "hurst": COLUMNS["hurst"],
-    "quantity": COLUMNS["quantity"],
-    "error": ("departure from the limit of the exponent in the first decade of the power law", "1"),
-    "number": ("elements across discs, or points of lines, with that departure", "1"),
-    "number_low": ("lower end of its 95 % interval over realizations", "1"),
-    "number_high": ("upper end of its 95 % interval over realizations", "1"),
-    "finest": COLUMNS["finest"],
-    "extrapolated": ("1 if that is finer or coarser than all grids computed", "1"),
-    **{name: COLUMNS[name] for name in ("omega", "omega_low", "omega_high")},
-    "omega_place": (
-        "one of: " + "; ".join(PLACES) + "; where ω is at an end, the data do not tell it, and the numbers are guesses",
         "",
     ),
 }
@@ -110,17 +93,17 @@ def fit(log_x, log_y, weights, *, corrected):
     return best, np.sqrt(left / weights.sum())
 
 
-def limit_tables(found, source, *, elements_min, x_high, tolerance):
-    """Tables with the columns of `COLUMNS` and `NEEDED`.
+def limit_table(found, source, *, elements_min, x_high, tolerance):
+    """Exponents of an infinitely fine grid: a table (pandas.DataFrame) with the columns of `COLUMNS`.
 
     found : of viscorough_study.scaling_collapse.grids; elements_min, x_high : of the ranges, of which the first are
         those of the fit itself; tolerance : of β
     """
-    limits, needed = [], []
+    limits = []
     for hurst, of_hurst in found.items():
         heights = list(HEIGHTS) if hurst > 0 else ["resolved"]
         for quantity, height, law in product(QUANTITIES, heights, ("power", "corrected")):
-            about = {"source": source, "hurst": hurst, "quantity": quantity}
+            about = {"source": source, "hurst": hurst, "quantity": quantity, "height": height, "law": law}
             fits = [
                 (start, end, values, fit(*values, corrected=law == "corrected"))
                 for start, end in product(elements_min, x_high[law])
@@ -128,10 +111,8 @@ def limit_tables(found, source, *, elements_min, x_high, tolerance):
             ]
             if not fits:
                 continue
-            limits.append(about | {"height": height, "law": law} | _columns(fits, of_hurst, hurst, tolerance))
-            if law == "corrected" and height == heights[-1]:
-                needed += [about | row for row in _needed(fits[0][3][0], of_hurst, hurst)]
-    return pd.DataFrame(limits, columns=list(COLUMNS)), pd.DataFrame(needed, columns=list(NEEDED))
+            limits.append(about | _columns(fits, of_hurst, hurst, tolerance))
+    return pd.DataFrame(limits, columns=list(COLUMNS))
 
 
 def _interval(samples):
@@ -159,26 +140,3 @@ def _columns(fits, of_hurst, hurst, tolerance):
     elif low > tolerance or high < -tolerance:
         row["finding"] = FINDINGS[1]
     return row
-
-
-def _needed(found, of_hurst, hurst):
-    """Rows of `NEEDED` without what they are about; found : (ln A, β, B, ω) of ensemble and resamples.
-
-    The first decade of the power law begins where elements_min elements are in contact, at X ∝ N^(−(1+H)). The exponent
-    there departs from β by B (X₂^ω − X₁^ω)/ln(X₂/X₁), X₂ = 10 X₁.
-    """
-    finest, rows = of_hurst[-1], []
-    start = np.exp(finest.log_x[0])
-    strength, omega = np.abs(found[:, 2]), found[:, 3]
-    low, high = _interval(omega[1:])
-    correction = {"omega": omega[0], "omega_low": low, "omega_high": high}
-    correction["omega_place"] = place_of(omega[0], low, high)
-    for error in ERRORS:
-        with np.errstate(divide="ignore", over="ignore"):
-            begin = (error * np.log(10) / (strength * (10**omega - 1))) ** (1 / omega)
-            number = finest.number * (begin / start) ** (-1 / (1 + hurst))
-        low, high = _interval(number[1:])
-        values = {"error": error, "number": number[0], "number_low": low, "number_high": high}
-        inside = of_hurst[0].number <= number[0] <= finest.number
-        rows.append(values | {"finest": finest.number, "extrapolated": int(not inside)} | correction)
-    return rows

@@ -13,14 +13,13 @@ import pandas as pd
 from scipy.optimize import least_squares
 
 from viscorough.calibrated_law import LARGEST_DEVIATION, X_LOW, interface_depth, interface_velocity
-from viscorough.reference import COMPLETE_CONTACT_STIFFNESS, exponent_beta
+from viscorough.reference import COMPLETE_CONTACT_STIFFNESS
 from viscorough_study.conventions import FITTED
 from viscorough_study.discs import punch_stiffness
 from viscorough_study.pool import elements_across, ensembles_on_grids, select
-from viscorough_study.power_law import in_window, log_means, percentile_interval
+from viscorough_study.power_law import log_means, percentile_interval
 
 LAW_ELEMENTS_MIN = 5  # median of the elements in contact from which on the law is fitted; with one, the slope is 1
-WINDOWS = ((1e-3, 1e-2), (3e-3, 3e-2), (1e-2, 1e-1))  # in X, in which slopes are compared
 ENSEMBLE = {
     "source": ("discs (boundary elements) or lines (reduction of dimensionality)", ""),
     "case_group": ("base, sizes: grids from coarse to fine, or lines", ""),
@@ -48,22 +47,6 @@ COLUMNS = {
     "depth_low": ("lower end of the 95 % interval of the offset", "1"),
     "depth_high": ("upper end of the 95 % interval of the offset", "1"),
     "depth_deviation": ("largest relative deviation of the law's depth from the mean u/h in the range of the law", "1"),
-}
-SLOPES = {
-    **ENSEMBLE,
-    "x_low": ("lower end of the window in X", "1"),
-    "x_high": ("upper end of the window in X", "1"),
-    "contact_count": ("median of the elements in contact at the lower end", "1"),
-    "raw": ("slope of ln(vt/h) over ln X", "1"),
-    "raw_low": ("lower end of its 95 % interval", "1"),
-    "raw_high": ("upper end of its 95 % interval", "1"),
-    "interface": ("slope of ln g over ln X", "1"),
-    "interface_low": ("lower end of its 95 % interval", "1"),
-    "interface_high": ("upper end of its 95 % interval", "1"),
-    "punch": ("what the slope of vt/h owes to the punch: raw less interface", "1"),
-    "punch_low": ("lower end of its 95 % interval", "1"),
-    "punch_high": ("upper end of its 95 % interval", "1"),
-    "expected": ("H/(1 + H), Eq. 10", "1"),
 }
 CURVES = {
     **ENSEMBLE,
@@ -93,28 +76,26 @@ def ensembles_of(pool, source, case_group, hursts=None):
 
 
 def interface_tables(cases, rms_convention, **how):
-    """Tables with the columns of `COLUMNS`, `SLOPES` and `CURVES` (pandas.DataFrame), of every ensemble and average.
+    """Tables with the columns of `COLUMNS` and `CURVES` (pandas.DataFrame), of every ensemble and average.
 
     cases : as of `ensembles_of`; rms_convention : of discs; how : further arguments of `examine`
     """
-    rows, slopes, curves = [], [], []
+    rows, curves = [], []
     for about, ensemble, punch in cases:
         one = ensemble.sel(rms_convention="line" if about["source"] == "lines" else rms_convention)
         for average in FITTED["average"]:
-            parts = examine(one, punch, average=average, **how)
+            row, curve = examine(one, punch, average=average, **how)
             named = about | {"average": average}
-            rows.append(named | parts[0])
-            slopes += [named | row for row in parts[1]]
-            curves.append(parts[2].assign(**named))
+            rows.append(named | row)
+            curves.append(curve.assign(**named))
     return (
         pd.DataFrame(rows, columns=list(COLUMNS)),
-        pd.DataFrame(slopes, columns=list(SLOPES)),
         pd.concat(curves)[list(CURVES)] if curves else pd.DataFrame(columns=list(CURVES)),
     )
 
 
 def examine(ensemble, punch, *, plateau, fraction_min, average, resamples, seed):
-    """The interface of one ensemble of one rms convention: columns of `COLUMNS`, rows of `SLOPES`, table of `CURVES`.
+    """The interface of one ensemble of one rms convention: columns of `COLUMNS`, table of `CURVES`.
 
     punch : κ_c; plateau : share by which g is below its maximum at the ends of the plateau
     fraction_min : share of the realizations that must be defined for a mean
@@ -137,9 +118,7 @@ def examine(ensemble, punch, *, plateau, fraction_min, average, resamples, seed)
     curves = {"x": x, "velocity": samples[0], "interface": interface[0]}
     curves |= {f"interface_{end}": values - x / punch for end, values in zip(("low", "high"), interval, strict=True)}
     curves["law"] = x / punch + interface_velocity(x, *law)
-    slopes = [_slopes(x, samples, interface, count, window, size) for window in WINDOWS]
-    expected = exponent_beta(ensemble["hurst"].item())
-    return row, [slope | {"expected": expected} for slope in slopes if slope], pd.DataFrame(curves)
+    return row, pd.DataFrame(curves)
 
 
 def _depths(x, velocity):
@@ -191,22 +170,6 @@ def _law_columns(x, velocity, interval, punch, law, depths, size):
     columns |= {"deviation": deviation[holds].max(), "error": max(ends)}
     columns |= {"depth_offset": offsets[0], "depth_low": low, "depth_high": high}
     return columns | {"depth_deviation": np.abs(of_depth / depths[0] - 1)[holds].max()}
-
-
-def _slopes(x, samples, interface, count, window, size):
-    """Columns of the slopes in one window; none if it is not within the abscissae shown, or g not positive in it."""
-    chosen = in_window(x, window)
-    covered = in_window(np.array(window), (x[0], x[-1])).all() and chosen.sum() > 1
-    if not covered or (interface[0, chosen] <= 0).any():
-        return {}
-    offset = np.log(x[chosen]) - np.log(x[chosen]).mean()
-    with np.errstate(invalid="ignore"):  # nan where g of a resample is not positive
-        raw, alone = (np.log(values[:, chosen]) @ offset / (offset @ offset) for values in (samples, interface))
-    row = {"x_low": window[0], "x_high": window[1], "contact_count": count[chosen][0]}
-    for name, values in (("raw", raw), ("interface", alone), ("punch", raw - alone)):
-        low, high = percentile_interval(values[1:], size)
-        row |= {name: values[0], f"{name}_low": low, f"{name}_high": high}
-    return row
 
 
 def _run(allowed, place):

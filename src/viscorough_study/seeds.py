@@ -25,7 +25,7 @@ class Stream(IntEnum):
     METHOD_PROBLEMS = 4
     SOLVER_RACE = 5
     FAILURE_MAP = 6
-    FAILURE_CURVES = 7
+    # 7 was that of a table which is no longer made; no other stream may have it.
     SIZE_DISCS = 8
     SIZE_LINES = 9
     LARGE_DISC = 10
@@ -71,11 +71,6 @@ def solver_race_key(task, hurst):
 def failure_map_key():
     """Indenters of the stress-test cases."""
     return _key(Stream.FAILURE_MAP)
-
-
-def failure_curves_key():
-    """Discs of the curves beside the failure map."""
-    return _key(Stream.FAILURE_CURVES)
 
 
 def size_disc_key(hurst, elements):

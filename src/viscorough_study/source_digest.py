@@ -34,18 +34,22 @@ class SourceDigests:
         self.folder = Path(folder)
         self._modules, self._known_uses = {}, {}
 
-    def digest(self, script):
-        """Sixteen hexadecimal digits for a script and for what it uses of the packages."""
+    def digest(self, script, *functions):
+        """Sixteen hexadecimal digits for a script and for what it uses of the packages.
+
+        functions : dotted names of those that it imports by a name that is only known when it runs
+        """
         lines = set()
-        for path, names in self.used_names(script).items():
+        for path, names in self.used_names(script, *functions).items():
             about = path.relative_to(self.folder) if path.is_relative_to(self.folder) else path.name
             statements = (part for name in names for part in self._module(path).statements_of(name))
             lines |= {f"{about}: {statement.tree}" for statement in statements}
         return hashlib.sha256("\n".join(sorted(lines)).encode()).hexdigest()[:16]
 
-    def used_names(self, script):
+    def used_names(self, script, *functions):
         """{file of a module: names that are used of it}, with `EVERYTHING` and `EFFECTS` among the names."""
         used, waiting = {}, [(Path(script), EVERYTHING)]
+        waiting += [place for name in functions for place in self._locate(name.split("."))]
         while waiting:
             path, name = waiting.pop()
             names = used.setdefault(path, set())

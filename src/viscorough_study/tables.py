@@ -1,4 +1,4 @@
-"""Tidy tables, written as CSV, NetCDF and HTML, and results as JSON."""
+"""Tidy tables, written as CSV and NetCDF, and results as JSON."""
 
 import json
 from pathlib import Path
@@ -8,11 +8,10 @@ import xarray as xr
 from viscorough.io.atomic import atomic_write
 from viscorough.io.datasets import write_dataset
 from viscorough.io.netcdf import opened
-from viscorough_study.html_table import html_table
 
 
-def write_table(table, csv_path, nc_path, html_path=None, *, columns, dimension, title, attributes=None):
-    """Write a tidy table (pandas.DataFrame, one case per row) as CSV, NetCDF and, if wanted, HTML, each atomically.
+def write_table(table, csv_path, nc_path, *, columns, dimension, title, attributes=None):
+    """Write a tidy table (pandas.DataFrame, one case per row) as CSV and NetCDF, each atomically.
 
     columns : {column: (long_name, units)} for exactly the columns of the table; text has no units
     dimension : name of the rows in the NetCDF file; attributes : its further global attributes
@@ -34,9 +33,6 @@ def write_table(table, csv_path, nc_path, html_path=None, *, columns, dimension,
     write_dataset(ds, nc_path)
     with atomic_write(csv_path) as temporary:
         table.to_csv(temporary, index=False, lineterminator="\n")
-    if html_path is not None:
-        with atomic_write(html_path) as temporary:
-            temporary.write_text(html_table(table, columns, title, Path(csv_path).name), encoding="utf-8")
 
 
 def write_json(content, path):

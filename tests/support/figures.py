@@ -216,13 +216,6 @@ def failure_table(verdicts):
     return pd.DataFrame(rows, columns=["group", "case", "method", "error", "verdict"])
 
 
-def failure_curves_table():
-    """Two curves over explicit steps and nine methods over the contact fraction."""
-    rows = [("steps", name, n, 1 / n) for name in ("error of the depth", "overlap over depth") for n in (1, 64)]
-    rows += [("contact", f"method {rank}", x, 10.0 ** -(2 * rank)) for rank in range(9) for x in (0.01, 1.0)]
-    return pd.DataFrame(rows, columns=["curve", "method", "x", "y"])
-
-
 def media_table():
     """Two media, in which the velocity is a power of time."""
     time = np.geomspace(1e-3, 1e3, 13)

@@ -15,6 +15,9 @@ import yaml
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPTS = ROOT / "workflow/scripts"
 TEST = ("--configfile", "config/test.yaml")
+RESULTS = yaml.safe_load((ROOT / "workflow/results.yaml").read_text(encoding="utf-8"))
+FIGURES = {figure.get("file", name): figure for name, figure in RESULTS["figures"].items()}  # by their files
+HANGS = 3000  # seconds after which a run is taken to hang: ten times the longest on a busy machine
 TARGETS = {
     "all",
     "curves",
@@ -95,7 +98,7 @@ def snakemake(folder, *arguments, fails=False, cores=2):
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
-        timeout=300,
+        timeout=HANGS,
     )
     assert (done.returncode != 0) == fails, done.stdout
     return done.stdout

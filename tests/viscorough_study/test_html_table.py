@@ -5,7 +5,9 @@ from html.parser import HTMLParser
 import numpy as np
 import pandas as pd
 
+from support.study import ROOT
 from viscorough_study.html_table import html_table
+from viscorough_study.tables import write_table
 
 
 class Cells(HTMLParser):
@@ -34,7 +36,13 @@ class Cells(HTMLParser):
             self.rows[-1][-1] += data
 
 
-def test_every_row_and_column_is_shown():
+def page_of(table, columns, folder, title="Fits"):
+    files = folder / "fits.csv", folder / "fits.nc"
+    write_table(table, *files, columns=columns, dimension="fit", title=title)
+    return html_table((ROOT / "workflow/page/table.html.jinja").read_text(), *files)
+
+
+def test_every_row_and_column_is_shown(tmp_path):
     table = pd.DataFrame(
         {"name": ["a<b", "c & d"], "beta": [1 / 3, np.nan], "count": [12345678, 0], "passed": [True, False]}
     )
@@ -42,9 +50,9 @@ def test_every_row_and_column_is_shown():
         "name": ("which one", None),
         "beta": ("exponent", "1"),
         "count": ("how many", "m"),
-        "passed": ("yes?", ""),
+        "passed": ("yes?", "1"),
     }
-    page = html_table(table, columns, "Fits <1>", "fits.csv")
+    page = page_of(table, columns, tmp_path, "Fits <1>")
     cells = Cells(page)
     assert cells.rows == [list(columns), ["a<b", "0.3333", "12345678", "yes"], ["c & d", "", "0", "no"]]
     for text in ("Fits <1>", "2 rows", "fits.csv", "how many [m]", "exponent\n"):
@@ -52,6 +60,6 @@ def test_every_row_and_column_is_shown():
     assert "http" not in page, "it opens offline"
 
 
-def test_table_without_rows():
-    page = html_table(pd.DataFrame({"beta": []}), {"beta": ("exponent", "1")}, "Fits", "fits.csv")
+def test_table_without_rows(tmp_path):
+    page = page_of(pd.DataFrame({"beta": []}), {"beta": ("exponent", "1")}, tmp_path)
     assert Cells(page).rows == [["beta"]]

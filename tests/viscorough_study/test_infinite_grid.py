@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from viscorough_study.infinite_grid import COLUMNS, ERRORS, NEEDED, PLACES, fit, limit_tables, place_of, points
+from viscorough_study.infinite_grid import COLUMNS, PLACES, fit, limit_table, place_of, points
 from viscorough_study.power_law import log_means
 from viscorough_study.scaling_collapse import Grid
 
@@ -25,8 +25,7 @@ def ensembles(*, scatter=0.1, punch=0.0, factor=np.exp, omega=OMEGA, seed=1):
     return {HURST: found}
 
 
-def row(tables, quantity, law, height="resolved"):
-    limits = tables[0]
+def row(limits, quantity, law, height="resolved"):
     (found,) = limits[(limits[["quantity", "law", "height"]] == [quantity, law, height]).all(axis=1)].itertuples()
     return found
 
@@ -46,7 +45,7 @@ def test_a_known_law_is_found_exactly():
 @pytest.mark.parametrize("factor", [np.exp, lambda z: 1 + 0.3 * z], ids=["exponential", "first order"])
 def test_joint_fit_returns_the_law_within_its_intervals(factor):
     fits = [
-        row(limit_tables(ensembles(seed=seed, factor=factor), "discs", tolerance=0.03, **RANGES), "whole", "corrected")
+        row(limit_table(ensembles(seed=seed, factor=factor), "discs", tolerance=0.03, **RANGES), "whole", "corrected")
         for seed in range(8)
     ]
     assert sum(one.beta_low <= BETA <= one.beta_high for one in fits) >= 6
@@ -68,41 +67,24 @@ def test_resamples_scatter_as_means_of_independent_realizations():
 
 
 def test_the_interface_is_fitted_without_the_punch():
-    tables = limit_tables(ensembles(punch=1.0, scatter=0.02), "discs", tolerance=0.03, **RANGES)
-    interface, whole = (row(tables, quantity, "corrected") for quantity in ("interface", "whole"))
+    limits = limit_table(ensembles(punch=1.0, scatter=0.02), "discs", tolerance=0.03, **RANGES)
+    interface, whole = (row(limits, quantity, "corrected") for quantity in ("interface", "whole"))
     assert interface.beta_low - 1e-3 <= BETA <= interface.beta_high + 1e-3
     assert interface.deviation < 0.02 < 0.05 + whole.deviation
-    assert row(tables, "whole", "power").beta > row(tables, "interface", "power").beta
+    assert row(limits, "whole", "power").beta > row(limits, "interface", "power").beta
 
 
 def test_columns_ranges_and_findings():
-    limits, needed = limit_tables(ensembles(scatter=0.02), "discs", tolerance=0.05, **RANGES)
-    assert (list(limits), list(needed)) == (list(COLUMNS), list(NEEDED))
+    limits = limit_table(ensembles(scatter=0.02), "discs", tolerance=0.05, **RANGES)
+    assert list(limits) == list(COLUMNS)
     assert set(limits["ranges"]) == {2, 4}
     assert (limits["ranges_low"] <= limits["beta_low"]).all()
     assert (limits["ranges_high"] >= limits["beta_high"]).all()
-    assert row((limits,), "whole", "corrected").finding == "agrees"  # 0.4 beside 0.375
-    strict, _ = limit_tables(ensembles(scatter=0.002), "discs", tolerance=0.01, **RANGES)
-    assert row((strict,), "whole", "corrected").finding == "departs"
-    noisy, _ = limit_tables(ensembles(scatter=0.5), "discs", tolerance=0.01, **RANGES)
-    assert row((noisy,), "whole", "corrected").finding == "undecided"
-
-
-@pytest.mark.parametrize("number", [2, 4])
-def test_grids_needed_have_the_departure_that_is_wanted(number):
-    """The exponent in the first decade of each grid, by the law itself; what lies beyond the grids is extrapolated."""
-    grids = ensembles(scatter=1e-4)[HURST][:number]
-    needed = limit_tables({HURST: grids}, "discs", tolerance=0.05, **RANGES)[1]
-    needed = needed[needed["quantity"] == "whole"]
-    assert needed["error"].tolist() == list(ERRORS)
-    for one in needed.itertuples():
-        first = 2 * one.number ** -(1 + HURST)
-        slope = BETA + B * ((10 * first) ** OMEGA - first**OMEGA) / np.log(10)
-        assert abs(slope - BETA) == pytest.approx(one.error, rel=0.1)
-        assert one.number_low <= one.number <= one.number_high
-        assert one.extrapolated == (not grids[0].number <= one.number <= grids[-1].number)
-    assert needed["number"].is_monotonic_increasing
-    assert set(needed["extrapolated"]) == {0, 1}
+    assert row(limits, "whole", "corrected").finding == "agrees"  # 0.4 beside 0.375
+    strict = limit_table(ensembles(scatter=0.002), "discs", tolerance=0.01, **RANGES)
+    assert row(strict, "whole", "corrected").finding == "departs"
+    noisy = limit_table(ensembles(scatter=0.5), "discs", tolerance=0.01, **RANGES)
+    assert row(noisy, "whole", "corrected").finding == "undecided"
 
 
 @pytest.mark.parametrize(
@@ -114,15 +96,9 @@ def test_place_of_the_exponent_of_the_correction(omega, low, high, place):
 
 
 @pytest.mark.parametrize(("omega", "place"), [(OMEGA, PLACES[0]), (0.05, PLACES[2]), (2.5, PLACES[2])])
-def test_needed_grids_say_whether_the_data_tell_the_correction(omega, place):
-    """A correction with an exponent outside of the range tried ends at an end of it, and every row says so."""
-    grids = ensembles(scatter=1e-4, omega=omega)
-    limits, needed = limit_tables(grids, "discs", tolerance=0.05, **RANGES)
-    fitted = row((limits,), "whole", "corrected")
+def test_findings_are_undecided_where_the_data_do_not_tell_the_correction(omega, place):
+    """A correction with an exponent outside of the range tried ends at an end of it."""
+    limits = limit_table(ensembles(scatter=1e-4, omega=omega), "discs", tolerance=0.05, **RANGES)
+    fitted = row(limits, "whole", "corrected")
+    assert place_of(fitted.omega, fitted.omega_low, fitted.omega_high) == place
     assert (fitted.finding == "undecided") == (place == PLACES[2])
-    rows = needed[needed["quantity"] == "whole"]
-    assert set(rows["omega_place"]) == {place}
-    np.testing.assert_array_equal(
-        rows[["omega", "omega_low", "omega_high"]].drop_duplicates(),
-        [[fitted.omega, fitted.omega_low, fitted.omega_high]],
-    )

@@ -12,7 +12,6 @@ from viscorough_study.ensembles import abscissa, ensemble_dataset
 from viscorough_study.interface import (
     COLUMNS,
     CURVES,
-    SLOPES,
     ensembles_of,
     examine,
     interface_tables,
@@ -43,7 +42,7 @@ def examined(interface, average="arithmetic", **changes):
 
 def test_plateau_is_given_back():
     """A power law up to X = 0.1, and constant from there on."""
-    row, _, _ = examined(lambda x: np.minimum(0.51, 0.51 * (x / 0.1) ** 0.3))
+    row, _ = examined(lambda x: np.minimum(0.51, 0.51 * (x / 0.1) ** 0.3))
     assert row["u0_low"] < row["u0"] < row["u0_high"]
     assert row["u0"] == pytest.approx(0.51, rel=0.02)
     assert row["u0_high"] - row["u0_low"] == pytest.approx(2 * 1.96 * 0.51 * 0.05 / np.sqrt(40), rel=0.3)
@@ -53,7 +52,7 @@ def test_plateau_is_given_back():
 
 @pytest.mark.parametrize("average", ["arithmetic", "geometric"])
 def test_law_is_given_back_with_its_depth(average):
-    row, _, curves = examined(lambda x: interface_velocity(x, *LAW), average, scatter=0.0)
+    row, curves = examined(lambda x: interface_velocity(x, *LAW), average, scatter=0.0)
     assert [row[name] for name in ("exponent", "peak", "peak_x")] == pytest.approx(LAW, rel=1e-4)
     assert row["kappa_c"] == PUNCH
     assert (row["law_low"], row["law_high"]) == pytest.approx((X_LOW, X[-1]))
@@ -89,26 +88,10 @@ def test_error_of_the_law_contains_the_interval_of_the_mean():
 
 
 def test_law_has_no_range_where_it_does_not_fit():
-    row, _, _ = examined(lambda x: 0.5 * np.exp(-(np.log(x / 0.01) ** 2)))
+    row, _ = examined(lambda x: 0.5 * np.exp(-(np.log(x / 0.01) ** 2)))
     assert "law_low" not in row or row["deviation"] <= LARGEST_DEVIATION
-    row, _, _ = examined(lambda x: 0.3 + 0.29 * np.sin(4 * np.log(x)))
+    row, _ = examined(lambda x: 0.3 + 0.29 * np.sin(4 * np.log(x)))
     assert "law_low" not in row or row["law_high"] / row["law_low"] < 1e3
-
-
-def test_slopes_with_and_without_the_punch():
-    """g is a power law: its slope is the exponent, whereas that of vt/h grows with X."""
-    _, slopes, _ = examined(lambda x: 0.9 * x**0.4)
-    assert [(row["x_low"], row["x_high"]) for row in slopes] == [(1e-3, 1e-2), (3e-3, 3e-2), (1e-2, 1e-1)]
-    for row in slopes:
-        assert row["interface"] == pytest.approx(0.4, abs=2e-3)
-        assert row["interface_low"] <= row["interface"] <= row["interface_high"]
-        assert row["punch"] == pytest.approx(row["raw"] - row["interface"])
-        assert row["punch_low"] < row["punch"] < row["punch_high"]
-        assert row["expected"] == pytest.approx(1 / 3)
-        x = np.sqrt(row["x_low"] * row["x_high"])
-        raw = (x / PUNCH + 0.4 * 0.9 * x**0.4) / (x / PUNCH + 0.9 * x**0.4)
-        assert row["raw"] == pytest.approx(raw, abs=0.01)
-    assert slopes[2]["punch"] > 2 * slopes[0]["punch"]
 
 
 def test_punch_of_a_grid():
@@ -125,11 +108,10 @@ def test_tables_of_every_grid_and_average():
     cases = ensembles_of(pool, "discs", "base")
     assert [(about["across"], about["hurst"]) for about, _, _ in cases] == [(33, 0.5), (33, 0.7), (65, 0.5)]
     assert len(ensembles_of(pool, "discs", "base", {0.7})) == 1
-    table, slopes, curves = interface_tables(cases, "disc", **HOW)
-    assert (list(table), list(slopes), list(curves)) == (list(COLUMNS), list(SLOPES), list(CURVES))
+    table, curves = interface_tables(cases, "disc", **HOW)
+    assert (list(table), list(curves)) == (list(COLUMNS), list(CURVES))
     assert table["average"].tolist() == ["arithmetic", "geometric"] * 3
     assert np.ptp(table["u0"]) < 0.01
     assert table["kappa_c"].tolist() == [punch_stiffness(n) for n in (33, 33, 33, 33, 65, 65)]
-    assert len(slopes) == 3 * len(table)
     assert len(curves.groupby(["across", "hurst", "average"])) == len(table)
     assert isinstance(curves, pd.DataFrame)

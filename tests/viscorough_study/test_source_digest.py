@@ -4,7 +4,7 @@ import textwrap
 
 import pytest
 
-from support.workflow import ROOT, SCRIPTS
+from support.workflow import RESULTS, ROOT, SCRIPTS
 from viscorough_study.source_digest import SourceDigests
 
 FILES = {
@@ -150,21 +150,38 @@ def test_lazy_imports_of_the_library(tmp_path):
     assert not any(path.is_relative_to(ROOT / "src/viscorough/contact") for path in names)
 
 
-def used(script):
-    names = SourceDigests(ROOT / "src").used_names(SCRIPTS / f"{script}.py")
+def test_functions_that_a_script_imports_by_name_count(project):
+    def digest():
+        return SourceDigests(project / "src").digest(project / "scripts/nothing.py", "viscorough.deep.solver.solve")
+
+    before = digest()
+    for old, new, counts in (("return 0", "return 1", False), ("LIMIT = 3", "LIMIT = 4", True)):
+        path = project / "src/viscorough/deep/solver.py"
+        path.write_text(path.read_text().replace(old, new))
+        assert (digest() != before) == counts
+
+
+def used(script, *functions):
+    names = SourceDigests(ROOT / "src").used_names(SCRIPTS / f"{script}.py", *functions)
     return {str(path.relative_to(ROOT / "src")) for path in names if path.is_relative_to(ROOT / "src")}
 
 
 def test_scripts_of_the_workflow():
     boundary_elements = {"indent_discs", "compare_direct", "compare_reduction", "validate", "map_failures"}
-    boundary_elements |= {"measure_failure_curves", "measure_large", "measure_methods", "time_other_solvers"}
+    boundary_elements |= {"measure_large", "measure_methods", "time_other_solvers"}
     boundary_elements |= {"compare_level_placement", "indent_measured"}
     boundary_elements |= {"fit_collapse", "fit_interface", "judge_claims"}  # flat discs, small rough discs
     for script in sorted(path.stem for path in SCRIPTS.glob("*.py")):
         modules = used(script)
         assert ("viscorough/contact/column_fft.py" in modules) == (script in boundary_elements), script
-        assert not (script.startswith("plot_") and "viscorough/surfaces.py" in modules), script
-        assert any(name.startswith("viscorough_study/figures/") for name in modules) == script.startswith("plot_"), (
-            script
-        )
-    assert "viscorough/mdr.py" in used("indent_lines")
+        assert any(name.startswith("viscorough_study/figures/") for name in modules) == (script == "plot"), script
+    of_lines = {"indent_lines", "compare_reduction", "validate", "map_failures", "measure_methods"}
+    assert {path.stem for path in SCRIPTS.glob("*.py") if "viscorough/mdr.py" in used(path.stem)} == of_lines
+
+
+def test_a_figure_is_drawn_by_its_own_module():
+    modules = [figure.get("module", name) for name, figure in RESULTS["figures"].items()]
+    for module in modules:
+        drawing = used("plot", f"viscorough_study.figures.{module}.plot_{module}")
+        assert {one for one in modules if f"viscorough_study/figures/{one}.py" in drawing} == {module}
+        assert "viscorough/surfaces.py" not in drawing, module

@@ -26,7 +26,7 @@ def test_table_survives_both_files_exactly(tmp_path):
         "realizations": ("number of realizations", "1"),
         "passed": ("whether it agrees", "1"),
     }
-    files = [tmp_path / f"fits.{kind}" for kind in ("csv", "nc", "html")]
+    files = [tmp_path / f"fits.{kind}" for kind in ("csv", "nc")]
     write_table(table, *files, columns=columns, dimension="fit", title="Fits", attributes={"trial": 1})
     pd.testing.assert_frame_equal(pd.read_csv(files[0]), table, check_exact=True)
     ds = read_dataset(files[1])
@@ -37,11 +37,11 @@ def test_table_survives_both_files_exactly(tmp_path):
     del columns["beta"]
     with pytest.raises(ValueError, match="beta"):
         write_table(table, tmp_path / "b.csv", tmp_path / "b.nc", columns=columns, dimension="fit", title="")
-    assert sorted(os.listdir(tmp_path)) == ["fits.csv", "fits.html", "fits.nc"]
+    assert sorted(os.listdir(tmp_path)) == ["fits.csv", "fits.nc"]
 
 
 def test_table_without_rows_keeps_what_its_columns_hold(tmp_path):
     columns = {"source": ("origin of the curves", ""), "beta": ("exponent", "1")}
-    files = [tmp_path / f"fits.{kind}" for kind in ("csv", "nc", "html")]
+    files = [tmp_path / f"fits.{kind}" for kind in ("csv", "nc")]
     write_table(pd.DataFrame(columns=list(columns)), *files, columns=columns, dimension="fit", title="Fits")
     assert violations(files[1]) == []

@@ -9,11 +9,11 @@ from support.workflow import TEST, copy_project, made_once, snakemake
 
 @pytest.fixture(scope="session")
 def finished_once(tmp_path_factory):
-    """A project after one full run of the small settings. Tests must not change it."""
+    """A project after one full run of the small settings, whose output is run.log. Tests must not change it."""
 
     def make(folder):
         copy_project(folder)
-        snakemake(folder, *TEST)
+        (folder / "run.log").write_text(snakemake(folder, *TEST))
 
     return made_once(tmp_path_factory, "finished", make)
 

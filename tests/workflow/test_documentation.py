@@ -1,6 +1,7 @@
 """What docs/ says about the files of a run, and how to extend the workflow."""
 
 import fnmatch
+import re
 
 import netCDF4
 import pandas as pd
@@ -35,9 +36,13 @@ def test_every_netcdf_file_is_described(finished):
 
 
 def test_extension_works_as_described(finished):
-    """A rule, its script, and a figure of one's own, as the files in docs/extending.md."""
+    """A rule, its script, and a figure of one's own, as the files and the entry in docs/extending.md."""
     copy_sources(finished)
-    files = named_files(ROOT / "docs/extending.md")
+    page = ROOT / "docs/extending.md"
+    files = named_files(page)
+    (entry,) = re.findall(r"```yaml\n(  departures:\n.*?)```", read(page), re.DOTALL)
+    registry = finished / "workflow/results.yaml"
+    registry.write_text(registry.read_text(encoding="utf-8").replace("\nfigures:\n", f"\nfigures:\n{entry}"))
     for path, text in files.items():
         (finished / path).write_text(text, encoding="utf-8")
     with open(finished / "Snakefile", "a", encoding="utf-8") as snakefile:

@@ -8,34 +8,18 @@ import pandas as pd
 import xarray as xr
 
 from support.cf import violations
-from support.workflow import ROOT, TEST, load_script, plan, snakemake
+from support.workflow import RESULTS, TEST, jobs, load_script, plan, snakemake
+from viscorough.surfaces import cut_disc
 
-FIGURES = ("fig1_surfaces", "fig2_kinetics", "fig3_master_curve", "fig4_exponent", "conventions", "validation")
-FIGURES += ("prefactors", "interface", "direct", "reduction", "mdr_lambda", "speed", "failure_map", "level_placement")
-FIGURES += ("media_exponents", "sizes", "collapse")
-TABLES = (
-    "scaling",
-    "validation",
-    "claims",
-    "calibration",
-    "prefactors",
-    "zeta_laws",
-    "literature",
-    "direct",
-    "reduction",
-)
-TABLES += ("plateaus", "interface", "interface_slopes")
-TABLES += ("sizes", "sizes_trends", "collapse", "infinite_grid", "needed_grids")
-TABLES += ("mdr_lambda", "mdr_summary", "mdr_exponents")
-TABLES += ("methods", "equal_error", "failure_map", "level_placement", "rule_costs", "media", "media_exponents")
+MADE = {kind: [name for name, one in RESULTS[kind].items() if "target" not in one] for kind in RESULTS}
 
 
-def test_every_figure_and_table_is_made(finished):
-    results = finished / "results"
-    for figure in FIGURES:
+def test_every_figure_and_table_is_made(finished_once):
+    results = finished_once / "results"
+    for figure in (RESULTS["figures"][name].get("file", name) for name in MADE["figures"]):
         assert (results / f"figures/{figure}.png").read_bytes().startswith(b"\x89PNG")
         assert (results / f"figures/{figure}.pdf").read_bytes().startswith(b"%PDF")
-    for table in TABLES:
+    for table in MADE["tables"]:
         csv = pd.read_csv(results / f"tables/{table}.csv")
         with xr.open_dataset(results / f"tables/{table}.nc") as nc:
             assert set(nc.variables) == set(csv.columns)
@@ -44,50 +28,74 @@ def test_every_figure_and_table_is_made(finished):
     assert (results / "tables/validation_passed.txt").read_text().startswith("sphere force\n")
 
 
-def test_files_follow_the_cf_conventions(finished):
+def test_files_follow_the_cf_conventions(finished_once):
     """One of every kind: curves of discs and lines, pools, examples, tables."""
-    files = [path for path in (finished / "results").rglob("*.nc") if "curves" not in path.parts]
-    files += [finished / f"results/curves/{case}/0000-0001.nc" for case in ("discs/h04000", "lines/h04000")]
-    without_html = ("interface_curves", "collapse_curves")
-    assert len(files) == 4 + 1 + len(TABLES) + len(without_html) + 2
+    files = [path for path in (finished_once / "results").rglob("*.nc") if "curves" not in path.parts]
+    files += [finished_once / f"results/curves/{case}/0000-0001.nc" for case in ("discs/h04000", "lines/h04000")]
+    without_page = ("interface_curves", "collapse_curves")
+    assert len(files) == 4 + 1 + len(MADE["tables"]) + len(without_page) + 2
     for path in files:
         assert violations(path) == [], path
 
 
-def test_small_scale_says_that_its_verdicts_mean_nothing(finished):
-    with xr.open_dataset(finished / "results/tables/claims.nc") as claims:
+def test_small_scale_says_that_its_verdicts_mean_nothing(finished_once):
+    with xr.open_dataset(finished_once / "results/tables/claims.nc") as claims:
         assert (claims.trial, claims.elements_across, claims.realizations) == (1, 33, 4)
         assert "the verdicts mean nothing" in claims.scale
-    assert "the verdicts mean nothing" in (finished / "results/tables/claims.html").read_text()
 
 
-def test_surfaces_of_ensembles_are_not_stored(finished):
-    assert [path.name for path in (finished / "results/surfaces").rglob("*.nc")] == ["examples.nc"]
+def test_neither_surfaces_of_ensembles_nor_incomplete_files_are_left(finished_once):
+    assert [path.name for path in (finished_once / "results/surfaces").rglob("*.nc")] == ["examples.nc"]
+    assert not list((finished_once / "results").rglob("*.part"))
 
 
-def test_no_incomplete_file_is_left(finished):
-    assert not list((finished / "results").rglob("*.part"))
-
-
-def test_every_job_has_a_log_and_a_benchmark(finished, tmp_path):
+def test_every_job_has_a_log_and_a_benchmark(finished_once, tmp_path):
     def stems(folder, suffix):
-        paths = (finished / folder).rglob(f"*{suffix}")
-        return {path.relative_to(finished / folder).with_suffix("") for path in paths}
+        paths = (finished_once / folder).rglob(f"*{suffix}")
+        return {path.relative_to(finished_once / folder).with_suffix("") for path in paths}
 
+    number = sum(jobs((finished_once / "run.log").read_text()).values())
     logs = stems("results/logs", ".log")
     assert logs == stems("results/benchmarks", ".tsv") - {Path("compile_kernels")}
-    assert len(logs) == 60
-    files = {kind: tmp_path / f"costs.{kind}" for kind in ("csv", "html", "nc")}
-    load_script("tabulate_rule_costs").main(**files, benchmarks=finished / "results/benchmarks")
+    assert len(logs) == number
+    files = {kind: tmp_path / f"costs.{kind}" for kind in ("csv", "nc")}
+    load_script("tabulate_rule_costs").main(**files, benchmarks=finished_once / "results/benchmarks")
     table = pd.read_csv(files["csv"]).set_index("rule")
-    assert table["jobs"].sum() == 60 + 1
+    assert table["jobs"].sum() == number + 1
     assert table.loc["indent_discs", "jobs"] == 8
     assert (table["longest_s"] <= table["seconds"]).all()
     assert table["seconds"].is_monotonic_decreasing
 
 
-def test_scaling_table_has_every_ensemble(finished):
-    table = pd.read_csv(finished / "results/tables/scaling.csv")
+def test_timed_jobs_ran_alone(finished_once):
+    timed, running, most = ("Cost and error of every method", "Placement of levels: by the package"), {}, 0
+    lines = re.findall(
+        r"^Job (\d+): (.*)$|^Finished jobid: (\d+)", (finished_once / "run.log").read_text(), re.MULTILINE
+    )
+    for job, message, finished in lines:
+        running.pop(finished, None)
+        if job:
+            running[job] = message
+            most = max(most, len(running))
+            assert len(running) == 1 or not any(one.startswith(timed) for one in running.values()), running
+    assert most > 1, "else it would not show that timed jobs run alone"
+
+
+def test_no_method_fails_unnoticed(finished_once):
+    assert "unnoticed" not in set(pd.read_csv(finished_once / "results/tables/failure_map.csv")["verdict"])
+
+
+def test_ensembles_on_their_own_grids(finished_once):
+    sizes = pd.read_csv(finished_once / "results/tables/sizes.csv")
+    discs = sizes[(sizes["source"] == "discs") & (sizes["case_group"] == "sizes")]
+    assert set(sizes.loc[sizes["case_group"] == "controls", "elements"]) == set(discs["elements"])
+    numbers = {np.isfinite(cut_disc(np.zeros((n, n)), n)).sum(): realizations for n, realizations in ((17, 3), (33, 2))}
+    assert dict(zip(discs["elements"], discs["realizations"], strict=True)) == numbers
+    assert sorted(set(sizes.loc[sizes["source"] == "lines", "elements"])) == [64, 1024]
+
+
+def test_scaling_table_has_every_ensemble(finished_once):
+    table = pd.read_csv(finished_once / "results/tables/scaling.csv")
     ensembles = set(table[["source", "case_group", "hurst"]].itertuples(index=False, name=None))
     assert ensembles == {
         (source, group, hurst)
@@ -101,8 +109,8 @@ def test_scaling_table_has_every_ensemble(finished):
     assert set(with_lambda["case_group"]) == {"base"}
 
 
-def test_combinations_are_in_real_units(finished):
-    with xr.open_dataset(finished / "results/curves/discs/h04000/0000-0001.nc") as curves:
+def test_combinations_are_in_real_units(finished_once):
+    with xr.open_dataset(finished_once / "results/curves/discs/h04000/0000-0001.nc") as curves:
         ninth = curves.isel(realization=np.flatnonzero(curves["case"] == "h04000_c9"))
         assert ninth.sizes["realization"] == 2
         np.testing.assert_array_equal(ninth["diameter"], 0.03)
@@ -112,20 +120,8 @@ def test_combinations_are_in_real_units(finished):
         assert "spawn_key" in curves.attrs["settings"]
 
 
-def test_kernels_are_compiled_before_the_jobs(finished):
-    """Once for these sources: the stamp holds their digest."""
-    assert re.fullmatch(r"[0-9a-f]{16}", (finished / ".snakemake/kernels").read_text())
-    assert list((ROOT / "src/viscorough/contact/__pycache__").glob("grid_*.nbi"))
-    assert list((ROOT / "src/viscorough/__pycache__").glob("mdr.*.nbi"))
-
-
-def test_a_second_run_has_nothing_to_do(finished):
-    assert plan(finished, *TEST) == {}
-
-
 def test_deleted_curves_are_made_again_by_a_target(finished):
     (finished / "results/curves/discs/h04000/0000-0001.nc").unlink()
-    assert plan(finished, *TEST) == {}
     assert plan(finished, *TEST, "--", "curves") == {"indent_discs": 1}
 
 
@@ -134,6 +130,7 @@ def test_report(finished):
     page = (finished / "report.html").read_text()
     for text in ("fig4_exponent.png", "scaling.html", "4 Conventions and validation", "collapse"):
         assert text in page
+    snakemake(finished, *TEST, "--rulegraph", cores=None)  # as --unlock and --summary, without a number of cores
 
 
 def test_report_with_other_settings_is_refused_in_one_line(finished):

@@ -10,7 +10,7 @@ import time
 import pytest
 import xarray as xr
 
-from support.workflow import ROOT, copy_project, environment, merged, read_settings, settings_file
+from support.workflow import HANGS, ROOT, copy_project, environment, merged, read_settings, settings_file
 
 LONG = {
     "discs": {"hurst": [0.9], "realizations": 2, "combinations": read_settings("config")["discs"]["combinations"][:1]},
@@ -51,9 +51,9 @@ def make(folder, target):
 
 
 def wait_until(reached, run):
-    deadline = time.monotonic() + 120
+    deadline = time.monotonic() + HANGS
     while not reached():
-        assert time.monotonic() < deadline
+        assert time.monotonic() < deadline, "the run does not begin its second batch"
         assert run.poll() is None, run.communicate()[0]
         time.sleep(0.02)
 
@@ -63,7 +63,7 @@ def interrupted(folder, target, signal_number):
     with make(folder, target) as run:
         wait_until(lambda: len(list((folder / "results/logs/indent_lines/h09000").glob("*.log"))) == 2, run)
         os.killpg(run.pid, signal_number)
-        first, _ = run.communicate(timeout=60)
+        first, _ = run.communicate(timeout=HANGS)
     assert run.returncode != 0
     done = {path: (folder / path).stat().st_mtime_ns for path in LINES if (folder / path).exists()}
     assert done
@@ -71,7 +71,7 @@ def interrupted(folder, target, signal_number):
     locked = list((folder / ".snakemake/locks").glob("*"))
     assert bool(locked) == (signal_number == signal.SIGKILL), first
     with make(folder, target) as run:
-        second, _ = run.communicate(timeout=120)
+        second, _ = run.communicate(timeout=HANGS)
     assert run.returncode == 0, second
     assert {path: (folder / path).stat().st_mtime_ns for path in done} == done, "what was made is kept"
     with xr.open_dataset(folder / POOL) as pool:

@@ -13,6 +13,7 @@ from viscorough.surfaces import self_affine_disc
 
 SCANS = {"ground_a", "ground_b", "polished_c"}
 MADE = {"indent_measured", "pool_curves", "evaluate_measured", "plot_measured", "tabulate_rule_costs", "make_page"}
+MADE |= {"show_tables_of_measured", "show_tables_of_all"}
 
 
 def write_scans(folder):

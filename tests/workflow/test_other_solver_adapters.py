@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 
 from support import dense_contact
+from support.workflow import HANGS, ROOT
 from viscorough.contact.loading_path import indent
 from viscorough.indenter import Indenter
 from viscorough_study.performance import other_solvers
 
-ROOT = Path(__file__).resolve().parents[2]
 ADAPTERS, SUPPORT = ROOT / "workflow/peers", ROOT / "tests/support"
 DISTRIBUTIONS = {
     "aspher_adapter": "aspher",
@@ -56,7 +56,7 @@ def solver(name):
 def test_adapter_solves_the_problem_of_the_request(name, indenter):
     exact = indent(indenter, tolerance=1e-11, depths=[0.1, 0.2, 0.4])
     tolerances = [1e-12, 1e-3]
-    fine, coarse = other_solvers.solve(solver(name), indenter, exact.depth, exact.force, tolerances, time_limit=30)
+    fine, coarse = other_solvers.solve(solver(name), indenter, exact.depth, exact.force, tolerances, time_limit=HANGS)
     assert fine.version == "4.5"
     np.testing.assert_allclose(fine.force, exact.force, rtol=1e-10)
     np.testing.assert_allclose(fine.depth, exact.depth, rtol=1e-10)
@@ -71,14 +71,14 @@ def test_adapter_solves_the_problem_of_the_request(name, indenter):
         "aspher_nested_adapter": 15,
         "contactmechanics_adapter": 21,
     }.get(name, -1)
-    assert 0 < fine.wall_s < 30
+    assert 0 < fine.wall_s < HANGS
     assert 1e7 < fine.memory < 1e9
 
 
 # ---- the exchange, with a solver of a few lines
 
 SOLVER = """
-import os, sys, time
+import os, signal, sys, time
 import numpy as np
 sys.path.insert(0, {adapters!r})
 from exchange import answer_request
@@ -94,7 +94,7 @@ class Springs:
     def solve(self, level, tolerance, start):
         assert start is None if level == 0 else start is self.last
         if tolerance == {slow}:
-            time.sleep(2)
+            signal.raise_signal(signal.SIGALRM)  # as if the time were over
         time.sleep({pause})
         self.last = np.maximum(self.problem.depths[level] - self.problem.gap, 0)
         return self.last, level + 1
@@ -110,7 +110,7 @@ def exchange(folder, **changed):
     """The answer to a request with three levels, as a dictionary."""
     gap = np.array([[0.0, 0.5, np.nan], [0.25, 1.0, 0.75]])
     request = {"gap": gap, "depths": [0.1, 0.6, 2.0], "forces": [1.0, 2.0, 3.0], "tolerances": [1e-3, 1e-6]}
-    request |= {"padding": 8, "threads": 3, "repeats": 2, "maximum_seconds": 0.5} | changed
+    request |= {"padding": 8, "threads": 3, "repeats": 2, "maximum_seconds": HANGS} | changed
     np.savez(folder / "request.npz", **request)
     (folder / "springs.py").write_text(SOLVER.format(adapters=str(ADAPTERS), slow=1e-6, pause=0.02))
     command = [sys.executable, folder / "springs.py", folder / "request.npz", folder / "answer.npz"]
@@ -128,7 +128,6 @@ def test_answer_has_every_level_of_every_tolerance_in_time(tmp_path):
     np.testing.assert_allclose(answer["depth"][0], request["depths"])
     assert answer["wall"].shape == answer["cpu"].shape == (2, 2)  # tolerances, repeats
     assert (answer["wall"][0] >= 0.06).all()
-    assert (answer["wall"][0] < 0.5).all()
     assert (answer["cpu"][0] < answer["wall"][0]).all()
     assert np.isnan(answer["wall"][1]).all()
     assert answer["memory_mb"] > 5
@@ -139,12 +138,3 @@ def test_elements_beyond_the_indenter_never_touch(tmp_path):
     _, answer = exchange(tmp_path, tolerances=[1e-3], depths=[5.0, 50.0, 500.0])
     assert (answer["pressures"][0, :, 0, 2] == 0).all()
     np.testing.assert_allclose(answer["depth"][0], [5.0, 50.0, 500.0])
-
-
-def test_dense_contact_is_that_of_the_package(indenter):
-    exact = indent(indenter, tolerance=1e-11, depths=[0.1, 0.4])
-    gap = np.nan_to_num(indenter.initial_gap, nan=1e3)
-    for depth, force in zip(exact.depth, exact.force, strict=True):
-        pressure = dense_contact.pressure_at_depth(gap, depth, 4.0, 0.7)
-        assert pressure.sum() * 0.49 == pytest.approx(force, rel=1e-10)
-        np.testing.assert_allclose(dense_contact.pressure_at_force(gap, force, 4.0, 0.7), pressure, atol=1e-10)

@@ -1,33 +1,23 @@
 """What a changed setting or a changed source reruns, and what it leaves."""
 
 import ast
-import os
 import re
 
 import pytest
 
-from support.workflow import SCRIPTS, TEST, copy_sources, jobs, plan, settings_file, snakemake
-from viscorough_study.source_digest import SourceDigests
+from support.workflow import TEST, copy_sources, jobs, plan, settings_file, snakemake
 
-FITS = {"match_lines", "fit_scaling", "judge_claims", "compare_prefactors", "compare_zeta_laws", "tabulate_calibration"}
-FITS |= {"tabulate_literature"}
-AFTER_FITS = {
-    "plot_mdr_lambda",
-    "plot_kinetics",
-    "plot_master_curve",
-    "plot_exponent",
-    "plot_conventions",
-    "plot_prefactors",
-    "plot_interface",  # with the values of others, which stand beside the exponents in one table
-}
-FITS_AND_FIGURES = FITS | AFTER_FITS
+FITS_AND_FIGURES = {"match_lines", "fit_scaling", "judge_claims", "compare_prefactors", "compare_zeta_laws"}
+FITS_AND_FIGURES |= {"tabulate_calibration", "tabulate_literature", "plot_mdr_lambda", "plot_kinetics", "plot_exponent"}
+# With the values of others, which stand beside the exponents in one table, `plot_interface`.
+FITS_AND_FIGURES |= {"plot_master_curve", "plot_conventions", "plot_prefactors", "plot_interface"}
 BOUNDARY_ELEMENTS = {"indent_discs", "compare_direct", "compare_reduction", "validate"}
 BOUNDARY_ELEMENTS |= {"measure_methods", "map_failures", "compare_level_placement"}
 MEDIA = {"compute_media", "plot_media", "plot_media_exponents"}
 SIZES = {"fit_sizes", "plot_sizes", "fit_collapse", "plot_collapse"}
 INTERFACE = {"fit_interface", "plot_interface"}
 SPEED = {"measure_methods", "tabulate_methods", "plot_speed"}
-LAST = {"tabulate_rule_costs", "make_page"}  # made again with whatever is
+LAST = {"tabulate_rule_costs", "make_page", "show_tables_of_all"}  # made again with whatever is
 
 
 def edit(path, change):
@@ -66,73 +56,43 @@ def with_another_statement(text):
     return ast.unparse(tree)
 
 
+FEW_STEPS = {"media": {"force": 2e-4}, "verdicts": {"draws": 3}, "interface": {"plateau": 0.1}}
+FEW_STEPS |= {"methods": {"levels": 3, "scenes": {"elements": 31}}, "validation": {"elements": [17, 31]}}
+FEW_STEPS |= {"stability": {"across": 11}, "direct": {"elements": 31}}
+OF_FEW_STEPS = MEDIA | INTERFACE | SPEED | {"measure_plateaus", "judge_claims", "tabulate_literature"}
+OF_FEW_STEPS |= {"validate", "check_validation", "plot_validation", "compare_direct", "plot_direct"}
+OF_FEW_STEPS |= {"map_failures", "plot_failure_map", "compare_level_placement", "plot_level_placement"}
+POOLED = {"pool_curves", "measure_plateaus"}
+OF_SURFACES = FITS_AND_FIGURES | INTERFACE | MEDIA | SIZES | POOLED
+OF_SURFACES |= {"indent_discs", "generate_example_discs", "plot_surfaces"}
+
+
 @pytest.mark.parametrize(
     ("changed", "rerun"),
     [
-        (
-            {"scaling": {"stiffness_max": 0.25}},
-            FITS_AND_FIGURES | {"fit_sizes", "plot_sizes"} | SPEED,
-        ),  # errors in region (b) are tabulated, too
-        ({"methods": {"levels": 3}}, SPEED | {"judge_claims"}),
-        ({"verdicts": {"draws": 3}}, {"measure_plateaus", "judge_claims"}),
-        ({"media": {"force": 2e-4}}, MEDIA),
-        (
-            {"stability": {"across": 11}, "methods": {"scenes": {"elements": 31}}},
-            {"map_failures", "plot_failure_map", "compare_level_placement", "plot_level_placement"},
-        ),
-        (
-            {"figures": {"average": "arithmetic"}},
-            (FITS_AND_FIGURES | SIZES) - {"fit_scaling", "compare_prefactors"},
-        ),
-        ({"ensemble": {"per_decade": 25}}, FITS_AND_FIGURES | SIZES | INTERFACE | {"pool_curves", "measure_plateaus"}),
-        ({"interface": {"plateau": 0.1}}, INTERFACE | {"tabulate_literature"}),
-        ({"validation": {"elements": [17, 31]}}, {"validate", "check_validation", "plot_validation", "judge_claims"}),
+        (FEW_STEPS, OF_FEW_STEPS),
+        # Errors in region (b) are tabulated, too.
+        ({"scaling": {"stiffness_max": 0.25}}, FITS_AND_FIGURES | {"fit_sizes", "plot_sizes"} | SPEED),
+        ({"figures": {"average": "arithmetic"}}, (FITS_AND_FIGURES | SIZES) - {"fit_scaling", "compare_prefactors"}),
+        ({"ensemble": {"per_decade": 25}}, FITS_AND_FIGURES | SIZES | INTERFACE | POOLED),
         (
             {"lines": {"points": 2048}},
             (FITS_AND_FIGURES | INTERFACE | {"indent_lines", "pool_curves"}) - {"compare_zeta_laws"},
         ),
-        (
-            {"discs": {"tolerance": 2e-3}},
-            FITS_AND_FIGURES
-            | INTERFACE
-            | MEDIA
-            | {"indent_discs", "pool_curves", "measure_plateaus", "compare_reduction", "plot_reduction"},
-        ),
-        (
-            {"surface": {"period": 1.5}},  # not of the variant that has its own period, nor of lines
-            FITS_AND_FIGURES
-            | INTERFACE
-            | MEDIA
-            | SIZES
-            | {"indent_discs", "pool_curves", "measure_plateaus", "generate_example_discs", "plot_surfaces"},
-        ),
-        (
-            {"sizes": {"until_x": 2.0}},
-            SIZES
-            | INTERFACE
-            | {"tabulate_calibration", "tabulate_literature", "judge_claims"}
-            | {"indent_discs", "indent_lines", "pool_curves"},
-        ),
-        (
-            {"direct": {"elements": 31}, "reduction": {"per_decade": 5}},
-            {"compare_direct", "plot_direct", "judge_claims", "compare_reduction", "plot_reduction"}
-            | {"tabulate_literature", "plot_interface"},
-        ),
+        ({"surface": {"period": 1.5}}, OF_SURFACES),  # not of the variant that has its own period, nor of lines
     ],
-    ids=lambda value: next(iter(value)) if isinstance(value, dict) else "",
+    ids=["few steps", "scaling", "figures", "ensemble", "lines", "surface"],
 )
-def test_a_changed_setting_reruns_what_uses_it(finished, changed, rerun):
-    planned = plan(finished, *TEST, settings_file(finished, "changed", **changed))
+def test_a_changed_setting_reruns_what_uses_it(finished_once, tmp_path, changed, rerun):
+    planned = plan(finished_once, *TEST, settings_file(tmp_path, "changed", **changed))
     assert set(planned) == rerun | LAST
-    if "surface" in changed:
-        assert (
-            planned["indent_discs"] == 2 + 4
-        )  # two Hurst exponents, two batches each of grids from coarse to fine and of their control
+    if "surface" in changed:  # two Hurst exponents, two batches each of grids from coarse to fine and of their control
+        assert planned["indent_discs"] == 2 + 4
 
 
-def test_a_further_exponent_reruns_only_what_depends_on_it(finished):
-    more = settings_file(finished, "more", discs={"hurst": [0.4, 0.6, 0.9]}, lines={"hurst": [0.4, 0.6, 0.9]})
-    text = snakemake(finished, "--dry-run", *TEST, more)
+def test_a_further_exponent_reruns_only_what_depends_on_it(finished_once, tmp_path):
+    more = settings_file(tmp_path, "more", discs={"hurst": [0.4, 0.6, 0.9]}, lines={"hurst": [0.4, 0.6, 0.9]})
+    text = snakemake(finished_once, "--dry-run", *TEST, more)
     cases = set(re.findall(r"^Job \d+: .*\b(h\d{5}\w*)", text, re.MULTILINE))
     assert cases == {"h06000", "h06000_longer_period"}
     planned = jobs(text)
@@ -140,14 +100,14 @@ def test_a_further_exponent_reruns_only_what_depends_on_it(finished):
     assert "validate" not in planned
 
 
-def test_more_realizations_keep_those_that_are_there(finished):
-    planned = plan(finished, *TEST, settings_file(finished, "more", discs={"realizations": 4}))
+def test_more_realizations_keep_those_that_are_there(finished_once, tmp_path):
+    planned = plan(finished_once, *TEST, settings_file(tmp_path, "more", discs={"realizations": 4}))
     assert planned["indent_discs"] == 2  # the second batch of both Hurst exponents
     assert "indent_lines" not in planned
 
 
 def test_reworded_docstrings_and_comments_rerun_nothing(editable):
-    """In every module of both packages, in every script and in the rules."""
+    """In every module of both packages, in every script and in the rules; nor do the times of the files count."""
     files = [path for folder in ("src", "workflow/scripts") for path in (editable / folder).rglob("*.py")]
     assert len(files) > 80
     rules = sorted((editable / "workflow/rules").glob("*.smk"))
@@ -166,69 +126,12 @@ def test_a_changed_line_of_the_column_convolution_reruns_what_uses_boundary_elem
     assert set(plan(editable, *TEST)) == BOUNDARY_ELEMENTS | FITS_AND_FIGURES | SIZES | after
 
 
-@pytest.mark.parametrize(
-    ("module", "scripts"),
-    [
-        (
-            "viscorough_study/power_law.py",
-            {
-                "fit_scaling",
-                "measure_plateaus",
-                "fit_sizes",
-                "fit_collapse",
-                "compute_media",
-                "evaluate_measured",
-                "judge_claims",
-                "make_page",
-            }
-            | {"match_lines", "fit_interface", "compare_zeta_laws"},
-        ),
-        ("viscorough_study/validate_solvers.py", {"validate", "check_validation"}),
-        (
-            "viscorough/mdr.py",
-            {
-                "indent_lines",
-                "compare_reduction",
-                "validate",
-                "map_failures",
-                "measure_failure_curves",
-                "measure_methods",
-            },
-        ),
-        (
-            "viscorough_study/performance/timing.py",
-            {"measure_methods", "time_other_solvers", "compare_level_placement", "measure_large"}
-            | {"tabulate_methods", "tabulate_rule_costs"},
-        ),
-        ("viscorough_study/figures/exponent.py", {"plot_exponent"}),
-    ],
-)
-def test_a_changed_module_concerns_exactly_the_scripts_that_use_it(tmp_path, module, scripts):
-    """A statement is added to every function of the module."""
-    copy_sources(tmp_path)
-
-    def digests():
-        sources = SourceDigests(tmp_path / "src")
-        return {path.stem: sources.digest(path) for path in SCRIPTS.glob("*.py")}
-
-    before = digests()
-    edit(tmp_path / "src" / module, with_another_statement)
-    after = digests()
-    assert {script for script in before if before[script] != after[script]} == scripts
-
-
-def test_a_changed_script_reruns_its_rule_and_what_depends_on_it(editable):
+def test_a_changed_script_or_figure_reruns_its_rule_and_what_depends_on_it(editable):
     script = editable / "workflow/scripts/compare_direct.py"
     edit(script, lambda text: text.replace("Direct integration and", "Integration and"))
-    assert set(plan(editable, *TEST)) == {"compare_direct", "plot_direct", "judge_claims", *LAST}
+    edit(editable / "src/viscorough_study/figures/exponent.py", with_another_statement)
+    assert set(plan(editable, *TEST)) == {"compare_direct", "plot_direct", "judge_claims", "plot_exponent", *LAST}
 
 
-def test_forcing_one_rule(finished):
-    assert plan(finished, *TEST, "--forcerun", "plot_exponent") == dict.fromkeys(("plot_exponent", *LAST), 1)
-
-
-def test_an_older_checkout_of_the_same_sources_reruns_nothing(finished):
-    """The times of the sources do not count, such as those that git sets."""
-    for path in (finished / "workflow/scripts").glob("*.py"):
-        os.utime(path)
-    assert plan(finished, *TEST) == {}
+def test_forcing_one_rule(finished_once):
+    assert plan(finished_once, *TEST, "--forcerun", "plot_exponent") == dict.fromkeys(("plot_exponent", *LAST), 1)

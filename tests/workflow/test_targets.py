@@ -1,34 +1,12 @@
 """Targets beside the default one, and the plans of every scale."""
 
 import json
-import re
 
-import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
 
-from support.workflow import TEST, copy_project, jobs, plan, settings_file, snakemake
-from viscorough.surfaces import cut_disc
-
-TIMED = ("Cost and error of every method", "The same levels by other solvers", "Placement of levels: by the package")
-
-
-@pytest.fixture
-def fresh(tmp_path):
-    """A project in which nothing has been made."""
-    return copy_project(tmp_path)
-
-
-@pytest.fixture(scope="module")
-def default_plan(unmade):
-    return plan(unmade, *TEST)
-
-
-def drawn(folder, *figures):
-    """Whether the figures are there, with more in them than axes."""
-    files = [folder / f"results/figures/{figure}.{kind}" for figure in figures for kind in ("png", "pdf")]
-    return all(file.stat().st_size > 5000 for file in files)
+from support.workflow import TEST, jobs, plan, snakemake
 
 
 @pytest.mark.parametrize(
@@ -47,101 +25,24 @@ def test_plans_of_every_scale(unmade, name, indent_discs, indent_lines):
 
 def test_one_figure_needs_only_its_own(unmade):
     assert plan(unmade, *TEST, "--", "figure_1") == {"generate_example_discs": 1, "plot_surfaces": 1}
+    assert plan(unmade, *TEST, "--", "plot_surfaces") == {"generate_example_discs": 1, "plot_surfaces": 1}
 
 
-def test_stability(fresh, default_plan):
-    """From scripts to figures, on the smallest maps."""
-    rules = ("map_failures", "measure_failure_curves", "plot_failure_map", "plot_failure_curves")
-    assert set(rules) & set(default_plan) == {"map_failures", "plot_failure_map"}
-    assert jobs(snakemake(fresh, *TEST, "--", "stability")) == dict.fromkeys(rules, 1)
-    assert drawn(fresh, "failure_map", "failure_curves")
-    table = pd.read_csv(fresh / "results/tables/failure_map.csv")
-    with xr.open_dataset(fresh / "results/tables/failure_map.nc") as nc:
-        assert nc["verdict"].values.tolist() == table["verdict"].tolist()
-    assert "unnoticed" not in set(table["verdict"])
-
-
-def test_sizes_and_large_discs(fresh, default_plan):
-    """Ensembles on their own grids, which are part of the default run; cost of one disc, which is not."""
-    planned = jobs(snakemake(fresh, *TEST, "--", "sizes", "large"))
-    assert planned["indent_discs"] == 2 * planned["indent_lines"] == 2 * planned["measure_large"] == 4
-    assert set(planned) - set(default_plan) == {"measure_large", "tabulate_large", "plot_large"}
-    sizes = pd.read_csv(fresh / "results/tables/sizes.csv")
-    discs = sizes[(sizes["source"] == "discs") & (sizes["case_group"] == "sizes")]
-    assert set(sizes.loc[sizes["case_group"] == "controls", "elements"]) == set(discs["elements"])
-    assert "finding" in pd.read_csv(fresh / "results/tables/sizes_trends.csv")
-    assert dict(zip(discs["elements"], discs["realizations"], strict=True)) == {
-        disc_elements(17): 3,
-        disc_elements(33): 2,
-    }
-    assert sorted(set(sizes.loc[sizes["source"] == "lines", "elements"])) == [64, 1024]
-    costs = pd.read_csv(fresh / "results/tables/large.csv")
+def test_targets_beside_the_default_one(finished):
+    """Cost of one disc, and other solvers, which are not installed; the rest of these targets is there already."""
+    planned = jobs(snakemake(finished, *TEST, "--", "speed", "stability", "sizes", "large"))
+    assert planned.pop("measure_large") == 2
+    others = {"time_other_solvers", "plot_other_solvers", "plot_growth", "show_tables_of_speed"}
+    assert planned == dict.fromkeys({"tabulate_large", "plot_large", "show_tables_of_large"} | others, 1)
+    files = [finished / f"results/figures/{name}.png" for name in ("large", "growth", "other_solvers")]
+    assert all(file.stat().st_size > 5000 for file in files), "there is more in them than axes"
+    costs = pd.read_csv(finished / "results/tables/large.csv")
     assert costs["across"].tolist() == [17, 33]
     assert costs["threads"].tolist() == [2, 2]
     assert (costs[["wall", "wall_threads"]] > 0).all(axis=None)
     assert (costs["memory"] > 1e7).all()
-    assert drawn(fresh, "sizes", "large")
-
-
-def run_beside(output):
-    """[(message of a job, numbers of the jobs that ran at any time beside it)] of a run's output."""
-    messages, beside, running = {}, {}, set()
-    for job, message, finished in re.findall(r"^Job (\d+): (.*)$|^Finished jobid: (\d+)", output, re.MULTILINE):
-        if finished:
-            running.discard(finished)
-            continue
-        messages[job], beside[job] = message, set(running)
-        for other in running:
-            beside[other].add(job)
-        running.add(job)
-    return [(message, beside[job]) for job, message in messages.items()]
-
-
-def disc_elements(across):
-    return np.isfinite(cut_disc(np.zeros((across, across)), across)).sum()
-
-
-def test_speed_without_other_solvers(fresh, default_plan):
-    """Placement of levels and tables of few methods, from their scripts to the figures; then what needs no cores."""
-    tasks = [{"name": "few", "elements": 17, "levels": 3, "fractions": [0.02, 0.5], "residual": 1e-6, "threads": [1]}]
-    few = {"elements": [9], "bodies": ["sphere", "cone"], "bodies_elements": [9], "tasks": tasks}
-    few["scenes"] = {"elements": 17, "hurst": 0.7}
-    few_methods = (*TEST, settings_file(fresh, "few", methods=few))
-    output = snakemake(fresh, *few_methods, "--", "speed")
-    assert [beside for message, beside in run_beside(output) if message.startswith(TIMED)] == [set()] * 5
-    assert any(beside for _, beside in run_beside(output)), "else it would not show that timed jobs run alone"
-    planned = jobs(output)
-    small = {"measure_methods", "tabulate_methods", "compare_level_placement", "plot_speed", "plot_level_placement"}
-    assert set(planned) & set(default_plan) == small
-    assert planned.pop("measure_methods") == 3  # sphere, cone, one rough disc
-    tables = {"tabulate_methods", "time_other_solvers", "compare_level_placement"}
-    plots = {"plot_speed", "plot_all_methods", "plot_growth", "plot_other_solvers", "plot_level_placement"}
-    assert planned == dict.fromkeys(tables | plots, 1)
-    assert drawn(fresh, "speed", "all_methods", "growth", "other_solvers", "level_placement")
-    methods = pd.read_csv(fresh / "results/tables/methods.csv")
-    assert set(methods["problem"]) == {"sphere", "cone", "rough disc, H = 0.4"}
-    assert not set(methods["group"]) & {"peer", "other solver"}
-    with xr.open_dataset(fresh / "results/tables/other_solvers.nc") as table:
+    assert not set(pd.read_csv(finished / "results/tables/methods.csv")["group"]) & {"peer", "other solver"}
+    with xr.open_dataset(finished / "results/tables/other_solvers.nc") as table:
         assert json.loads(table.attrs["machine"])["cores"] >= 1
         assert table["solver"].values.tolist() == ["viscorough"]
-    assert "is not installed: left out" in (fresh / "results/logs/time_other_solvers.log").read_text()
-    for task in (("--unlock",), ("--summary",), ("--rulegraph",), ("--report", "report.html")):
-        snakemake(fresh, *few_methods, *task, "--", "speed", cores=None)
-
-
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("discs: {elemnts: 33}\n", "unknown key elemnts in discs; did you mean elements?"),
-        ("# nothing\n", "Config file must be given as JSON or YAML with keys at top level."),
-    ],
-    ids=["misspelt", "empty"],
-)
-def test_wrong_settings_are_one_line_without_a_traceback(unmade, tmp_path, text, message):
-    (tmp_path / "wrong.yaml").write_text(text)
-    output = snakemake(unmade, "--dry-run", "--configfile", tmp_path / "wrong.yaml", fails=True)
-    assert len([line for line in output.splitlines() if message in line]) == 1
-    assert "Traceback" not in output
-    assert "File " not in output
-    # besides it: which profile is in use, that the file extends the default one, or the kind of error
-    assert len(output.splitlines()) <= 3
+    assert "is not installed: left out" in (finished / "results/logs/time_other_solvers.log").read_text()

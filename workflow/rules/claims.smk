@@ -4,12 +4,6 @@
 rule compare_direct:
     output:
         csv="results/tables/direct.csv",
-        html=report(
-            "results/tables/direct.html",
-            caption="../report/direct_table.rst",
-            category=chapter("verdicts"),
-            labels={"result": "direct integration and both readings of the law", "kind": "table"},
-        ),
         nc="results/tables/direct.nc",
     log:
         "results/logs/compare_direct.log",
@@ -18,7 +12,6 @@ rule compare_direct:
     localrule: True
     conda:
         "../envs/viscorough.yaml"
-    threads: 1
     resources:
         mem_mb=1000,
     params:
@@ -31,44 +24,11 @@ rule compare_direct:
         "../scripts/compare_direct.py"
 
 
-rule plot_direct:
-    input:
-        table=rules.compare_direct.output.csv,
-    output:
-        png=report(
-            "results/figures/direct.png",
-            caption="../report/direct.rst",
-            category=chapter("verdicts"),
-            labels={"result": "direct integration and both readings of the law", "kind": "figure"},
-        ),
-        pdf="results/figures/direct.pdf",
-    log:
-        "results/logs/plot_direct.log",
-    benchmark:
-        "results/benchmarks/plot_direct.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-    message:
-        "Figure of direct integration against both readings of the law"
-    script:
-        "../scripts/plot_direct.py"
-
-
 rule measure_plateaus:
     input:
         discs="results/ensembles/discs.nc",
     output:
         csv="results/tables/plateaus.csv",
-        html=report(
-            "results/tables/plateaus.html",
-            caption="../report/plateaus.rst",
-            category=chapter("verdicts"),
-            labels={"result": "decades of constant slope, and the control", "kind": "table"},
-        ),
         nc="results/tables/plateaus.nc",
     log:
         "results/logs/measure_plateaus.log",
@@ -77,7 +37,6 @@ rule measure_plateaus:
     localrule: True
     conda:
         "../envs/viscorough.yaml"
-    threads: 1
     resources:
         mem_mb=2000,
     params:
@@ -93,12 +52,6 @@ rule compare_prefactors:
         scaling=rules.fit_scaling.output.csv,
     output:
         csv="results/tables/prefactors.csv",
-        html=report(
-            "results/tables/prefactors.html",
-            caption="../report/prefactors_table.rst",
-            category=chapter("verdicts"),
-            labels={"result": "zeta under every convention", "kind": "table"},
-        ),
         nc="results/tables/prefactors.nc",
     log:
         "results/logs/compare_prefactors.log",
@@ -107,7 +60,6 @@ rule compare_prefactors:
     localrule: True
     conda:
         "../envs/viscorough.yaml"
-    threads: 1
     resources:
         mem_mb=1000,
     params:
@@ -123,12 +75,6 @@ rule compare_zeta_laws:
         discs="results/ensembles/discs.nc",
     output:
         csv="results/tables/zeta_laws.csv",
-        html=report(
-            "results/tables/zeta_laws.html",
-            caption="../report/zeta_laws.rst",
-            category=chapter("verdicts"),
-            labels={"result": "laws of the prefactor", "kind": "table"},
-        ),
         nc="results/tables/zeta_laws.nc",
     log:
         "results/logs/compare_zeta_laws.log",
@@ -137,7 +83,6 @@ rule compare_zeta_laws:
     localrule: True
     conda:
         "../envs/viscorough.yaml"
-    threads: 1
     resources:
         mem_mb=2000,
     params:
@@ -169,12 +114,6 @@ rule judge_claims:
         sizes_trends="results/tables/sizes_trends.csv",
     output:
         csv="results/tables/claims.csv",
-        html=report(
-            "results/tables/claims.html",
-            caption="../report/claims.rst",
-            category=chapter("verdicts"),
-            labels={"result": "verdicts on the paper's claims", "kind": "table"},
-        ),
         nc="results/tables/claims.nc",
         verdicts="results/tables/claims.md",
     log:
@@ -184,7 +123,6 @@ rule judge_claims:
     localrule: True
     conda:
         "../envs/viscorough.yaml"
-    threads: 1
     resources:
         mem_mb=2000,
     params:
@@ -200,32 +138,3 @@ rule judge_claims:
         "Verdicts on the claims of the paper"
     script:
         "../scripts/judge_claims.py"
-
-
-rule plot_prefactors:
-    input:
-        table=rules.compare_prefactors.output.csv,
-    output:
-        png=report(
-            "results/figures/prefactors.png",
-            caption="../report/prefactors.rst",
-            category=chapter("verdicts"),
-            labels={"result": "zeta under every convention", "kind": "figure"},
-        ),
-        pdf="results/figures/prefactors.pdf",
-    log:
-        "results/logs/plot_prefactors.log",
-    benchmark:
-        "results/benchmarks/plot_prefactors.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-    params:
-        conventions=config["figures"],
-    message:
-        "Figure of the prefactor under every convention"
-    script:
-        "../scripts/plot_prefactors.py"

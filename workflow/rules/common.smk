@@ -178,7 +178,7 @@ def other_solvers_wanted():
 
 def page_digests():
     """Digests of the texts of the page that are no results, whose paths depend on where the project lies."""
-    texts = sorted([*(WORKFLOW / "page").iterdir(), *(WORKFLOW / "report").glob("*.rst")])
+    texts = sorted([*(WORKFLOW / "page").iterdir(), *(WORKFLOW / "report").rglob("*.rst"), WORKFLOW / "results.yaml"])
     texts += [Path(workflow.basedir) / name for name in ("resources/published/other_solvers.csv", "docs/claims.csv")]
     return [hashlib.sha256(path.read_bytes()).hexdigest()[:16] for path in texts]
 
@@ -204,11 +204,32 @@ CHAPTERS = (
 )
 
 
-def table_files(name, caption, result):
-    """CSV, HTML and NetCDF of a table about measured surfaces."""
-    labels = {"result": result, "kind": "table"}
-    html = report(f"results/tables/{name}.html", caption, category=chapter("beyond"), labels=labels)
-    return [f"results/tables/{name}.csv", html, f"results/tables/{name}.nc"]
+def shown(kind):
+    """{name: entry, with what it leaves out} of the figures or tables in results.yaml."""
+    return {
+        name: {"target": "all", "params": [], "file": name, "module": name} | entry
+        for name, entry in read_yaml("workflow/results.yaml")[kind].items()
+    }
+
+
+FIGURES, TABLES = shown("figures"), shown("tables")
+
+
+def tables_of(target):
+    """{name: entry} of the tables that a target makes."""
+    return {name: table for name, table in TABLES.items() if table["target"] == target}
+
+
+def plots_of(target):
+    """The rules that draw the figures of a target."""
+    return [getattr(rules, f"plot_{name}") for name, figure in FIGURES.items() if figure["target"] == target]
+
+
+def functions_of(figure):
+    """The function that draws a figure and those that read what is no table, as in scripts/plot.py."""
+    readers = [argument for argument, path in figure["input"].items() if not path.endswith(".csv")]
+    draw = {"draw": "viscorough_study.figures.{module}.plot_{module}".format(**figure)}
+    return draw | {argument: f"viscorough_study.figure_inputs.{argument}" for argument in readers}
 
 
 def chapter(name):
@@ -256,11 +277,6 @@ def large_memory(wildcards):
 # ---- source code
 
 
-def script_of(name):
-    """File of a rule's script, which has the name of the rule."""
-    return WORKFLOW / "scripts" / f"{name}.py"
-
-
 def add_source_digests(rules):
     """Give every rule with a script a digest of the source code that it uses as a parameter without a name.
 
@@ -269,7 +285,8 @@ def add_source_digests(rules):
     """
     for one in rules:
         if one.script:
-            one.set_params(SOURCES.digest(script_of(one.name)))
+            functions = dict(one.params).get("functions", {})  # which its script imports by name
+            one.set_params(SOURCES.digest(WORKFLOW / "rules" / one.script, *functions.values()))
 
 
 def compile_kernels():

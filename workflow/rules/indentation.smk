@@ -11,7 +11,6 @@ rule indent_discs:
         "results/benchmarks/indent_discs/{case}/{batch}.tsv"
     conda:
         "../envs/viscorough.yaml"
-    threads: 1
     resources:
         mem_mb=disc_memory,
     params:
@@ -33,7 +32,6 @@ rule indent_lines:
         "results/benchmarks/indent_lines/{line}/{batch}.tsv"
     conda:
         "../envs/viscorough.yaml"
-    threads: 1
     resources:
         mem_mb=line_memory,
     params:

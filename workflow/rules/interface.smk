@@ -6,21 +6,7 @@ rule fit_interface:
         pools=expand("results/ensembles/{pool}.nc", pool=("discs", "lines", "size_discs", "size_lines")),
     output:
         csv="results/tables/interface.csv",
-        html=report(
-            "results/tables/interface.html",
-            caption="../report/interface_table.rst",
-            category=chapter("beyond"),
-            labels={"result": "interface and punch in series", "kind": "table"},
-        ),
         nc="results/tables/interface.nc",
-        slopes_csv="results/tables/interface_slopes.csv",
-        slopes_html=report(
-            "results/tables/interface_slopes.html",
-            caption="../report/interface_slopes.rst",
-            category=chapter("beyond"),
-            labels={"result": "what the slopes owe to the punch", "kind": "table"},
-        ),
-        slopes_nc="results/tables/interface_slopes.nc",
         curves_csv="results/tables/interface_curves.csv",
         curves_nc="results/tables/interface_curves.nc",
     log:
@@ -30,7 +16,6 @@ rule fit_interface:
     localrule: True
     conda:
         "../envs/viscorough.yaml"
-    threads: 1
     resources:
         mem_mb=4000,
     params:

@@ -12,7 +12,6 @@ rule indent_measured:
         "results/benchmarks/indent_measured/{scan}.tsv"
     conda:
         "../envs/viscorough.yaml"
-    threads: 1
     resources:
         mem_mb=measured_memory,
     params:
@@ -34,9 +33,10 @@ rule evaluate_measured:
         pool="results/ensembles/measured.nc",
         curves=curves_of_pool("measured"),
     output:
-        scans=table_files("measured_scans", "../report/measured_scans.rst", "measured surfaces"),
-        fits=table_files("measured_fits", "../report/measured_fits.rst", "power laws of measured surfaces"),
-        kinetics=table_files("measured_kinetics", "../report/measured_kinetics.rst", "kinetics of measured surfaces"),
+        **{
+            name: expand(f"results/tables/measured_{name}.{{kind}}", kind=("csv", "nc"))
+            for name in ("scans", "fits", "kinetics")
+        },
     log:
         "results/logs/evaluate_measured.log",
     benchmark:
@@ -44,7 +44,6 @@ rule evaluate_measured:
     localrule: True
     conda:
         "../envs/viscorough.yaml"
-    threads: 1
     resources:
         mem_mb=1000,
     params:
@@ -58,36 +57,3 @@ rule evaluate_measured:
         "Power laws and kinetics of measured surfaces"
     script:
         "../scripts/evaluate_measured.py"
-
-
-rule plot_measured:
-    input:
-        pool="results/ensembles/measured.nc",
-        discs="results/ensembles/discs.nc",
-        fits=lambda wildcards: rules.evaluate_measured.output.fits[0],
-        kinetics=lambda wildcards: rules.evaluate_measured.output.kinetics[0],
-    output:
-        png=report(
-            "results/figures/measured.png",
-            caption="../report/measured.rst",
-            category=chapter("beyond"),
-            labels={"result": "measured surfaces", "kind": "figure"},
-        ),
-        pdf="results/figures/measured.pdf",
-    log:
-        "results/logs/plot_measured.log",
-    benchmark:
-        "results/benchmarks/plot_measured.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-    params:
-        conventions=config["figures"],
-        fraction_min=config["scaling"]["fraction_min"],
-    message:
-        "Figure of measured surfaces"
-    script:
-        "../scripts/plot_measured.py"

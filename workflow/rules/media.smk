@@ -6,20 +6,8 @@ rule compute_media:
         curves=curves_of_combinations(),
     output:
         csv="results/tables/media.csv",
-        html=report(
-            "results/tables/media.html",
-            caption="../report/media_table.rst",
-            category=chapter("beyond"),
-            labels={"result": "kinetics in other media", "kind": "table"},
-        ),
         nc="results/tables/media.nc",
         exponents_csv="results/tables/media_exponents.csv",
-        exponents_html=report(
-            "results/tables/media_exponents.html",
-            caption="../report/media_exponents_table.rst",
-            category=chapter("beyond"),
-            labels={"result": "exponents of time in other media", "kind": "table"},
-        ),
         exponents_nc="results/tables/media_exponents.nc",
     log:
         "results/logs/compute_media.log",
@@ -28,7 +16,6 @@ rule compute_media:
     localrule: True
     conda:
         "../envs/viscorough.yaml"
-    threads: 1
     resources:
         mem_mb=1000,
     params:
@@ -42,57 +29,3 @@ rule compute_media:
         "Kinetics in other media"
     script:
         "../scripts/compute_media.py"
-
-
-rule plot_media:
-    input:
-        table=rules.compute_media.output.csv,
-    output:
-        png=report(
-            "results/figures/media.png",
-            caption="../report/media.rst",
-            category=chapter("beyond"),
-            labels={"result": "kinetics in other media", "kind": "figure"},
-        ),
-        pdf="results/figures/media.pdf",
-    log:
-        "results/logs/plot_media.log",
-    benchmark:
-        "results/benchmarks/plot_media.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-    message:
-        "Figure of kinetics in other media"
-    script:
-        "../scripts/plot_media.py"
-
-
-rule plot_media_exponents:
-    input:
-        table=rules.compute_media.output.csv,
-    output:
-        png=report(
-            "results/figures/media_exponents.png",
-            caption="../report/media_exponents.rst",
-            category=chapter("beyond"),
-            labels={"result": "exponents of time in other media", "kind": "figure"},
-        ),
-        pdf="results/figures/media_exponents.pdf",
-    log:
-        "results/logs/plot_media_exponents.log",
-    benchmark:
-        "results/benchmarks/plot_media_exponents.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-    message:
-        "Figure of exponents of time in other media"
-    script:
-        "../scripts/plot_media_exponents.py"

@@ -40,20 +40,8 @@ rule tabulate_methods:
         tables=expand("results/methods/{problem}.csv", problem=PROBLEMS),
     output:
         csv="results/tables/methods.csv",
-        html=report(
-            "results/tables/methods.html",
-            caption="../report/methods_table.rst",
-            category=chapter("speed"),
-            labels={"result": "speed and accuracy", "kind": "table"},
-        ),
         nc="results/tables/methods.nc",
         equal_csv="results/tables/equal_error.csv",
-        equal_html=report(
-            "results/tables/equal_error.html",
-            caption="../report/equal_error.rst",
-            category=chapter("speed"),
-            labels={"result": "cost at the same error", "kind": "table"},
-        ),
         equal_nc="results/tables/equal_error.nc",
     log:
         "results/logs/tabulate_methods.log",
@@ -62,7 +50,6 @@ rule tabulate_methods:
     localrule: True
     conda:
         "../envs/viscorough.yaml"
-    threads: 1
     resources:
         mem_mb=500,
     params:
@@ -77,12 +64,6 @@ rule tabulate_methods:
 rule time_other_solvers:
     output:
         csv="results/tables/other_solvers.csv",
-        html=report(
-            "results/tables/other_solvers.html",
-            caption="../report/other_solvers_table.rst",
-            category=chapter("speed"),
-            labels={"result": "comparison with other solvers", "kind": "table"},
-        ),
         nc="results/tables/other_solvers.nc",
     log:
         "results/logs/time_other_solvers.log",
@@ -110,12 +91,6 @@ rule time_other_solvers:
 rule compare_level_placement:
     output:
         csv="results/tables/level_placement.csv",
-        html=report(
-            "results/tables/level_placement.html",
-            caption="../report/level_placement_table.rst",
-            category=chapter("speed"),
-            labels={"result": "placement of levels", "kind": "table"},
-        ),
         nc="results/tables/level_placement.nc",
     log:
         "results/logs/compare_level_placement.log",
@@ -134,138 +109,3 @@ rule compare_level_placement:
         "Placement of levels: by the package, by hand, naively"
     script:
         "../scripts/compare_level_placement.py"
-
-
-rule plot_speed:
-    input:
-        table=rules.tabulate_methods.output.csv,
-    output:
-        png=report(
-            "results/figures/speed.png",
-            caption="../report/speed.rst",
-            category=chapter("speed"),
-            labels={"result": "speed against accuracy", "kind": "figure"},
-        ),
-        pdf="results/figures/speed.pdf",
-    log:
-        "results/logs/plot_speed.log",
-    benchmark:
-        "results/benchmarks/plot_speed.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-    message:
-        "Figure of speed against accuracy"
-    script:
-        "../scripts/plot_speed.py"
-
-
-rule plot_all_methods:
-    input:
-        table=rules.tabulate_methods.output.csv,
-    output:
-        png=report(
-            "results/figures/all_methods.png",
-            caption="../report/all_methods.rst",
-            category=chapter("speed"),
-            labels={"result": "speed against accuracy, all methods", "kind": "figure"},
-        ),
-        pdf="results/figures/all_methods.pdf",
-    log:
-        "results/logs/plot_all_methods.log",
-    benchmark:
-        "results/benchmarks/plot_all_methods.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-    message:
-        "Figure of speed against accuracy, all methods"
-    script:
-        "../scripts/plot_all_methods.py"
-
-
-rule plot_growth:
-    input:
-        table=rules.tabulate_methods.output.csv,
-    output:
-        png=report(
-            "results/figures/growth.png",
-            caption="../report/growth.rst",
-            category=chapter("speed"),
-            labels={"result": "cost against number of elements", "kind": "figure"},
-        ),
-        pdf="results/figures/growth.pdf",
-    log:
-        "results/logs/plot_growth.log",
-    benchmark:
-        "results/benchmarks/plot_growth.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-    message:
-        "Figure of cost against the number of elements"
-    script:
-        "../scripts/plot_growth.py"
-
-
-rule plot_other_solvers:
-    input:
-        table=rules.time_other_solvers.output.csv,
-    output:
-        png=report(
-            "results/figures/other_solvers.png",
-            caption="../report/other_solvers.rst",
-            category=chapter("speed"),
-            labels={"result": "other solvers", "kind": "figure"},
-        ),
-        pdf="results/figures/other_solvers.pdf",
-    log:
-        "results/logs/plot_other_solvers.log",
-    benchmark:
-        "results/benchmarks/plot_other_solvers.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-    message:
-        "Figure of other solvers"
-    script:
-        "../scripts/plot_other_solvers.py"
-
-
-rule plot_level_placement:
-    input:
-        table=rules.compare_level_placement.output.csv,
-    output:
-        png=report(
-            "results/figures/level_placement.png",
-            caption="../report/level_placement.rst",
-            category=chapter("speed"),
-            labels={"result": "placement of levels", "kind": "figure"},
-        ),
-        pdf="results/figures/level_placement.pdf",
-    log:
-        "results/logs/plot_level_placement.log",
-    benchmark:
-        "results/benchmarks/plot_level_placement.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-    message:
-        "Figure of the placement of levels"
-    script:
-        "../scripts/plot_level_placement.py"

@@ -2,25 +2,10 @@
 
 # Figures on the page, each with the caption of the same name that it has in the report.
 PAGE_FIGURES = {
-    "fig1_surfaces": rules.plot_surfaces,
-    "fig2_kinetics": rules.plot_kinetics,
-    "fig3_master_curve": rules.plot_master_curve,
-    "fig4_exponent": rules.plot_exponent,
-    "speed": rules.plot_speed,
-    "failure_map": rules.plot_failure_map,
-    "level_placement": rules.plot_level_placement,
-    "conventions": rules.plot_conventions,
-    "prefactors": rules.plot_prefactors,
-    "interface": rules.plot_interface,
-    "direct": rules.plot_direct,
-    "reduction": rules.plot_reduction,
-    "mdr_lambda": rules.plot_mdr_lambda,
-    "validation": rules.plot_validation,
-    "media": rules.plot_media,
-    "media_exponents": rules.plot_media_exponents,
-    "sizes": rules.plot_sizes,
-    "collapse": rules.plot_collapse,
-} | ({"measured": rules.plot_measured} if MEASURED else {})
+    figure["file"]: figure["alternative"]
+    for figure in FIGURES.values()
+    if "alternative" in figure and (MEASURED or figure["target"] != "measured")
+}
 
 
 rule make_page:
@@ -39,7 +24,7 @@ rule make_page:
             rules.tabulate_literature.output.csv,
         ]
         + ([rules.evaluate_measured.output[name][0] for name in ("scans", "fits")] if MEASURED else []),
-        figures=[rule.output.png for rule in PAGE_FIGURES.values()],
+        figures=expand("results/figures/{file}.png", file=PAGE_FIGURES),
     output:
         page=report(
             "results/index.html",
@@ -54,13 +39,13 @@ rule make_page:
     localrule: True
     conda:
         "../envs/viscorough.yaml"
-    threads: 1
     resources:
         mem_mb=1000,
     params:
         page_digests(),
         claims=paper("claims"),
         numbers=paper("numbers"),
+        alternative=PAGE_FIGURES,
     message:
         "The page of the results"
     script:

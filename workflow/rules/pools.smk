@@ -13,7 +13,6 @@ rule pool_curves:
     localrule: True
     conda:
         "../envs/viscorough.yaml"
-    threads: 1
     resources:
         mem_mb=pool_memory,
     params:

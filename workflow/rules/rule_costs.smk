@@ -9,12 +9,6 @@ rule tabulate_rule_costs:
         rules.measured.input,
     output:
         csv="results/tables/rule_costs.csv",
-        html=report(
-            "results/tables/rule_costs.html",
-            caption="../report/rule_costs.rst",
-            category=chapter("costs"),
-            labels={"result": "time and memory of every rule", "kind": "table"},
-        ),
         nc="results/tables/rule_costs.nc",
     log:
         "results/logs/tabulate_rule_costs.log",
@@ -23,7 +17,6 @@ rule tabulate_rule_costs:
     localrule: True
     conda:
         "../envs/viscorough.yaml"
-    threads: 1
     resources:
         mem_mb=500,
     params:

@@ -7,12 +7,6 @@ rule fit_scaling:
         lines="results/ensembles/lines.nc",
     output:
         csv="results/tables/scaling.csv",
-        html=report(
-            "results/tables/scaling.html",
-            caption="../report/scaling.rst",
-            category=chapter("fits"),
-            labels={"result": "power laws in region (b)", "kind": "table"},
-        ),
         nc="results/tables/scaling.nc",
     log:
         "results/logs/fit_scaling.log",
@@ -21,7 +15,6 @@ rule fit_scaling:
     localrule: True
     conda:
         "../envs/viscorough.yaml"
-    threads: 1
     resources:
         mem_mb=4000,
     params:
@@ -39,12 +32,6 @@ rule tabulate_calibration:
         sizes="results/tables/sizes.csv",
     output:
         csv="results/tables/calibration.csv",
-        html=report(
-            "results/tables/calibration.html",
-            caption="../report/calibration.rst",
-            category=chapter("fits"),
-            labels={"result": "calibrated exponents and prefactors", "kind": "table"},
-        ),
         nc="results/tables/calibration.nc",
     log:
         "results/logs/tabulate_calibration.log",
@@ -53,7 +40,6 @@ rule tabulate_calibration:
     localrule: True
     conda:
         "../envs/viscorough.yaml"
-    threads: 1
     resources:
         mem_mb=1000,
     params:

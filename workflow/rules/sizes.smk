@@ -7,20 +7,8 @@ rule fit_sizes:
         lines="results/ensembles/size_lines.nc",
     output:
         csv="results/tables/sizes.csv",
-        html=report(
-            "results/tables/sizes.html",
-            caption="../report/sizes_table.rst",
-            category=chapter("beyond"),
-            labels={"result": "exponents on grids from coarse to fine", "kind": "table"},
-        ),
         nc="results/tables/sizes.nc",
         trends_csv="results/tables/sizes_trends.csv",
-        trends_html=report(
-            "results/tables/sizes_trends.html",
-            caption="../report/sizes_trends.rst",
-            category=chapter("beyond"),
-            labels={"result": "trends of exponents over the grid", "kind": "table"},
-        ),
         trends_nc="results/tables/sizes_trends.nc",
     log:
         "results/logs/fit_sizes.log",
@@ -29,7 +17,6 @@ rule fit_sizes:
     localrule: True
     conda:
         "../envs/viscorough.yaml"
-    threads: 1
     resources:
         mem_mb=1000,
     params:
@@ -44,64 +31,15 @@ rule fit_sizes:
         "../scripts/fit_sizes.py"
 
 
-rule plot_sizes:
-    input:
-        table=rules.fit_sizes.output.csv,
-    output:
-        png=report(
-            "results/figures/sizes.png",
-            caption="../report/sizes.rst",
-            category=chapter("beyond"),
-            labels={"result": "exponents on grids from coarse to fine", "kind": "figure"},
-        ),
-        pdf="results/figures/sizes.pdf",
-    log:
-        "results/logs/plot_sizes.log",
-    benchmark:
-        "results/benchmarks/plot_sizes.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-    params:
-        conventions=config["figures"],
-    message:
-        "Figure of exponents on grids from coarse to fine"
-    script:
-        "../scripts/plot_sizes.py"
-
-
 rule fit_collapse:
     input:
         discs="results/ensembles/size_discs.nc",
         lines="results/ensembles/size_lines.nc",
     output:
         collapse_csv="results/tables/collapse.csv",
-        collapse_html=report(
-            "results/tables/collapse.html",
-            caption="../report/collapse_table.rst",
-            category=chapter("beyond"),
-            labels={"result": "collapse of the curves of all grids", "kind": "table"},
-        ),
         collapse_nc="results/tables/collapse.nc",
         infinite_csv="results/tables/infinite_grid.csv",
-        infinite_html=report(
-            "results/tables/infinite_grid.html",
-            caption="../report/infinite_grid.rst",
-            category=chapter("beyond"),
-            labels={"result": "exponents of an infinitely fine grid", "kind": "table"},
-        ),
         infinite_nc="results/tables/infinite_grid.nc",
-        needed_csv="results/tables/needed_grids.csv",
-        needed_html=report(
-            "results/tables/needed_grids.html",
-            caption="../report/needed_grids.rst",
-            category=chapter("beyond"),
-            labels={"result": "grids needed for an exponent", "kind": "table"},
-        ),
-        needed_nc="results/tables/needed_grids.nc",
         curves_csv="results/tables/collapse_curves.csv",
         curves_nc="results/tables/collapse_curves.nc",
     log:
@@ -111,7 +49,6 @@ rule fit_collapse:
     localrule: True
     conda:
         "../envs/viscorough.yaml"
-    threads: 1
     resources:
         mem_mb=1000,
     params:
@@ -124,35 +61,6 @@ rule fit_collapse:
         "Collapse of the curves of all grids, and the exponent of an infinitely fine grid"
     script:
         "../scripts/fit_collapse.py"
-
-
-rule plot_collapse:
-    input:
-        curves=rules.fit_collapse.output.curves_csv,
-        collapse=rules.fit_collapse.output.collapse_csv,
-        infinite=rules.fit_collapse.output.infinite_csv,
-    output:
-        png=report(
-            "results/figures/collapse.png",
-            caption="../report/collapse.rst",
-            category=chapter("beyond"),
-            labels={"result": "collapse of the curves of all grids", "kind": "figure"},
-        ),
-        pdf="results/figures/collapse.pdf",
-    log:
-        "results/logs/plot_collapse.log",
-    benchmark:
-        "results/benchmarks/plot_collapse.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-    message:
-        "Figure of the collapse of the curves of all grids"
-    script:
-        "../scripts/plot_collapse.py"
 
 
 rule measure_large:
@@ -185,12 +93,6 @@ rule tabulate_large:
         costs=expand(rules.measure_large.output.csv, elements=config["large"]["elements"]),
     output:
         csv="results/tables/large.csv",
-        html=report(
-            "results/tables/large.html",
-            caption="../report/large_table.rst",
-            category=chapter("beyond"),
-            labels={"result": "cost of one disc", "kind": "table"},
-        ),
         nc="results/tables/large.nc",
     log:
         "results/logs/tabulate_large.log",
@@ -199,37 +101,9 @@ rule tabulate_large:
     localrule: True
     conda:
         "../envs/viscorough.yaml"
-    threads: 1
     resources:
         mem_mb=1000,
     message:
         "Table of the cost of one disc"
     script:
         "../scripts/tabulate_large.py"
-
-
-rule plot_large:
-    input:
-        table=rules.tabulate_large.output.csv,
-    output:
-        png=report(
-            "results/figures/large.png",
-            caption="../report/large.rst",
-            category=chapter("beyond"),
-            labels={"result": "cost of one disc", "kind": "figure"},
-        ),
-        pdf="results/figures/large.pdf",
-    log:
-        "results/logs/plot_large.log",
-    benchmark:
-        "results/benchmarks/plot_large.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-    message:
-        "Figure of the cost of one disc"
-    script:
-        "../scripts/plot_large.py"

@@ -1,15 +1,9 @@
-# Where each method fails: `all` makes the map on small indenters, `make stability` on larger ones, and the curves.
+# Where each method fails: `all` makes the map on small indenters, `make stability` on larger ones.
 
 
 rule map_failures:
     output:
         csv="results/tables/failure_map.csv",
-        html=report(
-            "results/tables/failure_map.html",
-            caption="../report/failure_map_table.rst",
-            category=chapter("failures"),
-            labels={"result": "every method in every stress-test case", "kind": "table"},
-        ),
         nc="results/tables/failure_map.nc",
     log:
         "results/logs/map_failures.log",
@@ -17,7 +11,6 @@ rule map_failures:
         "results/benchmarks/map_failures.tsv"
     conda:
         "../envs/viscorough.yaml"
-    threads: 1
     resources:
         mem_mb=4000,
     params:
@@ -29,78 +22,3 @@ rule map_failures:
         "Every method in every stress-test case"
     script:
         "../scripts/map_failures.py"
-
-
-rule measure_failure_curves:
-    output:
-        csv="results/tables/failure_curves.csv",
-        nc="results/tables/failure_curves.nc",
-    log:
-        "results/logs/measure_failure_curves.log",
-    benchmark:
-        "results/benchmarks/measure_failure_curves.tsv"
-    conda:
-        "../envs/viscorough.yaml"
-    threads: 1
-    resources:
-        mem_mb=2000,
-    params:
-        seed=config["seed"],
-    message:
-        "Errors against steps and contact"
-    script:
-        "../scripts/measure_failure_curves.py"
-
-
-rule plot_failure_map:
-    input:
-        table=rules.map_failures.output.csv,
-    output:
-        png=report(
-            "results/figures/failure_map.png",
-            caption="../report/failure_map.rst",
-            category=chapter("failures"),
-            labels={"result": "every method in every stress-test case", "kind": "figure"},
-        ),
-        pdf="results/figures/failure_map.pdf",
-    log:
-        "results/logs/plot_failure_map.log",
-    benchmark:
-        "results/benchmarks/plot_failure_map.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-    message:
-        "Figure of every method in every stress-test case"
-    script:
-        "../scripts/plot_failure_map.py"
-
-
-rule plot_failure_curves:
-    input:
-        table=rules.measure_failure_curves.output.csv,
-    output:
-        png=report(
-            "results/figures/failure_curves.png",
-            caption="../report/failure_curves.rst",
-            category=chapter("failures"),
-            labels={"result": "errors against steps and contact", "kind": "figure"},
-        ),
-        pdf="results/figures/failure_curves.pdf",
-    log:
-        "results/logs/plot_failure_curves.log",
-    benchmark:
-        "results/benchmarks/plot_failure_curves.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-    message:
-        "Figure of errors against steps and contact"
-    script:
-        "../scripts/plot_failure_curves.py"

@@ -4,12 +4,6 @@
 rule validate:
     output:
         csv="results/tables/validation.csv",
-        html=report(
-            "results/tables/validation.html",
-            caption="../report/validation_table.rst",
-            category=chapter("fits"),
-            labels={"result": "comparison with exact solutions", "kind": "table"},
-        ),
         nc="results/tables/validation.nc",
     log:
         "results/logs/validate.log",
@@ -17,7 +11,6 @@ rule validate:
         "results/benchmarks/validate.tsv"
     conda:
         "../envs/viscorough.yaml"
-    threads: 1
     resources:
         mem_mb=4000,
     params:
@@ -40,7 +33,6 @@ rule check_validation:
     localrule: True
     conda:
         "../envs/viscorough.yaml"
-    threads: 1
     resources:
         mem_mb=500,
     params:
@@ -49,30 +41,3 @@ rule check_validation:
         "Verdict on the comparison with exact solutions"
     script:
         "../scripts/check_validation.py"
-
-
-rule plot_validation:
-    input:
-        table=rules.validate.output.csv,
-    output:
-        png=report(
-            "results/figures/validation.png",
-            caption="../report/validation.rst",
-            category=chapter("choices"),
-            labels={"result": "comparison with exact solutions", "kind": "figure"},
-        ),
-        pdf="results/figures/validation.pdf",
-    log:
-        "results/logs/plot_validation.log",
-    benchmark:
-        "results/benchmarks/plot_validation.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-    message:
-        "Figure of the comparison with exact solutions"
-    script:
-        "../scripts/plot_validation.py"

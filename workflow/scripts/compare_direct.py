@@ -5,11 +5,11 @@ from viscorough_study.job_log import log_to
 from viscorough_study.tables import write_table
 
 
-def main(csv, html, nc, *, hursts, elements, impulses, seed):
+def main(csv, nc, *, hursts, elements, impulses, seed):
     """Integrate indenters of so many elements across, and tabulate."""
     title = "Direct integration and the readings of the law"
     write_table(
-        compare_direct(hursts, elements, impulses, seed), csv, nc, html, columns=COLUMNS, dimension="point", title=title
+        compare_direct(hursts, elements, impulses, seed), csv, nc, columns=COLUMNS, dimension="point", title=title
     )
 
 

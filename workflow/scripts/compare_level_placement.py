@@ -11,14 +11,14 @@ from viscorough_study.performance.level_placement import COLUMNS, compare, scene
 from viscorough_study.tables import recorded, write_table
 
 
-def main(csv, html, nc, *, seed, repeats, elements, hurst):
+def main(csv, nc, *, seed, repeats, elements, hurst):
     """Compare the choices for every scene."""
     with threadpool_limits(1):  # Snakemake gives the job all cores, so that nothing runs beside it
         table = pd.concat([compare(scene, repeats, logging.info) for scene in scenes(elements, hurst, seed)])
     settings = {"seed": seed, "repeats": repeats, "elements": elements, "hurst": hurst}
     about = recorded(settings=settings, machine=timing.machine())
     title = "Levels chosen for a scene"
-    write_table(table, csv, nc, html, columns=COLUMNS, dimension="choice", title=title, attributes=about)
+    write_table(table, csv, nc, columns=COLUMNS, dimension="choice", title=title, attributes=about)
 
 
 if job := globals().get("snakemake"):

@@ -7,10 +7,10 @@ from viscorough_study.prefactors import COLUMNS, prefactors
 from viscorough_study.tables import write_table
 
 
-def main(scaling, csv, html, nc, *, surfaces):
+def main(scaling, csv, nc, *, surfaces):
     """Tabulate the prefactors of the scaling table; surfaces : what each group of discs to be compared is like."""
     table = prefactors(pd.read_csv(scaling), surfaces)
-    write_table(table, csv, nc, html, columns=COLUMNS, dimension="fit", title="Prefactor under every convention")
+    write_table(table, csv, nc, columns=COLUMNS, dimension="fit", title="Prefactor under every convention")
 
 
 if job := globals().get("snakemake"):

@@ -8,13 +8,13 @@ from viscorough_study.mdr_comparison import COLUMNS, compare_reduction
 from viscorough_study.tables import write_table
 
 
-def main(csv, html, nc, *, hurst, elements, realizations, tolerance, seed, x_low, x_high, per_decade):
+def main(csv, nc, *, hurst, elements, realizations, tolerance, seed, x_low, x_high, per_decade):
     """Compare and tabulate; x_low, x_high, per_decade : of the abscissae X."""
     shown = partial(progress, total=realizations, description="surfaces")
     about = {"tolerance": tolerance, "seed": seed, "progress": shown}
     table = compare_reduction(hurst, elements, realizations, abscissa(x_low, x_high, per_decade), **about)
     title = "Reduction of dimensionality against boundary elements"
-    write_table(table, csv, nc, html, columns=COLUMNS, dimension="point", title=title)
+    write_table(table, csv, nc, columns=COLUMNS, dimension="point", title=title)
 
 
 if job := globals().get("snakemake"):

@@ -8,7 +8,7 @@ from viscorough_study.tables import recorded, write_table
 from viscorough_study.zeta_laws import COLUMNS, zeta_laws
 
 
-def main(discs, csv, html, nc, *, conventions, hurst_mins, fit, resamples, seed):
+def main(discs, csv, nc, *, conventions, hurst_mins, fit, resamples, seed):
     """Compare base discs with the laws.
 
     conventions : average and rms convention, as in the figures; hurst_mins : lowest Hurst exponents compared
@@ -20,7 +20,7 @@ def main(discs, csv, html, nc, *, conventions, hurst_mins, fit, resamples, seed)
     how = {"average": conventions["average"], "resamples": resamples, "seed": seed}
     table = zeta_laws(pooled, windows, hurst_mins, **how)
     about = {"title": "Laws of the prefactor", "attributes": recorded(settings={"conventions": conventions, **how})}
-    write_table(table, csv, nc, html, columns=COLUMNS, dimension="comparison", **about)
+    write_table(table, csv, nc, columns=COLUMNS, dimension="comparison", **about)
 
 
 if job := globals().get("snakemake"):

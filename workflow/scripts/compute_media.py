@@ -10,7 +10,7 @@ from viscorough_study.media_kinetics import COLUMNS, EXPONENT_COLUMNS, media_tab
 from viscorough_study.tables import recorded, write_table
 
 
-def main(curves, csv, html, nc, exponents_csv, exponents_html, exponents_nc, *, discs, until_x, cases, **how):
+def main(curves, csv, nc, exponents_csv, exponents_nc, *, discs, until_x, cases, **how):
     """Tabulate the kinetics.
 
     curves : files of batches, of which the curves of the ensembles `discs` are taken that were to reach X = until_x
@@ -28,9 +28,9 @@ def main(curves, csv, html, nc, exponents_csv, exponents_html, exponents_nc, *, 
             ensembles[hurst] = [*joined, read[i]], [*rms, heights[i]], diameter[i]
     table, exponents = media_tables(ensembles, named_media(cases), **how | {"times": abscissa(**how["times"])})
     of_table = {"columns": COLUMNS, "dimension": "point", "title": "Kinetics of the discs in other media"}
-    write_table(table, csv, nc, html, attributes=about, **of_table)
+    write_table(table, csv, nc, attributes=about, **of_table)
     of_table = {"columns": EXPONENT_COLUMNS, "dimension": "fit", "title": "Exponents of time in other media"}
-    write_table(exponents, exponents_csv, exponents_nc, exponents_html, attributes=about, **of_table)
+    write_table(exponents, exponents_csv, exponents_nc, attributes=about, **of_table)
 
 
 if job := globals().get("snakemake"):

@@ -14,7 +14,7 @@ from viscorough_study.tables import write_table
 
 
 def main(pool, curves, scans, fits, kinetics, *, media, times, fit, seed, **of_scans):
-    """Tabulate; outputs are lists of CSV, HTML and NetCDF.
+    """Tabulate; outputs are lists of CSV and NetCDF.
 
     curves : files of the scans; of_scans : names, and forces [N] of each scan
     media : mappings with a name and the keys of a medium; times : low, high [s], per_decade
@@ -23,12 +23,12 @@ def main(pool, curves, scans, fits, kinetics, *, media, times, fit, seed, **of_s
     asked = {"media": named_media(media), "times": abscissa(**times)}
     about, motions = scans_and_kinetics(map(netcdf.read, curves), **asked, **of_scans)
     fitted = group_fits(ensembles(read_dataset(pool), "group"), seed=seed, **fit)
-    for table, columns, (csv, html, nc), title in (
+    for table, columns, (csv, nc), title in (
         (about, SCANS, scans, "Measured surfaces"),
         (fitted, COLUMNS, fits, "Power laws of groups of measured surfaces in region (b)"),
         (motions, KINETICS, kinetics, "Kinetics of measured surfaces"),
     ):
-        write_table(table, csv, nc, html, columns=columns, dimension="row", title=title)
+        write_table(table, csv, nc, columns=columns, dimension="row", title=title)
 
 
 if job := globals().get("snakemake"):

@@ -1,4 +1,4 @@
-"""Collapse of the curves of all grids, exponents of an infinitely fine grid, and the grids that an exponent needs."""
+"""Collapse of the curves of all grids, and exponents of an infinitely fine grid."""
 
 from viscorough.io.datasets import read_dataset
 from viscorough_study import infinite_grid, scaling_collapse
@@ -9,7 +9,6 @@ from viscorough_study.tables import write_table
 COLUMNS = {
     "collapse": (scaling_collapse.COLUMNS, "Collapse of the curves of all grids"),
     "infinite": (infinite_grid.COLUMNS, "Exponents of an infinitely fine grid"),
-    "needed": (infinite_grid.NEEDED, "Grids needed for an exponent, extrapolated"),
     "curves": (scaling_collapse.CURVES, "Curves of discs on all grids"),
 }
 
@@ -18,13 +17,13 @@ def main(discs, lines, *, ranges, conventions, fraction_min, tolerance, seed, **
     """Make the tables of discs, of their control and of lines.
 
     discs, lines : pools; ranges : setting `collapse`; conventions : those of the figures; tolerance : of the exponents
-    paths : {<table>_<csv, html or nc>: path}
+    paths : {<table>_<csv or nc>: path}
     """
     how = {name: conventions[name] for name in ("average", "rms_convention")}
     how |= {"fraction_min": fraction_min, "seed": seed, "tolerance": tolerance}
     tables = collapse_tables(read_dataset(discs), read_dataset(lines), ranges, **how)
     for name, (columns, title) in COLUMNS.items():
-        files = [paths.get(f"{name}_{kind}") for kind in ("csv", "nc", "html")]
+        files = [paths[f"{name}_{kind}"] for kind in ("csv", "nc")]
         write_table(tables[name], *files, columns=columns, dimension="row", title=title)
 
 

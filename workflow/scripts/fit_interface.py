@@ -1,12 +1,12 @@
-"""Tables of the interface and the punch in series: plateau, law and slopes of every ensemble, and its curves."""
+"""Tables of the interface and the punch in series: plateau and law of every ensemble, and its curves."""
 
 from viscorough.io.datasets import read_dataset
-from viscorough_study.interface import COLUMNS, CURVES, SLOPES, ensembles_of, interface_tables
+from viscorough_study.interface import COLUMNS, CURVES, ensembles_of, interface_tables
 from viscorough_study.job_log import log_to
 from viscorough_study.tables import recorded, write_table
 
 
-def main(pools, csv, html, nc, slopes_csv, slopes_html, slopes_nc, curves_csv, curves_nc, *, fit, rms_convention):
+def main(pools, csv, nc, curves_csv, curves_nc, *, fit, rms_convention):
     """Take discs and lines apart into interface and punch, lines at the Hurst exponents of the discs.
 
     pools : discs, lines, and discs and lines on grids from coarse to fine
@@ -17,11 +17,9 @@ def main(pools, csv, html, nc, slopes_csv, slopes_html, slopes_nc, curves_csv, c
     cases = ensembles_of(discs, "discs", "base") + ensembles_of(size_discs, "discs", "sizes")
     hursts = {about["hurst"] for about, _, _ in cases}
     cases += ensembles_of(lines, "lines", "lines", hursts) + ensembles_of(size_lines, "lines", "sizes")
-    table, slopes, curves = interface_tables(cases, rms_convention, **fit)
+    table, curves = interface_tables(cases, rms_convention, **fit)
     about = {"dimension": "ensemble", "title": "Interface and punch in series", "attributes": recorded(settings=fit)}
-    write_table(table, csv, nc, html, columns=COLUMNS, **about)
-    about = {"dimension": "window", "title": "Slopes of vt/h and of the interface alone in equal windows"}
-    write_table(slopes, slopes_csv, slopes_nc, slopes_html, columns=SLOPES, **about)
+    write_table(table, csv, nc, columns=COLUMNS, **about)
     about = {"dimension": "abscissa", "title": "Curves of the interface alone"}
     write_table(curves, curves_csv, curves_nc, columns=CURVES, **about)
 

@@ -11,7 +11,7 @@ from viscorough_study.pool import ensembles, select
 from viscorough_study.tables import recorded, write_table
 
 
-def main(discs, lines, csv, html, nc, *, seed, fit):
+def main(discs, lines, csv, nc, *, seed, fit):
     """Fit discs, one ensemble for each group and Hurst exponent, and lines; lines of the same exponent give lambda.
 
     discs, lines : pools; fit : further arguments of fit_rows
@@ -28,7 +28,7 @@ def main(discs, lines, csv, html, nc, *, seed, fit):
         rows += fit_rows(ensemble, source="lines", case_group="base", seed=seed, **fit)
     table = pd.DataFrame(rows, columns=list(COLUMNS))
     about = {"title": "Power laws in region (b)", "attributes": recorded(settings={"seed": seed, **fit})}
-    write_table(table, csv, nc, html, columns=COLUMNS, dimension="fit", **about)
+    write_table(table, csv, nc, columns=COLUMNS, dimension="fit", **about)
 
 
 if job := globals().get("snakemake"):

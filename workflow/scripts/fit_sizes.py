@@ -11,9 +11,7 @@ from viscorough_study.pool import ensembles_on_grids, select
 from viscorough_study.tables import write_table
 
 
-def main(
-    discs, lines, csv, html, nc, trends_csv, trends_html, trends_nc, *, seed, fit, windows, conventions, tolerance
-):
+def main(discs, lines, csv, nc, trends_csv, trends_nc, *, seed, fit, windows, conventions, tolerance):
     """Fit every ensemble by itself, in the windows of region (b) and in those of fixed X.
 
     discs, lines : pools; fit : further arguments of fit_rows; windows : [(X_low, X_high)]
@@ -30,9 +28,9 @@ def main(
             rows += [row | {"elements": ensemble["elements"].item()} for row in fits]
     columns = COLUMNS | {"elements": ("elements of an indenter: of a disc, points of a line", "1")}
     table = pd.DataFrame(rows, columns=list(columns))
-    write_table(table, csv, nc, html, columns=columns, dimension="fit", title="Power laws on grids from coarse to fine")
+    write_table(table, csv, nc, columns=columns, dimension="fit", title="Power laws on grids from coarse to fine")
     about = {"columns": TRENDS, "dimension": "trend", "title": "Trends of exponents over the number of elements"}
-    write_table(trends(table, conventions, tolerance), trends_csv, trends_nc, trends_html, **about)
+    write_table(trends(table, conventions, tolerance), trends_csv, trends_nc, **about)
 
 
 if job := globals().get("snakemake"):

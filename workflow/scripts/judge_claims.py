@@ -12,7 +12,7 @@ from viscorough_study.tables import recorded, write_table
 from viscorough_study.verdicts import COLUMNS, judge, markdown
 
 
-def main(discs, tables, csv, html, nc, verdicts, *, claims, **settings):
+def main(discs, tables, csv, nc, verdicts, *, claims, **settings):
     """Judge the claims by the pool of discs and by tables {name: path}; settings : further fields of Evidence."""
     evidence = Evidence(
         discs=select(read_dataset(discs), group="base"),
@@ -23,7 +23,7 @@ def main(discs, tables, csv, html, nc, verdicts, *, claims, **settings):
     about = attributes_of_scale(evidence)
     title = "Verdicts on the paper's claims" + f" ({about['scale']})" * about["trial"]
     about |= recorded(settings={name: settings[name] for name in ("seed", "resamples", "conventions", "rules")})
-    write_table(table, csv, nc, html, columns=COLUMNS, dimension="case_of_claim", title=title, attributes=about)
+    write_table(table, csv, nc, columns=COLUMNS, dimension="case_of_claim", title=title, attributes=about)
     with atomic_write(verdicts) as temporary:
         temporary.write_text(markdown(table, claims), encoding="utf-8")
 

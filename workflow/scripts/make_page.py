@@ -7,18 +7,19 @@ from viscorough_study.job_log import log_to
 from viscorough_study.page.assembly import page
 
 
-def main(project, discs, lines, other_solvers, tables, figures, page_file, *, claims, numbers):
+def main(project, discs, lines, other_solvers, tables, figures, page_file, *, claims, numbers, alternative):
     """Write the page.
 
     project : folder of the project, which has template, style, captions, published numbers and verdicts
     other_solvers : [] or [path of their table]; tables, figures : paths, whose stems name them
+    alternative : {figure: text for those who cannot see it}
     """
     tables, figures = ({Path(path).stem: path for path in paths} for paths in (tables, figures))
-    captions = {name: project / f"workflow/report/{name}.rst" for name in figures}
+    captions = {name: project / f"workflow/report/figures/{name}.rst" for name in figures}
     names = ("page.html.jinja", "style.css", "calculator.html", "calculator.js")
     *texts, section, script = [(project / "workflow/page" / name).read_text("utf-8") for name in names]
     (others,) = other_solvers or [project / "resources/published/other_solvers.csv"]
-    more = {"calculator": (section, script), "claims": claims, "numbers": numbers}
+    more = {"calculator": (section, script), "claims": claims, "numbers": numbers, "alternative": alternative}
     more["published"] = project / "docs/claims.csv"
     html = page(*texts, discs, lines, others, tables, figures, captions, **more)
     with atomic_write(page_file) as temporary:

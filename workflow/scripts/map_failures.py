@@ -9,7 +9,7 @@ from viscorough_study.seeds import failure_map_key, realization_seed
 from viscorough_study.tables import recorded, write_table
 
 
-def main(csv, html, nc, *, seed, across, grids, hurst_min):
+def main(csv, nc, *, seed, across, grids, hurst_min):
     """Write the table, and a warning to the log for every failure that is unnoticed."""
     cases = stress_cases(realization_seed(seed, *failure_map_key()), across, grids, hurst_min)
     table = failure_map(cases, report=logging.info)
@@ -17,7 +17,7 @@ def main(csv, html, nc, *, seed, across, grids, hurst_min):
         logging.warning("%s: %s fails unnoticed, error %.2g", row.case, row.method, row.error)
     about = recorded(settings={"seed": seed, "across": across, "grids": grids})
     title = "Every method on every stress-test case"
-    write_table(table, csv, nc, html, columns=COLUMNS, dimension="cell", title=title, attributes=about)
+    write_table(table, csv, nc, columns=COLUMNS, dimension="cell", title=title, attributes=about)
 
 
 if job := globals().get("snakemake"):

@@ -27,7 +27,7 @@ def main(discs, lines, *, seed, fit, conventions, **paths):
     tables = compare_ensembles(*pair, average=conventions["average"], seed=seed, **fit)
     about = recorded(settings={"seed": seed, "conventions": conventions, **fit})
     for table, (name, columns, dimension, title) in zip(tables, TABLES, strict=True):
-        files = [paths[name + kind] for kind in ("csv", "nc", "html")]
+        files = [paths[name + kind] for kind in ("csv", "nc")]
         write_table(table, *files, columns=columns, dimension=dimension, title=title, attributes=about)
 
 

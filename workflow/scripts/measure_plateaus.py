@@ -13,7 +13,7 @@ from viscorough_study.seeds import plateau_key, realization_seed
 from viscorough_study.tables import recorded, write_table
 
 
-def main(discs, csv, html, nc, *, control, rms_convention, seed, **how):
+def main(discs, csv, nc, *, control, rms_convention, seed, **how):
     """Judge the ensembles of every Hurst exponent; control : group without a power law; how : of plateau_row."""
     pool = read_dataset(discs).sel(rms_convention=[rms_convention])
     groups = {name: ensembles(select(pool, group=name), "hurst") for name in ("base", control) if name}
@@ -27,7 +27,7 @@ def main(discs, csv, html, nc, *, control, rms_convention, seed, **how):
             rows.append({"case_group": group, **row})
     table = pd.DataFrame(rows, columns=list(COLUMNS))
     about = {"title": "Plateaus of the local slope", "attributes": recorded(settings={"seed": seed, **how})}
-    write_table(table, csv, nc, html, columns=COLUMNS, dimension="ensemble", **about)
+    write_table(table, csv, nc, columns=COLUMNS, dimension="ensemble", **about)
 
 
 if job := globals().get("snakemake"):

@@ -8,13 +8,13 @@ from viscorough_study.job_log import log_to
 from viscorough_study.tables import write_table
 
 
-def main(scaling, sizes, csv, html, nc, *, conventions, across):
+def main(scaling, sizes, csv, nc, *, conventions, across):
     """Take the rows in these conventions, {convention: value}, from the table scaling, and from sizes what it lacks.
 
     across : elements across the discs of scaling
     """
     table = calibrated(pd.read_csv(scaling), pd.read_csv(sizes), conventions, across)
-    write_table(table, csv, nc, html, columns=COLUMNS, dimension="fit", title="Calibrated exponents and prefactors")
+    write_table(table, csv, nc, columns=COLUMNS, dimension="fit", title="Calibrated exponents and prefactors")
 
 
 if job := globals().get("snakemake"):

@@ -7,10 +7,10 @@ from viscorough_study.performance.large_discs import COLUMNS
 from viscorough_study.tables import write_table
 
 
-def main(costs, csv, html, nc):
+def main(costs, csv, nc):
     """Gather the costs of every size."""
     table = pd.concat(map(pd.read_csv, costs)).sort_values("elements", ignore_index=True)
-    write_table(table, csv, nc, html, columns=COLUMNS, dimension="disc", title="Cost of one disc")
+    write_table(table, csv, nc, columns=COLUMNS, dimension="disc", title="Cost of one disc")
 
 
 if job := globals().get("snakemake"):

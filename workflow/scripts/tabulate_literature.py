@@ -7,11 +7,11 @@ from viscorough_study.literature import COLUMNS, literature
 from viscorough_study.tables import write_table
 
 
-def main(scaling, interface, reduction, csv, html, nc, *, entries, conventions):
+def main(scaling, interface, reduction, csv, nc, *, entries, conventions):
     """Put values of the tables, in these conventions, beside the entries."""
     tables = [pd.read_csv(path) for path in (scaling, interface, reduction)]
     table = literature(entries, *tables, conventions)
-    write_table(table, csv, nc, html, columns=COLUMNS, dimension="comparison", title="What others found")
+    write_table(table, csv, nc, columns=COLUMNS, dimension="comparison", title="What others found")
 
 
 if job := globals().get("snakemake"):

@@ -10,14 +10,14 @@ from viscorough_study.performance.measurement import COLUMNS
 from viscorough_study.tables import recorded, write_table
 
 
-def main(tables, csv, html, nc, equal_csv, equal_html, equal_nc, *, settings):
+def main(tables, csv, nc, equal_csv, equal_nc, *, settings):
     """Join the tables; settings : with which the methods were measured, to be recorded."""
     table = pd.concat(map(pd.read_csv, tables), ignore_index=True)
     about = recorded(settings=settings, machine=timing.machine())
     title = "Speed and accuracy of every method"
-    write_table(table, csv, nc, html, columns=COLUMNS, dimension="measurement", title=title, attributes=about)
+    write_table(table, csv, nc, columns=COLUMNS, dimension="measurement", title=title, attributes=about)
     about = {"title": "Lines and boundary elements at the same error", "attributes": about}
-    write_table(equal_error(table), equal_csv, equal_nc, equal_html, columns=EQUAL, dimension="indenter", **about)
+    write_table(equal_error(table), equal_csv, equal_nc, columns=EQUAL, dimension="indenter", **about)
 
 
 if job := globals().get("snakemake"):

@@ -8,12 +8,12 @@ from viscorough_study.rule_costs import COLUMNS, rule_costs, versions
 from viscorough_study.tables import recorded, write_table
 
 
-def main(csv, html, nc, *, benchmarks):
+def main(csv, nc, *, benchmarks):
     """Sum up the benchmark files of the jobs that were run so far; benchmarks : their folder."""
     made = {"date": date.today().isoformat()}
     about = recorded(machine=timing.machine(), versions=versions(), made=made)
     table, title = rule_costs(benchmarks), "Time and memory of every rule"
-    write_table(table, csv, nc, html, columns=COLUMNS, dimension="rule", title=title, attributes=about)
+    write_table(table, csv, nc, columns=COLUMNS, dimension="rule", title=title, attributes=about)
 
 
 if job := globals().get("snakemake"):

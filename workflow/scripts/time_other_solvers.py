@@ -15,7 +15,7 @@ from viscorough_study.seeds import realization_seed, solver_race_key
 from viscorough_study.tables import recorded, write_table
 
 
-def main(csv, html, nc, *, seed, hurst, pairs, longest, tasks, peers):
+def main(csv, nc, *, seed, hurst, pairs, longest, tasks, peers):
     """Compare on every task for every Hurst exponent; other solvers that are not installed are left out."""
     solvers = [OtherSolver(name, *map(Path, paths)) for name, paths in peers.items()]
     for solver in solvers:
@@ -32,7 +32,7 @@ def main(csv, html, nc, *, seed, hurst, pairs, longest, tasks, peers):
             common = {"pairs": pairs, "time_limit": longest, "report": logging.info}
             tables.append(compare_solvers(levels, installed, **common))
     about = {"title": "The same levels by other solvers", "attributes": recorded(machine=timing.machine())}
-    write_table(pd.concat(tables), csv, nc, html, columns=COLUMNS, dimension="measurement", **about)
+    write_table(pd.concat(tables), csv, nc, columns=COLUMNS, dimension="measurement", **about)
 
 
 if job := globals().get("snakemake"):

@@ -5,11 +5,11 @@ from viscorough_study.tables import write_table
 from viscorough_study.validate_solvers import COLUMNS, validation_table
 
 
-def main(csv, html, nc, *, elements, limits, order_margin):
+def main(csv, nc, *, elements, limits, order_margin):
     """Write the table whatever it says: check_validation judges it."""
     table = validation_table(elements, limits, order_margin)
     title = "Comparison with exact solutions"
-    write_table(table, csv, nc, html, columns=COLUMNS, dimension="comparison", title=title)
+    write_table(table, csv, nc, columns=COLUMNS, dimension="comparison", title=title)
 
 
 if job := globals().get("snakemake"):

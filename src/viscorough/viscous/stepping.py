@@ -19,8 +19,7 @@ from viscorough.errors import AccuracyWarning, ConvergenceError
 from viscorough.indenter import Indenter
 
 SCHEMES = ("explicit", "heun", "implicit")
-# Overlap over the depth from which on a warning is given: the error of the depth is about as large
-# (measured: `make stability`, results/tables/failure_curves.csv).
+# Overlap over the depth from which on a warning is given: the error of the depth is about as large.
 _WARN_OVERLAP = 0.01
 # Largest depth of explicit steps, over the largest number of the precision of their fields.
 _LARGEST_SHARE = 1e-8

@@ -11,7 +11,20 @@ from viscorough_study.tables import read_recorded
 
 
 def page(
-    template, style, discs, lines, other_solvers, tables, figures, captions, *, calculator, claims, numbers, published
+    template,
+    style,
+    discs,
+    lines,
+    other_solvers,
+    tables,
+    figures,
+    captions,
+    *,
+    calculator,
+    claims,
+    numbers,
+    published,
+    alternative,
 ):
     """HTML of the page.
 
@@ -21,6 +34,7 @@ def page(
     tables, figures, captions : {name: path}, of CSV, PNG and reStructuredText
     claims, numbers : what the paper says, the contents of resources/paper/claims.yaml and numbers.yaml
     published : path of the table of verdicts of the full scale
+    alternative : {figure: what it shows, for those who cannot see it}
     """
     results = read_results(tables)
     conventions = results.settings["claims"]["conventions"]
@@ -34,7 +48,7 @@ def page(
         captions,
         conventions,
         calculator=with_law(*calculator),
-        alternative=content.ALTERNATIVE_TEXTS,
+        alternative=alternative,
         readable=readable,
         scale=scale,
         answers=answers.answers(results),

@@ -10,40 +10,6 @@ from viscorough_study.medium_names import medium_label
 from viscorough_study.scale import is_trial
 from viscorough_study.verdicts import KINDS, case_in_words, cases_shown, deciding_case, overall, undecided_cases
 
-# {name of the figure: what it shows, for those who cannot see it}
-ALTERNATIVE_TEXTS = {
-    "fig1_surfaces": "Height maps of one disc for each Hurst exponent: rugged at small H, smooth at large.",
-    "fig2_kinetics": "Two double-logarithmic charts of penetration velocity over time: in SI units the curves of all "
-    "combinations lie apart; in dimensionless variables those of one Hurst exponent fall on one curve.",
-    "fig3_master_curve": "Double-logarithmic chart of the velocity of discs and lines against Equation 12, "
-    "and below it their ratio, which is not 1 for every Hurst exponent.",
-    "fig4_exponent": "Exponent beta over Hurst exponent H: a line of the reduction of dimensionality and symbols of "
-    "boundary elements follow H/(1 + H) at large H; the symbols lie above it at small H.",
-    "speed": "Double-logarithmic charts of the error of the velocity over wall time for every method, with the Pareto "
-    "front of the best ones.",
-    "failure_map": "Matrix of stress-test cases and methods: colour and number give the largest error, a letter "
-    "whether the user is told.",
-    "level_placement": "Wall time of levels placed automatically, by hand and naively, for five scenes.",
-    "conventions": "Exponent and prefactor under every convention that the paper leaves open.",
-    "prefactors": "Prefactor zeta over the laws of the paper, under every combination of conventions.",
-    "interface": "Compliance of the rough interface alone over force: it rises as a power, is flat where all Hurst "
-    "exponents meet, and falls to nothing at complete contact; the law over the curves; the value on the plateau.",
-    "direct": "Depth by direct integration in time over the elastic depth: 1, not the factor that Equation 8 predicts.",
-    "reduction": "Stiffness, contact, mean gap and force of lines over those of discs with the same spectrum, surface "
-    "by surface: stiffness and force are close to 1, contact is many times larger, and the gap smaller.",
-    "mdr_lambda": "Lambda over force, which is no constant; velocity of lines with the best lambda over that of discs; "
-    "differences of their exponents in equal windows.",
-    "media": "Double-logarithmic charts of velocity over time in several media, and of depth over creep compliance, "
-    "where the points of all media lie on one curve for each Hurst exponent.",
-    "sizes": "Exponent beta over the number of elements, of discs, of lines and of a control without a power law.",
-    "collapse": "Scaled curves of grids from coarse to fine, which fall on one another for each Hurst exponent, and "
-    "the exponents less H/(1 + H) that this allows.",
-    "media_exponents": "Exponent of the velocity in time, over time, in several media: it follows the paper's power "
-    "law where the creep compliance is a power of time.",
-    "measured": "Velocity of the measured surfaces over dimensionless force beside that of generated discs, and their "
-    "depth over time under the forces of the settings.",
-    "validation": "Errors against exact solutions over the number of elements across, falling as expected.",
-}
 VERDICT_SHORT = {
     "reproduced": "yes",
     "reproduced under a stated convention": "partly",

@@ -60,12 +60,12 @@ class StressedMethod:
     model: bool = False
 
 
-def reference_solution(case, number=DEPTHS):
-    """Solution of a case at a number of depths, in equal ratios between those of the case's contact fractions."""
+def reference_solution(case):
+    """Solution of a case at `DEPTHS` depths, in equal ratios between those of the case's contact fractions."""
     solver = ContactSolver(case.indenter, REFERENCE_TOLERANCE, DENSE_ONLY)
     first = _depth_of_fraction(solver, case.fractions[0], 0.0)
     last = _depth_of_fraction(solver, min(case.fractions[1], 1.0), first)
-    depths = np.geomspace(first, last, number) if last > first else first * np.arange(1.0, number + 1)
+    depths = np.geomspace(first, last, DEPTHS) if last > first else first * np.arange(1.0, DEPTHS + 1)
     depths *= BEYOND_FULL_CONTACT if case.fractions[1] > 1 else 1.0
     contact, force, count = solver.unloaded_state(), [], []
     for depth in depths:

@@ -15,14 +15,12 @@ from matplotlib.text import Text
 
 from support import figures as tables
 from support.study import BASE_SURFACES, ROOT, SHOWN
-from support.workflow import read_settings
+from support.workflow import FIGURES, RESULTS, read_settings
 from viscorough.surfaces import self_affine_disc
-from viscorough_study.figures.all_methods import plot_all_methods
 from viscorough_study.figures.collapse import plot_collapse
 from viscorough_study.figures.conventions import plot_conventions
 from viscorough_study.figures.direct_integration import plot_direct_integration
 from viscorough_study.figures.exponent import plot_exponent
-from viscorough_study.figures.failure_curves import plot_failure_curves
 from viscorough_study.figures.failure_map import LETTERS, plot_failure_map
 from viscorough_study.figures.growth import plot_growth
 from viscorough_study.figures.interface import plot_interface
@@ -79,12 +77,10 @@ def drawn(discs, pooled, lines, scaling, combinations):
         "collapse": Drawn(plot_collapse(tables.curves_of_sizes(), *tables.collapse_tables())),
         "large": Drawn(plot_large(tables.large_table())),
         "speed": Drawn(plot_speed(tables.methods_table())),
-        "all_methods": Drawn(plot_all_methods(tables.methods_table()), {"indenter": 2}),
         "growth": Drawn(plot_growth(tables.methods_table())),
         "other_solvers": Drawn(plot_other_solvers(tables.other_solvers_table())),
         "level_placement": Drawn(plot_level_placement(tables.level_placement_table())),
         "failure_map": Drawn(plot_failure_map(tables.failure_table(LETTERS))),
-        "failure_curves": Drawn(plot_failure_curves(tables.failure_curves_table())),
     }
 
 
@@ -160,26 +156,15 @@ def faults(caption, drawn):
 # ---- the captions of the report
 
 
-def captions_of_figures():
-    """{figure: caption} of everything in results/figures that a rule gives to the report."""
-    rules = "".join(path.read_text(encoding="utf-8") for path in sorted((ROOT / "workflow/rules").glob("*.smk")))
-    captions = dict(re.findall(r'"results/figures/(\w+)\.png",\s*caption="\.\./report/(\w+)\.rst"', rules))
-    assert set(re.findall(r"results/figures/(\w+)\.png", rules)) == set(captions)
-    return captions
-
-
-CAPTIONS = captions_of_figures()
-
-
 def read(name):
-    return (REPORT / f"{name}.rst").read_text(encoding="utf-8")
+    return (REPORT / f"figures/{name}.rst").read_text(encoding="utf-8")
 
 
 def test_every_figure_of_the_report_is_drawn_here(drawn):
-    assert sorted(CAPTIONS.values()) == sorted(drawn)
+    assert sorted(FIGURES) == sorted(drawn)
 
 
-@pytest.mark.parametrize("name", CAPTIONS.values())
+@pytest.mark.parametrize("name", FIGURES)
 def test_caption_describes_its_figure(drawn, name):
     assert faults(read(name), drawn[name]) == []
 
@@ -188,16 +173,14 @@ def test_panels_are_as_many_as_what_they_are_for(drawn):
     for name, rows in {"fig1_surfaces": 1, "conventions": 2, "validation": 1}.items():
         (number,) = drawn[name].repeated.values()
         assert len(panels(drawn[name].figure)) == rows * number
-    rough = 1  # of the two indenters, which has another panel for region (b)
-    assert len(panels(drawn["all_methods"].figure)) == drawn["all_methods"].repeated["indenter"] + rough
     assert len(panels(drawn["direct"].figure)) == drawn["direct"].repeated["indenter"]
 
 
 @pytest.mark.parametrize(
     ("name", "change", "fault"),
     [
-        ("failure_curves", ("Errors below", "(c) Exponents. Errors below"), "there is no panel (c)"),
-        ("failure_curves", ("(b)", ""), "panel (b) is not described"),
+        ("speed", ("(b)", "(b) and (c)"), "there is no panel (c)"),
+        ("speed", ("(b)", ""), "panel (b) is not described"),
         ("fig2_kinetics", ("Right:", "Below:"), "panel right is not described"),
         ("fig2_kinetics", ("time t", "t"), "axis time t is not described"),
         ("fig3_master_curve", ("right side", "left side"), "axis right side"),
@@ -248,23 +231,29 @@ def test_letters_of_verdicts_are_explained():
 
 def test_captions_take_no_counts_from_the_settings():
     """Settings may have changed since the figure was drawn; the params of its rule redraw it when they change."""
-    for path in REPORT.glob("*.rst"):
+    for path in REPORT.rglob("*.rst"):
         assert "snakemake.config" not in path.read_text(encoding="utf-8"), path
 
 
-def rule_of(caption):
-    """Text of the rule that gives a caption to the report; empty for the text of the report itself."""
-    rules = [rule for path in ROOT.glob("workflow/rules/*.smk") for rule in path.read_text().split("\nrule ")]
-    return next((rule for rule in rules if f"../report/{caption}.rst" in rule), "")
-
-
-@pytest.mark.parametrize("path", sorted(REPORT.glob("*.rst")), ids=lambda path: path.stem)
-def test_texts_of_the_report_are_used_and_can_be_filled_in(path):
-    """From the settings, and from those params that the rule of the caption really has."""
-    rule = rule_of(path.stem)
-    assert rule or f'report: "workflow/report/{path.name}"' in (ROOT / "Snakefile").read_text(encoding="utf-8")
+def test_texts_of_the_report_can_be_filled_in():
+    """From those params that the rule of the caption really has: that of a figure; all others have none."""
     settings = read_settings("config")
-    params = dict.fromkeys(re.findall(r'(\w+)=config\["figures"\]', rule), settings["figures"])
-    params |= {name: [0.0, 0.4] for name in re.findall(r"(\w+)=\[", rule)}
-    template = jinja2.Environment(undefined=jinja2.StrictUndefined).from_string(path.read_text(encoding="utf-8"))
-    assert "{" not in template.render(snakemake={"config": settings, "params": params})
+    for path in REPORT.rglob("*.rst"):
+        params = FIGURES[path.stem].get("params", []) if path.parent.name == "figures" else []
+        template = jinja2.Environment(undefined=jinja2.StrictUndefined).from_string(path.read_text(encoding="utf-8"))
+        assert "{" not in template.render(snakemake={"params": dict.fromkeys(params, settings["figures"])}), path
+
+
+def test_every_caption_is_that_of_a_result():
+    assert {path.stem for path in REPORT.glob("tables/*.rst")} == set(RESULTS["tables"])
+    assert {path.stem for path in REPORT.glob("figures/*.rst")} == set(FIGURES)
+    assert {path.stem for path in REPORT.glob("*.rst")} == {"page", "workflow"}
+
+
+def test_figures_of_the_page_are_described_for_those_who_cannot_see_them():
+    assert all(len(figure["alternative"]) > 40 for figure in FIGURES.values() if "alternative" in figure)
+    assert {name for name, figure in FIGURES.items() if "alternative" not in figure} == {
+        "growth",
+        "other_solvers",
+        "large",
+    }

@@ -1,6 +1,5 @@
 """Figures of where methods fail."""
 
-import warnings
 from itertools import combinations, pairwise
 
 import pandas as pd
@@ -8,12 +7,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.transforms import Bbox
 
-from support.figures import coordinates, failure_curves_table, failure_table, whole_on_page
-from viscorough.contact.loading_path import indent
-from viscorough.errors import AccuracyWarning
-from viscorough.surfaces import self_affine_disc
-from viscorough.viscous.stepping import march_steps
-from viscorough_study.figures.failure_curves import FLOOR, WARNED, plot_failure_curves
+from support.figures import failure_table, whole_on_page
 from viscorough_study.figures.failure_map import KINDS, LETTERS, MEANINGS, plot_failure_map
 from viscorough_study.robustness.failure_map import VERDICTS
 
@@ -81,27 +75,3 @@ def test_cells_are_blank_where_a_difficulty_cannot_matter():
 def test_every_verdict_has_a_letter_and_a_meaning():
     assert set(LETTERS) == set(MEANINGS) == set(VERDICTS)
     assert len(set(LETTERS.values())) == len(LETTERS)
-
-
-def test_curves_are_drawn_down_to_the_floor():
-    table = failure_curves_table()
-    steps, contact = plot_failure_curves(table).axes
-    assert len(contact.lines) == 9
-    assert min(line[:, 1].min() for line in coordinates(contact)) == FLOOR
-    assert any((line[:, 1] == WARNED).all() for line in coordinates(steps))
-    with pytest.raises(ValueError, match="plot_failure_curves: the table has no rows"):
-        plot_failure_curves(table[:0])
-
-
-def test_the_dotted_line_is_where_explicit_marching_begins_to_warn():
-    disc = self_affine_disc(0.7, 17, seed=1)
-    force = indent(disc, depths=[1.0]).force
-    seen = set()
-    for overlap in (0.5 * WARNED, 0.9 * WARNED, 1.5 * WARNED, 3 * WARNED):
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always")
-            steps = march_steps(disc, force, overlap=overlap)
-        warned = any(issubclass(warning.category, AccuracyWarning) for warning in caught)
-        assert warned == (steps.overlap.max() > WARNED)
-        seen.add(warned)
-    assert seen == {True, False}

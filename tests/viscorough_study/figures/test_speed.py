@@ -1,11 +1,10 @@
-"""Figures of speed against accuracy: the main methods, and all of them."""
+"""Figure of speed against accuracy of the main methods."""
 
 import numpy as np
 import pandas as pd
 import pytest
 
 from support.figures import coordinates, legend_texts, methods_table, whole_on_page
-from viscorough_study.figures.all_methods import plot_all_methods
 from viscorough_study.figures.speed import FLOOR, RING, plot_speed
 from viscorough_study.performance.costs import pareto_front
 
@@ -38,33 +37,13 @@ def test_headline_compares_the_fastest_of_each_kind_that_reach_an_error_of_one_p
     np.testing.assert_allclose(rings, [[0.01, 1e-2], [0.4, 5e-3]])
 
 
-def test_all_methods_and_the_front_are_shown_on_one_grid_of_each_indenter():
+def test_front_is_that_of_all_methods_and_errors_of_zero_stand_on_the_floor():
     data = methods_table()
-    figure = plot_all_methods(data)
-    titles = [axes.get_title() for axes in figure.axes]
-    assert titles == [
-        "sphere, 257 elements across",
-        "rough disc, $H=0.4$, 257 elements across",
-        "rough disc, $H=0.4$, region (b) alone",
-    ]
     rough = data[(data["elements"] == 257) & (data["problem"] != "sphere")]
-    lines = coordinates(figure.axes[1])
-    np.testing.assert_allclose(lines[1], [[0.01, 1e-2], [0.02, FLOOR]])  # an error of zero stands on the floor
+    lines = coordinates(plot_speed(data).axes[0])
     front = pareto_front(rough.assign(error=np.maximum(rough["error"], FLOOR)))
-    np.testing.assert_allclose(lines[-1], front[["wall_s", "error"]])
-    np.testing.assert_allclose(coordinates(figure.axes[2])[1][0], [0.01, 5e-3])
-    texts = legend_texts(figure.legends[0])
-    assert "other solvers: not measured" in texts
-    assert "   MDR" in texts
-    assert whole_on_page(figure)
-
-
-def test_other_solvers_are_hollow_among_all_methods():
-    figure = plot_all_methods(with_peer(methods_table(), 7))
-    texts = legend_texts(figure.legends[0])
-    assert "   ASPHER" in texts
-    assert "other solvers: not measured" not in texts
-    assert any(line.get_markerfacecolor() == "none" and line.get_linestyle() == "--" for line in figure.axes[1].lines)
+    np.testing.assert_allclose(lines[0], front[["wall_s", "error"]])
+    assert any(line[:, 1].min() == FLOOR for line in lines[1:])
 
 
 @pytest.mark.parametrize("problem", ["sphere", "cone"])
@@ -75,7 +54,6 @@ def test_one_problem_is_enough(problem):
     assert axes.get_title() == f"(a) {problem}, 257 elements across"
 
 
-@pytest.mark.parametrize("plot", [plot_speed, plot_all_methods])
-def test_empty_table_is_refused(plot):
-    with pytest.raises(ValueError, match=f"{plot.__name__}: the table has no rows"):
-        plot(methods_table().iloc[:0])
+def test_empty_table_is_refused():
+    with pytest.raises(ValueError, match="plot_speed: the table has no rows"):
+        plot_speed(methods_table().iloc[:0])

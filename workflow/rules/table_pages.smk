@@ -1,0 +1,35 @@
+# Tables as pages of HTML, for the report: those that one target makes in one job.
+
+for target in dict.fromkeys(table["target"] for table in TABLES.values()):
+
+    rule:
+        name:
+            f"show_tables_of_{target}"
+        input:
+            csv=expand("results/tables/{table}.csv", table=tables_of(target)),
+            nc=expand("results/tables/{table}.nc", table=tables_of(target)),
+        output:
+            html=[
+                report(
+                    f"results/tables/{name}.html",
+                    caption=f"../report/tables/{name}.rst",
+                    category=chapter(table["chapter"]),
+                    labels={"result": table["label"], "kind": "table"},
+                )
+                for name, table in tables_of(target).items()
+            ],
+        log:
+            f"results/logs/show_tables_of_{target}.log",
+        benchmark:
+            f"results/benchmarks/show_tables_of_{target}.tsv"
+        localrule: True
+        conda:
+            "../envs/viscorough.yaml"
+        resources:
+            mem_mb=1000,
+        params:
+            page_digests(),
+        message:
+            f"Pages of the tables of {target}"
+        script:
+            "../scripts/show_tables.py"

@@ -1,0 +1,30 @@
+"""A figure of workflow/results.yaml."""
+
+from importlib import import_module
+
+import pandas as pd
+
+from viscorough_study.figures.style import save_figure
+from viscorough_study.job_log import log_to
+
+
+def main(files, png, pdf, *, functions, **params):
+    """Draw a figure from files.
+
+    files : {argument of the function that draws: path}; params : its further arguments
+    functions : names, with their modules, of the function that draws ("draw") and, under the arguments, of those that
+        take files and return what it draws; other arguments are tables
+    """
+    given = {name: named(functions[name])(files) if name in functions else pd.read_csv(files[name]) for name in files}
+    save_figure(named(functions["draw"])(**given, **params), png, pdf)
+
+
+def named(function):
+    """A function by its name and that of its module."""
+    module, _, name = function.rpartition(".")
+    return getattr(import_module(module), name)
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(dict(job.input), **job.output, **job.params)

@@ -43,12 +43,14 @@ def plot_speed(table):
     panels = figure.subplots(1, len(problems), squeeze=False)[0]
     labels = []
     for axes, problem, letter in zip(panels, problems, "ab", strict=False):
-        title, rows = finest_grid(table, problem)
-        costs = on_floor(rows, "error")
-        draw_front(axes, costs)
+        title, rows = _finest_grid(table, problem)
+        costs = rows.assign(error=np.maximum(rows["error"], FLOOR))
+        axes.plot("wall_s", "error", data=pareto_front(costs), **PARETO, zorder=1)
         labels.append(_draw_methods(axes, costs, looks))
         _draw_headline(axes, costs)
-        set_axes(axes, f"({letter}) {title}")
+        axes.set(title=f"({letter}) {title}", xlabel="wall time (s)", xscale="log", yscale="log")
+        axes.set_ylabel("relative error of $v$, root mean square")
+        style.logarithmic_ticks(axes)
         axes.margins(x=0.08, y=0.1)
     figure.legend(handles=[style.handle(**PARETO), style.handle(**RING)], loc="outside lower center", ncols=2)
     for axes, texts in zip(panels, labels, strict=True):
@@ -56,30 +58,13 @@ def plot_speed(table):
     return figure
 
 
-def finest_grid(table, problem):
+def _finest_grid(table, problem):
     """Title and rows of a problem on its finest grid of at most `ELEMENTS_ACROSS`, otherwise on its coarsest."""
     rows = table[table["problem"] == problem]
     sizes = rows["elements"].unique()
     size = max(sizes[sizes <= ELEMENTS_ACROSS], default=sizes.min())
     name = re.sub(r"H = ([\d.]+)", r"$H=\1$", problem)
     return f"{name}, {size} elements across", rows[rows["elements"] == size]
-
-
-def on_floor(rows, column):
-    """Rows whose error is that of a column, at least `FLOOR`."""
-    return rows.assign(error=np.maximum(rows[column], FLOOR))
-
-
-def draw_front(axes, costs):
-    """Pareto front of all rows, as a staircase."""
-    axes.plot("wall_s", "error", data=pareto_front(costs), **PARETO, zorder=1)
-
-
-def set_axes(axes, title):
-    """Title, labels and scales of a panel of time and error."""
-    axes.set(title=title, xlabel="wall time (s)", ylabel="relative error of $v$, root mean square")
-    axes.set(xscale="log", yscale="log")
-    style.logarithmic_ticks(axes)
 
 
 def _draw_methods(axes, costs, looks):

@@ -127,8 +127,8 @@ def _events(case, solution):
     return _exact_events(case, solution).depth_at(solution.force) / solution.depth
 
 
-def explicit_steps(case, solution):
-    """Steps of explicit marching for a case: as many as it says, in time, or for a constant force in equal ratios."""
+def _steps(case, solution):
+    """Depths by explicit steps: as many as the case says, in time, or for a constant force in equal ratios."""
     ends = []
     if case.steps > 1 and min(case.force) == max(case.force):
         ends = np.geomspace(solution.force[0] / case.steps, solution.force[-1], case.steps)
@@ -137,16 +137,8 @@ def explicit_steps(case, solution):
         times = np.linspace(0, samples[-1], case.steps)
         impulse = impulses(np.interp(times, samples, case.force), times).impulse
         ends = solution.force[-1] * np.unique(impulse[impulse > 0]) / impulse[-1]
-    return march_steps(case.indenter, np.union1d(ends, solution.force), scheme="explicit")
-
-
-def depth_ratios(steps, solution):
-    """Depths of explicit steps over those of the reference solution."""
+    steps = march_steps(case.indenter, np.union1d(ends, solution.force), scheme="explicit")
     return steps.depth[np.searchsorted(steps.impulse, solution.force)] / solution.depth
-
-
-def _steps(case, solution):
-    return depth_ratios(explicit_steps(case, solution), solution)
 
 
 def _reduction(case, solution):

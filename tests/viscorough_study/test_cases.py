@@ -60,6 +60,12 @@ def test_a_batch_has_the_same_realizations_of_all_combinations(settings):
     assert {(*one["numbers"], one["elements"]) for one in batch} == {(2, 6, 257)}
 
 
+def test_surfaces_that_are_compared_differ_only_in_what_the_paper_leaves_open(settings):
+    assert list(cases.surface_conventions(settings)) == ["base"]  # without the control
+    surfaces = cases.surface_conventions(merged(settings, read_settings("paper")))
+    assert len({tuple(surface.values()) for surface in surfaces.values()}) == len(surfaces) == 8
+
+
 @pytest.mark.parametrize("name", ["config", "paper"])
 def test_memory_of_every_job_is_below_two_gigabytes(settings, name):
     settings = merged(settings, read_settings(name))

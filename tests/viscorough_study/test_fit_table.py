@@ -46,6 +46,14 @@ def test_a_row_for_every_fit(discs, lines):
     assert row["lambda"] == pytest.approx(np.pi * (1.3 * 1.2 / zeta) ** (2 / 0.6), rel=1e-9)
 
 
+def test_lines_that_do_not_reach_give_no_lambda(discs, lines):
+    short = lines.copy(deep=True)
+    short["velocity"][0, 0, X > 3e-7] = np.nan
+    assert all(np.isnan(row["lambda"]) and np.isfinite(row["beta"]) for row in rows_of(discs, lines=short))
+    with pytest.raises(ValueError, match="same abscissae"):
+        rows_of(discs, lines=ensemble_of(X[1:], three_regions(X[1:])))
+
+
 def test_without_a_region_rows_have_no_numbers():
     rows = rows_of(ensemble_of(X, np.ones((4, X.size))))
     assert len(rows) == 8

@@ -6,12 +6,13 @@ import pytest
 from viscorough.contact.loading_path import indent
 from viscorough.loading_curve import LoadingCurve
 from viscorough.surfaces import self_affine_disc
-from viscorough.viscous.media import KelvinVoigt, Maxwell, Newtonian, Springpot, StandardLinearSolid
+from viscorough.viscous.media import KelvinVoigt, Maxwell, Springpot, StandardLinearSolid
 from viscorough_study.ensembles import abscissa
-from viscorough_study.media_kinetics import COLUMNS, EXPONENT_COLUMNS, media_tables
+from viscorough_study.media_kinetics import COLUMNS, EXPONENT_COLUMNS, media_tables, named_media
 
 FIT = {"stiffness_range": [0.03, 0.3], "resamples": 20, "seed": 1}
-MEDIA = {"newtonian": Newtonian(1e6), "maxwell": Maxwell(2.5e6, 1e6)}
+FLUID = {"name": "newtonian", "kind": "newtonian", "viscosity": 1e6}
+MEDIA = named_media([FLUID]) | {"maxwell": Maxwell(2.5e6, 1e6)}
 
 
 @pytest.fixture(scope="module")

@@ -39,7 +39,7 @@ def test_missing_file():
 def test_pipe_is_not_waited_for(tmp_path):
     os.mkfifo(tmp_path / "pipe.yaml")
     command = [sys.executable, "-m", "viscorough_study.settings_files", "pipe.yaml"]
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=3000, check=False)
     assert done.returncode == 2
     assert done.stderr == ("Error in the settings: pipe.yaml: not readable (it is a pipe); a regular file is needed\n")
 

@@ -74,7 +74,7 @@ def test_a_machine_of_half_the_speed_takes_twice_as_long():
 def run(folder, script, stderr=subprocess.PIPE):
     """Run a Python script, in place of Snakemake, with its progress."""
     command = [sys.executable, "-m", "viscorough_study.terminal", "--", sys.executable, "-c", script]
-    options = {"cwd": folder, "env": environment(folder), "stdout": subprocess.PIPE, "text": True, "timeout": 60}
+    options = {"cwd": folder, "env": environment(folder), "stdout": subprocess.PIPE, "text": True, "timeout": 3000}
     return subprocess.run(command, stderr=stderr, **options)
 
 

@@ -73,7 +73,7 @@ def shown(tmp_path, **entered):
     (tmp_path / "page.html").write_text(html, encoding="utf-8")
     options = ("--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tmp_path}", "--enable-logging=stderr")
     command = [BROWSER, *options, "--dump-dom", (tmp_path / "page.html").as_uri()]
-    opened = subprocess.run(command, capture_output=True, text=True, timeout=60, check=True)
+    opened = subprocess.run(command, capture_output=True, text=True, timeout=3000, check=True)
     assert "CONSOLE" not in opened.stderr
     return re.search(r"<output [^>]*>(.*?)</output>", opened.stdout)[1]
 

@@ -131,6 +131,12 @@ def test_a_residual_out_of_reach_is_not_met(disc, exact, stand_in):
     assert table["tolerance"][1] == pytest.approx(min(solver_comparison.TOLERANCE_RATIOS) * 1e-4)
 
 
+def test_a_task_is_at_the_contact_fractions_asked_for():
+    task = solver_comparison.disc_task("few", 0.7, 33, [0.05, 0.3], 1e-4, seed=2, threads=[1, 2])
+    curve = indent(task.indenter, tolerance=1e-6, depths=task.depths)
+    np.testing.assert_allclose(curve.contact_fraction, [0.05, 0.3], rtol=0.1)
+
+
 def test_another_solver_as_a_method_has_the_stiffness_by_differences(tmp_path):
     """An adapter for which force is 3 depth²: the velocity is depth/2."""
     adapter = tmp_path / "square.py"

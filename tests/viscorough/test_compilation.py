@@ -6,11 +6,10 @@ import subprocess
 import sys
 
 import numba
-import numpy as np
 import pytest
 from numba.core import caching, event
 
-from viscorough.compilation import njit, vectorize
+from viscorough.compilation import njit
 from viscorough.interrupts import uninterrupted
 
 
@@ -39,11 +38,6 @@ def test_function_without_a_source_file_is_compiled_without_a_cache(environment)
     """numba itself refuses to compile such a function with a cache."""
     script = "from viscorough.compilation import njit; assert njit(fastmath=True)(lambda x: x + 1)(1.0) == 2"
     assert run(script, **environment).stderr == ""
-
-
-def test_vectorized_function_without_a_source_file_broadcasts():
-    add = vectorize("float64(float64, float64)")(eval("lambda x, y: x + y"))
-    np.testing.assert_array_equal(add(np.arange(3.0)[:, None], np.arange(2.0)), [[0, 1], [1, 2], [2, 3]])
 
 
 SPHERE = """

@@ -12,6 +12,7 @@ from scipy.linalg.lapack import dposv
 
 from viscorough.compilation import njit
 from viscorough.contact.growing_cholesky import append_element, solve_flat_punch
+from viscorough.contact.options import LATE
 from viscorough.contact.state import ContactState, MemberLoads
 from viscorough.errors import ConvergenceError
 from viscorough.interrupts import uninterrupted
@@ -19,9 +20,6 @@ from viscorough.interrupts import uninterrupted
 # Rounding error allowed for in a gap over the depth, in a pressure over the largest one, and in the depth of an event.
 ROUNDING = 1e-12
 _MAX_ITERATIONS = 100
-# The first set is without elements that touch in this last part of a step from the unloaded state, and less of smaller
-# steps: the load of those that touch before bends the surface away from them.
-LATE = 0.5
 # A depth beyond all measure, finite because compiled loops may assume that numbers are.
 _NEVER = 1e300
 

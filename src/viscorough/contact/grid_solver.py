@@ -13,8 +13,8 @@ from dataclasses import replace
 import numpy as np
 
 from viscorough.contact.contact_search import ContactSearch
-from viscorough.contact.dense import LATE
 from viscorough.contact.grid_loops import GridLoops, field_to_fill
+from viscorough.contact.options import LATE
 from viscorough.contact.state import BoundedField, ContactState, GridFields
 from viscorough.contact.tangent_start import Loads, initial_tangent
 

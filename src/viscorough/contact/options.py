@@ -5,6 +5,9 @@ from dataclasses import dataclass
 PRECISIONS = ("single", "double")
 PRECONDITIONERS = ("multilevel", "sparse", "none")
 WARM_STARTS = ("tangent", "pressure")
+# The first set is without elements that touch in this last part of a step from the unloaded state, and less of smaller
+# steps: the load of those that touch before bends the surface away from them.
+LATE = 0.5
 
 
 @dataclass(frozen=True)

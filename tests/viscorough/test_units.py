@@ -13,7 +13,6 @@ LENGTHS = {
     **dict.fromkeys(["um", "µm", "μm", "micron", "micrometer", "1e-6 m", "(1e-6 m)", " um\n"], ("um", 1e-6)),
     **dict.fromkeys(["nm", "nanometre", "10 angstrom"], ("nm", 1e-9)),
     **dict.fromkeys(["Å", "Angstrom"], ("1e-10 m", 1e-10)),
-    "inch": ("0.0254 m", 0.0254),
 }
 
 
@@ -41,11 +40,9 @@ def test_what_is_no_unit_of_length_is_refused_at_once(text):
     ("text", "unit", "number"),
     [
         ("5 mN", "N", 5e-3),
-        ("1e6 Pa s", "Pa s", 1e6),
         ("4 N s/(1e-6 m)2", "Pa s", 4e12),
         ("2 GPa", "N um-2", 2e-3),
         ("7", "N", 7.0),
-        ("2 um", "nm", 2e3),
     ],
 )
 def test_quantities_are_converted(text, unit, number):

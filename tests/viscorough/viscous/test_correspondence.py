@@ -214,7 +214,6 @@ def test_newtonian_is_what_a_viscosity_is(curve):
     ("arguments", "message"),
     [
         ({"medium": 0.0}, "viscosity: 0.0; allowed: a finite number above 0"),
-        ({"medium": "maxwell"}, "viscosity: maxwell; allowed"),
         ({"viscosity": 3.0}, "one of medium and viscosity is needed"),
         ({"force": 0.0}, "constant force: 0.0; allowed: a finite number above 0"),
         ({"force": 1e9}, "at time 0 the creep ∫J dF is 2.5e+08, beyond the curve's last level"),

@@ -1,4 +1,9 @@
-"""The order of the tests."""
+"""The order of the tests, and their threads."""
+
+import os
+
+# One thread for each of the processes that run tests side by side; before numpy is imported, which reads this.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 
 def pytest_collection_modifyitems(items):

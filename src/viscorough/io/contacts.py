@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from viscorough.io.curves import OVER_LEVELS
 from viscorough.io.netcdf import Content, Variable
 from viscorough.summaries import unit_power
 
@@ -19,14 +20,11 @@ MAPS = {
     "contact": ("whether an element is in contact", 0),
 }
 NUMBERS = {
-    "depth": ("depth of indentation u", 1),
-    "force": ("normal force over shear modulus F/G", 2),
-    "stiffness": ("tangent stiffness over shear modulus k/G", 1),
-    "contact_fraction": ("share of the indenter's elements in contact", 0),
+    **{name: OVER_LEVELS[name] for name in ("depth", "force", "stiffness", "contact_fraction")},
     "contact_area": ("area of the elements in contact", 2),
     "mean_pressure": ("mean pressure in contact over shear modulus", 0),
     "largest_pressure": ("largest pressure over shear modulus", 0),
-    "residual": ("largest gap in contact or overlap outside it that remains, over depth", 0),
+    "residual": OVER_LEVELS["residual"],
 }
 # Tolerance from which on maps are stored in single precision, as the solver has them, and the range of their numbers.
 _SINGLE_FROM, _SINGLE_RANGE = 1e-4, (1e-25, 1e30)

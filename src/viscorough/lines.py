@@ -27,17 +27,8 @@ _COPIES, _COPIES_OF_OTHER, _MORE_PER_SHARE, _MOST_COPIES = 2.6, 3.3, 28, 17
 class SelfAffineLines:
     """Periodic self-affine lines of one spectrum, of as many realizations as wanted.
 
-    hurst : Hurst exponent H, 0 to 1
-    points : number of points per period, at least 2
-    rms : standard deviation h of the heights, exact in every realization [length]
-    length : L, which is also the period
-    roll_off_wavelength, roll_off_level, amplitudes : as of `surfaces.self_affine_square`, but the wavelength in
-        units of the length
-    dtype : float32 or float64; the realization is the same up to rounding
-
+    All arguments, and the errors raised, are those of `surfaces.self_affine_line`.
     spacing : distance between neighbouring points, length/points [length]
-
-    Raises ValueError for values outside these ranges.
     """
 
     def __init__(

@@ -23,10 +23,13 @@ def self_affine_disc(
     rms=1.0,
     diameter=1.0,
     period=1.0,
+    corners=False,
+    roll_off_wavelength=None,
+    roll_off_level=0.0,
+    amplitudes="random",
     rms_over="disc",
     length_unit="1",
     seed,
-    **options,
 ):
     """Disc with n = `elements_across` elements across its diameter, cut from a periodic self-affine square.
 
@@ -36,22 +39,39 @@ def self_affine_disc(
     diameter : L; the spacing is L/n [length]
     period : of the square in diameters, at least 1, rounded to whole spacings; with 1 the disc spans the period, with
         2 it is cut from a surface that repeats after two diameters
+    corners : whether waves in the corners of the Fourier square, beyond the Nyquist circle q = π/spacing, are present
+    roll_off_wavelength : longest wavelength of the power law, in diameters; longer waves have the spectral density at
+        this wavelength times `roll_off_level` (0: they are absent, 1: a plateau)
+    amplitudes : "random": complex Gaussian, so that the heights are a Gaussian process; "fixed": exactly the
+        square root of the spectrum, so that only the phases are random
     rms_over : "disc" or "square": the points over which h is taken
     length_unit : of rms and diameter, as in Indenter
     seed : int or numpy SeedSequence; the same seed gives the same realization
-    options : corners, roll_off_wavelength, roll_off_level and amplitudes, as of `self_affine_square`, but the
-        wavelength in diameters
 
     Returns an Indenter with heights of shape (n, n), nan outside the disc (see `cut_disc`).
     Raises ValueError for values outside these ranges.
     """
     n = spectrum.whole("elements_across", elements_across, at_least=3)
-    rms, diameter, period = positive("rms", rms), positive("diameter", diameter), positive("period", period)
+    rms, diameter, period = (
+        positive("rms", rms),
+        positive("diameter", diameter),
+        positive("period", period),
+    )
     if period < 1:
         raise ValueError(f"period: must be at least 1 diameter, not {period}")
     if rms_over not in ("disc", "square"):
         raise ValueError(f"rms_over: must be 'disc' or 'square', not {rms_over!r}")
-    heights = cut_disc(square_of_disc(hurst, n, period=period, seed=seed, **options), n)
+    square = square_of_disc(
+        hurst,
+        n,
+        period=period,
+        corners=corners,
+        roll_off_wavelength=roll_off_wavelength,
+        roll_off_level=roll_off_level,
+        amplitudes=amplitudes,
+        seed=seed,
+    )
+    heights = cut_disc(square, n)
     heights *= rms / np.nanstd(heights) if rms_over == "disc" else rms
     return Indenter(heights, diameter / n, length_unit=length_unit)
 
@@ -81,14 +101,9 @@ def self_affine_square(
 ):
     """Heights of a periodic self-affine square, shape (points, points), of mean 0.
 
-    hurst : Hurst exponent H, 0 to 1
+    hurst, corners, roll_off_level, amplitudes, seed : as in `self_affine_disc`
     points : number of points per period, at least 2
-    corners : whether waves in the corners of the Fourier square, beyond the Nyquist circle q = π/spacing, are present
-    roll_off_wavelength : longest wavelength of the power law, in points; longer waves have the spectral density at
-        this wavelength times `roll_off_level` (0: they are absent, 1: a plateau)
-    amplitudes : "random": complex Gaussian, so that the heights are a Gaussian process; "fixed": exactly the
-        square root of the spectrum, so that only the phases are random
-    seed : int or numpy SeedSequence; the same seed gives the same realization
+    roll_off_wavelength : as in `self_affine_disc`, but in points
     normalised : whether the rms height is 1 in every realization; otherwise the spectrum is the same in every
         realization, and the mean over all of them of the mean square height is 1
 
@@ -140,17 +155,40 @@ def cut_disc(square, elements_across):
     return np.where(twice[:, None] ** 2 + twice**2 <= (n - 1) ** 2, square[:n, :n], np.nan)
 
 
-def self_affine_line(hurst, points, *, length_unit="1", seed, **options):
+def self_affine_line(
+    hurst,
+    points,
+    *,
+    rms=1.0,
+    length=1.0,
+    roll_off_wavelength=None,
+    roll_off_level=0.0,
+    amplitudes="random",
+    length_unit="1",
+    seed,
+    dtype=np.float32,
+):
     """Periodic self-affine line, C1D ∝ q^(-(2H+1)): an indenter for the method of reduction of dimensionality (MDR).
 
-    hurst, points : Hurst exponent H, 0 to 1; number of points per period, at least 2
+    hurst, rms, amplitudes, seed : as in `self_affine_disc`
+    points : number of points per period, at least 2
+    length : L, which is also the period; the spacing is L/points [length]
+    roll_off_wavelength, roll_off_level : as in `self_affine_disc`, but the wavelength in units of the length
     length_unit : of rms and length, as in Indenter
-    seed : int or numpy SeedSequence; the same seed gives the same realization
-    options : rms, length, roll_off_wavelength, roll_off_level, amplitudes and dtype, as of `lines.SelfAffineLines`
+    dtype : float32 or float64; the realization is the same up to rounding
 
     Returns an Indenter with heights of shape (points,) and mean 0. Raises ValueError for values outside these ranges.
     """
-    lines = SelfAffineLines(hurst, points, **options)
+    lines = SelfAffineLines(
+        hurst,
+        points,
+        rms=rms,
+        length=length,
+        roll_off_wavelength=roll_off_wavelength,
+        roll_off_level=roll_off_level,
+        amplitudes=amplitudes,
+        dtype=dtype,
+    )
     return Indenter(lines.heights(seed), lines.spacing, length_unit=length_unit)
 
 

@@ -85,8 +85,3 @@ def test_one_grid_shows_no_order():
     table = validate_solvers.validation_table((33,), dict.fromkeys(LIMITS, 0.1), MARGIN)
     assert np.isnan(table["order"]).all()
     assert table["passed"].all()
-
-
-def test_limits_must_be_complete():
-    with pytest.raises(ValueError, match="needed: force, depth"):
-        validate_solvers.validation_table((17,), {"force": 1e-3}, MARGIN)

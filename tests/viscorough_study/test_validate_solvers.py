@@ -68,8 +68,3 @@ def test_a_solver_that_does_not_converge_is_noticed(table):
     judged = validate_solvers.judge_errors(GRIDS, errors, dict.fromkeys(LIMITS, 0.1), MARGIN)
     failed = validate_solvers.failures(judged, MARGIN)
     assert [line.split(":")[0] for line in failed] == ["sphere force", "cone force", "sphere_on_rectangles force"]
-
-
-def test_limits_must_be_complete():
-    with pytest.raises(ValueError, match="needed: force, depth"):
-        validate_solvers.validation_table((17,), {"force": 1e-3}, MARGIN)

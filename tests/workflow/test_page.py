@@ -118,7 +118,7 @@ def test_it_can_be_used_with_the_keyboard(page):
 
 
 def test_captions_are_those_of_the_report(page):
-    caption = (ROOT / "workflow/report/fig1_surfaces.rst").read_text(encoding="utf-8")
+    caption = (ROOT / "workflow/report/figures/fig1_surfaces.rst").read_text(encoding="utf-8")
     assert " ".join(caption.split(".")[0].split()) in " ".join(page.text.split())
 
 

@@ -55,7 +55,7 @@ def _check_snakemake(words):
         elif previous == "--forcerun":
             assert word in rules, word
         elif not word.startswith("-") and previous not in takes_value:
-            assert word in rules | {"plot_departures"}, word
+            assert word in rules | {"tabulate_departures", "plot_departures"}, word
         previous = word
 
 

@@ -40,7 +40,7 @@ def test_extension_works_as_described(finished):
     copy_sources(finished)
     page = ROOT / "docs/extending.md"
     files = named_files(page)
-    (entry,) = re.findall(r"```yaml\n(  departures:\n.*?)```", read(page), re.DOTALL)
+    (entry,) = re.findall(r"```text\n(  departures:\n.*?)```", read(page), re.DOTALL)
     registry = finished / "workflow/results.yaml"
     registry.write_text(registry.read_text(encoding="utf-8").replace("\nfigures:\n", f"\nfigures:\n{entry}"))
     for path, text in files.items():

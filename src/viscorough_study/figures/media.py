@@ -35,16 +35,8 @@ def plot_media(table):
     figure.align_ylabels()
     style.logarithmic_ticks(*panels)
     guides = {"slope 1": ":", "slope $H/(1+H)$, Eq. 10": "--"}
-    add_legend(figure, style.hurst_handles(looks, marker=""), guides, table)
+    style.add_legend_of_means(figure, style.hurst_handles(looks, marker=""), guides, table)
     return figure
-
-
-def add_legend(figure, handles, guides, table):
-    """Legend below a figure: these handles, grey lines {label: line style}, and the number of discs of the table."""
-    for label, line in guides.items():
-        handles.append(style.handle(label, color=style.GREY, linestyle=line, linewidth=0.8))
-    title = f"each a mean over {style.count_text(table['realizations'])} discs"
-    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), title=title)
 
 
 def _plot_velocity(axes, table, looks):

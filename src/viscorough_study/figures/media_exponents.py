@@ -3,7 +3,6 @@
 from matplotlib.ticker import LogLocator
 
 from viscorough_study.figures import style
-from viscorough_study.figures.media import add_legend
 from viscorough_study.medium_names import medium_label
 
 _RANGE = (-0.6, 1.2)  # of the exponents drawn: that of a solid falls without limit
@@ -31,5 +30,5 @@ def plot_media_exponents(table):
     for axes in panels[::3]:
         axes.set_ylabel(r"exponent of $vt/h$ in $t$")
     guides = {"by Eq. 10 and $J$": "--", "exponent of $J$": ":"}
-    add_legend(figure, style.hurst_handles(looks, marker="", linestyle="-"), guides, table)
+    style.add_legend_of_means(figure, style.hurst_handles(looks, marker="", linestyle="-"), guides, table)
     return figure

@@ -190,3 +190,11 @@ def plain_ticks(axis, ticks):
     """Major ticks labelled with plain numbers on a logarithmic axis of few decades, and minor ticks between them."""
     axis.set(major_locator=FixedLocator(ticks), major_formatter="{x:g}")
     axis.set(minor_locator=LogLocator(subs=range(1, 10)), minor_formatter=NullFormatter())
+
+
+def add_legend_of_means(figure, handles, guides, table):
+    """Legend below a figure: these handles, grey lines {label: line style}, and the number of discs of the table."""
+    for label, line in guides.items():
+        handles.append(handle(label, color=GREY, linestyle=line, linewidth=0.8))
+    title = f"each a mean over {count_text(table['realizations'])} discs"
+    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), title=title)

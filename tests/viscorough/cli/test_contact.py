@@ -144,7 +144,7 @@ MISTAKES = [
     (f"{CONTACT} --force 1 --shear-modulus 1 --poisson 0.3", "--poisson is for use with --young"),
     (f"{CONTACT} --force 1 --young 1 --poisson 0.6", "is not a number above -1 and up to 0.5"),
     (f"{CONTACT} --force 1 --young 1 --poisson soft", "is not a number above -1 and up to 0.5"),
-    (f"{CONTACT} --force 1e-300 --young 1e300", "must be positive"),
+    (f"{CONTACT} --force 1e-300 --young 1e300", "one row of finite numbers above 0"),
     (f"{CONTACT} --force 1 --tolerance 1e-13", "tolerance must be between 1e-12 and 0.1"),
     (f"{CONTACT} --force 1 --threads 0", "'--threads': 0 is not in the range 1<=x<=1024"),
     (f"{INDENT} --threads 1.5", "'1.5' is not a valid integer"),

@@ -218,7 +218,7 @@ def test_refuses():
         ({"tolerance": 0.0}, "tolerance"),
         ({"until_fraction": 1.5}, "until"),
         ({"until_force": -1.0}, "until_force"),
-        ({"depths": [0.2, 0.1]}, "increasing"),
+        ({"depths": [0.2, 0.1]}, "each larger than the one before"),
         ({"depths": []}, "finite"),
         ({"indenter": Indenter(np.zeros(5), 1.0)}, "two-dimensional"),
     ):

@@ -69,8 +69,8 @@ def test_one_value_gives_one_contact_in_the_unit_of_the_indenter_and_several_a_l
 def test_invalid_arguments_are_refused():
     for arguments, message in (
         ({"depth": 1.0, "force": 1.0}, "either depth or force must be given"),
-        ({"force": [2.0, 1.0]}, "force must be positive and strictly increasing"),
-        ({"depth": []}, "depth must be a list"),
+        ({"force": [2.0, 1.0]}, "force: allowed is one row of finite numbers above 0, each larger"),
+        ({"depth": []}, "depth: allowed is one row"),
         ({"depth": 1.0, "tolerance": 1.0}, "tolerance must be between"),
         ({"indenter": Indenter(np.zeros(5), 1.0), "depth": 1.0}, "the indenter's heights must be two-dimensional"),
     ):

@@ -97,8 +97,8 @@ def test_progress_is_reported_up_to_the_end():
 
 def test_invalid_forces_are_refused():
     for arguments, message in (
-        ({"forces": []}, "forces must be a list of finite numbers"),
-        ({"forces": [0.0, 1.0]}, "forces must be positive and strictly increasing"),
+        ({"forces": []}, "forces: allowed is one row of finite numbers"),
+        ({"forces": [0.0, 1.0]}, "forces: allowed is one row of finite numbers above 0"),
         ({"forces": [1.0], "depths": [1.0]}, "depths and forces exclude each other"),
     ):
         with pytest.raises(ValueError, match=f"indent: {message}"):

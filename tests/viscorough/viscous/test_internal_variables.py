@@ -183,9 +183,9 @@ def test_sphere_in_and_out_follows_lee_and_radok_and_ting(name):
     ("arguments", "message"),
     [
         ({"medium": Springpot(1.0, 0.5)}, "Springpot; allowed: media of springs and dashpots"),
-        ({"times": [0.0, 2.0, 1.0]}, "increasing"),
-        ({"force": [1.0, -1.0, 1.0]}, "force 1 is -1.0; allowed: finite, 0 or more"),
-        ({"force": [1.0, 1.0]}, r"force of shape \(2,\); allowed: one per time"),
+        ({"times": [0.0, 2.0, 1.0]}, "each larger than the one before, or given twice"),
+        ({"force": [1.0, -1.0, 1.0]}, "force: sample 1 is -1.0; allowed: finite, 0 or more"),
+        ({"force": [1.0, 1.0]}, r"force: samples of shape \(2,\); allowed: one per time"),
         ({"depth": [0.0, 0.1, 0.2]}, "one of force and depth"),
         ({"indenter": Indenter(np.zeros(5), 1.0)}, "must be two-dimensional"),
         ({"medium": Newtonian(1.0), "force": None, "depth": [0.1, 0.1, 0.1]}, "infinite force"),

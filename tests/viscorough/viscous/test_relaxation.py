@@ -47,10 +47,10 @@ def test_refusals(curve):
     for arguments, message in (
         ({"medium": CreepTable([0, 1], [0, 1])}, "CreepTable; allowed: media whose relaxation is known"),
         ({"medium": KelvinVoigt(1.0, 1.0), "depth": [0, 0, 0.1]}, "steps at time 1, which takes an infinite force"),
-        ({"depth": [0.1, 0.2, 0.1]}, "sample 2 is 0.1; allowed: finite depths from 0 on that do not decrease"),
+        ({"depth": [0.1, 0.2, 0.1]}, "sample 2 is 0.1; allowed: depths that do not decrease"),
         ({"depth": [0.1, 0.2]}, r"one per time, shape \(3,\)"),
         ({"depth": [0.1, 0.2, 2.0]}, "depth: 2 is beyond the curve's last level; allowed: up to 1"),
-        ({"times": [0.0, 1.0, 0.5]}, "increasing numbers, or twice"),
+        ({"times": [0.0, 1.0, 0.5]}, "each larger than the one before, or given twice"),
     ):
         call = {"depth": [0.1, 0.2, 0.3], "medium": MEDIA["solid"], "times": [0.0, 1.0, 1.0]} | arguments
         with pytest.raises(ValueError, match=rf"^[^\n]*{message}[^\n]*$"):

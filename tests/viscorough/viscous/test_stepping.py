@@ -93,7 +93,7 @@ def test_explicit_steps_of_any_size_are_exact_for_a_flat_punch():
 def test_refuses(disc):
     for change, message in (
         ({"scheme": "magic"}, "scheme must be one of explicit, heun, implicit"),
-        ({"impulses": [2.0, 1.0]}, "strictly increasing"),
+        ({"impulses": [2.0, 1.0]}, "each larger than the one before"),
         ({"overlap": 0.0}, "overlap must be positive"),
         ({"indenter": Indenter(np.zeros(3), 1.0)}, "two-dimensional"),
     ):

@@ -155,7 +155,7 @@ def other_seeds(published, runs):
     text = (
         f"At the default scale with {len(runs)} root seeds (`make seeds`, [seeds.csv](seeds.csv)), verdicts that "
         f"change with the seed: {change or 'none'}; verdicts that contradict those above: {differ or 'none'}. That "
-        f"scale leaves {undecided} of the {len(published)} claims undecided that are decided above."
+        f"scale leaves {undecided or 'none'} of the {len(published)} claims undecided that are decided above."
     )
     return paragraph(text)
 

@@ -1,6 +1,6 @@
 """Compare the tables, ensembles and loading curves of two finished runs, value by value.
 
-    python benchmarks/compare_tables.py OLD NEW --allow "tables/needed_grids.csv" --allow "curves/*, operators"
+    python benchmarks/compare_tables.py OLD NEW --allow "tables/literature.csv" --allow "curves/*, residual"
 
 OLD and NEW are folders of results. Numbers must agree to 1e-12 relative and texts must be equal; files and columns that
 only one of them has are differences, too, except those that --allow names. Files that hold measured times are not

@@ -22,7 +22,7 @@ def read_only(values):
 
 
 class ReadOnlyArrays:
-    """A frozen dataclass, every array field of which is replaced by `read_only` of it."""
+    """Base of frozen dataclasses: every field declared as an array becomes a read-only one."""
 
     def __post_init__(self):
         for field in dataclasses.fields(self):
@@ -33,7 +33,7 @@ class ReadOnlyArrays:
 def increasing(name, values, *, above_zero=False, steps=None):
     """The values as a row of floats. Raises ValueError, which starts with the name, unless they increase.
 
-    steps : what steps where two neighbouring values, times, are equal; None where that is not allowed
+    steps : quantity that steps at a time given twice, for the message; None if no value may be given twice
     """
     values = read_only(values)
     if values.dtype.kind in "iuf" and values.ndim == 1 and values.size and np.isfinite(values).all():

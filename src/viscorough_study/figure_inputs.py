@@ -1,4 +1,4 @@
-"""What figures are drawn from beside tables: functions of {argument of the figure: path}, named like the argument."""
+"""Inputs of figures that are no tables; each function takes {argument of the figure: path} and is named like it."""
 
 from viscorough.io.datasets import read_dataset
 from viscorough_study.pool import ensembles as ensembles_by

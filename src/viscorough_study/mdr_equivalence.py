@@ -1,4 +1,4 @@
-"""Lines against discs of one Hurst exponent: λ over X, what a single λ leaves over, and exponents in equal windows.
+"""Lines against discs of one Hurst exponent: λ over X, residual errors of a single λ, and exponents in equal windows.
 
 Both are means over ensembles. "A single λ" is the one whose largest error of vt/h over region (b) of the discs is the
 smallest, so that no other choice of λ(H) can do better there. The largest of many errors grows with the scatter of the

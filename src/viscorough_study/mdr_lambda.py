@@ -1,4 +1,4 @@
-"""The line that stands for a surface: λ in C1D = λ q C2D (paper, Eq. 13 and below), and what a single λ leaves over.
+"""The line that stands for a surface: λ in C1D = λ q C2D (paper, Eq. 13 and below), and its residual error.
 
 A line of the same L and s times the rms height, h1D = s h2D, has X1 = X/s and vt/h2D = s vt/h1D. The mean curves y3 of
 discs and y1 of lines match at X where y3(X) = s y1(X/s), that is y3(X)/X = y1(X1)/X1, the mean of 1/κ. C1D = π q C2D

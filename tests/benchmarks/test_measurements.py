@@ -75,7 +75,7 @@ def test_large_map_answers_both_questions(monkeypatch):
 def test_lines_are_compared_with_a_transform():
     result = lines.measured(3, points=2000)
     assert 0 < result["ratio"]["low"] <= result["ratio"]["median"] <= result["ratio"]["high"]
-    assert result["waves"] + result["transform"] + result["bins"] == pytest.approx(1, abs=0.5)
+    assert min(result[part] for part in ("waves", "transform", "bins")) > 0
 
 
 def test_members_are_compared_with_whole_curves():

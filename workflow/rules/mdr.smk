@@ -26,7 +26,7 @@ rule match_lines:
         fit=config["scaling"],
         conventions={name: config["figures"][name] for name in ("rms_convention", "average")},
     message:
-        "Lines that stand for discs: lambda, and what it leaves over"
+        "Lines that stand for discs: lambda, and its residual error"
     script:
         "../scripts/match_lines.py"
 

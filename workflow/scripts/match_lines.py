@@ -1,4 +1,4 @@
-"""Tables of λ over X, of what a single λ leaves over, and of exponents of lines and discs in equal windows."""
+"""Tables of λ over X, of the residual error of a single λ, and of exponents of lines and discs in equal windows."""
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from viscorough_study.tables import recorded, write_table
 
 TABLES = (
     ("", LAMBDA_COLUMNS, "point", "λ of lines that stand for discs"),
-    ("summary_", SUMMARY_COLUMNS, "exponent", "What a single λ leaves over"),
+    ("summary_", SUMMARY_COLUMNS, "exponent", "Residual error of a single λ"),
     ("exponents_", EXPONENT_COLUMNS, "fit", "Exponents of lines and discs in equal windows"),
 )
 

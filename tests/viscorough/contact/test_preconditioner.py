@@ -107,7 +107,7 @@ def test_the_sparse_part_follows_the_set(share, precision):
 
 
 def test_threads_do_not_change_a_bit():
-    """Neither in the sparse part, whether it is prepared anew or follows the set, nor in the whole.
+    """Neither in the sparse part, whether it is rebuilt or updated, nor in the whole.
 
     Between parts of the grid, elements that join change rows of G of the next part; in the first part all are renewed.
     """

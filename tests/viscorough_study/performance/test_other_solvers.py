@@ -70,8 +70,8 @@ def test_residual_and_force_are_computed_from_the_pressures(disc, exact, stand_i
     np.testing.assert_allclose(coarse.residual, 1e-3, rtol=0.5)  # of the deflection, which gaps are subtracted from
     assert (fine.version, fine.wall_s, fine.processor_s, fine.memory) == ("1.2", 0.5, 0.25, 3e6)
     assert fine.total_iterations == 21
-    untold, late = solve(stand_in(iterations=-1, too_slow=1e-2), disc, exact, [1e-3, 1e-1])
-    assert untold.total_iterations == -1
+    unreported, late = solve(stand_in(iterations=-1, too_slow=1e-2), disc, exact, [1e-3, 1e-1])
+    assert unreported.total_iterations == -1
     assert late is None
 
 

@@ -7,7 +7,7 @@ BIN := .venv/bin
 SETTINGS ?=
 SNAKEMAKE = $(BIN)/snakemake --cores $(CORES) $(if $(SETTINGS),--configfile $(SETTINGS))
 # One line of progress; all that is printed is in results/run.log.
-WITH_PROGRESS = $(BIN)/python -m viscorough_study.terminal --
+WITH_PROGRESS = $(BIN)/python -m viscorough_study.page.terminal --
 
 .PHONY: help environment environment-slurm settings reproduce paper report check test docs test-slurm bench speed stability \
 	sizes large fuzz faults seeds resampled publish chaos peers lock lock-peers lock-slurm clean
@@ -59,7 +59,7 @@ environment-slurm: .venv/slurm-installed
 
 # Snakemake does not name file and line of what it cannot read.
 settings: environment
-	@$(if $(SETTINGS),$(BIN)/python -m viscorough_study.settings_files $(SETTINGS))
+	@$(if $(SETTINGS),$(BIN)/python -m viscorough_study.run.settings_files $(SETTINGS))
 
 reproduce: settings
 	@$(WITH_PROGRESS) $(SNAKEMAKE) -- all
@@ -94,7 +94,7 @@ test: environment docs
 	$(BIN)/snakefmt --check .
 	$(BIN)/lint-imports
 	$(BIN)/snakemake --lint
-	$(BIN)/python -m viscorough_study.kernels
+	$(BIN)/python -m viscorough_study.run.kernels
 	$(BIN)/python -m pytest -n $(CORES) --dist worksteal
 
 bench: environment

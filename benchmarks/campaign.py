@@ -19,8 +19,8 @@ from tqdm import tqdm
 from viscorough_study.performance import timing
 from viscorough_study.robustness.random_curves import curve_failure, random_curve
 from viscorough_study.robustness.random_indenters import random_case, silent_failure
-from viscorough_study.seeds import random_indenter_key, realization_seed
-from viscorough_study.tables import write_json
+from viscorough_study.run.seeds import random_indenter_key, realization_seed
+from viscorough_study.run.tables import write_json
 
 # What draws a case, what checks it, and the share of the number of cases that is run.
 FAMILIES = {

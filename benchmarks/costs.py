@@ -16,8 +16,8 @@ import click
 
 import viscorough
 from viscorough_study.performance import timing
-from viscorough_study.rule_costs import rule_costs
-from viscorough_study.tables import write_json
+from viscorough_study.run.rule_costs import rule_costs
+from viscorough_study.run.tables import write_json
 
 
 def sizes(folder):

@@ -41,7 +41,7 @@ from tqdm import tqdm
 import viscorough
 from viscorough.errors import AccuracyWarning
 from viscorough_study.performance import timing
-from viscorough_study.tables import write_json
+from viscorough_study.run.tables import write_json
 
 KINDS = {
     text_files.matrix: 50,

@@ -32,7 +32,7 @@ from viscorough import cli
 from viscorough.io import netcdf, tables
 from viscorough.io.curves import OVER_LEVELS
 from viscorough_study.performance import timing
-from viscorough_study.tables import write_json
+from viscorough_study.run.tables import write_json
 
 FIGURES = {".png": b"\x89PNG", ".svg": b"<?xml"}  # first bytes
 LONGEST = 120  # seconds that a run may take

@@ -13,7 +13,7 @@ import numpy as np
 
 import viscorough
 from viscorough_study.performance import timing
-from viscorough_study.tables import write_json
+from viscorough_study.run.tables import write_json
 
 # One thread, and an allocator that keeps its pages as in the workflow: both are read when a process starts.
 ENVIRONMENT = {

@@ -18,12 +18,12 @@ import numpy as np
 import yaml
 from measuring import command
 
-from viscorough_study import cases
-from viscorough_study.discs import end_of_curve, ensemble_disc, indent_disc
-from viscorough_study.ensembles import abscissa, on_abscissae
+from viscorough_study.ensembles.averages import abscissa, on_abscissae
+from viscorough_study.ensembles.discs import end_of_curve, ensemble_disc, indent_disc
+from viscorough_study.fits.power_law import in_window
 from viscorough_study.performance import timing
-from viscorough_study.power_law import in_window
-from viscorough_study.seeds import realization_seed
+from viscorough_study.run import cases
+from viscorough_study.run.seeds import realization_seed
 
 ROOT = Path(__file__).resolve().parents[1]
 TOLERANCE = 1e-3  # default of viscorough.indent

@@ -22,7 +22,7 @@ import yaml
 
 import viscorough
 from viscorough_study.performance import timing
-from viscorough_study.tables import write_json
+from viscorough_study.run.tables import write_json
 
 ROOT = Path(__file__).resolve().parents[1]
 FAULTS = Path(__file__).with_suffix(".yaml")

@@ -21,13 +21,13 @@ import click
 import pandas as pd
 from PIL import Image  # which matplotlib needs
 
-from viscorough_study.evidence import VERDICTS
-from viscorough_study.infinite_grid import OMEGA, PLACES, place_of
-from viscorough_study.paper_data import read_paper
+from viscorough_study.fits.infinite_grid import OMEGA, PLACES, place_of
 from viscorough_study.performance import timing
-from viscorough_study.rule_costs import in_words
-from viscorough_study.tables import write_json
-from viscorough_study.verdicts import markdown, overall
+from viscorough_study.run.paper_data import read_paper
+from viscorough_study.run.rule_costs import in_words
+from viscorough_study.run.tables import write_json
+from viscorough_study.verdicts.claims import markdown, overall
+from viscorough_study.verdicts.evidence import VERDICTS
 
 ROOT = Path(__file__).resolve().parents[1]
 BEGIN, END = "<!-- {}: by benchmarks/publish.py -->\n", "<!-- end of {} -->\n"

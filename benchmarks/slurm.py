@@ -28,7 +28,7 @@ from chaos import HANGS, compare, contents, copy_project, jobs_done, remove_resu
 
 import viscorough
 from viscorough_study.performance import timing
-from viscorough_study.tables import write_json
+from viscorough_study.run.tables import write_json
 
 NODE = socket.gethostname().split(".")[0]
 # There is no accounting, jobs take seconds, and no other user queries their states.

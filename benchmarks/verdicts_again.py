@@ -8,8 +8,8 @@ import click
 import pandas as pd
 
 from viscorough_study.performance import timing
-from viscorough_study.tables import write_json
-from viscorough_study.verdicts import overall
+from viscorough_study.run.tables import write_json
+from viscorough_study.verdicts.claims import overall
 
 ROOT = Path(__file__).resolve().parents[1]
 

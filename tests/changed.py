@@ -12,8 +12,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 BY_FOLDER = {
     "workflow": ["tests/workflow/test_form.py"],
-    "config": ["tests/viscorough_study/test_settings.py"],
-    "resources": ["tests/viscorough_study/test_evidence.py", "tests/viscorough_study/test_verdicts.py"],
+    "config": ["tests/viscorough_study/run/test_settings.py"],
+    "resources": ["tests/viscorough_study/verdicts/test_claims.py"],
     "docs": ["tests/docs/test_pages.py", "tests/docs/test_numbers.py"],
 }
 

@@ -12,7 +12,7 @@ from matplotlib.testing.compare import compare_images
 
 from support.command_line import VISCOROUGH
 from support.documentation import PAGES, README, ROOT, blocks, named_files
-from viscorough_study.settings import check_settings
+from viscorough_study.run.settings import check_settings
 
 EXAMPLE = ROOT / "examples/own_surface.py"
 RUN = {page: [block for block in blocks(page) if block.language in ("python", "console")] for page in PAGES}

@@ -13,10 +13,10 @@ from support.documentation import ROOT, read
 from support.study import CLAIMS
 from support.workflow import merged, read_settings
 from viscorough.reference import exponent_beta, zeta_elastic
-from viscorough_study.cases import disc_cases
-from viscorough_study.discs import punch_stiffness
+from viscorough_study.ensembles.discs import punch_stiffness
 from viscorough_study.performance.costs import fit_cost, median_costs
-from viscorough_study.verdicts import overall
+from viscorough_study.run.cases import disc_cases
+from viscorough_study.verdicts.claims import overall
 
 TABLE = pd.read_csv(ROOT / "docs/claims.csv")
 LAW = pd.read_csv(ROOT / "src/viscorough/data/interface.csv").query("source == 'discs'")

@@ -8,14 +8,14 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from support.study import SHOWN, fit_row
 from viscorough.calibrated_law import interface_velocity
-from viscorough_study.conventions import of_source
-from viscorough_study.ensembles import abscissa
+from viscorough_study.comparisons.literature import COLUMNS as LITERATURE
+from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.figures.measured import plot_measured
-from viscorough_study.fit_table import COLUMNS as SCALING_COLUMNS
-from viscorough_study.interface import COLUMNS as INTERFACE
-from viscorough_study.literature import COLUMNS as LITERATURE
+from viscorough_study.fits.conventions import of_source
+from viscorough_study.fits.fit_table import COLUMNS as SCALING_COLUMNS
+from viscorough_study.fits.interface import COLUMNS as INTERFACE
+from viscorough_study.fits.scaling_collapse import QUANTITIES, Grid, curve_table
 from viscorough_study.performance import measurement
-from viscorough_study.scaling_collapse import QUANTITIES, Grid, curve_table
 
 HURST = (0.4, 0.9)
 COMBINATIONS = {
@@ -237,7 +237,7 @@ def literature_table():
 
 
 def interface_tables_drawn():
-    """Tables of an interface in series with a punch, as viscorough_study.interface makes them; its law is 2 % above."""
+    """Tables of an interface in series with a punch, as fits.interface makes them; its law is 2 % above."""
     x, rows, curves = np.geomspace(1e-3, 28, 60), [], []
     ensembles = [("discs", "base", h, 257) for h in (0.4, 0.9)]
     ensembles += [("discs", "sizes", h, n) for h in (0.4, 1.0) for n in (65, 257)]

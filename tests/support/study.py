@@ -10,16 +10,16 @@ import xarray as xr
 
 from viscorough import reference
 from viscorough.loading_curve import LoadingCurve
-from viscorough_study.conventions import FITTED, PLAIN
-from viscorough_study.ensembles import abscissa, ensemble_dataset, on_abscissae
-from viscorough_study.evidence import Evidence
-from viscorough_study.fit_table import COLUMNS, fit_rows
-from viscorough_study.gamma_factor import compare_direct
-from viscorough_study.mdr_equivalence import WINDOWS
-from viscorough_study.paper_data import read_paper
-from viscorough_study.pool import OF_REALIZATIONS, VARIABLES, ensembles
-from viscorough_study.prefactors import prefactors
-from viscorough_study.zeta_laws import zeta_laws
+from viscorough_study.comparisons.direct_integration import compare_direct
+from viscorough_study.comparisons.mdr_equivalence import WINDOWS
+from viscorough_study.ensembles.averages import abscissa, ensemble_dataset, on_abscissae
+from viscorough_study.ensembles.pool import OF_REALIZATIONS, VARIABLES, ensembles
+from viscorough_study.fits.conventions import FITTED, PLAIN
+from viscorough_study.fits.fit_table import COLUMNS, fit_rows
+from viscorough_study.fits.prefactors import prefactors
+from viscorough_study.fits.zeta_laws import zeta_laws
+from viscorough_study.run.paper_data import read_paper
+from viscorough_study.verdicts.evidence import Evidence
 
 ROOT = Path(__file__).resolve().parents[2]
 CLAIMS, NUMBERS = (read_paper(ROOT / "resources/paper", name) for name in ("claims", "numbers"))

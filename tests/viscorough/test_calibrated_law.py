@@ -9,8 +9,8 @@ import viscorough
 from support.study import ROOT, SHOWN, evidence
 from viscorough import calibrated_law
 from viscorough.calibrated_law import X_HIGH, X_LOW, interface_depth, interface_velocity
-from viscorough_study import interface
-from viscorough_study.fit_table import calibrated
+from viscorough_study.fits import interface
+from viscorough_study.fits.fit_table import calibrated
 
 HURST = [0.1, 0.4, 0.6, 0.9, 1.0]
 CONSTANTS = (0.35, 0.5, 0.8)  # exponent, peak and its place

@@ -11,7 +11,7 @@ import pytest
 from scipy import stats
 
 from viscorough.lines import SelfAffineLines
-from viscorough_study.seeds import line_key, realization_seed
+from viscorough_study.run.seeds import line_key, realization_seed
 
 HURST, POINTS, REALIZATIONS = 0.5, 512, 1000
 WAVES = POINTS // 2 - 1  # without the shortest one, which is real

@@ -11,7 +11,7 @@ import pytest
 from scipy import stats
 
 from viscorough.surfaces import cut_disc, self_affine_disc, self_affine_line, self_affine_square
-from viscorough_study.seeds import realization_seed
+from viscorough_study.run.seeds import realization_seed
 
 VARIANCE = np.pi**2 / 6
 HURST = [0.0, 0.3, 1.0]

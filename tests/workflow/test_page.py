@@ -10,8 +10,8 @@ import pytest
 
 from support.page import BROWSER, Page, number_in
 from support.workflow import HANGS, ROOT
-from viscorough_study.rule_costs import in_words
-from viscorough_study.verdicts import overall
+from viscorough_study.run.rule_costs import in_words
+from viscorough_study.verdicts.claims import overall
 
 IMAGES = 18
 LARGEST = 4e6  # bytes

@@ -11,13 +11,13 @@ from pathlib import Path
 import yaml
 
 from viscorough.io.atomic import atomic_write
-from viscorough_study import cases
-from viscorough_study.paper_data import number, read_paper
-from viscorough_study.scans import scans
-from viscorough_study.settings import SettingsError, check_settings
-from viscorough_study.settings_files import read_settings_file
-from viscorough_study.source_digest import SourceDigests
-from viscorough_study.stale_locks import remove_stale_locks
+from viscorough_study.run import cases
+from viscorough_study.run.paper_data import number, read_paper
+from viscorough_study.run.scans import scans
+from viscorough_study.run.settings import SettingsError, check_settings
+from viscorough_study.run.settings_files import read_settings_file
+from viscorough_study.run.source_digest import SourceDigests
+from viscorough_study.run.stale_locks import remove_stale_locks
 
 # One thread per job, for jobs run side by side. Numba only reads its own variable.
 os.environ.update(NUMBA_NUM_THREADS="1", OMP_NUM_THREADS="1")
@@ -149,7 +149,7 @@ def plateau_settings():
 
 
 def interface_limits():
-    """Arguments of viscorough_study.interface.interface_tables: its settings, and those of the fits that it shares."""
+    """Arguments of fits.interface.interface_tables: its settings, and those of the fits that it shares."""
     shared = ("fraction_min", "resamples")
     return config["interface"] | {name: config["scaling"][name] for name in shared} | {"seed": config["seed"]}
 
@@ -229,7 +229,7 @@ def functions_of(figure):
     """The function that draws a figure and those that read what is no table, as in scripts/plot.py."""
     readers = [argument for argument, path in figure["input"].items() if not path.endswith(".csv")]
     draw = {"draw": "viscorough_study.figures.{module}.plot_{module}".format(**figure)}
-    return draw | {argument: f"viscorough_study.figure_inputs.{argument}" for argument in readers}
+    return draw | {argument: f"viscorough_study.figures.inputs.{argument}" for argument in readers}
 
 
 def chapter(name):
@@ -296,12 +296,12 @@ def compile_kernels():
     hides changes of their parameters from Snakemake.
     """
     stamp = Path(".snakemake") / "kernels"
-    digest = SOURCES.digest(Path(importlib.util.find_spec("viscorough_study.kernels").origin))
+    digest = SOURCES.digest(Path(importlib.util.find_spec("viscorough_study.run.kernels").origin))
     if stamp.is_file() and stamp.read_text() == digest:
         return
     print("Compiling the solvers, once: about a minute", file=sys.stderr, flush=True)
     start = time.monotonic()
-    subprocess.run([sys.executable, "-m", "viscorough_study.kernels"], check=True)
+    subprocess.run([sys.executable, "-m", "viscorough_study.run.kernels"], check=True)
     cost = Path("results/benchmarks/compile_kernels.tsv")  # as of a job, whose memory is not measured
     cost.parent.mkdir(parents=True, exist_ok=True)
     with atomic_write(cost) as temporary:

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pandas as pd
 
-from viscorough_study.job_log import log_to
-from viscorough_study.validate_solvers import failures
+from viscorough_study.comparisons.validation import failures
+from viscorough_study.run.job_log import log_to
 
 
 def main(table, passed, *, order_margin):

@@ -1,8 +1,8 @@
 """Table of direct integrations against the law with and without the Gamma function."""
 
-from viscorough_study.gamma_factor import COLUMNS, compare_direct
-from viscorough_study.job_log import log_to
-from viscorough_study.tables import write_table
+from viscorough_study.comparisons.direct_integration import COLUMNS, compare_direct
+from viscorough_study.run.job_log import log_to
+from viscorough_study.run.tables import write_table
 
 
 def main(csv, nc, *, hursts, elements, impulses, seed):

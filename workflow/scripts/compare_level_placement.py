@@ -5,10 +5,10 @@ import logging
 import pandas as pd
 from threadpoolctl import threadpool_limits
 
-from viscorough_study.job_log import log_to
 from viscorough_study.performance import timing
 from viscorough_study.performance.level_placement import COLUMNS, compare, scenes
-from viscorough_study.tables import recorded, write_table
+from viscorough_study.run.job_log import log_to
+from viscorough_study.run.tables import recorded, write_table
 
 
 def main(csv, nc, *, seed, repeats, elements, hurst):

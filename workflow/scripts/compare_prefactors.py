@@ -2,9 +2,9 @@
 
 import pandas as pd
 
-from viscorough_study.job_log import log_to
-from viscorough_study.prefactors import COLUMNS, prefactors
-from viscorough_study.tables import write_table
+from viscorough_study.fits.prefactors import COLUMNS, prefactors
+from viscorough_study.run.job_log import log_to
+from viscorough_study.run.tables import write_table
 
 
 def main(scaling, csv, nc, *, surfaces):

@@ -2,10 +2,10 @@
 
 from functools import partial
 
-from viscorough_study.ensembles import abscissa
-from viscorough_study.job_log import log_to, progress
-from viscorough_study.mdr_comparison import COLUMNS, compare_reduction
-from viscorough_study.tables import write_table
+from viscorough_study.comparisons.mdr_comparison import COLUMNS, compare_reduction
+from viscorough_study.ensembles.averages import abscissa
+from viscorough_study.run.job_log import log_to, progress
+from viscorough_study.run.tables import write_table
 
 
 def main(csv, nc, *, hurst, elements, realizations, tolerance, seed, x_low, x_high, per_decade):

@@ -1,11 +1,11 @@
 """Table of the laws of the prefactor, absolute and up to a factor common to all Hurst exponents."""
 
 from viscorough.io.datasets import read_dataset
-from viscorough_study.job_log import log_to
-from viscorough_study.pool import ensembles, select
-from viscorough_study.power_law import named_windows
-from viscorough_study.tables import recorded, write_table
-from viscorough_study.zeta_laws import COLUMNS, zeta_laws
+from viscorough_study.ensembles.pool import ensembles, select
+from viscorough_study.fits.power_law import named_windows
+from viscorough_study.fits.zeta_laws import COLUMNS, zeta_laws
+from viscorough_study.run.job_log import log_to
+from viscorough_study.run.tables import recorded, write_table
 
 
 def main(discs, csv, nc, *, conventions, hurst_mins, fit, resamples, seed):

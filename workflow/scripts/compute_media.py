@@ -4,10 +4,10 @@ import numpy as np
 
 from viscorough.io import netcdf
 from viscorough.io.curves import unstack_curves
-from viscorough_study.ensembles import abscissa
-from viscorough_study.job_log import log_to
-from viscorough_study.media_kinetics import COLUMNS, EXPONENT_COLUMNS, media_tables, named_media
-from viscorough_study.tables import recorded, write_table
+from viscorough_study.comparisons.media_kinetics import COLUMNS, EXPONENT_COLUMNS, media_tables, named_media
+from viscorough_study.ensembles.averages import abscissa
+from viscorough_study.run.job_log import log_to
+from viscorough_study.run.tables import recorded, write_table
 
 
 def main(curves, csv, nc, exponents_csv, exponents_nc, *, discs, until_x, cases, **how):

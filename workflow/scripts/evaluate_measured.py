@@ -2,14 +2,14 @@
 
 from viscorough.io import netcdf
 from viscorough.io.datasets import read_dataset
-from viscorough_study.ensembles import abscissa
-from viscorough_study.fit_table import COLUMNS
-from viscorough_study.job_log import log_to
-from viscorough_study.measured import COLUMNS as SCANS
-from viscorough_study.measured_tables import KINETICS, group_fits, scans_and_kinetics
-from viscorough_study.media_kinetics import named_media
-from viscorough_study.pool import ensembles
-from viscorough_study.tables import write_table
+from viscorough_study.comparisons.measured import COLUMNS as SCANS
+from viscorough_study.comparisons.measured import KINETICS, group_fits, scans_and_kinetics
+from viscorough_study.comparisons.media_kinetics import named_media
+from viscorough_study.ensembles.averages import abscissa
+from viscorough_study.ensembles.pool import ensembles
+from viscorough_study.fits.fit_table import COLUMNS
+from viscorough_study.run.job_log import log_to
+from viscorough_study.run.tables import write_table
 
 
 def main(pool, curves, scans, fits, kinetics, *, media, times, fit, seed, **of_scans):

@@ -1,10 +1,10 @@
 """Collapse of the curves of all grids, and exponents of an infinitely fine grid."""
 
 from viscorough.io.datasets import read_dataset
-from viscorough_study import infinite_grid, scaling_collapse
-from viscorough_study.collapse_tables import collapse_tables
-from viscorough_study.job_log import log_to
-from viscorough_study.tables import write_table
+from viscorough_study.fits import infinite_grid, scaling_collapse
+from viscorough_study.fits.infinite_grid import collapse_tables
+from viscorough_study.run.job_log import log_to
+from viscorough_study.run.tables import write_table
 
 COLUMNS = {
     "collapse": (scaling_collapse.COLUMNS, "Collapse of the curves of all grids"),

@@ -1,9 +1,9 @@
 """Tables of the interface and the punch in series: plateau and law of every ensemble, and its curves."""
 
 from viscorough.io.datasets import read_dataset
-from viscorough_study.interface import COLUMNS, CURVES, ensembles_of, interface_tables
-from viscorough_study.job_log import log_to
-from viscorough_study.tables import recorded, write_table
+from viscorough_study.fits.interface import COLUMNS, CURVES, ensembles_of, interface_tables
+from viscorough_study.run.job_log import log_to
+from viscorough_study.run.tables import recorded, write_table
 
 
 def main(pools, csv, nc, curves_csv, curves_nc, *, fit, rms_convention):

@@ -5,10 +5,10 @@ import logging
 import pandas as pd
 
 from viscorough.io.datasets import read_dataset
-from viscorough_study.fit_table import COLUMNS, fit_rows
-from viscorough_study.job_log import log_to
-from viscorough_study.pool import ensembles, select
-from viscorough_study.tables import recorded, write_table
+from viscorough_study.ensembles.pool import ensembles, select
+from viscorough_study.fits.fit_table import COLUMNS, fit_rows
+from viscorough_study.run.job_log import log_to
+from viscorough_study.run.tables import recorded, write_table
 
 
 def main(discs, lines, csv, nc, *, seed, fit):

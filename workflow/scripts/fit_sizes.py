@@ -3,12 +3,12 @@
 import pandas as pd
 
 from viscorough.io.datasets import read_dataset
-from viscorough_study.fit_table import COLUMNS, fit_rows
-from viscorough_study.grid_trends import COLUMNS as TRENDS
-from viscorough_study.grid_trends import fixed_window_rows, trends
-from viscorough_study.job_log import log_to, progress
-from viscorough_study.pool import ensembles, select
-from viscorough_study.tables import write_table
+from viscorough_study.ensembles.pool import ensembles, select
+from viscorough_study.fits.fit_table import COLUMNS, fit_rows
+from viscorough_study.fits.grid_trends import COLUMNS as TRENDS
+from viscorough_study.fits.grid_trends import fixed_window_rows, trends
+from viscorough_study.run.job_log import log_to, progress
+from viscorough_study.run.tables import write_table
 
 
 def main(discs, lines, csv, nc, trends_csv, trends_nc, *, seed, fit, windows, conventions, tolerance):

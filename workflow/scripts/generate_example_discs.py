@@ -5,8 +5,8 @@ import xarray as xr
 
 from viscorough.io.datasets import write_dataset
 from viscorough.surfaces import self_affine_disc
-from viscorough_study.job_log import log_to
-from viscorough_study.seeds import realization_seed
+from viscorough_study.run.job_log import log_to
+from viscorough_study.run.seeds import realization_seed
 
 
 def main(surfaces, *, seed, spawn_keys, elements, discs):

@@ -4,16 +4,16 @@ import logging
 import time
 
 from viscorough.io import netcdf
-from viscorough_study.batches import batch_of_curves, numbered, without_numbers
-from viscorough_study.discs import end_of_curve, ensemble_disc, indent_disc
-from viscorough_study.job_log import log_to, progress
-from viscorough_study.seeds import realization_seed
+from viscorough_study.ensembles.batches import batch_of_curves, numbered, without_numbers
+from viscorough_study.ensembles.discs import end_of_curve, ensemble_disc, indent_disc
+from viscorough_study.run.job_log import log_to, progress
+from viscorough_study.run.seeds import realization_seed
 
 
 def main(curves, *, ensembles, seed, indentation):
     """Indent the realizations of a batch; all lengths in m.
 
-    ensembles : of `viscorough_study.cases.ensembles_of_batch`; surface : arguments of self_affine_disc
+    ensembles : of `viscorough_study.run.cases.ensembles_of_batch`; surface : arguments of self_affine_disc
     indentation : tolerance and until_fraction, as in `indent_disc`, and where curves end, as in `end_of_curve`
     """
     batch, indented, heights = numbered(ensembles), [], []

@@ -3,9 +3,9 @@
 from viscorough.io import netcdf
 from viscorough.lines import SelfAffineLines
 from viscorough.mdr import reduce_heights
-from viscorough_study.batches import batch_of_curves, numbered, without_numbers
-from viscorough_study.job_log import log_to, progress
-from viscorough_study.seeds import realization_seed
+from viscorough_study.ensembles.batches import batch_of_curves, numbered, without_numbers
+from viscorough_study.run.job_log import log_to, progress
+from viscorough_study.run.seeds import realization_seed
 
 
 def main(curves, *, ensembles, seed, until_x):

@@ -4,9 +4,9 @@ import logging
 
 from viscorough.contact.loading_path import indent
 from viscorough.io import netcdf
-from viscorough_study.batches import batch_of_curves
-from viscorough_study.job_log import log_to
-from viscorough_study.measured import lengths, measured_indenter
+from viscorough_study.comparisons.measured import lengths, measured_indenter
+from viscorough_study.ensembles.batches import batch_of_curves
+from viscorough_study.run.job_log import log_to
 
 
 def main(heights, curves, *, name, group, indentation, **reading):

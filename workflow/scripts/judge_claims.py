@@ -4,11 +4,11 @@ import pandas as pd
 
 from viscorough.io.atomic import atomic_write
 from viscorough.io.datasets import read_dataset
-from viscorough_study.evidence import Evidence
-from viscorough_study.job_log import log_to
-from viscorough_study.pool import select
-from viscorough_study.tables import recorded, write_table
-from viscorough_study.verdicts import COLUMNS, attributes_of_scale, judge, markdown
+from viscorough_study.ensembles.pool import select
+from viscorough_study.run.job_log import log_to
+from viscorough_study.run.tables import recorded, write_table
+from viscorough_study.verdicts.claims import COLUMNS, attributes_of_scale, judge, markdown
+from viscorough_study.verdicts.evidence import Evidence
 
 
 def main(discs, tables, csv, nc, verdicts, *, claims, **settings):

@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from viscorough.io.atomic import atomic_write
-from viscorough_study.job_log import log_to
 from viscorough_study.page.assembly import page
+from viscorough_study.run.job_log import log_to
 
 
 def main(project, discs, lines, other_solvers, tables, figures, page_file, *, claims, numbers, alternative):

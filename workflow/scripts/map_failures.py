@@ -2,11 +2,11 @@
 
 import logging
 
-from viscorough_study.job_log import log_to
 from viscorough_study.robustness.failure_map import COLUMNS, failure_map, unnoticed
 from viscorough_study.robustness.stress_cases import stress_cases
-from viscorough_study.seeds import failure_map_key, realization_seed
-from viscorough_study.tables import recorded, write_table
+from viscorough_study.run.job_log import log_to
+from viscorough_study.run.seeds import failure_map_key, realization_seed
+from viscorough_study.run.tables import recorded, write_table
 
 
 def main(csv, nc, *, seed, across, grids, hurst_min):

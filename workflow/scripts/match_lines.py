@@ -3,15 +3,15 @@
 import numpy as np
 
 from viscorough.io.datasets import read_dataset
-from viscorough_study.job_log import log_to
-from viscorough_study.mdr_equivalence import EXPONENT_COLUMNS, LAMBDA_COLUMNS, SUMMARY_COLUMNS, compare_ensembles
-from viscorough_study.pool import ensembles, select
-from viscorough_study.tables import recorded, write_table
+from viscorough_study.comparisons import mdr_equivalence
+from viscorough_study.ensembles.pool import ensembles, select
+from viscorough_study.run.job_log import log_to
+from viscorough_study.run.tables import recorded, write_table
 
 TABLES = (
-    ("", LAMBDA_COLUMNS, "point", "λ of lines that stand for discs"),
-    ("summary_", SUMMARY_COLUMNS, "exponent", "Residual error of a single λ"),
-    ("exponents_", EXPONENT_COLUMNS, "fit", "Exponents of lines and discs in equal windows"),
+    ("", mdr_equivalence.LAMBDA_COLUMNS, "point", "λ of lines that stand for discs"),
+    ("summary_", mdr_equivalence.SUMMARY_COLUMNS, "exponent", "Residual error of a single λ"),
+    ("exponents_", mdr_equivalence.EXPONENT_COLUMNS, "fit", "Exponents of lines and discs in equal windows"),
 )
 
 
@@ -24,7 +24,7 @@ def main(discs, lines, *, seed, fit, conventions, **paths):
         {hurst: one.isel(rms_convention=0) for hurst, one in ensembles(pool, "hurst").items()}
         for pool in (discs, lines)
     )
-    tables = compare_ensembles(*pair, average=conventions["average"], seed=seed, **fit)
+    tables = mdr_equivalence.compare_ensembles(*pair, average=conventions["average"], seed=seed, **fit)
     about = recorded(settings={"seed": seed, "conventions": conventions, **fit})
     for table, (name, columns, dimension, title) in zip(tables, TABLES, strict=True):
         files = [paths[name + kind] for kind in ("csv", "nc")]

@@ -7,9 +7,9 @@ import pandas as pd
 from viscorough.io import netcdf
 from viscorough.io.atomic import atomic_write
 from viscorough.io.curves import stack_curves
-from viscorough_study.job_log import log_to
 from viscorough_study.performance.large_discs import measure_disc
-from viscorough_study.seeds import large_disc_key, realization_seed
+from viscorough_study.run.job_log import log_to
+from viscorough_study.run.seeds import large_disc_key, realization_seed
 
 
 def main(csv, curve, *, elements, threads, seed, hurst, tolerance, until_fraction, warm_up):

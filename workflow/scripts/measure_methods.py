@@ -6,12 +6,12 @@ from pathlib import Path
 from threadpoolctl import threadpool_limits
 
 from viscorough.io.atomic import atomic_write
-from viscorough_study.job_log import log_to
-from viscorough_study.kernels import compile_kernels
 from viscorough_study.performance.measurement import measure
 from viscorough_study.performance.methods import METHODS, other_solver_method
 from viscorough_study.performance.other_solvers import OtherSolver
 from viscorough_study.performance.problems import named_problem
+from viscorough_study.run.job_log import log_to
+from viscorough_study.run.kernels import compile_kernels
 
 
 def main(csv, *, problem, groups, seed, levels, region, repeats, longest, peers):

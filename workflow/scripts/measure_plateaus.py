@@ -6,11 +6,11 @@ import numpy as np
 import pandas as pd
 
 from viscorough.io.datasets import read_dataset
-from viscorough_study.job_log import log_to
-from viscorough_study.plateau import COLUMNS, plateau_row
-from viscorough_study.pool import ensembles, select
-from viscorough_study.seeds import plateau_key, realization_seed
-from viscorough_study.tables import recorded, write_table
+from viscorough_study.ensembles.pool import ensembles, select
+from viscorough_study.fits.plateau import COLUMNS, plateau_row
+from viscorough_study.run.job_log import log_to
+from viscorough_study.run.seeds import plateau_key, realization_seed
+from viscorough_study.run.tables import recorded, write_table
 
 
 def main(discs, csv, nc, *, control, rms_convention, seed, **how):

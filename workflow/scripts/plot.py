@@ -5,7 +5,7 @@ from importlib import import_module
 import pandas as pd
 
 from viscorough_study.figures.style import save_figure
-from viscorough_study.job_log import log_to
+from viscorough_study.run.job_log import log_to
 
 
 def main(files, png, pdf, *, functions, **params):

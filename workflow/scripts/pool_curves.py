@@ -2,9 +2,9 @@
 
 from viscorough.io import netcdf
 from viscorough.io.datasets import write_dataset
-from viscorough_study.ensembles import abscissa
-from viscorough_study.job_log import log_to, progress
-from viscorough_study.pool import pool_batches
+from viscorough_study.ensembles.averages import abscissa
+from viscorough_study.ensembles.pool import pool_batches
+from viscorough_study.run.job_log import log_to, progress
 
 
 def main(curves, pool, *, groups, conventions, ensemble):

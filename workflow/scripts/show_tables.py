@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from viscorough.io.atomic import atomic_write
-from viscorough_study.html_table import html_table
-from viscorough_study.job_log import log_to
+from viscorough_study.page.html_table import html_table
+from viscorough_study.run.job_log import log_to
 
 
 def main(template, csv, nc, html):

@@ -3,9 +3,9 @@
 import pandas as pd
 
 from viscorough.calibrated_law import COLUMNS
-from viscorough_study.fit_table import calibrated
-from viscorough_study.job_log import log_to
-from viscorough_study.tables import write_table
+from viscorough_study.fits.fit_table import calibrated
+from viscorough_study.run.job_log import log_to
+from viscorough_study.run.tables import write_table
 
 
 def main(scaling, sizes, csv, nc, *, conventions, across):

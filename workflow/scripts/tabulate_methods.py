@@ -2,12 +2,12 @@
 
 import pandas as pd
 
-from viscorough_study.job_log import log_to
 from viscorough_study.performance import timing
 from viscorough_study.performance.equal_error import COLUMNS as EQUAL
 from viscorough_study.performance.equal_error import equal_error
 from viscorough_study.performance.measurement import COLUMNS
-from viscorough_study.tables import recorded, write_table
+from viscorough_study.run.job_log import log_to
+from viscorough_study.run.tables import recorded, write_table
 
 
 def main(tables, csv, nc, equal_csv, equal_nc, *, settings):

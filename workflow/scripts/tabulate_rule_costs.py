@@ -2,10 +2,10 @@
 
 from datetime import date
 
-from viscorough_study.job_log import log_to
 from viscorough_study.performance import timing
-from viscorough_study.rule_costs import COLUMNS, rule_costs, versions
-from viscorough_study.tables import recorded, write_table
+from viscorough_study.run.job_log import log_to
+from viscorough_study.run.rule_costs import COLUMNS, rule_costs, versions
+from viscorough_study.run.tables import recorded, write_table
 
 
 def main(csv, nc, *, benchmarks):

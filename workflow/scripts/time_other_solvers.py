@@ -7,12 +7,12 @@ import numpy as np
 import pandas as pd
 from threadpoolctl import threadpool_limits
 
-from viscorough_study.job_log import log_to
 from viscorough_study.performance import timing
 from viscorough_study.performance.other_solvers import OtherSolver
 from viscorough_study.performance.solver_comparison import COLUMNS, compare_solvers, disc_task
-from viscorough_study.seeds import realization_seed, solver_race_key
-from viscorough_study.tables import recorded, write_table
+from viscorough_study.run.job_log import log_to
+from viscorough_study.run.seeds import realization_seed, solver_race_key
+from viscorough_study.run.tables import recorded, write_table
 
 
 def main(csv, nc, *, seed, hurst, pairs, longest, tasks, peers):

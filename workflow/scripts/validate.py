@@ -1,8 +1,8 @@
 """Table of errors and observed orders against exact solutions."""
 
-from viscorough_study.job_log import log_to
-from viscorough_study.tables import write_table
-from viscorough_study.validate_solvers import COLUMNS, validation_table
+from viscorough_study.comparisons.validation import COLUMNS, validation_table
+from viscorough_study.run.job_log import log_to
+from viscorough_study.run.tables import write_table
 
 
 def main(csv, nc, *, elements, limits, order_margin):

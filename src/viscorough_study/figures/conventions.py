@@ -4,9 +4,9 @@ import numpy as np
 from matplotlib.ticker import MaxNLocator, NullLocator
 
 from viscorough import reference
-from viscorough_study.conventions import fits
 from viscorough_study.figures import style
 from viscorough_study.figures.labels import CONVENTION_LABELS
+from viscorough_study.fits.conventions import fits
 
 VARIANTS = {
     "longer_period": "longer period",

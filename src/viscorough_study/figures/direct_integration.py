@@ -14,7 +14,7 @@ COLUMNS = 3
 def plot_direct_integration(table):
     """Depth by direct integration over the elastic depth, and what Eq. 8 gives, against the elements in contact.
 
-    table : of viscorough_study.gamma_factor; a panel for each indenter, with the largest deviation of the ratio from 1
+    table : of comparisons.direct_integration; a panel for each indenter, with the largest deviation of the ratio from 1
     Raises ValueError for a table without rows.
     """
     style.require_rows("plot_direct_integration", table)

@@ -4,8 +4,8 @@ import numpy as np
 from matplotlib.legend_handler import HandlerTuple
 
 from viscorough import reference
-from viscorough_study.conventions import fits
 from viscorough_study.figures import style
+from viscorough_study.fits.conventions import fits
 
 
 @style.in_style

@@ -1,8 +1,8 @@
 """The interface and the punch in series: g over X, the law over all X, and u₀/h over the Hurst exponent."""
 
 from viscorough.calibrated_law import LARGEST_DEVIATION
+from viscorough_study.comparisons.literature import cited
 from viscorough_study.figures import style
-from viscorough_study.literature import cited
 
 SHIFT = 0.008  # in H, between grids and methods
 X_SHOWN = (1e-4, 30.0)
@@ -12,7 +12,7 @@ X_SHOWN = (1e-4, 30.0)
 def plot_interface(table, curves, literature, conventions):
     """g of discs (a) and lines (b), the law's vt/h over that of discs (c), and u₀/h of every grid and method (d).
 
-    table, curves : of viscorough_study.interface; literature : of viscorough_study.literature, for u₀/h in (d)
+    table, curves : of fits.interface; literature : of comparisons.literature, for u₀/h in (d)
     conventions : those of the figures, {column: value}
     Where ensembles on grids from coarse to fine are in the tables, (a) to (c) show those of one more Hurst exponent
     only on the grid of the base. Raises ValueError for a table without rows.

@@ -3,10 +3,10 @@
 import numpy as np
 
 from viscorough import reference
-from viscorough_study.conventions import LENGTH, fits
 from viscorough_study.figures import style
 from viscorough_study.figures.mean_curve import mean_curve, realizations_text
 from viscorough_study.figures.placement import place_labels
+from viscorough_study.fits.conventions import LENGTH, fits
 
 # Rows of the table of combinations: quantity, symbol, unit, size of the unit.
 QUANTITIES = (

@@ -3,9 +3,9 @@
 import numpy as np
 
 from viscorough import reference
-from viscorough_study.conventions import fits
 from viscorough_study.figures import style
 from viscorough_study.figures.mean_curve import mean_curve, realizations_text
+from viscorough_study.fits.conventions import fits
 
 
 @style.in_style

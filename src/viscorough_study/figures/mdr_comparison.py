@@ -12,7 +12,7 @@ NEAR_ONE = [0.2, 0.3, 0.5, 0.8, 1, 1.2, 1.5, 2, 3, 5]
 def plot_mdr_comparison(table):
     """Lines over the discs with their spectra: κ (a, b), contact fraction (c), gap (d), correlation (e), force (f).
 
-    table : of viscorough_study.mdr_comparison
+    table : of viscorough_study.comparisons.mdr_comparison
     Bands are 95 % intervals of the means; in (e), 95 % of the correlations of unrelated pairs.
     Raises ValueError for a table without rows.
     """

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from viscorough_study.comparisons.mdr_equivalence import WINDOWS
 from viscorough_study.figures import style
-from viscorough_study.mdr_equivalence import WINDOWS
 
 _MARKERS = dict(zip(WINDOWS, "oDs", strict=True))
 _SHIFT = 0.02  # in H, between the marks of one Hurst exponent
@@ -15,7 +15,7 @@ _LAMBDA_RANGE = (0.3, 30.0)  # drawn: λ grows without limit as contact becomes 
 def plot_mdr_lambda(of_lambda, exponents):
     """λ over X (a), vt/h of lines with the best single λ over that of discs (b), and exponents in equal windows (c).
 
-    of_lambda, exponents : tables of viscorough_study.mdr_equivalence
+    of_lambda, exponents : tables of viscorough_study.comparisons.mdr_equivalence
     Raises ValueError for a table of λ without rows.
     """
     style.require_rows("plot_mdr_lambda", of_lambda)

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from viscorough_study.conventions import LENGTH
 from viscorough_study.figures.style import count_text
+from viscorough_study.fits.conventions import LENGTH
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ import numpy as np
 
 from viscorough.reference import exponent_beta
 from viscorough_study.figures import style
-from viscorough_study.medium_names import medium_label
+from viscorough_study.run.cases import medium_label
 
 _DECADES = 1e-6  # of the largest velocity, down to which it is drawn: that of a solid falls exponentially
 HOLLOW = {"linestyle": "", "markersize": 3, "markerfacecolor": "none"}
@@ -14,7 +14,7 @@ HOLLOW = {"linestyle": "", "markersize": 3, "markerfacecolor": "none"}
 def plot_media(table):
     """vt/h over time, a panel for each medium, and the depth u/h over X = F J(t)/(4hL) in all of them.
 
-    table : of viscorough_study.media_kinetics
+    table : of viscorough_study.comparisons.media_kinetics
     Dotted lines have slope 1, dashed ones the slope H/(1 + H) of Eq. 10 through X = 0.01 of the medium.
     Raises ValueError for a table without rows.
     """

@@ -3,7 +3,7 @@
 from matplotlib.ticker import LogLocator
 
 from viscorough_study.figures import style
-from viscorough_study.medium_names import medium_label
+from viscorough_study.run.cases import medium_label
 
 _RANGE = (-0.6, 1.2)  # of the exponents drawn: that of a solid falls without limit
 
@@ -12,7 +12,7 @@ _RANGE = (-0.6, 1.2)  # of the exponents drawn: that of a solid falls without li
 def plot_media_exponents(table):
     """d ln(vt/h)/d ln t over time, one panel for each medium, with that by Eq. 10 and the creep compliance.
 
-    table : of viscorough_study.media_kinetics
+    table : of viscorough_study.comparisons.media_kinetics
     Raises ValueError for a table without rows.
     """
     style.require_rows("plot_media_exponents", table)

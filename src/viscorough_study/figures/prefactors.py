@@ -2,9 +2,9 @@
 
 from matplotlib.patches import Patch
 
-from viscorough_study import prefactors
-from viscorough_study.conventions import left_open
 from viscorough_study.figures import style
+from viscorough_study.fits import prefactors
+from viscorough_study.fits.conventions import left_open
 
 LAWS = {"eq4": r"(a) $\zeta$ over $\pi(3-H)/10$, Eq. 4", "eq11": r"(b) $\zeta$ over $2-H$, Eq. 11"}
 NEAREST = 6  # combinations drawn one by one
@@ -26,7 +26,7 @@ SHORT = {
 def plot_prefactors(table, conventions):
     """ζ over each of the paper's two laws: the nearest combinations of conventions, that of the figures, and all.
 
-    table : of viscorough_study.prefactors; conventions : those of the other figures, {column: value}
+    table : of viscorough_study.fits.prefactors; conventions : those of the other figures, {column: value}
     Rows are ranked by the largest deviation over all Hurst exponents, among the combinations that the paper leaves
     open; below them is the nearest of those that contradict it. Raises ValueError for a table without rows.
     """

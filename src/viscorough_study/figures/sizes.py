@@ -1,9 +1,9 @@
 """The exponent β of ensembles on grids from coarse to fine."""
 
 from viscorough.reference import exponent_beta
-from viscorough_study.conventions import fits
 from viscorough_study.figures import style
-from viscorough_study.grid_trends import fixed_rules
+from viscorough_study.fits.conventions import fits
+from viscorough_study.fits.grid_trends import fixed_rules
 
 CONTROL = {"color": style.GREY, "marker": "x", "linestyle": ""}
 

@@ -16,7 +16,7 @@ LABEL_HEIGHT = 0.085  # of an order, as a share of the height of its panel
 def plot_validation(table):
     """Relative errors against exact solutions over the elements across the body, one panel for each quantity.
 
-    table : of viscorough_study.validate_solvers
+    table : of viscorough_study.comparisons.validation
     The observed orders stand at the ends of the lines; the black bar is the limit on the finest grid.
     """
     quantities, cases = table["quantity"].unique(), table["case"].unique()

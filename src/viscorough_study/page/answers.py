@@ -4,7 +4,7 @@ import numpy as np
 
 from viscorough_study.page.results import Count
 from viscorough_study.performance.costs import fastest
-from viscorough_study.verdicts import counted_verdicts
+from viscorough_study.verdicts.claims import counted_verdicts
 
 GROUPS = {"path": "elastic path", "marching": "direct integration in time", "model": "model"}
 ERRORS = (0.1, 1e-2, 1e-3, 1e-6)  # of the velocity, for which the fastest method is named

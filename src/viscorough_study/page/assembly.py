@@ -6,8 +6,8 @@ from viscorough_study.page.discussion import QUANTITIES, discussion
 from viscorough_study.page.render import render
 from viscorough_study.page.results import netcdf_of, read_results, read_table, readable
 from viscorough_study.robustness.failure_map import VERDICTS as OUTCOMES
-from viscorough_study.rule_costs import in_words
-from viscorough_study.tables import read_recorded
+from viscorough_study.run.rule_costs import in_words
+from viscorough_study.run.tables import read_recorded
 
 
 def page(

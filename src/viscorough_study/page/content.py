@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 
 from viscorough.io.netcdf import opened
-from viscorough_study.medium_names import medium_label
-from viscorough_study.verdicts import (
+from viscorough_study.run.cases import medium_label
+from viscorough_study.verdicts.claims import (
     KINDS,
     case_in_words,
     cases_shown,

@@ -1,6 +1,6 @@
 """What others found, with the numbers of this run beside it, as the page shows the table `literature`."""
 
-from viscorough_study.literature import cited
+from viscorough_study.comparisons.literature import cited
 
 # {quantity of the table: what it is called on the page}
 QUANTITIES = {

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from viscorough_study.tables import read_recorded
+from viscorough_study.run.tables import read_recorded
 
 MAY_BE_EMPTY = ("convention", "reason")  # columns of texts
 

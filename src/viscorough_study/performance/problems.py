@@ -11,7 +11,7 @@ from viscorough import reference
 from viscorough.contact.loading_path import indent
 from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
-from viscorough_study.seeds import method_problem_key, realization_seed
+from viscorough_study.run.seeds import method_problem_key, realization_seed
 
 BODIES = {"sphere": reference.sphere(1.0), "cone": reference.cone(0.1)}
 FINAL_X, FINAL_FRACTION = 30.0, 0.9  # where a rough disc's curve ends

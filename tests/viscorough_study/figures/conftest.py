@@ -8,8 +8,8 @@ from support.study import LIMITS, aggregate, pool_of
 from viscorough.contact.loading_path import indent
 from viscorough.mdr import reduce
 from viscorough.surfaces import self_affine_disc, self_affine_line
-from viscorough_study.fit_table import COLUMNS, fit_rows
-from viscorough_study.pool import ensembles
+from viscorough_study.ensembles.pool import ensembles
+from viscorough_study.fits.fit_table import COLUMNS, fit_rows
 
 SCALING = LIMITS | {"elements_min": 3, "stiffness_range": (0.03, 0.3)}
 

@@ -39,7 +39,7 @@ from viscorough_study.figures.speed import plot_speed
 from viscorough_study.figures.style import SMALL
 from viscorough_study.figures.surfaces import plot_surfaces
 from viscorough_study.figures.validation import plot_validation
-from viscorough_study.prefactors import prefactors
+from viscorough_study.fits.prefactors import prefactors
 
 REPORT = ROOT / "workflow" / "report"
 SYMBOLS = {r"\alpha": "α", r"\beta": "β", r"\zeta": "ζ", r"\kappa": "κ", r"\eta": "η", r"\lambda": "λ", r"\ln": "ln "}

@@ -10,7 +10,6 @@ from support.figures import HURST, X, coordinates, dashed, legend_texts, markers
 from support.study import BASE_SURFACES, SHOWN
 from viscorough import reference
 from viscorough.surfaces import self_affine_disc
-from viscorough_study.conventions import fits, left_open, select
 from viscorough_study.figures.collapse import SHIFT, plot_collapse
 from viscorough_study.figures.conventions import plot_conventions
 from viscorough_study.figures.direct_integration import plot_direct_integration
@@ -32,7 +31,8 @@ from viscorough_study.figures.sizes import plot_sizes
 from viscorough_study.figures.speed import plot_speed
 from viscorough_study.figures.surfaces import plot_surfaces
 from viscorough_study.figures.validation import plot_validation
-from viscorough_study.prefactors import prefactors, ranked, rows_of
+from viscorough_study.fits.conventions import fits, left_open, select
+from viscorough_study.fits.prefactors import prefactors, ranked, rows_of
 
 pytestmark = pytest.mark.filterwarnings("error")
 

@@ -7,8 +7,8 @@ from support.figures import COMBINATIONS, ELEMENTS, case_of, whole_on_page
 from support.study import SHOWN
 from viscorough import reference
 from viscorough.viscous.correspondence import kinetics
-from viscorough_study.conventions import fits
 from viscorough_study.figures.kinetics import plot_kinetics
+from viscorough_study.fits.conventions import fits
 
 pytestmark = pytest.mark.filterwarnings("error")
 

@@ -6,7 +6,7 @@ import pandas as pd
 from support.page import Page, number_in
 from viscorough_study.page.render import caption, number, percent
 from viscorough_study.page.results import Count, Number, read_results, readable
-from viscorough_study.tables import recorded, write_table
+from viscorough_study.run.tables import recorded, write_table
 
 
 def test_numbers_are_readable():

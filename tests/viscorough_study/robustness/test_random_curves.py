@@ -11,7 +11,7 @@ from viscorough.errors import AccuracyWarning
 from viscorough.surfaces import self_affine_disc
 from viscorough_study.robustness.random_curves import RandomCurve, curve_failure, random_curve
 from viscorough_study.robustness.random_heights import KINDS
-from viscorough_study.seeds import random_indenter_key, realization_seed
+from viscorough_study.run.seeds import random_indenter_key, realization_seed
 
 
 def generator(number, seed=12):

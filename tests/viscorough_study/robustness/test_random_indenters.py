@@ -8,7 +8,7 @@ from viscorough.contact.solver import ContactSolver
 from viscorough.errors import ConvergenceError
 from viscorough.surfaces import self_affine_disc
 from viscorough_study.robustness.random_indenters import RandomCase, random_case, silent_failure
-from viscorough_study.seeds import random_indenter_key, realization_seed
+from viscorough_study.run.seeds import random_indenter_key, realization_seed
 
 
 def test_random_cases_do_not_fail_silently():

@@ -1,0 +1,65 @@
+"""Direct integrations of the viscous problem against the law with and without the factor 1/Γ(2 − α).
+
+The integration proceeds from contact event to contact event and never uses the correspondence with the elastic problem.
+If the correspondence is exact, the depth at time t is the elastic depth under the force GFt/η, for any topography;
+Eqs. (7) to (9) make it 1/Γ(2 − α) times that.
+"""
+
+import numpy as np
+import pandas as pd
+from scipy.special import gamma as gamma_function
+
+from viscorough import reference
+from viscorough.contact.loading_path import indent
+from viscorough.surfaces import self_affine_disc
+from viscorough.viscous.events import march_events
+from viscorough_study.run.seeds import gamma_factor_key, realization_seed
+
+COLUMNS = {
+    "case": ("indenter", ""),
+    "alpha": ("α of κ ∝ X^α: exact for sphere and cone, 1/(1 + H) for rough discs", "1"),
+    "contact_count": ("elements in contact", "1"),
+    "depth_ratio": ("depth of the direct integration over the elastic depth under the force GFt/η", "1"),
+    "with_gamma": ("the same by Eq. 8: 1/Γ(2 − α)", "1"),
+}
+# α of bodies z ∝ rⁿ, for which F ∝ u^(1 + 1/n): k ∝ F^(1/(n + 1))
+BODIES = {"sphere": (reference.sphere(1.0), 1 / 3), "cone": (reference.cone(1.0), 1 / 2)}
+RADII = 6, 0.35  # contact radii compared: from where the grid resolves the contact, in elements, to within the body [L]
+BODY_FRACTION = 0.4  # contact fraction, slightly beyond that of the largest radius
+DISC_FRACTION = 0.5  # contact fraction to which rough discs are integrated
+FIRST_EVENT = 10  # of a rough disc: before it, too few elements touch for a power law
+LAST_FORCE = 0.9  # of what both curves reach
+TOLERANCE = 1e-6  # of the elastic curve
+
+
+def compare_direct(hursts, across, impulses, seed):
+    """Depths by direct integration over elastic depths; a pandas.DataFrame with the columns of `COLUMNS`.
+
+    Sphere and cone: over the exact elastic solution, so that the ratio has the error of the grid. Rough discs, one for
+    each Hurst exponent: over the loading curve by boundary elements of the same disc.
+    hursts : Hurst exponents; across : elements across all indenters; impulses : number of impulses ∫F dt/η per indenter
+    seed : root of the discs' seeds
+    """
+    rows = []
+    for name, (body, alpha) in BODIES.items():
+        events = march_events(body.indenter(across), until_fraction=BODY_FRACTION)
+        radii = np.array([RADII[0], RADII[1] * across]) / across
+        impulse = np.geomspace(*body.force(body.mdr_profile(radii)), impulses)
+        rows += _rows(name, alpha, events, impulse, body.depth(impulse))
+    for hurst in hursts:
+        disc = self_affine_disc(hurst, across, seed=realization_seed(seed, *gamma_factor_key(hurst)))
+        events = march_events(disc, until_fraction=DISC_FRACTION)
+        elastic = indent(disc, tolerance=TOLERANCE, until_fraction=DISC_FRACTION)
+        last = LAST_FORCE * min(events.impulse[-1], elastic.force[-1])
+        impulse = np.geomspace(events.impulse[FIRST_EVENT], last, impulses)
+        alpha = reference.exponent_alpha(hurst)
+        rows += _rows(f"rough disc, H = {hurst:g}", alpha, events, impulse, elastic.at_force(impulse)[0])
+    return pd.DataFrame(rows, columns=list(COLUMNS))
+
+
+def _rows(case, alpha, events, impulse, elastic_depth):
+    """Rows of one indenter, one for each impulse."""
+    counts = events.contact_count[events.event_at(impulse)]
+    ratios = events.depth_at(impulse) / elastic_depth
+    factor = 1 / gamma_function(2 - alpha)
+    return [(case, alpha, count, ratio, factor) for count, ratio in zip(counts, ratios, strict=True)]

@@ -1,0 +1,139 @@
+"""What others found on rough contacts (resources/literature), with the numbers of this study beside it."""
+
+import numpy as np
+import pandas as pd
+from scipy.integrate import quad
+from scipy.special import exprel
+
+from viscorough import reference
+from viscorough_study.fits.conventions import fits
+
+COLUMNS = {
+    "year": ("year of publication", "1"),
+    "source": ("authors", ""),
+    "place": ("journal, volume and page", ""),
+    "when": ("before or after the paper", ""),
+    "statement": ("what was found, in our words", ""),
+    "sure": ("how it is known: abstract, the paper, quoted by others, or not verified", ""),
+    "read": ("where it was read", ""),
+    "quantity": (
+        "ours beside it: alpha (1 − β of discs), u0 (u₀/h of the interface), gamma (u₀/h over that of Persson's law "
+        "without a factor), area and gap (contact and mean gap of a line over those of its disc at X = 0.01), or none",
+        "",
+    ),
+    "hurst": ("Hurst exponent H of the values", "1"),
+    "theirs_low": ("lower end of the stated range, or of the law at this H", "1"),
+    "theirs_high": ("upper end of the stated range, or of the law at this H", "1"),
+    "value": ("value of this study", "1"),
+    "low": ("lower end of its 95 % interval", "1"),
+    "high": ("upper end of its 95 % interval", "1"),
+}
+KNOWN = ("year", "source", "place", "when", "statement", "sure", "read")
+OURS = ["hurst", "value", "low", "high", "across"]  # across: elements across the discs, where the quantity needs it
+NONE = pd.DataFrame([dict.fromkeys(OURS, np.nan)])
+X_COMPARED = 0.01  # at which lines are compared with their discs, in region (b)
+
+
+def literature(entries, scaling, interface, reduction, conventions):
+    """A row for every source, quantity and Hurst exponent; a pandas.DataFrame with the columns of `COLUMNS`, by year.
+
+    entries : content of resources/literature/stiffness.yaml
+    scaling, interface, reduction : the tables of these names; conventions : those of the figures
+    """
+    u0 = _u0(interface, conventions["average"])
+    ours = {
+        "none": NONE,
+        "alpha": _alpha(fits(scaling, conventions, source="discs", case_group="base")),
+        "u0": u0,
+        "gamma": _gamma(u0),
+        "area": _ratio(reduction, "area"),
+        "gap": _ratio(reduction, "gap"),
+    }
+    rows = []
+    for entry in sorted(entries, key=lambda entry: entry["year"]):
+        known = {name: entry[name] for name in KNOWN}
+        for quantity in entry["ours"] or ["none"]:
+            for row in ours[quantity].to_dict("records"):
+                theirs = dict(zip(("theirs_low", "theirs_high"), _theirs(entry, row), strict=True))
+                rows.append(known | {"quantity": quantity} | theirs | row)
+    return pd.DataFrame(rows)[list(COLUMNS)]
+
+
+def cited(source, year):
+    """A source as cited in a text: up to three surnames, or the first and "et al.", and the year."""
+    names = source.replace(" and ", ", ").split(", ")
+    return f"{source if len(names) < 4 else names[0] + ' et al.'} {year}"
+
+
+def persson_u0(hurst, band):
+    """u₀/h of p ∝ exp(−u/u₀) at small pressures, without the fitted factor γ by which others multiply it.
+
+    With the spectrum C ∝ q^(−2−2H) between q₀ and ζq₀ the theory has the elastic energy (π/2)E* ∫ q² C P dq for each
+    area, where P = erf(w p/E*) and w(q) = (π ∫ q³ C dq)^(−1/2) up to q. From p du = −dU follows at small pressures
+
+        u₀ = √π ∫ q² C w dq = h √(H/π) ∫₁^ζ x^(−2H) [(x^(2−2H) − 1)/(2 − 2H)]^(−1/2) dx / √(1 − ζ^(−2H)).
+
+    hurst : H in (0, 1]; band : ζ, longest over shortest wavelength, above 1
+    Source: B. N. J. Persson, Phys. Rev. Lett. 99, 125502 (2007).
+    """
+
+    def integrand(s):  # with x = exp(s²), which is regular at x = 1 and, unlike the one above, defined at H = 1
+        return 2 * np.exp((1 - 2 * hurst) * s**2) / np.sqrt(exprel((2 - 2 * hurst) * s**2))
+
+    integral, _ = quad(integrand, 0, np.sqrt(np.log(band)))
+    return np.sqrt(hurst / np.pi) * integral / np.sqrt(-np.expm1(-2 * hurst * np.log(band)))
+
+
+def _theirs(entry, row):
+    """Lower and upper end of what the source has for the Hurst exponent and the discs of a row of ours."""
+    theirs = entry.get("theirs") or entry.get("factor") or {"low": 1.0, "high": 1.0}
+    if entry.get("law") == "exponent_alpha":
+        scale = reference.exponent_alpha(row["hurst"])
+    elif entry.get("law") == "persson_u0":
+        scale = _persson(row)
+    else:
+        scale = 1.0 if "theirs" in entry else np.nan
+    return scale * theirs["low"], scale * theirs["high"]
+
+
+def _persson(row):
+    """u₀/h of Persson's law, without a factor, for waves from the diameter down to two elements."""
+    return persson_u0(row["hurst"], row["across"] / 2) if np.isfinite(row["hurst"]) else np.nan
+
+
+def _alpha(rows):
+    """1 − β and its interval of every fit."""
+    columns = {
+        "hurst": rows["hurst"],
+        "value": 1 - rows["beta"],
+        "low": 1 - rows["beta_high"],
+        "high": 1 - rows["beta_low"],
+    }
+    return _or_none(pd.DataFrame(columns))
+
+
+def _u0(interface, average):
+    """u₀/h and its interval of the base discs."""
+    rows = interface[(interface["source"] == "discs") & (interface["case_group"] == "base")]
+    rows = rows[rows["average"] == average]
+    return _or_none(rows.rename(columns={"u0": "value", "u0_low": "low", "u0_high": "high"}))
+
+
+def _gamma(u0):
+    """The factor with which Persson's law gives these u₀/h."""
+    without = u0.apply(_persson, axis=1)
+    return u0.assign(**{name: u0[name] / without for name in ("value", "low", "high")})
+
+
+def _ratio(reduction, name):
+    """Ratio of lines to discs, and its interval, at X_COMPARED."""
+    rows = reduction.assign(distance=np.log(reduction["x"] / X_COMPARED).abs()).sort_values("distance")
+    rows = rows[rows["distance"] < 1e-6].rename(
+        columns={f"{name}_ratio": "value", f"{name}_ratio_low": "low", f"{name}_ratio_high": "high"}
+    )
+    return _or_none(rows)
+
+
+def _or_none(rows):
+    """The columns of OURS by ascending H, one row of nan if there is none."""
+    return NONE if rows.empty else rows.reindex(columns=OURS).sort_values("hurst")

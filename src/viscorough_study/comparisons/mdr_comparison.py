@@ -1,0 +1,135 @@
+"""The reduction of dimensionality against boundary elements, surface by surface.
+
+The line that stands for a surface has the spectrum C1D = π q C2D (Eq. 13): here that of the same realization of the
+surface, ring by ring of the wave vectors, with independent random phases, which the method does not specify.
+
+Contact area and separation are where the literature finds the method to fail (Lyashenko, Pastewka & Persson, Tribology
+Letters 52, 223 (2013)). The contact fraction of a line is its κ on every grid, whereas that of a disc falls as finer
+waves are resolved: the ratio of the two is that of the grid. The mean gap of a disc takes its deflections, so it is
+computed only at whole powers of ten.
+"""
+
+import numpy as np
+import pandas as pd
+
+from viscorough.contact.loading_path import indent
+from viscorough.contact.one_contact import contact_at
+from viscorough.indenter import Indenter
+from viscorough.mdr import line_of_surface, reduce
+from viscorough.surfaces import cut_disc, self_affine_square
+from viscorough_study.fits.intervals import described, mean_with_interval, three_columns
+from viscorough_study.run.seeds import mdr_comparison_key, realization_seed
+
+COLUMNS = {
+    "hurst": ("Hurst exponent H", "1"),
+    "x": ("dimensionless force F/(4GhL) or time Ft/(4ηhL)", "1"),
+    "stiffness": ("geometric mean of κ of the discs", "1"),
+    **described("stiffness_ratio", "geometric mean of κ of the lines over that of the discs"),
+    "stiffness_scatter": ("standard deviation of ln κ of a line over its disc", "1"),
+    **described("area_ratio", "geometric mean of the contact fraction of the lines over that of the discs"),
+    "force_ratio": (
+        "geometric mean of X of a line over that of its disc, at equal u/h, where the disc has this X",
+        "1",
+    ),
+    "gap": ("mean gap of a disc over h, geometric mean; at whole powers of ten only", "1"),
+    **described("gap_ratio", "geometric mean of the mean gap of the lines over that of the discs"),
+    "correlation": ("correlation of ln κ of discs and their lines over the realizations", "1"),
+    "chance": ("correlations of as many unrelated pairs are within ± this in 95 % of all cases", "1"),
+    "realizations": ("realizations", "1"),
+}
+FORCE_MARGIN = 1.01  # by which the curve of a disc reaches beyond the last force compared, so that it is defined there
+
+
+def compare_reduction(hursts, elements, realizations, x, *, tolerance, seed, progress=iter):
+    """Lines against the discs whose spectra they have; a pandas.DataFrame with the columns of `COLUMNS`.
+
+    hursts : Hurst exponents; realizations : number of discs for each
+    elements : across a disc of diameter and rms height 1, cut from a square of one period; x : X, shape (abscissae,)
+    tolerance : of the loading curves of the discs; seed : root of the surfaces' seeds; progress : wraps the loop
+    Abscissae that some curve does not reach are left out.
+    """
+    force, tables = 4 * x, []  # F/G = 4hLX with h = L = 1
+    with_gap = is_power_of_ten(x)
+    for hurst in hursts:
+        compared = []
+        for number in progress(range(realizations)):
+            seed_of_both = realization_seed(seed, *mdr_comparison_key(hurst, number))
+            disc, line = _disc_and_line(hurst, elements, *seed_of_both.spawn(2))
+            disc_curve = indent(disc, tolerance=tolerance, until_force=FORCE_MARGIN * force[-1])
+            line_curve, gaps = reduce(line), np.full((2, x.size), np.nan)
+            for row, pair in zip(gaps, ((disc, disc_curve), (line, line_curve)), strict=True):
+                row[with_gap] = np.log(mean_gaps(*pair, force[with_gap], tolerance))
+            compared.append([*_compare(disc_curve, line_curve, force), gaps])
+        tables.append(_table(hurst, x, np.array(compared)))
+    return pd.concat(tables, ignore_index=True)
+
+
+def _disc_and_line(hurst, elements, surface_seed, line_seed):
+    """A disc of rms height 1, cut from a square, and the line with the spectrum of the square."""
+    square = self_affine_square(hurst, elements, seed=surface_seed)
+    square /= np.nanstd(cut_disc(square, elements))
+    disc = Indenter(cut_disc(square, elements), 1 / elements)
+    return disc, line_of_surface(square, 1 / elements, line_seed)
+
+
+def _compare(disc, line, force):
+    """ln of κ, of contact fraction and of force at the disc's depth: shape (3 quantities, disc and line, abscissae)."""
+    depth, disc_stiffness = disc.at_force(force)
+    _, line_stiffness = line.at_force(force)
+    fractions = [
+        np.interp(np.log(force), np.log(curve.force), np.log(curve.contact_fraction)) for curve in (disc, line)
+    ]
+    # Before the first level the curve of the line is straight.
+    straight = np.minimum(np.log(depth / line.depth[0]), 0)
+    line_force = straight + np.interp(np.log(depth), np.log(line.depth), np.log(line.force))
+    return np.log([disc_stiffness / 4, line_stiffness / 4]), fractions, [np.log(force), line_force]
+
+
+def is_power_of_ten(x):
+    """Whether numbers are whole powers of ten, to rounding; of the shape of x."""
+    exponent = np.log10(x)
+    return np.abs(exponent - np.rint(exponent)) < 1e-9
+
+
+def mean_gaps(indenter, curve, force, tolerance):
+    """Mean over all elements of the gap between indenter and deformed surface, at F/G; shape (forces,) [length].
+
+    curve : LoadingCurve of the indenter; tolerance : of the contacts of a map, which are solved at the curve's depths.
+    Springs of a line deflect by u − g where they touch, on average by F/(4GL): their mean gap is ⟨g⟩ − u + F/(4GL).
+    nan beyond the end of the curve.
+    """
+    depth, _ = curve.at_force(force)
+    if indenter.heights.ndim == 1:
+        heights = indenter.heights
+        return heights.max() - heights.mean() - depth + force / (4 * indenter.spacing * heights.size)
+    gaps, reached = np.full(force.size, np.nan), np.isfinite(depth)
+    if reached.any():
+        contacts = contact_at(indenter, depth=depth[reached], tolerance=tolerance)
+        gaps[reached] = [np.nanmean(contact.gap) for contact in contacts]
+    return gaps
+
+
+def _table(hurst, x, compared):
+    """Rows of one Hurst exponent at which all but the gaps are defined.
+
+    compared : results of _compare and ln of the mean gaps, shape (realizations, 4, disc and line, abscissae)
+    """
+    stiffness, fraction, force, gap = np.moveaxis(compared, 1, 0)
+    number = len(compared)
+    with np.errstate(invalid="ignore", divide="ignore"):  # nan where all realizations have the same κ
+        correlation = [np.corrcoef(stiffness[:, 0, i], stiffness[:, 1, i])[0, 1] for i in range(x.size)]
+    columns = {
+        "hurst": hurst,
+        "x": x,
+        "stiffness": np.exp(stiffness[:, 0].mean(axis=0)),
+        "stiffness_scatter": (stiffness[:, 1] - stiffness[:, 0]).std(axis=0, ddof=1),
+        "force_ratio": np.exp((force[:, 1] - force[:, 0]).mean(axis=0)),
+        "gap": np.exp(gap[:, 0].mean(axis=0)),
+        "correlation": correlation,
+        "chance": np.tanh(1.96 / np.sqrt(number - 3)) if number > 3 else 1.0,  # by Fisher's transform
+        "realizations": number,
+    }
+    for name, values in (("stiffness_ratio", stiffness), ("area_ratio", fraction), ("gap_ratio", gap)):
+        columns |= three_columns(name, np.exp(mean_with_interval(values[:, 1] - values[:, 0])))
+    table = pd.DataFrame(columns)[list(COLUMNS)]
+    return table[np.isfinite(table.loc[:, "stiffness":"force_ratio"]).all(axis=1)]

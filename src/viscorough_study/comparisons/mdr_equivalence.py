@@ -1,0 +1,145 @@
+"""Lines against discs of one Hurst exponent: λ over X, residual errors of a single λ, and exponents in equal windows.
+
+Both are means over ensembles. "A single λ" is the one whose largest error of vt/h over region (b) of the discs is the
+smallest, so that no other choice of λ(H) can do better there. The largest of many errors grows with the scatter of the
+surfaces, and so does the range of λ(X); what is judged are therefore straight lines through ln λ and ln(vt/h) over
+ln X, whose ends may lie on either side and whose intervals have no such bias.
+"""
+
+import numpy as np
+import pandas as pd
+
+from viscorough_study.fits.intervals import described, percentile_interval, three_columns
+from viscorough_study.fits.mdr_lambda import match_lines
+from viscorough_study.fits.power_law import find_region, fit_power_law, in_window, named_windows
+
+FRACTION_KEPT = 1 - 1e-9  # of the realizations, that must be defined at an X of the whole curve
+
+LAMBDA_COLUMNS = {
+    "hurst": ("Hurst exponent H", "1"),
+    "x": ("dimensionless force F/(4GhL) or time Ft/(4ηhL)", "1"),
+    "in_region": ("1 in region (b) of the discs, else 0", "1"),
+    **described("lambda", "λ of the line that has the velocity of the discs at this X (Eq. 13)"),
+    **described("velocity_ratio", "vt/h of the lines with the best single λ over that of the discs"),
+}
+SUMMARY_COLUMNS = {
+    "hurst": ("Hurst exponent H", "1"),
+    "x_low": ("lower end of region (b) of the discs in X", "1"),
+    "x_high": ("upper end of region (b) of the discs in X", "1"),
+    **described("drift", "λ at the upper over λ at the lower end of region (b), by a power law through λ(X)"),
+    **described("lambda_best", "λ with the smallest largest error of vt/h over region (b)"),
+    "error_region": ("largest error of ln(vt/h) over region (b) with this λ", "1"),
+    **described("error_trend", "error of ln(vt/h) at the upper end of region (b) with this λ, by a power law"),
+    **described("error_whole", "largest error of ln(vt/h) from the start of region (b) to the end of the curve"),
+    "discs": ("number of discs", "1"),
+    "lines": ("number of lines", "1"),
+}
+WINDOWS = ("own region", "same X", "same κ")
+EXPONENT_COLUMNS = {
+    "hurst": ("Hurst exponent H", "1"),
+    "window": (
+        "own region: region (b) of each; same X: that of the discs; same κ: scaling.stiffness_range",
+        None,
+    ),
+    "x_low_discs": ("lower end of the window of the discs in X", "1"),
+    "x_high_discs": ("upper end of the window of the discs in X", "1"),
+    "x_low_lines": ("lower end of the window of the lines in X", "1"),
+    "x_high_lines": ("upper end of the window of the lines in X", "1"),
+    **described("beta_discs", "exponent β of the discs"),
+    **described("beta_lines", "exponent β of the lines"),
+    **described("difference", "β of the lines minus β of the discs"),
+}
+
+
+def compare_ensembles(discs, lines, *, average, stiffness_range, resamples, seed, **limits):
+    """The three tables of discs and lines, with `LAMBDA_COLUMNS`, `SUMMARY_COLUMNS` and `EXPONENT_COLUMNS`.
+
+    discs, lines : {H: ensemble (ensembles.averages) in one rms convention}, of equal abscissae. Only Hurst
+        exponents of both are compared
+    average, resamples, seed : of the bootstrap, as in viscorough_study.fits.power_law.fit_power_law
+    stiffness_range, limits : arguments of viscorough_study.fits.power_law.named_windows
+    Without a region (b) there are no rows of λ, and those of the others have nan.
+    """
+    how, parts = {"average": average, "resamples": resamples}, ([], [], [])
+    for hurst in sorted(set(discs) & set(lines)):
+        pair = discs[hurst], lines[hurst]
+        of_lambda, summary = _lambda_rows(*pair, limits, **how, seed=seed)
+        rows = [of_lambda, [summary], _exponent_rows(*pair, stiffness_range, limits, **how, seed=seed)]
+        for part, more in zip(parts, rows, strict=True):
+            part += [{"hurst": hurst} | row for row in more]
+    columns = LAMBDA_COLUMNS, SUMMARY_COLUMNS, EXPONENT_COLUMNS
+    return [pd.DataFrame(part, columns=list(names)) for part, names in zip(parts, columns, strict=True)]
+
+
+def _lambda_rows(discs, lines, limits, **how):
+    """Rows of λ over X and the row of the summary, of one Hurst exponent."""
+    x = discs["x"].values
+    number = {"discs": discs.sizes["realization"], "lines": lines.sizes["realization"]}
+    window = find_region(discs, **limits)
+    if window is None:
+        return [], number
+    match = match_lines(x, discs["velocity"].values, lines["velocity"].values, **how)
+    best = match.best_stretch(window)
+    chosen = (x >= window[0] / 10) & (discs["fraction_defined"].values >= FRACTION_KEPT)
+    ratio = np.exp(match.deviation(best, chosen))
+    chosen[chosen] = np.isfinite(ratio[0])
+    return _of_abscissae(match, best, window, chosen), number | _summary(match, best, window, chosen)
+
+
+def _of_abscissae(match, best, window, chosen):
+    """Rows of the chosen abscissae."""
+    x = match.x[chosen]
+    of_lambda, ratio = match.lambda_at(x), np.exp(match.deviation(best, chosen))
+    rows = []
+    for i, at in enumerate(x):
+        row = {"x": at, "in_region": int(in_window(at, window))}
+        row |= three_columns("lambda", match.with_interval(of_lambda[:, i]))
+        rows.append(row | three_columns("velocity_ratio", match.with_interval(ratio[:, i])))
+    return rows
+
+
+def _summary(match, best, window, chosen):
+    """Columns of the summary."""
+    region, whole = in_window(match.x, window), chosen & (match.x >= window[0])
+    stretch = match.stretch_at(match.x[region])
+    error, of_whole = (match.deviation(best, part) for part in (region, whole))
+    return {
+        "x_low": window[0],
+        "x_high": window[1],
+        **three_columns("drift", match.with_interval(np.exp(2 * _rise(match.x[region], stretch)))),
+        **three_columns("lambda_best", match.with_interval(np.pi * np.exp(2 * best))),
+        "error_region": np.abs(error[0]).max(),
+        **three_columns("error_trend", match.with_interval(_rise(match.x[region], error) / 2)),
+        **three_columns("error_whole", match.with_interval(np.abs(of_whole).max(axis=1))),
+    }
+
+
+def _rise(x, values):
+    """From the first to the last X, of the least-squares line of values in ln X; values : shape (samples, X)."""
+    offset = np.log(x) - np.log(x).mean()
+    return values @ offset / (offset @ offset) * np.ptp(offset)
+
+
+def _exponent_rows(discs, lines, stiffness_range, limits, *, seed, **how):
+    """Rows of the exponents of one Hurst exponent; those without a window have nan."""
+    windows = [named_windows(one, stiffness_range=stiffness_range, **limits) for one in (discs, lines)]
+    own, kappa = ([of_one[rule] for of_one in windows] for rule in ("default", "kappa"))
+    pairs = dict(zip(WINDOWS, (own, [own[0], own[0]], kappa), strict=True))
+    return [{"window": name} | _fits(discs, lines, pair, seed, how) for name, pair in pairs.items()]
+
+
+def _fits(discs, lines, windows, seed, how):
+    """Columns of the fits of discs and lines in their windows; {} where one of them has none."""
+    if None in windows:
+        return {}
+    fits, columns = [], {}
+    # Draws of their own for each, so that the samples of the two are independent.
+    names = zip(("discs", "lines"), (discs, lines), windows, np.random.SeedSequence(seed).spawn(2), strict=True)
+    for name, one, window, own_seed in names:
+        fit = fit_power_law(one["x"].values, one["velocity"].values, window, **how, seed=own_seed)
+        columns |= {f"x_low_{name}": window[0], f"x_high_{name}": window[1]}
+        columns |= three_columns(f"beta_{name}", (fit.beta, *fit.beta_interval))
+        fits.append(fit)
+    samples, number = fits[1].beta_samples - fits[0].beta_samples, min(fit.realizations for fit in fits)
+    value = fits[1].beta - fits[0].beta
+    return columns | three_columns("difference", (value, *percentile_interval(samples, number)))

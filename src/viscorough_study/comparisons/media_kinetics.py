@@ -1,0 +1,135 @@
+"""Kinetics of ensembles in other media than the paper's, under a constant force applied at time 0.
+
+In any linear viscoelastic medium of creep compliance J(t) the depth is that of the loading curve at F/G = F J(t), so
+that u/h is one function of X = F J(t)/(4hL) for all media, and vt/h = a X/κ(X), where a = d ln J/d ln t is the exponent
+of J. With the paper's J = t/η this is its vt/h = X/κ. Where X/κ = X^β/ζ, the exponent of vt/h in time is
+β a + d ln a/d ln t: a power law in X is a power law in time only while J is one.
+"""
+
+import numpy as np
+import pandas as pd
+
+from viscorough.io.media import medium_from_mapping
+from viscorough.reference import exponent_beta
+from viscorough.viscous.correspondence import kinetics
+from viscorough_study.fits.intervals import described, three_columns
+from viscorough_study.fits.power_law import fit_power_law, local_slopes
+
+COLUMNS = {
+    "medium": ("name of the medium", None),
+    "hurst": ("Hurst exponent H", "1"),
+    "time": ("time t since the force was applied", "s"),
+    "x": ("dimensionless creep X = F J(t)/(4hL)", "1"),
+    "depth": ("geometric mean of the depth u/h", "1"),
+    "velocity": ("geometric mean of the velocity vt/h", "1"),
+    "velocity_error": ("two standard errors of ln(vt/h)", "1"),
+    "exponent": ("local exponent d ln(vt/h)/d ln t, fitted over a quarter of a decade to either side", "1"),
+    "creep_exponent": ("local exponent a = d ln J/d ln t of the creep compliance", "1"),
+    "expected": ("local exponent of vt/h by Eq. 10, β a + d ln a/d ln t with β = H/(1 + H)", "1"),
+    "realizations": ("realizations in the mean", "1"),
+}
+EXPONENT_COLUMNS = {
+    "medium": ("name of the medium", None),
+    "hurst": ("Hurst exponent H", "1"),
+    "time_low": ("first time of the window, in which κ lies in scaling.stiffness_range and the medium creeps", "s"),
+    "time_high": ("last time of the window", "s"),
+    "decades": ("decades of time in the window, 0 where there is none", "1"),
+    "creep_exponent": ("exponent of J(t) in the window", "1"),
+    "creep_least": ("least local exponent of J(t) in the window; J is a power of time if it is the largest, too", "1"),
+    "creep_largest": ("largest local exponent of J(t) in the window", "1"),
+    "beta": ("exponent β of X/κ in X in the window", "1"),
+    **described("exponent", "exponent of vt/h in time in the window"),
+    "expected": ("that of J and β, β times the exponent of J, plus that of d ln J/d ln t", "1"),
+    "realizations": ("realizations in the mean", "1"),
+}
+HALF_WIDTH = 0.25  # decades of time to either side over which local exponents are fitted
+_FITTED_MIN = 3  # times in a window
+_CREEPING = 0.05  # exponent of J, below which the medium hardly creeps and no power of time is looked for
+
+
+def named_media(cases):
+    """{name: medium of viscorough.viscous.media} of the settings: mappings with a name and the keys of a medium."""
+    return {case["name"]: medium_from_mapping({k: v for k, v in case.items() if k != "name"}) for case in cases}
+
+
+def media_tables(ensembles, media, *, force, times, stiffness_range, resamples, seed):
+    """Means over the realizations of every ensemble in every medium, and exponents of their means.
+
+    ensembles : {H: (loading curves, their rms heights, diameter)} [m]
+    media : {name: medium of viscorough.viscous.media} in Pa and s; force : F [N]
+    times : t > 0, logarithmically uniform [s]; stiffness_range : of κ, where exponents are fitted: equal states of
+        contact in all media; resamples, seed : of the bootstrap, as in viscorough_study.fits.power_law.fit_power_law
+
+    Times at which a curve ends before the depth is reached are left out. X is that of the mean rms height.
+    Returns two pandas.DataFrames, with `COLUMNS` and `EXPONENT_COLUMNS`.
+    """
+    parts, fits = [], []
+    for name, medium in media.items():
+        creep = medium.creep_compliance(times), times * medium.creep_rate(times) / medium.creep_compliance(times)
+        for hurst, (curves, rms, diameter) in ensembles.items():
+            depth, velocity = _motions(curves, rms, medium, force, times)
+            x = force * creep[0] / (4 * np.mean(rms) * diameter)
+            about = {"medium": name, "hurst": hurst}
+            defined = np.isfinite(depth).all(axis=0) & (velocity > 0).all(axis=0)
+            motion = [values[..., defined] for values in (times, x, creep[1], depth, velocity)]
+            parts.append(_means(*motion, exponent_beta(hurst)).assign(**about))
+            how = {"average": "geometric", "resamples": resamples, "seed": seed}
+            fits.append(about | _exponents(*motion[:3], motion[4], stiffness_range, how))
+    means = pd.concat(parts, ignore_index=True)[list(COLUMNS)]
+    return means, pd.DataFrame(fits, columns=list(EXPONENT_COLUMNS))
+
+
+def _motions(curves, rms, medium, force, times):
+    """u/h and vt/h of all realizations, shape (realizations, times); nan where a curve has ended."""
+    depth, velocity = np.full((2, len(curves), times.size), np.nan)
+    for i, (curve, height) in enumerate(zip(curves, rms, strict=True)):
+        if motion := motion_on_curve(curve, force, medium, times):
+            end = motion.time.size  # the creep compliance grows with time
+            depth[i, :end] = motion.depth / height
+            velocity[i, :end] = motion.velocity * motion.time / height
+    return depth, velocity
+
+
+def motion_on_curve(curve, force, medium, times):
+    """Kinetics under a constant force at the times at which the depth is on the loading curve; None without any."""
+    reached = times[force * medium.creep_compliance(times) <= curve.force[-1]]
+    return kinetics(curve, force, medium, reached) if reached.size else None
+
+
+def _means(time, x, creep_exponent, depth, velocity, beta):
+    """Geometric means; depth, velocity : shape (realizations, times), at times at which all are defined and move."""
+    log_depth, log_velocity = np.log(depth), np.log(velocity)
+    mean, number = log_velocity.mean(axis=0), len(velocity)
+    log_time, half_width = np.log(time), HALF_WIDTH * np.log(10)
+    return pd.DataFrame(
+        {
+            "time": time,
+            "x": x,
+            "depth": np.exp(log_depth.mean(axis=0)),
+            "velocity": np.exp(mean),
+            "velocity_error": 2 * log_velocity.std(axis=0, ddof=1) / np.sqrt(number),
+            "exponent": local_slopes(log_time, mean, half_width),
+            "creep_exponent": creep_exponent,
+            "expected": local_slopes(log_time, np.log(creep_exponent * x**beta), half_width),
+            "realizations": number,
+        }
+    )
+
+
+def _exponents(time, x, creep_exponent, velocity, stiffness_range, how):
+    """Columns of the exponents where κ = a X/(vt/h) lies in a range and the medium creeps, if it does anywhere."""
+    stiffness = creep_exponent * x / np.exp(np.log(velocity).mean(axis=0))
+    inside = (stiffness >= stiffness_range[0]) & (stiffness <= stiffness_range[1])
+    inside = np.flatnonzero(inside & (creep_exponent >= _CREEPING))
+    columns = {"decades": 0.0, "realizations": len(velocity)}
+    if inside.size < _FITTED_MIN:
+        return columns
+    at = slice(inside[0], inside[-1] + 1)  # κ grows with X, and X with time
+    time, x, a, velocity = time[at], x[at], creep_exponent[at], velocity[:, at]
+    beta = fit_power_law(x, velocity / a, (x[0], x[-1]), **how).beta
+    fit = fit_power_law(time, velocity, (time[0], time[-1]), **how)
+    creep, change = (np.polyfit(np.log(time), np.log(values), 1)[0] for values in (x, a))
+    columns |= {"time_low": time[0], "time_high": time[-1], "decades": np.log10(time[-1] / time[0])}
+    columns |= {"creep_exponent": creep, "creep_least": a.min(), "creep_largest": a.max(), "beta": beta}
+    columns |= three_columns("exponent", (fit.beta, *fit.beta_interval))
+    return columns | {"expected": beta * creep + change}

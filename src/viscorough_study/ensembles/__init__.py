@@ -1,0 +1,1 @@
+"""Realizations of surfaces: discs, batches of their curves, pools, and averages on common abscissae."""

@@ -1,0 +1,34 @@
+"""Inputs of figures that are no tables; each function takes {argument of the figure: path} and is named like it."""
+
+from viscorough.io.datasets import read_dataset
+from viscorough_study.ensembles.pool import ensembles as ensembles_by
+from viscorough_study.ensembles.pool import select
+
+
+def examples(files):
+    """List of (Hurst exponent, heights, spacing) of the example discs."""
+    ds = read_dataset(files["examples"])
+    spacing = ds["spacing"].item()
+    return [(hurst, ds["heights"].sel(hurst=hurst).values, spacing) for hurst in ds["hurst"].values.tolist()]
+
+
+def ensembles(files):
+    """Base discs of a pool, an ensemble for each case."""
+    return list(ensembles_by(select(read_dataset(files["ensembles"]), group="base"), "case").values())
+
+
+def discs(files):
+    """Base discs of a pool, an ensemble for each Hurst exponent."""
+    by_hurst = ensembles_by(select(read_dataset(files["discs"]), group="base"), "hurst")
+    return [by_hurst[hurst] for hurst in sorted(by_hurst)]
+
+
+def lines(files):
+    """Lines of a pool at the Hurst exponents of the discs, an ensemble for each."""
+    by_hurst = ensembles_by(read_dataset(files["lines"]), "hurst")
+    return [by_hurst[ensemble["hurst"].item()] for ensemble in discs(files)]
+
+
+def groups(files):
+    """{group: ensemble of its measured surfaces} of a pool."""
+    return ensembles_by(read_dataset(files["groups"]), "group")

@@ -1,0 +1,103 @@
+"""The table of fits: β, ζ and λ of every ensemble under every convention that needs a fit.
+
+A row is an ensemble in one rms convention, average and window (`FITTED` of fits.conventions). Window and ζ
+are those of the plain reading of the law; fits.conventions has functions that select rows in any reading.
+"""
+
+from contextlib import suppress
+from itertools import product
+
+import numpy as np
+import pandas as pd
+
+from viscorough.calibrated_law import COLUMNS as CALIBRATION
+from viscorough_study.ensembles.pool import elements_across
+from viscorough_study.fits.conventions import FITTED, fits, interval_columns, of_source, readings
+from viscorough_study.fits.intervals import described, three_columns
+from viscorough_study.fits.mdr_lambda import match_lambda
+from viscorough_study.fits.power_law import fit_power_law, named_windows
+
+
+def _interval_descriptions():
+    """Columns of the interval of ζ in every reading of the law."""
+    columns = {}
+    for reading in readings():
+        law = "with the factor 1/Γ(1 + β) (Eq. 9)" if reading["gamma"] == "with" else "without Γ (Eq. 3)"
+        text = f"end of the 95 % interval of ζ, {law}, L the {reading['diameter_convention']}"
+        low, high = interval_columns(**reading)
+        columns |= {low: (f"lower {text}", "1"), high: (f"upper {text}", "1")}
+    return columns
+
+
+# column: (long_name, units), in the order of the table; units None for text
+COLUMNS = {
+    "source": ("discs (boundary elements) or lines (reduction of dimensionality)", None),
+    "case_group": ("base or name of the variant of the surfaces", None),
+    "hurst": ("Hurst exponent H", "1"),
+    "rms_convention": ("where the rms height h is measured", None),
+    "average": ("mean over the realizations at fixed X", None),
+    "window_rule": ("rule of the window of the fit", None),
+    "x_low": ("lower end of the window in X = F/(4GhL) = Ft/(4ηhL), L the diameter", "1"),
+    "x_high": ("upper end of the window in X = F/(4GhL) = Ft/(4ηhL), L the diameter", "1"),
+    "decades": ("decades of X in the window, 0 where there is none", "1"),
+    "realizations": ("realizations in the ensemble", "1"),
+    **described("beta", "exponent β of vt/h in X (Eqs. 9 and 10)", of="of the 95 % interval of β"),
+    "zeta": ("prefactor ζ without Γ (Eq. 3), L the diameter", "1"),
+    **_interval_descriptions(),
+    "residual": ("rms deviation of ln(vt/h) from the power law in the window", "1"),
+    **described(
+        "lambda", "λ in C1D = λ q C2D that matches the line to the surface (Eq. 13)", of="of the 95 % interval of λ"
+    ),
+}
+
+
+def fit_rows(ensemble, *, source, case_group, lines=None, resamples, seed, **limits):
+    """Rows of the table (dicts with the keys of `COLUMNS`) of one ensemble; where there is no window they have nan.
+
+    ensemble, lines : ensemble datasets (ensembles.averages); lines of the same Hurst exponent and abscissae,
+        for λ. λ is nan without them, or where they do not reach the stiffness of the discs
+    resamples, seed : of the bootstrap; limits : arguments of viscorough_study.fits.power_law.named_windows
+    Raises ValueError for unlike abscissae, or such coarse ones that a window has fewer than three.
+    """
+    if lines is not None and not np.array_equal(ensemble["x"].values, lines["x"].values):
+        raise ValueError("fit_rows: discs and lines must have the same abscissae")
+    rows = []
+    for rms_convention in ensemble["rms_convention"].values.tolist():
+        one = ensemble.sel(rms_convention=rms_convention)
+        ensemble_columns = {"source": source, "case_group": case_group, "hurst": ensemble["hurst"].item()}
+        ensemble_columns |= {"rms_convention": rms_convention, "realizations": one.sizes["realization"]}
+        for average, (rule, window) in product(FITTED["average"], named_windows(one, **limits).items()):
+            fitted = {}
+            if window is not None:
+                fitted = _fit(one, lines, window, average=average, resamples=resamples, seed=seed)
+            row = {"decades": 0.0, **ensemble_columns, "average": average, "window_rule": rule, **fitted}
+            rows.append({name: row.get(name, np.nan) for name in COLUMNS})
+    return rows
+
+
+def _fit(ensemble, lines, window, **how):
+    """Columns of the fit of one ensemble in one rms convention; how : average, resamples and seed."""
+    x, velocity = ensemble["x"].values, ensemble["velocity"].values
+    fit = fit_power_law(x, velocity, window, **how)
+    columns = {"x_low": window[0], "x_high": window[1], "decades": np.log10(window[1] / window[0])}
+    columns |= three_columns("beta", (fit.beta, *fit.beta_interval))
+    columns |= {"zeta": fit.zeta()[0], "residual": fit.residual}
+    for reading in readings():
+        columns |= dict(zip(interval_columns(**reading), fit.zeta(**reading)[1:], strict=True))
+    if lines is not None:
+        with suppress(ValueError):
+            columns |= three_columns("lambda", match_lambda(x, velocity, lines["velocity"].values[0], window, **how))
+    return columns
+
+
+def calibrated(table, sizes, conventions, across):
+    """Fits of base discs and of lines in these conventions, with the columns of viscorough.calibrated_law.
+
+    sizes : table of discs on grids from coarse to fine, with `elements`; those with as many elements across as the base
+        discs are taken for Hurst exponents that these do not have
+    """
+    rows = [fits(table, conventions | of_source(source), case_group="base") for source in ("discs", "lines")]
+    further = fits(sizes, conventions | of_source("discs"), case_group="sizes")
+    same_grid = further["elements"].map(elements_across) == across
+    rows.append(further[same_grid & ~further["hurst"].isin(rows[0]["hurst"])])
+    return pd.concat(rows)[list(CALIBRATION)].sort_values(["source", "hurst"], ignore_index=True)

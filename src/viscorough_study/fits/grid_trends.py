@@ -1,0 +1,119 @@
+"""Exponents over the number of elements: does a departure from H/(1 + H) change with the grid, and where?
+
+The window of region (b) moves with the grid: a finer one opens smaller X. In windows of fixed X the grid alone changes.
+A departure that becomes smaller in the moving window but not in the fixed ones is that of the X at which it was fitted,
+not of the grid.
+"""
+
+from itertools import product
+
+import numpy as np
+import pandas as pd
+
+from viscorough.reference import exponent_beta
+from viscorough_study.fits.conventions import FITTED, fits, of_source
+from viscorough_study.fits.intervals import UNDEFINED, described, interval, three_columns
+from viscorough_study.fits.power_law import fit_power_law, in_window
+
+FINDINGS = (
+    "agrees on the finest grid",
+    "departs, and less on finer grids",
+    "departs on every grid",
+    "undetermined",
+)
+COLUMNS = {
+    "source": ("discs by boundary elements, lines by the MDR, controls: discs whose spectrum has a roll-off", ""),
+    "window_rule": ("rule of the window, which moves with the grid, or its fixed ends in X", ""),
+    "hurst": ("Hurst exponent", "1"),
+    "grids": ("grids that have a fit in this window", "1"),
+    "elements": ("elements of the finest grid", "1"),
+    **described("beta", "exponent in this window on the finest grid"),
+    "expected": ("H/(1 + H), Eq. 10; 0 for controls", "1"),
+    **described("slope", "change of the exponent per decade of elements"),
+    "finding": ("one of: " + "; ".join(FINDINGS), ""),
+}
+ERROR_MIN = 1e-12  # of an exponent, so that equal curves have a finite weight
+
+
+def trends(table, conventions, tolerance):
+    """Trend of β over the logarithm of the number of elements, for every source and Hurst exponent.
+
+    table : of workflow/scripts/fit_sizes.py; conventions : {convention: value}; window_rule is that of the windows
+        that move with the grid, beside which are the fixed ones of the table
+    tolerance : of β, that of the claims on β in resources/paper/claims.yaml
+
+    The trend is a line by least squares, weighted by the intervals of β, and its own interval is widened where β
+    scatters more than its intervals allow. On the finest grid β agrees where its whole interval lies within the
+    tolerance of the expected exponent, departs where it lies outside, and is undetermined otherwise. A departure
+    becomes less on finer grids if the whole interval of the slope leads towards the expected exponent.
+    Returns a pandas.DataFrame with the columns of `COLUMNS`.
+    """
+    rows = []
+    for name, rule in product(("discs", "controls", "lines"), [conventions["window_rule"], *fixed_rules(table)]):
+        wanted = of_source("lines" if name == "lines" else "discs") | {"window_rule": rule}
+        wanted["case_group"] = "controls" if name == "controls" else "sizes"
+        for hurst, grids in fits(table, conventions | wanted).groupby("hurst"):
+            expected = 0.0 if name == "controls" else exponent_beta(hurst)
+            rows.append((name, rule, hurst, *_trend(grids.sort_values("elements"), expected, tolerance)))
+    return pd.DataFrame(rows, columns=list(COLUMNS))
+
+
+def fixed_rules(table):
+    """Names of the windows of fixed X in a table of fits, from small X to large."""
+    fixed = table[~table["window_rule"].isin(FITTED["window_rule"])]
+    return list(dict.fromkeys(fixed.sort_values("x_low", kind="stable")["window_rule"]))
+
+
+def fixed_window_rows(ensemble, windows, about, *, average, rms_convention, elements_min, fraction_min, **bootstrap):
+    """Fits (dicts) of an ensemble in windows of fixed X, of those where they can be fitted; named by their ends.
+
+    windows : [(X_low, X_high)]; about : source and case_group; bootstrap : resamples and seed
+    A window is fitted where the median of the elements in contact is elements_min at least at its lower end, as in
+    region (b), and a share fraction_min of the realizations is defined throughout.
+    """
+    own = of_source(about["source"]).get("rms_convention", rms_convention)
+    one, x, rows = ensemble.sel(rms_convention=own), ensemble["x"].values, []
+    for low, high in windows:
+        inside = in_window(x, (low, high))
+        enough = one["contact_count_median"].values[inside][:1] >= elements_min
+        if not (enough.all() and (one["fraction_defined"].values[inside] >= fraction_min).all()):
+            continue
+        fit = fit_power_law(x, one["velocity"].values, (low, high), average=average, **bootstrap)
+        row = about | {"hurst": ensemble["hurst"].item(), "rms_convention": own, "average": average}
+        row |= {"window_rule": f"X = {low:g} to {high:g}", "x_low": low, "x_high": high}
+        row |= {"decades": np.log10(high / low), "realizations": one.sizes["realization"]}
+        row |= three_columns("beta", (fit.beta, *fit.beta_interval))
+        rows.append(row | {"zeta": fit.zeta()[0], "residual": fit.residual})
+    return rows
+
+
+def _trend(grids, expected, tolerance):
+    """Columns of one source and Hurst exponent, from the number of grids on; grids : fits from coarse to fine."""
+    slope = _slope(*(grids[name].to_numpy() for name in ("elements", "beta", "beta_low", "beta_high")))
+    finest = grids.iloc[-1]
+    beta = interval(finest, "beta")
+    finding = _finding(np.subtract(beta, expected), slope, tolerance)
+    return len(grids), finest["elements"], *beta, expected, *slope, finding
+
+
+def _slope(elements, beta, low, high):
+    """dβ/d log₁₀ n and its 95 % interval; nan for fewer than three grids."""
+    if beta.size < 3:
+        return UNDEFINED
+    error = np.maximum(high - low, ERROR_MIN) / (2 * 1.96)
+    x = np.log10(elements)
+    (slope, intercept), covariance = np.polyfit(x, beta, 1, w=1 / error, cov="unscaled")
+    scatter = np.sum(((beta - np.polyval([slope, intercept], x)) / error) ** 2) / (beta.size - 2)
+    half = 1.96 * np.sqrt(covariance[0, 0] * max(scatter, 1.0))
+    return slope, slope - half, slope + half
+
+
+def _finding(departure, slope, tolerance):
+    """One of `FINDINGS`; departure, slope : value, low, high."""
+    if departure[1] >= -tolerance and departure[2] <= tolerance:
+        return FINDINGS[0]
+    outside = departure[1] > tolerance or departure[2] < -tolerance
+    if not outside or not np.isfinite(slope[0]):
+        return FINDINGS[3]
+    towards_expected = slope[2] < 0 if departure[0] > 0 else slope[1] > 0
+    return FINDINGS[1] if towards_expected else FINDINGS[2]

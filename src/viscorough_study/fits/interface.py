@@ -1,0 +1,175 @@
+"""Two springs in series: the rough interface and the flat punch behind it.
+
+At large loads a rough disc is a flat punch with a compliant interface before it. Compliances add, and with them
+velocities: vt/h = X/κ_c + g(X), where κ_c is the stiffness κ of the punch, of the grid that was used, and g is the
+interface alone. Where F is exponential in the mean separation, F ∝ exp(−s/u₀), the stiffness of the interface is F/u₀
+(Persson, Physical Review Letters 99, 125502 (2007)), and g = u₀/h is constant. So u₀/h is read off where g is flat: the
+**plateau** is the range of X around the largest g in which g is at most a given share below it, and u₀/h the mean of g
+there over ln X. Lines of the reduction of dimensionality have κ_c = 1.
+"""
+
+import numpy as np
+import pandas as pd
+from scipy.optimize import least_squares
+
+from viscorough.calibrated_law import LARGEST_DEVIATION, X_LOW, interface_depth, interface_velocity
+from viscorough.reference import COMPLETE_CONTACT_STIFFNESS
+from viscorough_study.ensembles.discs import punch_stiffness
+from viscorough_study.ensembles.pool import elements_across, ensembles, select
+from viscorough_study.fits.conventions import FITTED
+from viscorough_study.fits.intervals import described, percentile_interval, three_columns, with_interval
+from viscorough_study.fits.power_law import log_means
+
+LAW_ELEMENTS_MIN = 5  # median of the elements in contact from which on the law is fitted; with one, the slope is 1
+ENSEMBLE = {
+    "source": ("discs (boundary elements) or lines (reduction of dimensionality)", ""),
+    "case_group": ("base, sizes: grids from coarse to fine, or lines", ""),
+    "hurst": ("Hurst exponent H", "1"),
+    "across": ("elements across the disc, or points of the line", "1"),
+    "average": ("mean over the realizations at fixed X", ""),
+}
+COLUMNS = {
+    **ENSEMBLE,
+    "realizations": ("realizations", "1"),
+    "kappa_c": ("stiffness κ of the flat punch on this grid", "1"),
+    **described("u0", "u₀/h: mean of the interface's part g of vt/h over the plateau"),
+    "plateau_low": ("lower end of the plateau of g in X", "1"),
+    "plateau_high": ("upper end of the plateau of g in X", "1"),
+    "exponent": ("exponent b of the law of g: g ∝ X^b at small X", "1"),
+    "peak": ("largest g of the law", "1"),
+    "peak_x": ("X at which the law of g is largest", "1"),
+    "law_low": ("lower end of the range of X in which the law of vt/h holds", "1"),
+    "law_high": ("upper end of this range", "1"),
+    "deviation": ("largest relative deviation of the law from the mean vt/h in this range", "1"),
+    "error": ("largest relative distance of the law from an end of the 95 % interval of the mean vt/h", "1"),
+    "depth_offset": ("mean u/h less the integral of the law from X = 0 on, at law_low", "1"),
+    "depth_low": ("lower end of the 95 % interval of the offset", "1"),
+    "depth_high": ("upper end of the 95 % interval of the offset", "1"),
+    "depth_deviation": ("largest relative deviation of the law's depth from the mean u/h in the range of the law", "1"),
+}
+CURVES = {
+    **ENSEMBLE,
+    "x": ("X = F/(4GhL) = Ft/(4ηhL)", "1"),
+    "velocity": ("mean vt/h", "1"),
+    **described("interface", "g: vt/h less X/κ_c of the punch"),
+    "law": ("vt/h of the law", "1"),
+}
+
+
+def ensembles_of(pool, source, case_group, hursts=None):
+    """List of (columns of `ENSEMBLE` but the average, ensemble, κ_c), one for each Hurst exponent and grid of a group.
+
+    pool : of viscorough_study.ensembles.pool; hursts : only these Hurst exponents
+    """
+    found, pool = [], select(pool, group=case_group)
+    if hursts is not None:
+        pool = pool.isel(realization=np.flatnonzero(np.isin(pool["hurst"], list(hursts))))
+    for (hurst, elements), ensemble in ensembles(pool, "hurst", "elements").items():
+        number = elements if source == "lines" else elements_across(elements)
+        punch = COMPLETE_CONTACT_STIFFNESS if source == "lines" else punch_stiffness(number)
+        about = {"source": source, "case_group": case_group, "hurst": hurst, "across": number}
+        found.append((about, ensemble, punch))
+    return found
+
+
+def interface_tables(cases, rms_convention, **how):
+    """Tables with the columns of `COLUMNS` and `CURVES` (pandas.DataFrame), of every ensemble and average.
+
+    cases : as of `ensembles_of`; rms_convention : of discs; how : further arguments of `examine`
+    """
+    rows, curves = [], []
+    for about, ensemble, punch in cases:
+        one = ensemble.sel(rms_convention="line" if about["source"] == "lines" else rms_convention)
+        for average in FITTED["average"]:
+            row, curve = examine(one, punch, average=average, **how)
+            named = about | {"average": average}
+            rows.append(named | row)
+            curves.append(curve.assign(**named))
+    return (
+        pd.DataFrame(rows, columns=list(COLUMNS)),
+        pd.concat(curves)[list(CURVES)] if curves else pd.DataFrame(columns=list(CURVES)),
+    )
+
+
+def examine(ensemble, punch, *, plateau, fraction_min, average, resamples, seed):
+    """The interface of one ensemble of one rms convention: columns of `COLUMNS`, table of `CURVES`.
+
+    punch : κ_c; plateau : share by which g is below its maximum at the ends of the plateau
+    fraction_min : share of the realizations that must be defined for a mean
+    average, resamples, seed : of the mean and its bootstrap, as in viscorough_study.fits.power_law.fit_power_law
+    Abscissae at which one element touches, region (a), are left out. The law describes these curves, the onset of
+    contact on their grid included: it is fitted from X_LOW on, where `LAW_ELEMENTS_MIN` elements touch at least.
+    """
+    x, count = ensemble["x"].values, ensemble["contact_count_median"].values
+    shown = (ensemble["fraction_defined"].values >= fraction_min) & (count > 1)
+    velocity = ensemble["velocity"].values
+    samples, depths = (
+        np.exp(log_means(values, average, resamples, np.random.default_rng(seed)))[:, shown]
+        for values in (velocity, _depths(x, velocity))
+    )
+    x, count, size = x[shown], count[shown], len(velocity)
+    interface, interval = samples - x / punch, percentile_interval(samples[1:], size)
+    row = {"realizations": size, "kappa_c": punch} | _plateau(x, interface, plateau, size)
+    law = fit_law(x, samples[0], punch, (count >= LAW_ELEMENTS_MIN) & (x >= X_LOW))
+    row |= _law_columns(x, samples[0], interval, punch, law, depths, size)
+    curves = {"x": x, "velocity": samples[0], "interface": interface[0]}
+    curves |= {f"interface_{end}": values - x / punch for end, values in zip(("low", "high"), interval, strict=True)}
+    curves["law"] = x / punch + interface_velocity(x, *law)
+    return row, pd.DataFrame(curves)
+
+
+def _depths(x, velocity):
+    """u/h = ∫ vt/h d ln X of every realization at every abscissa; vt/h is proportional to X below the first one."""
+    steps = np.diff(np.log(x)) * (velocity[:, 1:] + velocity[:, :-1]) / 2
+    return velocity[:, :1] + np.concatenate([np.zeros((len(velocity), 1)), np.cumsum(steps, axis=1)], axis=1)
+
+
+def _plateau(x, interface, plateau, size):
+    """Columns of u₀; interface : g of the ensemble and of its resamples, shape (resamples + 1, abscissae)."""
+    run = _run(interface[0] >= (1 - plateau) * interface[0].max(), int(np.argmax(interface[0])))
+    u0 = with_interval(interface[:, run].mean(axis=1), size)
+    return three_columns("u0", u0) | {"plateau_low": x[run][0], "plateau_high": x[run][-1]}
+
+
+def fit_law(x, velocity, punch, allowed):
+    """(exponent, peak, peak_x) of viscorough.calibrated_law.interface_velocity, by least squares of ln(vt/h).
+
+    velocity : mean vt/h; punch : κ_c; allowed : abscissae of the fit, all of shape (abscissae,)
+    All are nan where fewer than four abscissae are allowed.
+    """
+    if allowed.sum() < 4:
+        return (np.nan,) * 3
+    x, log_velocity = x[allowed], np.log(velocity[allowed])
+
+    def residuals(logarithms):
+        return np.log(x / punch + interface_velocity(x, *np.exp(logarithms))) - log_velocity
+
+    return tuple(np.exp(least_squares(residuals, np.log([0.4, 0.5, 0.8])).x))
+
+
+def _law_columns(x, velocity, interval, punch, law, depths, size):
+    """Columns of the law: its constants, its range and its deviations in it, and the offset of its depth."""
+    columns = dict(zip(("exponent", "peak", "peak_x"), law, strict=True))
+    of_law = x / punch + interface_velocity(x, *law)
+    deviation = np.abs(of_law / velocity - 1)
+    holds = (deviation <= LARGEST_DEVIATION) & (x >= X_LOW)
+    place = int(np.argmin(np.abs(np.log(x / law[2])))) if np.isfinite(law[0]) else 0
+    if not holds[place]:
+        return columns
+    holds = _run(holds, place)
+    offsets = (depths - x / punch - interface_depth(x, *law))[:, holds][:, 0]
+    of_depth = x / punch + interface_depth(x, *law) + offsets[0]
+    low, high = percentile_interval(offsets[1:], size)
+    ends = [np.abs(of_law / end - 1)[holds].max() for end in interval]
+    columns |= {"law_low": x[holds][0], "law_high": x[holds][-1]}
+    columns |= {"deviation": deviation[holds].max(), "error": max(ends)}
+    columns |= {"depth_offset": offsets[0], "depth_low": low, "depth_high": high}
+    return columns | {"depth_deviation": np.abs(of_depth / depths[0] - 1)[holds].max()}
+
+
+def _run(allowed, place):
+    """The run of allowed abscissae around a place that is allowed."""
+    outside = np.flatnonzero(~allowed)
+    first = outside[outside < place].max(initial=-1) + 1
+    last = outside[outside > place].min(initial=len(allowed))
+    return np.arange(first, last)

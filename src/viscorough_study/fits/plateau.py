@@ -1,0 +1,139 @@
+"""Plateaus of the local slope: over how many decades of X a curve is a power law, and with which certainty.
+
+A power law has one slope d ln y/d ln X. Every curve that bends upwards at both ends has a flat piece in between, so
+what counts is its length: the decades of X over which all local slopes lie within ± the tolerance of their middle.
+Slopes are those of straight lines through fixed abscissae, so that no window is chosen by what is tested.
+
+The control has a spectrum without long waves, hence no power law. The test is as good as it fails curves like that and
+passes power laws, both with the scatter of the real realizations: shares of synthetic ensembles say how often it does.
+"""
+
+import numpy as np
+
+from viscorough_study.fits.intervals import described, resampled_means, three_columns, with_interval
+from viscorough_study.fits.power_law import local_slopes
+
+ROUNDING = 1e-9  # relative difference up to which distances on the logarithmic axis count as equal
+COLUMNS = {
+    "case_group": ("base or name of the control, which has no power law", None),
+    "hurst": ("Hurst exponent H", "1"),
+    "realizations": ("realizations in the ensemble", "1"),
+    **described("decades", "decades of X over which the local slope is constant within the tolerance"),
+    **described("slope", "mean local slope of ln(vt/h) over these decades"),
+    "x_low": ("lower end of these decades in X", "1"),
+    "x_high": ("upper end of these decades in X", "1"),
+    "draws": ("synthetic ensembles of each kind", "1"),
+    "power_law_passes": ("share of synthetic power laws with the scatter of this ensemble that pass the test", "1"),
+    "power_law_fails": ("share of them that fail it", "1"),
+    "bent_passes": (
+        "the same of power laws whose slope changes by twice the range allowed over the decades needed",
+        "1",
+    ),
+    "control_passes": ("the same of ensembles with the mean curve of the control", "1"),
+}
+RESAMPLES_OF_DRAWS = 100  # bootstrap samples of each synthetic ensemble
+
+
+def inner_slopes(log_x, log_y, half_width):
+    """Abscissae that have points over the whole width of `local_slopes`, and the slopes there.
+
+    log_x : ln X, equally spaced, shape (abscissae,); log_y : ln y, shape (curves, abscissae), without nan
+    Returns arrays of shapes (inner,) and (curves, inner). Raises ValueError if there is no such abscissa.
+    """
+    reach = int(half_width / (log_x[1] - log_x[0]) + ROUNDING)
+    if reach < 1 or log_x.size <= 2 * reach:
+        raise ValueError(f"inner_slopes: {log_x.size} abscissae are too few for lines of {2 * reach + 1} points")
+    return log_x[reach:-reach], local_slopes(log_x, log_y, half_width)[:, reach:-reach]
+
+
+def longest_plateau(slopes, tolerance):
+    """Number of steps of the longest run of slopes within ± tolerance of their middle, of each curve, and its start.
+
+    slopes : shape (curves, abscissae); returns two arrays of shape (curves,), a run of n + 1 slopes has n steps
+    """
+    steps, start = np.zeros(len(slopes), dtype=int), np.zeros(len(slopes), dtype=int)
+    least, largest = slopes, slopes
+    for length in range(1, slopes.shape[1]):
+        least = np.minimum(least[:, :-1], slopes[:, length:])
+        largest = np.maximum(largest[:, :-1], slopes[:, length:])
+        flat = largest - least <= 2 * tolerance
+        found = flat.any(axis=1)
+        if not found.any():
+            break
+        steps[found], start[found] = length, flat.argmax(axis=1)[found]
+    return steps, start
+
+
+def plateau(log_x, log_y, *, half_width, tolerance, resamples, random):
+    """The plateau of the mean of realizations, with 95 % bootstrap intervals over them.
+
+    log_x, log_y, half_width : as in `inner_slopes`, log_y of the realizations; random : numpy.random.Generator
+    Returns a dict: decades, decades_low, decades_high; slope, slope_low, slope_high, the mean slope over the plateau;
+    x_low, x_high, its ends in X.
+
+    A resample has twice the variance of the mean, and scatter shortens plateaus: the interval lies rather low. Few
+    curves pass that have no power law, but of power laws that scatter much some fail, as `shares` tells.
+    """
+    number = len(log_y)
+    inner, slopes = inner_slopes(log_x, resampled_means(log_y, resamples, random), half_width)
+    step = (inner[1] - inner[0]) / np.log(10)
+    steps, start = longest_plateau(slopes, tolerance)
+    run = slice(start[0], start[0] + steps[0] + 1)
+    found = three_columns("decades", with_interval(steps * step, number))
+    found |= three_columns("slope", with_interval(slopes[:, run].mean(axis=1), number))
+    return found | {"x_low": np.exp(inner[run][0]), "x_high": np.exp(inner[run][-1])}
+
+
+def shares(log_x, mean, residuals, *, draws, decades_min, random, **how):
+    """Shares of synthetic ensembles that pass and that fail: (passed, failed).
+
+    Of those that pass the whole interval of the decades is decades_min or more, of those that fail it is less.
+    mean : ln y of the curve that all ensembles have, shape (abscissae,)
+    residuals : ln y of realizations less their mean, shape (realizations, abscissae): every ensemble is as many draws
+        of them with replacement, so that it scatters, and is correlated along X, as the real one is
+    draws : number of ensembles; how : further arguments of `plateau`
+    """
+    passed, failed, needed = 0, 0, decades_min * (1 - ROUNDING)
+    for _ in range(draws):
+        drawn = residuals[random.integers(len(residuals), size=len(residuals))]
+        found = plateau(log_x, mean + drawn, random=random, **how)
+        passed += found["decades_low"] >= needed
+        failed += found["decades_high"] < needed
+    return passed / draws, failed / draws
+
+
+def plateau_row(ensemble, control, *, x_range, half_width, tolerance, decades_min, resamples, draws, random):
+    """Row of one ensemble, with the keys of `COLUMNS` but for case_group.
+
+    ensemble : ensemble dataset (viscorough_study.ensembles.averages) of one rms convention
+    control : that of the control of the same Hurst exponent, None without one
+    x_range : X between which the plateau may lie; half_width : of local slopes, in decades, also used beyond x_range
+    tolerance : of the local slope; decades_min : length with which an ensemble passes; random : numpy.random.Generator
+    Where a realization does not reach all of the abscissae, the results are nan.
+    """
+    chosen = _near(ensemble["x"].values, x_range, half_width)
+    log_x, log_y = np.log(ensemble["x"].values[chosen]), _log_velocity(ensemble, chosen)
+    row = {"hurst": ensemble["hurst"].item(), "realizations": len(log_y), "draws": draws}
+    if not np.isfinite(log_y).all():
+        return dict.fromkeys((name for name in COLUMNS if name != "case_group"), np.nan) | row
+    how = {"half_width": half_width * np.log(10), "tolerance": tolerance, "random": random}
+    row |= plateau(log_x, log_y, resamples=resamples, **how)
+    residuals = log_y - log_y.mean(axis=0)
+    bend = 4 * tolerance / (decades_min * np.log(10))  # slope per unit of ln X
+    means = {"power_law": 0 * log_x, "bent": bend * (log_x - log_x.mean()) ** 2 / 2}  # a common slope changes nothing
+    if control is not None:
+        means["control"] = _log_velocity(control, chosen).mean(axis=0)
+    of_draws = {"draws": draws, "decades_min": decades_min, "resamples": RESAMPLES_OF_DRAWS}
+    found = {name: shares(log_x, mean, residuals, **of_draws, **how) for name, mean in means.items()}
+    row |= {f"{name}_passes": found.get(name, (np.nan,))[0] for name in ("power_law", "bent", "control")}
+    return row | {"power_law_fails": found["power_law"][1]}
+
+
+def _near(x, x_range, half_width):
+    """Abscissae in the range, and those beside it that local slopes need."""
+    margin = 10 ** (half_width * (1 + 1e-9))
+    return (x >= x_range[0] / margin) & (x <= x_range[1] * margin)
+
+
+def _log_velocity(ensemble, chosen):
+    return np.log(ensemble["velocity"].values[:, chosen])

@@ -1,0 +1,173 @@
+"""Region (b) of an ensemble, and the power law in it (β, ζ).
+
+In region (b) κ = ζ X^α (paper, Eq. 3), hence vt/h = X/κ = X^β/ζ with β = 1 − α. Fits are made in this plain reading of
+the law; viscorough_study.fits.conventions has the others.
+
+Intervals are 95 % bootstrap intervals over realizations: whole curves are drawn with replacement, the window stays.
+They contain the scatter between surfaces, but not the choice of the window, which fits in other windows show.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from viscorough_study.fits.conventions import FITTED, PLAIN, zeta_scale
+from viscorough_study.fits.intervals import percentile_interval
+
+ROUNDING = 1e-9  # relative difference up to which abscissae and numbers of decades count as equal
+
+
+# ---- windows
+
+
+def local_slopes(log_x, log_y, half_width):
+    """d ln y/d ln X of least-squares lines through the abscissae within half_width to either side; of log_y's shape.
+
+    log_x : ln X, shape (abscissae,); log_y : ln y, shape (abscissae,) or (curves, abscissae)
+    Abscissae at which a curve is undefined (nan) are left out; nan where fewer than two remain.
+    """
+    defined = np.atleast_2d(np.isfinite(log_y)).all(axis=0)
+    near = (np.abs(log_x[:, None] - log_x) <= half_width * (1 + ROUNDING)) & defined
+    number = near.sum(axis=1)
+    centre = near @ log_x / np.maximum(number, 1)
+    offset = np.where(near, log_x - centre[:, None], 0)
+    slopes = np.full(log_y.shape, np.nan)
+    return np.divide(np.where(defined, log_y, 0) @ offset.T, (offset**2).sum(axis=1), out=slopes, where=number > 1)
+
+
+def find_region(mean, *, elements_min, stiffness_max, slope_max, slope_half_width, fraction_min, decades_min):
+    """Window (X_low, X_high) of region (b), None without one: the longest run of abscissae, in ln X, at which
+
+    - the median of the elements in contact is at least elements_min: with fewer, the curve depends on the grid;
+    - the geometric mean κ is at most stiffness_max: above, the contact feels the finite size of the indenter, on the
+      way to region (c);
+    - the local slope of the geometric mean vt/h, over slope_half_width decades to either side, is at most slope_max:
+      it is 1 in regions (a) and (c). A self-affine surface meets this wherever it meets the other conditions;
+    - the share of the realizations defined is at least fraction_min: a mean over the few curves that reach further
+      is biased.
+
+    mean : ensemble dataset (ensembles.averages) of one rms convention. No Hurst exponent enters the rule.
+    The limits and the values advised for them are in config/README.md, section Scaling.
+    There is no region (b) if no such run spans decades_min decades.
+    """
+    log_x, log_velocity = np.log(mean["x"].values), np.log(mean["velocity_geometric"].values)
+    allowed = local_slopes(log_x, log_velocity, slope_half_width * np.log(10)) <= slope_max
+    allowed &= mean["contact_count_median"].values >= elements_min
+    return _longest_run(mean, allowed, (0, stiffness_max), fraction_min, decades_min)
+
+
+def named_windows(mean, *, stiffness_range, fraction_min, decades_min, **limits):
+    """The windows to be compared, {name: (X_low, X_high), or None where there is none}.
+
+    - default: find_region with the limits;
+    - lower_half, upper_half: its halves in ln X, between whose β the curvature shows that a single fit hides;
+    - kappa: stiffness_range[0] <= κ <= stiffness_range[1], the same state of contact on any grid, where default
+      begins much earlier for lines than for discs.
+
+    All windows are found on the geometric mean, whichever average is fitted in them.
+    """
+    run_limits = {"fraction_min": fraction_min, "decades_min": decades_min}
+    windows = dict.fromkeys(FITTED["window_rule"])
+    if region := find_region(mean, **run_limits, **limits):  # else the tables have nan and 0 decades
+        middle = np.sqrt(np.prod(region))
+        windows |= {"default": region, "lower_half": (region[0], middle), "upper_half": (middle, region[1])}
+    windows["kappa"] = _longest_run(mean, True, stiffness_range, **run_limits)
+    return windows
+
+
+def _longest_run(mean, allowed, stiffness_range, fraction_min, decades_min):
+    """First and last X of the longest run of allowed abscissae in ln X; None if it is shorter than decades_min."""
+    x, stiffness = mean["x"].values, mean["stiffness_geometric"].values
+    allowed = allowed & (stiffness >= stiffness_range[0]) & (stiffness <= stiffness_range[1])
+    allowed &= mean["fraction_defined"].values >= fraction_min
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], allowed, [False]])))
+    first, last = edges[::2], edges[1::2] - 1
+    decades = np.log10(x[last] / x[first])
+    if decades.size == 0 or decades.max() < decades_min * (1 - ROUNDING):
+        return None
+    longest = np.argmax(decades)
+    return x[first[longest]], x[last[longest]]
+
+
+def in_window(x, window):
+    """Whether abscissae lie in a window (X_low, X_high), ends included; of the shape of x."""
+    return (x >= window[0] * (1 - ROUNDING)) & (x <= window[1] * (1 + ROUNDING))
+
+
+# ---- fits
+
+
+@dataclass(frozen=True)
+class PowerLaw:
+    """vt/h = prefactor · X^beta, fitted over a window of an ensemble.
+
+    beta, prefactor : of the ensemble; beta_samples, prefactor_samples : of its resamples, shape (resamples,)
+    realizations : number in the ensemble
+    residual : rms deviation of ln(vt/h) of the mean curve from the power law
+    """
+
+    beta: float
+    prefactor: float
+    beta_samples: np.ndarray
+    prefactor_samples: np.ndarray
+    realizations: int
+    residual: float
+
+    @property
+    def beta_interval(self):
+        """95 % interval (low, high) of β."""
+        return percentile_interval(self.beta_samples, self.realizations)
+
+    def zeta(self, *, gamma=PLAIN["gamma"], diameter_convention=PLAIN["diameter_convention"]):
+        """ζ and its 95 % interval, (value, low, high), in a reading of the law (viscorough_study.fits.conventions)."""
+        reading = {"gamma": gamma, "diameter_convention": diameter_convention}
+        samples = zeta_scale(self.beta_samples, **reading) / self.prefactor_samples
+        value = zeta_scale(self.beta, **reading) / self.prefactor
+        return value, *percentile_interval(samples, self.realizations)
+
+
+def fit_power_law(x, velocity, window, *, average, resamples, seed):
+    """PowerLaw of the mean curve: least squares of ln(vt/h) on ln X, equal weight for each abscissa.
+
+    x : X, shape (abscissae,), logarithmically uniform (viscorough_study.ensembles.averages.abscissa)
+    velocity : vt/h, shape (realizations, abscissae), nan where undefined
+    window : (X_low, X_high), ends included; average : "arithmetic" or "geometric" mean over the realizations
+    resamples : number of bootstrap samples; seed : int or SeedSequence. The same seed draws the same realizations
+        for every window and average, so that the bootstrap does not blur differences between conventions.
+
+    Raises ValueError if fewer than three abscissae lie in the window, or one of them has no realization.
+    """
+    chosen = in_window(x, window)
+    if chosen.sum() < 3:
+        raise ValueError(f"fit_power_law: {chosen.sum()} abscissae in the window, at least 3 are needed")
+    log_x, velocity = np.log(x[chosen]), velocity[:, chosen]
+    if not np.isfinite(velocity).any(axis=0).all():
+        raise ValueError("fit_power_law: an abscissa of the window has no realization, 1 at least is needed")
+    mean = log_means(velocity, average, resamples, np.random.default_rng(seed))
+
+    offset = log_x - log_x.mean()
+    beta = mean @ offset / (offset @ offset)
+    intercept = mean.mean(axis=1) - beta * log_x.mean()
+    residual = np.sqrt(np.mean((mean[0] - intercept[0] - beta[0] * log_x) ** 2))
+    return PowerLaw(beta[0], np.exp(intercept[0]), beta[1:], np.exp(intercept[1:]), len(velocity), residual)
+
+
+def log_means(velocity, average, resamples, generator):
+    """ln of the mean of vt/h over the realizations defined: of the ensemble, then of each of its bootstrap resamples.
+
+    velocity : shape (realizations, abscissae), nan where undefined; average : "arithmetic" or "geometric"
+    Returns an array of shape (resamples + 1, abscissae). Raises ValueError for another average.
+    """
+    if average not in FITTED["average"]:
+        raise ValueError(f"average: must be one of {', '.join(FITTED['average'])}, not {average!r}")
+    n = len(velocity)
+    # How often each realization is drawn: multinomial numbers, which take longer to draw as such.
+    drawn = generator.integers(n, size=(resamples, n)) + n * np.arange(resamples)[:, None]
+    weights = np.bincount(drawn.ravel(), minlength=resamples * n).reshape(resamples, n)
+    weights = np.vstack([np.ones(n), weights])
+    defined = np.isfinite(velocity)
+    positive = np.where(defined, velocity, 1)
+    values = np.where(defined, np.log(positive) if average == "geometric" else positive, 0)
+    with np.errstate(invalid="ignore", divide="ignore"):  # nan where a resample has no realization
+        mean = (weights @ values) / (weights @ defined)
+    return mean if average == "geometric" else np.log(mean)

@@ -1,0 +1,140 @@
+"""The paper's laws of the prefactor by one measure, absolute and up to a factor common to all Hurst exponents.
+
+Each law is compared in two ways, with the logarithm r of a ratio for each Hurst exponent:
+
+- ζ, of a fit of region (b) with a fitted exponent, over the law;
+- the curve: vt/h over X^(H/(1+H))/ζ, with ζ by the law, at the abscissae that lie in the regions (b) of all Hurst
+  exponents. With Eq. 11 and the factor 1/Γ(2 − α) this is the ratio of both sides of Eq. 12, as in Fig. 3.
+
+The measures are √⟨r²⟩, the deviation; exp⟨r⟩, the common factor; and √⟨(r − ⟨r⟩_H)²⟩, the spread between Hurst
+exponents: of ζ, how far the law has another shape in H; of curves, at each X, how far they are from collapsing onto one
+curve, whichever that is. Intervals are those of bootstrap samples of the realizations. As scatter adds to deviation and
+spread, both are rather too large than too small.
+
+Eq. 4 is a law of the elastic contact, without the factor; with it, it is what the paper compares with Eq. 11.
+"""
+
+import numpy as np
+import pandas as pd
+
+from viscorough import reference
+from viscorough_study.fits.conventions import PLAIN, zeta_scale
+from viscorough_study.fits.intervals import UNDEFINED, with_interval
+from viscorough_study.fits.power_law import fit_power_law, in_window, log_means
+
+LAWS = {  # {name: (ζ as a function of H, whether the law has the factor 1/Γ(2 − α))}
+    "Eq. 4, without Γ": (reference.zeta_elastic, False),
+    "Eq. 4, with Γ": (reference.zeta_elastic, True),
+    "Eq. 11, with Γ": (reference.zeta_viscous, True),
+}
+LAST = list(LAWS)[-1]  # from which the others are told apart
+COLUMNS = {
+    "hurst_min": ("lowest Hurst exponent allowed", "1"),
+    "quantity": ("what is compared with the law: zeta, or curve", ""),
+    "law": ("law; of two laws, the measure of the first less that of the second", ""),
+    "measure": ("deviation, common factor or spread between Hurst exponents", ""),
+    "value": ("value of the measure", "1"),
+    "low": ("lower end of its 95 % interval", "1"),
+    "high": ("upper end of its 95 % interval", "1"),
+    "x_low": ("of curves, lowest X that lies in region (b) of every Hurst exponent", "1"),
+    "x_high": ("of curves, highest such X", "1"),
+    "hurst_exponents": ("number of Hurst exponents compared", "1"),
+    "realizations": ("fewest discs of a Hurst exponent", "1"),
+}
+
+
+def zeta_laws(ensembles, windows, hurst_mins=(0.0,), *, average, resamples, seed):
+    """Measures of every law, and differences between laws; a pandas.DataFrame with the columns of `COLUMNS`.
+
+    ensembles : {H: ensemble dataset of one rms convention} (viscorough_study.ensembles.averages)
+    windows : {H: window of region (b), or None}; average : "arithmetic" or "geometric"
+    hurst_mins : lowest Hurst exponents, for each of which the exponents from it on are compared
+    resamples, seed : of the bootstrap, which draws the realizations of each Hurst exponent independently
+    Values are nan where a Hurst exponent has no region (b) or, of curves, where the regions have no X in common.
+    """
+    how, rows = {"average": average, "resamples": resamples, "seed": seed}, []
+    for least in hurst_mins:
+        chosen = {hurst: ensemble for hurst, ensemble in ensembles.items() if hurst >= least}
+        of_chosen = {hurst: windows[hurst] for hurst in chosen}
+        rows += [(least, *row) for row in _rows(chosen, of_chosen, **how)]
+    return pd.DataFrame(rows, columns=list(COLUMNS))
+
+
+def _rows(ensembles, windows, **how):
+    """Rows of the table for these Hurst exponents."""
+    number = min((ensemble.sizes["realization"] for ensemble in ensembles.values()), default=0)
+    common, rows = _common_window(windows), []
+    for quantity, ratios in (("zeta", _zeta_ratios), ("curve", _curve_ratios)):
+        samples = ratios(ensembles, windows, **how) or dict.fromkeys(LAWS, np.full((2, 1, 1), np.nan))
+        ends = common if quantity == "curve" and common is not None else (np.nan, np.nan)
+        measures = {law: _measures(samples[law]) for law in LAWS}
+        for law in list(LAWS)[:-1]:
+            less = {name: measures[law][name] - measures[LAST][name] for name in ("deviation", "spread")}
+            measures[difference(law)] = less
+        for law, of_law in measures.items():
+            for measure, values in of_law.items():
+                value = with_interval(values, number)
+                rows.append((quantity, law, measure, *value, *ends, len(ensembles), number))
+    return rows
+
+
+def value_of(table, quantity, law, measure, hurst_min=0.0):
+    """Value and 95 % interval, (value, low, high), of one row of the table; nan if it is not there."""
+    wanted = {"quantity": quantity, "law": law, "measure": measure, "hurst_min": hurst_min}
+    rows = table[np.logical_and.reduce([table[name] == value for name, value in wanted.items()])]
+    return tuple(rows[["value", "low", "high"]].iloc[0].tolist()) if len(rows) else UNDEFINED
+
+
+def difference(law):
+    """Name of the difference between a law and Eq. 11; positive if Eq. 11 is nearer."""
+    return f"{law} minus {LAST}"
+
+
+def _measures(logarithms):
+    """{measure: of the ensemble, then of each resample}; logarithms : shape (resamples + 1, Hurst exponents, X)."""
+    mean_over_hursts = logarithms.mean(axis=1, keepdims=True)
+    return {
+        "deviation": np.sqrt(np.mean(logarithms**2, axis=(1, 2))),
+        "common factor": np.exp(logarithms.mean(axis=(1, 2))),
+        "spread": np.sqrt(np.mean((logarithms - mean_over_hursts) ** 2, axis=(1, 2))),
+    }
+
+
+def _zeta_ratios(ensembles, windows, *, average, resamples, seed):
+    """{law: ln of ζ over the law}, shape (resamples + 1, Hurst exponents, 1); empty without a region (b)."""
+    if not windows or any(window is None for window in windows.values()):
+        return {}
+    ratios = {law: [] for law in LAWS}
+    for i, (hurst, ensemble) in enumerate(ensembles.items()):
+        x, velocity = ensemble["x"].values, ensemble["velocity"].values
+        own = {"average": average, "resamples": resamples, "seed": [seed, i]}
+        fit = fit_power_law(x, velocity, windows[hurst], **own)
+        beta = np.append(fit.beta, fit.beta_samples)
+        zeta = 1 / np.append(fit.prefactor, fit.prefactor_samples)
+        for law, (function, gamma) in LAWS.items():
+            scale = zeta_scale(beta, **PLAIN | {"gamma": "with" if gamma else "without"})
+            ratios[law].append(np.log(zeta * scale / function(hurst)))
+    return {law: np.stack(values, axis=1)[..., None] for law, values in ratios.items()}
+
+
+def _curve_ratios(ensembles, windows, *, average, resamples, seed):
+    """{law: ln of vt/h over the law}, shape (resamples + 1, Hurst exponents, X); empty without common abscissae."""
+    if (common := _common_window(windows)) is None:
+        return {}
+    ratios = {law: [] for law in LAWS}
+    for i, (hurst, ensemble) in enumerate(ensembles.items()):
+        x = ensemble["x"].values
+        chosen, generator = in_window(x, common), np.random.default_rng([seed, i])
+        means = log_means(ensemble["velocity"].values[:, chosen], average, resamples, generator)
+        for law, (function, gamma) in LAWS.items():
+            alpha = reference.exponent_alpha(hurst)
+            ratios[law].append(means - np.log(reference.velocity_law(x[chosen], function(hurst), alpha, gamma=gamma)))
+    return {law: np.stack(values, axis=1) for law, values in ratios.items()}
+
+
+def _common_window(windows):
+    """Window that lies in all windows, None if there is none."""
+    if not windows or any(window is None for window in windows.values()):
+        return None
+    low, high = (edge(ends) for edge, ends in zip((max, min), zip(*windows.values(), strict=True), strict=True))
+    return (low, high) if low < high else None

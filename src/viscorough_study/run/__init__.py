@@ -1,0 +1,1 @@
+"""One run: its settings, cases, seeds, tables, digests, logs and locks."""

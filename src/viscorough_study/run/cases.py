@@ -1,0 +1,277 @@
+"""Tables of cases: which ensembles, batches and indenters the settings ask for, and what their jobs need.
+
+A case is a dictionary of what its jobs need: one ensemble of surfaces of one kind, or several. The combinations of one
+Hurst exponent are batched side by side, so that a job has the same realizations of all of them; grids from coarse to
+fine are batched one after the other, so that a job can hold many small discs. The name of a case stands in file names,
+which hold no floating-point numbers, that of an ensemble in the tables. Cases of one meaning form a group; the curves
+of all cases that are evaluated together are brought to common abscissae in one pool.
+"""
+
+import itertools
+import math
+
+from viscorough_study.run import seeds
+
+# {pool: rms conventions of its surfaces}
+POOLS = {
+    "discs": ("disc", "square", "peak", "ensemble"),
+    "lines": ("line",),
+    "size_discs": ("disc", "square", "peak"),
+    "size_lines": ("line",),
+    "measured": ("disc",),
+}
+SURFACE_CONVENTIONS = ("period", "corners", "amplitudes")  # settings of surfaces that the paper leaves open
+UNIT_DISC = {"rms": 1.0, "diameter": 1.0}
+UNIT_LINE = {"rms": 1.0, "length": 1.0}
+
+
+def hurst_id(hurst):
+    """Name of a Hurst exponent in file names, such as h01000 for 0.1."""
+    return f"h{round(hurst * 1e4):05d}"
+
+
+def disc_cases(settings):
+    """{case: its description} of every case of discs.
+
+    A description holds pool, group, realizations, batch, indentation and ensembles, each of them name, spawn_key,
+    elements, surface (arguments of self_affine_disc) and realizations; those of the base cases also combination. To the
+    spawn key (run.seeds) the number of the realization is added. Realizations of the case are those of all
+    ensembles, or, where `side_by_side` is true, of each.
+    """
+    return _paper_discs(settings) | _size_discs(settings)
+
+
+def _paper_discs(settings):
+    cases, discs, variants = {}, settings["discs"], settings["variants"]
+    indentation = {name: discs[name] for name in ("tolerance", "whole_curves", "short_until_x")}
+    shared = {"pool": "discs", "indentation": settings["indentation"] | indentation}
+    for hurst in discs["hurst"]:
+        base = {"elements": discs["elements"], "realizations": discs["realizations"]}
+        combinations = [
+            base
+            | {
+                "name": f"{hurst_id(hurst)}_c{combination['number']}",
+                "spawn_key": seeds.disc_key(hurst, combination["number"]),
+                "combination": combination,
+                "surface": settings["surface"]
+                | {"hurst": hurst, "rms": combination["rms"], "diameter": combination["diameter"]},
+            }
+            for combination in discs["combinations"]
+        ]
+        about = {"group": "base", "realizations": discs["realizations"], "batch": discs["batch"], "side_by_side": True}
+        cases[hurst_id(hurst)] = shared | about | {"ensembles": combinations}
+        for variant in variants["cases"]:
+            changed, name = {key: value for key, value in variant.items() if key != "name"}, variant["name"]
+            ensemble = {
+                "name": f"{hurst_id(hurst)}_{name}",
+                "spawn_key": seeds.variant_key(hurst, name),
+                "elements": discs["elements"],
+                "surface": settings["surface"] | changed | UNIT_DISC | {"hurst": hurst},
+                "realizations": variants["realizations"],
+            }
+            cases[ensemble["name"]] = shared | _of_several([ensemble], variants["batch"], name)
+    return cases
+
+
+def surface_conventions(settings):
+    """{group: {convention: value}} of discs whose surfaces differ only in what the paper leaves open.
+
+    Variants with other differences, such as a roll-off, are controls, and are left out.
+    """
+    changes = {"base": {}} | {
+        variant["name"]: {key: value for key, value in variant.items() if key != "name"}
+        for variant in settings["variants"]["cases"]
+    }
+    return {
+        group: {name: (settings["surface"] | changed)[name] for name in SURFACE_CONVENTIONS}
+        for group, changed in changes.items()
+        if set(changed) <= set(SURFACE_CONVENTIONS)
+    }
+
+
+def _size_discs(settings):
+    sizes = settings["sizes"]
+    ends = {"until_x": sizes["until_x"], "short_until_x": sizes["until_x"], "whole_curves": 0}  # all at the same X
+    shared = {"pool": "size_discs", "indentation": settings["indentation"] | ends}
+    surface, powers = settings["surface"] | UNIT_DISC, [{"hurst": hurst} for hurst in sizes["hurst"]]
+    cases = {}
+    for group, changes, key in (
+        ("sizes", powers, seeds.size_disc_key),
+        ("controls", [sizes["control"]], seeds.size_control_key),
+    ):
+        ensembles = [
+            {"name": group, "spawn_key": key(one["hurst"], grid["elements"]), "surface": surface | one, **grid}
+            for one, grid in itertools.product(changes, sizes["discs"])
+        ]
+        cases[group] = shared | _of_several(ensembles, sizes["batch"], group)
+    return cases
+
+
+def _of_several(ensembles, batch, group):
+    """Part of the description of a case of several ensembles."""
+    return {
+        "group": group,
+        "ensembles": ensembles,
+        "realizations": sum(ensemble["realizations"] for ensemble in ensembles),
+        "batch": batch,
+    }
+
+
+def line_cases(settings):
+    """{line: its description} of every case of lines.
+
+    A description is that of a case of discs, or of one of its ensembles, with points in place of elements, surface the
+    arguments of self_affine_line, and until_x in place of indentation.
+    """
+    lines, sizes = settings["lines"], settings["sizes"]
+    shared = {name: settings["surface"][name] for name in ("amplitudes", "roll_off_wavelength", "roll_off_level")}
+    cases = {}
+    for hurst in lines["hurst"]:
+        cases[hurst_id(hurst)] = {
+            "pool": "lines",
+            "group": "lines",
+            "name": hurst_id(hurst),
+            "spawn_key": seeds.line_key(hurst),
+            "surface": shared | UNIT_LINE | {"hurst": hurst},
+            "points": lines["points"],
+            "realizations": lines["realizations"],
+            "batch": lines["batch"],
+            "until_x": settings["indentation"]["until_x"],
+        }
+    powers = [
+        grid
+        | {"spawn_key": seeds.size_line_key(hurst, grid["points"]), "surface": shared | UNIT_LINE | {"hurst": hurst}}
+        for hurst, grid in itertools.product(sizes["hurst"], sizes["lines"])
+    ]
+    cases["sizes"] = {"pool": "size_lines", "until_x": sizes["until_x"]}
+    cases["sizes"] |= _of_several([{"name": "sizes"} | one for one in powers], sizes["batch"], "sizes")
+    return cases
+
+
+def method_problems(settings):
+    """{problem: arguments of performance.methods.named_problem} of every indenter on which methods are compared."""
+    methods = settings["methods"]
+    bodies = {
+        f"{body}_{n}": {"name": body, "elements": n} for body in methods["bodies"] for n in methods["bodies_elements"]
+    }
+    return bodies | {
+        f"rough_{hurst_id(hurst)}_{n}": {"name": "rough disc", "hurst": hurst, "elements": n}
+        for hurst in methods["hurst"]
+        for n in methods["elements"]
+    }
+
+
+def measured_cases(scans):
+    """{scan: its description} of measured surfaces, each an ensemble of one; scans : run.scans.scans."""
+    return {
+        name: {"pool": "measured", "group": scan["group"], "realizations": 1, "batch": 1, **scan}
+        for name, scan in scans.items()
+    }
+
+
+def first_combination(settings):
+    """Names of the ensembles of the first combination, one for every Hurst exponent."""
+    first = settings["discs"]["combinations"][0]["number"]
+    return [f"{hurst_id(hurst)}_c{first}" for hurst in settings["discs"]["hurst"]]
+
+
+def combined_ensembles(settings):
+    """{name: ensemble} of every combination and Hurst exponent."""
+    bases = (case for case in disc_cases(settings).values() if case["group"] == "base")
+    return {ensemble["name"]: ensemble for case in bases for ensemble in case["ensembles"]}
+
+
+def example_discs(settings):
+    """Spawn keys, and arguments of self_affine_disc, of one disc for every Hurst exponent: the first combination's.
+
+    Rms height and diameter are 1.
+    """
+    ensembles = combined_ensembles(settings)
+    examples = [ensembles[name] for name in first_combination(settings)]
+    return {
+        "spawn_keys": [one["spawn_key"] for one in examples],
+        "discs": [one["surface"] | UNIT_DISC for one in examples],
+    }
+
+
+# ---- batches: the realizations of one job
+
+
+def batches(case):
+    """Names of a case's batches, first and last realization: 0000-0007, 0008-0015, ..."""
+    number, size = case["realizations"], case["batch"]
+    return [f"{first:04d}-{min(first + size, number) - 1:04d}" for first in range(0, number, size)]
+
+
+def realizations(batch):
+    """First realization of a batch, and the one after its last."""
+    first, last = batch.split("-")
+    return [int(first), int(last) + 1]
+
+
+def ensembles_of_batch(case, batch):
+    """Ensembles of a batch, each with name, spawn_key, surface, elements or points, and numbers of its realizations.
+
+    numbers : first realization of the batch in this ensemble, and the one after its last
+    """
+    first, end = realizations(batch)
+    parts, before, kept = [], 0, ("name", "spawn_key", "surface", "elements", "points")
+    for ensemble in case.get("ensembles", [case]):
+        after = before + ensemble["realizations"]
+        if before < end and first < after:
+            numbers = [max(first - before, 0), min(end, after) - before]
+            parts.append({name: ensemble[name] for name in kept if name in ensemble} | {"numbers": numbers})
+        before = 0 if case.get("side_by_side") else after
+    return parts
+
+
+def pool_batches(cases, pool):
+    """[(case, batch)] of all cases of a pool, in the order of the table."""
+    return [(name, batch) for name, case in cases.items() if case["pool"] == pool for batch in batches(case)]
+
+
+# ---- memory of jobs [MB]
+
+BASE_MEMORY = 700  # Python with its imports and, as a job of Slurm, two Snakemakes around it
+
+
+def disc_memory(case):
+    """A disc, the square that it is cut from, and the fields of the solver on a doubled grid."""
+    ensembles = case.get("ensembles", [case])
+    bytes_ = max((424 + 64 * one["surface"]["period"] ** 2) * one["elements"] ** 2 for one in ensembles)
+    return round(BASE_MEMORY + bytes_ / 1e6)
+
+
+def example_memory(settings):
+    """One disc for every Hurst exponent, and the square that a disc is cut from."""
+    heights, square = 24 * len(settings["discs"]["hurst"]), 64 * settings["surface"]["period"] ** 2
+    return round(BASE_MEMORY + (heights + square) * settings["discs"]["elements"] ** 2 / 1e6)
+
+
+def large_memory(elements):
+    """One disc and the fields of the solver on its grid."""
+    return round(BASE_MEMORY + 240 * elements**2 / 1e6)
+
+
+def measured_memory(case):
+    """A scan of at least four bytes for each height in its file, and the fields of the solver on its grid."""
+    return round(BASE_MEMORY + 400 / 4 * case["bytes"] / 1e6)
+
+
+def line_memory(case):
+    """Spectrum, heights and gaps of a line."""
+    return round(BASE_MEMORY + 40 * max(one["points"] for one in case.get("ensembles", [case])) / 1e6)
+
+
+def pool_memory(cases, pool, ensemble):
+    """All realizations of a pool on common abscissae, twice while they are joined; ensemble : setting of that name."""
+    members = [one for case in cases.values() if case["pool"] == pool for one in case.get("ensembles", [case])]
+    realizations = sum(one["realizations"] for one in members)
+    abscissae = 1 + ensemble["per_decade"] * math.log10(ensemble["x_high"] / ensemble["x_low"])
+    variables = 2 * len(POOLS[pool])
+    return round(BASE_MEMORY + 2 * 8 * variables * realizations * abscissae / 1e6)
+
+
+def medium_label(name):
+    """Name of a medium of the settings as text: "Standard linear solid"."""
+    return name.replace("_", " ").capitalize().replace("Kelvin voigt", "Kelvin-Voigt")

@@ -1,0 +1,184 @@
+"""Verdicts on the paper's claims: a table of all cases, the verdict on each claim, and a summary in Markdown.
+
+What a claim says, of which kind it is, by which criterion it is judged and why its tolerance is what it is stands in
+resources/paper/claims.yaml. The function of each criterion has the name of the claim and is in one of the modules of
+criteria (`JUDGES`). It yields the cases of the claim from the evidence (verdicts.evidence.Evidence) and the
+tolerance of the claim.
+
+With other random surfaces the numbers differ, and a verdict must not depend on them: where a quantity has a 95 %
+interval, the claim is reproduced only if the whole interval lies within what the tolerance allows, and not reproduced
+only if it lies wholly outside; otherwise it is undecided. How the number of cases and that of realizations enter is
+said at viscorough_study.verdicts.evidence.Evidence.within.
+"""
+
+from collections import Counter
+from dataclasses import asdict
+from inspect import getmembers, isfunction, signature
+
+import numpy as np
+import pandas as pd
+
+from viscorough_study.verdicts import (
+    form_criteria,
+    law_criteria,
+    mdr_criteria,
+    method_criteria,
+    region_criteria,
+    zeta_criteria,
+)
+from viscorough_study.verdicts.evidence import VERDICTS
+
+MODULES = form_criteria, region_criteria, law_criteria, zeta_criteria, method_criteria, mdr_criteria
+
+
+def _criteria(module):
+    """{claim: criterion} of a module: its public functions of evidence and tolerance."""
+    functions = {name: function for name, function in getmembers(module, isfunction) if not name.startswith("_")}
+    arguments = {name: [*signature(function).parameters][:2] for name, function in functions.items()}
+    return {name: functions[name] for name in functions if arguments[name] == ["evidence", "tolerance"]}
+
+
+JUDGES = {claim: criterion for module in MODULES for claim, criterion in _criteria(module).items()}
+KINDS = {
+    "physics": "Physics",
+    "identity": "Identities of the method, which hold for every surface",
+    "bookkeeping": "Bookkeeping",
+}
+COLUMNS = {
+    "claim": ("name of the claim, as in resources/paper/claims.yaml", ""),
+    "kind": ("one of: " + "; ".join(KINDS), ""),
+    "where": ("equation, section or figure of the paper", ""),
+    "case": ("Hurst exponent or part that the row is about", ""),
+    "value": ("quantity by which the claim is judged", "1"),
+    "low": ("lower end of its 95 % interval, missing where it has no statistical scatter", "1"),
+    "high": ("upper end of its 95 % interval", "1"),
+    "least": ("smallest value over grids, windows, times or realizations, missing where there is one value", "1"),
+    "largest": ("largest value over them", "1"),
+    "expected": ("what the paper says", "1"),
+    "tolerance": ("tolerance of the criterion", "1"),
+    "verdict": ("one of: " + "; ".join(VERDICTS), ""),
+    "convention": ("convention in which the claim holds, where it does not in those of the figures", ""),
+    "criterion": ("when the claim counts as reproduced", ""),
+    "reason": ("why the tolerance is what it is", ""),
+    "figure": ("figure that shows it", ""),
+}
+SMALLEST_SHARE = 0.5  # of the paper's elements across; below, region (b) is hardly as long as a fit needs
+CASES_SHOWN_MAX = 10  # cases of a claim, beyond which the summary shows three of them
+
+
+def judge(claims, evidence):
+    """Verdicts on the claims; a pandas.DataFrame with the columns of `COLUMNS`, a row for every case of a claim.
+
+    claims : {name: title, kind, where, statement, criterion, tolerance, reason, figure}
+    A case whose quantity cannot be computed from the evidence, such as an exponent where there is no region (b), is
+    undecided. Raises ValueError for a claim that has no criterion.
+    """
+    rows = []
+    for name, claim in claims.items():
+        if name not in JUDGES:
+            raise ValueError(f"claim {name}: no criterion computes it; known are {', '.join(JUDGES)}")
+        stated = {key: claim[key] for key in ("kind", "where", "tolerance", "criterion", "reason", "figure")}
+        cases = JUDGES[name](evidence, claim["tolerance"])
+        rows += [{"claim": name, **stated, **asdict(case)} for case in cases]
+    return pd.DataFrame(rows, columns=list(COLUMNS))
+
+
+def is_trial(elements_across, paper_elements_across):
+    """Whether discs are so coarse that no power law can be found on them, and verdicts mean nothing."""
+    return elements_across < SMALLEST_SHARE * paper_elements_across
+
+
+def attributes_of_scale(evidence):
+    """Attributes of the table of verdicts: what was computed, taken from the results and not from the settings.
+
+    elements_across : of the discs; paper_elements_across : of those of the paper
+    realizations : discs of the Hurst exponent with the fewest of them
+    trial : 1 for a trial, whose verdicts mean nothing, else 0
+    scale : the same in words
+    """
+    across, paper = evidence.across, evidence.said("boundary_elements", "elements_across")
+    realizations = min(ensemble.sizes["realization"] for ensemble in evidence.pooled.values())
+    trial = is_trial(across, paper)
+    words = f"at least {realizations} discs of {across} elements across for every Hurst exponent"
+    words += f" (paper: {paper} across)" + "; too coarse for a power law, the verdicts mean nothing" * trial
+    counts = {"elements_across": across, "paper_elements_across": paper, "realizations": realizations}
+    return counts | {"trial": int(trial), "scale": words}
+
+
+def overall(table):
+    """{claim: verdict} over all cases of a claim: the worst of them, in the order of `VERDICTS`."""
+    ranks = table["verdict"].map(VERDICTS.index).groupby(table["claim"], sort=False).max()
+    return {claim: VERDICTS[rank] for claim, rank in ranks.items()}
+
+
+def counted_verdicts(table):
+    """[(verdict, its number of claims)], most frequent first."""
+    return Counter(overall(table).values()).most_common()
+
+
+def deciding_case(rows):
+    """Index of the case that a claim's verdict rests on: of those with it, the farthest from what the paper says.
+
+    rows : the cases of one claim; without a value to compare with, the first of them
+    """
+    (verdict,) = overall(rows).values()
+    rows = rows[rows["verdict"] == verdict]
+    distance = (rows["value"] - rows["expected"]).abs()
+    return rows.index[0] if distance.isna().all() else distance.idxmax()
+
+
+def undecided_cases(rows):
+    """How many cases are undecided, in words, such as "2 of 4 cases undecided"; "" if none."""
+    number = int((rows["verdict"] == "undecided").sum())
+    return f"{number} of {len(rows)} cases undecided" if number else ""
+
+
+def markdown(table, claims):
+    """The verdicts as tables in Markdown, one for each kind, a row for each claim.
+
+    Of more than `CASES_SHOWN_MAX` cases it shows the first, the last, and the one that is farthest from what the paper
+    says. Behind a verdict stands how many of the cases are undecided.
+    """
+    parts, verdicts = [], overall(table)
+    for kind, heading in KINDS.items():
+        names = [name for name in verdicts if claims[name]["kind"] == kind]
+        if not names:
+            continue
+        lines = [f"### {heading}", "", "| the paper says | where | computed | verdict |", "|---|---|---|---|"]
+        for name in names:
+            rows = table[table["claim"] == name]
+            undecided = undecided_cases(rows)
+            verdict = verdicts[name] + (f" ({undecided})" if undecided else "")
+            lines.append(f"| {claims[name]['statement']} | {claims[name]['where']} | {_in_words(rows)} | {verdict} |")
+        parts.append("\n".join(lines) + "\n")
+    return "\n".join(parts)
+
+
+def cases_shown(rows):
+    """The cases of a claim that a summary shows: all, or of more than `CASES_SHOWN_MAX` three."""
+    if len(rows) <= CASES_SHOWN_MAX:
+        return rows
+    farthest = np.abs(rows["value"] - rows["expected"]).idxmax()
+    return rows.loc[sorted({rows.index[0], farthest, rows.index[-1]})]
+
+
+def _in_words(rows):
+    shown = cases_shown(rows)
+    number = f"{len(rows)} cases, of which " if len(shown) < len(rows) else ""
+    return number + "; ".join(case_in_words(row) for _, row in shown.iterrows())
+
+
+def case_in_words(row):
+    """Name and value of a case, its interval in brackets, its range in words, and what the paper says."""
+    if not np.isfinite(row["value"]):
+        return f"{row['case']}: –"
+    text = f"{row['case']}: {_digits(row['value'])}"
+    if np.isfinite(row["low"]):
+        text += f" [{_digits(row['low'])}, {_digits(row['high'])}]"
+    if np.isfinite(row["least"]):
+        text += f", least {_digits(row['least'])}, largest {_digits(row['largest'])}"
+    return text + (f", paper {_digits(row['expected'])}" if np.isfinite(row["expected"]) else "")
+
+
+def _digits(number):
+    return f"{number:.0f}" if abs(number) >= 1e3 else f"{number:.3g}"

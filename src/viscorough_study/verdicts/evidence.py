@@ -1,0 +1,186 @@
+"""The evidence by which the paper's claims are judged, and the outcome of one case of a claim."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+from scipy.special import ndtri
+
+from viscorough_study.ensembles import pool
+from viscorough_study.fits.conventions import of_source, select
+from viscorough_study.fits.intervals import NO_INTERVAL
+from viscorough_study.fits.power_law import find_region
+from viscorough_study.run.paper_data import number
+
+# From the best to the worst: the verdict on a claim is the worst of its cases.
+VERDICTS = ("reproduced", "reproduced under a stated convention", "undecided", "not reproduced")
+CONFIDENCE_TAIL = 0.025  # on either side of an interval
+FEW_WIDENED = 20.0  # by what factor intervals of few realizations must be able to widen without deciding otherwise
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What claims are judged by.
+
+    discs : pool of the base discs (viscorough_study.ensembles.pool)
+    tables : {name: pandas.DataFrame} of the tables of the workflow that some criterion reads
+    numbers : content of resources/paper/numbers.yaml; conventions : those of the figures, {convention: value}
+    across : elements across a disc; limits : arguments of viscorough_study.fits.power_law.find_region
+    rules : decades_min and end_decades, as the settings in section `verdicts`
+    resamples, seed : of bootstraps
+    """
+
+    discs: xr.Dataset
+    tables: dict[str, pd.DataFrame]
+    numbers: dict
+    conventions: dict
+    across: int
+    limits: dict
+    rules: dict
+    resamples: int
+    seed: int
+
+    @cached_property
+    def pooled(self):
+        """{H: all discs of this exponent as one ensemble, in the rms convention of the figures}, by ascending H."""
+        ensembles = sorted(pool.ensembles(self._discs, "hurst").items())
+        return {hurst: ensemble.isel(rms_convention=0) for hurst, ensemble in ensembles}
+
+    @cached_property
+    def whole(self):
+        """{H: the discs of `pooled` whose curves go on to region (c)}, those of the largest X."""
+        until_x = self.discs["until_x"].values
+        discs = self._discs.isel(realization=np.flatnonzero(until_x == until_x.max()))
+        return {hurst: pool.ensembles(discs, "hurst")[hurst].isel(rms_convention=0) for hurst in self.pooled}
+
+    @cached_property
+    def combinations(self):
+        """{H: ensemble of every combination of force, viscosity, size and rms height}, otherwise as `pooled`."""
+        by_case = {hurst: pool.ensembles(pool.select(self._discs, hurst=hurst), "case") for hurst in self.pooled}
+        return {hurst: [one.isel(rms_convention=0) for one in cases.values()] for hurst, cases in by_case.items()}
+
+    @property
+    def _discs(self):
+        return self.discs.sel(rms_convention=[self.conventions["rms_convention"]])
+
+    @cached_property
+    def regions(self):
+        """{H: window (X_low, X_high) of region (b) of the pooled discs, None without one}."""
+        return {hurst: find_region(ensemble, **self.limits) for hurst, ensemble in self.pooled.items()}
+
+    def fits(self, source, **wanted):
+        """Base fits of "discs" or "lines", a row for each Hurst exponent, in the conventions of the figures.
+
+        wanted : conventions in place of those of the figures
+        """
+        wanted = self.conventions | wanted | of_source(source) | {"case_group": "base"}
+        return select(self.tables["scaling"], wanted).set_index("hurst")
+
+    def said(self, section, name):
+        """A number that the paper states (resources/paper/numbers.yaml)."""
+        return number(self.numbers, section, name)
+
+    def are_few(self, realizations):
+        """Whether these are fewer realizations than the paper averages for a curve."""
+        return realizations < self.said("boundary_elements", "realizations_min")
+
+    def within(self, values, low, high, *, realizations, cases=1):
+        """Whether a quantity lies in the range from low to high, as far as so many realizations tell (`equivalence`).
+
+        values : value and 95 % interval; realizations : behind them; cases : of the claim, which decide together
+
+        All cases of a claim must lie within, for which their own intervals are right (intersection-union test: Berger,
+        Technometrics 24, 295 (1982)). One case outside refutes it, and the more cases, the likelier one is so by
+        chance: to be outside, intervals are widened to 95 % for all cases together, by Bonferroni.
+        Fewer realizations than the paper averages decide only what intervals `FEW_WIDENED` times as wide decide: by
+        Chebyshev's inequality a quantity lies beyond those in less than 0.07 % of all draws, whatever its distribution,
+        so that of all cases of all claims none does in 19 of 20 draws. A reduced scale then decides only what any
+        surfaces would, and leaves the rest undecided.
+        """
+        factor = FEW_WIDENED if self.are_few(realizations) else 1.0
+        if equivalence(widened(values, factor), low, high):
+            return True
+        together = ndtri(1 - CONFIDENCE_TAIL / cases) / ndtri(1 - CONFIDENCE_TAIL)
+        return False if equivalence(widened(values, factor * together), low, high) is False else None
+
+    def case(self, name, values, expected, allowed, *, realizations, cases=1, convention="", extremes=NO_INTERVAL):
+        """Case of a quantity that must lie in the range allowed, (low, high): `judged` by `within`.
+
+        convention : in which the claim holds, which few realizations do not tell
+        """
+        met = self.within(values, *allowed, realizations=realizations, cases=cases)
+        other = "" if self.are_few(realizations) else convention
+        return judged(name, values, expected, met, other, extremes=extremes)
+
+
+def equivalence(interval, low, high):
+    """Whether a quantity with this 95 % interval lies in the range from low to high.
+
+    True if the whole interval lies in the range, False if it lies wholly outside, None if it reaches over an end of the
+    range or is not defined: then the data do not decide. Two one-sided tests at 2.5 % each make of it a test of
+    equivalence (Schuirmann, J. Pharmacokinet. Biopharm. 15, 657 (1987)).
+    """
+    if not np.all(np.isfinite(interval)):
+        return None
+    if low <= interval[0] and interval[1] <= high:
+        return True
+    return False if interval[1] < low or interval[0] > high else None
+
+
+def widened(values, factor):
+    """Ends of an interval whose distances from the value are multiplied by a factor; values : value, low, high."""
+    value, low, high = values
+    return value - factor * (value - low), value + factor * (high - value)
+
+
+def hurst_name(hurst):
+    """Name of the case of a Hurst exponent."""
+    return f"H = {hurst:g}"
+
+
+def opposite(met):
+    """The outcome for the contrary of what was tested; None stays None."""
+    return None if met is None else not met
+
+
+@dataclass(frozen=True)
+class Case:
+    """Outcome of one case of a claim.
+
+    case : Hurst exponent or part that the case is about; expected : what the paper says, nan if it is not a number
+    value, low, high : the quantity and its 95 % interval, nan where it has no statistical scatter
+    least, largest : smallest and largest value over grids, windows, times or realizations, nan where there is one value
+    convention : in which the claim holds where it does not in those of the figures
+    """
+
+    case: str
+    value: float
+    low: float
+    high: float
+    least: float
+    largest: float
+    expected: float
+    verdict: str
+    convention: str = ""
+
+
+def judged(name, values, expected, met, convention="", *, extremes=NO_INTERVAL):
+    """Case with its verdict.
+
+    values : value, low, high; extremes : least, largest
+    met : whether the criterion is met, None where the data do not decide (`Evidence.within`); a value that could not be
+        computed is never decided
+    convention : in which it is met where it is not in those of the figures, if any
+    """
+    verdict = "not reproduced"
+    if not np.isfinite(values[0]):
+        verdict, convention = "undecided", ""
+    elif met:
+        verdict, convention = "reproduced", ""
+    elif convention:
+        verdict = "reproduced under a stated convention"
+    elif met is None:
+        verdict = "undecided"
+    return Case(name, *values, *extremes, expected, verdict, convention)

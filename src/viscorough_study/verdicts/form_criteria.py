@@ -1,0 +1,112 @@
+"""Criteria of claims on what the contact depends on, by contacts of one small rough disc.
+
+They hold for every surface, by the equations of the contact, so a small disc shows them exactly. The integration in
+time solves a contact problem in every step and never uses the correspondence with the elastic problem.
+"""
+
+from itertools import pairwise
+
+import numpy as np
+
+from viscorough.contact.loading_path import indent
+from viscorough.contact.one_contact import contact_at
+from viscorough.indenter import Indenter
+from viscorough.surfaces import self_affine_disc
+from viscorough.viscous.internal_variables import march_medium
+from viscorough.viscous.media import Newtonian
+from viscorough_study.fits.intervals import NO_INTERVAL
+from viscorough_study.run.seeds import gamma_factor_key, realization_seed
+from viscorough_study.verdicts.evidence import hurst_name, judged
+
+ACROSS = 33  # elements across the disc
+DEPTH = 1.5  # in rms heights, at which some tens of the elements touch
+IMPULSE = 2.0  # ∫F dt/η over hL at which force histories end
+HISTORIES = {  # times and forces over IMPULSE; linear between, and a time given twice is a step
+    "constant": ([0.0, 1.0], [1.0, 1.0]),
+    "growing": ([0.0, 0.25, 0.5, 0.75, 1.0], [0.0, 0.5, 1.0, 1.5, 2.0]),
+    "with rests": (
+        [0.0, 0.2, 0.2, 0.6, 0.6, 0.8, 0.8, 0.9, 0.9, 1.0],
+        [2.0, 2.0, 0.0, 0.0, 2.0, 2.0, 0.0, 0.0, 2.0, 2.0],
+    ),
+}
+SCALES = (1e-3, 0.2, 7.0)  # factors of heights and depth
+UNITS = ((7.0, 1.0), (1e-3, 3.0), (0.2, 1e-2))  # factors of heights and of lengths in the plane
+FORCES = np.geomspace(1e-3, 1, 31)  # X at which curves are compared
+DRIVES = ((1.0, 1.0), (1.0, 5.0), (1e-2, 1.0), (30.0, 0.2))  # forces over hL and viscosities of one indentation
+STEPS = 10  # of equal impulse, in which it is integrated
+
+
+def _disc(evidence, hurst):
+    """The small disc of a Hurst exponent, of rms height and diameter 1."""
+    return self_affine_disc(hurst, ACROSS, seed=realization_seed(evidence.seed, *gamma_factor_key(hurst)))
+
+
+def _case(name, deviations, tolerance):
+    """Case of the largest of several deviations, which should be none."""
+    worst = max(deviations)
+    extremes = min(deviations), worst
+    return judged(name, (float(worst), *NO_INTERVAL), 0.0, bool(worst <= tolerance), extremes=extremes)
+
+
+def history(evidence, tolerance):
+    """Elements that touch at the end of one force history and not of another with the same impulse, and the depths.
+
+    The impulse of all histories is the same, so is the depth (relative difference, in the second case), and so should
+    be the contact.
+    """
+    disc = _disc(evidence, min(evidence.pooled))
+    motions = []
+    for times, forces in HISTORIES.values():
+        force = IMPULSE * np.array(forces)
+        motions.append(march_medium(disc, Newtonian(1.0), np.array(times), force=force))
+    sets, depths = [motion.pressure > 0 for motion in motions], [motion.depth[-1] for motion in motions]
+    differing = [int((first != second).sum()) for first, second in pairwise(sets)]
+    apart = [abs(second / first - 1) for first, second in pairwise(depths)]
+    number = int(sets[0].sum())
+    yield _case(f"elements that differ, of {number}", differing, 0)
+    yield _case("relative difference of depths", apart, tolerance)
+
+
+def depth_over_rms(evidence, tolerance):
+    """Elements that touch at u/h and differ when u and h are multiplied by the same factor."""
+    for hurst in evidence.pooled:
+        disc = _disc(evidence, hurst)
+        touching = contact_at(disc, depth=DEPTH).contact
+        differing = []
+        for factor in SCALES:
+            scaled = Indenter(factor * disc.heights, disc.spacing)
+            differing.append(int((contact_at(scaled, depth=factor * DEPTH).contact != touching).sum()))
+        number = int((touching == 1).sum())
+        yield _case(f"{hurst_name(hurst)}, elements that differ, of {number}", differing, tolerance)
+
+
+def one_surface(evidence, tolerance):
+    """Relative differences between one surface and the same surface in other units.
+
+    κ(X) with other heights and another diameter, for every Hurst exponent, and F/(ηvL) of direct integrations with
+    other forces and viscosities, at the same Ft/η and so the same contact, for the smallest.
+    """
+    for hurst in evidence.pooled:
+        disc = _disc(evidence, hurst)
+        curve = _stiffness(disc, 1.0, 1.0)
+        deviations = []
+        for heights, lengths in UNITS:
+            scaled = Indenter(heights * disc.heights, lengths * disc.spacing)
+            deviations.append(np.max(np.abs(_stiffness(scaled, heights, lengths) / curve - 1)))
+        yield _case(hurst_name(hurst), deviations, tolerance)
+    disc = _disc(evidence, min(evidence.pooled))
+    first, *others = (_resistance(disc, *drive) for drive in DRIVES)
+    yield _case("other forces and viscosities", [np.max(np.abs(one / first - 1)) for one in others], tolerance)
+
+
+def _resistance(disc, force, viscosity):
+    """F/(ηvL) over steps of equal impulse Ft/η in a direct integration; v : velocity over a step."""
+    times = np.linspace(0.0, IMPULSE * viscosity / force, STEPS + 1)
+    depth = march_medium(disc, Newtonian(viscosity), times, force=np.full(times.size, force)).depth
+    return force / (viscosity * np.diff(depth) / np.diff(times))
+
+
+def _stiffness(indenter, rms, diameter):
+    """κ at the dimensionless forces, for a surface of these lengths."""
+    force = 4 * rms * diameter * FORCES
+    return indent(indenter, until_force=force[-1]).at_force(force)[1] / diameter

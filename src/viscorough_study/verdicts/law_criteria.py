@@ -1,0 +1,192 @@
+"""Criteria of claims that fitted exponents and curves follow a law of the paper.
+
+Where a claim fails in the conventions of the figures but holds in others that the paper leaves open, the verdict says
+so, and names the conventions with the smallest deviation.
+"""
+
+from itertools import product
+
+import numpy as np
+import pandas as pd
+
+from viscorough import reference
+from viscorough_study.fits.conventions import FITTED, NAMES, in_every_reading, in_words, left_open, of_source, select
+from viscorough_study.fits.intervals import UNDEFINED, deviation_interval, difference, interval, percentile_interval
+from viscorough_study.fits.power_law import fit_power_law, in_window, log_means
+from viscorough_study.verdicts.evidence import hurst_name, judged
+from viscorough_study.verdicts.region_criteria import combinations_case
+
+SHARE_OF_SQUARE = 0.75  # of its square, that a disc has at least on every grid
+
+
+# ---- exponents
+
+
+def beta(evidence, tolerance, source="discs"):
+    """β against H/(1 + H), at the Hurst exponents above which the paper says that it holds."""
+    fits = evidence.fits(source)
+    fits = fits[fits.index > evidence.said("agreement", "beta_hurst_min")]
+    convention = _nearest_convention(evidence.tables["scaling"], source, fits.index, tolerance)
+    for hurst, fit in fits.iterrows():
+        law, about = reference.exponent_beta(hurst), {"cases": len(fits), "convention": convention}
+        ends = law - tolerance, law + tolerance
+        yield evidence.case(hurst_name(hurst), interval(fit, "beta"), law, ends, **about, realizations=fit.realizations)
+
+
+def beta_lines(evidence, tolerance):
+    """β of lines against H/(1 + H)."""
+    return beta(evidence, tolerance, "lines")
+
+
+def _nearest_convention(scaling, source, hursts, tolerance):
+    """Conventions in words in which the interval of β of every Hurst exponent lies within the tolerance; "" if none.
+
+    Of several, those with the smallest deviation.
+    """
+    fits = left_open(in_every_reading(scaling[(scaling["source"] == source) & (scaling["case_group"] == "base")]))
+    nearest, smallest = "", tolerance
+    for values, group in fits.groupby(NAMES, sort=False):
+        ends = group.set_index("hurst").reindex(hursts)[["beta_low", "beta_high"]].to_numpy()
+        deviations = np.abs(ends - reference.exponent_beta(hursts.to_numpy())[:, None])
+        if np.isfinite(deviations).all() and deviations.max() <= smallest:
+            nearest, smallest = in_words(dict(zip(NAMES, values, strict=True))), deviations.max()
+    return nearest
+
+
+def coincide(evidence, tolerance):
+    """β of lines minus β of discs, with the conventions in which the difference is smallest."""
+    nearest, smallest = "", tolerance
+    for values in product(*(evidence.tables["scaling"][name].unique() for name in FITTED)):
+        conventions = dict(zip(FITTED, values, strict=True))
+        ends = np.abs(_differences(evidence, conventions)[["low", "high"]].to_numpy())
+        if ends.size and np.isfinite(ends).all() and ends.max() <= smallest:
+            nearest, smallest = in_words(conventions), ends.max()
+    differences = _differences(evidence, {})
+    for hurst, row in differences.iterrows():
+        *values, number = row.tolist()
+        about = {"realizations": number, "cases": len(differences), "convention": nearest}
+        yield evidence.case(hurst_name(hurst), values, 0.0, (-tolerance, tolerance), **about)
+
+
+def _differences(evidence, conventions):
+    """β of lines minus β of discs with its 95 % interval: value, low, high and realizations by H."""
+    discs, lines = (evidence.fits(source, **conventions) for source in ("discs", "lines"))
+    lines = lines.reindex(discs.index)
+    values = difference(interval(discs, "beta"), interval(lines, "beta"))
+    number = np.minimum(lines["realizations"], discs["realizations"])
+    return pd.DataFrame(dict(zip(("value", "low", "high"), values, strict=True)) | {"realizations": number})
+
+
+def hurst_only(evidence, tolerance):
+    """Standard deviation of β between combinations of force, viscosity, size and rms height, without sampling."""
+    if None in evidence.regions.values():
+        yield judged("all H", UNDEFINED, 0.0, None)
+        return
+    windows, combinations = evidence.regions, evidence.combinations.items()
+    slopes = [[_slopes(one, windows[hurst]) for one in ensembles] for hurst, ensembles in combinations]
+    yield combinations_case(evidence, slopes, 0.0, tolerance)
+
+
+def no_grid(evidence, tolerance):
+    """Change of β in windows of fixed X for a tenfold number of elements, from grids from coarse to fine.
+
+    How many realizations a grid has enters by the interval of the trend, which is over grids.
+    """
+    trends = evidence.tables["sizes_trends"]
+    trends = trends[(trends["source"] == "discs") & ~trends["window_rule"].isin(FITTED["window_rule"])]
+    trends = trends.dropna(subset="slope").sort_values("hurst", kind="stable")
+    if trends.empty:
+        yield judged("all H", UNDEFINED, 0.0, None)
+    for row in trends.to_dict("records"):
+        name, ends = f"{hurst_name(row['hurst'])}, {row['window_rule']}", (-tolerance, tolerance)
+        yield evidence.case(name, interval(row, "slope"), 0.0, ends, realizations=np.inf, cases=len(trends))
+
+
+def realizations(evidence, tolerance):
+    """Half the width of the 95 % interval of β that as many indentations give as the paper averages in Fig. 4.
+
+    The interval is that of the standard deviation of a normal distribution, by the distribution of χ².
+    """
+    number = evidence.said("boundary_elements", "realizations_fig4")
+
+    def half_width(_, ensemble, window):
+        slopes = _slopes(ensemble, window)
+        return deviation_interval(1.96 * slopes.std(ddof=1) / np.sqrt(number), slopes.size - 1), slopes.size
+
+    return _cases_in_regions(evidence, half_width, np.nan, (-np.inf, tolerance))
+
+
+def _cases_in_regions(evidence, values_of, expected, allowed):
+    """Cases of a quantity in region (b) of the pooled discs, one for each Hurst exponent; undecided without a region.
+
+    values_of : function of H, ensemble and window; returns value and interval, and the realizations behind them
+    """
+    for hurst, ensemble in evidence.pooled.items():
+        window = evidence.regions[hurst]
+        values, number = (UNDEFINED, 0) if window is None else values_of(hurst, ensemble, window)
+        about = {"realizations": number, "cases": len(evidence.pooled)}
+        yield evidence.case(hurst_name(hurst), values, expected, allowed, **about)
+
+
+def _slopes(ensemble, window):
+    """Slope of ln(vt/h) over ln X in a window, of each realization that is defined there."""
+    inside = in_window(ensemble["x"].values, window)
+    log_x, log_velocity = np.log(ensemble["x"].values[inside]), np.log(ensemble["velocity"].values[:, inside])
+    log_velocity = log_velocity[np.isfinite(log_velocity).all(axis=1)]
+    return np.polyfit(log_x, log_velocity.T, 1)[0]
+
+
+def alpha_limit(evidence, tolerance):
+    """β at H = 1, where the paper calls the exponent exact: of lines, and of discs on the paper's grid."""
+    wanted = evidence.conventions | of_source("discs") | {"case_group": "sizes"}
+    discs = select(evidence.tables["sizes"], wanted).set_index("hurst")
+    discs = discs[discs["elements"] >= SHARE_OF_SQUARE * evidence.across**2].sort_values("elements", kind="stable")
+    for source, fits in (("lines", evidence.fits("lines")), ("discs", discs)):
+        fit = fits[fits.index == 1.0].head(1).to_dict("records")
+        values, number = (interval(fit[0], "beta"), fit[0]["realizations"]) if fit else (UNDEFINED, 0)
+        ends = 0.5 - tolerance, 0.5 + tolerance
+        yield evidence.case(f"H = 1, {source}", values, 0.5, ends, realizations=number, cases=2)
+
+
+# ---- curves
+
+
+def depth(evidence, tolerance):
+    """(1 − α)κu/(hX) at the centre, where u/h = ∫dX/κ, with κ constant below the first abscissa."""
+
+    def ratio(hurst, ensemble, fit, centre, bootstrap):
+        x, softness = ensemble["x"].values, 1 / ensemble["stiffness"].values
+        end = int(np.argmin(np.abs(np.log(x / centre)))) + 1
+        depths = x[0] * softness[:, 0] + np.trapezoid(softness[:, :end], x[:end], axis=1)
+        ratios = (depths / (x[end - 1] * softness[:, end - 1]))[:, None]
+        # The seed of the fit draws the same realizations, so the interval contains the scatter of both factors.
+        random = np.random.default_rng(bootstrap["seed"])
+        means = np.exp(log_means(ratios, "arithmetic", bootstrap["resamples"], random))[:, 0]
+        return fit.beta * means[0], fit.beta_samples * means[1:]
+
+    return _cases_at_centre(evidence, tolerance, ratio)
+
+
+def master_curve(evidence, tolerance):
+    """vt/h over the right side of Eq. 12 as printed."""
+
+    def ratio(hurst, ensemble, fit, centre, bootstrap):
+        law = reference.rate_law(centre, hurst, gamma=True)
+        return fit.prefactor * centre**fit.beta / law, fit.prefactor_samples * centre**fit.beta_samples / law
+
+    return _cases_at_centre(evidence, tolerance, ratio)
+
+
+def _cases_at_centre(evidence, tolerance, ratio):
+    """Cases of a ratio that should be 1 at the geometric centre of region (b); undecided without a region.
+
+    ratio : function of H, ensemble, fit of region (b), centre and bootstrap; returns the value and its samples
+    """
+    bootstrap = {"average": evidence.conventions["average"], "resamples": evidence.resamples, "seed": evidence.seed}
+
+    def values_of(hurst, ensemble, window):
+        fit = fit_power_law(ensemble["x"].values, ensemble["velocity"].values, window, **bootstrap)
+        value, samples = ratio(hurst, ensemble, fit, np.sqrt(np.prod(window)), bootstrap)
+        return (value, *percentile_interval(samples, fit.realizations)), fit.realizations
+
+    return _cases_in_regions(evidence, values_of, 1.0, (1 - tolerance, 1 + tolerance))

@@ -1,0 +1,95 @@
+"""Criteria of claims on the line that stands for a surface: λ, exponents, contact area, separation, single surfaces.
+
+The paper calls the applicability of the method of reduction of dimensionality proven, and compares exponents. What else
+a line would have to reproduce to stand for a surface is judged here, too: Lyashenko, Pastewka & Persson (Tribology
+Letters 52, 223 (2013)) find that it reproduces neither contact area nor separation.
+"""
+
+import numpy as np
+
+from viscorough_study.fits.intervals import UNDEFINED, deviation_interval, interval
+from viscorough_study.verdicts.evidence import hurst_name, judged
+
+EQUAL_WINDOWS = ("same X", "same κ")
+
+
+def lambda_constant(evidence, tolerance):
+    """λ at the upper end of region (b) over λ at the lower end."""
+    table = evidence.tables["mdr_summary"]
+    for row in table.to_dict("records"):
+        allowed, about = (1 / (1 + tolerance), 1 + tolerance), {"realizations": _fewest(row), "cases": len(table)}
+        yield evidence.case(hurst_name(row["hurst"]), interval(row, "drift"), 1.0, allowed, **about)
+
+
+def exact_correspondence(evidence, tolerance):
+    """Error of ln(vt/h) with the best single λ: at the upper end of region (b), and the largest of the whole curve."""
+    table = evidence.tables["mdr_summary"]
+    for row in table.to_dict("records"):
+        for part, column in (("region (b)", "error_trend"), ("to complete contact", "error_whole")):
+            name, about = f"{hurst_name(row['hurst'])}, {part}", {"realizations": _fewest(row), "cases": 2 * len(table)}
+            yield evidence.case(name, interval(row, column), 0.0, (-tolerance, tolerance), **about)
+
+
+def coincide_equal_windows(evidence, tolerance):
+    """β of lines minus β of discs, both fitted in the same range of X, and both in the same range of κ."""
+    table = evidence.tables["mdr_exponents"]
+    table = table[table["window"].isin(EQUAL_WINDOWS)]
+    number = {row["hurst"]: _fewest(row) for row in evidence.tables["mdr_summary"].to_dict("records")}
+    for row in table.to_dict("records"):
+        name = f"{hurst_name(row['hurst'])}, {row['window']}"
+        about = {"realizations": number[row["hurst"]], "cases": len(table)}
+        yield evidence.case(name, interval(row, "difference"), 0.0, (-tolerance, tolerance), **about)
+
+
+def line_area(evidence, tolerance):
+    """Contact fraction of lines over that of discs."""
+    return _ratios(evidence, "area_ratio", tolerance)
+
+
+def line_gap(evidence, tolerance):
+    """Mean gap of lines over that of discs."""
+    return _ratios(evidence, "gap_ratio", tolerance)
+
+
+def single_surface(evidence, tolerance):
+    """Factor between κ of a disc and its line: one standard deviation of the logarithm of their ratio.
+
+    The interval is that of the standard deviation of a normal distribution, by the distribution of χ².
+    """
+
+    def values(row):
+        return tuple(np.exp(deviation_interval(row["stiffness_scatter"], row["realizations"] - 1)))
+
+    return _at_centres(evidence, "stiffness_scatter", values, (-np.inf, 1 + tolerance))
+
+
+def _ratios(evidence, column, tolerance):
+    """Cases of a ratio that should be 1 at the centre of region (b)."""
+    return _at_centres(evidence, column, lambda row: interval(row, column), (1 / (1 + tolerance), 1 + tolerance))
+
+
+def _at_centres(evidence, column, values, allowed):
+    """Cases of the comparison surface by surface at the centre of region (b), with the extremes over the region.
+
+    column : that must be defined; values : function of a row of the comparison, its value and interval
+    """
+    table = evidence.tables["reduction"].dropna(subset=column)
+    for hurst, window in evidence.regions.items():
+        rows = table[(table["hurst"] == hurst) & table["x"].between(*window or (np.nan, np.nan))]
+        if rows.empty:
+            yield judged(hurst_name(hurst), UNDEFINED, 1.0, None)
+            continue
+        row, every = _at_centre(rows), [values(row)[0] for row in rows.to_dict("records")]
+        about = {"realizations": row["realizations"], "cases": len(evidence.regions)}
+        yield evidence.case(hurst_name(hurst), values(row), 1.0, allowed, **about, extremes=(min(every), max(every)))
+
+
+def _at_centre(rows):
+    """The row in the middle of the rows in ln X."""
+    offset = np.log(rows["x"]) - np.log(rows["x"].iloc[[0, -1]]).mean()
+    return rows.loc[offset.abs().idxmin()]
+
+
+def _fewest(row):
+    """Realizations of a row of the summary: discs or lines, whichever are fewer."""
+    return min(row["discs"], row["lines"])

@@ -1,0 +1,108 @@
+"""Criteria of claims on the methods: the factor Γ, the line of the reduction of dimensionality, counts and time."""
+
+import numpy as np
+
+from viscorough.surfaces import cut_disc
+from viscorough_study.fits.intervals import NO_INTERVAL, UNDEFINED, difference
+from viscorough_study.verdicts.evidence import judged, opposite
+
+WEEKS_IN_MINUTES = 7 * 24 * 60  # the unit of several weeks in that of a few minutes
+SMALL_ERROR = 0.01  # of the velocity, with which a contact problem for every change of the contact is compared
+
+
+def gamma(evidence, tolerance):
+    """Depth of direct integrations in time over the elastic depth, against the factor of Eq. 8."""
+    for name, rows in evidence.tables["direct"].groupby("case", sort=False):
+        ratio, factor = rows["depth_ratio"], rows["with_gamma"].iloc[0]
+        met, extremes = bool((np.abs(ratio - factor) <= tolerance).all()), (ratio.min(), ratio.max())
+        yield judged(name, (ratio.median(), *NO_INTERVAL), factor, met, extremes=extremes)
+
+
+def line_spectrum(evidence, tolerance):
+    """λ at the largest Hurst exponent over λ at the smallest, with the smallest and the largest λ/π of all.
+
+    Where λ depends on H by more than the tolerance, no constant serves, and π neither. The two λ are independent, and
+    the logarithm of each has its interval; that of the difference is their root of the sum of squares.
+    """
+    fits = evidence.fits("discs")[["lambda", "lambda_low", "lambda_high", "realizations"]].dropna()
+    if len(fits) < 2:
+        yield judged("λ over H", UNDEFINED, np.nan, None)
+        return
+    logarithms = np.log(fits.drop(columns="realizations").to_numpy())
+    logarithmic, widest = difference(logarithms[0], logarithms[-1]), np.log1p(tolerance)
+    number = min(fits["realizations"].min(), evidence.fits("lines")["realizations"].min())
+    met = opposite(evidence.within(logarithmic, -widest, widest, realizations=number))
+    name = f"λ at H = {fits.index[-1]:g} over λ at H = {fits.index[0]:g}; least and largest λ/π"
+    extremes = fits["lambda"].min() / np.pi, fits["lambda"].max() / np.pi
+    yield judged(name, np.exp(logarithmic), np.nan, met, extremes=extremes)
+
+
+def bodies_of_revolution(evidence, tolerance):
+    """Error of the reduction on the finest grid, with the least and the largest of all grids."""
+    validation = evidence.tables["validation"]
+    rows = validation[validation["case"].str.endswith("_reduction")]
+    for (case, quantity), grids in rows.groupby(["case", "quantity"], sort=False):
+        error = grids.sort_values("elements")["error"]
+        met, extremes = bool(error.iloc[-1] <= tolerance), (error.min(), error.max())
+        name = f"{case.removesuffix('_reduction')}, {quantity}"
+        yield judged(name, (error.iloc[-1], *NO_INTERVAL), 0.0, met, extremes=extremes)
+
+
+def elements(evidence, tolerance):
+    """Elements of a disc as large as the paper's; least and largest: without and with those exactly on the rim."""
+    across, said = (evidence.said("boundary_elements", name) for name in ("elements_across", "elements"))
+    count = np.isfinite(cut_disc(np.zeros((across, across)), across)).sum()
+    x = np.arange(across) - (across - 1) / 2
+    on_rim = (x[:, None] ** 2 + x**2 == ((across - 1) / 2) ** 2).sum()
+    met, extremes = bool(abs(count - said) <= tolerance), (count - on_rim, count)
+    yield judged(f"{across} across", (count, *NO_INTERVAL), said, met, extremes=extremes)
+
+
+def contact_problems(evidence, tolerance):
+    """Contact problems that give the velocity with a small error, over the elements, each of which is a change.
+
+    The problems are the levels of the elastic loading path, for the loosest tolerance with which its error is below
+    `SMALL_ERROR`, on a disc as large as the paper's; of several Hurst exponents the most.
+    """
+    levels = _rough_discs(evidence).query("method == 'path, automatic levels' and error <= @SMALL_ERROR")
+    ratios = levels.groupby("hurst")["steps"].min().to_numpy() / evidence.said("boundary_elements", "elements")
+    if not ratios.size:
+        yield judged("of a disc", UNDEFINED, 1.0, None)
+        return
+    met = bool((np.abs(np.log(ratios)) <= np.log(tolerance)).all())
+    yield judged("of a disc", (ratios.max(), *NO_INTERVAL), 1.0, met, extremes=(ratios.min(), ratios.max()))
+
+
+def computing_time(evidence, tolerance):
+    """Time of boundary elements over that of lines, at the numbers that the paper states.
+
+    Boundary elements: a contact problem for every contact event of every indentation, as explicit steps take them; the
+    reduction: every point of every line. The time of each is that of the table of methods, on a disc as large as the
+    paper's. The ratio depends on the machine and on what else runs there; rounded to a power of ten it would jump from
+    one run to the next.
+    """
+    numbers = {name: evidence.said("boundary_elements", name) for name in ("combinations", "realizations_min")}
+    counts = [ensemble["contact_count"].max("abscissa").values for ensemble in evidence.whole.values()]
+    problems = np.prod(list(numbers.values())) * np.median(np.concatenate(counts))
+    names = "hurst_count", "realizations", "points"
+    points = np.prod([float(evidence.said("reduction", name)) for name in names])
+    methods = _rough_discs(evidence)
+    times = [_time_of_one(methods, name) for name in ("explicit, logarithmic steps", "MDR")]
+    ratio = problems * times[0] / (points * times[1])
+    met = bool(1 / tolerance <= ratio / WEEKS_IN_MINUTES <= tolerance)
+    yield judged("ratio of the times", (ratio, *NO_INTERVAL), WEEKS_IN_MINUTES, met)
+
+
+def _rough_discs(evidence):
+    """Rows of the table of methods on rough discs as large as the paper's."""
+    methods, across = evidence.tables["methods"], evidence.said("boundary_elements", "elements_across")
+    return methods[methods["hurst"].notna() & (methods["elements"] == across)]
+
+
+def _time_of_one(methods, name):
+    """Time of one step or point of a method [s], where it took most of them; nan if it was not measured."""
+    rows = methods[methods["method"] == name]
+    if rows.empty:
+        return np.nan
+    most = rows.loc[rows["value"].idxmax()]
+    return most["wall_s"] / most["value"]

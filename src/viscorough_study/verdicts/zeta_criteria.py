@@ -1,0 +1,84 @@
+"""Criteria of claims about the prefactor ζ: absolute, up to a factor common to all H, and law against law.
+
+The tables `prefactors` and `zeta_laws` (fits.prefactors and fits.zeta_laws) have the numbers.
+Where an absolute claim fails in the conventions of the figures but holds in others that the paper leaves open, the
+surfaces included, the verdict names those with the smallest deviation.
+"""
+
+import numpy as np
+
+from viscorough_study.fits.conventions import NAMES, in_words, left_open
+from viscorough_study.fits.intervals import interval
+from viscorough_study.fits.prefactors import COMBINED, LAWS
+from viscorough_study.fits.zeta_laws import difference, value_of
+from viscorough_study.verdicts.evidence import hurst_name
+
+
+def zeta_elastic(evidence, tolerance):
+    """ζ against Eq. 4, which is a law of the elastic contact, without the factor."""
+    return _absolute(evidence, tolerance, "eq4", "without")
+
+
+def zeta_viscous(evidence, tolerance):
+    """ζ against Eq. 11, which the paper fitted with Eq. 9, which has the factor."""
+    return _absolute(evidence, tolerance, "eq11", "with")
+
+
+def _absolute(evidence, tolerance, name, gamma):
+    """Cases of ζ against a law of viscorough_study.fits.prefactors, one for each Hurst exponent."""
+    convention = _nearest_convention(evidence.tables["prefactors"], name, gamma, tolerance)
+    fits = evidence.fits("discs", gamma=gamma)
+    for hurst, fit in fits.iterrows():
+        law, about = LAWS[name][1](hurst), {"cases": len(fits), "convention": convention}
+        ends = law * (1 - tolerance), law * (1 + tolerance)
+        yield evidence.case(hurst_name(hurst), interval(fit, "zeta"), law, ends, **about, realizations=fit.realizations)
+
+
+def _nearest_convention(table, name, gamma, tolerance):
+    """Conventions in words, left open by the paper, in which every interval lies within the tolerance; "" if none."""
+    table = left_open(table[table["gamma"] == gamma])
+    law = LAWS[name][1](table["hurst"])
+    ends = np.maximum(np.abs(table["zeta_low"] / law - 1), np.abs(table["zeta_high"] / law - 1))
+    largest = ends.fillna(np.inf).groupby([table[column] for column in COMBINED], sort=False).max()
+    if largest.empty or largest.min() > tolerance:
+        return ""
+    nearest = dict(zip(COMBINED, largest.idxmin(), strict=True))
+    return in_words({name: nearest[name] for name in NAMES} | {"surfaces": nearest["case_group"]})
+
+
+def zeta_elastic_shape(evidence, tolerance):
+    """Spread between Hurst exponents of ζ over Eq. 4, without the factor, once a common factor is taken out."""
+    return _spreads(evidence, tolerance, "zeta", "Eq. 4, without Γ")
+
+
+def zeta_viscous_shape(evidence, tolerance):
+    """The same for Eq. 11, with the factor."""
+    return _spreads(evidence, tolerance, "zeta", "Eq. 11, with Γ")
+
+
+def master_curve_shape(evidence, tolerance):
+    """Spread between Hurst exponents, at the same X, of vt/h over the right side of Eq. 12."""
+    return _spreads(evidence, tolerance, "curve", "Eq. 11, with Γ")
+
+
+def _spreads(evidence, tolerance, quantity, law):
+    """Cases of the spread, which is 0 where a law holds up to a factor: for all Hurst exponents and from 0.4 on."""
+    table = evidence.tables["zeta_laws"]
+    of_all = {"realizations": table["realizations"].min(), "cases": table["hurst_min"].nunique()}
+    for least in table["hurst_min"].unique():
+        name = f"H from {least:g} on" if least > 0 else "all H"
+        values = value_of(table, quantity, law, "spread", least)
+        yield evidence.case(name, values, 0.0, (-np.inf, tolerance), **of_all)
+
+
+def zeta_better(evidence, tolerance):
+    """Deviation from Eq. 4 less that from Eq. 11 of vt/h with the exponent H/(1 + H); positive if Eq. 11 is better.
+
+    Both with the factor 1/Γ(2 − α), as in the paper, and each in its own reading, Eq. 4 without the factor.
+    """
+    table = evidence.tables["zeta_laws"]
+    readings = {"Eq. 4, with Γ": "both with Γ", "Eq. 4, without Γ": "Eq. 4 without Γ"}
+    of_all = {"realizations": table["realizations"].min(), "cases": len(readings)}
+    for law, reading in readings.items():
+        values = value_of(table, "curve", difference(law), "deviation")
+        yield evidence.case(f"all H, {reading}", values, np.nan, (tolerance, np.inf), **of_all)

@@ -1,0 +1,109 @@
+"""What others found, with the numbers of this study beside it."""
+
+import numpy as np
+import pandas as pd
+import pytest
+import yaml
+from scipy.integrate import quad
+from scipy.special import beta, erf
+
+from support.study import HURST, ROOT, SHOWN, evidence
+from viscorough import reference
+from viscorough_study.comparisons.literature import COLUMNS, literature, persson_u0
+from viscorough_study.page.discussion import KNOWN, QUANTITIES
+
+ENTRIES = yaml.safe_load((ROOT / "resources/literature/stiffness.yaml").read_text(encoding="utf-8"))
+INTERFACE = pd.DataFrame(
+    [
+        (source, group, hurst, 257, average, u0, u0 - 0.1, u0 + 0.1)
+        for source, group, u0 in (("discs", "base", 0.5), ("discs", "sizes", 0.6), ("lines", "lines", 0.7))
+        for hurst in HURST
+        for average in ("arithmetic", "geometric")
+    ],
+    columns=["source", "case_group", "hurst", "across", "average", "u0", "u0_low", "u0_high"],
+)
+
+
+REDUCTION = pd.DataFrame(
+    [(hurst, x, *(x * hurst + end for end in (0, -0.001, 0.001) * 2)) for hurst in HURST for x in (1e-3, 1e-2, 0.1)],
+    columns=["hurst", "x", *(f"{name}_ratio{end}" for name in ("area", "gap") for end in ("", "_low", "_high"))],
+)
+
+
+@pytest.fixture
+def table():
+    scaling = evidence().tables["scaling"].assign(beta_low=0.1, beta_high=0.7)
+    return literature(ENTRIES, scaling, INTERFACE, REDUCTION, SHOWN).round({"low": 9, "high": 9})
+
+
+def of(table, quantity, place=""):
+    return table[(table["quantity"] == quantity) & table["place"].str.contains(place)]
+
+
+def test_exponents_and_lines_stand_beside_those_of_others(table):
+    assert list(table) == list(COLUMNS)
+    assert table["year"].is_monotonic_increasing
+    alpha = of(table, "alpha")
+    assert set(alpha["hurst"]) == set(HURST)
+    np.testing.assert_allclose(alpha["value"], reference.exponent_alpha(alpha["hurst"]), atol=0.02)
+    assert (alpha[["low", "high"]] == [0.3, 0.9]).all(axis=None)  # 1 less the ends of β
+    law, stated = of(table, "alpha", "86, 026710"), of(table, "alpha", "108, 104301")
+    np.testing.assert_allclose(law["theirs_low"], 1 / (1 + law["hurst"]))
+    assert set(zip(stated["theirs_low"], stated["theirs_high"], strict=True)) == {(0.51, 0.77)}
+    for name in ("area", "gap"):
+        rows = of(table, name, "Tribol. Lett.")
+        np.testing.assert_allclose(rows["value"], 0.01 * rows["hurst"])  # at one force
+        np.testing.assert_allclose(rows["high"] - rows["low"], 0.002)
+
+
+def test_u0_stands_beside_that_of_others_and_persson_s_law(table):
+    u0, gamma = of(table, "u0"), of(table, "gamma")
+    assert set(zip(u0["value"], u0["low"], u0["high"], strict=True)) == {(0.5, 0.4, 0.6)}
+    law, stated = of(table, "u0", "99, 125502"), of(table, "u0", "87, 062809")
+    without = [persson_u0(hurst, 257 / 2) for hurst in law["hurst"]]
+    np.testing.assert_allclose(law[["theirs_low", "theirs_high"]], np.outer(without, [0.4, 0.45]))
+    assert set(zip(stated["theirs_low"], stated["theirs_high"], strict=True)) == {(0.4, 0.4)}
+    np.testing.assert_allclose(gamma["value"] * without, 0.5)
+    assert of(table, "u0", "0810.0950")["theirs_low"].isna().all()  # of the order of h is no number
+
+
+def test_sources_stay_without_numbers_of_this_study():
+    table = literature(ENTRIES, evidence().tables["scaling"][:0], INTERFACE[:0], REDUCTION[:0], SHOWN)
+    assert len(table) == sum(max(len(entry["ours"]), 1) for entry in ENTRIES)
+    assert table["value"].isna().all()
+
+
+def test_no_number_is_without_a_place_where_it_was_read():
+    for entry in ENTRIES:
+        assert entry["when"] == ("before" if entry["year"] < 2013 else "after")
+        assert entry["sure"] in KNOWN
+        assert bool(entry["read"]) == (entry["sure"] != "not verified")
+        assert entry["sure"] != "not verified" or not {"theirs", "law"} & set(entry)
+        assert set(entry["ours"]) <= set(QUANTITIES)
+
+
+# ---- Persson's law
+
+
+@pytest.mark.parametrize("hurst", [0.3, 0.8])
+def test_a_wide_band_has_the_closed_form(hurst):
+    exact = np.sqrt(hurst / (2 * np.pi * (1 - hurst))) * beta(0.5, hurst / (2 * (1 - hurst)))
+    assert persson_u0(hurst, 1e40) == pytest.approx(exact, rel=1e-6)
+
+
+def test_pressure_does_the_work_that_the_elastic_energy_takes():
+    """−dU/dp over p is u₀/p at small pressures: E* = 1, q₀ = 1, H = 0.6, band 50."""
+    hurst, band = 0.6, 50.0
+    power = 2 * hurst
+    h = np.sqrt(2 * np.pi * (1 - band**-power) / power)  # of C = q^(−2−2H)
+
+    def energy(p):
+        def density(q):
+            w = (np.pi * (q ** (2 - power) - 1) / (2 - power)) ** -0.5
+            return q ** (-power) * erf(w * p)
+
+        return np.pi / 2 * quad(density, 1, band, limit=400)[0]
+
+    p = 1e-3
+    u0 = (energy(1.01 * p) - energy(0.99 * p)) / (0.02 * p)
+    assert persson_u0(hurst, band) == pytest.approx(u0 / h, rel=1e-3)

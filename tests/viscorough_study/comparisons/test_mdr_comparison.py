@@ -1,0 +1,72 @@
+"""Lines that have the spectrum of a surface, and their comparison with it."""
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from viscorough.contact.loading_path import indent
+from viscorough.indenter import Indenter
+from viscorough.mdr import line_of_surface, reduce
+from viscorough.surfaces import self_affine_square
+from viscorough_study.comparisons.mdr_comparison import COLUMNS, compare_reduction, is_power_of_ten, mean_gaps
+from viscorough_study.ensembles.averages import abscissa
+
+
+@pytest.mark.parametrize("n", [64, 65])
+def test_line_has_the_power_of_the_rings(n):
+    square = self_affine_square(0.6, n, seed=1)
+    line = line_of_surface(square, 0.5, 2)
+    assert (line.heights.shape, line.spacing) == ((n,), 0.5)
+    # Without corners all waves of the map are in rings up to the Nyquist wavenumber: equal rms heights.
+    assert line.heights.std() == pytest.approx(square.std(), rel=1e-12)
+    one = np.cos(2 * np.pi * 3 * np.arange(n) / n)
+    of_one_wave = line_of_surface(np.tile(one, (n, 1)), 1.0, 3).heights
+    power = np.abs(np.fft.rfft(of_one_wave)) ** 2
+    assert np.argmax(power) == 3
+    assert power[3] == pytest.approx(power.sum(), rel=1e-9)
+
+
+def test_spectrum_is_that_of_equation_13():
+    """C1D = π q C2D: a slope smaller by one, averaged over realizations."""
+    n, k = 256, np.arange(4, 100)
+    power = 0
+    for seed in range(20):
+        line = line_of_surface(self_affine_square(0.7, n, seed=seed), 1.0, seed)
+        power = power + np.abs(np.fft.rfft(line.heights)[k]) ** 2
+    assert np.polyfit(np.log(k), np.log(power), 1)[0] == pytest.approx(-(2 * 0.7 + 1), abs=0.05)
+
+
+def test_comparison():
+    x = abscissa(1e-3, 3.0, 5)
+    table = compare_reduction([0.8], 33, 6, x, tolerance=1e-3, seed=1)
+    assert list(table) == list(COLUMNS)
+    assert table["stiffness_ratio"].between(0.3, 3).all()
+    half_width = stats.t.ppf(0.975, 5) * table["stiffness_scatter"] / np.sqrt(6)
+    for end, side in (("low", -1), ("high", 1)):
+        found = np.log(table[f"stiffness_ratio_{end}"] / table["stiffness_ratio"])
+        np.testing.assert_allclose(found, side * half_width)
+    np.testing.assert_allclose(stats.norm.cdf(np.arctanh(table["chance"]) * np.sqrt(6 - 3)), 0.975, atol=1e-4)
+    assert table["stiffness"].is_monotonic_increasing
+    assert table["gap"].notna().equals(is_power_of_ten(table["x"]))
+    assert table["gap"].dropna().is_monotonic_decreasing
+    assert table["gap_ratio"].dropna().between(0.05, 1.5).all()
+
+
+def test_mean_gap_of_a_line_is_that_of_its_points():
+    line = Indenter(np.random.default_rng(1).normal(size=500), 0.01)
+    curve = reduce(line)
+    force = curve.force[[3, 40, -1]]
+    initial = line.heights.max() - line.heights
+    gaps = [np.maximum(initial - depth, 0).mean() for depth in curve.depth[[3, 40, -1]]]
+    np.testing.assert_allclose(mean_gaps(line, curve, force, 1e-3), gaps, rtol=1e-12, atol=1e-15)
+
+
+def test_mean_gap_of_flat_and_raised_discs():
+    """A flat punch has no gap; one raised element of height 1 holds the others apart by about its height."""
+    flat = np.where(np.hypot(*np.mgrid[-8:9, -8:9]) <= 8.5, 0.0, np.nan)
+    raised = flat.copy()
+    raised[8, 8] = 1.0
+    for heights, expected in ((flat, 0.0), (raised, 1.0)):
+        disc = Indenter(heights, 1 / 17)
+        (gap,) = mean_gaps(disc, indent(disc, until_force=1.0), np.array([1e-4]), 1e-3)
+        assert gap == pytest.approx(expected, abs=5e-3)

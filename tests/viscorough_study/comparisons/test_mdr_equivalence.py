@@ -1,0 +1,73 @@
+"""Tables of lines against discs, from ensembles of known λ(X) and known exponents."""
+
+import numpy as np
+import pytest
+
+from support.study import LIMITS, ensemble_of
+from viscorough_study.comparisons.mdr_equivalence import (
+    EXPONENT_COLUMNS,
+    LAMBDA_COLUMNS,
+    SUMMARY_COLUMNS,
+    WINDOWS,
+    compare_ensembles,
+)
+from viscorough_study.ensembles.averages import abscissa
+
+x = abscissa(1e-7, 30, 20)
+HOW = {"average": "geometric", "stiffness_range": [0.03, 0.3], "resamples": 50, "seed": 1, **LIMITS}
+
+
+def ensemble(alpha, seed, *, factor=1.0, elements=10**5, hurst=0.7, spread=0.0):
+    """κ = factor X^α with scatter, from one element to complete contact; spread : standard deviation of α."""
+    normal = np.random.default_rng(seed).normal(size=(12, 1))
+    scatter, alpha = np.exp(0.05 * normal), alpha + spread * normal
+    stiffness = np.clip(factor * scatter * x**alpha, 1e-6, 1)
+    return ensemble_of(x, stiffness, elements=elements, hurst=hurst).isel(rms_convention=0)
+
+
+def tables(discs, lines):
+    return compare_ensembles({0.7: discs}, {0.5: lines, 0.7: lines}, **HOW)
+
+
+def test_equal_ensembles_have_the_lambda_pi():
+    discs = ensemble(0.6, seed=1)
+    of_lambda, summary, exponents = tables(discs, discs)
+    for table, columns in zip(
+        (of_lambda, summary, exponents), (LAMBDA_COLUMNS, SUMMARY_COLUMNS, EXPONENT_COLUMNS), strict=True
+    ):
+        assert list(table) == list(columns)
+    inside = of_lambda[of_lambda["in_region"] == 1]
+    np.testing.assert_allclose(inside["lambda"], np.pi, rtol=1e-6)
+    np.testing.assert_allclose(of_lambda["velocity_ratio"], 1, rtol=1e-6)
+    (row,) = summary.to_dict("records")
+    assert (row["lambda_best"], row["drift"]) == pytest.approx((np.pi, 1), rel=1e-6)
+    assert row["drift_low"] < 1 < row["drift_high"]
+    assert (row["discs"], row["lines"]) == (12, 12)
+    assert exponents["window"].tolist() == list(WINDOWS)
+    assert exponents["difference"].abs().max() < 1e-9
+    few = discs.assign(contact_count_median=discs["contact_count_median"] * 0)  # without a region
+    of_lambda, summary, exponents = tables(few, discs)
+    assert of_lambda.empty
+    assert np.isnan(summary["drift"]).all()
+    assert exponents["difference"].notna().tolist() == [window == "same κ" for window in WINDOWS]
+
+
+def test_discs_and_lines_are_drawn_independently():
+    """Even if they are the same curves: the variances of both exponents add up."""
+    one = {0.7: ensemble(0.6, seed=1, spread=0.01)}
+    _, _, exponents = compare_ensembles(one, one, **HOW | {"resamples": 500})
+    widths = {name: exponents[f"{name}_high"] - exponents[f"{name}_low"] for name in ("beta_discs", "difference")}
+    np.testing.assert_allclose(widths["difference"], np.sqrt(2) * widths["beta_discs"], rtol=0.15)
+
+
+def test_another_exponent_makes_lambda_drift():
+    """κ3 = X^0.55 and κ1 = X^0.6: β differ by 0.05, λ by X^(2·0.05/0.6), vt/h at the ends by half of X^0.05."""
+    _, summary, exponents = tables(ensemble(0.55, seed=1), ensemble(0.6, seed=2))
+    (row,) = summary.to_dict("records")
+    decades = np.log(row["x_high"] / row["x_low"])
+    assert row["drift"] == pytest.approx(np.exp(2 * 0.05 / 0.6 * decades), rel=1e-3)
+    assert row["error_region"] == pytest.approx(0.025 * decades, rel=1e-3)
+    assert row["error_trend"] == pytest.approx(-0.025 * decades, rel=1e-3)
+    same_x = exponents.set_index("window").loc["same X"]
+    assert same_x["difference"] == pytest.approx(-0.05, abs=1e-6)
+    assert same_x["x_low_lines"] == same_x["x_low_discs"] == row["x_low"]

@@ -1,0 +1,92 @@
+"""Kinetics of ensembles in other media: what all media share, and what is exact."""
+
+import numpy as np
+import pytest
+
+from viscorough.contact.loading_path import indent
+from viscorough.loading_curve import LoadingCurve
+from viscorough.surfaces import self_affine_disc
+from viscorough.viscous.media import KelvinVoigt, Maxwell, Springpot, StandardLinearSolid
+from viscorough_study.comparisons.media_kinetics import COLUMNS, EXPONENT_COLUMNS, media_tables, named_media
+from viscorough_study.ensembles.averages import abscissa
+
+FIT = {"stiffness_range": [0.03, 0.3], "resamples": 20, "seed": 1}
+FLUID = {"name": "newtonian", "kind": "newtonian", "viscosity": 1e6}
+MEDIA = named_media([FLUID]) | {"maxwell": Maxwell(2.5e6, 1e6)}
+
+
+@pytest.fixture(scope="module")
+def ensembles():
+    discs = [self_affine_disc(0.7, 33, rms=1e-6, diameter=1e-2, seed=seed) for seed in (1, 2)]
+    return {0.7: ([indent(disc, until_fraction=0.3) for disc in discs], [1e-6, 1e-6], 1e-2)}
+
+
+@pytest.fixture(scope="module")
+def table(ensembles):
+    return media_tables(ensembles, MEDIA, force=1e-4, times=abscissa(1e-3, 1e4, 20), **FIT)[0]
+
+
+def test_newtonian_velocity_is_that_of_the_paper(ensembles, table):
+    """vt/h = X/κ(X)."""
+    rows = table[table["medium"] == "newtonian"]
+    stiffness = [curve.at_force(4e-8 * rows["x"].to_numpy())[1] / 4e-2 for curve in ensembles[0.7][0]]
+    expected = np.exp(np.log(rows["x"].to_numpy() / stiffness).mean(axis=0))
+    np.testing.assert_allclose(rows["velocity"], expected, rtol=1e-12)
+    assert list(table) == list(COLUMNS)
+    last = min(curve.force[-1] for curve in ensembles[0.7][0])
+    assert table["x"].max() * 4e-8 <= last, "times beyond the curves are left out"
+    np.testing.assert_allclose(rows["x"], 1e-4 * rows["time"] / (4e-8 * 1e6), rtol=1e-14)
+
+
+def test_depth_is_one_function_of_the_creep_compliance(table):
+    newtonian, maxwell = (table[table["medium"] == name] for name in MEDIA)
+    inside = maxwell[(maxwell["x"] > newtonian["x"].min()) & (maxwell["x"] < newtonian["x"].max())]
+    interpolated = np.interp(np.log(inside["x"]), np.log(newtonian["x"]), np.log(newtonian["depth"]))
+    np.testing.assert_allclose(np.log(inside["depth"]), interpolated, atol=5e-3)  # between abscissae
+    assert len(inside) > 50
+
+
+def power_law_curve(factor, beta=0.4):
+    """u = factor (F/G)^β at 400 levels; between them a cubic in the logarithms is exact."""
+    force = np.geomspace(1e-12, 1e-4, 400)
+    depth = factor * force**beta
+    count, residual = np.arange(10, 4010, 10), np.zeros(400)
+    return LoadingCurve(depth, force, force / (beta * depth), count, 5000, "boundary elements", 1e-3, 0, residual)
+
+
+@pytest.mark.parametrize(
+    ("medium", "times", "creep", "exponent"),
+    [
+        (Maxwell(1e6, 1e6), (1e3, 5e4), 1.0, 0.4),  # τ = 1 s: later
+        (KelvinVoigt(1e2, 1e6), (1e-2, 1e1), 1.0, 0.4),  # τ = 1e4 s: earlier
+        (Springpot(1e6, 0.3), (1e-2, 1e2), 0.3, 0.3 * 0.4),
+    ],
+)
+def test_power_of_time_of_a_power_law(medium, times, creep, exponent):
+    """vt/h ∝ X^β is ∝ t^(aβ) where J ∝ t^a, in the means, in the fit, and by Eq. 10 of β = H/(1 + H)."""
+    ensembles = {2 / 3: ([power_law_curve(factor) for factor in (0.9, 1.1)], [1e-3, 1e-3], 1.0)}  # H/(1 + H) = 0.4
+    how = FIT | {"stiffness_range": [0.0, 10.0]}
+    table, fits = media_tables(ensembles, {"medium": medium}, force=1e-3, times=abscissa(*times, 20), **how)
+    fit = fits.iloc[0]
+    assert list(fits) == list(EXPONENT_COLUMNS)
+    np.testing.assert_allclose(table[["exponent", "expected"]], exponent, atol=2e-3)
+    names = "exponent", "expected", "beta", "creep_exponent", "creep_least", "creep_largest"
+    assert [fit[name] for name in names] == pytest.approx([exponent, exponent, 0.4, *[creep] * 3], abs=2e-3)
+    assert fit["decades"] == pytest.approx(np.log10(times[1] / times[0]), abs=0.05)
+
+
+def test_no_power_of_time_where_the_medium_has_none():
+    """The creep exponent of a standard linear solid changes over the window, of a relaxed one there is no window.
+
+    Of a power law in X, the exponent in time is that of J and of the change of d ln J/d ln t.
+    """
+    ensembles = {0.5: ([power_law_curve(1.0)] * 2, [1e-3, 1e-3], 1.0)}
+    media = {"solid": StandardLinearSolid(1e6, 1e5, 1.0), "spring": StandardLinearSolid(1e6, 1e5, 1e-6)}
+    how = FIT | {"stiffness_range": [0.0, 10.0]}
+    _, fits = media_tables(ensembles, media, force=1e-3, times=abscissa(1e-2, 1e2, 20), **how)
+    solid, spring = fits.to_dict("records")
+    assert solid["creep_largest"] - solid["creep_least"] > 0.4
+    assert solid["exponent"] == pytest.approx(solid["expected"], abs=2e-3)
+    assert abs(solid["expected"] - 0.4 * solid["creep_exponent"]) > 0.1
+    assert spring["decades"] == 0
+    assert np.isnan(spring["exponent"])

@@ -1,0 +1,70 @@
+"""The comparison with exact solutions passes for the methods as they are, and notices when they are not."""
+
+import pytest
+
+from viscorough_study.comparisons import validation as validate_solvers
+
+GRIDS = (17, 33, 65)
+MARGIN = 0.3
+# About twice the errors of the finest grid; those of the default grids are in config/config.yaml.
+LIMITS = {
+    "force": 5e-4,
+    "depth": 8e-4,
+    "stiffness": 3e-2,
+    "velocity": 6e-3,
+    "area": 3e-2,
+    "punch_stiffness": 4e-2,
+    "correspondence": 1e-9,
+}
+
+
+@pytest.fixture(scope="module")
+def table():
+    return validate_solvers.validation_table(GRIDS, LIMITS, MARGIN)
+
+
+def test_every_case_passes_on_every_grid(table):
+    assert validate_solvers.failures(table, MARGIN) == []
+    assert table["passed"].all()
+    assert list(table.columns) == list(validate_solvers.COLUMNS)
+    assert (table.groupby(["case", "quantity"])["elements"].apply(tuple) == GRIDS).all()
+    assert set(table["quantity"]) == set(validate_solvers.ORDERS)
+    cases = {"disc", "ellipse", "rough_disc", "sphere_on_rectangles"}
+    for body in ("sphere", "cone"):
+        cases |= {body, f"{body}_constant_force", f"{body}_rising_force", f"{body}_reduction"}
+    assert set(table["case"]) == cases
+
+
+def test_force_is_of_second_order(table):
+    """Uniform pressure on squares and rectangles, sphere and cone: slope 2 within the scatter of three grids."""
+    order = table[table["quantity"] == "force"].groupby("case")["order"].first()
+    assert order.between(1.8, 2.3).all()
+
+
+@pytest.mark.parametrize("punch", ["disc", "ellipse"])
+def test_flat_punches_are_of_first_order(table, punch):
+    """That of a single ellipse is not: at 33 elements across, two errors of its edge happen to cancel each other."""
+    rows = table[table["case"] == punch]
+    assert rows["order"].iloc[0] == pytest.approx(1, abs=0.15)
+    assert rows["error"].is_monotonic_decreasing
+
+
+def errors_of(table):
+    """{(case, quantity): errors on all grids}."""
+    return {key: rows["error"].to_numpy() for key, rows in table.groupby(["case", "quantity"], sort=False)}
+
+
+def test_an_error_above_its_limit_is_named(table):
+    judged = validate_solvers.judge_errors(GRIDS, errors_of(table), LIMITS | {"area": 1e-4}, MARGIN)
+    failed = validate_solvers.failures(judged, MARGIN)
+    assert [line.split(":")[0] for line in failed] == ["sphere area", "cone area", "sphere_on_rectangles area"]
+    assert "allowed: error up to 0.0001" in failed[0]
+    assert (judged["passed"] == (judged["quantity"] != "area")).all()
+
+
+def test_a_solver_that_does_not_converge_is_noticed(table):
+    """An error of 1 % that remains on finer grids is below a generous limit, but its order is too low."""
+    errors = {key: error + 0.01 * (key[1] == "force") for key, error in errors_of(table).items()}
+    judged = validate_solvers.judge_errors(GRIDS, errors, dict.fromkeys(LIMITS, 0.1), MARGIN)
+    failed = validate_solvers.failures(judged, MARGIN)
+    assert [line.split(":")[0] for line in failed] == ["sphere force", "cone force", "sphere_on_rectangles force"]

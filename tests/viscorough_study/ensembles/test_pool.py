@@ -1,0 +1,88 @@
+"""Pools of batches: what is taken out of them is what one large ensemble would be."""
+
+import json
+
+import numpy as np
+import pytest
+
+from support.study import aggregate, line_curve
+from viscorough.io.curves import stack_curves
+from viscorough.io.netcdf import Variable
+from viscorough_study.ensembles.averages import abscissa
+from viscorough_study.ensembles.pool import ensembles, pool_batches, select
+
+X = abscissa(1e-3, 3, 10)
+RMS = np.linspace(0.8, 1.2, 12)
+
+
+@pytest.fixture(scope="module")
+def curves():
+    heights = np.random.default_rng(1).normal(size=(12, 40))
+    return [line_curve(gaps) for gaps in heights.max(axis=1, keepdims=True) - heights]
+
+
+def batch(curves, rms, hurst=0.5, case="a_c1", first=0, until_x=3.0):
+    content = stack_curves(curves)
+    names, numbers = np.array([case] * len(curves), dtype=object), first + np.arange(len(curves))
+    values = {"hurst": np.asarray(hurst), "diameter": np.asarray(1.0), "until_x": np.asarray(until_x)}
+    for name, value in (values | {"rms_line": rms, "case": names, "number": numbers}).items():
+        content.variables[name] = Variable(("realization",) if value.ndim else (), value, {})
+    content.attributes["settings"] = json.dumps({"seed": 1})
+    return content
+
+
+@pytest.fixture(scope="module")
+def pool(curves):
+    parts = ((slice(0, 5), "a_c1", 0), (slice(5, 9), "a_c2", 0), (slice(9, 12), "a_c2", 4))
+    batches = [("base", batch(curves[part], RMS[part], case=case, first=first)) for part, case, first in parts]
+    other = ("variant", batch(curves[:2], RMS[:2], hurst=0.7, case="b_c1"))
+    return pool_batches([*batches, other], ["line"], X)
+
+
+def test_a_mean_is_over_the_curves_that_were_to_reach_its_abscissa(curves):
+    """Shorter curves reach further by chance, by what the surface is; beyond their end they do not count."""
+    short = ("base", batch(curves[2:], RMS[2:], first=2, until_x=0.1))
+    mean = ensembles(pool_batches([("base", batch(curves[:2], RMS[:2])), short], ["line"], X), "hurst")[0.5]
+    whole = aggregate(curves[:2], {"line": RMS[:2]}, 1.0, X, hurst=0.5, case="a")
+    below, above = X < 0.11, X > 0.11
+    assert mean["realizations_defined"].values[0, below].tolist() == [12] * below.sum()
+    for name in ("velocity_geometric", "realizations_defined", "fraction_defined", "contact_count_median"):
+        np.testing.assert_array_equal(mean[name].values[:, above], whole[name].values[:, above], err_msg=name)
+    assert mean["fraction_defined"].values[0, 0] == 1
+
+
+def test_ensemble_of_a_hurst_exponent_is_one_large_ensemble(curves, pool):
+    pooled = ensembles(pool, "hurst")[0.5]
+    whole = aggregate(curves, {"line": RMS}, 1.0, X, hurst=0.5, case="a")
+    assert set(pooled.data_vars) == set(whole.data_vars)
+    for name in whole.data_vars:
+        np.testing.assert_allclose(pooled[name], whole[name], rtol=1e-12, err_msg=name)
+    assert pooled["case"].values.tolist() == ["a_c1"] * 5 + ["a_c2"] * 7
+    assert (pooled["hurst"].item(), pooled["elements"].item(), pooled["diameter"].item()) == (0.5, 40, 1.0)
+    of_cases = ensembles(select(pool, group="base"), "case")
+    assert list(of_cases) == ["a_c1", "a_c2"]
+    second = aggregate(curves[5:], {"line": RMS[5:]}, 1.0, X, hurst=0.5, case="a_c2")
+    np.testing.assert_allclose(of_cases["a_c2"]["velocity_geometric"], second["velocity_geometric"], rtol=1e-12)
+
+
+def test_unlike_realizations_make_no_ensemble(pool):
+    mixed = pool.assign_coords(group=("realization", ["all"] * pool.sizes["realization"]))
+    with pytest.raises(ValueError, match="all: the realizations differ in hurst"):
+        ensembles(mixed, "group")
+
+
+def test_a_batch_of_several_ensembles(curves):
+    """Realizations on two grids and with two Hurst exponents in one file."""
+    short = line_curve([0.0, 0.5, 1.0])
+    content = batch([*curves[:2], short], np.ones(3), hurst=[0.5, 0.5, 0.7], case="sizes")
+    other = batch([short], np.ones(1), hurst=0.7, case="sizes", first=3)
+    for one, names in ((content, ("a", "b")), (other, ("b", "c"))):
+        one.attributes["settings"] = json.dumps({"ensembles": [{"name": name} for name in names]})
+    mixed = pool_batches([("sizes", content), ("sizes", other)], ["line"], X)
+    assert mixed["elements"].values.tolist() == [40, 40, 3, 3]
+    assert mixed["hurst"].values.tolist() == [0.5, 0.5, 0.7, 0.7]
+    assert [one["name"] for one in json.loads(mixed.attrs["settings"])["sizes"]["ensembles"]] == ["a", "b", "c"]
+    assert list(ensembles(mixed, "hurst", "elements")) == [(0.5, 40), (0.7, 3)]
+    found = ensembles(mixed, "hurst", "elements")[0.5, 40]
+    whole = aggregate(curves[:2], {"line": np.ones(2)}, 1.0, X, hurst=0.5, case="a")
+    np.testing.assert_array_equal(found["stiffness"], whole["stiffness"])

@@ -1,0 +1,103 @@
+"""One law fitted to all grids: known exponents, corrections and ranges."""
+
+import numpy as np
+import pytest
+
+from viscorough_study.fits.infinite_grid import COLUMNS, PLACES, fit, limit_table, place_of, points
+from viscorough_study.fits.power_law import log_means
+from viscorough_study.fits.scaling_collapse import Grid
+
+HURST, BETA, A, B, OMEGA = 0.6, 0.4, 1.3, -0.9, 0.5
+RANGES = {"elements_min": [10, 20], "x_high": {"power": [0.03], "corrected": [0.3, 0.1]}}
+
+
+def ensembles(*, scatter=0.1, punch=0.0, factor=np.exp, omega=OMEGA, seed=1):
+    """vt/h = A X^β exp(B X^ω) (or with another factor) + punch X on four grids; scatter from one curve to another."""
+    generator, found = np.random.default_rng(seed), []
+    for number, realizations in ((65, 60), (257, 40), (1025, 30), (4097, 20)):
+        x = 10 ** np.arange(np.ceil(20 * np.log10(2 * number ** -(1 + HURST))) / 20, 0, 0.05)
+        law = A * x**BETA * factor(B * x**omega)
+        tilt = generator.standard_normal((realizations, 2)) @ np.array([np.ones(x.size), 0.2 * np.log(x)])
+        velocity = law * np.exp(scatter * tilt) + punch * x
+        means = log_means(velocity, "geometric", 200, generator)
+        count = 10 * (x / x[0]) ** 0.9
+        found.append(Grid(number, realizations, np.log(x), means, count, 1 / punch if punch else np.inf, 1.0))
+    return {HURST: found}
+
+
+def row(limits, quantity, law, height="resolved"):
+    (found,) = limits[(limits[["quantity", "law", "height"]] == [quantity, law, height]).all(axis=1)].itertuples()
+    return found
+
+
+def test_a_known_law_is_found_exactly():
+    log_x = np.log(np.geomspace(1e-5, 0.3, 80))
+    log_y = np.log(A) + BETA * log_x + B * np.exp(OMEGA * log_x)
+    found, deviation = fit(log_x, np.stack([log_y, log_y + 0.1]), np.ones(80), corrected=True)
+    np.testing.assert_allclose(found[1], [np.log(A) + 0.1, BETA, B, OMEGA], atol=1e-9)
+    assert deviation < 1e-7
+    plain, deviation = fit(log_x, log_y[None], np.ones(80), corrected=False)
+    assert plain[0, 2] == 0
+    assert deviation > 1e-2
+
+
+@pytest.mark.parametrize("factor", [np.exp, lambda z: 1 + 0.3 * z], ids=["exponential", "first order"])
+def test_joint_fit_returns_the_law_within_its_intervals(factor):
+    fits = [
+        row(limit_table(ensembles(seed=seed, factor=factor), "discs", tolerance=0.03, **RANGES), "whole", "corrected")
+        for seed in range(6)
+    ]
+    assert sum(one.beta_low <= BETA <= one.beta_high for one in fits) >= 5
+    assert all(one.ranges_low <= BETA <= one.ranges_high for one in fits)
+    if factor is np.exp:
+        assert sum(one.omega_low <= OMEGA <= one.omega_high for one in fits) >= 5
+        assert np.median([one.correction for one in fits]) == pytest.approx(B, rel=0.2)
+        assert np.median([one.amplitude for one in fits]) == pytest.approx(A, rel=0.1)
+
+
+def test_resamples_scatter_as_means_of_independent_realizations():
+    """By the standard deviation over √n; those of resamples of n, here 3, by √(2/3) of it."""
+    generator, x = np.random.default_rng(1), np.geomspace(1e-3, 0.1, 9)
+    logarithms = generator.standard_normal((3, 1))
+    means = log_means(np.exp(logarithms) * x**BETA, "geometric", 4000, generator)
+    of_hurst = [Grid(number, 3, np.log(x), means, np.full(x.size, 10), 1.0, 1.0) for number in (65, 257)]
+    _, log_y, _ = points(of_hurst, "whole", "resolved", elements_min=10, x_high=1.0)
+    assert log_y[1:, 0].std() == pytest.approx(logarithms.std(ddof=1) / np.sqrt(3), rel=0.05)
+
+
+def test_the_interface_is_fitted_without_the_punch():
+    limits = limit_table(ensembles(punch=1.0, scatter=0.02), "discs", tolerance=0.03, **RANGES)
+    interface, whole = (row(limits, quantity, "corrected") for quantity in ("interface", "whole"))
+    assert interface.beta_low - 1e-3 <= BETA <= interface.beta_high + 1e-3
+    assert interface.deviation < 0.02 < 0.05 + whole.deviation
+    assert row(limits, "whole", "power").beta > row(limits, "interface", "power").beta
+
+
+def test_columns_ranges_and_findings():
+    limits = limit_table(ensembles(scatter=0.02), "discs", tolerance=0.05, **RANGES)
+    assert list(limits) == list(COLUMNS)
+    assert set(limits["ranges"]) == {2, 4}
+    assert (limits["ranges_low"] <= limits["beta_low"]).all()
+    assert (limits["ranges_high"] >= limits["beta_high"]).all()
+    assert row(limits, "whole", "corrected").finding == "agrees"  # 0.4 beside 0.375
+    strict = limit_table(ensembles(scatter=0.002), "discs", tolerance=0.01, **RANGES)
+    assert row(strict, "whole", "corrected").finding == "departs"
+    noisy = limit_table(ensembles(scatter=0.5), "discs", tolerance=0.01, **RANGES)
+    assert row(noisy, "whole", "corrected").finding == "undecided"
+
+
+@pytest.mark.parametrize(
+    ("omega", "low", "high", "place"),
+    [(0.5, 0.3, 0.9, 0), (0.5, 0.2, 0.9, 1), (0.5, 0.3, 1.5, 1), (0.2, 0.2, 0.4, 2), (1.5, 1.4, 1.5, 2)],
+)
+def test_place_of_the_exponent_of_the_correction(omega, low, high, place):
+    assert place_of(omega, low, high) == PLACES[place]
+
+
+@pytest.mark.parametrize(("omega", "place"), [(OMEGA, PLACES[0]), (0.05, PLACES[2]), (2.5, PLACES[2])])
+def test_findings_are_undecided_where_the_data_do_not_tell_the_correction(omega, place):
+    """A correction with an exponent outside of the range tried ends at an end of it."""
+    limits = limit_table(ensembles(scatter=1e-4, omega=omega), "discs", tolerance=0.05, **RANGES)
+    fitted = row(limits, "whole", "corrected")
+    assert place_of(fitted.omega, fitted.omega_low, fitted.omega_high) == place
+    assert (fitted.finding == "undecided") == (place == PLACES[2])

@@ -1,0 +1,92 @@
+"""The test for a power law: what it makes of power laws, of curves that bend, and of a control, with real scatter."""
+
+import numpy as np
+import pytest
+
+from support.study import ensemble_of
+from viscorough_study.fits.plateau import COLUMNS, inner_slopes, longest_plateau, plateau, plateau_row, shares
+
+X = 10.0 ** np.linspace(-4, 1, 101)
+HALF_WIDTH = 0.25 * np.log(10)
+HOW = {"half_width": HALF_WIDTH, "tolerance": 0.05, "resamples": 100}
+
+
+def scattered(mean, number, size, seed=0):
+    """Realizations around a mean, correlated along X over half a decade."""
+    noise = np.random.default_rng(seed).standard_normal((number, X.size + 20))
+    smooth = np.lib.stride_tricks.sliding_window_view(noise, 21, axis=1)[:, :, :10].sum(axis=2) / np.sqrt(10)
+    return mean + size * smooth
+
+
+def control(x):
+    """A curve of slope 0.8 at both ends and 0.2 between, as one without a power law has."""
+    return 0.8 * np.log(x) - 0.6 * 1.2 * np.arcsinh(np.log(x / 0.01) / 1.2)
+
+
+def test_slopes_are_those_of_straight_lines():
+    log_x = np.log(X)
+    inner, slopes = inner_slopes(log_x, np.array([0.3 * log_x + 1, log_x**2]), HALF_WIDTH)
+    np.testing.assert_allclose(inner, log_x[5:-5])
+    np.testing.assert_allclose(slopes[0], 0.3, rtol=1e-12)
+    np.testing.assert_allclose(slopes[1], 2 * inner, atol=1e-12)
+    with pytest.raises(ValueError, match="inner_slopes: 5 abscissae are too few"):
+        inner_slopes(log_x[:5], log_x[None, :5], HALF_WIDTH)
+
+
+def test_longest_run_within_the_tolerance():
+    slopes = np.array([[0.0, 0.2, 0.25, 0.3, 0.29, 0.4], [0.0, 0.2, 0.4, 0.6, 0.8, 1.0], [0.3] * 6])
+    steps, start = longest_plateau(slopes, 0.05000001)
+    assert steps.tolist() == [3, 0, 5]
+    assert start.tolist() == [1, 0, 0]
+
+
+def test_plateau_of_a_curve_with_a_kink():
+    """Slope 0.4 up to X = 0.1 and 1 above: the longer plateau ends where local slopes begin to see the kink."""
+    mean = np.where(X < 0.1, 0.4 * np.log(X / 0.1), np.log(X / 0.1))
+    found = plateau(np.log(X), scattered(mean, 30, 1e-4), random=np.random.default_rng(1), **HOW)
+    assert found["x_low"] == pytest.approx(10**-3.75)
+    assert 10**-1.26 <= found["x_high"] <= 10**-1.05
+    assert found["slope"] == pytest.approx(0.4, abs=0.02)
+    assert found["decades_low"] <= found["decades"] <= found["decades_high"]
+
+
+def test_power_laws_pass_and_what_is_none_does_not():
+    random, residuals = np.random.default_rng(2), scattered(0.0, 200, 0.1)
+    residuals = residuals - residuals.mean(axis=0)
+    means = 0.3 * np.log(X), control(X), 0.05 * np.log(X) ** 2
+    how = {"draws": 20, "decades_min": 2.0, "random": random} | HOW
+    assert [shares(np.log(X), mean, residuals, **how) for mean in means] == [(1, 0), (0, 1), (0, 1)]
+    passed, failed = shares(np.log(X), means[0], scattered(0.0, 8, 0.5), **how)
+    assert (passed, failed > 0.05) == (0, True), "few realizations lose power laws"
+
+
+OPTIONS = {"x_range": [1e-3, 1.0], "half_width": 0.25, "tolerance": 0.05, "decades_min": 2.0}
+
+
+def row(mean):
+    curve, none = (
+        ensemble_of(X, X * np.exp(-scattered(one, number, 0.1, seed)), elements=10**9).isel(rms_convention=0)
+        for one, number, seed in ((mean, 200, 0), (control(X), 20, 1))
+    )
+    return plateau_row(curve, none, resamples=100, draws=10, random=np.random.default_rng(4), **OPTIONS)
+
+
+def test_row_of_a_power_law_and_of_a_control():
+    law, none = row(0.3 * np.log(X) - 3), row(control(X))
+    assert {"case_group", *law} == set(COLUMNS)
+    assert law["decades"] == pytest.approx(3)
+    assert law["decades_low"] >= 2
+    assert law["slope"] == pytest.approx(0.3, abs=0.02)
+    assert none["decades_high"] < 2
+    for found in (law, none):
+        assert (found["power_law_passes"], found["bent_passes"], found["control_passes"]) == (1, 0, 0)
+        assert found["power_law_fails"] == 0
+
+
+def test_curves_that_do_not_reach_all_abscissae_are_undecided():
+    curves = np.exp(-scattered(0.3 * np.log(X) - 3, 20, 0.1)) * X
+    curves[0, -40:] = np.nan
+    short = ensemble_of(X, curves).isel(rms_convention=0)
+    found = plateau_row(short, None, resamples=20, draws=2, random=np.random.default_rng(1), **OPTIONS)
+    assert {"case_group", *found} == set(COLUMNS)
+    assert np.isnan(found["decades"])

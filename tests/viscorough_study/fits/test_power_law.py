@@ -1,0 +1,138 @@
+"""Scaling: ensembles of known power laws and regions, made without the module."""
+
+import numpy as np
+import pytest
+from scipy.special import gamma as gamma_function
+from scipy.stats import binom
+
+from support.study import LIMITS, ensemble_of, three_regions
+from viscorough import reference
+from viscorough_study.ensembles.averages import abscissa
+from viscorough_study.fits.power_law import find_region, fit_power_law, named_windows
+
+x = abscissa(1e-7, 10, 20)
+BOOTSTRAP = {"resamples": 400, "seed": 1}
+
+
+def one(dataset):
+    return dataset.isel(rms_convention=0)
+
+
+def scattered(beta, prefactor, realizations, seed, *, slope_scatter=0.03, scatter=0.3):
+    """vt/h of power laws, each of its own slope and prefactor; their geometric mean is the law."""
+    rng = np.random.default_rng(seed)
+    log_x = np.log(x)
+    slopes = beta + slope_scatter * rng.normal(size=(realizations, 1))
+    logs = np.log(prefactor) + slopes * log_x + scatter * rng.normal(size=(realizations, 1))
+    return np.exp(logs + 0.05 * rng.normal(size=logs.shape))
+
+
+def test_region_of_a_three_region_curve():
+    """Its ends are the outermost abscissae with 10 elements in contact and κ = 0.2."""
+    low, high = find_region(one(ensemble_of(x, three_regions(x), elements=10**3)), **LIMITS)
+    assert low == x[x >= (10 / 10**3 / 1.2) ** (1 / 0.6)][0]
+    assert high == x[x <= (0.2 / 1.2) ** (1 / 0.6)][-1]
+
+
+def test_region_ends_where_the_slope_is_that_of_a_fixed_contact():
+    """A plateau of κ below stiffness_max, such as a flat-topped asperity, is no region (b)."""
+    _, high = find_region(one(ensemble_of(x, np.minimum(1.2 * x**0.6, 0.05))), **LIMITS)
+    corner = (0.05 / 1.2) ** (1 / 0.6)
+    assert corner / 10**0.25 < high < corner * 10**0.25
+
+
+def test_region_needs_nearly_all_realizations():
+    stiffness = np.tile(three_regions(x), (20, 1))
+    stiffness[:2, x > 1e-3] = np.nan  # 90 % left
+    _, high = find_region(one(ensemble_of(x, stiffness)), **LIMITS)
+    assert high == x[x <= 1e-3][-1]
+
+
+@pytest.mark.parametrize("stiffness", [np.ones(x.size), np.full(x.size, np.nan)])
+def test_no_region_raises_and_its_windows_are_none(stiffness):
+    mean = one(ensemble_of(x, three_regions(x)))
+    mean["stiffness_geometric"] = "abscissa", stiffness
+    mean["velocity_geometric"] = "abscissa", x / stiffness
+    assert find_region(mean, **LIMITS) is None
+    windows = named_windows(mean, stiffness_range=(0.5, 0.6), **LIMITS)
+    assert windows == dict.fromkeys(("default", "lower_half", "upper_half", "kappa"))
+
+
+def test_named_windows():
+    windows = named_windows(one(ensemble_of(x, three_regions(x))), stiffness_range=(0.03, 0.3), **LIMITS)
+    low, high = windows["default"]
+    middle = pytest.approx(np.sqrt(low * high))
+    assert (windows["lower_half"], windows["upper_half"]) == ((low, middle), (middle, high))
+    inside = x[(three_regions(x) >= 0.03) & (three_regions(x) <= 0.3)]
+    assert windows["kappa"] == (inside[0], inside[-1])
+
+
+def test_fit_is_least_squares_in_logarithms():
+    """Against numpy's polynomial fit, of the averages taken by numpy; window ends belong to it."""
+    velocity = scattered(0.4, 0.7, 9, seed=2)
+    inside = slice(60, 101)
+    averages = {"arithmetic": np.log(velocity.mean(axis=0)), "geometric": np.log(velocity).mean(axis=0)}
+    for average, mean in averages.items():
+        fit = fit_power_law(x, velocity, (x[60], x[100]), average=average, resamples=20, seed=1)
+        slope, height = np.polyfit(np.log(x[inside]), mean[inside], 1)
+        assert (fit.beta, fit.zeta()[0]) == pytest.approx((slope, np.exp(-height)), rel=1e-10)
+        deviation = mean[inside] - height - slope * np.log(x[inside])
+        assert fit.residual == pytest.approx(np.sqrt(np.mean(deviation**2)), rel=1e-8)
+
+
+@pytest.mark.parametrize("realizations", [8, 24])
+def test_intervals_cover_the_truth_95_times_in_100(realizations):
+    """200 ensembles; the number of hits lies in the 99.9 % range of the binomial distribution.
+
+    That a percentile interval of 8 realizations without widening would fail here is part of the point.
+    """
+    hits = np.zeros(3)
+    for seed in range(200):
+        velocity = scattered(0.4, 0.7, realizations, seed=(realizations, seed))
+        fit = fit_power_law(x, velocity, (1e-5, 1e-1), average="geometric", resamples=200, seed=seed)
+        _, zeta_low, zeta_high = fit.zeta()
+        plain = np.quantile(fit.beta_samples, [0.025, 0.975])
+        truth = (0.4, 1 / 0.7, 0.4)
+        intervals = (fit.beta_interval, (zeta_low, zeta_high), plain)
+        hits += [low <= value <= high for value, (low, high) in zip(truth, intervals, strict=True)]
+    fewest, most = binom.interval(0.999, 200, 0.95)
+    assert fewest <= hits[0] <= most
+    assert fewest <= hits[1] <= most
+    if realizations == 8:
+        assert hits[2] < hits[0]
+
+
+def test_partly_defined_realizations_count_where_they_are_defined():
+    velocity = np.vstack([x**0.4, 3 * x**0.4])
+    velocity[1, x > 1e-3] = np.nan
+    fit = fit_power_law(x, velocity, (2e-3, 1e-1), average="arithmetic", **BOOTSTRAP)
+    assert fit.beta == pytest.approx(0.4, abs=1e-12)
+    assert fit.prefactor == pytest.approx(1, rel=1e-12)
+    assert np.isnan(fit.beta_samples).any()  # resamples of nothing but the second curve
+    assert fit.beta_interval == pytest.approx((0.4, 0.4), abs=1e-12)
+    velocity[0, x > 1e-2] = np.nan
+    with pytest.raises(ValueError, match="no realization"):
+        fit_power_law(x, velocity, (2e-3, 1e-1), average="arithmetic", **BOOTSTRAP)
+
+
+def test_fit_refuses_and_has_no_interval_for_one_realization():
+    velocity = np.tile(x**0.4, (3, 1))
+    assert np.isnan(fit_power_law(x, velocity[:1], (1e-4, 1e-2), average="geometric", **BOOTSTRAP).beta_interval).all()
+    with pytest.raises(ValueError, match="at least 3"):
+        fit_power_law(x, velocity, (1.0e-4, 1.1e-4), average="geometric", **BOOTSTRAP)
+    with pytest.raises(ValueError, match="average"):
+        fit_power_law(x, velocity, (1e-4, 1e-2), average="harmonic", **BOOTSTRAP)
+    fit = fit_power_law(x, velocity, (1e-4, 1e-2), average="geometric", **BOOTSTRAP)
+    with pytest.raises(ValueError, match="diameter"):
+        fit.zeta(diameter_convention="width")
+
+
+def test_both_readings_describe_the_same_curve():
+    """ζ of either reading, put into the paper's law of that reading, gives back the curve."""
+    velocity = scattered(0.375, 0.7, 6, seed=6, slope_scatter=0)
+    fit = fit_power_law(x, velocity, (1e-4, 1e-2), average="geometric", **BOOTSTRAP)
+    for gamma in ("without", "with"):
+        law = reference.velocity_law(x, fit.zeta(gamma=gamma)[0], 1 - fit.beta, gamma=gamma == "with")
+        np.testing.assert_allclose(law, fit.prefactor * x**fit.beta, rtol=1e-12)
+    ratio = fit.zeta(gamma="with")[0] / fit.zeta()[0]
+    assert ratio == pytest.approx(1 / gamma_function(1 + fit.beta))

@@ -1,0 +1,154 @@
+"""Collapse of curves that are known to follow one scaling law, or not."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from support.study import ELEMENTS
+from viscorough.reference import exponent_beta
+from viscorough_study.fits import scaling_collapse
+from viscorough_study.fits.power_law import log_means
+from viscorough_study.fits.scaling_collapse import (
+    FINDINGS,
+    Grid,
+    collapse,
+    collapse_table,
+    grids,
+    spread,
+    variance_share,
+)
+
+HURST = 0.6
+BETA = exponent_beta(HURST)
+STEP = np.log(10) / 10
+SCATTER, LENGTH = 0.25, 1.0  # of ln(vt/h) between realizations, and its correlation length in ln X
+X_HIGH = 0.05
+
+
+def grid(number, realizations, generator, *, beta=BETA, share=1.0, punch=1.0, bent=0.0, resamples=200):
+    """An ensemble with vt/h = X^β (1 + bent X) in units of h over all waves; scatter is a function of X N^(1+H)."""
+    log_x = STEP * np.arange(np.ceil(np.log(2 * number ** -(1 + HURST)) / STEP), np.log(0.3) / STEP)
+    kept = np.exp(-STEP / LENGTH)
+    noise = SCATTER * generator.standard_normal((realizations, log_x.size))
+    for i in range(1, log_x.size):
+        noise[:, i] = kept * noise[:, i - 1] + np.sqrt(1 - kept**2) * noise[:, i]
+    shift = np.log(share) / 2
+    log_y = beta * (log_x + shift) + np.log1p(bent * np.exp(log_x)) - shift
+    velocity = np.exp(log_y + noise)
+    means = log_means(velocity, "geometric", resamples, generator)
+    return Grid(number, realizations, log_x, means, np.full(log_x.size, 100.0), punch, share)
+
+
+def ensembles(seed, realizations=(40, 30, 20, 10), **options):
+    generator = np.random.default_rng(seed)
+    return [grid(*one, generator, **options) for one in zip((33, 129, 513, 2049), realizations, strict=True)]
+
+
+def p_value(of_hurst, beta=BETA, height="resolved"):
+    return spread([(one, one.curve("whole", height, X_HIGH)) for one in of_hurst], beta)[2]
+
+
+@pytest.mark.parametrize("realizations", [(40, 30, 20, 10), (16, 12, 8, 4)], ids=["many", "few"])
+def test_one_law_is_accepted_in_95_percent(realizations):
+    accepted = np.mean([p_value(ensembles(seed, realizations)) >= 0.05 for seed in range(100)])
+    assert 0.88 <= accepted <= 0.99
+    other = np.mean([p_value(ensembles(seed, realizations, beta=BETA + 0.1)) >= 0.05 for seed in range(20)])
+    assert other <= 0.1
+
+
+def test_exponents_with_which_curves_collapse_contain_their_own():
+    beta = BETA + 0.06
+    how = {"hurst": HURST, "quantity": "whole", "height": "resolved", "x_high": X_HIGH, "tolerance": 0.05}
+    rows = [collapse(ensembles(seed, beta=beta), **how) for seed in range(9)]
+    assert {row["finding"] for row in rows} == {"does not collapse"}
+    assert sum(row.get("beta_low", 1) <= beta <= row.get("beta_high", 0) for row in rows) >= 7
+    rows = [collapse(ensembles(seed), **how) for seed in range(9)]
+    assert sum(row["finding"] == "collapses" for row in rows) >= 7
+    assert {row["finding"] for row in rows} <= set(FINDINGS)
+
+
+def test_few_realizations_and_a_single_grid_leave_it_undecided():
+    for few in (ensembles(1, (3, 3, 3, 3)), ensembles(1)[:1]):
+        assert collapse(few, HURST, "whole", "resolved", X_HIGH, tolerance=0.01)["finding"] == "undecided"
+
+
+@pytest.mark.parametrize(("apart", "p", "finding"), [(0.965, 0.04, "does not collapse"), (0.945, 0.06, "undecided")])
+def test_quantile_and_p_value_are_those_of_the_distribution_of_spreads(apart, p, finding):
+    """Two grids to either side of their mean: of 101 resamples the spreads are 0 to 1, uniformly."""
+    resamples = np.concatenate([[0], np.linspace(0, 1, 101) * np.sqrt(9 / 10)])  # means of 10 scatter more
+    log_x = STEP * np.arange(-30, 0)
+    curves = [BETA * log_x + side * (apart + resamples[:, None]) for side in (-1, 1)]
+    of_hurst = [Grid(129, 10, log_x, curve, np.full(log_x.size, 100.0), 1.0, 1.0) for curve in curves]
+    row = collapse(of_hurst, HURST, "whole", "resolved", 1.0, tolerance=0.05)
+    assert (row["spread"], row["spread_null"], row["p_value"]) == pytest.approx((apart, 0.95, p), abs=1e-3)
+    assert row["finding"] == finding
+    assert ("beta_low" in row) == (finding == "undecided"), "grids of equal N collapse with any exponent or none"
+
+
+def test_the_height_over_all_waves_makes_one_law_of_many():
+    """Each grid has its share of the heights; at a large share of the scatter, only h of the spectrum collapses."""
+    generator = np.random.default_rng(3)
+    shares = {33: 0.5, 129: 0.65, 513: 0.8}
+    of_hurst = [grid(number, 60, generator, share=share) for number, share in shares.items()]
+    assert p_value(of_hurst) < 0.05
+    assert p_value(of_hurst, height="spectrum") >= 0.05
+
+
+def test_the_punch_is_taken_off():
+    one = grid(129, 20, np.random.default_rng(1), punch=0.9)
+    log_x, log_y = one.curve("interface", "resolved", 1e-2)
+    whole = one.curve("whole", "resolved", 1e-2)
+    np.testing.assert_allclose(np.exp(log_y), np.exp(whole[1][:, : log_x.size]) - np.exp(log_x) / 0.9)
+    assert one.curve("whole", "resolved", 1e-9) is None
+
+
+@pytest.mark.parametrize(("source", "hurst"), [("discs", 0.1), ("lines", 0.6), ("discs", 1.0)])
+def test_share_of_the_variance(source, hurst):
+    """Against sums over many waves; it rises to 1, the rest as N^(−2H)."""
+    shares = [variance_share(hurst, number, source) for number in (33, 257, 2049, 16385)]
+    assert np.all(np.diff(shares) > 0)
+    rest = 1 - np.array(shares)
+    np.testing.assert_allclose(rest[1:-1] / rest[2:], 8 ** (2 * hurst), rtol=0.02)
+    k = np.arange(-800, 801)
+    square = (k[:, None] ** 2 + k**2 if source == "discs" else k[k > 0] ** 2).astype(float)
+    power = -1 - hurst if source == "discs" else -0.5 - hurst
+    weight = np.where((square > 0) & (square <= 800**2), np.maximum(square, 1) ** power, 0)
+    ratio = weight[square <= 16.5**2].sum() / weight[square <= 128.5**2].sum()
+    assert shares[0] / shares[1] == pytest.approx(ratio, rel=2e-3)
+
+
+def pool(*realizations, scatter=0.0):
+    """Two grids of one Hurst exponent, with factors on vt/h of the same random numbers."""
+    x = 10 ** np.arange(-4, 0, 0.1)
+    parts = []
+    for elements, number in zip((ELEMENTS, 13049), realizations, strict=True):
+        velocity = np.exp(scatter * np.random.default_rng(1).standard_normal((1, number, 1))) * x**0.4
+        part = xr.Dataset({"stiffness": (("rms_convention", "realization", "abscissa"), x / velocity)})
+        part["contact_count"] = part["stiffness"] * 0 + 1000 * x / x[10] / 100
+        about = {"hurst": HURST, "elements": elements, "group": "sizes", "case": "sizes", "diameter": 1.0}
+        about["until_x"] = 30.0
+        parts.append(part.assign_coords({name: ("realization", [value] * number) for name, value in about.items()}))
+    return xr.concat(parts, "realization").assign_coords(x=("abscissa", x), rms_convention=["disc"])
+
+
+OF_POOL = {"average": "geometric", "rms_convention": "disc", "elements_min": 10, "fraction_min": 0.95, "seed": 1}
+
+
+def test_realizations_of_each_grid_are_drawn_independently():
+    """Resamples of equal curves on two grids are not correlated: 0.2 is four standard errors of 400 pairs."""
+    found = grids(pool(20, 20, scatter=0.1), "discs", **OF_POOL, resamples=400)
+    coarse, fine = (one.log_velocity[1:, 0] for one in found[HURST])
+    assert abs(np.corrcoef(coarse, fine)[0, 1]) < 0.2
+
+
+def test_grids_of_a_pool():
+    """One of which has too few realizations."""
+    found = grids(pool(4, 2), "discs", **OF_POOL, resamples=20)
+    (one,) = found[HURST]
+    assert (one.number, one.realizations, one.log_velocity.shape[0]) == (257, 4, 21)
+    assert one.punch == pytest.approx(0.99486, abs=1e-4)
+    assert one.log_x[0] == pytest.approx(np.log(1e-3))
+    np.testing.assert_allclose(one.log_velocity, np.tile(0.4 * one.log_x, (21, 1)))
+    table = collapse_table(found, "discs", x_high=[0.03], tolerance=0.03)
+    assert list(table) == list(scaling_collapse.COLUMNS)
+    assert table["finding"].tolist() == ["undecided"] * 4

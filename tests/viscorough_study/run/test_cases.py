@@ -1,0 +1,77 @@
+"""Tables of cases: names, spawn keys, batches, memory."""
+
+import pytest
+
+from support.workflow import merged, read_settings
+from viscorough_study.run import cases
+
+
+@pytest.fixture
+def settings():
+    return read_settings("config")
+
+
+def test_spawn_keys_do_not_depend_on_order(settings):
+    discs, lines = cases.disc_cases(settings), cases.line_cases(settings)
+    all_cases = [*discs.values(), *lines.values()]
+    keys = [one["spawn_key"] for case in all_cases for one in case.get("ensembles", [case])]
+    assert len(set(keys)) == len(keys) == 4 * 10 + 21 + 5 * (4 + 3) + 4
+    assert cases.combined_ensembles(settings)["h01000_c3"]["spawn_key"] == (1, 100000, 3)
+    assert discs["h01000_roll_off"]["ensembles"][0]["spawn_key"][:2] == (2, 100000)
+    assert discs["sizes"]["ensembles"][3]["spawn_key"] == (8, 100000, 257)
+    settings["discs"]["hurst"].reverse()
+    settings["discs"]["combinations"].reverse()
+    for name, case in cases.disc_cases(settings).items():
+        known = {one["name"]: one for one in discs[name]["ensembles"]}
+        assert {one["name"]: one for one in case["ensembles"]} == known
+
+
+def test_every_case_is_in_one_pool(settings):
+    discs, lines = cases.disc_cases(settings), cases.line_cases(settings)
+    for table, pools in ((discs, ("discs", "size_discs")), (lines, ("lines", "size_lines"))):
+        pooled = [case for pool in pools for case, _ in cases.pool_batches(table, pool)]
+        assert set(pooled) == set(table)
+    assert cases.pool_batches(discs, "discs")[:2] == [("h01000", "0000-0039"), ("h01000", "0040-0079")]
+    assert len(cases.pool_batches(discs, "discs")) == 4 * (2 + 1)
+    assert cases.pool_batches(lines, "size_lines") == [("sizes", "0000-0239")]
+
+
+def test_a_batch_of_several_ensembles_holds_each_realization_once(settings):
+    """Batches that do not end where an ensemble ends: [ensemble, number] of all of them, in order."""
+    settings["sizes"] |= {"hurst": [0.1, 0.9], "batch": 7}
+    settings["sizes"]["discs"] = [{"elements": 33, "realizations": 9}, {"elements": 65, "realizations": 2}]
+    case = cases.disc_cases(settings)["sizes"]
+    members = [
+        (*one["spawn_key"], number)
+        for batch in cases.batches(case)
+        for one in cases.ensembles_of_batch(case, batch)
+        for number in range(*one["numbers"])
+    ]
+    sizes = [(100000, 33, 9), (100000, 65, 2), (900000, 33, 9), (900000, 65, 2)]
+    assert members == [(8, hurst, n, number) for hurst, n, numbers in sizes for number in range(numbers)]
+    assert cases.ensembles_of_batch(case, "0007-0013")[1]["surface"]["hurst"] == 0.1
+    assert case["indentation"]["until_x"] == settings["sizes"]["until_x"] != settings["indentation"]["until_x"]
+
+
+def test_a_batch_has_the_same_realizations_of_all_combinations(settings):
+    """So that more realizations add batches, and change none."""
+    batch = cases.ensembles_of_batch(cases.disc_cases(settings)["h04000"], "0002-0005")
+    assert [one["spawn_key"] for one in batch] == [(1, 400000, number) for number in range(1, 10)]
+    assert {(*one["numbers"], one["elements"]) for one in batch} == {(2, 6, 257)}
+
+
+def test_surfaces_that_are_compared_differ_only_in_what_the_paper_leaves_open(settings):
+    assert list(cases.surface_conventions(settings)) == ["base"]  # without the control
+    surfaces = cases.surface_conventions(merged(settings, read_settings("paper")))
+    assert len({tuple(surface.values()) for surface in surfaces.values()}) == len(surfaces) == 8
+
+
+@pytest.mark.parametrize("name", ["config", "paper"])
+def test_memory_of_every_job_is_below_two_gigabytes(settings, name):
+    settings = merged(settings, read_settings(name))
+    discs, lines = cases.disc_cases(settings), cases.line_cases(settings)
+    needed = [cases.disc_memory(case) for case in discs.values()] + [cases.line_memory(case) for case in lines.values()]
+    for table, pools in ((discs, ("discs", "size_discs")), (lines, ("lines", "size_lines"))):
+        needed += [cases.pool_memory(table, pool, settings["ensemble"]) for pool in pools]
+    assert min(needed) >= cases.BASE_MEMORY
+    assert max(needed) < 2000

@@ -1,0 +1,32 @@
+"""The paper's data: every number has its place, and the settings at the paper's scale are its numbers."""
+
+import pytest
+import yaml
+
+from support.study import CLAIMS, NUMBERS, ROOT
+from viscorough_study.run.paper_data import number
+
+
+def test_every_number_has_its_place():
+    for section in NUMBERS.values():
+        for entry in section.values():
+            assert {"value", "where"} <= set(entry)
+
+
+def test_numbers_and_claims_agree():
+    assert number(NUMBERS, "boundary_elements", "elements") == 51432
+    assert str(number(NUMBERS, "boundary_elements", "elements")) in CLAIMS["elements"]["statement"]
+    assert f"{number(NUMBERS, 'agreement', 'beta_hurst_min'):g}" in CLAIMS["beta"]["statement"]
+    with pytest.raises(KeyError):
+        number(NUMBERS, "boundary_elements", "colour")
+
+
+def test_settings_of_the_paper_are_its_numbers():
+    default, paper = (yaml.safe_load((ROOT / f"config/{name}.yaml").read_text()) for name in ("config", "paper"))
+    about = {name: entry["value"] for name, entry in NUMBERS["boundary_elements"].items()}
+    assert default["discs"]["elements"] == about["elements_across"]
+    assert default["discs"]["hurst"] == about["hurst_exponents"]
+    assert len(default["discs"]["combinations"]) == about["combinations_per_hurst"]
+    assert paper["discs"]["realizations"] >= about["realizations_min"]
+    assert paper["lines"]["points"] == number(NUMBERS, "reduction", "points")
+    assert len(paper["lines"]["hurst"]) == number(NUMBERS, "reduction", "hurst_count")

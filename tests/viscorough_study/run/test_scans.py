@@ -1,0 +1,40 @@
+"""Files of measured surfaces that the settings name."""
+
+import pytest
+
+from viscorough_study.run.scans import scans
+from viscorough_study.run.settings import SettingsError
+
+
+@pytest.fixture
+def here(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "scans").mkdir()
+    for name in ("a 1.txt", "b.txt", "b.npy"):
+        (tmp_path / "scans" / name).write_text(name)
+    return tmp_path
+
+
+def test_patterns_and_names(here):
+    found = scans(
+        [{"name": "ground", "files": ["scans/*.txt"], "unit": "um"}, {"name": "other", "files": ["scans/b.npy"]}]
+    )
+    assert list(found) == ["ground_a_1", "ground_b", "other_b"]
+    assert found["ground_a_1"]["file"] == "scans/a 1.txt"
+    assert (found["ground_b"]["unit"], found["other_b"]["unit"], found["other_b"]["spacing"]) == ("um", None, [])
+    assert found["ground_b"]["bytes"] == 5
+    (absolute,) = scans([{"name": "ground", "files": [str(here / "scans/b.txt")]}]).values()
+    assert absolute["digest"] == found["ground_b"]["digest"]
+    (here / "scans/b.txt").write_text("b.txu")
+    (changed,) = scans([{"name": "ground", "files": ["scans/b.txt"]}]).values()
+    assert changed["digest"] != absolute["digest"]
+
+
+@pytest.mark.parametrize(
+    ("files", "message"),
+    [("scans/c*.txt", "no file scans/c"), ("scans", "no file"), ("scans/b.*", "have the same name")],
+)
+@pytest.mark.usefixtures("here")
+def test_missing_and_ambiguous_files(files, message):
+    with pytest.raises(SettingsError, match=message):
+        scans([{"name": "ground", "files": [files]}])

@@ -1,0 +1,38 @@
+"""Every stream of random numbers has its own keys, and published keys do not change."""
+
+import zlib
+
+import numpy as np
+
+from viscorough_study.run import seeds
+
+KEYS = {
+    seeds.disc_key(0.4, 3): (1, 400000, 3),
+    seeds.variant_key(0.4, "corners"): (2, 400000, zlib.crc32(b"corners")),
+    seeds.line_key(0.4): (3, 400000),
+    seeds.method_problem_key(0.4, 65): (4, 400000, 65),
+    seeds.solver_race_key(3, 0.4): (5, 3, 400000),
+    seeds.failure_map_key(): (6,),
+    seeds.size_disc_key(0.4, 65): (8, 400000, 65),
+    seeds.size_line_key(0.4, 64): (9, 400000, 64),
+    seeds.large_disc_key(65): (10, 65),
+    seeds.gamma_factor_key(0.4): (11, 400000),
+    seeds.mdr_comparison_key(0.4, 3): (12, 400000, 3),
+    seeds.size_control_key(0.4, 65): (13, 400000, 65),
+    seeds.plateau_key(0.4, "base"): (14, 400000, zlib.crc32(b"base")),
+}
+
+
+def test_published_keys_do_not_change():
+    assert all(key == published for key, published in KEYS.items())
+    assert {type(number) for key in KEYS for number in key} == {int}
+    assert seeds.random_indenter_key(np.int64(7)) == (7,)
+
+
+def test_every_stream_has_its_own_number():
+    assert [key[0] for key in KEYS] == [number for number in range(1, 15) if number != 7]
+
+
+def test_neighbouring_hurst_exponents_have_their_own_keys():
+    hursts = np.round(np.arange(0, 1.00005, 1e-4), 4)
+    assert len({seeds.line_key(hurst) for hurst in hursts}) == hursts.size

@@ -1,0 +1,130 @@
+"""The check of the settings, and the settings of every scale."""
+
+import re
+
+import pytest
+import yaml
+
+from support.workflow import ROOT, merged, read_settings
+from viscorough_study.run.settings import SettingsError, check_settings
+
+SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
+
+
+@pytest.fixture
+def settings():
+    return read_settings("config")
+
+
+TASK = {"name": "few", "elements": 33, "levels": 8, "fractions": [0.01, 0.5], "residual": 1e-6, "threads": [1]}
+COMBINATION = {"number": 1, "force": 1.0, "viscosity": 1.0, "diameter": 1.0, "rms": 1e-3}
+FLUID = {"name": "fluid", "kind": "newtonian", "viscosity": 1.0}
+WRONG = [
+    ({"discs": {"elemnts": 33}}, "unknown key elemnts in discs; did you mean elements?"),
+    ({"colour": "blue"}, "unknown key colour; allowed: collapse, direct, discs"),
+    ({"dis\ncs": 1}, r"unknown key 'dis\ncs'; did you mean discs?"),
+    ({"discs": {"elements": "many"}}, "discs.elements is 'many'; allowed: a whole number from 9 up to 4097"),
+    ({"discs": {"elements": 33.0}}, "discs.elements is 33.0; allowed: a whole number"),
+    ({"discs": {"realizations": True}}, "discs.realizations is True; allowed: a whole number"),
+    (
+        {"discs": {"hurst": [0.4, 1.2]}},
+        "discs.hurst[1] is 1.2; allowed: a number from 0 up to 1 of at most 4 decimals (Hurst",
+    ),
+    ({"discs": {"hurst": []}}, "discs.hurst is []; allowed: a list of at least 1"),
+    ({"discs": None}, "discs is empty; allowed: keys with values"),
+    ({"indentation": {"tolerance": "1e-3"}}, "write numbers as 1.0e-3, with a point"),
+    ({"indentation": {"until_x": float("nan")}}, "indentation.until_x is nan; allowed: a number from 1e-14"),
+    ({"indentation": {"until_x": 1e-9}}, "ensemble.x_low and indentation.until_x: 1e-09 and 1e-09 are less than a"),
+    ({"sizes": {"until_x": 1e-12}}, "ensemble.x_low and sizes.until_x: 1e-09 and 1e-12 are less than a decade"),
+    ({"surface": {"amplitudes": "constant"}}, "surface.amplitudes is 'constant'; allowed: one of random, fixed"),
+    ({"surface": {"corners": 1}}, "surface.corners is 1; allowed: true or false"),
+    ({"discs": {"combinations": [{"number": 1, "force": 1.0}]}}, "viscosity in discs.combinations[0] is missing"),
+    ({"discs": {"combinations": 2 * [COMBINATION]}}, "number in discs.combinations: 1 occurs twice"),
+    (
+        {"discs": {"combinations": [COMBINATION | {"rms": 0.1}]}},
+        "rms 0.1 in combination 1 of discs.combinations is",
+    ),
+    ({"discs": {"combinations": [COMBINATION | {"diameter": 10.0, "rms": 1e-12}]}}, "rms 1e-12 in combination 1"),
+    ({"variants": {"cases": [{"name": "nothing"}]}}, "variants.cases[0] is {'name': 'nothing'}; allowed: keys with"),
+    ({"variants": {"cases": [{"name": "sizes", "period": 2.0}]}}, "variants.cases[0].name is 'sizes'; allowed: text"),
+    ({"variants": {"cases": [{"name": "wider\n", "period": 2.0}]}}, r"variants.cases[0].name is 'wider\n'; allowed"),
+    ({"methods": {"tasks": [TASK | {"fractions": [0.5, 0.5]}]}}, "fractions of few in methods.tasks are too close"),
+    ({"methods": {"tasks": [TASK | {"fractions": [0.5, 0.4]}]}}, "fractions of few in methods.tasks decrease"),
+    ({"methods": {"groups": ["path", "path"]}}, "methods.groups: path occurs twice; allowed: once"),
+    ({"media": {"cases": [FLUID | {"kind": "maxwell"}]}}, "fluid in media.cases: lacks shear_modulus; maxwell needs"),
+    ({"media": {"cases": [FLUID | {"exponent": 0.5}]}}, "fluid in media.cases: unknown key 'exponent'; allowed for"),
+    ({"media": {"cases": [FLUID | {"kind": "honey"}]}}, "media.cases[0].kind is 'honey'; allowed: one of newt"),
+    ({"media": {"times": {"low": 1.0, "high": 2.0}}}, "media.times.low and high: 1.0 and 2.0 are less than a decade"),
+    ({"measured": [{"name": "mine", "files": []}]}, "measured[0].files is []; allowed: a list of at least 1"),
+    ({"lines": {"hurst": [0.4, 0.40000000001]}}, "lines.hurst[1] is 0.40000000001; allowed: a number from"),
+    ({"sizes": {"discs": [{"elements": 17, "realizations": 2}]}}, "roll_off_wavelength 0.125 of sizes.control is too"),
+    ({"discs": {"hurst": [0.4, 0.33]}}, "discs.hurst has 0.33, lines.hurst has not"),
+    ({"discs": {"short_until_x": 0.5}}, "discs.short_until_x: curves that end at X = 0.5 miss a part of verdicts"),
+    ({"sizes": {"windows": [[0.01, 0.02]]}}, "sizes.windows[0]: 0.01 and 0.02 are less than a decade"),
+    ({"scaling": {"stiffness_range": [0.3, 0.03]}}, "scaling.stiffness_range: 0.3 and 0.03 are no range"),
+]
+
+
+@pytest.mark.parametrize(("wrong", "message"), WRONG, ids=[message[:30] for _, message in WRONG])
+def test_wrong_settings_end_with_one_line(settings, wrong, message):
+    with pytest.raises(SettingsError) as error:
+        check_settings(merged(settings, wrong), SCHEMA)
+    assert message in str(error.value)
+    assert "\n" not in str(error.value)
+    assert len(str(error.value)) < 250
+
+
+@pytest.mark.parametrize("name", ["config", "paper", "sizes", "methods", "test"])
+def test_settings_of_every_scale_are_right(name):
+    check_settings(merged(read_settings("config"), read_settings(name)), SCHEMA)
+
+
+@pytest.mark.parametrize("name", ["paper", "sizes", "methods", "test"])
+def test_other_scales_hold_only_what_differs(settings, name):
+    def same(base, extra, path=""):
+        for key, value in extra.items():
+            if isinstance(value, dict):
+                yield from same(base[key], value, f"{path}{key}.")
+            elif value == base[key]:
+                yield path + key
+
+    assert list(same(settings, read_settings(name))) == []
+
+
+def leaves(rule, definitions, path=""):
+    """(key, schema) of every setting, lists of mappings as key[]."""
+    if "$ref" in rule:
+        rule = definitions[rule["$ref"].split("/")[-1]]
+    if path:
+        yield path, rule
+    for name, inner in rule.get("properties", {}).items():
+        yield from leaves(inner, definitions, f"{path}.{name}".lstrip("."))
+    if rule.get("items", {}).get("type") == "object":
+        yield from leaves(rule["items"], definitions, f"{path}[]")
+
+
+@pytest.fixture(scope="session")
+def schema():
+    return dict(leaves(SCHEMA, SCHEMA["$defs"]))
+
+
+def test_schema_describes_every_key(schema):
+    assert len(schema) > 50
+    for key, rule in schema.items():
+        assert rule["description"], key
+        if "properties" in rule:
+            assert rule["additionalProperties"] is False, key
+        elif rule.get("type") == "array":
+            assert "maxItems" in rule, key
+        else:
+            assert rule["unit"], key
+            limited = {"enum", "pattern"} & set(rule) or rule["type"] == "boolean"
+            assert limited or ({"maximum"} < {*rule} and {"minimum", "exclusiveMinimum"} & set(rule)), key
+
+
+def test_readme_explains_every_key(schema):
+    text = (ROOT / "config/README.md").read_text().split("## Keys")[1]
+    explained = re.findall(r"^\| `(.+?)` \|", text, re.MULTILINE)
+    wanted = {key for key, rule in schema.items() if "properties" not in rule}
+    assert set(explained) == wanted
+    assert len(explained) == len(wanted)

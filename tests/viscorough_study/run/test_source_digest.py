@@ -1,0 +1,139 @@
+"""Digests follow what a script uses, and nothing else."""
+
+import textwrap
+
+import pytest
+
+from support.workflow import RESULTS, ROOT, SCRIPTS
+from viscorough_study.run.source_digest import SourceDigests
+
+FILES = {
+    "src/viscorough/__init__.py": '_MODULE_OF = {"solve": "deep.solver"}\n',
+    "src/viscorough/deep/__init__.py": "",
+    "src/viscorough/deep/solver.py": '''
+        """Of a subpackage."""
+        from viscorough.deep import parts
+
+        def solve(x):
+            """Solve."""
+            return parts.first(x, 3)
+        ''',
+    "src/viscorough/deep/parts.py": """
+        def first(x, limit):
+            def inner():
+                'Of a function inside.'
+                return limit
+            return inner() * x
+        """,
+    "src/viscorough_study/__init__.py": "",
+    "src/viscorough_study/handed_on.py": "from viscorough.deep.parts import first as other\nOWN = 1\n",
+    "src/viscorough_study/everything.py": "from viscorough.deep.parts import *\n",
+    "scripts/direct.py": "from viscorough.deep.solver import solve\n\ndef main():\n    return solve(1)\n",
+    "scripts/lazy.py": "from viscorough import solve\n",
+    "scripts/attribute.py": "import viscorough\n",
+    "scripts/inside.py": "def main():\n    from viscorough_study import handed_on\n    return handed_on.OWN\n",
+    "scripts/again.py": "from viscorough_study.handed_on import other\n",
+    "scripts/star.py": "from viscorough_study.everything import first\n",
+    "scripts/nothing.py": "import json\n\ndef main():\n    return json.dumps(1)\n",
+}
+SOLVER = {"direct", "lazy", "attribute"}
+PARTS = SOLVER | {"inside", "again", "star"}
+
+
+@pytest.fixture
+def project(tmp_path):
+    for name, text in FILES.items():
+        path = tmp_path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(textwrap.dedent(text))
+    return tmp_path
+
+
+def digests(project):
+    sources = SourceDigests(project / "src")
+    return {path.stem: sources.digest(path) for path in (project / "scripts").glob("*.py")}
+
+
+def changed_by(project, name, old, new):
+    """Scripts whose digest an edit changes."""
+    before, path = digests(project), project / name
+    text = path.read_text()
+    assert text.count(old) == 1
+    path.write_text(text.replace(old, new))
+    after = digests(project)
+    return {script for script in before if before[script] != after[script]}
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new", "scripts"),
+    [
+        ("viscorough/deep/solver.py", "(x, 3)", "(x, 4)", SOLVER),
+        ("viscorough/deep/parts.py", "return limit", "return 2 * limit", PARTS),
+        ("viscorough_study/handed_on.py", "OWN = 1", "OWN = 2", {"inside", "again"}),
+        ("viscorough/__init__.py", '"deep.solver"', '"deep.parts"', {"lazy", "attribute"}),
+    ],
+)
+def test_a_change_counts_where_it_is_used(project, name, old, new, scripts):
+    assert changed_by(project, f"src/{name}", old, new) == scripts
+    assert changed_by(project, "scripts/nothing.py", "dumps(1)", "dumps(2)") == {"nothing"}
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new"),
+    [
+        ("src/viscorough/deep/solver.py", '"""Solve."""', '"""Solve it,\n\n    in other words."""'),
+        ("src/viscorough/deep/solver.py", '"""Of a subpackage."""', "# a comment"),
+        ("src/viscorough/deep/parts.py", "'Of a function inside.'", "'Other words.'"),
+        ("scripts/direct.py", "def main():", 'def main():  # a comment\n    """Say what it does."""'),
+    ],
+)
+def test_wording_and_layout_do_not_count(project, name, old, new):
+    assert changed_by(project, name, old, new) == set()
+
+
+def test_relative_imports_are_refused(project):
+    (project / "src/viscorough/deep/parts.py").write_text("from . import solver\n")
+    with pytest.raises(ValueError, match="relative imports are not followed"):
+        digests(project)
+
+
+def test_functions_that_a_script_imports_by_name_count(project):
+    def digest():
+        return SourceDigests(project / "src").digest(project / "scripts/nothing.py", "viscorough.deep.solver.solve")
+
+    before = digest()
+    path = project / "src/viscorough/deep/solver.py"
+    path.write_text(path.read_text().replace("(x, 3)", "(x, 4)"))
+    assert digest() != before
+
+
+SOURCES = SourceDigests(ROOT / "src")  # which reads each module once
+
+
+def used(script, *functions):
+    files = SOURCES.used_files(SCRIPTS / f"{script}.py", *functions)
+    return {str(path.relative_to(ROOT / "src")) for path in files if path.is_relative_to(ROOT / "src")}
+
+
+def test_scripts_of_the_workflow():
+    boundary_elements = {"indent_discs", "compare_direct", "compare_reduction", "validate", "map_failures"}
+    boundary_elements |= {"measure_large", "measure_methods", "time_other_solvers"}
+    boundary_elements |= {"compare_level_placement", "indent_measured"}
+    boundary_elements |= {"fit_collapse", "fit_interface", "judge_claims"}  # flat discs, small rough discs
+    # By what they describe:
+    boundary_elements |= {"check_validation", "make_page", "tabulate_large", "tabulate_methods"}
+    for script in sorted(path.stem for path in SCRIPTS.glob("*.py")):
+        modules = used(script)
+        assert ("viscorough/contact/column_fft.py" in modules) == (script in boundary_elements), script
+        assert any(name.startswith("viscorough_study/figures/") for name in modules) == (script == "plot"), script
+    of_lines = {"indent_lines", "compare_reduction", "validate", "map_failures", "measure_methods"}
+    of_lines |= {"check_validation", "make_page", "tabulate_methods"}  # by what they describe
+    assert {path.stem for path in SCRIPTS.glob("*.py") if "viscorough/mdr.py" in used(path.stem)} == of_lines
+
+
+def test_a_figure_is_drawn_by_its_own_module():
+    modules = [figure.get("module", name) for name, figure in RESULTS["figures"].items()]
+    for module in modules:
+        drawing = used("plot", f"viscorough_study.figures.{module}.plot_{module}")
+        assert {one for one in modules if f"viscorough_study/figures/{one}.py" in drawing} == {module}
+        assert "viscorough/surfaces.py" not in drawing, module

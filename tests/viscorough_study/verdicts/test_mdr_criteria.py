@@ -1,0 +1,60 @@
+"""Criteria of claims on lines that stand for surfaces, by tables made up for them."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from support.study import HURST, evidence, mdr_tables
+from viscorough_study.verdicts import mdr_criteria
+
+GOOD = evidence()
+
+
+def verdicts(claim, tolerance, **tables):
+    """Verdicts of a claim by tables of `mdr_tables`, or by these."""
+    made = dataclasses.replace(GOOD, tables=GOOD.tables | tables)
+    return [case.verdict for case in getattr(mdr_criteria, claim)(made, tolerance)]
+
+
+@pytest.mark.parametrize(
+    ("claim", "cases", "drift", "ratio"),
+    [
+        ("lambda_constant", 1, 1.3, 1.0),
+        ("exact_correspondence", 2, 0.5, 1.0),
+        ("coincide_equal_windows", 2, 5.0, 1.0),
+        ("line_area", 1, 1.0, 100.0),
+        ("line_gap", 1, 1.0, 0.6),
+        ("single_surface", 1, 1.0, 1.5),
+    ],
+)
+def test_equal_quantities_are_reproduced_and_unlike_ones_are_not(claim, cases, drift, ratio):
+    single = {"ratio": 1.02} if claim == "single_surface" else {}
+    assert verdicts(claim, 0.1, **mdr_tables(**single)) == ["reproduced"] * cases * len(HURST)
+    assert verdicts(claim, 0.1, **mdr_tables(drift, ratio)) == ["not reproduced"] * cases * len(HURST)
+
+
+def test_intervals_that_reach_over_the_tolerance_are_undecided():
+    assert set(verdicts("lambda_constant", 0.1, **mdr_tables(drift=1.1))) == {"undecided"}
+    few = mdr_tables(ratio=1.2)["reduction"].assign(realizations=3)
+    assert set(verdicts("single_surface", 0.1, reduction=few)) == {"undecided"}
+
+
+def test_quantities_are_taken_inside_region_b():
+    table = mdr_tables()["reduction"]
+    outside = ~table["x"].between(*GOOD.regions[0.6])
+    assert outside.any()
+    changed = table.assign(area_ratio=np.where(outside, 50.0, table["area_ratio"]))
+    assert set(verdicts("line_area", 0.1, reduction=changed)) == {"reproduced"}
+    assert set(verdicts("line_area", 0.1, reduction=table[table["x"] > 0.9])) == {"undecided"}
+
+
+def test_interval_of_the_scatter_covers_it_at_the_stated_rate():
+    """(n − 1) s²/σ² of normal samples has the distribution of χ²: its 97.5 % and 2.5 % points are the ends of s/σ."""
+    reduction = mdr_tables(ratio=1.5)["reduction"].assign(realizations=30)
+    (case, *_) = mdr_criteria.single_surface(
+        dataclasses.replace(GOOD, tables=GOOD.tables | {"reduction": reduction}), 0.1
+    )
+    probabilities = [stats.chi2.cdf(29 * (np.log(1.5) / np.log(end)) ** 2, 29) for end in (case.low, case.high)]
+    assert probabilities == pytest.approx([0.975, 0.025])

@@ -8,7 +8,7 @@ from support.documentation import PAGES, README, ROOT, anchors, links, prose, re
 from support.workflow import FIGURES, RESULTS, TARGETS
 
 QUESTIONS = ROOT / "docs/questions.md"
-WORKFLOW = "\n".join(read(path) for path in [ROOT / "Snakefile", *(ROOT / "workflow/rules").glob("*.smk")])
+WORKFLOW = "\n".join(read(path) for path in [ROOT / "workflow/Snakefile", *(ROOT / "workflow/rules").glob("*.smk")])
 NAMES = [str(page.relative_to(ROOT)) for page in PAGES]
 
 

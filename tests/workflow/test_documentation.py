@@ -45,8 +45,8 @@ def test_extension_works_as_described(finished):
     registry.write_text(registry.read_text(encoding="utf-8").replace("\nfigures:\n", f"\nfigures:\n{entry}"))
     for path, text in files.items():
         (finished / path).write_text(text, encoding="utf-8")
-    with open(finished / "Snakefile", "a", encoding="utf-8") as snakefile:
-        snakefile.write('\n\ninclude: "workflow/rules/departures.smk"\n')
+    with open(finished / "workflow/Snakefile", "a", encoding="utf-8") as snakefile:
+        snakefile.write('\n\ninclude: "rules/departures.smk"\n')
     snakemake(finished, *TEST, "--", "plot_departures")
     table = pd.read_csv(finished / "results/tables/departures.csv")
     assert set(table["hurst"]) <= {0.4, 0.9}

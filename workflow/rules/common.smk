@@ -3,12 +3,14 @@
 import hashlib
 import importlib.util
 import os
+import re
 import subprocess
 import sys
 import time
 from pathlib import Path
 
 import yaml
+from snakemake.utils import update_config
 
 from viscorough.io.atomic import atomic_write
 from viscorough_study.run import cases
@@ -33,12 +35,20 @@ ALL_CORES = 10**6
 if workflow.is_main_process:  # not one of its jobs
     remove_stale_locks()
 
-WORKFLOW = Path(workflow.basedir) / "workflow"
+
+def path_of(source):
+    """Path of a file or folder as Snakemake knows it."""
+    return Path(str(source.get_path_or_uri(secret_free=False)))
+
+
+# Of this file, not of a workflow that uses this one as a module.
+WORKFLOW = path_of(workflow.current_basedir).parent
+PROJECT = WORKFLOW.parent
 SOURCES = SourceDigests(Path(importlib.util.find_spec("viscorough").origin).parents[1])
 
 
 def read_yaml(path):
-    return yaml.safe_load((Path(workflow.basedir) / path).read_text(encoding="utf-8"))
+    return yaml.safe_load((PROJECT / path).read_text(encoding="utf-8"))
 
 
 def require_readable(paths):
@@ -49,6 +59,13 @@ def require_readable(paths):
     except SettingsError as error:
         # A WorkflowError would show three more lines, about this file.
         raise SystemExit(f"Error in the settings: {error}")
+
+
+def with_defaults(settings):
+    """The default settings, with those of a workflow that uses this one as a module where it gives any."""
+    defaults = read_settings_file(PROJECT / "config" / "config.yaml")
+    update_config(defaults, settings)
+    return defaults
 
 
 def require_valid(settings):
@@ -124,7 +141,7 @@ def groups_of_pool(wildcards):
 
 def paper(name):
     """Content of a file in resources/paper."""
-    return read_paper(Path(workflow.basedir) / "resources" / "paper", name)
+    return read_paper(PROJECT / "resources" / "paper", name)
 
 
 def region_limits():
@@ -161,8 +178,8 @@ def combinations():
 
 def other_solvers():
     """{solver: Python of its environment, its adapter}, whether or not `make peers` has built the environments."""
-    adapters, root = WORKFLOW / "peers", Path(workflow.basedir)
-    modern, slippy = (str(root / name / "bin" / "python") for name in (".venv-peers", ".venv-slippy"))
+    adapters = WORKFLOW / "peers"
+    modern, slippy = (str(PROJECT / name / "bin" / "python") for name in (".venv-peers", ".venv-slippy"))
     pythons = {"ASPHER": modern, "ASPHER nested": modern, "ContactMechanics": modern, "SlipPY": slippy}
     pythons["Tamaas"] = modern
     return {
@@ -179,7 +196,7 @@ def other_solvers_wanted():
 def page_digests():
     """Digests of the texts of the page that are no results, whose paths depend on where the project lies."""
     texts = sorted([*(WORKFLOW / "page").iterdir(), *(WORKFLOW / "report").rglob("*.rst"), WORKFLOW / "results.yaml"])
-    texts += [Path(workflow.basedir) / name for name in ("resources/published/other_solvers.csv", "docs/claims.csv")]
+    texts += [PROJECT / name for name in ("resources/published/other_solvers.csv", "docs/claims.csv")]
     return [hashlib.sha256(path.read_bytes()).hexdigest()[:16] for path in texts]
 
 
@@ -274,7 +291,18 @@ def large_memory(wildcards):
     return cases.large_memory(int(wildcards.elements))
 
 
-# ---- source code
+# ---- all rules
+
+
+def own_rules():
+    """The rules of this workflow, without those of one that uses it as a module."""
+    return [one for one in workflow.rules if path_of(one.basedir).is_relative_to(WORKFLOW)]
+
+
+def explain(rules):
+    """Give every rule without a docstring its message, for `snakemake --list`."""
+    for one in rules:
+        one.docstring = one.docstring or re.sub(r"{wildcards\.(\w+)}", r"{\1}", one.message or "")
 
 
 def add_source_digests(rules):

@@ -25,3 +25,9 @@ rule tabulate_rule_costs:
         "Time and memory of every rule"
     script:
         "../scripts/tabulate_rule_costs.py"
+
+
+rule costs:
+    """What the rules cost."""
+    input:
+        rules.tabulate_rule_costs.output,

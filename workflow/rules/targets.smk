@@ -1,0 +1,74 @@
+# What can be asked for beside `all` and single results.
+
+
+rule curves:
+    """The loading curves of all surfaces."""
+    input:
+        curves_of_pool("discs"),
+        curves_of_pool("lines"),
+
+
+for number, name in enumerate(("surfaces", "kinetics", "master_curve", "exponent"), 1):
+
+    rule:
+        name:
+            f"figure_{number}"
+        input:
+            getattr(rules, f"plot_{name}").output,
+        message:
+            f"Figure {number} of the paper"
+
+
+rule figures:
+    """All figures."""
+    input:
+        [one.output for one in plots_of("all")],
+
+
+rule tables:
+    """All tables."""
+    input:
+        expand(
+            "results/tables/{table}.{kind}",
+            table=[table for table in tables_of("all") if table != "rule_costs"],
+            kind=("csv", "nc"),
+        ),
+
+
+rule validation:
+    """The comparison with exact solutions."""
+    input:
+        rules.check_validation.output,
+
+
+rule measured:
+    """Tables and figures of the measured surfaces that the settings name."""
+    input:
+        [one.output for one in (*plots_of("measured"), rules.show_tables_of_measured)] if MEASURED else [],
+
+
+rule speed:
+    """Speed against accuracy of every method, and of other solvers."""
+    input:
+        [one.output for one in (rules.plot_speed, rules.plot_level_placement, *plots_of("speed"))],
+        rules.show_tables_of_speed.output,
+
+
+rule stability:
+    """Where each method fails."""
+    input:
+        rules.plot_failure_map.output,
+
+
+rule sizes:
+    """Exponents on grids from coarse to fine."""
+    input:
+        rules.plot_sizes.output,
+        rules.plot_collapse.output,
+
+
+rule large:
+    """The cost of one disc on ever finer grids."""
+    input:
+        rules.plot_large.output,
+        rules.show_tables_of_large.output,

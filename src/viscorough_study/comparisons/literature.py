@@ -7,6 +7,7 @@ from scipy.special import exprel
 
 from viscorough import reference
 from viscorough_study.fits.conventions import fits
+from viscorough_study.fits.intervals import described_ends
 
 COLUMNS = {
     "year": ("year of publication", "1"),
@@ -22,8 +23,7 @@ COLUMNS = {
         "",
     ),
     "hurst": ("Hurst exponent H of the values", "1"),
-    "theirs_low": ("lower end of the stated range, or of the law at this H", "1"),
-    "theirs_high": ("upper end of the stated range, or of the law at this H", "1"),
+    **described_ends("theirs", "of the stated range, or of the law at this H"),
     "value": ("value of this study", "1"),
     "low": ("lower end of its 95 % interval", "1"),
     "high": ("upper end of its 95 % interval", "1"),

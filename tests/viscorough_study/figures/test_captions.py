@@ -53,11 +53,6 @@ def names_in_caption(caption):
     return {*letters, *(place.lower() for place in re.findall(r"\b(Left|Right|Above|Below):", caption))}
 
 
-def repeated_in_caption(caption):
-    """What there is a panel or a column for, each."""
-    return re.findall(r"one (?:panel|column) for each (Hurst exponent|quantity|indenter|medium)", caption)
-
-
 def quantities(figure):
     """What the axes are labelled with, without units and formatting."""
     labels = {text for axes in figure.axes for text in (axes.get_xlabel(), axes.get_ylabel()) if text}
@@ -77,7 +72,8 @@ def faults(caption, figure, repeated):
     caption, wrong = plain(caption), []
     shown, named = names_of_panels(figure), names_in_caption(caption)
     if repeated:
-        wrong += [] if repeated_in_caption(caption) == [repeated] else [f"panels are for each {repeated}"]
+        said = re.findall(r"one (?:panel|column) for each (Hurst exponent|quantity|indenter|medium)", caption)
+        wrong += [] if said == [repeated] else [f"panels are for each {repeated}"]
         shown = shown if named else set()
     wrong += [f"panel {name} is not described" for name in sorted(shown - named)]
     wrong += [f"there is no panel {name}" for name in sorted(named - shown)]

@@ -123,6 +123,7 @@ def test_panels_are_as_many_as_what_they_are_for(drawn):
         ("fig3_master_curve", ("right side", "left side"), "axis right side"),
         ("validation", ("one panel for each quantity", ""), "panels are for each"),
         ("growth", ("wall time", "dashed: time"), "nothing is dashed"),
+        ("growth", ("wall time", "hatched: time"), "nothing is hatched"),
         ("sizes", ("(a)", "(a) region (b)"), None),
     ],
 )

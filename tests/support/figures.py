@@ -1,5 +1,6 @@
 """Small tables for the figures, and what the figures made from them show."""
 
+from importlib import import_module
 from itertools import product
 
 import numpy as np
@@ -7,10 +8,11 @@ import pandas as pd
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from support.study import SHOWN, fit_row
+from support.workflow import RESULTS
 from viscorough.calibrated_law import interface_velocity
 from viscorough_study.comparisons.literature import COLUMNS as LITERATURE
 from viscorough_study.ensembles.averages import abscissa
-from viscorough_study.figures.measured import plot_measured
+from viscorough_study.figures.failure_map import LETTERS
 from viscorough_study.fits.conventions import of_source
 from viscorough_study.fits.fit_table import COLUMNS as SCALING_COLUMNS
 from viscorough_study.fits.interface import COLUMNS as INTERFACE
@@ -29,6 +31,16 @@ ELEMENTS = 33
 def case_of(hurst, name):
     """Name of a case as the workflow gives it."""
     return f"h{round(hurst * 1e4):05d}_{name}"
+
+
+MODULES = {  # of the figures of the report, by their files
+    one.get("file", name): one.get("module", name) for name, one in RESULTS["figures"].items()
+}
+
+
+def plot(module, *arguments, **options):
+    """The figure that a module of viscorough_study.figures draws from these arguments."""
+    return getattr(import_module(f"viscorough_study.figures.{module}"), f"plot_{module}")(*arguments, **options)
 
 
 # ---- what a figure shows
@@ -220,11 +232,10 @@ def measured_kinetics():
     return table.assign(depth=1e-6 * table["force"] * table["time"], velocity=1e-6 * table["force"])
 
 
-def measured_figure(pooled, scaling):
-    """The figure of one group of measured surfaces, which are the discs of one Hurst exponent."""
+def fits_of_a_group(pooled, scaling):
+    """Fits of one group of measured surfaces, which are the discs of the first Hurst exponent."""
     fits = scaling[(scaling["source"] == "discs") & (scaling["hurst"] == pooled[0]["hurst"].item())]
-    fits = fits.assign(source="measured", case_group="polished")
-    return plot_measured({"polished": pooled[0]}, pooled, fits, measured_kinetics(), SHOWN, fraction_min=0.95)
+    return fits.assign(source="measured", case_group="polished")
 
 
 def literature_table():
@@ -255,3 +266,22 @@ def interface_tables_drawn():
             parts |= {"interface_low": 0.9 * interface, "interface_high": 1.1 * interface}
             curves.append(pd.DataFrame(parts).assign(**about))
     return pd.DataFrame(rows).reindex(columns=list(INTERFACE)), pd.concat(curves, ignore_index=True)
+
+
+FROM_TABLES = {  # arguments of the figures that are drawn from tables alone
+    "collapse": (curves_of_sizes(), *collapse_tables()),
+    "direct": (direct_table(),),
+    "failure_map": (failure_table(LETTERS),),
+    "growth": (methods_table(),),
+    "interface": (*interface_tables_drawn(), literature_table(), SHOWN),
+    "large": (large_table(),),
+    "level_placement": (level_placement_table(),),
+    "reduction": (mdr_table(),),
+    "mdr_lambda": mdr_lambda_tables(),
+    "media": (media_table(),),
+    "media_exponents": (media_table(),),
+    "other_solvers": (other_solvers_table(),),
+    "sizes": (sizes_table(), SHOWN),
+    "speed": (methods_table(),),
+    "validation": (validation_table(),),
+}

@@ -16,6 +16,7 @@ from viscorough_study.ensembles.averages import abscissa, ensemble_dataset, on_a
 from viscorough_study.ensembles.pool import OF_REALIZATIONS, VARIABLES, ensembles
 from viscorough_study.fits.conventions import FITTED, PLAIN
 from viscorough_study.fits.fit_table import COLUMNS, fit_rows
+from viscorough_study.fits.intervals import three_columns
 from viscorough_study.fits.prefactors import prefactors
 from viscorough_study.fits.zeta_laws import zeta_laws
 from viscorough_study.run.paper_data import read_paper
@@ -152,22 +153,19 @@ def mdr_tables(drift=1.0, ratio=1.0):
     """
 
     def interval(name, value, half):
-        return {name: value, f"{name}_low": value - half, f"{name}_high": value + half}
+        return three_columns(name, (value, value - half, value + half))
 
     summary = interval("drift", drift, 0.01) | interval("error_trend", np.log(drift) / 4, 0.005)
     summary |= interval("error_whole", np.abs(np.log(drift)), 0.005) | {"discs": 1000, "lines": 1000}
     difference = [interval("difference", np.log(drift) / 10, 0.002) | {"window": name} for name in WINDOWS]
     compared = interval("area_ratio", ratio, 0.01) | {"realizations": 1000, "stiffness_scatter": np.log(ratio)}
     x = np.geomspace(1e-4, 1, 9)
-    gap = {
-        name: np.where(np.arange(9) % 2, np.nan, value) for name, value in interval("gap_ratio", ratio, 0.01).items()
-    }
+    gap = interval("gap_ratio", np.where(np.arange(9) % 2, np.nan, ratio), 0.01)
+    every = pd.DataFrame({"hurst": HURST})
     return {
-        "mdr_summary": pd.DataFrame([{"hurst": hurst} | summary for hurst in HURST]),
-        "mdr_exponents": pd.DataFrame([{"hurst": hurst} | row for hurst in HURST for row in difference]),
-        "reduction": pd.concat(
-            [pd.DataFrame({"hurst": hurst, "x": x} | compared | gap) for hurst in HURST], ignore_index=True
-        ),
+        "mdr_summary": every.assign(**summary),
+        "mdr_exponents": every.merge(pd.DataFrame(difference), how="cross"),
+        "reduction": every.merge(pd.DataFrame({"x": x} | compared | gap), how="cross"),
     }
 
 

@@ -18,20 +18,8 @@ TEST = ("--configfile", "config/test.yaml")
 RESULTS = yaml.safe_load((ROOT / "workflow/results.yaml").read_text(encoding="utf-8"))
 FIGURES = {figure.get("file", name): figure for name, figure in RESULTS["figures"].items()}  # by their files
 HANGS = 3000  # seconds after which a run is taken to hang: ten times the longest on a busy machine
-TARGETS = {
-    "all",
-    "curves",
-    "figures",
-    "tables",
-    "validation",
-    "speed",
-    "stability",
-    "sizes",
-    "large",
-    "costs",
-    "measured",
-}
-TARGETS |= {f"figure_{number}" for number in range(1, 5)}
+TARGETS = {"all", "curves", "figures", "tables", "validation", "speed", "stability", "sizes", "large", "costs"}
+TARGETS |= {"measured", *(f"figure_{number}" for number in range(1, 5))}
 
 
 def copy_project(folder):

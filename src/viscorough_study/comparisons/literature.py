@@ -7,6 +7,7 @@ from scipy.special import exprel
 
 from viscorough import reference
 from viscorough_study.fits.conventions import fits
+from viscorough_study.fits.intervals import described_ends
 
 COLUMNS = {
     "year": ("year of publication", "1"),
@@ -22,8 +23,7 @@ COLUMNS = {
         "",
     ),
     "hurst": ("Hurst exponent H of the values", "1"),
-    "theirs_low": ("lower end of the stated range, or of the law at this H", "1"),
-    "theirs_high": ("upper end of the stated range, or of the law at this H", "1"),
+    **described_ends("theirs", "of the stated range, or of the law at this H"),
     "value": ("value of this study", "1"),
     "low": ("lower end of its 95 % interval", "1"),
     "high": ("upper end of its 95 % interval", "1"),
@@ -103,20 +103,13 @@ def _persson(row):
 
 def _alpha(rows):
     """1 − β and its interval of every fit."""
-    columns = {
-        "hurst": rows["hurst"],
-        "value": 1 - rows["beta"],
-        "low": 1 - rows["beta_high"],
-        "high": 1 - rows["beta_low"],
-    }
-    return _or_none(pd.DataFrame(columns))
+    return _or_none(rows.assign(value=1 - rows["beta"], low=1 - rows["beta_high"], high=1 - rows["beta_low"]))
 
 
 def _u0(interface, average):
     """u₀/h and its interval of the base discs."""
     rows = interface[(interface["source"] == "discs") & (interface["case_group"] == "base")]
-    rows = rows[rows["average"] == average]
-    return _or_none(rows.rename(columns={"u0": "value", "u0_low": "low", "u0_high": "high"}))
+    return _or_none(_named_value(rows[rows["average"] == average], "u0"))
 
 
 def _gamma(u0):
@@ -128,10 +121,12 @@ def _gamma(u0):
 def _ratio(reduction, name):
     """Ratio of lines to discs, and its interval, at X_COMPARED."""
     rows = reduction.assign(distance=np.log(reduction["x"] / X_COMPARED).abs()).sort_values("distance")
-    rows = rows[rows["distance"] < 1e-6].rename(
-        columns={f"{name}_ratio": "value", f"{name}_ratio_low": "low", f"{name}_ratio_high": "high"}
-    )
-    return _or_none(rows)
+    return _or_none(_named_value(rows[rows["distance"] < 1e-6], f"{name}_ratio"))
+
+
+def _named_value(rows, name):
+    """The rows with a quantity and its interval as value, low and high."""
+    return rows.rename(columns={name: "value", f"{name}_low": "low", f"{name}_high": "high"})
 
 
 def _or_none(rows):

@@ -9,7 +9,7 @@ ln X, whose ends may lie on either side and whose intervals have no such bias.
 import numpy as np
 import pandas as pd
 
-from viscorough_study.fits.intervals import described, percentile_interval, three_columns
+from viscorough_study.fits.intervals import described, described_ends, percentile_interval, three_columns
 from viscorough_study.fits.mdr_lambda import match_lines
 from viscorough_study.fits.power_law import find_region, fit_power_law, in_window, named_windows
 
@@ -24,8 +24,7 @@ LAMBDA_COLUMNS = {
 }
 SUMMARY_COLUMNS = {
     "hurst": ("Hurst exponent H", "1"),
-    "x_low": ("lower end of region (b) of the discs in X", "1"),
-    "x_high": ("upper end of region (b) of the discs in X", "1"),
+    **described_ends("x", "of region (b) of the discs in X"),
     **described("drift", "λ at the upper over λ at the lower end of region (b), by a power law through λ(X)"),
     **described("lambda_best", "λ with the smallest largest error of vt/h over region (b)"),
     "error_region": ("largest error of ln(vt/h) over region (b) with this λ", "1"),

@@ -3,6 +3,7 @@
 import numpy as np
 
 from viscorough import reference
+from viscorough_study.ensembles.pool import elements_across
 from viscorough_study.figures import style
 from viscorough_study.figures.mean_curve import mean_curve, realizations_text
 from viscorough_study.figures.placement import place_labels
@@ -50,7 +51,7 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
     raw.set(xscale="log", yscale="log", xlabel="time $t$ (s)", ylabel="velocity $v$ (m/s)")
     raw.margins(x=0.12, y=0.05)
     collapsed.set(xscale="log", yscale="log", xlabel=r"$Ft/(h\eta L)$", ylabel="$vt/h$")
-    _mark_limits(collapsed, _elements_across(ensembles[0]["elements"].item()), length_over_diameter)
+    _mark_limits(collapsed, elements_across(ensembles[0]["elements"].item()), length_over_diameter)
     _mark_windows(collapsed, looks, scaling, conventions)
     realizations = f"each a mean over {realizations_text(ensembles)} discs"
     handles = style.hurst_handles(looks, marker="")
@@ -91,12 +92,12 @@ def _in_units(curve, combination, length_over_diameter):
     return time, velocity, (force * time / (rms * viscosity * length), velocity * time / rms)
 
 
-def _mark_limits(axes, elements_across, length_over_diameter):
+def _mark_limits(axes, across, length_over_diameter):
     """Limits (a) and (c), vt/h = X/κ of one element and of complete contact, over Ft/(hηL) = 4X."""
     bottom, top = axes.get_ylim()
     axes.autoscale(False)
     for stiffness, low, start, text, side in (
-        (reference.one_element_stiffness(elements_across), bottom, 0.6, "(a) one element in contact", "bottom"),
+        (reference.one_element_stiffness(across), bottom, 0.6, "(a) one element in contact", "bottom"),
         (reference.COMPLETE_CONTACT_STIFFNESS, 0.02, 0.1, "(c) complete contact", "top"),
     ):
         x_of_y = 4 * stiffness / length_over_diameter
@@ -114,8 +115,3 @@ def _mark_windows(axes, looks, scaling, conventions):
         for row in fits(scaling, conventions, source="discs", case_group="base", hurst=hurst).itertuples():
             axes.plot([4 * row.x_low, 4 * row.x_high], [0.03 + 0.025 * rank] * 2, color=look["color"], **bar)
     axes.text(0.97, 0.025, "bars: region (b)", color=style.GREY, transform=axes.transAxes, ha="right")
-
-
-def _elements_across(elements):
-    """Elements across a disc that has this many elements in the circle through the outermost centres."""
-    return round(1 + 2 * np.sqrt(elements / np.pi))

@@ -194,7 +194,6 @@ def plain_ticks(axis, ticks):
 
 def add_legend_of_means(figure, handles, guides, table):
     """Legend below a figure: these handles, grey lines {label: line style}, and the number of discs of the table."""
-    for label, line in guides.items():
-        handles.append(handle(label, color=GREY, linestyle=line, linewidth=0.8))
+    handles = handles + [handle(label, color=GREY, linestyle=line, linewidth=0.8) for label, line in guides.items()]
     title = f"each a mean over {count_text(table['realizations'])} discs"
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), title=title)

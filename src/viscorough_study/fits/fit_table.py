@@ -13,7 +13,7 @@ import pandas as pd
 from viscorough.calibrated_law import COLUMNS as CALIBRATION
 from viscorough_study.ensembles.pool import elements_across
 from viscorough_study.fits.conventions import FITTED, fits, interval_columns, of_source, readings
-from viscorough_study.fits.intervals import described, three_columns
+from viscorough_study.fits.intervals import described, described_ends, three_columns
 from viscorough_study.fits.mdr_lambda import match_lambda
 from viscorough_study.fits.power_law import fit_power_law, named_windows
 
@@ -23,9 +23,8 @@ def _interval_descriptions():
     columns = {}
     for reading in readings():
         law = "with the factor 1/Γ(1 + β) (Eq. 9)" if reading["gamma"] == "with" else "without Γ (Eq. 3)"
-        text = f"end of the 95 % interval of ζ, {law}, L the {reading['diameter_convention']}"
-        low, high = interval_columns(**reading)
-        columns |= {low: (f"lower {text}", "1"), high: (f"upper {text}", "1")}
+        of = f"of the 95 % interval of ζ, {law}, L the {reading['diameter_convention']}"
+        columns |= dict(zip(interval_columns(**reading), described_ends("zeta", of).values(), strict=True))
     return columns
 
 
@@ -37,8 +36,7 @@ COLUMNS = {
     "rms_convention": ("where the rms height h is measured", None),
     "average": ("mean over the realizations at fixed X", None),
     "window_rule": ("rule of the window of the fit", None),
-    "x_low": ("lower end of the window in X = F/(4GhL) = Ft/(4ηhL), L the diameter", "1"),
-    "x_high": ("upper end of the window in X = F/(4GhL) = Ft/(4ηhL), L the diameter", "1"),
+    **described_ends("x", "of the window in X = F/(4GhL) = Ft/(4ηhL), L the diameter"),
     "decades": ("decades of X in the window, 0 where there is none", "1"),
     "realizations": ("realizations in the ensemble", "1"),
     **described("beta", "exponent β of vt/h in X (Eqs. 9 and 10)", of="of the 95 % interval of β"),

@@ -17,7 +17,7 @@ from viscorough.reference import COMPLETE_CONTACT_STIFFNESS
 from viscorough_study.ensembles.discs import punch_stiffness
 from viscorough_study.ensembles.pool import elements_across, ensembles, select
 from viscorough_study.fits.conventions import FITTED
-from viscorough_study.fits.intervals import described, percentile_interval, three_columns, with_interval
+from viscorough_study.fits.intervals import described, described_ends, percentile_interval, three_columns, with_interval
 from viscorough_study.fits.power_law import log_means
 
 LAW_ELEMENTS_MIN = 5  # median of the elements in contact from which on the law is fitted; with one, the slope is 1
@@ -33,8 +33,7 @@ COLUMNS = {
     "realizations": ("realizations", "1"),
     "kappa_c": ("stiffness κ of the flat punch on this grid", "1"),
     **described("u0", "u₀/h: mean of the interface's part g of vt/h over the plateau"),
-    "plateau_low": ("lower end of the plateau of g in X", "1"),
-    "plateau_high": ("upper end of the plateau of g in X", "1"),
+    **described_ends("plateau", "of the plateau of g in X"),
     "exponent": ("exponent b of the law of g: g ∝ X^b at small X", "1"),
     "peak": ("largest g of the law", "1"),
     "peak_x": ("X at which the law of g is largest", "1"),
@@ -43,8 +42,7 @@ COLUMNS = {
     "deviation": ("largest relative deviation of the law from the mean vt/h in this range", "1"),
     "error": ("largest relative distance of the law from an end of the 95 % interval of the mean vt/h", "1"),
     "depth_offset": ("mean u/h less the integral of the law from X = 0 on, at law_low", "1"),
-    "depth_low": ("lower end of the 95 % interval of the offset", "1"),
-    "depth_high": ("upper end of the 95 % interval of the offset", "1"),
+    **described_ends("depth", "of the 95 % interval of the offset"),
     "depth_deviation": ("largest relative deviation of the law's depth from the mean u/h in the range of the law", "1"),
 }
 CURVES = {

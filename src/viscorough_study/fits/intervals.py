@@ -14,8 +14,12 @@ NO_INTERVAL = (np.nan, np.nan)  # of a quantity without statistical scatter
 
 def described(name, text, units="1", of="of its 95 % interval"):
     """Descriptions of the columns of a quantity and its interval, {column: (long_name, units)}."""
-    ends = {f"{name}_{end}": (f"{side} end {of}", units) for end, side in (("low", "lower"), ("high", "upper"))}
-    return {name: (text, units)} | ends
+    return {name: (text, units)} | described_ends(name, of, units)
+
+
+def described_ends(name, of, units="1"):
+    """Descriptions of the columns of the two ends of a range alone."""
+    return {f"{name}_{end}": (f"{side} end {of}", units) for end, side in (("low", "lower"), ("high", "upper"))}
 
 
 def three_columns(name, values):

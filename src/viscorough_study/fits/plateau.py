@@ -10,7 +10,7 @@ passes power laws, both with the scatter of the real realizations: shares of syn
 
 import numpy as np
 
-from viscorough_study.fits.intervals import described, resampled_means, three_columns, with_interval
+from viscorough_study.fits.intervals import described, described_ends, resampled_means, three_columns, with_interval
 from viscorough_study.fits.power_law import local_slopes
 
 ROUNDING = 1e-9  # relative difference up to which distances on the logarithmic axis count as equal
@@ -20,8 +20,7 @@ COLUMNS = {
     "realizations": ("realizations in the ensemble", "1"),
     **described("decades", "decades of X over which the local slope is constant within the tolerance"),
     **described("slope", "mean local slope of ln(vt/h) over these decades"),
-    "x_low": ("lower end of these decades in X", "1"),
-    "x_high": ("upper end of these decades in X", "1"),
+    **described_ends("x", "of these decades in X"),
     "draws": ("synthetic ensembles of each kind", "1"),
     "power_law_passes": ("share of synthetic power laws with the scatter of this ensemble that pass the test", "1"),
     "power_law_fails": ("share of them that fail it", "1"),

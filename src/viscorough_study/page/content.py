@@ -45,9 +45,7 @@ def verdicts(results, statements, published):
             {
                 "name": name,
                 "statement": statements[name]["statement"],
-                "where": first["where"],
-                "criterion": first["criterion"],
-                "reason": first["reason"],
+                **first[["where", "criterion", "reason"]],
                 "tolerance": results.number("claims", rows.index[0], "tolerance"),
                 "verdict": verdict,
                 "full_scale": full_scale,

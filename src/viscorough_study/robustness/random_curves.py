@@ -41,11 +41,10 @@ def random_curve(generator, with_start=None):
     arguments["until_fraction"] = generator.uniform(0.01, 1.0) if generator.random() < 0.7 else 1.0
     if generator.random() < 0.3 if with_start is None else with_start:
         arguments["start_fraction"] = arguments["until_fraction"] * generator.uniform(0.01, 0.99)
+    span = np.nanmax(indenter.initial_gap) or length
     if generator.random() < 0.2:
-        span = np.nanmax(indenter.initial_gap) or length
         arguments["until_force"] = span * length * indenter.elements**0.5 * 10.0 ** generator.uniform(-3, 1)
     if generator.random() < 0.2:
-        span = np.nanmax(indenter.initial_gap) or length
         arguments["depths"] = np.sort(span * 10.0 ** generator.uniform(-3, 1, generator.integers(1, 5)))
     return RandomCurve(with_random_aspect(indenter, generator), arguments)
 

@@ -46,22 +46,21 @@ def _paper_discs(settings):
     indentation = {name: discs[name] for name in ("tolerance", "whole_curves", "short_until_x")}
     shared = {"pool": "discs", "indentation": settings["indentation"] | indentation}
     for hurst in discs["hurst"]:
-        base = {"elements": discs["elements"], "realizations": discs["realizations"]}
+        surface = settings["surface"] | {"hurst": hurst}
         combinations = [
-            base
-            | {
+            {
+                "elements": discs["elements"],
+                "realizations": discs["realizations"],
                 "name": f"{hurst_id(hurst)}_c{combination['number']}",
                 "spawn_key": seeds.disc_key(hurst, combination["number"]),
                 "combination": combination,
-                "surface": settings["surface"]
-                | {"hurst": hurst, "rms": combination["rms"], "diameter": combination["diameter"]},
+                "surface": surface | {name: combination[name] for name in ("rms", "diameter")},
             }
             for combination in discs["combinations"]
         ]
         about = {"group": "base", "realizations": discs["realizations"], "batch": discs["batch"], "side_by_side": True}
         cases[hurst_id(hurst)] = shared | about | {"ensembles": combinations}
-        for variant in variants["cases"]:
-            changed, name = {key: value for key, value in variant.items() if key != "name"}, variant["name"]
+        for name, changed in _changes_of_variants(settings).items():
             ensemble = {
                 "name": f"{hurst_id(hurst)}_{name}",
                 "spawn_key": seeds.variant_key(hurst, name),
@@ -73,18 +72,20 @@ def _paper_discs(settings):
     return cases
 
 
+def _changes_of_variants(settings):
+    """{variant: what its surfaces have in place of the settings `surface`}."""
+    variants = settings["variants"]["cases"]
+    return {one["name"]: {key: value for key, value in one.items() if key != "name"} for one in variants}
+
+
 def surface_conventions(settings):
     """{group: {convention: value}} of discs whose surfaces differ only in what the paper leaves open.
 
     Variants with other differences, such as a roll-off, are controls, and are left out.
     """
-    changes = {"base": {}} | {
-        variant["name"]: {key: value for key, value in variant.items() if key != "name"}
-        for variant in settings["variants"]["cases"]
-    }
     return {
         group: {name: (settings["surface"] | changed)[name] for name in SURFACE_CONVENTIONS}
-        for group, changed in changes.items()
+        for group, changed in ({"base": {}} | _changes_of_variants(settings)).items()
         if set(changed) <= set(SURFACE_CONVENTIONS)
     }
 

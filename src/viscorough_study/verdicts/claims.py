@@ -33,9 +33,8 @@ MODULES = form_criteria, region_criteria, law_criteria, zeta_criteria, method_cr
 
 def _criteria(module):
     """{claim: criterion} of a module: its public functions of evidence and tolerance."""
-    functions = {name: function for name, function in getmembers(module, isfunction) if not name.startswith("_")}
-    arguments = {name: [*signature(function).parameters][:2] for name, function in functions.items()}
-    return {name: functions[name] for name in functions if arguments[name] == ["evidence", "tolerance"]}
+    public = {name: function for name, function in getmembers(module, isfunction) if not name.startswith("_")}
+    return {name: one for name, one in public.items() if [*signature(one).parameters][:2] == ["evidence", "tolerance"]}
 
 
 JUDGES = {claim: criterion for module in MODULES for claim, criterion in _criteria(module).items()}

@@ -72,10 +72,9 @@ def depth_over_rms(evidence, tolerance):
     for hurst in evidence.pooled:
         disc = _disc(evidence, hurst)
         touching = contact_at(disc, depth=DEPTH).contact
-        differing = []
-        for factor in SCALES:
-            scaled = Indenter(factor * disc.heights, disc.spacing)
-            differing.append(int((contact_at(scaled, depth=factor * DEPTH).contact != touching).sum()))
+        scaled = {factor: Indenter(factor * disc.heights, disc.spacing) for factor in SCALES}
+        contacts = [contact_at(one, depth=factor * DEPTH).contact for factor, one in scaled.items()]
+        differing = [int((contact != touching).sum()) for contact in contacts]
         number = int((touching == 1).sum())
         yield _case(f"{hurst_name(hurst)}, elements that differ, of {number}", differing, tolerance)
 
@@ -89,11 +88,8 @@ def one_surface(evidence, tolerance):
     for hurst in evidence.pooled:
         disc = _disc(evidence, hurst)
         curve = _stiffness(disc, 1.0, 1.0)
-        deviations = []
-        for heights, lengths in UNITS:
-            scaled = Indenter(heights * disc.heights, lengths * disc.spacing)
-            deviations.append(np.max(np.abs(_stiffness(scaled, heights, lengths) / curve - 1)))
-        yield _case(hurst_name(hurst), deviations, tolerance)
+        scaled = [_stiffness(Indenter(h * disc.heights, length * disc.spacing), h, length) for h, length in UNITS]
+        yield _case(hurst_name(hurst), [np.max(np.abs(one / curve - 1)) for one in scaled], tolerance)
     disc = _disc(evidence, min(evidence.pooled))
     first, *others = (_resistance(disc, *drive) for drive in DRIVES)
     yield _case("other forces and viscosities", [np.max(np.abs(one / first - 1)) for one in others], tolerance)

@@ -5,6 +5,8 @@ a line would have to reproduce to stand for a surface is judged here, too: Lyash
 Letters 52, 223 (2013)) find that it reproduces neither contact area nor separation.
 """
 
+from itertools import product
+
 import numpy as np
 
 from viscorough_study.fits.intervals import UNDEFINED, deviation_interval, interval
@@ -15,19 +17,21 @@ EQUAL_WINDOWS = ("same X", "same κ")
 
 def lambda_constant(evidence, tolerance):
     """λ at the upper end of region (b) over λ at the lower end."""
-    table = evidence.tables["mdr_summary"]
-    for row in table.to_dict("records"):
-        allowed, about = (1 / (1 + tolerance), 1 + tolerance), {"realizations": _fewest(row), "cases": len(table)}
-        yield evidence.case(hurst_name(row["hurst"]), interval(row, "drift"), 1.0, allowed, **about)
+    return _of_summary(evidence, {"drift": ""}, 1.0, (1 / (1 + tolerance), 1 + tolerance))
 
 
 def exact_correspondence(evidence, tolerance):
     """Error of ln(vt/h) with the best single λ: at the upper end of region (b), and the largest of the whole curve."""
+    parts = {"error_trend": ", region (b)", "error_whole": ", to complete contact"}
+    return _of_summary(evidence, parts, 0.0, (-tolerance, tolerance))
+
+
+def _of_summary(evidence, parts, expected, allowed):
+    """Cases of columns of the summary; parts : {column: what it adds to the name of the case}."""
     table = evidence.tables["mdr_summary"]
-    for row in table.to_dict("records"):
-        for part, column in (("region (b)", "error_trend"), ("to complete contact", "error_whole")):
-            name, about = f"{hurst_name(row['hurst'])}, {part}", {"realizations": _fewest(row), "cases": 2 * len(table)}
-            yield evidence.case(name, interval(row, column), 0.0, (-tolerance, tolerance), **about)
+    for row, (column, part) in product(table.to_dict("records"), parts.items()):
+        about = {"realizations": _fewest(row), "cases": len(table) * len(parts)}
+        yield evidence.case(hurst_name(row["hurst"]) + part, interval(row, column), expected, allowed, **about)
 
 
 def coincide_equal_windows(evidence, tolerance):

@@ -26,16 +26,6 @@ def test_line_has_the_power_of_the_rings(n):
     assert power[3] == pytest.approx(power.sum(), rel=1e-9)
 
 
-def test_spectrum_is_that_of_equation_13():
-    """C1D = π q C2D: a slope smaller by one, averaged over realizations."""
-    n, k = 256, np.arange(4, 100)
-    power = 0
-    for seed in range(20):
-        line = line_of_surface(self_affine_square(0.7, n, seed=seed), 1.0, seed)
-        power = power + np.abs(np.fft.rfft(line.heights)[k]) ** 2
-    assert np.polyfit(np.log(k), np.log(power), 1)[0] == pytest.approx(-(2 * 0.7 + 1), abs=0.05)
-
-
 def test_comparison():
     x = abscissa(1e-3, 3.0, 5)
     table = compare_reduction([0.8], 33, 6, x, tolerance=1e-3, seed=1)

@@ -31,11 +31,8 @@ def tables(discs, lines):
 
 def test_equal_ensembles_have_the_lambda_pi():
     discs = ensemble(0.6, seed=1)
-    of_lambda, summary, exponents = tables(discs, discs)
-    for table, columns in zip(
-        (of_lambda, summary, exponents), (LAMBDA_COLUMNS, SUMMARY_COLUMNS, EXPONENT_COLUMNS), strict=True
-    ):
-        assert list(table) == list(columns)
+    of_lambda, summary, exponents = found = tables(discs, discs)
+    assert list(map(list, found)) == list(map(list, (LAMBDA_COLUMNS, SUMMARY_COLUMNS, EXPONENT_COLUMNS)))
     inside = of_lambda[of_lambda["in_region"] == 1]
     np.testing.assert_allclose(inside["lambda"], np.pi, rtol=1e-6)
     np.testing.assert_allclose(of_lambda["velocity_ratio"], 1, rtol=1e-6)

@@ -1,15 +1,20 @@
 """Ensembles and fits of small discs and lines, shared by the tests of the figures."""
 
+import warnings
+
 import pandas as pd
 import pytest
 
+from support import figures as tables
 from support.figures import COMBINATIONS, ELEMENTS, HURST, X, case_of
-from support.study import LIMITS, aggregate, pool_of
+from support.study import BASE_SURFACES, LIMITS, SHOWN, aggregate, pool_of
+from support.workflow import FIGURES
 from viscorough.contact.loading_path import indent
 from viscorough.mdr import reduce
 from viscorough.surfaces import self_affine_disc, self_affine_line
 from viscorough_study.ensembles.pool import ensembles
 from viscorough_study.fits.fit_table import COLUMNS, fit_rows
+from viscorough_study.fits.prefactors import prefactors
 
 SCALING = LIMITS | {"elements_min": 3, "stiffness_range": (0.03, 0.3)}
 
@@ -66,3 +71,23 @@ def scaling(pooled, lines):
 @pytest.fixture(scope="session")
 def combinations():
     return {case_of(hurst, name): at for hurst in HURST for name, at in COMBINATIONS.items()}
+
+
+@pytest.fixture(scope="session")
+def drawn(discs, pooled, lines, scaling, combinations):
+    """{file of the report: its figure}, from small tables and without a warning."""
+    heights, measured = self_affine_disc(0.5, 9, seed=1).heights, tables.fits_of_a_group(pooled, scaling)
+    arguments = tables.FROM_TABLES | {
+        "fig1_surfaces": ([(h, heights, 1 / 9) for h in (0.1, 0.5, 0.9)],),
+        "fig2_kinetics": (discs, combinations, scaling, SHOWN),
+        "fig3_master_curve": (pooled, lines, scaling, SHOWN),
+        "fig4_exponent": (scaling, SHOWN, (0.4, 1.0)),
+        "conventions": (scaling, SHOWN),
+        "prefactors": (prefactors(scaling, BASE_SURFACES), SHOWN),
+        "measured": ({"polished": pooled[0]}, pooled, measured, tables.measured_kinetics(), SHOWN),
+    }
+    shares = {name: {"fraction_min": 0.95} for name, one in FIGURES.items() if "fraction_min" in one.get("params", [])}
+    with warnings.catch_warnings(action="error"):
+        return {
+            name: tables.plot(tables.MODULES[name], *given, **shares.get(name, {})) for name, given in arguments.items()
+        }

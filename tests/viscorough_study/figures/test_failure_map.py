@@ -35,12 +35,10 @@ def test_cells_are_blank_where_a_difficulty_cannot_matter():
     rows = [
         ("step size", "16 steps", "path, dense", 1e-9, "holds"),
         ("step size", "16 steps", "events", 1.0, "unnoticed"),
-    ]
-    rows += [
         ("step size", "16 steps", "explicit steps", 0.05, "warned"),
         ("shape", "cone", "path, dense", 2e-9, "holds"),
+        ("force in time", "negative", "path, dense", 1.0, "refused"),
     ]
-    rows += [("force in time", "negative", "path, dense", 1.0, "refused")]
     table = pd.DataFrame(rows, columns=["group", "case", "method", "error", "verdict"])
     texts = [text.get_text() for text in plot_failure_map(table).axes[0].texts]
     assert [text for text in texts if text[-1:] in LETTERS.values()] == ["1 U", "5e-2 W", "2e-9 H", "R"]

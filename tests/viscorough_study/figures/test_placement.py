@@ -8,14 +8,14 @@ from matplotlib.transforms import Bbox
 from viscorough_study.figures.placement import place_labels
 
 
-def placed(labels, curve):
-    """Axes with a curve, and the boxes of the labels in pixels."""
-    figure = Figure(layout="constrained")
-    axes = figure.subplots()
-    axes.plot(*curve)
+def placed(labels, *curves, **look):
+    """Axes with curves, and the boxes of the labels in pixels."""
+    axes = Figure(layout="constrained").subplots()
+    for curve in curves:
+        axes.plot(*curve, **look)
     axes.set(xlim=(0, 10), ylim=(0, 10))
     place_labels(axes, [(text, x, y, "red") for text, x, y in labels])
-    renderer = FigureCanvasAgg(figure).get_renderer()
+    renderer = FigureCanvasAgg(axes.figure).get_renderer()
     return axes, [text.get_window_extent(renderer) for text in axes.texts]
 
 
@@ -35,14 +35,8 @@ def test_labels_stay_inside():
 
 
 def test_a_label_rather_hides_a_piece_of_a_curve_than_a_marker():
-    figure = Figure(layout="constrained")
-    axes = figure.subplots()
-    for x in np.arange(0, 5.1, 0.5):  # curves beneath all places but those on the right, where there are markers
-        axes.plot([x, x], [0.5, 9.5])
+    # Curves beneath all places but those on the right, where there are markers.
+    curves = [([x, x], [0.5, 9.5]) for x in np.arange(0, 5.1, 0.5)]
     markers = [(x, y) for x in np.arange(5.3, 8, 0.3) for y in np.linspace(3, 7, 17)]
-    for marker in markers:
-        axes.plot(*marker, "o")
-    axes.set(xlim=(0, 10), ylim=(0, 10))
-    place_labels(axes, [("a label", 5, 5, "red")])
-    box = axes.texts[0].get_window_extent(FigureCanvasAgg(figure).get_renderer())
+    axes, (box,) = placed([("a label", 5, 5)], *curves, *markers, marker="o")
     assert not box.count_contains(axes.transData.transform(markers))

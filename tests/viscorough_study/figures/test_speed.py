@@ -52,8 +52,3 @@ def test_one_problem_is_enough(problem):
     data = data[data["problem"] == "sphere"].assign(problem=problem)
     (axes,) = plot_speed(data).axes
     assert axes.get_title() == f"(a) {problem}, 257 elements across"
-
-
-def test_empty_table_is_refused():
-    with pytest.raises(ValueError, match="plot_speed: the table has no rows"):
-        plot_speed(methods_table().iloc[:0])

@@ -39,10 +39,8 @@ def test_finding(departure, half_width, finding):
         fits = table(np.array(departure), source=source, case_group=case_group, half_width=half_width)
         found = trends(fits, SHOWN, TOLERANCE)
         assert list(found) == list(COLUMNS)
-        assert found[["finding", "source"]].iloc[0].tolist() == [
-            finding,
-            {"controls": "controls"}.get(case_group, source),
-        ]
+        name = "controls" if case_group == "controls" else source
+        assert found[["finding", "source"]].iloc[0].tolist() == [finding, name]
 
 
 def test_slope_and_its_interval():

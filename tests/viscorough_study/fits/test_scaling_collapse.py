@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-import xarray as xr
 
-from support.study import ELEMENTS
+from support.study import ELEMENTS, pool_of
 from viscorough.reference import exponent_beta
+from viscorough_study.ensembles.averages import ensemble_dataset
 from viscorough_study.fits import scaling_collapse
 from viscorough_study.fits.power_law import log_means
 from viscorough_study.fits.scaling_collapse import (
@@ -120,15 +120,13 @@ def test_share_of_the_variance(source, hurst):
 def pool(*realizations, scatter=0.0):
     """Two grids of one Hurst exponent, with factors on vt/h of the same random numbers."""
     x = 10 ** np.arange(-4, 0, 0.1)
-    parts = []
+    members = []
     for elements, number in zip((ELEMENTS, 13049), realizations, strict=True):
         velocity = np.exp(scatter * np.random.default_rng(1).standard_normal((1, number, 1))) * x**0.4
-        part = xr.Dataset({"stiffness": (("rms_convention", "realization", "abscissa"), x / velocity)})
-        part["contact_count"] = part["stiffness"] * 0 + 1000 * x / x[10] / 100
-        about = {"hurst": HURST, "elements": elements, "group": "sizes", "case": "sizes", "diameter": 1.0}
-        about["until_x"] = 30.0
-        parts.append(part.assign_coords({name: ("realization", [value] * number) for name, value in about.items()}))
-    return xr.concat(parts, "realization").assign_coords(x=("abscissa", x), rms_convention=["disc"])
+        count = np.broadcast_to(10 * x / x[10], velocity.shape)
+        about = {"hurst": HURST, "elements": elements, "case": "sizes", "diameter": 1.0}
+        members.append(ensemble_dataset(["disc"], x, x / velocity, count, about))
+    return pool_of(members, "sizes")
 
 
 OF_POOL = {"average": "geometric", "rms_convention": "disc", "elements_min": 10, "fraction_min": 0.95, "seed": 1}

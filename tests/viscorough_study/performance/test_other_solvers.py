@@ -61,6 +61,12 @@ def solve(solver, disc, exact, tolerances):
     return other_solvers.solve(solver, disc, exact.depth, exact.force, tolerances, time_limit=20)
 
 
+def compared(disc, exact, solvers, pairs=1, **task):
+    """Table of the solvers and the path, at the three levels to a residual of 1e-4."""
+    task = solver_comparison.Task("three levels", 0.7, disc, exact.depth, 1e-4, **task)
+    return solver_comparison.compare_solvers(task, solvers, pairs=pairs, time_limit=20)
+
+
 def test_residual_and_force_are_computed_from_the_pressures(disc, exact, stand_in):
     fine, coarse = solve(stand_in(), disc, exact, [1e-9, 1e-3])
     np.testing.assert_allclose(fine.force, exact.force, rtol=2e-9)
@@ -87,16 +93,14 @@ def test_a_solver_that_fails_is_reported_and_left_out(disc, exact, tmp_path):
     broken = other_solvers.OtherSolver("broken", Path(sys.executable), adapter)
     with pytest.warns(UserWarning, match="broken: RuntimeError: no licence"):
         assert solve(broken, disc, exact, [1e-3, 1e-4]) == [None, None]
-    task = solver_comparison.Task("three levels", 0.7, disc, exact.depth, 1e-4)
     with pytest.warns(UserWarning, match="no licence"):
-        table = solver_comparison.compare_solvers(task, [broken], pairs=1, time_limit=20)
+        table = compared(disc, exact, [broken])
     assert table["solver"].tolist() == ["viscorough"]
     assert not other_solvers.OtherSolver("absent", tmp_path / "python", adapter).installed
 
 
 def test_comparison_uses_the_loosest_tolerance_that_meets_the_residual(disc, exact, stand_in):
-    task = solver_comparison.Task("three levels", 0.7, disc, exact.depth, 1e-4, threads=(1, 2))
-    table = solver_comparison.compare_solvers(task, [stand_in()], pairs=3, time_limit=20)
+    table = compared(disc, exact, [stand_in()], pairs=3, threads=(1, 2))
     assert list(table.columns) == list(solver_comparison.COLUMNS)
     assert table["solver"].tolist() == ["viscorough", "viscorough", "stand-in", "stand-in"]
     residuals = [solve(stand_in(), disc, exact, [ratio * 1e-4])[0].residual.max() for ratio in (1 / 3, 1, 3)]
@@ -111,21 +115,19 @@ def test_comparison_uses_the_loosest_tolerance_that_meets_the_residual(disc, exa
 
 
 def test_far_slower_solvers_are_not_repeated(disc, exact, stand_in):
-    task = solver_comparison.Task("three levels", 0.7, disc, exact.depth, 1e-4)
     solvers = [stand_in(seconds=seconds) for seconds in (0.5, 1.9, 2.1)]
-    table = solver_comparison.compare_solvers(task, solvers, pairs=2, time_limit=20)
+    table = compared(disc, exact, solvers, pairs=2)
     assert table["wall_s"].tolist()[1:] == [0.5, 1.9, 2.1]
     assert table["ratio_low"].isna().tolist() == [False, False, False, True]
     assert table["ratio"].notna().all()
 
 
 def test_a_residual_out_of_reach_is_not_met(disc, exact, stand_in):
-    task = solver_comparison.Task("three levels", 0.7, disc, exact.depth, 1e-4)
-    table = solver_comparison.compare_solvers(task, [stand_in(too_slow=0)], pairs=1, time_limit=20)
+    table = compared(disc, exact, [stand_in(too_slow=0)])
     assert table["solver"].tolist() == ["viscorough"]
-    off = np.load(Path(stand_in().adapter).parent / "pressures.npy") * 1.01
-    np.save(Path(stand_in().adapter).parent / "pressures.npy", off)
-    table = solver_comparison.compare_solvers(task, [stand_in()], pairs=1, time_limit=20)
+    exact_pressures = Path(stand_in().adapter).with_name("pressures.npy")
+    np.save(exact_pressures, np.load(exact_pressures) * 1.01)
+    table = compared(disc, exact, [stand_in()])
     assert table["met"].tolist() == [1, 0]
     assert table[["wall_s", "ratio"]].isna().all(axis=1).tolist() == [False, True]
     assert table["tolerance"][1] == pytest.approx(min(solver_comparison.TOLERANCE_RATIOS) * 1e-4)

@@ -1,26 +1,9 @@
 """The log of a job: messages, warnings, tracebacks and progress in one file."""
 
-import logging
 import subprocess
 import sys
 
 import pytest
-
-from viscorough_study.run import job_log
-
-
-@pytest.fixture
-def root_logger():
-    """The root logger and what hangs on it, put back afterwards."""
-    root, hook = logging.getLogger(), sys.excepthook
-    handlers, level = root.handlers[:], root.level
-    yield root
-    for handler in root.handlers:
-        if handler not in handlers:
-            handler.close()
-    root.handlers[:], sys.excepthook = handlers, hook
-    root.setLevel(level)
-    logging.captureWarnings(False)
 
 
 def test_an_interrupt_is_one_line(tmp_path):
@@ -64,16 +47,18 @@ raise {error}
     assert kind != "ValueError" or line.endswith("ERROR ValueError: rms: must be positive")
 
 
-def test_progress_logs_an_estimate_now_and_then(tmp_path, root_logger):
+def test_progress_logs_an_estimate_now_and_then(tmp_path):
     """With a clock that gains 1 s per step, 60 steps are logged every 5 s, with the time that is left."""
-    job_log.log_to(tmp_path / "job.log")
-    assert list(job_log.progress(iter("abc"), 3, "short")) == ["a", "b", "c"]
-    ticks = {"now": 0.0}
-    bar = job_log.progress(range(60), 60, "levels")
-    bar._time = lambda: ticks["now"]
-    bar.start_t = bar.last_print_t = 0.0
-    for step in bar:
-        ticks["now"] = step + 1.0
+    script = """
+from viscorough_study.run import job_log
+job_log.log_to("job.log")
+assert list(job_log.progress(iter("abc"), 3, "short")) == ["a", "b", "c"]
+bar, now = job_log.progress(range(60), 60, "levels"), 0.0
+bar._time, bar.start_t, bar.last_print_t = lambda: now, 0.0, 0.0
+for step in bar:
+    now = step + 1.0
+"""
+    subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, check=True)
     lines = (tmp_path / "job.log").read_text().splitlines()
     assert 10 <= len(lines) <= 13
     assert "30 of 60, 00:30 passed, 00:30 to go" in "\n".join(lines)

@@ -25,12 +25,9 @@ KEYS = {
 
 def test_published_keys_do_not_change():
     assert all(key == published for key, published in KEYS.items())
+    assert [key[0] for key in KEYS] == [number for number in range(1, 15) if number != 7], "each has its own number"
     assert {type(number) for key in KEYS for number in key} == {int}
     assert seeds.random_indenter_key(np.int64(7)) == (7,)
-
-
-def test_every_stream_has_its_own_number():
-    assert [key[0] for key in KEYS] == [number for number in range(1, 15) if number != 7]
 
 
 def test_neighbouring_hurst_exponents_have_their_own_keys():

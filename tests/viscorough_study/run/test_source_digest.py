@@ -49,18 +49,18 @@ def project(tmp_path):
     return tmp_path
 
 
-def digests(project):
+def digests(project, *functions):
     sources = SourceDigests(project / "src")
-    return {path.stem: sources.digest(path) for path in (project / "scripts").glob("*.py")}
+    return {path.stem: sources.digest(path, *functions) for path in (project / "scripts").glob("*.py")}
 
 
-def changed_by(project, name, old, new):
-    """Scripts whose digest an edit changes."""
-    before, path = digests(project), project / name
+def changed_by(project, name, old, new, *functions):
+    """Scripts whose digest an edit changes; functions : that all of them import by a name"""
+    before, path = digests(project, *functions), project / name
     text = path.read_text()
     assert text.count(old) == 1
     path.write_text(text.replace(old, new))
-    after = digests(project)
+    after = digests(project, *functions)
     return {script for script in before if before[script] != after[script]}
 
 
@@ -98,13 +98,8 @@ def test_relative_imports_are_refused(project):
 
 
 def test_functions_that_a_script_imports_by_name_count(project):
-    def digest():
-        return SourceDigests(project / "src").digest(project / "scripts/nothing.py", "viscorough.deep.solver.solve")
-
-    before = digest()
-    path = project / "src/viscorough/deep/solver.py"
-    path.write_text(path.read_text().replace("(x, 3)", "(x, 4)"))
-    assert digest() != before
+    edit = ("src/viscorough/deep/solver.py", "(x, 3)", "(x, 4)")
+    assert "nothing" in changed_by(project, *edit, "viscorough.deep.solver.solve")
 
 
 SOURCES = SourceDigests(ROOT / "src")  # which reads each module once

@@ -62,10 +62,6 @@ def test_factor_of_equation_9_belongs_to_equation_11():
     assert verdicts == dict.fromkeys(LAWS, "reproduced") | {"zeta_elastic": "not reproduced"}
 
 
-def test_other_exponent_is_not_reproduced():
-    assert overall(judge({"beta": CLAIMS["beta"]}, evidence(bent=0.06))) == {"beta": "not reproduced"}
-
-
 def test_conventions_are_named_under_which_a_claim_holds():
     found = evidence(lambda hurst: 1.3 * reference.zeta_elastic(hurst), square=1 / 1.3)
     rows = judge(ELASTIC, found)

@@ -257,15 +257,19 @@ def test_contact_problems_are_counted_against_changes_of_the_contact():
     assert [one.verdict for one in contact_problems(found, 10)] == ["reproduced"]
 
 
+def evidence_of_curves(stiffness, count):
+    """Evidence of discs of one Hurst exponent with these κ and elements in contact, shape (realizations, abscissae)."""
+    about = {"hurst": 0.6, "case": "c", "diameter": 1.0, "elements": ELEMENTS}
+    return evidence_of(pool_of([ensemble_dataset(["disc"], X, stiffness[None], count[None], about)]))
+
+
 def test_slope_and_prefactor_of_the_last_region_are_those_of_the_curve_there():
     """A parabola of ln(vt/h) over ln X has the least-squares slope of its middle: a quarter of a decade, five steps."""
     log_x = np.log(X)
-    stiffness = np.tile(X / np.exp(0.2 + 0.7 * log_x + 0.05 * log_x**2), (1, 3, 1))
-    about = {"hurst": 0.6, "case": "c", "diameter": 1.0, "elements": ELEMENTS}
-    found = evidence_of(pool_of([ensemble_dataset(["disc"], X, stiffness, stiffness, about)]))
-    cases = last_region(dataclasses.replace(found, rules={"end_decades": 0.26}), 0.05)
+    stiffness = np.tile(X / np.exp(0.2 + 0.7 * log_x + 0.05 * log_x**2), (3, 1))
+    found = dataclasses.replace(evidence_of_curves(stiffness, stiffness), rules={"end_decades": 0.26})
     slope = 0.7 + 0.1 * log_x[[-6, -1]].mean()
-    assert [case.value for case in cases] == pytest.approx([stiffness[0, 0, -1], slope], rel=1e-9)
+    assert [case.value for case in last_region(found, 0.05)] == pytest.approx([stiffness[0, -1], slope], rel=1e-9)
 
 
 def test_interval_of_the_depth_contains_the_scatter_of_the_exponent():
@@ -276,9 +280,7 @@ def test_interval_of_the_depth_contains_the_scatter_of_the_exponent():
     exponents = 0.4 * np.exp(0.2 * np.random.default_rng(4).standard_normal((60, 1)))
     stiffness = 0.5 * X ** (1 - exponents)
     count = np.where(X < 1e-3, 2, 20) * np.ones_like(stiffness)  # region (b) far from the first abscissa
-    about = {"hurst": 0.6, "case": "c", "diameter": 1.0, "elements": ELEMENTS}
-    discs = pool_of([ensemble_dataset(["disc"], X, stiffness[None], count[None], about)])
-    (case,) = depth(evidence_of(discs), 0.1)
+    (case,) = depth(evidence_of_curves(stiffness, count), 0.1)
     assert case.value == pytest.approx(exponents.mean() * (1 / exponents).mean(), rel=0.015)
     with_fixed_exponent = 2 * 1.96 * 0.2 / np.sqrt(60)
     assert 0 < case.high - case.low < with_fixed_exponent / 2

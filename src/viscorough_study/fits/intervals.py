@@ -5,8 +5,7 @@ _low and _high.
 """
 
 import numpy as np
-from scipy import stats
-from scipy.special import ndtr, stdtrit
+from scipy.special import gammaincinv, ndtr, stdtrit
 
 UNDEFINED = (np.nan, np.nan, np.nan)  # value and interval of a quantity that cannot be computed
 NO_INTERVAL = (np.nan, np.nan)  # of a quantity without statistical scatter
@@ -77,7 +76,7 @@ def mean_with_interval(samples):
 
 def deviation_interval(deviation, freedom):
     """A standard deviation of normal samples and its interval by the distribution of χ²: (value, low, high)."""
-    ends = deviation * np.sqrt(freedom / stats.chi2.ppf([0.975, 0.025], freedom)) if freedom else NO_INTERVAL
+    ends = deviation * np.sqrt(freedom / (2 * gammaincinv(freedom / 2, [0.975, 0.025]))) if freedom else NO_INTERVAL
     return deviation, *ends
 
 

@@ -3,7 +3,7 @@
 from itertools import pairwise
 
 import numpy as np
-from scipy import stats
+from scipy.special import fdtri
 
 from viscorough import reference
 from viscorough_study.fits.intervals import (
@@ -83,7 +83,7 @@ def excess_variance(sets):
     between = sum(len(groups) * np.var([group.mean() for group in groups]) for groups in sets) / freedom[0]
     ratio = size * between / within
     ratios = np.array([ratio, ratio, max(ratio, 1.0)])
-    excess = np.maximum(ratios / stats.f.ppf([0.5, 0.975, 0.025], *freedom) - 1, 0.0)
+    excess = np.maximum(ratios / fdtri(*freedom, [0.5, 0.975, 0.025]) - 1, 0.0)
     return np.append(excess, 1.0) * within / size
 
 

@@ -111,7 +111,7 @@ def follow_events(elements, contact, most, pressure_sum):
 
     Until the next element touches, pressures grow at the constant tangent q, so that depths are exact. Every element
     that touches adds a row to the Cholesky factor of the influence matrix, so that hundreds of events cost as much as a
-    few dense solutions. The same recursion in time integrates the viscous problem (viscous.events).
+    few dense solutions. The same recursion in time integrates the viscous problem (viscous.integration.events).
 
     most : number of elements in contact at which to stop
     pressure_sum : reduced ΣP at which to stop

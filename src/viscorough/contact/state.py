@@ -19,7 +19,7 @@ from functools import cached_property
 
 import numpy as np
 
-from viscorough.contact.influence import influence_table
+from viscorough.contact.halfspace.influence import influence_table
 from viscorough.contact.parallel import BLOCK, run_blocks
 
 # Values from which the ranges that threads sort are chosen, and the largest number of ranges.

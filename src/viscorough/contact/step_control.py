@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from viscorough.contact.grid_loops import GridLoops
+from viscorough.contact.grid.loops import GridLoops
 from viscorough.loading_curve import interpolate_between
 
 # Smallest accuracy of interpolation that is offered: a smaller one would require every contact event as a level, as in

@@ -6,7 +6,7 @@ from scipy.optimize import nnls
 
 from support.influence import influence_matrix
 from viscorough import reference
-from viscorough.contact.influence import influence_coefficient
+from viscorough.contact.halfspace.influence import influence_coefficient
 from viscorough.contact.loading_path import indent
 from viscorough.contact.one_contact import contact_at
 from viscorough.contact.options import SolverOptions
@@ -14,7 +14,7 @@ from viscorough.contact.solver import ContactSolver
 from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
-from viscorough.viscous.events import march_events
+from viscorough.viscous.integration.events import march_events
 from viscorough_study.performance.other_solvers import residual_of
 
 

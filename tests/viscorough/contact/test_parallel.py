@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 import pytest
 
-from viscorough.contact.halfspace import Halfspace
+from viscorough.contact.halfspace.operator import Halfspace
 from viscorough.contact.loading_path import indent
 from viscorough.contact.one_contact import contact_at
 from viscorough.contact.parallel import Buffers, aligned_zeros, run_blocks

@@ -6,8 +6,8 @@ import pytest
 from support.media import SPRINGS_AND_DASHPOTS as MEDIA
 from viscorough.surfaces import self_affine_disc
 from viscorough.viscous.correspondence import impulses
-from viscorough.viscous.internal_variable_events import march_medium_events
-from viscorough.viscous.internal_variables import MEDIUM_SCHEMES, march_medium
+from viscorough.viscous.integration.internal_variable_events import march_medium_events
+from viscorough.viscous.integration.internal_variables import MEDIUM_SCHEMES, march_medium
 from viscorough.viscous.media import CreepTable, Maxwell, Springpot
 from viscorough.viscous.pressures import pressure_at
 

@@ -17,7 +17,7 @@ from scipy.linalg import cho_factor, cho_solve
 
 from viscorough.arrays import ReadOnlyArrays, increasing, samples
 from viscorough.errors import ConvergenceError
-from viscorough.viscous.elements import elements_of_map
+from viscorough.viscous.integration.elements import elements_of_map
 
 MEDIUM_SCHEMES = ("backward_euler", "second_order")
 _MAX_ITERATIONS, _ADDED_AT_ONCE = 300, 8

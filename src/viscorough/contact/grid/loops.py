@@ -1,4 +1,4 @@
-"""The loops of grid_kernels over large arrays, block by block on several threads.
+"""The loops of the kernels over large arrays, block by block on several threads.
 
 Methods have the arguments and results of the kernels of the same name, which document them.
 """
@@ -8,7 +8,7 @@ from itertools import accumulate
 
 import numpy as np
 
-from viscorough.contact import grid_kernels as kernels
+from viscorough.contact.grid import kernels
 from viscorough.contact.parallel import BLOCK, run_blocks
 
 

@@ -19,10 +19,10 @@ which the operator is applied anyway.
 
 import numpy as np
 
-from viscorough.contact.conjugate_gradients import ConjugateGradients
-from viscorough.contact.grid_loops import GridLoops
-from viscorough.contact.halfspace import Halfspace
-from viscorough.contact.preconditioner import LEAST_EIGENVALUE, REACH, Preconditioner
+from viscorough.contact.grid.conjugate_gradients import ConjugateGradients
+from viscorough.contact.grid.loops import GridLoops
+from viscorough.contact.halfspace.operator import Halfspace
+from viscorough.contact.preconditioner.multilevel import LEAST_EIGENVALUE, REACH, Preconditioner
 from viscorough.contact.state import BoundedField, ContactSet
 from viscorough.errors import ConvergenceError
 

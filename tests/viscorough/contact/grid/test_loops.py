@@ -6,10 +6,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from viscorough.contact import grid_kernels as kernels
-from viscorough.contact.grid_loops import GridLoops
+from viscorough.contact.grid import kernels
+from viscorough.contact.grid.loops import GridLoops
 from viscorough.contact.parallel import BLOCK
-from viscorough.contact.preconditioner import REACH, load_redistribution_stencil
+from viscorough.contact.preconditioner.multilevel import REACH, load_redistribution_stencil
 
 ROWS, COLUMNS, STRIDE = 400, 700, 716
 WIDTH = COLUMNS + 2 * REACH

@@ -7,8 +7,8 @@ from viscorough import reference
 from viscorough.errors import AccuracyWarning
 from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
-from viscorough.viscous.events import march_events
-from viscorough.viscous.stepping import march_steps
+from viscorough.viscous.integration.events import march_events
+from viscorough.viscous.integration.stepping import march_steps
 
 
 @pytest.fixture(scope="module")

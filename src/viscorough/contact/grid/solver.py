@@ -3,7 +3,7 @@
 The pressure starts from the predictor P + Δu q, and the contact set from the last one and the elements that overlap the
 surface after it, except those that would touch late in the step. With these it would contain the set of the solution:
 between the two depths the contact grows, so that the surface outside it deflects further than predicted. From there
-contact.contact_search iterates for the pressure, and for the tangent from the start of contact.tangent_start.
+contact.grid.search iterates for the pressure, and for the tangent from the start of contact.grid.tangent_start.
 
 Symbols and reduced units are those of contact.state.
 """
@@ -12,11 +12,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from viscorough.contact.contact_search import ContactSearch
-from viscorough.contact.grid_loops import GridLoops, field_to_fill
+from viscorough.contact.grid.loops import GridLoops, field_to_fill
+from viscorough.contact.grid.search import ContactSearch
+from viscorough.contact.grid.tangent_start import Loads, initial_tangent
 from viscorough.contact.options import LATE
 from viscorough.contact.state import BoundedField, ContactState, GridFields
-from viscorough.contact.tangent_start import Loads, initial_tangent
 
 # A box with more than this many times as many rows as columns is transposed: the operator works on blocks of columns,
 # which few columns do not fill.

@@ -7,7 +7,7 @@ types of `state`, whose symbols are used here. Fields are changed in place only 
 import numpy as np
 
 from viscorough.compilation import njit
-from viscorough.contact.preconditioner import REACH
+from viscorough.contact.preconditioner.multilevel import REACH
 
 _TINY = 1e-30
 

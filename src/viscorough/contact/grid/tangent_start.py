@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 import scipy.linalg
 
-from viscorough.contact.grid_loops import field_to_fill
+from viscorough.contact.grid.loops import field_to_fill
 from viscorough.contact.state import BoundedField
 
 

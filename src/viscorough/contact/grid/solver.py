@@ -12,6 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from viscorough.contact.grid import kernels
 from viscorough.contact.grid.loops import GridLoops, field_to_fill
 from viscorough.contact.grid.search import ContactSearch
 from viscorough.contact.grid.tangent_start import Loads, initial_tangent
@@ -86,7 +87,7 @@ class GridSolver:
         predicted = [field_to_fill(self.initial_gap.size, dtype, inner) for dtype in (precision, precision, bool)]
         steps = [precision(step) for step in (depth_step, depth_step * (1 - LATE * depth_step / depth))]
         fields = before.pressure, before.tangent, before.gap_change.values, before.tangent_gap.values, self.initial_gap
-        self._loops.predict(*(field[inner] for field in predicted), *steps, *(field[inner] for field in fields))
+        self._loops.each(kernels.predict, steps, *(field[inner] for field in (*predicted, *fields)))
         rounding = before.gap_change.rounding + depth_step * before.tangent_gap.rounding
         pressure, change, inside = predicted
         return pressure, BoundedField(change, rounding + self._search.field_rounding * depth), inside
@@ -126,8 +127,8 @@ class GridSolver:
         """The ContactState of GridFields at a reduced depth."""
         places, change, tangent = contact_set.places, fields.gap_change, fields.tangent
         inner, residual = self._search.inner, self._search.residual
-        largest = self._loops.gap_on_set(change.values, self.initial_gap, places, residual)
-        overlap = self._loops.largest_overlap(change.values[inner], self.initial_gap[inner])
+        largest = self._loops.largest_gap(change.values, self.initial_gap, residual, places)
+        overlap = max(self._loops.each(kernels.largest_overlap, (), change.values[inner], self.initial_gap[inner]))
         correction = self._loops.inner_product(tangent, residual, places)
         tangent_correction = self._loops.inner_product(tangent, fields.tangent_gap.values, places)
         return ContactState(

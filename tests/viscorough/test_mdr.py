@@ -36,16 +36,6 @@ def assert_exact(curve, line):
     assert curve.depth[0] > 0
 
 
-@pytest.mark.parametrize(("hurst", "dtype"), [(0.0, np.float32), (1.0, np.float64)])
-def test_levels_are_exact(hurst, dtype):
-    line = self_affine_line(hurst, 3000, rms=0.3, length=7.0, seed=5, dtype=dtype)
-    curve = reduce(line)
-    assert_exact(curve, line)
-    assert curve.contact_count[-1] == curve.elements == 3000
-    assert (curve.method, curve.operator_applications) == ("reduction", 0)
-    np.testing.assert_array_equal(curve.residual, np.zeros(curve.depth.size))
-
-
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 def test_compiled_binning_agrees_with_numpy(dtype):
     heights = self_affine_line(0.6, 5001, seed=6, dtype=dtype).heights

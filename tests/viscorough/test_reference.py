@@ -90,15 +90,6 @@ def test_reduction_of_dimensionality_of_a_power_law(coefficient, exponent):
     assert foundation == pytest.approx(body.force(depth), rel=1e-11)
 
 
-def test_sphere_is_hertz_and_cone_is_love():
-    depth, radius, slope = np.geomspace(1e-3, 10, 5), 2.5, 0.3
-    sphere, cone = reference.sphere(radius), reference.cone(slope)
-    np.testing.assert_allclose(sphere.force(depth), 16 / 3 * np.sqrt(radius) * depth**1.5, rtol=1e-14)
-    np.testing.assert_allclose(sphere.contact_radius(depth), np.sqrt(radius * depth), rtol=1e-14)
-    np.testing.assert_allclose(cone.force(depth), 8 * depth**2 / (np.pi * slope), rtol=1e-14)
-    np.testing.assert_allclose(cone.contact_radius(depth), 2 * depth / (np.pi * slope), rtol=1e-14)
-
-
 def test_depth_of_flat_ellipse_follows_from_its_pressure():
     """Depth at the centre, u = (1/4πG)∫p/r dA in polar coordinates, p = F/(2πab)·(1−x²/a²−y²/b²)^(−1/2)."""
     for a, b in [(1.0, 1.0), (3.0, 2.0), (5.0, 0.4)]:

@@ -125,27 +125,6 @@ def mdr_profile(slope, x):
     return x * quad_vec(lambda angle: slope(x * np.sin(angle)), 0, np.pi / 2, epsrel=1e-12)[0]
 
 
-# ---- exact viscous solutions under a constant force
-
-
-def sphere_penetration(time, radius, force, viscosity):
-    """Depth and velocity of a sphere: u^(3/2) = 3Ft/(16η√R), that is a³ = 3RFt/(16η) (Lee and Radok).
-
-    time : t > 0 since the force was applied, any shape. Returns (u, v = du/dt) of that shape.
-    """
-    depth = (3 * force * time / (16 * viscosity * np.sqrt(radius))) ** (2 / 3)
-    return depth, 2 * depth / (3 * time)
-
-
-def cone_penetration(time, slope, force, viscosity):
-    """Depth and velocity of a cone with `slope` = tanθ: u² = π tanθ Ft/(8η).
-
-    time : t > 0 since the force was applied, any shape. Returns (u, v = du/dt) of that shape.
-    """
-    depth = np.sqrt(np.pi * slope * force * time / (8 * viscosity))
-    return depth, depth / (2 * time)
-
-
 # ---- a sphere in a viscoelastic half-space, whose contact grows and recedes
 
 

@@ -90,6 +90,15 @@ def test_reduction_of_dimensionality_of_a_power_law(coefficient, exponent):
     assert foundation == pytest.approx(body.force(depth), rel=1e-11)
 
 
+def test_sphere_is_hertz_and_cone_is_love():
+    depth, radius, slope = np.geomspace(1e-3, 10, 5), 2.5, 0.3
+    sphere, cone = reference.sphere(radius), reference.cone(slope)
+    np.testing.assert_allclose(sphere.force(depth), 16 / 3 * np.sqrt(radius) * depth**1.5, rtol=1e-14)
+    np.testing.assert_allclose(sphere.contact_radius(depth), np.sqrt(radius * depth), rtol=1e-14)
+    np.testing.assert_allclose(cone.force(depth), 8 * depth**2 / (np.pi * slope), rtol=1e-14)
+    np.testing.assert_allclose(cone.contact_radius(depth), 2 * depth / (np.pi * slope), rtol=1e-14)
+
+
 def test_depth_of_flat_ellipse_follows_from_its_pressure():
     """Depth at the centre, u = (1/4πG)∫p/r dA in polar coordinates, p = F/(2πab)·(1−x²/a²−y²/b²)^(−1/2)."""
     for a, b in [(1.0, 1.0), (3.0, 2.0), (5.0, 0.4)]:
@@ -99,35 +108,6 @@ def test_depth_of_flat_ellipse_follows_from_its_pressure():
         depth_per_force = edge.mean() * 2 * np.pi * (np.pi / 2) / (2 * np.pi * a * b) / (4 * np.pi)
         assert reference.flat_ellipse_stiffness(a, b) == pytest.approx(1 / depth_per_force, rel=1e-12)
     assert reference.flat_disc_stiffness(0.5) == pytest.approx(4.0 * reference.COMPLETE_CONTACT_STIFFNESS, rel=1e-15)
-
-
-@pytest.mark.parametrize(
-    ("penetration", "body"),
-    [(reference.sphere_penetration, reference.sphere), (reference.cone_penetration, reference.cone)],
-)
-def test_viscous_penetration_integrates_the_velocity(penetration, body):
-    """v = F/(η·8a), a flat punch of the current contact radius, is the derivative of the depth (Eq. 1)."""
-    shape, force, viscosity = 0.8, 3.0, 50.0
-    time = np.array([0.1, 1.0, 20.0])
-    depth, velocity = penetration(time, shape, force, viscosity)
-    np.testing.assert_allclose(velocity, force / (viscosity * body(shape).stiffness(depth)), rtol=1e-13)
-    np.testing.assert_allclose(velocity, derivative(lambda t: penetration(t, shape, force, viscosity)[0], time))
-    assert penetration(1e-30, shape, force, viscosity)[0] < 1e-9
-
-
-def test_lee_radok_contact_radius_without_and_with_gamma():
-    """a³ = 3RFt/(16η). A sphere obeys Eq. 3 with α = 1/3; with Γ, depth and velocity are 1/Γ(5/3) = 1.108 too large."""
-    radius, force, viscosity, time = 1.7, 2.0, 30.0, 4.0
-    depth, velocity = reference.sphere_penetration(time, radius, force, viscosity)
-    sphere = reference.sphere(radius)
-    assert sphere.contact_radius(depth) ** 3 == pytest.approx(3 * radius * force * time / (16 * viscosity), rel=1e-13)
-
-    height, diameter, alpha = 0.1, 2.0, 1 / 3  # any: the law of a sphere, written with some h and L
-    x = force * time / (4 * viscosity * height * diameter)
-    zeta = sphere.stiffness(depth) / (4 * diameter) / x**alpha
-    assert height * reference.depth_law(x, zeta, alpha) == pytest.approx(depth, rel=1e-13)
-    assert height / time * reference.velocity_law(x, zeta, alpha) == pytest.approx(velocity, rel=1e-13)
-    assert height * reference.depth_law(x, zeta, alpha, gamma=True) == pytest.approx(1.1077 * depth, rel=1e-4)
 
 
 @pytest.mark.parametrize("hurst", [0.1, 0.9])

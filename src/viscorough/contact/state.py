@@ -263,11 +263,6 @@ class ContactState:
         return self.member_loads().pressure
 
     @property
-    def tangent(self):
-        """q = dP/du on the members, shape (count,)."""
-        return self.member_loads().tangent
-
-    @property
     def depth(self):
         """Depth u [length]."""
         return self.reduced_depth * self.units.length

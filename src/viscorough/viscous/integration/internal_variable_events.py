@@ -46,11 +46,9 @@ def march_medium_events(indenter, medium, times, *, force=None, depth=None, unti
     recedes (march_medium goes on there); ConvergenceError if more elements touch than until_fraction allows or one of
     them comes under tension; MemoryError if 8 (until_fraction · elements)² bytes are not available.
     """
-    if not hasattr(medium, "relaxation"):
-        raise ValueError(f"march_medium_events: {type(medium).__name__}; allowed: media of springs and dashpots")
     if not 0 < until_fraction <= 1:
         raise ValueError(f"march_medium_events: until_fraction must lie in (0, 1], not {until_fraction!r}")
-    times, load = load_samples("march_medium_events", times, force, depth)
+    times, load = load_samples("march_medium_events", medium, times, force, depth)
     elements = elements_of_map(indenter, "march_medium_events")
     contact = _GrowingContact(elements, medium.relaxation, int(np.ceil(until_fraction * elements.count)))
     law = _ByForce(medium.relaxation, elements.scale) if depth is None else _ByDepth(medium.relaxation)

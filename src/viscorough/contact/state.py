@@ -16,6 +16,7 @@ unit of length; such quantities are called reduced. `Units` holds the factors th
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -161,8 +162,7 @@ class BoundedField:
     rounding: float
 
 
-@dataclass(frozen=True)
-class ContactSet:
+class ContactSet(NamedTuple):
     """The elements of a grid that are in contact.
 
     inside : for every place of the flat grid, whether it is in contact
@@ -175,8 +175,7 @@ class ContactSet:
     slots: np.ndarray
 
 
-@dataclass(frozen=True)
-class MemberLoads:
+class MemberLoads(NamedTuple):
     """A dense solution: loads of the elements in contact.
 
     members : elements in contact, as ranks, increasing, shape (count,)

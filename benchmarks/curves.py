@@ -17,8 +17,8 @@ import pandas as pd
 from measuring import command, turns
 
 from viscorough import indent, self_affine_disc
-from viscorough.contact.column_fft import ColumnConvolution, good_length
-from viscorough.contact.halfspace import Halfspace
+from viscorough.contact.halfspace.column_fft import ColumnConvolution, good_length
+from viscorough.contact.halfspace.operator import Halfspace
 from viscorough.lines import SelfAffineLines
 from viscorough.mdr import reduce_heights
 from viscorough_study.performance import timing
@@ -27,14 +27,14 @@ ELEMENTS, UNTIL, UNTIL_X = 257, 0.9, 30.0
 POINTS = 4_000_000  # of a line
 # Functions whose share of the time is measured, by the part of the computation that they are.
 PARTS_OF_CURVE = {
-    "operator": ("viscorough.contact.halfspace.Halfspace.apply",),
+    "operator": ("viscorough.contact.halfspace.operator.Halfspace.apply",),
     "preconditioner": (
-        "viscorough.contact.preconditioner.Preconditioner.prepare",
-        "viscorough.contact.preconditioner.Preconditioner.apply",
+        "viscorough.contact.preconditioner.multilevel.Preconditioner.prepare",
+        "viscorough.contact.preconditioner.multilevel.Preconditioner.apply",
     ),
     "dense": ("viscorough.contact.dense.solve", "viscorough.contact.dense.follow_events"),
     "setup": (
-        "viscorough.contact.grid_solver.GridSolver.__init__",
+        "viscorough.contact.grid.solver.GridSolver.__init__",
         "viscorough.contact.solver.ContactSolver.__init__",
     ),
 }

@@ -16,7 +16,7 @@ Popov and Heß 2015 (method of reduction of dimensionality, MDR).
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.integrate import quad, quad_vec
+from scipy.integrate import quad
 from scipy.optimize import brentq
 from scipy.special import ellipk
 from scipy.special import gamma as gamma_function
@@ -110,40 +110,6 @@ def flat_ellipse_stiffness(major, minor):
 def flat_disc_stiffness(radius):
     """k/G = 8a [length] of a flat disc of radius a; the force is k u at every depth u."""
     return flat_ellipse_stiffness(radius, radius)
-
-
-def mdr_profile(slope, x):
-    """One-dimensional profile g of the MDR for any body of revolution z = f(r) (the paper's refs. 24 and 25).
-
-    g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr = |x| ∫₀^(π/2) f′(|x| sin φ) dφ, with which the one-dimensional
-    foundation has the depth, force F/G = 4∫(u − g)₊dx and stiffness of the half-space, exactly.
-
-    slope : f′(r), a function of an array of radii r ≥ 0
-    x : positions, any shape
-    """
-    x = np.abs(x)
-    return x * quad_vec(lambda angle: slope(x * np.sin(angle)), 0, np.pi / 2, epsrel=1e-12)[0]
-
-
-# ---- exact viscous solutions under a constant force
-
-
-def sphere_penetration(time, radius, force, viscosity):
-    """Depth and velocity of a sphere: u^(3/2) = 3Ft/(16η√R), that is a³ = 3RFt/(16η) (Lee and Radok).
-
-    time : t > 0 since the force was applied, any shape. Returns (u, v = du/dt) of that shape.
-    """
-    depth = (3 * force * time / (16 * viscosity * np.sqrt(radius))) ** (2 / 3)
-    return depth, 2 * depth / (3 * time)
-
-
-def cone_penetration(time, slope, force, viscosity):
-    """Depth and velocity of a cone with `slope` = tanθ: u² = π tanθ Ft/(8η).
-
-    time : t > 0 since the force was applied, any shape. Returns (u, v = du/dt) of that shape.
-    """
-    depth = np.sqrt(np.pi * slope * force * time / (8 * viscosity))
-    return depth, depth / (2 * time)
 
 
 # ---- a sphere in a viscoelastic half-space, whose contact grows and recedes

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from viscorough.contact.influence import influence_coefficient
+from viscorough.contact.halfspace.influence import influence_coefficient
 
 
 def influence_matrix(row, column, aspect=1.0):

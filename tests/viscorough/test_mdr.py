@@ -1,4 +1,4 @@
-"""MDR of lines against sums over their sorted gaps, and against the exact solutions of round indenters."""
+"""MDR of lines against sums over their sorted gaps, and lines of maps against the spectra of these."""
 
 import numpy as np
 import pytest
@@ -34,16 +34,6 @@ def assert_exact(curve, line):
     np.testing.assert_allclose(curve.force, force, rtol=1e-12)
     assert np.all(np.diff(curve.depth) > 0)
     assert curve.depth[0] > 0
-
-
-@pytest.mark.parametrize(("hurst", "dtype"), [(0.0, np.float32), (1.0, np.float64)])
-def test_levels_are_exact(hurst, dtype):
-    line = self_affine_line(hurst, 3000, rms=0.3, length=7.0, seed=5, dtype=dtype)
-    curve = reduce(line)
-    assert_exact(curve, line)
-    assert curve.contact_count[-1] == curve.elements == 3000
-    assert (curve.method, curve.operator_applications) == ("reduction", 0)
-    np.testing.assert_array_equal(curve.residual, np.zeros(curve.depth.size))
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
@@ -123,35 +113,6 @@ def test_curve_stops_at_fraction_or_force():
     beyond = reduce(line, until_force=10 * full.force[-1])
     np.testing.assert_array_equal(beyond.force, np.append(full.force, 10 * full.force[-1]))
     assert_exact(beyond, line)
-
-
-# MDR profiles g(x) of z = r²/2R and z = r tan θ, and F/G with E* = 4G (R = 1, tan θ = 1)
-ROUND = {
-    "sphere": (lambda x: x**2, lambda u: 16 / 3 * u**1.5),
-    "cone": (lambda x: np.pi / 2 * np.abs(x), lambda u: 8 * u**2 / np.pi),
-}
-
-
-@pytest.mark.parametrize("shape", ROUND)
-def test_round_indenters_at_second_order(shape):
-    """The sum is a trapezoidal rule for a function with kinks at the contact's ends: second order in Δx.
-
-    Its error at one depth depends on where the ends lie between points, the mean square over depths does not.
-    The bins are wide enough that the same depths are levels on every grid.
-    """
-    profile, exact_force = ROUND[shape]
-    halves = 3 ** np.arange(5, 9)
-    errors = []
-    for half in halves:
-        x = np.arange(-half, half + 1) / half
-        curve = reduce(Indenter(-profile(x), 1 / half), bins_per_octave=16)
-        inside = (curve.depth > 0.06 * profile(1.0)) & (curve.depth < profile(1.0))
-        assert inside.sum() == 65
-        error = curve.force[inside] / exact_force(curve.depth[inside]) - 1
-        errors.append(np.sqrt(np.mean(error**2)))
-    order = -np.polyfit(np.log(halves), np.log(errors), 1)[0]
-    assert order == pytest.approx(2, abs=0.1)
-    assert errors[-1] < 1e-6
 
 
 def test_bad_options():

@@ -79,11 +79,8 @@ def test_power_law_body_is_consistent(coefficient, exponent):
 
 @pytest.mark.parametrize(("coefficient", "exponent"), BODIES)
 def test_reduction_of_dimensionality_of_a_power_law(coefficient, exponent):
-    """κ_n against the transform by quadrature, and the foundation 4∫(u−g)₊dx against the force."""
+    """The foundation 4∫(u−g)₊dx against the force."""
     body = reference.PowerLawBody(coefficient, exponent)
-    x = np.array([-1.3, 0.0, 0.02, 0.5, 4.0])
-    profile = reference.mdr_profile(lambda r: coefficient * exponent * r ** (exponent - 1), x)
-    np.testing.assert_allclose(profile, body.mdr_profile(x), rtol=1e-10)
     depth = 0.35
     radius = body.contact_radius(depth)
     foundation = 8 * quad(lambda x: depth - body.mdr_profile(x), 0, radius, epsabs=0, epsrel=1e-12)[0]
@@ -108,35 +105,6 @@ def test_depth_of_flat_ellipse_follows_from_its_pressure():
         depth_per_force = edge.mean() * 2 * np.pi * (np.pi / 2) / (2 * np.pi * a * b) / (4 * np.pi)
         assert reference.flat_ellipse_stiffness(a, b) == pytest.approx(1 / depth_per_force, rel=1e-12)
     assert reference.flat_disc_stiffness(0.5) == pytest.approx(4.0 * reference.COMPLETE_CONTACT_STIFFNESS, rel=1e-15)
-
-
-@pytest.mark.parametrize(
-    ("penetration", "body"),
-    [(reference.sphere_penetration, reference.sphere), (reference.cone_penetration, reference.cone)],
-)
-def test_viscous_penetration_integrates_the_velocity(penetration, body):
-    """v = F/(η·8a), a flat punch of the current contact radius, is the derivative of the depth (Eq. 1)."""
-    shape, force, viscosity = 0.8, 3.0, 50.0
-    time = np.array([0.1, 1.0, 20.0])
-    depth, velocity = penetration(time, shape, force, viscosity)
-    np.testing.assert_allclose(velocity, force / (viscosity * body(shape).stiffness(depth)), rtol=1e-13)
-    np.testing.assert_allclose(velocity, derivative(lambda t: penetration(t, shape, force, viscosity)[0], time))
-    assert penetration(1e-30, shape, force, viscosity)[0] < 1e-9
-
-
-def test_lee_radok_contact_radius_without_and_with_gamma():
-    """a³ = 3RFt/(16η). A sphere obeys Eq. 3 with α = 1/3; with Γ, depth and velocity are 1/Γ(5/3) = 1.108 too large."""
-    radius, force, viscosity, time = 1.7, 2.0, 30.0, 4.0
-    depth, velocity = reference.sphere_penetration(time, radius, force, viscosity)
-    sphere = reference.sphere(radius)
-    assert sphere.contact_radius(depth) ** 3 == pytest.approx(3 * radius * force * time / (16 * viscosity), rel=1e-13)
-
-    height, diameter, alpha = 0.1, 2.0, 1 / 3  # any: the law of a sphere, written with some h and L
-    x = force * time / (4 * viscosity * height * diameter)
-    zeta = sphere.stiffness(depth) / (4 * diameter) / x**alpha
-    assert height * reference.depth_law(x, zeta, alpha) == pytest.approx(depth, rel=1e-13)
-    assert height / time * reference.velocity_law(x, zeta, alpha) == pytest.approx(velocity, rel=1e-13)
-    assert height * reference.depth_law(x, zeta, alpha, gamma=True) == pytest.approx(1.1077 * depth, rel=1e-4)
 
 
 @pytest.mark.parametrize("hurst", [0.1, 0.9])

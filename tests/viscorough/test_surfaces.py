@@ -118,13 +118,6 @@ def test_corners(points):
     assert np.ptp(power[inside] / filled[inside]) < 1e-9  # only scaled
 
 
-def test_disc_of_257():
-    disc = self_affine_disc(0.4, seed=1)
-    assert disc.elements == 51433
-    assert disc.heights.shape == (257, 257)
-    assert disc.spacing == 1 / 257
-
-
 @pytest.mark.parametrize("n", [1, 4, 5, 33])
 def test_cut_disc(n):
     square = np.arange(40.0**2).reshape(40, 40)

@@ -120,7 +120,7 @@ def test_reworded_docstrings_and_comments_rerun_nothing(editable):
 
 def test_a_changed_line_of_the_column_convolution_reruns_what_uses_boundary_elements(editable):
     """And what depends on it, but neither lines nor example discs."""
-    edit(editable / "src/viscorough/contact/column_fft.py", with_another_statement)
+    edit(editable / "src/viscorough/contact/halfspace/column_fft.py", with_another_statement)
     after = {"pool_curves", "measure_plateaus", "plot_direct", "plot_reduction", "check_validation", "plot_validation"}
     after |= {"plot_failure_map", "plot_level_placement", *SPEED, *MEDIA, *INTERFACE, *LAST}
     assert set(plan(editable, *TEST)) == BOUNDARY_ELEMENTS | FITS_AND_FIGURES | SIZES | after

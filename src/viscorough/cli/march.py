@@ -114,8 +114,8 @@ def _in_viscous_medium(indenter, method, viscosity, force, times, history, **opt
 
     from viscorough import units
     from viscorough.io import motion
-    from viscorough.viscous.events import march_events
-    from viscorough.viscous.stepping import march_steps
+    from viscorough.viscous.integration.events import march_events
+    from viscorough.viscous.integration.stepping import march_steps
 
     if indenter.length_unit != units.UNKNOWN:
         viscosity *= units.metres(indenter.length_unit) ** 2
@@ -134,8 +134,8 @@ def _in_medium(indenter, method, medium, force, times, history, **options):
     """Content of the output for a viscoelastic medium."""
     from viscorough.io import motion
     from viscorough.io.media import read_medium
-    from viscorough.viscous.internal_variable_events import march_medium_events
-    from viscorough.viscous.internal_variables import march_medium
+    from viscorough.viscous.integration.internal_variable_events import march_medium_events
+    from viscorough.viscous.integration.internal_variables import march_medium
 
     law = read_medium(medium, indenter.length_unit)
     times, forces = history[:2] if history else ([0.0, *times], [force] * (1 + len(times)))

@@ -4,7 +4,7 @@ Elements are identified by their rank in the order of increasing initial gap, so
 given depth are the first ones.
 """
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import scipy.linalg
@@ -24,8 +24,7 @@ _MAX_ITERATIONS = 100
 _NEVER = 1e300
 
 
-@dataclass(frozen=True)
-class ContactEvents:
+class ContactEvents(NamedTuple):
     """Depths at which elements touch, one after the other; reduced, arrays of shape (events,).
 
     depth, pressure_sum, tangent_sum : u, ΣP and Σq
@@ -68,7 +67,7 @@ def _deflections(influence, row, column, members, pressure, tangent, targets):
 
 def gap_at_all(elements, contact):
     """Reduced gap e between the deformed surfaces at every element, by rank."""
-    deflection, _ = _deflections_at(elements, *_loads(contact), np.arange(elements.count))
+    deflection, _ = _deflections_at(elements, *contact.member_loads(), np.arange(elements.count))
     return deflection - contact.reduced_depth + elements.initial_gap
 
 
@@ -83,7 +82,7 @@ def solve(elements, contact, depth, candidates, max_count):
     if candidates > max_count and not 0 < contact.count < max_count:
         return None  # the contact only grows
     depth_step, others = depth - contact.reduced_depth, _without(np.arange(candidates), contact.members)
-    deflection, rate = _deflections_at(elements, *_loads(contact), others)
+    deflection, rate = _deflections_at(elements, *contact.member_loads(), others)
     gap = deflection - contact.reduced_depth + elements.initial_gap[others]
     # Rounding must not decide: an element whose gap or pressure is zero to rounding keeps its state.
     overlap = -ROUNDING * depth
@@ -111,7 +110,7 @@ def follow_events(elements, contact, most, pressure_sum):
 
     Until the next element touches, pressures grow at the constant tangent q, so that depths are exact. Every element
     that touches adds a row to the Cholesky factor of the influence matrix, so that hundreds of events cost as much as a
-    few dense solutions. The same recursion in time integrates the viscous problem (viscous.events).
+    few dense solutions. The same recursion in time integrates the viscous problem (viscous.integration.events).
 
     most : number of elements in contact at which to stop
     pressure_sum : reduced ΣP at which to stop
@@ -147,12 +146,6 @@ def _last_contact(elements, units, events, members, factor):
 def _deflections_at(elements, *loads_and_targets):
     """`_deflections` of the elements."""
     return _deflections(elements.influence, elements.row, elements.column, *loads_and_targets)
-
-
-def _loads(contact):
-    """Members of a contact, their P and their q."""
-    loads = contact.member_loads()
-    return loads.members, loads.pressure, loads.tangent
 
 
 def _without(elements, members):

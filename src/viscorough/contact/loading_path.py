@@ -166,10 +166,9 @@ class _LoadingPath:
             return
         most = min(self._control.events, int(np.ceil(self._until_count)))
         events, self._contact = self._solver.follow_events(contact, most, self._until_pressure_sum)
-        columns = events.depth, events.pressure_sum, events.tangent_sum, events.count
         if events.depth.size and events.depth[0] <= contact.reduced_depth * (1 + ROUNDING):
             self._levels.pop()  # more elements touch at exactly that depth
-        self._levels += [Level(*event) for event in zip(*columns, strict=True)]
+        self._levels += [Level(*event) for event in zip(*events, strict=True)]
         nearest = self._control.min_ratio * self._contact.reduced_depth
         self._ahead = ContactsAhead(contact for contact in self._ahead if contact.reduced_depth > nearest)
 

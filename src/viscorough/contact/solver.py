@@ -11,9 +11,9 @@ from dataclasses import replace
 import numpy as np
 
 from viscorough.contact import dense
-from viscorough.contact.grid_loops import GridLoops
-from viscorough.contact.grid_solver import GridSolver
-from viscorough.contact.memory_demand import require_for_contact
+from viscorough.contact.grid.loops import GridLoops
+from viscorough.contact.grid.memory_demand import require_for_contact
+from viscorough.contact.grid.solver import GridSolver
 from viscorough.contact.options import DEFAULT
 from viscorough.contact.parallel import require_threads
 from viscorough.contact.state import ContactState, MemberLoads, elements_of

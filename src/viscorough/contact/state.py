@@ -16,10 +16,11 @@ unit of length; such quantities are called reduced. `Units` holds the factors th
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
-from viscorough.contact.influence import influence_table
+from viscorough.contact.halfspace.influence import influence_table
 from viscorough.contact.parallel import BLOCK, run_blocks
 
 # Values from which the ranges that threads sort are chosen, and the largest number of ranges.
@@ -161,8 +162,7 @@ class BoundedField:
     rounding: float
 
 
-@dataclass(frozen=True)
-class ContactSet:
+class ContactSet(NamedTuple):
     """The elements of a grid that are in contact.
 
     inside : for every place of the flat grid, whether it is in contact
@@ -175,8 +175,7 @@ class ContactSet:
     slots: np.ndarray
 
 
-@dataclass(frozen=True)
-class MemberLoads:
+class MemberLoads(NamedTuple):
     """A dense solution: loads of the elements in contact.
 
     members : elements in contact, as ranks, increasing, shape (count,)
@@ -261,11 +260,6 @@ class ContactState:
     def reduced_pressure(self):
         """P on the members, shape (count,)."""
         return self.member_loads().pressure
-
-    @property
-    def tangent(self):
-        """q = dP/du on the members, shape (count,)."""
-        return self.member_loads().tangent
 
     @property
     def depth(self):

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from viscorough.contact.grid_loops import GridLoops
+from viscorough.contact.grid import kernels
+from viscorough.contact.grid.loops import GridLoops
 from viscorough.loading_curve import interpolate_between
 
 # Smallest accuracy of interpolation that is offered: a smaller one would require every contact event as a level, as in
@@ -195,7 +196,8 @@ def _predicted_touches(before, after, share, threads):
         return 0, 0.0, 0.0, np.zeros(share.size)
     fields = before.fields.gap_change.values, before.fields.initial_gap, before.fields.tangent_gap.values
     width = after.reduced_depth - before.reduced_depth
-    weight, rise, *above_tangent = GridLoops(threads).touch_sums(*fields, place, pressure, tangent, width, share)
+    sums = GridLoops(threads).each(kernels.touch_sums, (*fields, width, share), place, pressure, tangent)
+    weight, rise, *above_tangent = sum(sums)
     return place.size, weight, rise, np.array(above_tangent)
 
 

@@ -46,7 +46,7 @@ def _of_levels(length_unit, **values):
 
 
 def integration_to_content(integration, force_per_viscosity):
-    """A direct integration (viscous.events.Events or viscous.stepping.Steps) under constant force as a Content.
+    """A direct integration (Events or Steps of viscous.integration) under constant force as a Content.
 
     force_per_viscosity : F/η; the time is the impulse over the viscosity, divided by it
     """
@@ -61,8 +61,8 @@ def integration_to_content(integration, force_per_viscosity):
 def integration_under_history(integration, history, viscosity):
     """A direct integration under a force history as a Content; its levels are the times of the history.
 
-    integration : viscous.events.Events, or viscous.stepping.Steps that end at every impulse of the history above zero,
-        over the viscosity
+    integration : Events of viscous.integration, or Steps that end at every impulse of the history above zero, over the
+        viscosity
     history : viscous.correspondence.ForceHistory
 
     Raises ValueError for an impulse beyond the last event.
@@ -88,7 +88,7 @@ def integration_under_history(integration, history, viscosity):
 def medium_motion_to_content(motion):
     """A direct integration in a viscoelastic medium as a Content over its times.
 
-    motion : viscous.internal_variables.MediumMotion
+    motion : viscous.integration.internal_variables.MediumMotion
     """
     unit = motion.length_unit
     variables = {"time": _time(motion.time), **_of_levels(unit, depth=motion.depth)}

@@ -20,7 +20,6 @@ the sphere). Where Φ decreases the contact recedes, and the correspondence ends
 """
 
 from dataclasses import dataclass
-from numbers import Real
 from typing import NamedTuple
 
 import numpy as np
@@ -90,7 +89,7 @@ def kinetics(curve, force, medium=None, times=None, *, viscosity=None):
     """
     if (medium is None) == (viscosity is None):
         raise ValueError("kinetics: one of medium and viscosity is needed")
-    medium = _newtonian(viscosity if medium is None else medium)
+    medium = medium_of(viscosity if medium is None else medium)
     if times is None and isinstance(force, ForceHistory):
         times = force.times
     constant = np.ndim(force) == 0
@@ -106,15 +105,6 @@ def kinetics(curve, force, medium=None, times=None, *, viscosity=None):
     depth, stiffness = _at_elastic_force(curve, creep, times)
     with np.errstate(invalid="ignore"):
         return Kinetics(times, depth, np.where(creep == 0, 0.0, np.maximum(rate, 0) / stiffness))
-
-
-def _newtonian(medium):
-    """The medium; a bare number that is no viscosity is refused as such."""
-    if not hasattr(medium, "creep_compliance") and not (
-        np.ndim(medium) == 0 and isinstance(medium, Real) and np.isfinite(medium) and medium > 0
-    ):
-        raise ValueError(f"viscosity: {medium}; allowed: a finite number above 0")
-    return medium_of(medium)
 
 
 def _newtonian_kinetics(curve, force, viscosity, times):

@@ -12,7 +12,7 @@ from scipy.special import gamma as gamma_function
 from viscorough import reference
 from viscorough.contact.loading_path import indent
 from viscorough.surfaces import self_affine_disc
-from viscorough.viscous.events import march_events
+from viscorough.viscous.integration.events import march_events
 from viscorough_study.run.seeds import gamma_factor_key, realization_seed
 
 COLUMNS = {

@@ -15,8 +15,8 @@ from viscorough.contact.loading_path import indent
 from viscorough.contact.options import DEFAULT
 from viscorough.mdr import reduce
 from viscorough.surfaces import self_affine_line
-from viscorough.viscous.events import march_events
-from viscorough.viscous.stepping import SCHEMES, march_steps
+from viscorough.viscous.integration.events import march_events
+from viscorough.viscous.integration.stepping import SCHEMES, march_steps
 from viscorough_study.performance import ablations, other_solvers
 
 

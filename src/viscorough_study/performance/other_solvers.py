@@ -32,7 +32,7 @@ from pathlib import Path
 import numpy as np
 from scipy.fft import next_fast_len
 
-from viscorough.contact.halfspace import Halfspace
+from viscorough.contact.halfspace.operator import Halfspace
 
 
 @dataclass(frozen=True)

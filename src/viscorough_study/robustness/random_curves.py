@@ -11,7 +11,7 @@ from viscorough.contact.step_control import FINEST_ACCURACY
 from viscorough.errors import AccuracyWarning
 from viscorough.indenter import Indenter
 from viscorough.viscous.correspondence import kinetics
-from viscorough.viscous.events import march_events
+from viscorough.viscous.integration.events import march_events
 from viscorough_study.robustness.random_heights import random_heights, with_random_aspect
 
 _LARGEST = 32  # elements across

@@ -8,7 +8,7 @@ from viscorough.contact.options import DEFAULT
 from viscorough.contact.solver import ContactSolver
 from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
-from viscorough.viscous.events import march_events
+from viscorough.viscous.integration.events import march_events
 from viscorough_study.performance.ablations import GRID_ONLY
 from viscorough_study.robustness.random_heights import random_heights, with_random_aspect
 

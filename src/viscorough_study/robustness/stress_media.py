@@ -10,8 +10,8 @@ import numpy as np
 
 from viscorough.contact.loading_path import indent
 from viscorough.viscous.correspondence import impulses, kinetics
-from viscorough.viscous.internal_variable_events import march_medium_events
-from viscorough.viscous.internal_variables import march_medium
+from viscorough.viscous.integration.internal_variable_events import march_medium_events
+from viscorough.viscous.integration.internal_variables import march_medium
 from viscorough.viscous.media import Newtonian
 
 TOLERANCE = 1e-6  # of loading curves

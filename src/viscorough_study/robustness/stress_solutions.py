@@ -20,8 +20,8 @@ from viscorough.errors import AccuracyWarning
 from viscorough.mdr import reduce
 from viscorough.surfaces import self_affine_line
 from viscorough.viscous.correspondence import impulses, kinetics
-from viscorough.viscous.events import march_events
-from viscorough.viscous.stepping import march_steps
+from viscorough.viscous.integration.events import march_events
+from viscorough.viscous.integration.stepping import march_steps
 from viscorough_study.performance.ablations import DENSE_ONLY, GRID_ONLY, NO_PADDING
 from viscorough_study.robustness.stress_media import TOLERANCE, by_correspondence, by_steps
 

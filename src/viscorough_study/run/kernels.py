@@ -15,7 +15,7 @@ def compile_kernels():
     from viscorough.lines import SelfAffineLines
     from viscorough.mdr import reduce_heights
     from viscorough.surfaces import self_affine_disc
-    from viscorough.viscous.events import march_events
+    from viscorough.viscous.integration.events import march_events
 
     indent(self_affine_disc(0.6, 129, seed=0))
     march_events(self_affine_disc(0.6, 17, seed=0))

@@ -12,7 +12,7 @@ from viscorough.contact.loading_path import indent
 from viscorough.contact.one_contact import contact_at
 from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
-from viscorough.viscous.internal_variables import march_medium
+from viscorough.viscous.integration.internal_variables import march_medium
 from viscorough.viscous.media import Newtonian
 from viscorough_study.fits.intervals import NO_INTERVAL
 from viscorough_study.run.seeds import gamma_factor_key, realization_seed

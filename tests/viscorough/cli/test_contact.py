@@ -5,7 +5,7 @@ import pytest
 
 from support.command_line import run
 from support.contract import complaint
-from viscorough.contact.influence import influence_coefficient
+from viscorough.contact.halfspace.influence import influence_coefficient
 from viscorough.io import netcdf
 from viscorough.surfaces import self_affine_disc
 

@@ -1,12 +1,11 @@
-"""The elastic loading path against exact solutions, a dense solution of the contact problem, and itself."""
+"""The elastic loading path against exact solutions, and itself."""
 
 import numpy as np
 import pytest
-from scipy.optimize import nnls
 
 from support.influence import influence_matrix
 from viscorough import reference
-from viscorough.contact.influence import influence_coefficient
+from viscorough.contact.halfspace.influence import influence_coefficient
 from viscorough.contact.loading_path import indent
 from viscorough.contact.one_contact import contact_at
 from viscorough.contact.options import SolverOptions
@@ -14,24 +13,12 @@ from viscorough.contact.solver import ContactSolver
 from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
-from viscorough.viscous.events import march_events
+from viscorough.viscous.integration.events import march_events
 from viscorough_study.performance.other_solvers import residual_of
 
 
 def observed_order(elements, errors):
     return -np.polyfit(np.log(elements), np.log(np.abs(errors)), 1)[0]
-
-
-def dense_complementarity(indenter, depth):
-    """Force and stiffness over G by non-negative least squares with the Cholesky factor of the dense matrix."""
-    place = np.nonzero(np.isfinite(indenter.heights))
-    matrix = influence_matrix(*place, indenter.aspect)
-    factor = np.linalg.cholesky(matrix)
-    pressure, _ = nnls(factor.T, np.linalg.solve(factor, depth - indenter.initial_gap[place]), maxiter=10_000)
-    inside = pressure > 0
-    tangent = np.linalg.solve(matrix[np.ix_(inside, inside)], np.ones(inside.sum()))
-    scale = 4 * np.pi * indenter.element_side
-    return scale * pressure.sum(), scale * tangent.sum(), inside.sum()
 
 
 def grid_size(n, aspect):
@@ -74,17 +61,6 @@ def test_bodies_of_revolution_converge(shape, aspect):
     assert max(stiffness[-1], radius[-1]) < 1e-2
 
 
-# Elements along the short and the long side of a rectangle of sides 1 and 2: the elements are stretched.
-@pytest.mark.parametrize(("short", "long"), [(1, 1), (1, 5)])
-def test_flat_rectangle_tends_to_its_exact_stiffness(short, long):
-    """k = 0.531918 · 4πG · (short side), of first order; extrapolated from two grids."""
-    stiffness = []
-    for n in (24, 48):
-        punch = Indenter(np.zeros((n * short, n * long)), (2 / (n * long), 1 / (n * short)))
-        stiffness.append(indent(punch, tolerance=1e-6).stiffness[0] / (4 * np.pi))
-    assert 2 * stiffness[1] - stiffness[0] == pytest.approx(0.531918, rel=2e-3)
-
-
 @pytest.mark.parametrize(("aspect", "ratio"), [(1.0, 1.0), (1.0, 0.5), (0.5, 0.5), (5.0, 0.5)])
 def test_flat_ellipse_converges_at_first_order(aspect, ratio):
     """Mean error over sizes, since that of one ellipse depends on how its edge cuts the grid."""
@@ -102,18 +78,7 @@ def test_flat_ellipse_converges_at_first_order(aspect, ratio):
     assert errors[-1] < 6e-3
 
 
-# ---- against the dense complementarity problem -----------------------------------------------------------------------
-@pytest.mark.parametrize(("hurst", "row_spacing"), [(0.1, 1.0), (0.9, 1.0), (0.5, 0.2), (0.5, 2.0)])
-def test_path_solves_the_dense_problem(hurst, row_spacing):
-    disc = Indenter(self_affine_disc(hurst, 21, seed=5).heights, 1.0, row_spacing)
-    depths = np.nanmax(disc.initial_gap) * np.array([0.1, 0.3, 0.6, 0.9, 1.4])
-    expected = np.array([dense_complementarity(disc, depth) for depth in depths]).T
-    for largest in (400, 0):  # the dense solver, then the grid from the first depth on
-        curve = indent(disc, tolerance=1e-11, depths=depths, options=SolverOptions(dense_contacts=largest))
-        assert (curve.operator_applications > 0) == (largest == 0)
-        np.testing.assert_allclose(curve.force, expected[0], rtol=1e-9)
-        np.testing.assert_allclose(curve.stiffness, expected[1], rtol=1e-3 if largest == 0 else 1e-9)
-        np.testing.assert_array_equal(curve.contact_count, expected[2])
+# ---- accuracy --------------------------------------------------------------------------------------------------------
 
 
 def test_error_of_force_is_of_second_order_in_the_tolerance():
@@ -189,27 +154,6 @@ def test_first_level_is_one_element_in_contact():
     assert curve.stiffness[0] == pytest.approx(stiffness, rel=1e-12)
     assert curve.stiffness[0] == pytest.approx(4 * reference.one_element_stiffness(65), rel=1e-12)
     assert curve.force[0] == pytest.approx(stiffness * curve.depth[0], rel=1e-12)
-
-
-@pytest.mark.parametrize(
-    "heights",
-    [
-        np.array([[0.0]]),
-        np.array([[1.0, np.nan, np.nan], [np.nan, np.nan, 0.5]]),
-        np.array([[0.0, 0.0], [0.0, 1.0]]),
-        np.floor(3 * np.random.default_rng(1).random((12, 12))),
-    ],
-    ids=["one element", "two far apart", "row and column edges", "terraces"],
-)
-def test_small_and_tied_indenters(heights):
-    indenter = Indenter(heights, 1.0)
-    curve = indent(indenter, tolerance=1e-6, until_fraction=1.0)
-    assert curve.contact_fraction[-1] == 1.0
-    force, stiffness, count = dense_complementarity(indenter, 2 * curve.depth[-1])
-    level = indent(indenter, tolerance=1e-6, depths=[2 * curve.depth[-1]])
-    assert level.force[0] == pytest.approx(force, rel=1e-6)
-    assert level.stiffness[0] == pytest.approx(stiffness, rel=1e-6)
-    assert level.contact_count[0] == count
 
 
 # ---- refusals --------------------------------------------------------------------------------------------------------

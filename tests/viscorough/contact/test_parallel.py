@@ -8,7 +8,6 @@ from functools import partial
 import numpy as np
 import pytest
 
-from viscorough.contact.halfspace import Halfspace
 from viscorough.contact.loading_path import indent
 from viscorough.contact.one_contact import contact_at
 from viscorough.contact.parallel import Buffers, aligned_zeros, run_blocks
@@ -86,19 +85,6 @@ def test_buffers_in_use_are_different_ones():
         assert first is not second
     with buffers.one() as third:
         assert third is first or third is second
-
-
-@pytest.mark.parametrize("shape", [(400, 700), (3, 100_000)])
-@pytest.mark.parametrize("precision", [np.float32, np.float64])
-def test_the_half_space_is_the_same(shape, precision):
-    load = np.random.default_rng(1).random(shape)
-    results = []
-    for threads in THREADS:
-        halfspace = Halfspace(*shape, precision, threads=threads)
-        halfspace.load[:, : shape[1]] = load
-        results.append(halfspace.apply()[:, : shape[1]].copy())
-    for result in results[1:]:
-        np.testing.assert_array_equal(result, results[0])
 
 
 @pytest.mark.parametrize("digits", [2, 17])

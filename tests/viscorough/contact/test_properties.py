@@ -19,7 +19,7 @@ from viscorough.contact.solver import ContactSolver
 from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
 from viscorough.viscous.correspondence import kinetics
-from viscorough.viscous.events import march_events
+from viscorough.viscous.integration.events import march_events
 
 TOLERANCE = 1e-9
 # The relative error of the force is of second order in the tolerance. That of the stiffness is of second order in the

@@ -32,8 +32,8 @@ def test_an_element_that_loses_contact_in_a_dense_solution_is_an_error():
     contact = solver.advance_reduced(solver.unloaded_state(), 0.5)
     candidates = np.searchsorted(solver.elements.initial_gap, 0.51)
     outside = np.setdiff1d(np.arange(candidates), contact.members)[-1:]
-    members = np.append(contact.members, outside)
-    loads = MemberLoads(members, np.append(contact.reduced_pressure, 0.0), np.append(contact.tangent, -1.0))
+    loads, members = contact.member_loads(), np.append(contact.members, outside)
+    loads = MemberLoads(members, np.append(loads.pressure, 0.0), np.append(loads.tangent, -1.0))
     wrong = replace(contact, count=members.size, loads=loads)
     with pytest.raises(ConvergenceError, match="1 elements lost contact"):
         solver.advance_reduced(wrong, 0.51)

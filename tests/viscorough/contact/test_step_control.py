@@ -10,7 +10,7 @@ from viscorough.contact.step_control import Level, StepControl, division, interp
 from viscorough.indenter import Indenter
 from viscorough.loading_curve import interpolate_levels
 from viscorough.surfaces import self_affine_disc
-from viscorough.viscous.events import march_events
+from viscorough.viscous.integration.events import march_events
 
 
 def springs(gaps, depth):

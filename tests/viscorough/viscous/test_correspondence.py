@@ -31,43 +31,6 @@ def depth_of_sphere(creep):
 # ---- a viscous medium
 
 
-@pytest.mark.parametrize(
-    ("body", "penetration", "shape"),
-    [
-        (reference.sphere, reference.sphere_penetration, RADIUS),
-        (reference.cone, reference.cone_penetration, 0.4),
-    ],
-)
-def test_constant_force_follows_lee_and_radok(body, penetration, shape):
-    for times in (None, np.geomspace(1e-3, 100, 40)):
-        result = kinetics(curve_of_body(body(shape), DEPTHS), 2.5, VISCOSITY, times)
-        depth, velocity = penetration(result.time, shape, 2.5, VISCOSITY)
-        np.testing.assert_allclose(result.depth, depth, rtol=1e-12)
-        np.testing.assert_allclose(result.velocity, velocity, rtol=1e-11)
-
-
-def test_pulses_and_rests(curve):
-    """Three triangular pulses separated by rests, during which nothing moves."""
-    times = np.arange(13.0)
-    force = np.array([0, 3, 0, 0, 0, 1, 0, 0, 0, 5, 0, 0, 0.0])
-    result = kinetics(curve, force, VISCOSITY, times)
-    impulse = np.array([0, 1.5, 3, 3, 3, 3.5, 4, 4, 4, 6.5, 9, 9, 9])
-    np.testing.assert_allclose(result.depth, depth_of_sphere(impulse / VISCOSITY), rtol=1e-12, atol=0)
-    assert (result.velocity[force == 0] == 0).all()
-    assert (result.velocity[force > 0] > 0).all()
-    for rest in ([2, 3, 4], [6, 7, 8], [10, 11, 12]):
-        assert np.ptp(result.depth[rest]) == 0
-
-
-def test_step_of_force(curve):
-    """The force doubles within one rounding of the time: the depth is continuous, the velocity doubles."""
-    before = 2.0
-    after = np.nextafter(before, 3)
-    result = kinetics(curve, [1, 1, 2, 2], VISCOSITY, [0, before, after, 5])
-    np.testing.assert_allclose(result.depth, depth_of_sphere(np.array([0, 2, 2, 8]) / VISCOSITY), rtol=1e-12, atol=0)
-    assert result.velocity[2] == pytest.approx(2 * result.velocity[1], rel=1e-12)
-
-
 def test_varying_force_against_time_integration(curve):
     """du/dt = F(t)/(8η√(Ru)), a flat punch of the present contact radius, integrated in time without the impulse."""
     times = np.linspace(0, 6, 25)
@@ -82,20 +45,6 @@ def test_varying_force_against_time_integration(curve):
         depth = solve_ivp(velocity, times[i : i + 2], [depth], rtol=1e-11, atol=0, method="DOP853").y[0, -1]
         assert depth == pytest.approx(result.depth[i + 1], rel=1e-9)
         assert velocity(times[i + 1], depth) == pytest.approx(result.velocity[i + 1], rel=1e-9)
-
-
-@pytest.mark.parametrize(("length", "clock"), [(1e-12, 1e12), (1e12, 1e-12)])
-def test_invariance_under_change_of_units(length, clock, curve):
-    """The same motion in other units of length, time and viscosity, from which that of the force follows."""
-    viscosity_unit = 1e-12
-    times = np.linspace(0, 4, 9)
-    force = np.array([0, 1, 2, 0, 0, 3, 1, 1, 0.5])
-    expected = kinetics(curve, force, VISCOSITY, times)
-    other = curve_of_body(reference.sphere(RADIUS * length), DEPTHS * length)
-    result = kinetics(other, force * viscosity_unit * length**2 / clock, VISCOSITY * viscosity_unit, times * clock)
-    np.testing.assert_allclose(result.time, times * clock, rtol=1e-15)
-    np.testing.assert_allclose(result.depth, expected.depth * length, rtol=1e-12)
-    np.testing.assert_allclose(result.velocity, expected.velocity * length / clock, rtol=1e-11)
 
 
 def test_times_of_the_levels_reproduce_the_levels(curve):

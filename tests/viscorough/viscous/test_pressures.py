@@ -6,8 +6,8 @@ import pytest
 from support.media import SPRINGS_AND_DASHPOTS as MEDIA
 from viscorough.surfaces import self_affine_disc
 from viscorough.viscous.correspondence import impulses
-from viscorough.viscous.internal_variable_events import march_medium_events
-from viscorough.viscous.internal_variables import MEDIUM_SCHEMES, march_medium
+from viscorough.viscous.integration.internal_variable_events import march_medium_events
+from viscorough.viscous.integration.internal_variables import MEDIUM_SCHEMES, march_medium
 from viscorough.viscous.media import CreepTable, Maxwell, Springpot
 from viscorough.viscous.pressures import pressure_at
 
@@ -19,7 +19,7 @@ def disc():
     return self_affine_disc(0.7, 17, seed=3)
 
 
-@pytest.mark.parametrize("name", MEDIA)
+@pytest.mark.parametrize("name", sorted(set(MEDIA) - set(DASHPOTS)))
 def test_pressures_of_a_ramp_and_a_step(disc, name):
     medium, scale = MEDIA[name], 0.5
     times, force = np.array([0, 0.5, 0.5, 2.0]), scale * np.array([0.1, 0.5, 0.8, 1.0])
@@ -29,11 +29,8 @@ def test_pressures_of_a_ramp_and_a_step(disc, name):
         pressure = pressure_at(disc, medium, impulses(force, times), 2.0, contacts=contacts, tolerance=1e-8)
         assert (np.isnan(pressure) == np.isnan(disc.heights)).all()
         errors.append(np.nanmax(abs(pressure - events.pressure)) / np.nanmax(events.pressure))
-    if name in DASHPOTS:  # exact, whatever the number of contacts
-        assert max(errors) < 1e-7
-    else:
-        assert errors[1] < min(0.02, errors[0])
-    assert np.nansum(pressure) * disc.spacing**2 == pytest.approx(force[-1], rel=1e-12 if name in DASHPOTS else 1e-2)
+    assert errors[1] < min(0.02, errors[0])
+    assert np.nansum(pressure) * disc.spacing**2 == pytest.approx(force[-1], rel=1e-2)
 
 
 HISTORIES = {
@@ -54,7 +51,7 @@ def test_pressures_of_dashpots_are_those_at_the_last_time(name, history):
     assert np.nansum(events.pressure) * disc.spacing**2 == pytest.approx(force[-1], rel=1e-12)
     by_steps = march_medium(disc, medium, times, force=force)
     by_contacts = pressure_at(disc, medium, impulses(force, times), times[-1], tolerance=1e-8)
-    for pressure, accuracy in ((by_steps.pressure, 1e-10), (by_contacts, 1e-6)):
+    for pressure, accuracy in ((by_steps.pressure, 1e-10), (by_contacts, 1e-7)):
         np.testing.assert_allclose(pressure, events.pressure, rtol=0, atol=accuracy * np.nanmax(events.pressure))
         assert np.nansum(pressure) * disc.spacing**2 == pytest.approx(force[-1], rel=1e-12)
 

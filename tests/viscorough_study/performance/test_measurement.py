@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from support.study import LIMITS
-from viscorough.viscous.events import march_events
+from viscorough.viscous.integration.events import march_events
 from viscorough_study.performance import measurement, methods, problems
 
 

@@ -27,7 +27,7 @@ def altered(pressure_sum=1.0, pressure=1.0):
         def advance(self, contact, depth):
             contact = super().advance(contact, depth)
             loads = contact.member_loads()
-            loads = replace(loads, pressure=loads.pressure * pressure)
+            loads = loads._replace(pressure=loads.pressure * pressure)
             return replace(contact, pressure_sum=contact.pressure_sum * pressure_sum, loads=loads)
 
     return Altered

@@ -119,7 +119,7 @@ def test_scripts_of_the_workflow():
     boundary_elements |= {"check_validation", "make_page", "tabulate_large", "tabulate_methods"}
     for script in sorted(path.stem for path in SCRIPTS.glob("*.py")):
         modules = used(script)
-        assert ("viscorough/contact/column_fft.py" in modules) == (script in boundary_elements), script
+        assert ("viscorough/contact/halfspace/column_fft.py" in modules) == (script in boundary_elements), script
         assert any(name.startswith("viscorough_study/figures/") for name in modules) == (script == "plot"), script
     of_lines = {"indent_lines", "compare_reduction", "validate", "map_failures", "measure_methods"}
     of_lines |= {"check_validation", "make_page", "tabulate_methods"}  # by what they describe

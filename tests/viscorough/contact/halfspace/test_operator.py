@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 from scipy.integrate import dblquad
 
 from support.influence import influence_matrix
-from viscorough.contact.halfspace import Halfspace
-from viscorough.contact.influence import influence_coefficient, influence_table
+from viscorough.contact.halfspace.influence import influence_coefficient, influence_table
+from viscorough.contact.halfspace.operator import Halfspace
 from viscorough.contact.options import SolverOptions
 
 

@@ -1,7 +1,7 @@
 """The sparse factor G of the preconditioner, and its products, on the grid of the elements.
 
 Row i of G (in this module not the shear modulus) holds entries for element i and for those of the twelve nearest
-elements before it that are in contact, from a table of all possible rows (contact.factor_entries).
+elements before it that are in contact, from a table of all possible rows (factor_entries).
 
 Entries are stored for the whole grid, one neighbour after the other for every row of it, and are zero where there is no
 contact: loops over a row of the grid then read consecutive numbers and process as many elements at once as a register
@@ -13,8 +13,8 @@ without contact are skipped. Compiled functions take plain arrays, hence many ar
 import numpy as np
 
 from viscorough.compilation import njit
-from viscorough.contact.factor_entries import BEFORE, NEIGHBOURS, REACH, factor_entries
 from viscorough.contact.parallel import BLOCK, run_blocks
+from viscorough.contact.preconditioner.factor_entries import BEFORE, NEIGHBOURS, REACH, factor_entries
 
 # Blocks side by side that are processed together if any of them has elements in contact: wide enough for registers.
 _TOGETHER = 4

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from support.influence import influence_matrix
-from viscorough.contact.grid_solver import GridSolver
+from viscorough.contact.grid.solver import GridSolver
 from viscorough.contact.loading_path import indent
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.solver import ContactSolver

@@ -9,7 +9,8 @@ from typing import NamedTuple
 import numpy as np
 import scipy.linalg
 
-from viscorough.contact.grid_loops import field_to_fill
+from viscorough.contact.grid import kernels
+from viscorough.contact.grid.loops import field_to_fill
 from viscorough.contact.state import BoundedField
 
 
@@ -33,20 +34,21 @@ def initial_tangent(now, last, before, contact_set, inner, loops):
     pressure_weight, last_pressure_weight, tangent_weight = weights
     shift = pressure_weight * now.depth + last_pressure_weight * last.depth + tangent_weight - 1
     tangent, tangent_gap = (field_to_fill(now.pressure.size, now.pressure.dtype, inner) for _ in range(2))
-    fields = (
-        now.pressure, now.gap_change.values, last.pressure, last.gap_change.values,
-        before.tangent, before.tangent_gap.values,
-    )  # fmt: skip
-    loops.combine(tangent[inner], tangent_gap[inner], weights, shift, *(field[inner] for field in fields))
+    fields = tangent, tangent_gap, *_known_fields(now, last, before)
+    loops.each(kernels.combine, (weights, shift), *(field[inner] for field in fields))
     return tangent, BoundedField(tangent_gap, _rounding(weights, now, last, before.tangent_gap.rounding))
+
+
+def _known_fields(now, last, before):
+    """The fields that are combined, each with its deflection."""
+    loads = now.pressure, now.gap_change.values, last.pressure, last.gap_change.values
+    return *loads, before.tangent, before.tangent_gap.values
 
 
 def _weights(now, last, before, contact_set, loops):
     """Weights of pressure, last pressure and last tangent in the combination of them closest to q in energy."""
-    energy, sums = loops.energies(
-        (now.depth, last.depth), now.pressure, now.gap_change.values, last.pressure, last.gap_change.values,
-        before.tangent, before.tangent_gap.values, places=contact_set.places,
-    )  # fmt: skip
+    fixed = (now.depth, last.depth), *_known_fields(now, last, before)
+    energy, sums = (sum(parts) for parts in zip(*loops.each(kernels.energies, fixed, contact_set.places), strict=True))
     if loops.difference(before.inside, contact_set.inside).size:
         # An element left the contact, within the tolerance: fields that load it cannot be part of q.
         energy, sums = energy[:1, :1], sums[:1]

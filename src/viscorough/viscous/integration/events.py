@@ -16,7 +16,7 @@ from viscorough.compilation import njit
 from viscorough.contact.growing_cholesky import append_element, solve_flat_punch
 from viscorough.errors import ConvergenceError
 from viscorough.interrupts import uninterrupted
-from viscorough.viscous.elements import elements_of_map
+from viscorough.viscous.integration.elements import elements_of_map
 
 
 @dataclass(frozen=True)

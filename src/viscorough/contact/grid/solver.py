@@ -3,7 +3,7 @@
 The pressure starts from the predictor P + Δu q, and the contact set from the last one and the elements that overlap the
 surface after it, except those that would touch late in the step. With these it would contain the set of the solution:
 between the two depths the contact grows, so that the surface outside it deflects further than predicted. From there
-contact.contact_search iterates for the pressure, and for the tangent from the start of contact.tangent_start.
+contact.grid.search iterates for the pressure, and for the tangent from the start of contact.grid.tangent_start.
 
 Symbols and reduced units are those of contact.state.
 """
@@ -12,11 +12,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from viscorough.contact.contact_search import ContactSearch
-from viscorough.contact.grid_loops import GridLoops, field_to_fill
+from viscorough.contact.grid import kernels
+from viscorough.contact.grid.loops import GridLoops, field_to_fill
+from viscorough.contact.grid.search import ContactSearch
+from viscorough.contact.grid.tangent_start import Loads, initial_tangent
 from viscorough.contact.options import LATE
 from viscorough.contact.state import BoundedField, ContactState, GridFields
-from viscorough.contact.tangent_start import Loads, initial_tangent
 
 # A box with more than this many times as many rows as columns is transposed: the operator works on blocks of columns,
 # which few columns do not fill.
@@ -86,7 +87,7 @@ class GridSolver:
         predicted = [field_to_fill(self.initial_gap.size, dtype, inner) for dtype in (precision, precision, bool)]
         steps = [precision(step) for step in (depth_step, depth_step * (1 - LATE * depth_step / depth))]
         fields = before.pressure, before.tangent, before.gap_change.values, before.tangent_gap.values, self.initial_gap
-        self._loops.predict(*(field[inner] for field in predicted), *steps, *(field[inner] for field in fields))
+        self._loops.each(kernels.predict, steps, *(field[inner] for field in (*predicted, *fields)))
         rounding = before.gap_change.rounding + depth_step * before.tangent_gap.rounding
         pressure, change, inside = predicted
         return pressure, BoundedField(change, rounding + self._search.field_rounding * depth), inside
@@ -126,8 +127,8 @@ class GridSolver:
         """The ContactState of GridFields at a reduced depth."""
         places, change, tangent = contact_set.places, fields.gap_change, fields.tangent
         inner, residual = self._search.inner, self._search.residual
-        largest = self._loops.gap_on_set(change.values, self.initial_gap, places, residual)
-        overlap = self._loops.largest_overlap(change.values[inner], self.initial_gap[inner])
+        largest = self._loops.largest_gap(change.values, self.initial_gap, residual, places)
+        overlap = max(self._loops.each(kernels.largest_overlap, (), change.values[inner], self.initial_gap[inner]))
         correction = self._loops.inner_product(tangent, residual, places)
         tangent_correction = self._loops.inner_product(tangent, fields.tangent_gap.values, places)
         return ContactState(

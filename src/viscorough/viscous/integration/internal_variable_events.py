@@ -1,7 +1,7 @@
 """Direct integration of growing viscoelastic contact, exact from contact event to contact event.
 
 While the contact set does not change, its elements move with the indenter: y' = q u' with K q = 1 on the set, and the
-internal variables of every element (viscous.internal_variables) follow from those of the sum over all elements,
+internal variables of every element (internal_variables) follow from those of the sum over all elements,
 
     ΣQ = F/(4πd),    (Σy)' = u' Σq,
 
@@ -17,8 +17,8 @@ from scipy.linalg import expm
 from viscorough import memory
 from viscorough.contact.growing_cholesky import append_element, solve_flat_punch
 from viscorough.errors import ConvergenceError
-from viscorough.viscous.elements import elements_of_map
-from viscorough.viscous.internal_variables import MediumMotion, branch_factors, load_samples
+from viscorough.viscous.integration.elements import elements_of_map
+from viscorough.viscous.integration.internal_variables import MediumMotion, branch_factors, load_samples
 
 _TENSION = 1e-9  # relative to the largest pressure
 _ROUNDING = 1e-12  # of the motion in a step in which nothing moves
@@ -46,11 +46,9 @@ def march_medium_events(indenter, medium, times, *, force=None, depth=None, unti
     recedes (march_medium goes on there); ConvergenceError if more elements touch than until_fraction allows or one of
     them comes under tension; MemoryError if 8 (until_fraction · elements)² bytes are not available.
     """
-    if not hasattr(medium, "relaxation"):
-        raise ValueError(f"march_medium_events: {type(medium).__name__}; allowed: media of springs and dashpots")
     if not 0 < until_fraction <= 1:
         raise ValueError(f"march_medium_events: until_fraction must lie in (0, 1], not {until_fraction!r}")
-    times, load = load_samples("march_medium_events", times, force, depth)
+    times, load = load_samples("march_medium_events", medium, times, force, depth)
     elements = elements_of_map(indenter, "march_medium_events")
     contact = _GrowingContact(elements, medium.relaxation, int(np.ceil(until_fraction * elements.count)))
     law = _ByForce(medium.relaxation, elements.scale) if depth is None else _ByDepth(medium.relaxation)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from viscorough.contact.column_fft import ColumnConvolution, good_length
+from viscorough.contact.halfspace.column_fft import ColumnConvolution, good_length
 
 
 @pytest.mark.parametrize("precision", [np.float32, np.float64])

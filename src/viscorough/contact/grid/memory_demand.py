@@ -3,9 +3,9 @@
 import numpy as np
 
 from viscorough import memory
-from viscorough.contact.halfspace import convolution_lengths
+from viscorough.contact.halfspace.operator import convolution_lengths
 from viscorough.contact.parallel import BLOCK
-from viscorough.contact.preconditioner import REACH
+from viscorough.contact.preconditioner.multilevel import REACH
 
 # Bytes of the rank, place, gap and temporary arrays of an element; of a map's entry, while its elements are found.
 _PER_ELEMENT, _PER_HEIGHT = 60, 10

@@ -8,7 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from viscorough.contact.influence import influence_coefficient
+from viscorough.contact.halfspace.influence import influence_coefficient
 
 # Largest distance of a neighbour, in rows or columns: the width of the border that fields need.
 REACH = 2

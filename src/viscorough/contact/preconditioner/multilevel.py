@@ -4,7 +4,7 @@ It is a factorized sparse approximate inverse (FSAI) with a multilevel coarse co
 
 The sparse factor G (in this module not the shear modulus) is lower triangular with G K Gᵀ ≈ 1. Row i of G holds entries
 for element i and for those of the twelve nearest elements before it (in rows and columns) that are in contact, and is
-exact if no other elements are in contact (Kolotilina and Yeremin 1993). How it is stored: contact.sparse_factor.
+exact if no other elements are in contact (Kolotilina and Yeremin 1993). How it is stored: sparse_factor.
 
 The remainder G K Gᵀ − 1 is smooth: it is the deflection by distant loads. The coarse correction represents it on blocks
 of elements, the next grid level. In a block the smooth part acts along one vector, the row sums of G. With W the matrix
@@ -15,8 +15,8 @@ of these vectors, normalised to unit length,
 where a is the length of the vector of row sums in a block, and K couples blocks as it couples elements. The inverse on
 the blocks is approximated in the same way with blocks of blocks, until there are few enough for a dense inverse. The
 eigenvalues of M K lie between 0.35 and 1.4 for contact sets of any shape, with elements five times as long as wide
-between 0.35 and 1.6 (tests/viscorough/contact/test_preconditioner.py); without the coarse correction the largest grows
-with the size of the contact.
+between 0.35 and 1.6 (tests/viscorough/contact/preconditioner/test_multilevel.py); without the coarse correction the
+largest grows with the size of the contact.
 
 Compiled functions take plain arrays, hence their many arguments.
 """
@@ -27,12 +27,12 @@ import numpy as np
 import scipy.linalg
 
 from viscorough.compilation import njit
-from viscorough.contact.factor_entries import BEFORE, NEIGHBOURS, REACH
-from viscorough.contact.influence import influence_coefficient
+from viscorough.contact.halfspace.influence import influence_coefficient
 from viscorough.contact.parallel import run_blocks
-from viscorough.contact.sparse_factor import SparseFactor
+from viscorough.contact.preconditioner.factor_entries import BEFORE, NEIGHBOURS, REACH
+from viscorough.contact.preconditioner.sparse_factor import SparseFactor
 
-# Lower bound of the eigenvalues of M K (tests/viscorough/contact/test_preconditioner.py).
+# Lower bound of the eigenvalues of M K (tests/viscorough/contact/preconditioner/test_multilevel.py).
 LEAST_EIGENVALUE = 0.35
 _ACROSS = 2 * REACH + 1
 # The neighbours of a block of elements: the nearest ones only.

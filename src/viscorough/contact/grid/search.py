@@ -19,10 +19,11 @@ which the operator is applied anyway.
 
 import numpy as np
 
-from viscorough.contact.conjugate_gradients import ConjugateGradients
-from viscorough.contact.grid_loops import GridLoops
-from viscorough.contact.halfspace import Halfspace
-from viscorough.contact.preconditioner import LEAST_EIGENVALUE, REACH, Preconditioner
+from viscorough.contact.grid import kernels
+from viscorough.contact.grid.conjugate_gradients import ConjugateGradients
+from viscorough.contact.grid.loops import GridLoops
+from viscorough.contact.halfspace.operator import Halfspace
+from viscorough.contact.preconditioner.multilevel import LEAST_EIGENVALUE, REACH, Preconditioner
 from viscorough.contact.state import BoundedField, ContactSet
 from viscorough.errors import ConvergenceError
 
@@ -104,7 +105,7 @@ class ContactSearch:
         for iteration in range(self._options.max_iterations):
             if changed:
                 contact_set = self.contact_set(inside)
-            largest = self._loops.gap_on_set(change.values, self.initial_gap, contact_set.places, self.residual)
+            largest = self._loops.largest_gap(change.values, self.initial_gap, self.residual, contact_set.places)
             # Residual and rounding error together must not exceed the limit. Where the rounding error takes most of it,
             # the gap is recomputed as soon as it is no larger than its rounding error.
             close_enough = max(limit - change.rounding, change.rounding)
@@ -145,7 +146,8 @@ class ContactSearch:
         accepted = max(_TANGENT_ROUNDING * self._tolerance, self._exact_rounding + self.field_rounding)
         search = self._search(contact_set)
         for _ in range(self._options.max_iterations):
-            largest = self._loops.gather_on_set(tangent_gap.values, contact_set.places, self.residual)
+            fields = tangent_gap.values, self.residual
+            largest = max(self._loops.each(kernels.gather_on_set, fields, contact_set.places))
             search.precondition(self.residual)
             # The error of Σq is e_qᵀ K⁻¹ e_q, which is at most e_qᵀ M e_q / LEAST_EIGENVALUE.
             total = self._loops.total(tangent, contact_set.places)
@@ -225,7 +227,7 @@ class ContactSearch:
 
     def _add_penetrating_elements(self, change, inside, limit):
         fields = (field[self.inner] for field in (change.values, self.initial_gap, inside))
-        return self._loops.add_penetrating_elements(*fields, limit)
+        return sum(self._loops.each(kernels.add_penetrating_elements, (limit,), *fields))
 
     def _interior(self, field):
         """View of a flat field without its border, in rows and columns."""

@@ -1,14 +1,11 @@
-"""The loops of grid_kernels over large arrays, block by block on several threads.
-
-Methods have the arguments and results of the kernels of the same name, which document them.
-"""
+"""The kernels over large arrays, block by block on several threads."""
 
 from functools import partial
 from itertools import accumulate
 
 import numpy as np
 
-from viscorough.contact import grid_kernels as kernels
+from viscorough.contact.grid import kernels
 from viscorough.contact.parallel import BLOCK, run_blocks
 
 
@@ -22,7 +19,7 @@ def field_to_fill(size, dtype, inner):
     return field
 
 
-def _joined(parts):
+def joined(parts):
     """Arrays of all blocks one after the other."""
     return parts[0] if len(parts) == 1 else np.concatenate(parts)
 
@@ -33,49 +30,31 @@ class GridLoops:
     def __init__(self, threads):
         self._threads = threads
 
+    def each(self, kernel, fixed, *arrays):
+        """Results of kernel(*fixed, *blocks) for the blocks of arrays of one length, in order."""
+        return self._over(arrays[0], lambda i, j: kernel(*fixed, *(array[i:j] for array in arrays)))
+
     # Over the places of a set.
 
     def inner_product(self, left, right, slots):
-        return sum(self._over(slots, lambda i, j: kernels.inner_product(left, right, slots[i:j])))
+        """Σ left·right over the set."""
+        return sum(self.each(kernels.inner_product, (left, right), slots))
 
     def total(self, field, places):
-        return sum(self._over(places, lambda i, j: kernels.total(field, places[i:j])))
+        """Sum of a field over the set."""
+        return sum(self.each(kernels.total, (field,), places))
 
-    def gap_on_set(self, gap_change, initial_gap, places, gap):
-        return max(self._over(places, lambda i, j: kernels.gap_on_set(gap_change, initial_gap, places[i:j], gap)))
-
-    def gather_on_set(self, field, places, gathered):
-        return max(self._over(places, lambda i, j: kernels.gather_on_set(field, places[i:j], gathered)))
-
-    def direction_sums(self, direction, deflection, preconditioned, gap, places, slots):
-        fields = direction, deflection, preconditioned, gap
-        return sum(self._over(slots, lambda i, j: kernels.direction_sums(*fields, places[i:j], slots[i:j])))
-
-    def unloaded_under_tension(self, direction, pressure, places, slots):
-        def find(i, j):
-            return kernels.unloaded_under_tension(direction, pressure, places[i:j], slots[i:j])
-
-        return _joined(self._over(places, find))
-
-    def step_causes_tension(self, length, direction, pressure, places, slots):
-        step = length, direction, pressure
-        return any(self._over(places, lambda i, j: kernels.step_causes_tension(*step, places[i:j], slots[i:j])))
-
-    def update_pressure(self, length, direction, pressure, places, slots):
-        step = length, direction, pressure
-        return any(self._over(places, lambda i, j: kernels.update_pressure(*step, places[i:j], slots[i:j])))
-
-    def update_search_direction(self, direction, preconditioned, factor, places, slots):
-        def update(i, j):
-            kernels.update_search_direction(direction, preconditioned, factor, places[i:j], slots[i:j])
-
-        self._over(slots, update)
+    def largest_gap(self, gap_change, initial_gap, gap, places):
+        """Largest |e| on the set, where e is stored in the flat field `gap`."""
+        return max(self.each(kernels.gap_on_set, (gap_change, initial_gap, gap), places))
 
     def step_and_release(self, length, direction, pressure, inside, places, slots, stencil, width, stride):
+        """kernels.step_and_find_tension and `release`; returns the indices in the set of elements that left it."""
+
         def step(i, j):
             return kernels.step_and_find_tension(length, direction, pressure, inside, places[i:j], slots[i:j], i)
 
-        released = _joined(self._over(places, step))
+        released = joined(self._over(places, step))
         # Elements of a band of rows leave one after the other, since neighbours share the load of both. Bands have at
         # least two rows, so that every other one can be processed at the same time.
         band = max(BLOCK // width, 2) * width
@@ -90,17 +69,6 @@ class GridLoops:
         for of_bands in filter(None, (bands[::2], bands[1::2])):
             run_blocks(partial(release, of_bands), len(of_bands), self._threads, 1)
         return released
-
-    def energies(self, depths, *fields, places):
-        parts = self._over(places, lambda i, j: kernels.energies(depths, *fields, places[i:j]))
-        return [sum(part) for part in zip(*parts, strict=True)]
-
-    def touch_sums(self, gap_change, initial_gap, tangent_gap, places, pressure, tangent, width, share):
-        def sums(i, j):
-            of_elements = places[i:j], pressure[i:j], tangent[i:j]
-            return kernels.touch_sums(gap_change, initial_gap, tangent_gap, *of_elements, width, share)
-
-        return sum(self._over(places, sums))
 
     # Over the elements, by rank.
 
@@ -142,7 +110,7 @@ class GridLoops:
         def new(i, j):
             return i + np.flatnonzero(after.inside[after.place[i:j]] > before.inside[before.place[i:j]])
 
-        return _joined(self._over(after.place, new))
+        return joined(self._over(after.place, new))
 
     # Over flat fields.
 
@@ -162,25 +130,9 @@ class GridLoops:
         self._over(inside, store)
         return places, slots
 
-    def largest_overlap(self, gap_change, initial_gap):
-        return max(self._over(gap_change, lambda i, j: kernels.largest_overlap(gap_change[i:j], initial_gap[i:j])))
-
-    def predict(self, predicted, predicted_change, inside, depth_step, early_step, *fields):
-        def predict(i, j):
-            stored = predicted[i:j], predicted_change[i:j], inside[i:j]
-            kernels.predict(*stored, depth_step, early_step, *(field[i:j] for field in fields))
-
-        self._over(predicted, predict)
-
-    def combine(self, tangent, tangent_gap, weights, shift, *fields):
-        def combine(i, j):
-            kernels.combine(tangent[i:j], tangent_gap[i:j], weights, shift, *(field[i:j] for field in fields))
-
-        self._over(tangent, combine)
-
     def difference(self, inside, other):
         """Places of a set that are not in another one."""
-        return _joined(self._over(inside, lambda i, j: i + np.flatnonzero(inside[i:j] > other[i:j])))
+        return joined(self._over(inside, lambda i, j: i + np.flatnonzero(inside[i:j] > other[i:j])))
 
     def lowest(self, field):
         """Lowest value of a field."""
@@ -201,6 +153,7 @@ class GridLoops:
         run_blocks(subtract, rows, self._threads, -(-BLOCK // columns))
 
     def update_gap(self, length, deflection, gap):
+        """e − g, or e_q, += α K d everywhere, in place."""
         rows, columns = deflection.shape
         width = gap.size // (rows + 2 * kernels.REACH)
 
@@ -208,12 +161,6 @@ class GridLoops:
             kernels.update_gap(length, deflection[i:j], gap[i * width :])
 
         run_blocks(update, rows, self._threads, -(-BLOCK // columns))
-
-    def add_penetrating_elements(self, gap_change, initial_gap, inside, limit):
-        def add(i, j):
-            return kernels.add_penetrating_elements(gap_change[i:j], initial_gap[i:j], inside[i:j], limit)
-
-        return sum(self._over(inside, add))
 
     def _over(self, array, function):
         return run_blocks(function, array.size, self._threads)

@@ -1,6 +1,6 @@
 """Time stepping of the viscous problem, as in a simulation that solves one contact problem per time step.
 
-Nothing here uses the correspondence with the elastic problem. As in viscorough.viscous.events the clock is the impulse
+Nothing here uses the correspondence with the elastic problem. As in events the clock is the impulse
 ∫F dt/η: for a given contact set the velocity per force does not depend on the force, so steps of impulse serve any
 F(t) ≥ 0. The explicit schemes hold the contact set over a step, so that elements which should have come into contact
 during the step overlap the surface; the implicit scheme demands contact without overlap at the end of the step.
@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscorough.arrays import ReadOnlyArrays, increasing
-from viscorough.contact.grid_solver import GridSolver
+from viscorough.contact.grid.solver import GridSolver
 from viscorough.contact.options import DEFAULT
 from viscorough.contact.solver import ContactSolver
 from viscorough.errors import AccuracyWarning, ConvergenceError

@@ -2,6 +2,9 @@
 
 import numpy as np
 
+from viscorough.contact.grid import kernels
+from viscorough.contact.grid.loops import joined
+
 # Largest share of the last change of pressure in the next direction: a safeguard where many elements left the set.
 _LARGEST_SHARE = 1.0
 
@@ -47,8 +50,7 @@ class ConjugateGradients:
             of_preconditioned, of_gap, of_direction = self._sums()
             if of_direction > 0:
                 factor = max(-self._limit, min((of_preconditioned - of_gap) / of_direction, self._limit))
-        of_set = self._set.places, self._set.slots
-        self._loops.update_search_direction(self._direction, self._preconditioned, factor, *of_set)
+        self._over_set(kernels.update_search_direction, self._direction, self._preconditioned, factor)
 
     def step(self, pressure, gap):
         """Take a step of conjugate gradients, which changes pressure and gap in place.
@@ -62,16 +64,15 @@ class ConjugateGradients:
         length = gap.dtype.type(-of_gap / of_direction)  # in the precision of the fields, which the loops then keep to
         self._loops.update_gap(length, deflection, gap)
         self._limit = np.inf
-        return self._loops.update_pressure(length, self._direction, pressure, self._set.places, self._set.slots)
+        return any(self._over_set(kernels.update_pressure, length, self._direction, pressure))
 
     def unloaded_under_tension(self, pressure):
         """Places of elements without pressure that a step along the direction would put under tension."""
-        of_set = self._set.places, self._set.slots
-        return self._loops.unloaded_under_tension(self._direction, pressure, *of_set)
+        return joined(self._over_set(kernels.unloaded_under_tension, self._direction, pressure))
 
     def step_causes_tension(self, length, pressure):
         """Whether a step of that length along the direction puts any element under tension."""
-        return self._loops.step_causes_tension(length, self._direction, pressure, self._set.places, self._set.slots)
+        return any(self._over_set(kernels.step_causes_tension, length, self._direction, pressure))
 
     def step_and_release(self, length, pressure, width):
         """Take a step of given length, after which elements under tension leave the set; changes both in place.
@@ -101,4 +102,8 @@ class ConjugateGradients:
     def _sums(self):
         """z·Kd, d·e and d·Kd over the set."""
         fields = self._direction, self._deflection, self._preconditioned, self._gap
-        return self._loops.direction_sums(*fields, self._set.places, self._set.slots)
+        return sum(self._over_set(kernels.direction_sums, *fields))
+
+    def _over_set(self, kernel, *fixed):
+        """Results of kernel(*fixed, places, slots) for the blocks of the set."""
+        return self._loops.each(kernel, fixed, self._set.places, self._set.slots)

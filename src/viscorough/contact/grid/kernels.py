@@ -1,13 +1,14 @@
 """Compiled loops of the grid solver, over flat fields with a border or over the places of a contact set.
 
 Compiled functions take plain arrays, hence their many arguments: they accept neither keyword-only arguments nor the
-types of `state`, whose symbols are used here. Fields are changed in place only where the docstring says so.
+types of `state`, whose symbols are used here. Arrays that are divided into blocks come last (loops.GridLoops.each).
+Fields are changed in place only where the docstring says so.
 """
 
 import numpy as np
 
 from viscorough.compilation import njit
-from viscorough.contact.preconditioner import REACH
+from viscorough.contact.preconditioner.multilevel import REACH
 
 _TINY = 1e-30
 
@@ -61,7 +62,7 @@ def total(field, places):
 
 
 @njit(nogil=True)
-def gap_on_set(gap_change, initial_gap, places, gap):
+def gap_on_set(gap_change, initial_gap, gap, places):
     """Store e on the set in the flat field `gap`; returns the largest |e| there."""
     largest = 0.0
     for t in range(places.size):
@@ -82,7 +83,7 @@ def largest_overlap(gap_change, initial_gap):
 
 
 @njit(nogil=True)
-def gather_on_set(field, places, gathered):
+def gather_on_set(field, gathered, places):
     """Store a field on the set in the flat field `gathered`; returns its largest magnitude there."""
     largest = 0.0
     for t in range(places.size):
@@ -116,7 +117,7 @@ def energies(
 
 @njit(nogil=True)
 def predict(
-    predicted, predicted_change, inside, depth_step, early_step, pressure, tangent, gap_change, tangent_gap, initial_gap
+    depth_step, early_step, predicted, predicted_change, inside, pressure, tangent, gap_change, tangent_gap, initial_gap
 ):  # fmt: skip
     """Store P + Δu q in `predicted`, e − g + Δu e_q in `predicted_change`, and the first contact set in `inside`.
 
@@ -133,7 +134,7 @@ def predict(
 
 @njit(nogil=True)
 def combine(
-    tangent, tangent_gap, weights, shift,
+    weights, shift, tangent, tangent_gap,
     pressure, gap_change, last_pressure, last_gap_change, last_tangent, last_tangent_gap,
 ):  # fmt: skip
     """Store q as a combination of two pressures and a tangent in `tangent`, and K q − 1 in `tangent_gap`.
@@ -256,7 +257,7 @@ def release(direction, pressure, inside, places, slots, released, stencil, width
 
 
 @njit(nogil=True)
-def add_penetrating_elements(gap_change, initial_gap, inside, limit):
+def add_penetrating_elements(limit, gap_change, initial_gap, inside):
     """Elements that overlap the surface by more than `limit` join the set, in place; returns how many did."""
     joined = 0
     for i in range(gap_change.size):
@@ -267,7 +268,7 @@ def add_penetrating_elements(gap_change, initial_gap, inside, limit):
 
 
 @njit(nogil=True)
-def touch_sums(gap_change, initial_gap, tangent_gap, places, pressure, tangent, width, share):
+def touch_sums(gap_change, initial_gap, tangent_gap, width, share, places, pressure, tangent):
     """Sums over elements that join the contact in a step of the depth, of functions of where in it they touch.
 
     An element touches at t = max(−e/e_q, Δu − P/q)/Δu, but from 0 to 1: e and e_q before the step, P and q after it.

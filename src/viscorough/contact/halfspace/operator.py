@@ -5,8 +5,8 @@ from functools import lru_cache
 import ducc0
 import numpy as np
 
-from viscorough.contact.column_fft import ColumnConvolution, good_length
-from viscorough.contact.influence import influence_table
+from viscorough.contact.halfspace.column_fft import ColumnConvolution, good_length
+from viscorough.contact.halfspace.influence import influence_table
 from viscorough.contact.parallel import BLOCK, Buffers, run_blocks
 
 # Rows that lie a power of two apart in memory compete for the same cache lines; this many extra numbers per row prevent

@@ -8,8 +8,8 @@ from viscorough import Indenter, indent, reference
 from viscorough.errors import ConvergenceError
 from viscorough.surfaces import self_affine_disc
 from viscorough.viscous.correspondence import impulses, kinetics
-from viscorough.viscous.internal_variable_events import march_medium_events
-from viscorough.viscous.internal_variables import MEDIUM_SCHEMES, march_medium
+from viscorough.viscous.integration.internal_variable_events import march_medium_events
+from viscorough.viscous.integration.internal_variables import MEDIUM_SCHEMES, march_medium
 from viscorough.viscous.media import Maxwell, Newtonian, Springpot
 from viscorough.viscous.relaxation import force_under_depth
 

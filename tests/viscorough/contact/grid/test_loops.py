@@ -6,10 +6,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from viscorough.contact import grid_kernels as kernels
-from viscorough.contact.grid_loops import GridLoops
+from viscorough.contact.grid import kernels
+from viscorough.contact.grid.loops import GridLoops, joined
 from viscorough.contact.parallel import BLOCK
-from viscorough.contact.preconditioner import REACH, load_redistribution_stencil
+from viscorough.contact.preconditioner.multilevel import REACH, load_redistribution_stencil
 
 ROWS, COLUMNS, STRIDE = 400, 700, 716
 WIDTH = COLUMNS + 2 * REACH
@@ -74,7 +74,7 @@ def test_sums_over_a_set(loops, field):
     assert loops.total(pressure, PLACES) == pytest.approx(pressure[PLACES].sum(), rel=1e-9)
     d, by_d = direction[SLOTS], deflection[SLOTS]
     assert loops.inner_product(direction, deflection, SLOTS) == pytest.approx(d @ by_d, rel=1e-9)
-    sums = loops.direction_sums(direction, deflection, preconditioned, gap, PLACES, SLOTS)
+    sums = sum(loops.each(kernels.direction_sums, (direction, deflection, preconditioned, gap), PLACES, SLOTS))
     np.testing.assert_allclose(sums, [preconditioned[PLACES] @ by_d, d @ gap[PLACES], d @ by_d], rtol=1e-9)
 
 
@@ -83,7 +83,7 @@ def test_energies(loops, field):
     pressure, change, last, last_change, tangent, tangent_gap = (values[PLACES] for values in fields)
     loads = np.array([pressure, last, tangent])
     deflections = np.array([change + depths[0], last_change + depths[1], tangent_gap + 1])
-    energy, sums = loops.energies(depths, *fields, places=PLACES)
+    energy, sums = map(sum, zip(*loops.each(kernels.energies, (depths, *fields), PLACES), strict=True))
     np.testing.assert_allclose(energy, loads @ deflections.T, rtol=1e-9)
     np.testing.assert_allclose(sums, loads.sum(axis=1), rtol=1e-9)
 
@@ -95,7 +95,8 @@ def test_sums_over_elements_that_join(loops, field):
     touch = np.clip(np.maximum(-gap / slope / 0.4, 1 - pressure / tangent / 0.4), 0, 1)
     assert np.mean((touch > 0) & (touch < 1)) > 0.05
     expected = [slope @ slope, slope**2 @ (1 - touch), *(slope**2 @ np.maximum(s - touch, 0) for s in share)]
-    sums = loops.touch_sums(change, initial_gap, tangent_gap, PLACES, pressure, tangent, 0.4, share)
+    fixed = change, initial_gap, tangent_gap, 0.4, share
+    sums = sum(loops.each(kernels.touch_sums, fixed, PLACES, pressure, tangent))
     np.testing.assert_allclose(sums, expected, rtol=1e-9)
 
 
@@ -103,19 +104,18 @@ def test_sums_over_elements_that_join(loops, field):
 def test_extremes_are_found_in_every_block(loops, field, which):
     change, initial_gap, gap = field(), field(), np.zeros(SIZE)
     change[PLACES[which]] = -100.0
-    assert loops.gap_on_set(change, initial_gap, PLACES, gap) == abs(-100.0 + initial_gap[PLACES[which]])
+    assert loops.largest_gap(change, initial_gap, gap, PLACES) == abs(-100.0 + initial_gap[PLACES[which]])
     np.testing.assert_array_equal(gap[PLACES], (change + initial_gap)[PLACES])
-    assert loops.gather_on_set(change, PLACES, gap) == 100.0
+    assert max(loops.each(kernels.gather_on_set, (change, gap), PLACES)) == 100.0
     np.testing.assert_array_equal(gap[PLACES], change[PLACES])
-    assert loops.largest_overlap(change, initial_gap) == 100.0 - initial_gap[PLACES[which]]
+    assert max(loops.each(kernels.largest_overlap, (), change, initial_gap)) == 100.0 - initial_gap[PLACES[which]]
 
     pressure, direction = abs(field()), np.zeros(ROWS * STRIDE)
     assert loops.lowest(pressure) >= 0
-    assert not loops.step_causes_tension(0.5, direction, pressure, PLACES, SLOTS)
-    assert not loops.update_pressure(0.5, direction, pressure, PLACES, SLOTS)
-    direction[SLOTS[which]] = -100.0
-    assert loops.step_causes_tension(0.5, direction, pressure, PLACES, SLOTS)
-    assert loops.update_pressure(0.5, direction, pressure, PLACES, SLOTS)
+    for lowest in (0.0, -100.0):
+        direction[SLOTS[which]] = lowest
+        for kernel in (kernels.step_causes_tension, kernels.update_pressure):
+            assert any(loops.each(kernel, (0.5, direction, pressure), PLACES, SLOTS)) == (lowest < 0)
     assert loops.lowest(pressure) == pressure[PLACES[which]] < 0
 
 
@@ -132,12 +132,12 @@ def test_steps(loops, field):
     direction, preconditioned, pressure = field(ROWS * STRIDE), field(), field()
     expected = direction.copy()
     expected[SLOTS] = 0.3 * direction[SLOTS] - preconditioned[PLACES]
-    loops.update_search_direction(direction, preconditioned, 0.3, PLACES, SLOTS)
+    loops.each(kernels.update_search_direction, (direction, preconditioned, 0.3), PLACES, SLOTS)
     np.testing.assert_allclose(direction, expected, rtol=1e-14, atol=1e-15)
 
     expected = pressure.copy()
     expected[PLACES] += 0.7 * direction[SLOTS]
-    loops.update_pressure(0.7, direction, pressure, PLACES, SLOTS)
+    loops.each(kernels.update_pressure, (0.7, direction, pressure), PLACES, SLOTS)
     np.testing.assert_allclose(pressure, expected, rtol=1e-14, atol=1e-15)
 
     gap, deflection = field(), direction.reshape(ROWS, STRIDE)[:, :COLUMNS]
@@ -150,7 +150,7 @@ def test_steps(loops, field):
 def test_unloaded_elements_under_tension_are_found_in_every_block(loops, field):
     direction, pressure = field(ROWS * STRIDE), field()
     pressure[::3] = 0
-    found = loops.unloaded_under_tension(direction, pressure, PLACES, SLOTS)
+    found = joined(loops.each(kernels.unloaded_under_tension, (direction, pressure), PLACES, SLOTS))
     np.testing.assert_array_equal(found, PLACES[(pressure[PLACES] == 0) & (direction[SLOTS] < 0)])
     assert 0 < found.size < PLACES.size
 
@@ -214,8 +214,8 @@ def test_fields(loops, field):
     pressure[::7] = tangent[::7] = 0
     predicted, predicted_change, inside = np.zeros(SIZE), np.zeros(SIZE), np.zeros(SIZE, bool)
     initial_gap = field()
-    steps, fields = (0.2, 0.1), (pressure, tangent, change, tangent_gap, initial_gap)
-    loops.predict(predicted, predicted_change, inside, *steps, *fields)
+    fields = predicted, predicted_change, inside, pressure, tangent, change, tangent_gap, initial_gap
+    loops.each(kernels.predict, (0.2, 0.1), *fields)
     np.testing.assert_allclose(predicted, pressure + 0.2 * tangent, rtol=1e-14, atol=1e-15)
     np.testing.assert_allclose(predicted_change, change + 0.2 * tangent_gap, rtol=1e-14, atol=1e-15)
     touching = change + 0.1 * tangent_gap + initial_gap < 0
@@ -224,12 +224,13 @@ def test_fields(loops, field):
 
     before = inside.copy()
     joining = (change + initial_gap < -0.5) & ~before
-    assert loops.add_penetrating_elements(change, initial_gap, inside, 0.5) == np.count_nonzero(joining)
+    added = loops.each(kernels.add_penetrating_elements, (0.5,), change, initial_gap, inside)
+    assert sum(added) == np.count_nonzero(joining)
     np.testing.assert_array_equal(inside, before | joining)
 
     combined, combined_gap = np.zeros(SIZE), np.zeros(SIZE)
-    fields = pressure, change, last, last_change, tangent, tangent_gap
-    loops.combine(combined, combined_gap, (0.1, 0.2, 0.3), 0.4, *fields)
+    fields = combined, combined_gap, pressure, change, last, last_change, tangent, tangent_gap
+    loops.each(kernels.combine, ((0.1, 0.2, 0.3), 0.4), *fields)
     np.testing.assert_allclose(combined, 0.1 * pressure + 0.2 * last + 0.3 * tangent, atol=1e-14)
     np.testing.assert_allclose(combined_gap, 0.1 * change + 0.2 * last_change + 0.3 * tangent_gap + 0.4, atol=1e-14)
 

@@ -5,8 +5,13 @@ import pytest
 import scipy.linalg
 
 from support.influence import influence_matrix
-from viscorough.contact.preconditioner import LEAST_EIGENVALUE, REACH, Preconditioner, load_redistribution_stencil
-from viscorough.contact.sparse_factor import SparseFactor
+from viscorough.contact.preconditioner.multilevel import (
+    LEAST_EIGENVALUE,
+    REACH,
+    Preconditioner,
+    load_redistribution_stencil,
+)
+from viscorough.contact.preconditioner.sparse_factor import SparseFactor
 
 WIDTH = 20
 

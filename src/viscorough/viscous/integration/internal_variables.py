@@ -17,7 +17,7 @@ from scipy.linalg import cho_factor, cho_solve
 
 from viscorough.arrays import ReadOnlyArrays, increasing, samples
 from viscorough.errors import ConvergenceError
-from viscorough.viscous.elements import elements_of_map
+from viscorough.viscous.integration.elements import elements_of_map
 
 MEDIUM_SCHEMES = ("backward_euler", "second_order")
 _MAX_ITERATIONS, _ADDED_AT_ONCE = 300, 8
@@ -62,11 +62,9 @@ def march_medium(indenter, medium, times, *, force=None, depth=None, scheme="sec
     Returns MediumMotion. Raises ValueError for arguments out of range, ConvergenceError if a contact problem is not
     solved, MemoryError if the elements in contact are too many for the memory.
     """
-    if not hasattr(medium, "relaxation"):
-        raise ValueError(f"march_medium: {type(medium).__name__}; allowed: media of springs and dashpots")
     if scheme not in MEDIUM_SCHEMES:
         raise ValueError(f"march_medium: scheme must be one of {', '.join(MEDIUM_SCHEMES)}, not {scheme!r}")
-    times, load = load_samples("march_medium", times, force, depth)
+    times, load = load_samples("march_medium", medium, times, force, depth)
     elements = elements_of_map(indenter, "march_medium")
     state = _State(elements, medium.relaxation)
     contact = _ContactProblem(elements)
@@ -96,8 +94,10 @@ def march_medium(indenter, medium, times, *, force=None, depth=None, scheme="sec
     return MediumMotion(*moved, indenter.length_unit, float(receding))
 
 
-def load_samples(caller, times, force, depth):
-    """Times and load, arrays of shape (times,). Raises ValueError unless they are what march_medium allows."""
+def load_samples(caller, medium, times, force, depth):
+    """Times and load, arrays of shape (times,). Raises ValueError unless they and the medium are allowed."""
+    if not hasattr(medium, "relaxation"):
+        raise ValueError(f"{caller}: {type(medium).__name__}; allowed: media of springs and dashpots")
     if (force is None) == (depth is None):
         raise ValueError(f"{caller}: one of force and depth is needed")
     name, load = ("force", force) if depth is None else ("depth", depth)

@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from viscorough import memory
-from viscorough.contact.halfspace import Halfspace
+from viscorough.contact.halfspace.operator import Halfspace
 from viscorough.contact.state import Elements
 
 

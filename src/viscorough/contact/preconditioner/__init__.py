@@ -1,0 +1,1 @@
+"""Preconditioner of the iterations on a grid: a sparse approximate inverse with a multilevel coarse correction."""

@@ -141,19 +141,12 @@ def medium_text(kind, **changed):
 BAD_MEDIA = [
     *[
         (medium_text("newtonian", viscosity=bad), "viscosity")
-        for bad in ("0", ".nan", ".inf", "true", "null", "[1]", "{a: 1}", "one", "'1 Pa s'", "2013-11-12", "''")
+        for bad in ("0", "null", "[1]", "{a: 1}", "one", "'1 Pa s'", "2013-11-12", "''")
     ],
     *[(medium_text("maxwell", **{key: None}), f"lacks {key}") for key in ("shear_modulus", "viscosity")],
     (medium_text("maxwell", more=1), "unknown key 'more'; allowed for"),
-    (medium_text("standard_linear_solid", relaxed_modulus=5), "allowed: below"),
-    (medium_text("springpot", exponent=1), "allowed: above 0 and below 1"),
     (medium_text("springpot", exponent="half"), "exponent: 'half'; allowed: a plain number"),
     (medium_text("prony", moduli="[a, b]"), "moduli[0]: 'a'; allowed: a plain number"),
-    (medium_text("prony", moduli="[1, -2, 3]"), "moduli[1]: -2"),
-    (medium_text("prony", relaxation_times="[0, 2, 3]"), "relaxation_times[0]: 0"),
-    (medium_text("prony", relaxation_times="[1]"), "one time for every modulus"),
-    (medium_text("prony", relaxed_modulus=-1), "0 or a finite number above 0"),
-    (medium_text("maxwell", shear_modulus="1e-300", viscosity="1e300"), "too far apart"),
     (medium_text("creep_table", file=3), "the name of a .csv or .npy file"),
     (medium_text("creep_table", file="curve.nc"), "a creep table is read from .csv and .npy"),
     ("viscosity: 1", "kind None; allowed: newtonian, maxwell"),
@@ -165,9 +158,6 @@ BAD_MEDIA = [
 ]
 BAD_TABLES = [
     ("0,2\n1,1\n", "never decreases"),
-    ("0,0\n1,1\n2,3\n", "after time 1 than before; allowed: a concave J"),
-    ("1,1\n2,2\n", "times that start with 0"),
-    ("0,1\n1,nan\n", "finite"),
     ("t,J [1/MPa]\n0,1\n1,2\n", "the heading 'J [1/MPa]' states a unit, but the unit of"),
     ("# t in h\n0,1\n1,2\n", "the comment '# t in h' states a unit"),
 ]
@@ -177,7 +167,6 @@ BAD_HISTORIES = [
     ("0,0.3\n1,0.3\n2,0\n", "from time 1 on the contact would recede"),
     ("0,0.3\n1,1e9\n", "at time 1 the creep"),
 ]
-VISCOUS = f"{KINETICS} --force 1 --viscosity 1"
 BAD_LINES = [
     (f"{KINETICS} --viscosity 1", "one of --force and --force-history is needed"),
     (f"{KINETICS} --force 1", "one of --viscosity and --medium is needed"),
@@ -191,8 +180,6 @@ BAD_LINES = [
     ),
     (f"{KINETICS} --force '1 N' --viscosity 1", "--force 1 N: needs a plain number"),
     (f"{KINETICS} --force 1 --viscosity '1 Pa s'", "--viscosity 1 Pa s: needs a plain number"),
-    *[(f"{VISCOUS} --times {bad}", "'--times'") for bad in ("0,1", "1,1", "1,,2")],
-    *[(f"{VISCOUS} --viscosity '{bad}'", f"'--viscosity': '{bad}' is not a number above 0") for bad in ("-1", "")],
     (f"{KINETICS} --force 1 --medium medium.yaml -o medium.yaml", "would replace the medium"),
     (f"{KINETICS} --force-history force.csv --viscosity 1 -o force.csv", "would replace the force history"),
 ]

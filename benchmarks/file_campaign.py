@@ -32,7 +32,6 @@ import binary_files
 import click
 import column_files
 import numpy as np
-import pandas as pd
 import point_files
 import text_files
 from file_cases import generators
@@ -183,15 +182,9 @@ def main(files, seed, only, keep, output):
     for failure in failures[:40]:
         text = f"{failure['is']}: {failure['kind']} ({', '.join(failure['traits'])}): {failure['why']}"
         click.echo(f"--seed {seed} --only {failure['file']}: {text}")
-    click.echo(table(counts))
+    for kind, words in sorted(counts.items()):
+        click.echo(f"{kind}: {', '.join(f'{number} {word}' for word, number in words.items())}")
     raise SystemExit(bool(failures))
-
-
-def table(counts):
-    """Counts by kind of file as a table of text."""
-    rows = pd.DataFrame(counts, index=[READ, REFUSED, UNREAD, WRONG]).fillna(0).astype(int).T.sort_index()
-    rows.loc["all"] = rows.sum()
-    return rows.to_string()
 
 
 if __name__ == "__main__":

@@ -110,6 +110,5 @@ threads_option = click.option(
     "--threads",
     type=click.IntRange(1, 1024),
     default=1,
-    show_default=True,
     help="Threads of the processor; the result does not depend on them.",
 )

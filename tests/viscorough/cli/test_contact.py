@@ -1,5 +1,7 @@
 """`viscorough contact`, and the options for forces and elastic constants of `viscorough indent`, through real files."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -76,14 +78,10 @@ def test_several_forces_have_a_dimension(here, capsys):
 
 
 def test_closing_lines_say_what_was_found_in_the_unit_that_is_known(here, capsys):
-    for unit in ("", " um"):
-        contact("--depth 0.5" + f" --unit {unit}" * bool(unit))
-        out = capsys.readouterr().out
-        assert out.startswith(f"out.nc: depth 0.5{unit}, F/G ")
-        assert f"{unit}{'2' * bool(unit)}, contact fraction 0." in out
-        assert out.rstrip().endswith("patches")
+    contact("--depth 0.5 --unit um")
+    assert re.match(r"out.nc: depth 0.5 um, F/G \S+ um2, contact fraction 0.*patches$", capsys.readouterr().out)
     contact("--depth 0.001")
-    assert capsys.readouterr().out.rstrip().endswith(", 1 patch")
+    assert re.match(r"out.nc: depth 0.001, F/G \S+, contact fraction 0.*, 1 patch$", capsys.readouterr().out)
     assert run("indent heights.npy --spacing 1 --unit um --depths 0.5 -o curve.nc") == 0
     assert " depth 0.5 um " in capsys.readouterr().out
 

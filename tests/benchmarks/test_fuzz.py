@@ -124,7 +124,3 @@ def test_ended_processes_exceptions_and_runs_without_end_are_noticed(folder, mon
     code, words = fuzz.result_of(folder, ["indent"], {})
     assert code == {"killed": -signal.SIGTERM, "exception": 1, "endless": -signal.SIGKILL}[how]
     assert ("lines on stderr: 'Traceback" if how == "exception" else f"exit code {code}") in words
-
-
-def test_run_is_that_of_the_command(folder):
-    assert fuzz.run([]) == (2, "", "viscorough: Missing command; see viscorough --help\n")

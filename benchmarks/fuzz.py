@@ -155,9 +155,8 @@ def workplace():
     with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
         np.save("heights.npy", np.random.default_rng(0).random((7, 7)))
         heights = ["heights.npy", "--spacing", "100", "-o", "curve.nc"]
-        commands = [
-            ["march", *heights, "--method", name, "--times", "1,9"] for name in ("explicit", "heun", "implicit")
-        ]
+        schemes = "explicit", "heun", "implicit"
+        commands = [["march", *heights, "--method", name, "--times", "1,9"] for name in schemes]
         commands += [["march", *heights, "--method", "events"], ["indent", *heights]]
         commands += [["kinetics", "curve.nc", "--force", "1", "--viscosity", "1", "-o", "curve.nc"]]
         commands += [["indent", *heights, "--unit", "inch", "--crop", "0:6,0:6", "--fill", "harmonic"]]

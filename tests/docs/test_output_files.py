@@ -24,9 +24,8 @@ def test_files_of_the_command_line(tmp_path, monkeypatch):
     for command, arguments in COMMANDS.items():
         assert run(f"{command} {arguments} -o {command}.nc") == 0
         (row,) = (row for name, row in rows.items() if name.endswith(f"viscorough {command}"))
-        said = {"kinetics": curve, "generate": {"x", "y"}}.get(
-            command, set()
-        )  # "those of the curve", "the coordinates"
+        # "those of the curve", "the coordinates"
+        said = {"kinetics": curve, "generate": {"x", "y"}}.get(command, set())
         with netCDF4.Dataset(f"{command}.nc") as made:
             curve = curve or set(made.variables)
             assert set(made.dimensions) == set(row.dimensions)

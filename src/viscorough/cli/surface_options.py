@@ -85,10 +85,7 @@ _OPTIONS = (
         "numbers are in the unit of the heights. Needed where the file states none.",
     ),
     click.option(
-        "--unit",
-        type=_length_unit,
-        metavar="UNIT",
-        help="Unit of length of heights, such as um, where the file has none.",
+        "--unit", type=_length_unit, metavar="UNIT", help="Unit of heights, such as um, if the file has none."
     ),
     click.option("--channel", help="Name or number of the map to read from a file that holds several."),
     click.option("--nodata", type=_numbers, metavar="VALUE", help="Values, such as -9999, of points not measured."),

@@ -88,10 +88,8 @@ def test_closing_lines_say_what_was_found_in_the_unit_that_is_known(here, capsys
 
 def test_forces_with_a_modulus_are_newtons_where_the_unit_is_known(here):
     """30 µm² · 2 GPa = 0.06 N."""
-    for given in (
-        *("--shear-modulus '2 GPa' --force 0.06", "--shear-modulus 2e9 --force '60 mN'"),
-        *("--young '6 GPa' --force '6e4 uN'", "--young 4.5e9 --poisson 0.5 --force 0.045"),
-    ):
+    shear = "--shear-modulus '2 GPa' --force 0.06", "--shear-modulus 2e9 --force '60 mN'"
+    for given in (*shear, "--young '6 GPa' --force '6e4 uN'", "--young 4.5e9 --poisson 0.5 --force 0.045"):
         assert values(contact(given, heights="um.nc"))["force"] == pytest.approx(30, rel=1e-12)
     of = contact("--depth '500 nm' --shear-modulus 1", heights="um.nc")
     assert of.variables["depth"].values == 0.5

@@ -171,9 +171,8 @@ def test_interrupt_during_the_imports_is_quiet(here, tmp_path_factory, command, 
     folder = tmp_path_factory.mktemp("interrupted")
     (folder / f"{module}.py").write_text(INTERRUPTED)
     environment = os.environ | {"PYTHONPATH": str(folder)}
-    done = subprocess.run(
-        [*command, *INDENT.split()], env=environment, capture_output=True, check=False, preexec_fn=interrupts_arrive
-    )
+    options = {"env": environment, "capture_output": True, "check": False, "preexec_fn": interrupts_arrive}
+    done = subprocess.run([*command, *INDENT.split()], **options)
     assert (done.stdout, done.stderr) == (b"", b"")
     assert done.returncode == -signal.SIGINT, "a shell reports 130"
 

@@ -87,12 +87,8 @@ def test_heights_in_nanometres_beside_coordinates_in_micrometres(here, capsys):
 
 def test_tilt_is_told_and_removed(here, capsys):
     np.save("tilted.npy", ROUGH - ROUGH.mean() + 3 * X - 2 * Y)
-    _, attributes = curve_of(
-        capsys,
-        f"tilted.npy {SPACING} {DEPTHS}",
-        "tilted.npy: the map is tilted: a plane through it rises by 48",
-        "slope",
-    )
+    tilted = "tilted.npy: the map is tilted: a plane through it rises by 48"
+    _, attributes = curve_of(capsys, f"tilted.npy {SPACING} {DEPTHS}", tilted, "slope")
     assert "--detrend plane removes it" in attributes["warnings"]
     curve, attributes = curve_of(capsys, f"tilted.npy {SPACING} {DEPTHS} --detrend plane")
     plane = np.stack([np.ones((N, N)), np.broadcast_to(X, (N, N)), np.broadcast_to(Y, (N, N))], axis=-1).reshape(-1, 3)

@@ -9,18 +9,16 @@ dense influence matrix; whole loading curves, at their levels and between them; 
 
 import time
 from functools import partial
-from importlib.metadata import version
 from multiprocessing import Pool
 
 import click
 import numpy as np
+from measuring import save
 from tqdm import tqdm
 
-from viscorough_study.performance import timing
 from viscorough_study.robustness.random_curves import curve_failure, random_curve
 from viscorough_study.robustness.random_indenters import random_case, silent_failure
 from viscorough_study.run.seeds import random_indenter_key, realization_seed
-from viscorough_study.run.tables import write_json
 
 # What draws a case, what checks it, and the share of the number of cases that is run.
 FAMILIES = {
@@ -60,11 +58,10 @@ def main(cases, seed, family, case, cores, output):
                     failures.append({"family": name, "case": number, "wrong": wrong})
                     repeat = f"python benchmarks/campaign.py --family {name} --case {number} --seed {seed}"
                     tqdm.write(f"{wrong}\n    {repeat}")
-    about = {"machine": timing.machine(), "version": version("viscorough"), "seed": seed, "cases": counts}
-    result = about | {"seconds": round(time.perf_counter() - began, 1), "silent_failures": failures}
+    seconds = round(time.perf_counter() - began, 1)
+    click.echo(f"{len(failures)} silent failures among {sum(counts.values())} cases in {seconds} s")
     if output:
-        write_json(result, output)
-    click.echo(f"{len(failures)} silent failures among {sum(counts.values())} cases in {result['seconds']} s")
+        save({"seed": seed, "cases": counts, "seconds": seconds, "silent_failures": failures}, output)
     raise SystemExit(bool(failures))
 
 

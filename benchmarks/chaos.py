@@ -17,18 +17,15 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections import Counter
 from pathlib import Path
 
 import click
 import numpy as np
 import psutil
 from measured_times import holds_times
+from measuring import output_option, save
 
-import viscorough
 from viscorough.io import netcdf
-from viscorough_study.performance import timing
-from viscorough_study.run.tables import write_json
 
 ROOT = Path(__file__).resolve().parents[1]
 SNAKEMAKE = [sys.executable, "-m", "snakemake", "--cores", "2", "--nocolor", "--configfile", "config/test.yaml"]
@@ -40,13 +37,8 @@ HANGS = 3600  # seconds after which a run is taken to hang, even on a busy machi
 
 def copy_project(folder):
     """What git tracks or would track, and numba's caches beside the modules: compiling would take most of the time."""
-    tracked = subprocess.run(
-        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
-        cwd=ROOT,
-        stdout=subprocess.PIPE,
-        text=True,
-        check=True,
-    ).stdout
+    list_files = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+    tracked = subprocess.run(list_files, cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True).stdout
     for name in tracked.rstrip("\0").split("\0"):
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy2(ROOT / name, folder / name)
@@ -67,15 +59,6 @@ def wait_for(condition, what, seconds=120):
             raise click.ClickException(f"{what} does not happen within {seconds} s")
         time.sleep(0.2)
     return value
-
-
-@contextlib.contextmanager
-def workplace(folder):
-    """A new folder, which is kept, or a temporary one if it is None; absolute."""
-    if folder:
-        folder.mkdir(parents=True)
-    with contextlib.nullcontext(folder) if folder else tempfile.TemporaryDirectory() as place:
-        yield Path(place).resolve()
 
 
 @contextlib.contextmanager
@@ -222,33 +205,22 @@ def chaos(folder, kills, seed):
         "recovered": recovered,
         "differences": differences,
         "seconds": round(time.perf_counter() - start, 1),
-        "undisturbed_s": round(seconds, 1),
         "files_compared": len(wanted),
         "jobs": jobs,
-        "killed": dict(Counter(event["killed"] for event in log).most_common()),
         "log": log,
     }
 
 
 @click.command(help=__doc__.splitlines()[0])
 @click.option("--kills", type=click.IntRange(1), default=60, show_default=True, help="Total number of disturbances.")
-@click.option(
-    "--seed", type=click.IntRange(0), default=1, show_default=True, help="Seed of the times and of what is killed."
-)
-@click.option("--output", type=click.Path(path_type=Path), required=True, help="File to write, JSON.")
-@click.option(
-    "--folder",
-    type=click.Path(path_type=Path),
-    help="New folder to work in, which is kept  [default: a temporary one]",
-)
-def main(kills, seed, output, folder):
-    with workplace(folder) as working:
-        about = {"machine": timing.machine(), "viscorough": viscorough.__version__, "seed": seed}
-        result = about | chaos(working, kills, seed)
-    write_json(result, output)
+@click.option("--seed", type=click.IntRange(0), default=1, show_default=True, help="Of the times and the killed.")
+@output_option
+def main(kills, seed, output):
+    with tempfile.TemporaryDirectory() as folder:
+        result = chaos(Path(folder).resolve(), kills, seed)
     click.echo("{recovered} of {runs} runs recovered from {kills} kills in {seconds:.0f} s".format(**result))
-    click.echo(f"written to {output}")
-    sys.exit(1 if result["differences"] else 0)
+    save({"seed": seed, **result}, output)
+    sys.exit(bool(result["differences"]))
 
 
 if __name__ == "__main__":

@@ -29,34 +29,21 @@ def content(path):
         return {name: variable.values for name, variable in dataset.variables.items()}
 
 
-def deviations(old, new):
-    """Of every value: |new − old| over the larger of the two; inf where texts differ or only one number is finite."""
+def difference(old, new):
+    """What differs between the values of a column in OLD and NEW, None where there is none; "" if nothing does."""
+    if old is None or new is None:
+        return "only in NEW" if old is None else "only in OLD"
+    if old.shape != new.shape:
+        return f"shape {old.shape} in OLD, {new.shape} in NEW"
     if any(values.dtype.kind not in "biuf" for values in (old, new)):
-        return np.where(old.astype(str) == new.astype(str), 0.0, np.inf)
-    old, new = old.astype(float), new.astype(float)
-    equal = (old == new) | (np.isnan(old) & np.isnan(new))
-    with np.errstate(invalid="ignore", divide="ignore"):
-        relative = np.abs(new - old) / np.maximum(np.abs(old), np.abs(new))
-    return np.where(equal, 0.0, np.where(np.isfinite(relative), relative, np.inf))
-
-
-def differences(name, old, new):
-    """Name of every difference between two files, with what it is, and the number of values that were compared."""
-    found = {f"{name}, {column}": "only in OLD" for column in old if column not in new}
-    found |= {f"{name}, {column}": "only in NEW" for column in new if column not in old}
-    compared = 0
-    for column in set(old) & set(new):
-        if old[column].shape != new[column].shape:
-            found[f"{name}, {column}"] = f"shape {old[column].shape} in OLD, {new[column].shape} in NEW"
-            continue
-        compared += old[column].size
-        deviation = deviations(old[column], new[column])
-        if deviation.max(initial=0.0) > TOLERANCE:
-            where = np.flatnonzero(deviation > TOLERANCE)
-            first = " and ".join(str(values[column].ravel()[where[0]]) for values in (old, new))
-            how_far = f"by up to {deviation.max():.2g} relative, first {first}"
-            found[f"{name}, {column}"] = f"{where.size} of {deviation.size} differ, {how_far}"
-    return found, compared
+        wrong, how_far = old.astype(str) != new.astype(str), ""
+    else:
+        old, new = old.astype(float), new.astype(float)
+        wrong = ~np.isclose(new, old, rtol=TOLERANCE, atol=0, equal_nan=True)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            how_far = f"by up to {np.max(np.abs(new / old - 1), where=wrong, initial=0):.2g} relative, "
+    first = " and ".join(str(values.ravel()[np.argmax(wrong)]) for values in (old, new)) if wrong.any() else ""
+    return f"{wrong.sum()} of {wrong.size} differ, {how_far}first {first}" if wrong.any() else ""
 
 
 @click.command(help=__doc__.splitlines()[0])
@@ -77,8 +64,11 @@ def main(old, new, allow):
         elif name not in runs[0] or name not in runs[1]:
             found[str(name)] = "only in OLD" if name in runs[0] else "only in NEW"
         else:
-            more, values = differences(name, content(old / name), content(new / name))
-            found, compared = found | more, compared + values
+            contents = content(old / name), content(new / name)
+            for column in dict.fromkeys([*contents[0], *contents[1]]):
+                values = [of_run.get(column) for of_run in contents]
+                compared += values[0] is not None and values[0].size
+                found |= {f"{name}, {column}": what} if (what := difference(*values)) else {}
     meant = {name for name in found if any(fnmatch.fnmatch(name, pattern) for pattern in allow)}
     for name, what in found.items():
         click.echo(f"{'allowed' if name in meant else 'DIFFERENCE'}: {name}: {what}")

@@ -13,11 +13,9 @@ import time
 from pathlib import Path
 
 import click
+from measuring import output_option, save
 
-import viscorough
-from viscorough_study.performance import timing
 from viscorough_study.run.rule_costs import rule_costs
-from viscorough_study.run.tables import write_json
 
 
 def sizes(folder):
@@ -44,7 +42,7 @@ def run_to_its_end(command):
 
 
 @click.command(help=__doc__.splitlines()[0])
-@click.option("--output", type=click.Path(path_type=Path), required=True, help="File to write, JSON.")
+@output_option
 @click.option("--results", type=click.Path(path_type=Path), default=Path("results"), show_default=True)
 @click.argument("command", nargs=-1, required=True)
 def main(output, results, command):
@@ -65,10 +63,8 @@ def main(output, results, command):
         "memory_mb": max((rule["memory_mb"] for rule in of_rules.values()), default=0),
         "results_mb": round(sum(of_folders.values()), 1),
     }
-    about = {"machine": timing.machine(), "viscorough": viscorough.__version__, "command": " ".join(command)}
-    write_json(about | total | {"rules": of_rules, "results": of_folders}, output)
     click.echo("{wall_s:.0f} s; jobs at most {memory_mb:.0f} MB; results {results_mb:.0f} MB".format(**total))
-    click.echo(f"written to {output}")
+    save({"command": " ".join(command), **total, "rules": of_rules, "results": of_folders}, output)
 
 
 if __name__ == "__main__":

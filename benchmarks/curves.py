@@ -14,7 +14,7 @@ from functools import partial
 import ducc0
 import numpy as np
 import pandas as pd
-from measuring import command, turns
+from measuring import command, medians
 
 from viscorough import indent, self_affine_disc
 from viscorough.contact.halfspace.column_fft import ColumnConvolution, good_length
@@ -45,11 +45,6 @@ PARTS_OF_LINE = {
 }
 
 
-def medians(functions, repeats):
-    """{name: (wall, processor) seconds}, medians over repeats that are interleaved."""
-    return dict(zip(functions, np.median(turns(functions.values(), repeats), axis=0).tolist(), strict=True))
-
-
 def curves(hursts, seeds, repeats):
     """Loading curves of discs: cost, and errors against many levels solved to 1e-6."""
     return [_curve(hurst, seed, repeats) for hurst in hursts for seed in seeds]
@@ -62,19 +57,16 @@ def _curve(hurst, seed, repeats):
     at_levels = indent(disc, tolerance=1e-6, depths=curve.depth[curve.contact_count > 1])
     fine = indent(disc, tolerance=1e-6, depths=np.geomspace(curve.depth[0], curve.depth[-1] * (1 - 1e-9), 300))
     inside = fine.force <= curve.force[-1]
-    depth, stiffness = curve.at_force(fine.force[inside])
+    depth, _ = curve.at_force(fine.force[inside])
     force_error = curve.force[curve.contact_count > 1] / at_levels.force - 1
     return {
         "hurst": hurst,
         "seed": seed,
         "wall_s": wall,
         "processor_s": processor,
-        "levels": len(curve.depth),
         "operator_applications": curve.operator_applications,
         "force_error": float(np.abs(force_error).max()),
         "interpolation_error": float(np.abs(depth / fine.depth[inside] - 1).max()),
-        "velocity_error_median": float(np.median(np.abs(stiffness / fine.stiffness[inside] - 1))),
-        "velocity_error_largest": float(np.abs(stiffness / fine.stiffness[inside] - 1).max()),
     }
 
 

@@ -32,16 +32,14 @@ import binary_files
 import click
 import column_files
 import numpy as np
-import pandas as pd
 import point_files
 import text_files
 from file_cases import generators
+from measuring import save
 from tqdm import tqdm
 
 import viscorough
 from viscorough.errors import AccuracyWarning
-from viscorough_study.performance import timing
-from viscorough_study.run.tables import write_json
 
 KINDS = {
     text_files.matrix: 50,
@@ -154,12 +152,6 @@ def difference(case, heights, unit, spacing):
     return ""
 
 
-def kind_of_refusal(text):
-    """A refusal without the numbers and names of its file."""
-    text = re.sub(r"'[^']*'|\"[^\"]*\"|\([^)]*\)", "_", text)
-    return re.sub(r"[+-]?\d[\d.,e+-]*", "N", text)[:80]
-
-
 @click.command()
 @click.option("--files", type=click.IntRange(1), default=10_000, show_default=True, help="Number of files.")
 @click.option("--seed", type=click.IntRange(0), default=1, show_default=True, help="Seed of all files.")
@@ -168,15 +160,13 @@ def kind_of_refusal(text):
 @click.option("--output", help="File to write, JSON.")
 def main(files, seed, only, keep, output):
     """Count files that are read as another map; exit code 1 if there is any, or an unambiguous one is refused."""
-    began, counts, refusals, failures = time.perf_counter(), {}, Counter(), []
+    began, counts, failures = time.perf_counter(), {}, []
     numbers = range(files) if only is None else [only]
     with tempfile.TemporaryDirectory() as folder:
         progress = tqdm(numbers, unit="file", mininterval=2, disable=only is not None)
         for index, case in cases(seed, progress):
             word, why = outcome(case, folder)
             counts.setdefault(case.kind, Counter())[word] += 1
-            if word in (REFUSED, UNREAD):
-                refusals[f"{case.kind}: {kind_of_refusal(why)}"] += 1
             if word in (UNREAD, WRONG):
                 why = why.replace(f"{folder}/", "")
                 failures.append({"file": index, "kind": case.kind, "traits": case.traits, "why": why, "is": word})
@@ -186,22 +176,15 @@ def main(files, seed, only, keep, output):
             if only is not None:
                 click.echo(f"{case.kind}, {', '.join(case.traits)}; arguments {case.options}\n{word}: {why}")
                 click.echo(f"truth: {case.heights}, spacing {case.spacing}, unit {case.unit} m")
-    about = {"machine": timing.machine(), "viscorough": viscorough.__version__, "seed": seed, "files": len(numbers)}
-    about["seconds"] = round(time.perf_counter() - began, 1)
+    about = {"seed": seed, "files": len(numbers), "seconds": round(time.perf_counter() - began, 1), "counts": counts}
     if output:
-        write_json(about | {"counts": counts, "refusals": dict(refusals.most_common()), "failures": failures}, output)
+        save({**about, "failures": failures}, output)
     for failure in failures[:40]:
         text = f"{failure['is']}: {failure['kind']} ({', '.join(failure['traits'])}): {failure['why']}"
         click.echo(f"--seed {seed} --only {failure['file']}: {text}")
-    click.echo(table(counts))
+    for kind, words in sorted(counts.items()):
+        click.echo(f"{kind}: {', '.join(f'{number} {word}' for word, number in words.items())}")
     raise SystemExit(bool(failures))
-
-
-def table(counts):
-    """Counts by kind of file as a table of text."""
-    rows = pd.DataFrame(counts, index=[READ, REFUSED, UNREAD, WRONG]).fillna(0).astype(int).T.sort_index()
-    rows.loc["all"] = rows.sum()
-    return rows.to_string()
 
 
 if __name__ == "__main__":

@@ -26,13 +26,12 @@ import click
 import numpy as np
 from file_cases import generators
 from fuzz_cases import STARTED, case
+from measuring import save
 from tqdm import tqdm
 
 from viscorough import cli
 from viscorough.io import netcdf, tables
 from viscorough.io.curves import OVER_LEVELS
-from viscorough_study.performance import timing
-from viscorough_study.run.tables import write_json
 
 FIGURES = {".png": b"\x89PNG", ".svg": b"<?xml"}  # first bytes
 LONGEST = 120  # seconds that a run may take
@@ -156,9 +155,8 @@ def workplace():
     with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
         np.save("heights.npy", np.random.default_rng(0).random((7, 7)))
         heights = ["heights.npy", "--spacing", "100", "-o", "curve.nc"]
-        commands = [
-            ["march", *heights, "--method", name, "--times", "1,9"] for name in ("explicit", "heun", "implicit")
-        ]
+        schemes = "explicit", "heun", "implicit"
+        commands = [["march", *heights, "--method", name, "--times", "1,9"] for name in schemes]
         commands += [["march", *heights, "--method", "events"], ["indent", *heights]]
         commands += [["kinetics", "curve.nc", "--force", "1", "--viscosity", "1", "-o", "curve.nc"]]
         commands += [["indent", *heights, "--unit", "inch", "--crop", "0:6,0:6", "--fill", "harmonic"]]
@@ -182,11 +180,11 @@ def main(runs, seed, only, output):
         repeat = f"python benchmarks/fuzz.py --seed {seed} --only {number}"
         click.echo(f"{repeat}: viscorough {' '.join(map(repr, arguments))}: {words}")
     failures = [{"run": number, "arguments": arguments, "breach": words} for number, arguments, words in found]
-    about = {"machine": timing.machine(), "version": version("viscorough"), "seed": seed, "runs": len(numbers)}
-    result = about | {"seconds": round(time.perf_counter() - began, 1), "exit_codes": codes, "off_contract": failures}
+    seconds = round(time.perf_counter() - began, 1)
+    click.echo(f"{len(found)} of {len(numbers)} runs off the contract, exit codes {dict(codes)}, {seconds} s")
+    about = {"seed": seed, "runs": len(numbers), "seconds": seconds, "exit_codes": codes}
     if output:
-        write_json(result, output)
-    click.echo(f"{len(found)} of {len(numbers)} runs off the contract, exit codes {dict(codes)}, {result['seconds']} s")
+        save({**about, "off_contract": failures}, output)
     raise SystemExit(bool(found))
 
 

@@ -303,7 +303,6 @@ OUTPUTS = (
     *("heights.npy", "heights.nc", "force.csv", "curve.nc", "link.nc", "dangling.nc", "older.nc", "\udcff.nc"),
 )
 FIGURES = [*["out.png"] * 40, "out.svg", "out.nc", "out", "none/out.png", "folder", "pipe", "curve.nc", "é.png"]
-WHOLE = ["3", "9", "64", "0", "-1", "1.5", "99999999", "", "nan"]
 METHODS = [*["events", "explicit", "heun", "implicit", "second_order"] * 4, "magic", ""]
 QUANTITIES = [NUMBERS, ["1 N", "5 mN", "2 MPa", "3 um", "1e-3 m", "1 kg", "2 ", "1 N,2", "1 mN,2 mN"]]
 # Values of options, by the name of the option or else of its type in the command line
@@ -316,10 +315,8 @@ VALUES_OF = {
     "--nodata": ["0", "-9999", "1e38", "nan", "", "0,1,2", "a"],
     "--crop": ["0:2,0:2", "0:1,0:1", "1:3,0:2", "2:1,0:1", "0:99,0:99", "", "a"],
     "PositiveNumber": SHARES,
-    "PoissonRatio": [["0.3", "0.5"], NUMBERS],
     "Quantity": QUANTITIES,
     "Increasing": SERIES,
-    "IncreasingQuantities": [SERIES, QUANTITIES],
     "IntRange": ["3", "9", "64", "0", "-1", "1.5", "99999999", "", "nan"],
 }
 LEFT_OUT = {"-o", "--progress"}  # every command has the first, and the second may print

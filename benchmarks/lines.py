@@ -8,13 +8,16 @@ turns with lines, which are made and reduced as in the workflow. Keys: `points`;
 of a line the shares of its `waves` (random numbers and spectrum), of its `transform` and of the `bins` of its gaps.
 """
 
+from functools import partial
+
 import numpy as np
 from ducc0 import fft
-from measuring import command, seconds
+from measuring import command
 
 from viscorough import line_waves
 from viscorough.lines import SelfAffineLines
 from viscorough.mdr import reduce_heights
+from viscorough_study.performance.timing import timed
 
 HURST, UNTIL_X, POINTS = 0.6, 30.0, 4_000_000
 
@@ -28,10 +31,11 @@ def measured(repeats, points=POINTS):
     for turn in range(repeats + 1):
         values = noise.copy()  # transformed in place: again and again, they would overflow
         key = line_waves.key_of(np.random.SeedSequence(turn))
-        _, transform = seconds(fft.r2r_fftpack, values, [0], real2hermitian=False, forward=False, out=values)
-        heights, made = seconds(lines.heights_in_any_order, turn)
-        _, bins = seconds(reduce_heights, heights, lines.spacing, until_force=4 * UNTIL_X)
-        _, waves = seconds(line_waves.fill_packed_spectrum, spectrum, key, amplitude, fixed=False)
+        transformed = partial(fft.r2r_fftpack, values, [0], real2hermitian=False, forward=False, out=values)
+        _, transform, _ = timed(transformed)
+        heights, made, _ = timed(partial(lines.heights_in_any_order, turn))
+        _, bins, _ = timed(partial(reduce_heights, heights, lines.spacing, until_force=4 * UNTIL_X))
+        _, waves, _ = timed(partial(line_waves.fill_packed_spectrum, spectrum, key, amplitude, fixed=False))
         walls.append((transform, made + bins, waves, made - waves, bins))
     walls = np.array(walls[1:])  # the first turn loads the compiled code
     transform, line, *parts = np.median(walls, axis=0).tolist()

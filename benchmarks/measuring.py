@@ -1,15 +1,10 @@
-"""What the measurements have in common: their command lines, one thread, turns, and processes of their own."""
+"""What the benchmarks have in common: their command lines and files, one thread, and functions that take turns."""
 
-import json
 import os
-import re
-import subprocess
 import sys
-import time
 from pathlib import Path
 
 import click
-import numpy as np
 
 import viscorough
 from viscorough_study.performance import timing
@@ -22,6 +17,14 @@ ENVIRONMENT = {
     "MALLOC_TRIM_THRESHOLD_": str(10**9),
 }
 
+output_option = click.option("--output", type=click.Path(path_type=Path), required=True, help="File to write, JSON.")
+
+
+def save(content, output):
+    """Write the content of a file of results, with the machine and the version that it was made with."""
+    write_json({"machine": timing.machine(), "viscorough": viscorough.__version__, **content}, output)
+    click.echo(f"written to {output}")
+
 
 def command(measured, repeats):
     """The command line of a script.
@@ -32,41 +35,18 @@ def command(measured, repeats):
 
     @click.command(help=measured.__globals__["__doc__"].splitlines()[0])
     @click.option("--repeats", type=click.IntRange(1), default=repeats, show_default=True)
-    @click.option("--output", type=click.Path(path_type=Path), required=True, help="File to write, JSON.")
+    @output_option
     def main(repeats, output):
         if any(os.environ.get(name) != value for name, value in ENVIRONMENT.items()):
             os.execve(sys.executable, [sys.executable, *sys.argv], os.environ | ENVIRONMENT)
-        about = {"machine": timing.machine(), "viscorough": viscorough.__version__, "repeats": repeats}
-        write_json(about | measured(repeats), output)
-        click.echo(f"{output.read_text(encoding='utf-8')}\nwritten to {output}")
+        save({"repeats": repeats, **measured(repeats)}, output)
+        click.echo(output.read_text(encoding="utf-8"))
 
     return main
 
 
-def turns(functions, repeats):
-    """Wall and processor seconds of functions that take turns, after a first call of each.
-
-    Returns shape (repeats, functions, 2).
-    """
-    for function in functions:
+def medians(functions, repeats):
+    """{name: (wall, processor) seconds}, medians over repeats that are interleaved, after a first call of each."""
+    for function in functions.values():
         function()
-    return np.array([[timing.timed(function)[1:] for function in functions] for _ in range(repeats)])
-
-
-def seconds(function, *arguments, **options):
-    """Result of a call, and its wall seconds."""
-    start = time.perf_counter()
-    return function(*arguments, **options), time.perf_counter() - start
-
-
-def in_a_process(script, function, *arguments):
-    """What a function of a script in this folder returns in a process of its own, through JSON."""
-    code = f"import json, {script}; print(json.dumps({script}.{function}(*{arguments!r})))"
-    environment = os.environ | ENVIRONMENT | {"PYTHONPATH": f"{Path(__file__).parent}:{os.environ.get('PYTHONPATH')}"}
-    done = subprocess.run([sys.executable, "-c", code], env=environment, stdout=subprocess.PIPE, text=True, check=True)
-    return json.loads(done.stdout)
-
-
-def peak_bytes():
-    """Peak memory of this process, the interpreter and libraries included."""
-    return 1024 * int(re.search(r"VmHWM:\s*(\d+) kB", Path("/proc/self/status").read_text())[1])
+    return timing.interleaved(functions, repeats)

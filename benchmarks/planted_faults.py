@@ -19,14 +19,12 @@ from pathlib import Path
 
 import click
 import yaml
-
-import viscorough
-from viscorough_study.performance import timing
-from viscorough_study.run.tables import write_json
+from measuring import output_option, save
 
 ROOT = Path(__file__).resolve().parents[1]
 FAULTS = Path(__file__).with_suffix(".yaml")
 LEFT_OUT = shutil.ignore_patterns(".git", ".venv*", ".snakemake", "results", ".pytest_cache", ".hypothesis")
+TIME_LIMIT = 300.0  # seconds for the tests of one fault
 PASSED, FAILED = 0, 1  # exit codes of pytest; the others say that it could not run the tests
 
 
@@ -135,10 +133,9 @@ def outcome(fault, clean, folder, time_limit):
 
 
 @click.command(help=__doc__.splitlines()[0])
-@click.option("--output", type=click.Path(path_type=Path), required=True, help="File to write, JSON.")
+@output_option
 @click.option("--only", multiple=True, help="Name of a fault; may be given more than once  [default: all].")
-@click.option("--time-limit", default=300.0, show_default=True, help="Seconds for the tests of one fault.")
-def main(output, only, time_limit):
+def main(output, only):
     faults = [fault for fault in read_faults() if not only or fault.name in only]
     if unknown := set(only) - {fault.name for fault in faults}:
         raise click.UsageError(f"no fault has the name {', '.join(sorted(unknown))}")
@@ -147,15 +144,14 @@ def main(output, only, time_limit):
     with tempfile.TemporaryDirectory() as temporary:
         clean = Path(temporary) / "clean"
         tests = list(dict.fromkeys(test for fault in faults for test in fault.tests))
-        click.echo(f"all tests without any fault: {prepare(clean, tests, time_limit * len(faults)):.0f} s")
+        click.echo(f"all tests without any fault: {prepare(clean, tests, TIME_LIMIT * len(faults)):.0f} s")
         results = []
         for fault in faults:
-            results.append(outcome(fault, clean, Path(temporary) / "planted", time_limit))
+            results.append(outcome(fault, clean, Path(temporary) / "planted", TIME_LIMIT))
             click.echo("{name}: {verdict} ({seconds:.0f} s)".format(**results[-1]))
     caught = sum(result["verdict"] == "caught" for result in results)
-    about = {"machine": timing.machine(), "viscorough": viscorough.__version__, "faults": len(faults), "caught": caught}
-    write_json(about | {"results": results}, output)
-    click.echo(f"{caught} of {len(faults)} faults caught; written to {output}")
+    click.echo(f"{caught} of {len(faults)} faults caught")
+    save({"faults": len(faults), "caught": caught, "results": results}, output)
     sys.exit(caught < len(faults))
 
 

@@ -33,35 +33,28 @@ ROOT = Path(__file__).resolve().parents[1]
 BEGIN, END = "<!-- {}: by benchmarks/publish.py -->\n", "<!-- end of {} -->\n"
 OTHER_SOLVERS = "resources/published/other_solvers.csv"  # with which runs are compared that do not measure them
 DEFAULT_COSTS, DEFAULT_CLAIMS = "resources/published/default_costs.csv", "resources/published/default_claims.csv"
-# {command of make: files in results/ that it makes and that are published in docs/results/}
-PUBLISHED = {
+# {command of make: names of figures, names of tables} that it makes in results/ and that are published
+MADE = {
     "paper": (
-        *("figures/fig1_surfaces.png", "figures/fig2_kinetics.png", "figures/fig3_master_curve.png"),
-        *("figures/fig4_exponent.png", "figures/conventions.png", "figures/validation.png", "tables/scaling.csv"),
-        *("figures/interface.png", "tables/interface.csv"),
-        *("tables/validation.csv", "tables/direct.csv", "tables/reduction.csv", "tables/rule_costs.csv"),
-        *("figures/reduction.png", "figures/mdr_lambda.png", "tables/mdr_lambda.csv", "tables/mdr_summary.csv"),
-        *("tables/mdr_exponents.csv", "tables/plateaus.csv", "tables/literature.csv"),
+        "fig1_surfaces fig2_kinetics fig3_master_curve fig4_exponent conventions validation interface reduction "
+        "mdr_lambda",
+        "scaling interface validation direct reduction rule_costs mdr_lambda mdr_summary mdr_exponents plateaus "
+        "literature",
     ),
-    "speed": (
-        *("figures/speed.png", "figures/growth.png", "figures/other_solvers.png"),
-        *("figures/level_placement.png", "tables/methods.csv", "tables/other_solvers.csv"),
-        "tables/level_placement.csv",
-    ),
-    "stability": ("figures/failure_map.png", "tables/failure_map.csv", "campaign.json"),
-    "sizes": (
-        "figures/sizes.png",
-        "figures/collapse.png",
-        "tables/sizes.csv",
-        "tables/sizes_trends.csv",
-        "tables/collapse.csv",
-        "tables/infinite_grid.csv",
-    ),
-    "large": ("figures/large.png", "tables/large.csv"),
-    "reproduce": (),
-    "seeds": (),
-    "resampled": (),
+    "speed": ("speed growth other_solvers level_placement", "methods other_solvers level_placement"),
+    "stability": ("failure_map", "failure_map"),
+    "sizes": ("sizes collapse", "sizes sizes_trends collapse infinite_grid"),
+    "large": ("large", "large"),
+    "reproduce": ("", ""),
+    "seeds": ("", ""),
+    "resampled": ("", ""),
 }
+# {command: files in results/ that are published in docs/results/}
+PUBLISHED = {
+    command: [f"figures/{name}.png" for name in figures.split()] + [f"tables/{name}.csv" for name in tables.split()]
+    for command, (figures, tables) in MADE.items()
+}
+PUBLISHED["stability"].append("campaign.json")
 # {command: {file in results/ that other parts of the project read: where they find it}}
 KEPT = {
     "paper": {

@@ -4,14 +4,13 @@
 
 Curves of rough maps of 257 x 257 elements at a tolerance of 1e-3, on one thread. Elements of every aspect dy/dx have
 the same area, so that contact is spread over the same depths. Repeats alternate between the aspects; the file has the
-medians of processor seconds, their ratio to those of squares of the same repeat, and operator applications and levels.
+medians of processor seconds and their ratio to those of squares.
 `make bench` runs it.
 """
 
 from functools import partial
 
-import numpy as np
-from measuring import command, turns
+from measuring import command, medians
 
 from viscorough import Indenter, indent
 from viscorough.surfaces import cut_disc, self_affine_square
@@ -30,17 +29,14 @@ def maps():
 
 def costs(heights, repeats):
     """{aspect: costs} of the curve of one map."""
-    indenters = [Indenter(heights, (aspect**-0.5, aspect**0.5)) for aspect in ASPECTS]
-    curves = [indent(indenter, tolerance=TOLERANCE) for indenter in indenters]
-    seconds = turns([partial(indent, indenter, tolerance=TOLERANCE) for indenter in indenters], repeats)[:, :, 1]
+    curves = {
+        aspect: partial(indent, Indenter(heights, (aspect**-0.5, aspect**0.5)), tolerance=TOLERANCE)
+        for aspect in ASPECTS
+    }
+    processor = {aspect: seconds for aspect, (_, seconds) in medians(curves, repeats).items()}
     return {
-        f"{aspect:g}": {
-            "processor_s": float(np.median(of_aspect)),
-            "over_squares": float(np.median(of_aspect / seconds[:, 0])),
-            "operator_applications": curve.operator_applications,
-            "levels": curve.depth.size,
-        }
-        for aspect, of_aspect, curve in zip(ASPECTS, seconds.T, curves, strict=True)
+        f"{aspect:g}": {"processor_s": seconds, "over_squares": seconds / processor[1.0]}
+        for aspect, seconds in processor.items()
     }
 
 

@@ -19,6 +19,7 @@ from pathlib import Path
 import click
 import numpy as np
 import pandas as pd
+from measuring import output_option
 from verdicts_again import claims, report
 
 from viscorough.io.datasets import read_dataset, write_dataset
@@ -50,7 +51,7 @@ def draw_again(results, folder, random):
 @click.option("--draws", type=click.IntRange(1), default=8, show_default=True)
 @click.option("--seed", type=click.IntRange(0), default=1, show_default=True, help="Of the draws.")
 @click.option("--cores", type=click.IntRange(1), default=2, show_default=True)
-@click.option("--output", type=click.Path(path_type=Path), required=True, help="File to write, JSON.")
+@output_option
 def main(results, settings, draws, seed, cores, output):
     if not (results / "tables/claims.csv").is_file():
         raise click.ClickException(f"{results}: no tables/claims.csv there; make paper makes it")

@@ -11,6 +11,7 @@ import tempfile
 from pathlib import Path
 
 import click
+from measuring import output_option
 from verdicts_again import claims, report
 
 
@@ -18,7 +19,7 @@ from verdicts_again import claims, report
 @click.option("--seeds", type=click.IntRange(2), default=3, show_default=True, help="Number of root seeds: 1, 2, ...")
 @click.option("--cores", type=click.IntRange(1), default=2, show_default=True)
 @click.option("--settings", type=click.Path(exists=True, path_type=Path), help="What differs from config/config.yaml.")
-@click.option("--output", type=click.Path(path_type=Path), required=True, help="File to write, JSON.")
+@output_option
 def main(seeds, cores, settings, output):
     tables = {}
     for seed in range(1, seeds + 1):

@@ -17,6 +17,7 @@ import signal
 import socket
 import subprocess
 import sys
+import tempfile
 import time
 from collections import Counter
 from importlib.metadata import version
@@ -24,11 +25,8 @@ from pathlib import Path
 
 import click
 import psutil
-from chaos import HANGS, compare, contents, copy_project, jobs_done, remove_results, started, wait_for, workplace
-
-import viscorough
-from viscorough_study.performance import timing
-from viscorough_study.run.tables import write_json
+from chaos import HANGS, compare, contents, copy_project, jobs_done, remove_results, started, wait_for
+from measuring import output_option, save
 
 NODE = socket.gethostname().split(".")[0]
 # There is no accounting, jobs take seconds, and no other user queries their states.
@@ -85,7 +83,7 @@ def install():
         subprocess.run(["apt-get", "--quiet", *arguments], env=environment, check=True)
 
 
-def output(*command):
+def said(*command):
     return subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
 
 
@@ -124,8 +122,8 @@ def cluster(folder):
         yield
     finally:
         with contextlib.suppress(click.ClickException, subprocess.SubprocessError, OSError):
-            output("scancel", "--quiet", "--user", "root")
-            wait_for(lambda: not output("squeue", "--noheader"), "end of the remaining jobs", 60)
+            said("scancel", "--quiet", "--user", "root")
+            wait_for(lambda: not said("squeue", "--noheader"), "end of the remaining jobs", 60)
         stop(str(conf))
 
 
@@ -159,12 +157,12 @@ def state():
 
 
 def set_state(value):
-    output("scontrol", "update", f"nodename={NODE}", f"state={value}", "reason=test")
+    said("scontrol", "update", f"nodename={NODE}", f"state={value}", "reason=test")
 
 
 def jobs(kind):
     """Slurm's numbers of the jobs that are RUNNING or PENDING, as `kind` says."""
-    return output("squeue", "--noheader", "--array", "--states", kind, "--format", "%i").split()
+    return said("squeue", "--noheader", "--array", "--states", kind, "--format", "%i").split()
 
 
 def ended(cluster_folder, folder):
@@ -207,7 +205,7 @@ def disturbances(log):
 
     def disturb(run):
         victim = under_way(run)[0]
-        output("scancel", victim)
+        said("scancel", victim)
         note(run, f"job {victim} cancelled")
         under_way(run, [victim])
         set_state("drain")
@@ -250,29 +248,23 @@ def compare_runs(folder):
             lines = [f"{copy.name}: {about['seconds']:.0f} s, {about['ends_of_jobs']}", *about["differences"]]
             click.echo("\n".join(lines))
         result["versions"] = {
-            "slurm": output("sinfo", "--version"),
-            "munge": output("munged", "--version").splitlines()[0],
+            "slurm": said("sinfo", "--version"),
+            "munge": said("munged", "--version").splitlines()[0],
             **{name: version(name) for name in ("snakemake", "snakemake-executor-plugin-slurm")},
         }
     return result | {"jobs": jobs_done(local), "files_compared": len(wanted), "disturbances": log}
 
 
 @click.command(help=__doc__.splitlines()[0])
-@click.option("--output", "target", type=click.Path(path_type=Path), required=True, help="File to write, JSON.")
-@click.option(
-    "--folder",
-    type=click.Path(path_type=Path),
-    help="New folder to work in, which is kept  [default: a temporary one]",
-)
-def main(target, folder):
+@output_option
+def main(output):
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # as an exception, so that the daemons are ended
     install()
-    with workplace(folder) as working:
-        working.chmod(0o755)  # munged requires that all users can reach its socket
-        result = {"machine": timing.machine(), "viscorough": viscorough.__version__, **compare_runs(working)}
-    write_json(result, target)
-    click.echo(f"written to {target}")
-    sys.exit(1 if any(result[name]["differences"] for name in ("undisturbed", "disturbed")) else 0)
+    with tempfile.TemporaryDirectory() as folder:
+        os.chmod(folder, 0o755)  # munged requires that all users can reach its socket
+        result = compare_runs(Path(folder).resolve())
+    save(result, output)
+    sys.exit(any(result[name]["differences"] for name in ("undisturbed", "disturbed")))
 
 
 if __name__ == "__main__":

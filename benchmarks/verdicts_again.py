@@ -6,9 +6,8 @@ from pathlib import Path
 
 import click
 import pandas as pd
+from measuring import save
 
-from viscorough_study.performance import timing
-from viscorough_study.run.tables import write_json
 from viscorough_study.verdicts.claims import overall
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -30,9 +29,9 @@ def report(tables, what, output):
     """
     verdicts = pd.DataFrame({run: overall(table) for run, table in tables.items()})
     moved = {claim: row.tolist() for claim, row in verdicts[verdicts.nunique(axis=1) > 1].iterrows()}
-    write_json({"machine": timing.machine(), "moved": moved, "verdicts": verdicts.to_dict()}, output)
+    save({"moved": moved, "verdicts": verdicts.to_dict()}, output)
     pd.concat(tables, names=[what]).droplevel(1).to_csv(output.with_suffix(".csv"))
     for claim, outcomes in moved.items():
         click.echo(f"{claim}: {', '.join(outcomes)}")
-    click.echo(f"{len(moved)} of {len(verdicts)} verdicts change with the {what}; written to {output}")
+    click.echo(f"{len(moved)} of {len(verdicts)} verdicts change with the {what}")
     return moved

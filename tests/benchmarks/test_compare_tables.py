@@ -39,8 +39,8 @@ def test_equal_runs(runs):
     ("column", "change", "message"),
     [
         ("value", lambda value: value * (1 + 1e-11), "1 of 1 differ, by up to 1e-11 relative"),
-        ("value", lambda value: value * np.nan, "1 of 1 differ, by up to inf relative"),
-        ("claim", lambda value: value + "x", "1 of 1 differ, by up to inf relative, first beta and betax"),
+        ("value", lambda value: value * np.nan, "1 of 1 differ, by up to nan relative, first 0.3 and nan"),
+        ("claim", lambda value: value + "x", "1 of 1 differ, first beta and betax"),
         ("more", lambda value: 1, "only in NEW"),
         ("value", lambda value: value * (1 + 1e-14), None),
     ],

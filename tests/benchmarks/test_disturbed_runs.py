@@ -61,15 +61,6 @@ def test_jobs_of_a_cluster_are_counted_with_their_ends(tmp_path):
     assert slurm.ended(tmp_path, "/run") == {"jobs_submitted": 2, "ends_of_jobs": ends}
 
 
-def test_settings_of_a_cluster_are_complete(tmp_path):
-    ports = slurm.free_ports(2)
-    assert len(set(ports)) == 2
-    about = {"node": "here", "folder": tmp_path, "ports": ports, "cpus": 2, "memory": 1000}
-    lines = slurm.SLURM_CONF.format(**about).splitlines()
-    assert f"SlurmdPort={ports[1]}" in lines
-    assert "NodeName=here NodeAddr=127.0.0.1 CPUs=2 RealMemory=1000 State=UNKNOWN" in lines
-
-
 def test_processes_of_a_cluster_are_ended():
     """Those with its settings in their environment."""
     with subprocess.Popen(["sleep", "600"], env={"SLURM_CONF": "/of/this/test", "PATH": "/usr/bin:/bin"}):

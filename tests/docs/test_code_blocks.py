@@ -11,12 +11,11 @@ import yaml
 from matplotlib.testing.compare import compare_images
 
 from support.command_line import VISCOROUGH
-from support.documentation import PAGES, README, ROOT, blocks, named_files
+from support.documentation import PAGES, README, ROOT, blocks
 from viscorough_study.run.settings import check_settings
 
 EXAMPLE = ROOT / "examples/own_surface.py"
 RUN = {page: [block for block in blocks(page) if block.language in ("python", "console")] for page in PAGES}
-LANGUAGES = {"python", "console", "shell", "text", "yaml", "", "{eval-rst}", "{toctree}", "{include}"}
 
 
 @pytest.fixture(autouse=True)
@@ -38,9 +37,8 @@ def run_console(text):
     """Run the lines that start with "$"; what they print must match the lines below, where ... stands for any text."""
     path = f"{VISCOROUGH.parent}{os.pathsep}{os.environ['PATH']}"
     for command, shown in re.findall(r"^\$ (.*)\n((?:(?!\$ ).*\n)*)", text, re.MULTILINE):
-        done = subprocess.run(
-            command, shell=True, capture_output=True, text=True, check=False, env=os.environ | {"PATH": path}
-        )
+        environment = os.environ | {"PATH": path}
+        done = subprocess.run(command, shell=True, capture_output=True, text=True, check=False, env=environment)
         assert done.returncode == 0, done.stderr
         pattern = ".*".join(re.escape(piece) for piece in shown.split("..."))
         assert re.fullmatch(pattern, done.stdout), done.stdout
@@ -51,12 +49,6 @@ def test_blocks_run(page):
     run_page(page)
 
 
-def test_every_block_says_what_it_is():
-    for page in PAGES:
-        assert {block.language for block in blocks(page)} <= LANGUAGES, page
-    assert sum(map(len, RUN.values())) >= 9
-
-
 def test_readme_makes_the_picture_that_it_shows(tmp_path):
     """The example makes heights.npy, which the lines in README.md read; both draw docs/own_surface.png."""
     runpy.run_path(str(EXAMPLE))
@@ -65,9 +57,6 @@ def test_readme_makes_the_picture_that_it_shows(tmp_path):
     picture.unlink()
     run_page(README)
     assert compare_images(ROOT / "docs/own_surface.png", picture, tol=1) is None
-    (block,) = RUN[README]
-    assert block.text.split("\n\n")[1] in EXAMPLE.read_text(encoding="utf-8")
-    assert len(block.text.split("\n\n")[1].splitlines()) + 2 <= 10
 
 
 def test_settings_shown_are_valid():
@@ -80,8 +69,3 @@ def test_settings_shown_are_valid():
         for section, keys in settings.items():
             merged[section] = keys if isinstance(keys, list) else merged[section] | keys
         check_settings(merged, schema)
-
-
-def test_files_shown_are_tested():
-    """Those of docs/extending.md are, in tests/workflow."""
-    assert [page.name for page in PAGES if named_files(page)] == ["extending.md"]

@@ -21,6 +21,7 @@ from viscorough_study.verdicts.claims import overall
 TABLE = pd.read_csv(ROOT / "docs/claims.csv")
 LAW = pd.read_csv(ROOT / "src/viscorough/data/interface.csv").query("source == 'discs'")
 LAW_HERE = LAW.query("across == 257 and average == 'geometric'").drop_duplicates("hurst").set_index("hurst")
+INTERVAL = ["value", "low", "high"]
 BASE = "source == 'discs' and case_group == 'base' and rms_convention == 'disc' and average == 'geometric'"
 
 
@@ -196,17 +197,15 @@ QUOTED = {
             fits("kappa")["zeta"] / fits("kappa").index.map(zeta_elastic)
         ),
         "its quantity is {:.3f}, with {:.3f} to {:.3f}, beside the end of its tolerance, {:g}": lambda: value(
-            "zeta_elastic_shape", "all H", ["value", "low", "high", "tolerance"]
+            "zeta_elastic_shape", "all H", [*INTERVAL, "tolerance"]
         ),
-        "over {:.3g} decades, {:.3g} to {:.3g}": lambda: value(
-            "power_law", "H = 0.1, decades", ["value", "low", "high"]
-        ),
+        "over {:.3g} decades, {:.3g} to {:.3g}": lambda: value("power_law", "H = 0.1, decades", INTERVAL),
         "two decades at every *H*": lambda: (value("power_law", column="low").drop("H = 0.1, decades") >= 2).all(),
         "only {} to {} % of the elements touch": lambda: ends(value("complete_contact"), factor=100),
         "take some hundred times as long as the lines": lambda: 50 < value("computing_time").iloc[0] < 1000,
         "with about {:.0f} contact problems": lambda: 51432 * value("contact_problems").iloc[0],
         "above *H*/(1 + *H*), by {:.2f} and {:.2f}": lambda: departures(),
-        "discs have {:.3f}, {:.3f} to {:.3f}": lambda: value("alpha_limit", "H = 1, discs", ["value", "low", "high"]),
+        "discs have {:.3f}, {:.3f} to {:.3f}": lambda: value("alpha_limit", "H = 1, discs", INTERVAL),
         "The control falls short of two decades at every *H*": lambda: plateaus("roll_off")["decades_high"].max() < 2,
         "with 1.5 decades *H* = 0.1 would pass": lambda: plateaus("base")["decades_low"].min() >= 1.5,
         "and the control would be undecided": lambda: (

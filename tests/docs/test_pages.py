@@ -1,19 +1,14 @@
-"""README and docs/: links lead somewhere, what is named exists, and the questions of users are answered."""
+"""README and docs/: links lead somewhere, and what is named exists."""
 
 import re
 
 import pytest
 
-from support.documentation import PAGES, README, ROOT, anchors, links, prose, read, sections
+from support.documentation import PAGES, ROOT, anchors, links, prose, read
 from support.workflow import FIGURES, RESULTS, TARGETS
 
-QUESTIONS = ROOT / "docs/questions.md"
 WORKFLOW = "\n".join(read(path) for path in [ROOT / "workflow/Snakefile", *(ROOT / "workflow/rules").glob("*.smk")])
 NAMES = [str(page.relative_to(ROOT)) for page in PAGES]
-
-
-def test_readme_is_short():
-    assert len(read(README).split()) <= 1000
 
 
 @pytest.mark.parametrize("page", PAGES, ids=NAMES)
@@ -57,17 +52,6 @@ def _check_snakemake(words):
         elif not word.startswith("-") and previous not in takes_value:
             assert word in rules | {"tabulate_departures", "plot_departures"}, word
         previous = word
-
-
-def test_questions_are_answered_within_two_clicks():
-    """From README.md to the list, where each has a short answer, and from there to the long one."""
-    assert "docs/questions.md" in links(read(README))
-    questions = sections(QUESTIONS)
-    assert len(questions) == 12
-    for number, (question, answer) in enumerate(questions.items(), start=1):
-        assert re.fullmatch(rf"{number}\. .*\?", question)
-        assert any("#" in link for link in links(answer)), question
-        assert len(answer.split()) > 15
 
 
 def test_every_page_is_listed_on_the_first():

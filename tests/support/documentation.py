@@ -57,9 +57,3 @@ def anchors(page):
     """The anchors of a page's headings, as GitHub and the site make them."""
     headings = re.findall(r"^#+ (.*)$", prose(page), re.MULTILINE)
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
-
-
-def sections(page):
-    """{heading: text} of the second level of a page."""
-    _, *parts = re.split(r"^## (.*)$", read(page), flags=re.MULTILINE)
-    return dict(zip(parts[::2], parts[1::2], strict=True))

@@ -27,7 +27,7 @@ from viscorough.errors import ConvergenceError
 from viscorough.interrupts import on_interrupt
 
 
-@click.group(no_args_is_help=False)
+@click.group(no_args_is_help=False, context_settings={"show_default": True})
 @click.version_option(package_name="viscorough", message="%(prog)s %(version)s")
 def cli():
     """Penetration of rough rigid indenters into a linearly viscous half-space.

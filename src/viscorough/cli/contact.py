@@ -17,7 +17,7 @@ from viscorough.summaries import unit_power, with_unit
 @click.option("--force", type=Increasing("N"), help="Force, or several: F/G, or F with a modulus.")
 @click.option("--depth", type=Increasing("m"), help="Depth from first contact, or several.")
 @elastic_constants_options
-@click.option("--tolerance", type=PositiveNumber(0.1), default=1e-3, show_default=True, help="Relative accuracy.")
+@click.option("--tolerance", type=PositiveNumber(0.1), default=1e-3, help="Relative accuracy.")
 @threads_option
 @progress_option
 def contact(surface, output, *, force, depth, shear_modulus, young, poisson, tolerance, threads, progress):

@@ -9,15 +9,11 @@ from viscorough.cli.options import PositiveNumber, Quantity, number_in
 
 def elastic_constants_options(command):
     """Add --shear-modulus, --young and --poisson to a command."""
-    for option in (
-        click.option(
-            "--poisson", type=PositiveNumber(0.5, above=-1), help="Poisson ratio, with --young  [default: 0.5]"
-        ),
-        click.option("--young", type=Quantity("Pa"), help="Young's modulus of the half-space, instead of G."),
-        click.option("--shear-modulus", type=Quantity("Pa"), help="Shear modulus G of the incompressible half-space."),
-    ):
-        command = option(command)
-    return command
+    ratio = PositiveNumber(0.5, above=-1)
+    command = click.option("--poisson", type=ratio, help="Poisson ratio, with --young  [default: 0.5]")(command)
+    command = click.option("--young", type=Quantity("Pa"), help="Young's modulus, instead of G.")(command)
+    text = "Shear modulus G of the incompressible half-space."
+    return click.option("--shear-modulus", type=Quantity("Pa"), help=text)(command)
 
 
 @dataclass(frozen=True)

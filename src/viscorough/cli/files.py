@@ -29,20 +29,23 @@ def printable_name(file):
     return file.name.encode(errors="backslashreplace").decode()
 
 
+LONGEST = 60  # seconds that opening a file may take
+
+
 @contextlib.contextmanager
-def time_limit(path, seconds=60):
+def time_limit(path):
     """Context in which a NetCDF file is opened; if that takes too long, the process ends with one line and exit code 2.
 
     Damage can make the HDF5 library run without end, where Python cannot interrupt it. Opening takes milliseconds.
     """
 
     def end():
-        text = f"{path}: not opened within {seconds:g} s, as can happen if it is damaged; a whole NetCDF file is needed"
+        text = f"{path}: not opened within {LONGEST:g} s, as can happen if it is damaged; a whole NetCDF file is needed"
         complain(command, text)
         os._exit(2)
 
     command = click.get_current_context().command_path
-    timer = threading.Timer(seconds, end)
+    timer = threading.Timer(LONGEST, end)
     timer.daemon = True
     timer.start()
     try:

@@ -14,31 +14,15 @@ from viscorough.summaries import with_unit
 @click.command(short_help="Loading curve of an indenter on an elastic half-space.")
 @heights_input()
 @output_option("CURVE.nc")
-@click.option(
-    "--depths", type=Increasing("m"), help="Levels at exactly these depths  [default: as the tolerance needs]"
-)
-@click.option("--forces", type=Increasing("N"), help="Levels at exactly these F/G, or F with a modulus.")
-@click.option("--tolerance", type=PositiveNumber(0.1), default=1e-3, show_default=True, help="Relative accuracy.")
+@click.option("--depths", type=Increasing("m"), help="Levels at these depths  [default: as the tolerance needs]")
+@click.option("--forces", type=Increasing("N"), help="Levels at these F/G, or F with a modulus.")
+@click.option("--tolerance", type=PositiveNumber(0.1), default=1e-3, help="Relative accuracy.")
 @click.option("--until-fraction", type=PositiveNumber(1), help="Contact fraction at which to stop  [default: 0.9]")
 @click.option("--until-force", type=Quantity("N"), help="F/G, or F with a modulus, at which to stop.")
 @elastic_constants_options
 @threads_option
 @progress_option
-def indent(
-    surface,
-    output,
-    *,
-    depths,
-    forces,
-    tolerance,
-    until_fraction,
-    until_force,
-    shear_modulus,
-    young,
-    poisson,
-    threads,
-    progress,
-):
+def indent(surface, output, *, depths, forces, tolerance, until_fraction, until_force, threads, progress, **constants):
     """Loading curve of an indenter pressed into an elastic half-space.
 
     HEIGHTS is a map of heights: .npy, NetCDF, text (a matrix, an ESRI grid, columns x, y, z), TIFF, or a format of an
@@ -70,7 +54,7 @@ def indent(
     if len(stated) > 1 and stated[0] in levels:
         raise click.UsageError(f"{stated[0]} and {stated[1]} exclude each other; one of them is allowed")
     indenter = read_indenter(surface, output)
-    medium = elasticity(shear_modulus, young, poisson, indenter.length_unit)
+    medium = elasticity(length_unit=indenter.length_unit, **constants)
     given = {}
     if depths is not None:
         given["depths"] = lengths(depths, indenter.length_unit, "--depths")

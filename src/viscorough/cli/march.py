@@ -78,8 +78,8 @@ def march(
     about = {"medium": printable_name(medium)} if medium else {"viscosity": viscosity}
     about["force"] = printable_name(force_history) if force_history else force
     history = _read_history(force_history, unit) if force_history else None
-    options = {} if until_fraction is None else {"until_fraction": until_fraction}
-    options |= {} if overlap is None else {"overlap": overlap}
+    given = {"until_fraction": until_fraction, "overlap": overlap}
+    options = {name: value for name, value in given.items() if value is not None}
     with progress_bar("viscorough march", progress) as report:
         if medium:
             content = _in_medium(indenter, method, medium, force, times, history, progress=report, **options)

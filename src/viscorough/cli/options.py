@@ -106,10 +106,5 @@ force_history_option = click.option(
     metavar="FORCE.csv",
     help="Two columns, times and forces, instead of --force: F >= 0, linear in between; a time given twice is a step.",
 )
-threads_option = click.option(
-    "--threads",
-    type=click.IntRange(1, 1024),
-    default=1,
-    show_default=True,
-    help="Threads of the processor; the result does not depend on them.",
-)
+_THREADS = "Threads of the processor; the result does not depend on them."
+threads_option = click.option("--threads", type=click.IntRange(1, 1024), default=1, help=_THREADS)

@@ -9,7 +9,7 @@ from pathlib import Path
 import click
 
 from viscorough.cli.files import check_opens, check_output, printable_name
-from viscorough.cli.options import FILE
+from viscorough.cli.options import FILE, Quantity
 from viscorough.errors import AccuracyWarning
 
 _STEEP_SLOPE = 0.3  # rms slope above which the theory of small slopes is doubtful, so that users are warned
@@ -38,87 +38,69 @@ class Surface:
         return attributes | {"preparation": _in_words(self.preparation)}
 
 
-class _Spacing(click.ParamType):
+def _spacing(value):
     """One or two positive distances separated by a comma, plain or with a unit of length."""
-
-    name = "DX[,DY]"
-
-    def convert(self, value, param, ctx):
-        from viscorough.cli.options import Quantity
-
-        entries = value.split(",")
-        if len(entries) > 2:
-            self.fail(f"{value!r} has {len(entries)} distances; DX or DX,DY is allowed", param, ctx)
-        distances = [Quantity("m").convert(entry.strip(), param, ctx) for entry in entries]
-        return distances[0], distances[-1]
+    entries = value.split(",")
+    if len(entries) > 2:
+        raise click.BadParameter(f"{value!r} has {len(entries)} distances; DX or DX,DY is allowed")
+    distances = [Quantity("m").convert(entry.strip(), None, None) for entry in entries]
+    return distances[0], distances[-1]
 
 
-class _LengthUnit(click.ParamType):
-    name = "unit"
+def _length_unit(value):
+    from viscorough import units
 
-    def convert(self, value, param, ctx):
-        from viscorough import units
-
-        try:
-            return units.length_unit(value)
-        except ValueError as error:
-            self.fail(str(error), param, ctx)
+    try:
+        return units.length_unit(value)
+    except ValueError as error:
+        raise click.BadParameter(str(error)) from error
 
 
-class _Numbers(click.ParamType):
+def _numbers(value):
     """Numbers separated by commas, of any sign."""
-
-    name = "value"
-
-    def convert(self, value, param, ctx):
-        try:
-            numbers = [float(entry) for entry in value.split(",")]
-        except ValueError:
-            numbers = [float("nan")]
-        if not all(abs(number) < float("inf") for number in numbers):
-            self.fail(f"{value!r} is not a finite number, or several separated by commas", param, ctx)
-        return numbers
+    try:
+        numbers = [float(entry) for entry in value.split(",")]
+    except ValueError:
+        numbers = [float("nan")]
+    if not all(abs(number) < float("inf") for number in numbers):
+        raise click.BadParameter(f"{value!r} is not a finite number, or several separated by commas")
+    return numbers
 
 
-class _Crop(click.ParamType):
+def _crop(value):
     """Columns and rows to keep, FIRST:END each."""
-
-    name = "X0:X1,Y0:Y1"
-
-    def convert(self, value, param, ctx):
-        match = re.fullmatch(r"(\d{1,9}):(\d{1,9}),(\d{1,9}):(\d{1,9})", value, re.ASCII)
-        if match is None:
-            self.fail(f"{value!r} is not X0:X1,Y0:Y1, numbers of points from 0", param, ctx)
-        left, right, top, bottom = map(int, match.groups())
-        return (left, right), (top, bottom)
+    match = re.fullmatch(r"(\d{1,9}):(\d{1,9}),(\d{1,9}):(\d{1,9})", value, re.ASCII)
+    if match is None:
+        raise click.BadParameter(f"{value!r} is not X0:X1,Y0:Y1, numbers of points from 0")
+    left, right, top, bottom = map(int, match.groups())
+    return (left, right), (top, bottom)
 
 
 _OPTIONS = (
     click.option(
         "--spacing",
-        type=_Spacing(),
+        type=_spacing,
+        metavar="DX[,DY]",
         help="Distance between neighbouring points, from column to column and from row to row if they differ; plain "
         "numbers are in the unit of the heights. Needed where the file states none.",
     ),
     click.option(
-        "--unit", type=_LengthUnit(), help="Unit of length of heights, such as um, where the file states none."
+        "--unit", type=_length_unit, metavar="UNIT", help="Unit of heights, such as um, if the file has none."
     ),
     click.option("--channel", help="Name or number of the map to read from a file that holds several."),
-    click.option("--nodata", type=_Numbers(), help="Values, such as -9999, that mark points that were not measured."),
-    click.option("--crop", type=_Crop(), help="Part to keep: columns and rows, numbered from 0, ends not included."),
+    click.option("--nodata", type=_numbers, metavar="VALUE", help="Values, such as -9999, of points not measured."),
+    click.option("--crop", type=_crop, metavar="X0:X1,Y0:Y1", help="Columns and rows to keep, from 0, ends excluded."),
     click.option("--flip", is_flag=True, help="Change the sign, for data in which larger is lower."),
     click.option(
         "--detrend",
         type=click.Choice(["none", "mean", "plane", "sphere"]),
         default="none",
-        show_default=True,
         help="Form to subtract, fitted by least squares; a sphere includes a plane.",
     ),
     click.option(
         "--fill",
         type=click.Choice(["none", "harmonic"]),
         default="none",
-        show_default=True,
         help="Heights for enclosed holes, from the Laplace equation.",
     ),
 )

@@ -29,9 +29,7 @@ _KEY_WITH_UNIT = re.compile(r"(.*\w)\s*(?:\s+in\s+|/\s*)(\S+)")
 _AXIS = re.compile(
     r"([xyz])(?:pos|position|coord|coordinate|axis|achse|koordinate|value|wert)?|height|höhe|hauteur|elevation"
 )
-_OTHER_LANGUAGE = re.compile(
-    r"breite|höhe|kanal|einheit|größe|abstand|largeur|hauteur|canal|unité|taille", re.IGNORECASE
-)
+_OTHER_LANGUAGE = re.compile(r"(?i)breite|höhe|kanal|einheit|größe|abstand|largeur|hauteur|canal|unité|taille")
 
 
 def _keys(template):
@@ -103,9 +101,8 @@ def read_header(lines, shape, delimiter, decimal):
         if role:
             stated[role].append((line, unit, value))
         elif _has_unit_of_unknown_meaning(line, value):
-            raise ValueError(
-                f"header {line!r}: of which lengths is not stated; 'x units', 'y units', 'z units' are allowed"
-            )
+            text = "of which lengths is not stated; 'x units', 'y units', 'z units' are allowed"
+            raise ValueError(f"header {line!r}: {text}")
 
     def unit_among(*roles, of_column=""):
         texts = [_unit_text(value) for role in roles for _, _, value in stated[role]]
@@ -178,9 +175,8 @@ def _agreed(texts):
 def _number(text, comma):
     """A number of a header. Raises ValueError if its comma may be a decimal mark or part thousands."""
     if "," in text and not comma and re.fullmatch(r"[+-]?[1-9]\d{0,2},\d{3}", text):
-        raise ValueError(
-            f"header: {text} is {text.replace(',', '')} or {text.replace(',', '.')}; a decimal point is needed"
-        )
+        readings = f"{text.replace(',', '')} or {text.replace(',', '.')}"
+        raise ValueError(f"header: {text} is {readings}; a decimal point is needed")
     return float(text.replace(",", ".").replace("D", "e").replace("d", "e"))
 
 
@@ -245,9 +241,8 @@ def _agreed_step(axis, steps, extents, count, unit):
     for extent in extents:
         if not steps:
             if abs(extent - extents[0]) > _AGREEMENT * abs(extents[0]):
-                raise ValueError(
-                    f"header: {name} extend over {extents[0]:g} or {extent:g} {unit}; one extent is needed"
-                )
+                text = f"{name} extend over {extents[0]:g} or {extent:g} {unit}"
+                raise ValueError(f"header: {text}; one extent is needed")
         elif min(abs(extent / n - steps[0]) for n in (count, max(count - 1, 1))) > _ROUNDING * abs(steps[0]):
             text = f"{name} are {steps[0]:g} {unit} apart, {count} of them extend over {extent:g} {unit}"
             raise ValueError(f"header: {text}; statements that agree are needed")

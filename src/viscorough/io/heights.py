@@ -124,11 +124,8 @@ def unit_of(variable):
 
 def positions_along(file, dimension):
     """Name, positions and unit along a dimension: of the variable of that name, or of the only one that has only it."""
-    along = [
-        name
-        for name, variable in file.variables.items()
-        if variable.dimensions == (dimension,) and variable.dtype is not str and np.dtype(variable.dtype).kind in "iuf"
-    ]
+    variables = {name: each for name, each in file.variables.items() if each.dimensions == (dimension,)}
+    along = [name for name, each in variables.items() if each.dtype is not str and np.dtype(each.dtype).kind in "iuf"]
     name = dimension if dimension in along else along[0] if len(along) == 1 else None
     return None if name is None else (name, unpacked(file.variables[name]), unit_of(file.variables[name]))
 

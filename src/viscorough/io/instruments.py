@@ -35,9 +35,7 @@ def read_instrument(path, channel=None):
                 chosen, others = _choose(file, channel)
                 topography = chosen.topography(**_placeholders(chosen))
                 heights = np.ma.filled(np.ma.asarray(topography.heights()).astype(float), np.nan)
-        except MemoryError:
-            raise
-        except _NoHeightsError:
+        except (MemoryError, _NoHeightsError):
             raise
         except Exception as error:  # each format raises other errors
             kind = "no known format" if type(error).__name__ == "CannotDetectFileFormat" else reason(error)[:200]

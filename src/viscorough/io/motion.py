@@ -70,10 +70,8 @@ def integration_under_history(integration, history, viscosity):
     reached, length_unit = history.impulse / viscosity, integration.length_unit
     if hasattr(integration, "event_at"):
         if reached[-1] > integration.impulse[-1] * (1 + 1e-10) and integration.contact_count[-1] < integration.elements:
-            raise ValueError(
-                f"impulse: {history.impulse[-1]:.6g} is beyond the contact fraction at which events end; "
-                f"allowed: up to {integration.impulse[-1] * viscosity:.6g}"
-            )
+            text = f"impulse: {history.impulse[-1]:.6g} is beyond the contact fraction at which events end"
+            raise ValueError(f"{text}; allowed: up to {integration.impulse[-1] * viscosity:.6g}")
         i, depth = integration.event_at(reached), integration.depth_at(reached)
     else:
         i = np.searchsorted(integration.impulse, reached * (1 - 1e-12))
@@ -103,14 +101,10 @@ def medium_motion_to_content(motion):
 
 def estimate_to_content(estimate, length_unit="1"):
     """An estimates.Estimate as a Content; values are nan at times at which the law does not hold."""
-    variables = {
-        "time": _time(estimate.time),
-        "x": _over_levels(estimate.x, "dimensionless force X = F J(t)/(4 h L)", "1"),
-    }
-    for name, text, unit in (
-        ("depth", "depth of penetration u", length_unit),
-        ("velocity", "velocity of penetration du/dt", _per_time(length_unit)),
-    ):
+    x = _over_levels(estimate.x, "dimensionless force X = F J(t)/(4 h L)", "1")
+    variables, per_time = {"time": _time(estimate.time), "x": x}, _per_time(length_unit)
+    about = (("depth", "depth of penetration u", length_unit), ("velocity", "velocity of penetration du/dt", per_time))
+    for name, text, unit in about:
         for end, meaning in {"": "", "_low": ", lower end of 95 %", "_high": ", upper end of 95 %"}.items():
             variables[name + end] = _over_levels(getattr(estimate, name + end), text + meaning, unit)
     return Content(variables, {"title": "Penetration of a self-affine indenter by the calibrated law, no simulation"})

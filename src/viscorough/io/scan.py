@@ -66,11 +66,8 @@ def _check_unit_of_spacing(scan, length_unit, spacing):
         return
     lateral = units.length_unit(scan.spacing_unit)
     if lateral != length_unit and not all(isinstance(each, units.Quantity) and each.unit for each in spacing):
-        text = (
-            f"heights are in {length_unit}, x and y in {lateral}"
-            if length_unit != units.UNKNOWN
-            else f"x is in {lateral}"
-        )
+        known = length_unit != units.UNKNOWN
+        text = f"heights are in {length_unit}, x and y in {lateral}" if known else f"x is in {lateral}"
         raise ValueError(f"--spacing {spacing[0]}: {text}; a spacing with a unit, and the unit of heights, are needed")
 
 
@@ -138,10 +135,8 @@ def uniform_spacing(name, positions):
         largest = np.abs(positions).max()
         in_single = np.array_equal(positions, positions.astype(np.float32))  # so they may have been rounded to it
         rounding = float(np.spacing(largest.astype(np.float32))) if in_single else 4 * np.spacing(largest)
-    if (
-        not (mean != 0 and np.isfinite(mean) and np.abs(steps - mean).max() <= _UNIFORMITY * abs(mean) + rounding)
-        or (np.sign(steps) != np.sign(mean)).any()
-    ):
+    is_uniform = mean != 0 and np.isfinite(mean) and np.abs(steps - mean).max() <= _UNIFORMITY * abs(mean) + rounding
+    if not is_uniform or (np.sign(steps) != np.sign(mean)).any():
         text = f"coordinate {name} is not uniform: its steps lie between {steps.min():g} and {steps.max():g}"
         raise ValueError(f"{text}; equal spacing is needed")
     if rounding > _UNIFORMITY * abs(mean) * steps.size and np.ptp(steps) > _UNIFORMITY * abs(mean):

@@ -32,9 +32,7 @@ _DIGITS = re.compile(r"\d[^:=]*[\s;,\"][^:=]*\d")
 _REMARK = re.compile(rf"\s(?:{_HASH}|%)(?:\s*[^\W\d].*|\s*$)", re.IGNORECASE)
 _ROW_NUMBERS = re.compile(r"rows?|index|nos?\.?|nr\.?|zeilen?|lines?|lignes?", re.IGNORECASE)
 _PLAIN = b"0123456789.,;+-eE \t\n"  # a body of other characters holds marks of missing points
-_ESRI_KEY = re.compile(
-    r"^\s*(ncols|nrows|cellsize|dx|dy|nodata_value|[xy]ll(?:corner|center))\s+(\S+)\s*$", re.IGNORECASE
-)
+_ESRI_KEY = re.compile(r"(?i)^\s*(ncols|nrows|cellsize|dx|dy|nodata_value|[xy]ll(?:corner|center))\s+(\S+)\s*$")
 _LEAST_LABELS = 6  # evenly spaced numbers that are taken for positions rather than heights
 
 
@@ -273,11 +271,8 @@ def _check_above(lines, delimiter, counts, esri):
             raise ValueError(f"line {number}: {text}; rows of equal length are needed")
         if len(cells) not in counts:
             continue
-        if (
-            len(cells) > 1
-            and _ROW_NUMBERS.fullmatch(cells[0])
-            and not {"x", "y", "z"} <= {cell.lower()[:1] for cell in cells}
-        ):
+        of_points = {"x", "y", "z"} <= {cell.lower()[:1] for cell in cells}
+        if len(cells) > 1 and _ROW_NUMBERS.fullmatch(cells[0]) and not of_points:
             raise ValueError(f"line {number} ({line[:40]!r}) heads a column of row numbers; heights alone are needed")
         if any(_ALMOST_A_NUMBER.fullmatch(cell) for cell in cells) or (len(cells) > 1 and len(set(cells)) == 1):
             raise ValueError(f"line {number} ({line[:40]!r}) is not a row of numbers; numbers or a comment are needed")

@@ -8,16 +8,8 @@ import netCDF4
 import numpy as np
 
 # Attributes that describe how values are stored; they no longer hold for values that were read.
-STORAGE = (
-    "_FillValue",
-    "missing_value",
-    "valid_range",
-    "valid_min",
-    "valid_max",
-    "scale_factor",
-    "add_offset",
-    "_Unsigned",
-)
+MISSING = ("_FillValue", "missing_value", "valid_range", "valid_min", "valid_max")
+STORAGE = (*MISSING, "scale_factor", "add_offset", "_Unsigned")
 _DEFAULT_FILL = {kind: fill for kind, fill in netCDF4.default_fillvals.items() if kind not in ("i1", "u1")}
 
 
@@ -65,12 +57,9 @@ def _numbers(variable, name, value, stored):
 
 def _absent(stored, numbers):
     """Where stored values are the fill value or a missing value."""
-    if "_FillValue" in numbers:
-        marks = [*numbers["_FillValue"]]
-    else:
-        marks = [_DEFAULT_FILL[stored.dtype.str[1:]]] if stored.dtype.str[1:] in _DEFAULT_FILL else []
-    absent = np.zeros(stored.shape, dtype=bool)
-    for mark in (*marks, *numbers.get("missing_value", ())):
+    kind, absent = stored.dtype.str[1:], np.zeros(stored.shape, dtype=bool)
+    default = [_DEFAULT_FILL[kind]] if kind in _DEFAULT_FILL else []
+    for mark in (*numbers.get("_FillValue", default), *numbers.get("missing_value", ())):
         absent |= np.isnan(stored) if np.isnan(mark) else stored == mark
     return absent
 

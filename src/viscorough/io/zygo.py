@@ -19,9 +19,8 @@ def zygo_scan(lines):
         spacing = float(lines[7].split()[6])
         start = next(number for number, line in enumerate(lines) if line.strip() == "#") + 1
     except (ValueError, IndexError, StopIteration) as error:
-        raise ValueError(
-            "no header of a Zygo XYZ file; lines 4 and 8 of its form, and a line '#', are needed"
-        ) from error
+        text = "no header of a Zygo XYZ file; lines 4 and 8 of its form, and a line '#', are needed"
+        raise ValueError(text) from error
     if not (0 < columns <= 1_000_000 and 0 < rows <= 1_000_000 and columns * rows <= 100_000_000):
         raise ValueError(f"line 4: {columns} columns and {rows} rows; from 1 to 100 million points are needed")
     heights, seen = np.full((rows, columns), np.nan), np.zeros((rows, columns), dtype=bool)

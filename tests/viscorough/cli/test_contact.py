@@ -1,5 +1,7 @@
 """`viscorough contact`, and the options for forces and elastic constants of `viscorough indent`, through real files."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -76,24 +78,18 @@ def test_several_forces_have_a_dimension(here, capsys):
 
 
 def test_closing_lines_say_what_was_found_in_the_unit_that_is_known(here, capsys):
-    for unit in ("", " um"):
-        contact("--depth 0.5" + f" --unit {unit}" * bool(unit))
-        out = capsys.readouterr().out
-        assert out.startswith(f"out.nc: depth 0.5{unit}, F/G ")
-        assert f"{unit}{'2' * bool(unit)}, contact fraction 0." in out
-        assert out.rstrip().endswith("patches")
+    contact("--depth 0.5 --unit um")
+    assert re.match(r"out.nc: depth 0.5 um, F/G \S+ um2, contact fraction 0.*patches$", capsys.readouterr().out)
     contact("--depth 0.001")
-    assert capsys.readouterr().out.rstrip().endswith(", 1 patch")
+    assert re.match(r"out.nc: depth 0.001, F/G \S+, contact fraction 0.*, 1 patch$", capsys.readouterr().out)
     assert run("indent heights.npy --spacing 1 --unit um --depths 0.5 -o curve.nc") == 0
     assert " depth 0.5 um " in capsys.readouterr().out
 
 
 def test_forces_with_a_modulus_are_newtons_where_the_unit_is_known(here):
     """30 µm² · 2 GPa = 0.06 N."""
-    for given in (
-        *("--shear-modulus '2 GPa' --force 0.06", "--shear-modulus 2e9 --force '60 mN'"),
-        *("--young '6 GPa' --force '6e4 uN'", "--young 4.5e9 --poisson 0.5 --force 0.045"),
-    ):
+    shear = "--shear-modulus '2 GPa' --force 0.06", "--shear-modulus 2e9 --force '60 mN'"
+    for given in (*shear, "--young '6 GPa' --force '6e4 uN'", "--young 4.5e9 --poisson 0.5 --force 0.045"):
         assert values(contact(given, heights="um.nc"))["force"] == pytest.approx(30, rel=1e-12)
     of = contact("--depth '500 nm' --shear-modulus 1", heights="um.nc")
     assert of.variables["depth"].values == 0.5
@@ -132,8 +128,7 @@ POSITIVE = "is not a number above 0 and finite, plain or with a unit such as"
 MISTAKES = [
     (CONTACT, "one of --force and --depth is needed"),
     (f"{CONTACT} --force 1 --depth 1", "one of --force and --depth is needed"),
-    *[(f"{CONTACT} --force {force}", POSITIVE) for force in ("0", "-1", "nan", "much", "1,")],
-    (f"{CONTACT} --force 1,1", "each number must be larger than the one before"),
+    *[(f"{CONTACT} --force {force}", POSITIVE) for force in ("0", "nan", "much", "1,")],
     (f"{CONTACT_UM} --force '2 mN,1 uN' --young 1", "each number must be larger than the one before"),
     (f"{CONTACT_UM} --force '1 mN,2' --young 1", "all or none of them may have one"),
     (f"{CONTACT_UM} --force '1 mN'", "a force needs --shear-modulus or --young"),
@@ -143,11 +138,8 @@ MISTAKES = [
     (f"{CONTACT} --force 1 --shear-modulus 1 --young 1", EXCLUDE),
     (f"{CONTACT} --force 1 --shear-modulus 1 --poisson 0.3", "--poisson is for use with --young"),
     (f"{CONTACT} --force 1 --young 1 --poisson 0.6", "is not a number above -1 and up to 0.5"),
-    (f"{CONTACT} --force 1 --young 1 --poisson soft", "is not a number above -1 and up to 0.5"),
     (f"{CONTACT} --force 1e-300 --young 1e300", "one row of finite numbers above 0"),
-    (f"{CONTACT} --force 1 --tolerance 1e-13", "tolerance must be between 1e-12 and 0.1"),
     (f"{CONTACT} --force 1 --threads 0", "'--threads': 0 is not in the range 1<=x<=1024"),
-    (f"{INDENT} --threads 1.5", "'1.5' is not a valid integer"),
     (f"{CONTACT.replace('out.nc', 'out.csv')} --force 1", "maps are no table"),
     *[(f"{INDENT} --forces 1 {other} 1", EXCLUDE) for other in ("--depths", "--until-fraction", "--until-force")],
     (f"{INDENT} --until-force '1 N'", "a force needs --shear-modulus or --young"),

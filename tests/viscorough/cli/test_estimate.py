@@ -74,12 +74,9 @@ def test_times_outside_of_the_range_are_marked_and_warned_about(capsys):
 @pytest.mark.parametrize(
     ("changes", "what"),
     [
-        *[({name: None}, f"--{name}") for name in OPTIONS],
-        ({"hurst": "0.05"}, "hurst of the penetration law: must be from 0.1 to 1"),
         ({"rms": "1 um"}, "--rms 1 um, --diameter 0.01: one has a unit; both or none is allowed"),
         ({"force": "1 N"}, "--force 1 N: has a unit, but the lengths have none"),
         ({"times": "1,2"}, "where the law holds; elsewhere indent a surface made by viscorough generate"),
-        ({"output": "-o none/out.nc"}, "there is no folder none"),
         ({"medium": "none.yaml"}, "one of --viscosity and --medium is needed"),
     ],
 )

@@ -1,4 +1,7 @@
-"""Faults of files and disks under the command line: full disks, damaged files, places that cannot be written."""
+"""Faults of files under the command line: damaged files, places and streams that cannot be written.
+
+Full disks are tested where files are written, in tests/viscorough/io/test_netcdf.py.
+"""
 
 import logging
 import os
@@ -15,21 +18,12 @@ import pytest
 
 from support.command_line import VISCOROUGH, run, sphere_heights
 from support.contract import complaint
-from support.faults import DAMAGES, contents, namespace, no_privileges
+from support.faults import DAMAGES, contents, no_privileges
 from viscorough.io import netcdf
 from viscorough.io.curves import curve_from_content
 
 INDENT = "indent heights.npy --spacing 1 -o out.nc"
 KINETICS = "kinetics curve.nc --force 1 --viscosity 1 -o out.nc"
-
-# Runs a command on a separate disk on which the given number of bytes is free.
-FULL_DISK = """
-mount -t tmpfs -o size=100k none disk && cp heights.npy curve.nc out.nc disk && cd disk || exit 77
-head -c "$1" /dev/zero > room; head -c 1000000 /dev/zero > rest 2> /dev/null; rm room; shift
-"$@"; code=$?
-cmp out.nc ../out.nc && test "$(ls -A | tr '\\n' ' ')" = "curve.nc heights.npy out.nc rest " || exit 78
-exit $code
-"""
 
 
 @pytest.fixture(scope="module")
@@ -55,17 +49,6 @@ def complaint_of_process(*arguments):
     assert len(done.stderr.splitlines()) == 1, done.stderr
     assert contents(Path.cwd()) == before
     return done.stderr
-
-
-# ---- full disk
-
-
-@pytest.mark.parametrize(("command", "room"), [(INDENT, 0), (KINETICS, 8192)])
-def test_full_disk_in_a_namespace(here, command, room):
-    unshare = namespace("--user", "--map-root-user", "--mount")
-    (here / "disk").mkdir()
-    line = complaint_of_process(*unshare, "sh", "-c", FULL_DISK, "sh", str(room), VISCOROUGH, *command.split())
-    assert "out.nc: not written (No space left on device); room on a writable disk is needed\n" in line
 
 
 # ---- damaged files
@@ -130,17 +113,16 @@ def shell(line, **environment):
 WRITING = "viscorough indent heights.npy --spacing 1 -o new.nc"
 
 
-@pytest.mark.parametrize("redirection", [">&- 2>&- <&-", "| true", ">/dev/full 2>/dev/full"])
-def test_complete_output_is_success_whoever_reads_the_closing_line(redirection):
-    assert shell(f"{WRITING} {redirection}")[:2] == (0, "")
-    assert curve_from_content(netcdf.read("new.nc")).depth.size
+FULL = "standard output cannot be written (No space left on device)\n"
+UNREAD = f"viscorough indent: warning: new.nc is complete, but {FULL}"
 
 
-def test_full_standard_output_is_a_warning():
-    code, error, _ = shell(f"{WRITING} >/dev/full")
-    assert code == 0
-    text = "new.nc is complete, but standard output cannot be written (No space left on device)"
-    assert error == f"viscorough indent: warning: {text}\n"
+@pytest.mark.parametrize(
+    ("redirection", "warning"),
+    [(">&- 2>&- <&-", ""), ("| true", ""), (">/dev/full 2>/dev/full", ""), (">/dev/full", UNREAD)],
+)
+def test_complete_output_is_success_whoever_reads_the_closing_line(redirection, warning):
+    assert shell(f"{WRITING} {redirection}")[:2] == (0, warning)
     assert curve_from_content(netcdf.read("new.nc")).depth.size
 
 
@@ -166,7 +148,7 @@ def test_help_for_a_reader_who_has_read_enough():
     assert shell("viscorough indent --help | true")[:2] == (0, "")
     code, error, _ = shell("viscorough indent --help >/dev/full")
     assert code == 2
-    assert error.endswith("standard output cannot be written (No space left on device)\n")
+    assert error.endswith(FULL)
     assert len(error.splitlines()) == 1
 
 
@@ -189,9 +171,8 @@ def test_interrupt_during_the_imports_is_quiet(here, tmp_path_factory, command, 
     folder = tmp_path_factory.mktemp("interrupted")
     (folder / f"{module}.py").write_text(INTERRUPTED)
     environment = os.environ | {"PYTHONPATH": str(folder)}
-    done = subprocess.run(
-        [*command, *INDENT.split()], env=environment, capture_output=True, check=False, preexec_fn=interrupts_arrive
-    )
+    options = {"env": environment, "capture_output": True, "check": False, "preexec_fn": interrupts_arrive}
+    done = subprocess.run([*command, *INDENT.split()], **options)
     assert (done.stdout, done.stderr) == (b"", b"")
     assert done.returncode == -signal.SIGINT, "a shell reports 130"
 
@@ -220,11 +201,12 @@ def test_file_that_cannot_be_opened_in_time_is_one_line():
     script = textwrap.dedent("""
         import time
         import click
-        from viscorough.cli.files import time_limit
+        from viscorough.cli import files
         with click.Context(click.Command("kinetics"), info_name="viscorough kinetics"):
-            with time_limit("a.nc", 5):
+            with files.time_limit("a.nc"):
                 pass
-            with time_limit("b.nc", 0.1):
+            files.LONGEST = 0.1
+            with files.time_limit("b.nc"):
                 time.sleep(30)
     """)
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=20, check=False)

@@ -127,7 +127,6 @@ def test_viscosities_are_in_pascal_seconds_where_the_unit_is_known(method):
         (f"{MARCH} --method second_order --times 1", "--method second_order is for use with --medium"),
         (f"{MARCH} --method events --force-history none.csv --force 1", "replaces --force and --times"),
         (f"{MARCH} --method events --force 1e-10 --viscosity 1.7e308", "times or velocities overflow"),
-        (f"{MARCH} --method events --force 1e300 --viscosity 1e-300", "times or velocities overflow"),
         (f"{MEDIUM} --method heun --times 1", "--method heun is not for --medium; allowed: events, implicit"),
         (f"{MEDIUM} --method implicit --times 1 --viscosity 2", "--medium replaces --viscosity"),
     ],
@@ -139,7 +138,6 @@ def test_mistakes_are_one_line(here, capsys, line, message):
 @pytest.mark.parametrize(
     ("history", "message"),
     [
-        ("0,1\n1,-1\n", "sample 1 is -1.0; allowed: finite, 0 or more"),
         ("0,0\n1,0\n", "no time passes while there is a force"),
         ("0,1\n1e9,1\n", "is beyond the contact fraction at which events end; allowed: up to"),
     ],
@@ -150,8 +148,7 @@ def test_bad_histories_are_one_line(here, capsys, history, message):
     assert message in complaint(line, capsys, here)
 
 
-@pytest.mark.parametrize("output", ["pulse.csv", "link.csv"])
-def test_output_does_not_replace_the_force_history(here, capsys, output):
+def test_output_does_not_replace_the_force_history(here, capsys):
     (here / "link.csv").symlink_to("pulse.csv")
-    line = f"march heights.npy --spacing 1 --method implicit --force-history pulse.csv -o {output}"
+    line = f"{MARCH} --method implicit --force-history pulse.csv -o link.csv"
     assert "would replace the force history" in complaint(line, capsys, here)

@@ -7,6 +7,7 @@ import pytest
 from PIL import Image
 
 import viscorough
+from support.cf import violations
 from support.command_line import run, sphere_heights
 from support.contract import complaint
 from viscorough.io import netcdf
@@ -20,10 +21,11 @@ FILES = {
     "curve.csv": f"indent {MAP}",
     "motion.nc": "kinetics FOLDER/curve.nc --force 1 --viscosity 1",
     "march.nc": f"march {MAP} --method events",
+    "history.nc": f"march {MAP} --method explicit --force-history FOLDER/force.csv",
     "medium.nc": f"march {MAP} --method implicit --times 1,2,3 --medium FOLDER/medium.yaml",
     "disc.nc": f"{SURFACE} --elements 9 --unit um",
     "line.nc": f"{SURFACE} --points 64",
-    "contact.nc": f"contact {MAP} --depth 0.01",
+    "contact.nc": f"contact {MAP} --depth 0.01 --young 2",
     "contacts.nc": f"contact {MAP} --depth 0.01,0.02",
     "lines.nc": f"reduce {MAP} --realizations 3",
     "estimate.nc": "estimate --hurst 0.8 --rms 1e-6 --diameter 0.01 --force 10 --viscosity 1e6 --times 1e-9,1e-5,1e-4",
@@ -35,6 +37,7 @@ def made(tmp_path_factory):
     """Folder with a file of every kind that can be drawn."""
     folder = tmp_path_factory.mktemp("made")
     np.save(folder / "heights.npy", sphere_heights(9))
+    (folder / "force.csv").write_text("0,1\n1,2\n2,2\n")
     (folder / "medium.yaml").write_text("{kind: maxwell, shear_modulus: 2, viscosity: 5}")
     for name, line in FILES.items():
         assert run(f"{line} -o FOLDER/{name}".replace("FOLDER", str(folder))) == 0
@@ -49,7 +52,13 @@ def here(made, here):
 
 
 @pytest.mark.parametrize("file", FILES)
-def test_every_kind_of_file_is_drawn(here, capsys, file):
+def test_every_kind_of_file_is_drawn_and_follows_the_cf_conventions(made, here, capsys, file):
+    """NetCDF files say nothing of time and place."""
+    if file.endswith(".nc"):
+        assert violations(file) == []
+        attributes = netcdf.read(file).attributes
+        assert attributes["history"] == f"written by viscorough {viscorough.__version__}"
+        assert str(made) not in str(attributes)
     assert run(f"plot {file} -o figure.png") == 0
     captured = capsys.readouterr()
     assert captured.out == f"figure.png: figure of {file}\n"

@@ -4,7 +4,6 @@ import os
 import shutil
 import subprocess
 import sys
-import textwrap
 from pathlib import Path
 
 import pytest
@@ -46,31 +45,6 @@ def test_failed_writing_is_one_line(tmp_path, error):
     assert os.listdir(tmp_path) == []
 
 
-def test_leftovers_of_killed_processes_are_removed(tmp_path):
-    """The temporary file lies beside the target, else replacing would not be atomic; that of a live process stays."""
-    script = textwrap.dedent("""
-        import os, signal, sys
-        from viscorough.io.atomic import atomic_write
-        with atomic_write(sys.argv[1]) as temporary:
-            temporary.write_text("half")
-            print(temporary, flush=True)
-            os.kill(os.getpid(), signal.SIGKILL)
-    """)
-    for _ in range(2):
-        command = [sys.executable, "-c", script, str(tmp_path / "a.csv")]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        assert os.listdir(tmp_path) == [os.path.basename(done.stdout.strip())], "the one of the last process only"
-    (leftover,) = tmp_path.iterdir()
-    _, place, _, _ = leftover.name.removeprefix(".a.csv").split(".", 3)
-    running = tmp_path / f".a.csv.{place}.{os.getpid()}.1234abcd.part"
-    running.write_text("of a process that is alive")
-    (tmp_path / f".a.csv.{place}.{10**30}.1234abcd.part").write_text("of a number that no process has")
-    with atomic_write(tmp_path / "a.csv") as temporary:
-        temporary.write_text("complete")
-    assert sorted(path.name for path in tmp_path.iterdir() if str(10**30) not in path.name) == [running.name, "a.csv"]
-    assert (tmp_path / "a.csv").read_text() == "complete"
-
-
 WRITE_UNTIL_TOLD = """
 import sys
 from viscorough.io.atomic import atomic_write
@@ -81,15 +55,36 @@ with atomic_write(sys.argv[1]) as temporary:
 """
 
 
+def writing(path, text, *prefix):
+    """A process that writes a file, and waits before it is complete; and the temporary file."""
+    command = [*prefix, sys.executable, "-c", WRITE_UNTIL_TOLD, str(path), text]
+    writer = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    return writer, Path(writer.stdout.readline().strip())
+
+
+def test_leftovers_of_killed_processes_are_removed(tmp_path):
+    """The temporary file lies beside the target, else replacing would not be atomic; that of a live process stays."""
+    for _ in range(2):
+        writer, leftover = writing(tmp_path / "a.csv", "half")
+        with writer:
+            writer.kill()
+        assert list(tmp_path.iterdir()) == [leftover], "the one of the last process only"
+    _, place, _, _ = leftover.name.removeprefix(".a.csv").split(".", 3)
+    running = tmp_path / f".a.csv.{place}.{os.getpid()}.1234abcd.part"
+    running.write_text("of a process that is alive")
+    (tmp_path / f".a.csv.{place}.{10**30}.1234abcd.part").write_text("of a number that no process has")
+    with atomic_write(tmp_path / "a.csv") as temporary:
+        temporary.write_text("complete")
+    assert sorted(path.name for path in tmp_path.iterdir() if str(10**30) not in path.name) == [running.name, "a.csv"]
+    assert (tmp_path / "a.csv").read_text() == "complete"
+
+
 def test_file_of_a_live_process_in_another_container_is_left_alone(tmp_path):
     """There the numbers of processes are others: that of the writer does not exist here, or is that of another."""
-    command = [sys.executable, "-c", WRITE_UNTIL_TOLD, str(tmp_path / "a.csv"), "of the container"]
     container = namespace("--user", "--map-root-user", "--pid", "--fork", "--mount-proc")
-    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
-    with subprocess.Popen([*container, *command], **pipes) as writer:
-        part = Path(writer.stdout.readline().strip())
-        number = int(part.name.split(".")[-3])
-        assert number < 10, "the first processes of the container"
+    writer, part = writing(tmp_path / "a.csv", "of the container", *container)
+    with writer:
+        assert int(part.name.split(".")[-3]) < 10, "the first processes of the container"
         with atomic_write(tmp_path / "a.csv") as temporary:
             temporary.write_text("ours")
         assert part.exists()
@@ -100,8 +95,9 @@ def test_file_of_a_live_process_in_another_container_is_left_alone(tmp_path):
 
 
 @pytest.mark.parametrize("mode", [None, 0o600, 0o444])
-def test_a_file_that_is_replaced_keeps_its_permissions_and_a_new_one_has_those_of_any(tmp_path, mode):
-    path, plain = tmp_path / "curve", tmp_path / "plain"
+@pytest.mark.parametrize("name", ["é" * 120, "a" * 255])
+def test_permissions_are_kept_or_those_of_any_new_file_also_under_the_longest_names(tmp_path, mode, name):
+    path, plain = tmp_path / name, tmp_path / "plain"
     plain.write_text("older")
     if mode is not None:
         plain.chmod(mode)
@@ -110,13 +106,6 @@ def test_a_file_that_is_replaced_keeps_its_permissions_and_a_new_one_has_those_o
         temporary.write_text("newer")
     assert path.read_text() == "newer"
     assert path.stat().st_mode == plain.stat().st_mode
-
-
-@pytest.mark.parametrize("name", ["é" * 120, "a" * 255])
-def test_names_as_long_as_a_disk_allows(tmp_path, name):
-    with atomic_write(tmp_path / name) as temporary:
-        temporary.write_text("content")
-    assert (tmp_path / name).read_text() == "content"
 
 
 def test_paths_that_cannot_be_written(tmp_path):

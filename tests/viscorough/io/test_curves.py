@@ -10,14 +10,7 @@ from support.curves import assert_same_curve, random_curve
 from viscorough.contact.loading_path import indent
 from viscorough.indenter import Indenter
 from viscorough.io import netcdf
-from viscorough.io.curves import (
-    PER_CURVE,
-    STORED,
-    curve_from_content,
-    curve_to_content,
-    stack_curves,
-    unstack_curves,
-)
+from viscorough.io.curves import PER_CURVE, STORED, curve_from_content, curve_to_content, stack_curves, unstack_curves
 from viscorough.io.netcdf import Content
 from viscorough.loading_curve import LoadingCurve
 from viscorough.mdr import reduce
@@ -77,11 +70,8 @@ def test_curve_survives_a_file_exactly(tmp_path, levels):
 
 
 def test_stacked_curves_survive_files_exactly(tmp_path):
-    curves = [
-        random_curve(5),
-        random_curve(1, seed=1, method="dense"),
-        random_curve(9, seed=2, elements=2, operator_applications=0),
-    ]
+    last = random_curve(9, seed=2, elements=2, operator_applications=0)
+    curves = [random_curve(5), random_curve(1, seed=1, method="dense"), last]
     content = stack_curves(curves)
     assert content.variables["depth"].dimensions == ("realization", "level")
     assert np.isnan(content.variables["depth"].values).sum() == 4 + 8
@@ -128,10 +118,7 @@ ALONE = [
     *[(attribute("method", value), "text is needed") for value in (3, np.array(["a", "b"]))],
     (attribute("elements", 1), "a whole number from 1 to 1"),
     (attribute("tolerance", 1.0), "a number below 1 is needed"),
-    *[
-        (attribute("length_unit", value), "depth is in 'um' and the attribute length_unit is")
-        for value in ("m", 3, "N")
-    ],
+    *[(attribute("length_unit", value), "attribute length_unit is") for value in ("m", 3, "N")],
 ]
 ALSO_STACKED = [
     (entry("contact_count", 0, 0), "a whole number from 1 to 200"),
@@ -151,14 +138,12 @@ ALSO_STACKED = [
 
 @pytest.mark.parametrize(("change", "what"), ALONE + ALSO_STACKED)
 def test_what_no_curve_has_is_refused(change, what):
+    curve = random_curve(elements=200, length_unit="um")
     with refused(what):
-        curve_from_content(change(curve_to_content(random_curve(elements=200, length_unit="um"))))
-
-
-@pytest.mark.parametrize(("change", "what"), ALSO_STACKED)
-def test_what_no_curve_has_is_refused_in_stacks(change, what):
-    with refused(what):
-        unstack_curves(change(stack_curves([random_curve(elements=200, length_unit="um")])))
+        curve_from_content(change(curve_to_content(curve)))
+    if (change, what) in ALSO_STACKED:
+        with refused(what):
+            unstack_curves(change(stack_curves([curve])))
 
 
 ROW, COLUMN = np.mgrid[:13, :13] - 6.0

@@ -79,15 +79,8 @@ POINTS = "0 0 1\n0.5 0 2\n0 0.25 3\n0.5 .25 4\n"
 @pytest.mark.parametrize(
     "text",
     [
-        *[
-            f"{heading}\n{POINTS}"
-            for heading in (
-                "# X [µm], Y [µm], Z [nm]",
-                "x_um y_um z_nm",
-                "x in um, y in um, z in nm",
-                "x y z\num um nm",
-            )
-        ],
+        *[f"{names}\n{POINTS}" for names in ("# X [µm], Y [µm], Z [nm]", "x_um y_um z_nm", "x y z\num um nm")],
+        f"x in um, y in um, z in nm\n{POINTS}",
         f"# Lateral units: um\n# Value units: nm\n{POINTS}",
         "y [um];x [um];z [nm];n\n0;0;1;9\n0;0,5;2;9\n0,25;0;3;9\n0,25;0,5;4;9\n",
     ],

@@ -7,6 +7,7 @@ import re
 import subprocess
 import sys
 import time
+from functools import cache
 from pathlib import Path
 
 import yaml
@@ -139,6 +140,7 @@ def groups_of_pool(wildcards):
     return [cases_of_pool(wildcards.pool)[case]["group"] for case, _ in batches_of_pool(wildcards.pool)]
 
 
+@cache
 def paper(name):
     """Content of a file in resources/paper."""
     return read_paper(PROJECT / "resources" / "paper", name)

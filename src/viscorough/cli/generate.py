@@ -15,7 +15,7 @@ from viscorough.cli.options import PositiveNumber, Quantity, number_in, output_o
 @click.option("--diameter", type=Quantity("m"), required=True, help="Diameter of the disc, or length of the line.")
 @click.option("--unit", default="m", help="Unit of length, such as um; 1 if it does not matter.")
 @click.option("--seed", type=click.IntRange(min=0), required=True, help="The same seed gives the same surface.")
-@click.option("--roll-off", type=PositiveNumber(), help="Longest wavelength, in diameters; none is longer.")
+@click.option("--roll-off", type=PositiveNumber(), help="Longest wavelength of the power law, in diameters.")
 @click.option("--plateau", is_flag=True, help="With --roll-off: longer waves have the spectral density there.")
 @output_option("SURFACE.nc", table=False)
 def generate(hurst, elements, points, rms, diameter, unit, seed, roll_off, plateau, output):

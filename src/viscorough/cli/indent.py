@@ -14,8 +14,10 @@ from viscorough.summaries import with_unit
 @click.command(short_help="Loading curve of an indenter on an elastic half-space.")
 @heights_input()
 @output_option("CURVE.nc")
-@click.option("--depths", type=Increasing("m"), help="Levels at these depths  [default: as the tolerance needs]")
-@click.option("--forces", type=Increasing("N"), help="Levels at these F/G, or F with a modulus.")
+@click.option(
+    "--depths", type=Increasing("m"), help="Levels at exactly these depths  [default: as the tolerance needs]"
+)
+@click.option("--forces", type=Increasing("N"), help="Levels at exactly these F/G, or F with a modulus.")
 @click.option("--tolerance", type=PositiveNumber(0.1), default=1e-3, help="Relative accuracy.")
 @click.option("--until-fraction", type=PositiveNumber(1), help="Contact fraction at which to stop  [default: 0.9]")
 @click.option("--until-force", type=Quantity("N"), help="F/G, or F with a modulus, at which to stop.")

@@ -21,7 +21,7 @@ def main(project, discs, lines, other_solvers, tables, figures, page_file, *, cl
     (others,) = other_solvers or [project / "resources/published/other_solvers.csv"]
     more = {"calculator": (section, script), "claims": claims, "numbers": numbers, "alternative": alternative}
     more["published"] = project / "docs/claims.csv"
-    html = page(*texts, discs, lines, others, tables, figures, captions, **more)
+    html = page(*texts, discs, lines, other_solvers=others, tables=tables, figures=figures, captions=captions, **more)
     with atomic_write(page_file) as temporary:
         temporary.write_text(html, encoding="utf-8")
 

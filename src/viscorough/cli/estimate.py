@@ -19,7 +19,7 @@ from viscorough.errors import AccuracyWarning
 @click.option("--medium", type=FILE, metavar="MEDIUM.yaml", help="Medium, as for kinetics, instead of --viscosity.")
 @click.option("--times", type=Increasing(), required=True, help="Times at which depth and velocity are wanted.")
 @click.option("-o", "--output", type=FILE, metavar="FILE", help="NetCDF file or table (.csv) to write  [default: none]")
-def estimate(hurst, rms, diameter, force, viscosity, medium, times, output):
+def estimate(*, hurst, rms, diameter, force, viscosity, medium, times, output):
     """Depth and velocity of a self-affine indenter without a simulation, from the calibrated penetration law.
 
     The law, vt/h = X + g(X) with X = Ft/(4 viscosity h L), was calibrated with boundary elements on discs of 257

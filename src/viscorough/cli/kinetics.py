@@ -22,7 +22,7 @@ _EXACT = "exact for every topography, without 1/Gamma(2 - alpha)"
 @click.option("--medium", type=FILE, metavar="MEDIUM.yaml", help="Medium of the half-space, instead of --viscosity.")
 @click.option("--times", type=Increasing(), help="Times of the output  [default: of levels, or of the history]")
 @output_option("KIN.nc")
-def kinetics(curve, force, force_history, viscosity, medium, times, output):
+def kinetics(curve, *, force, force_history, viscosity, medium, times, output):
     """Penetration over time of the indenter whose loading curve is in CURVE.nc.
 
     For a constant force on a linearly viscous half-space, the times at which the levels of the curve are reached: time

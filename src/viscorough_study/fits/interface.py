@@ -109,7 +109,7 @@ def examine(ensemble, punch, *, plateau, fraction_min, average, resamples, seed)
     interface, interval = samples - x / punch, percentile_interval(samples[1:], size)
     row = {"realizations": size, "kappa_c": punch} | _plateau(x, interface, plateau, size)
     law = fit_law(x, samples[0], punch, (count >= LAW_ELEMENTS_MIN) & (x >= X_LOW))
-    row |= _law_columns(x, samples[0], interval, punch, law, depths, size)
+    row |= _law_columns(x, samples[0], interval, punch, law, depths=depths, size=size)
     curves = {"x": x, "velocity": samples[0], "interface": interface[0]}
     curves |= {f"interface_{end}": values - x / punch for end, values in zip(("low", "high"), interval, strict=True)}
     curves["law"] = x / punch + interface_velocity(x, *law)
@@ -145,7 +145,7 @@ def fit_law(x, velocity, punch, allowed):
     return tuple(np.exp(least_squares(residuals, np.log([0.4, 0.5, 0.8])).x))
 
 
-def _law_columns(x, velocity, interval, punch, law, depths, size):
+def _law_columns(x, velocity, interval, punch, law, *, depths, size):
     """Columns of the law: its constants, its range and its deviations in it, and the offset of its depth."""
     columns = dict(zip(("exponent", "peak", "peak_x"), law, strict=True))
     of_law = x / punch + interface_velocity(x, *law)

@@ -84,7 +84,7 @@ class ConjugateGradients:
         contact_set, stencil = self._set, self._preconditioner.stencil
         released = self._loops.step_and_release(
             length, self._direction, pressure, contact_set.inside, contact_set.places, contact_set.slots,
-            stencil, width, self._halfspace.load.shape[1],
+            stencil=stencil, width=width, stride=self._halfspace.load.shape[1],
         )  # fmt: skip
         self._released = contact_set.slots[released]
         self._deflection, self._limit = None, _LARGEST_SHARE

@@ -48,7 +48,7 @@ class GridLoops:
         """Largest |e| on the set, where e is stored in the flat field `gap`."""
         return max(self.each(kernels.gap_on_set, (gap_change, initial_gap, gap), places))
 
-    def step_and_release(self, length, direction, pressure, inside, places, slots, stencil, width, stride):
+    def step_and_release(self, length, direction, pressure, inside, places, slots, *, stencil, width, stride):
         """kernels.step_and_find_tension and `release`; returns the indices in the set of elements that left it."""
 
         def step(i, j):

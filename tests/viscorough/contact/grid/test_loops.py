@@ -254,7 +254,9 @@ def test_neighbours_of_an_element_that_leaves_share_its_load_also_across_bands(f
     results = []
     for threads in (1, 3):
         members, pressure, direction = INSIDE.copy(), last_pressure.copy(), step.copy()
-        GridLoops(threads).step_and_release(0.5, direction, pressure, members, PLACES, SLOTS, stencil, WIDTH, STRIDE)
+        GridLoops(threads).step_and_release(
+            0.5, direction, pressure, members, PLACES, SLOTS, stencil=stencil, width=WIDTH, stride=STRIDE
+        )
         np.testing.assert_array_equal(members, INSIDE & ~leaving)
         np.testing.assert_allclose(pressure, np.where(members, stepped + change, 0.0), atol=1e-13)
         np.testing.assert_allclose(direction[SLOTS], (pressure - last_pressure)[PLACES], atol=1e-13)
@@ -263,5 +265,7 @@ def test_neighbours_of_an_element_that_leaves_share_its_load_also_across_bands(f
 
     step[SLOTS[::5]] = -400.0  # neighbours lose half of their pressure at most
     members, pressure = INSIDE.copy(), last_pressure.copy()
-    GridLoops(3).step_and_release(0.5, step, pressure, members, PLACES, SLOTS, stencil, WIDTH, STRIDE)
+    GridLoops(3).step_and_release(
+        0.5, step, pressure, members, PLACES, SLOTS, stencil=stencil, width=WIDTH, stride=STRIDE
+    )
     assert (pressure[members] > 0).all()

@@ -55,6 +55,8 @@ def problems(fault, root=ROOT):
     count = file.read_text(encoding="utf-8").count(fault.old) if file.is_file() else 0
     if count != 1:
         lines.append(f"{fault.name}: the old text stands {count} times in {fault.file}, it must stand there once")
+    if not isinstance(fault.new, str):
+        lines.append(f"{fault.name}: the new text is {fault.new!r}, no text; it must stand in quotes")
     if fault.old == fault.new:
         lines.append(f"{fault.name}: the new text is the old one")
     for test in fault.tests:

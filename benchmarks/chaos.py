@@ -213,7 +213,7 @@ def chaos(folder, kills, seed):
 
 @click.command(help=__doc__.splitlines()[0])
 @click.option("--kills", type=click.IntRange(1), default=60, show_default=True, help="Total number of disturbances.")
-@click.option("--seed", type=click.IntRange(0), default=1, show_default=True, help="Of the times and the killed.")
+@click.option("--seed", type=click.IntRange(0), default=1, show_default=True, help="Of times and of what is killed.")
 @output_option
 def main(kills, seed, output):
     with tempfile.TemporaryDirectory() as folder:

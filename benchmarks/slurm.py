@@ -83,7 +83,7 @@ def install():
         subprocess.run(["apt-get", "--quiet", *arguments], env=environment, check=True)
 
 
-def said(*command):
+def printed(*command):
     return subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
 
 
@@ -122,8 +122,8 @@ def cluster(folder):
         yield
     finally:
         with contextlib.suppress(click.ClickException, subprocess.SubprocessError, OSError):
-            said("scancel", "--quiet", "--user", "root")
-            wait_for(lambda: not said("squeue", "--noheader"), "end of the remaining jobs", 60)
+            printed("scancel", "--quiet", "--user", "root")
+            wait_for(lambda: not printed("squeue", "--noheader"), "end of the remaining jobs", 60)
         stop(str(conf))
 
 
@@ -157,12 +157,12 @@ def state():
 
 
 def set_state(value):
-    said("scontrol", "update", f"nodename={NODE}", f"state={value}", "reason=test")
+    printed("scontrol", "update", f"nodename={NODE}", f"state={value}", "reason=test")
 
 
 def jobs(kind):
     """Slurm's numbers of the jobs that are RUNNING or PENDING, as `kind` says."""
-    return said("squeue", "--noheader", "--array", "--states", kind, "--format", "%i").split()
+    return printed("squeue", "--noheader", "--array", "--states", kind, "--format", "%i").split()
 
 
 def ended(cluster_folder, folder):
@@ -205,7 +205,7 @@ def disturbances(log):
 
     def disturb(run):
         victim = under_way(run)[0]
-        said("scancel", victim)
+        printed("scancel", victim)
         note(run, f"job {victim} cancelled")
         under_way(run, [victim])
         set_state("drain")
@@ -248,8 +248,8 @@ def compare_runs(folder):
             lines = [f"{copy.name}: {about['seconds']:.0f} s, {about['ends_of_jobs']}", *about["differences"]]
             click.echo("\n".join(lines))
         result["versions"] = {
-            "slurm": said("sinfo", "--version"),
-            "munge": said("munged", "--version").splitlines()[0],
+            "slurm": printed("sinfo", "--version"),
+            "munge": printed("munged", "--version").splitlines()[0],
             **{name: version(name) for name in ("snakemake", "snakemake-executor-plugin-slurm")},
         }
     return result | {"jobs": jobs_done(local), "files_compared": len(wanted), "disturbances": log}

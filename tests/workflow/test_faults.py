@@ -118,4 +118,4 @@ def test_wrong_settings_are_one_line_without_a_traceback(unmade, tmp_path, conte
     assert "Traceback" not in output
     assert (
         len(output.splitlines()) <= 3
-    )  # besides it: which profile is in use, and that the file extends the default one
+    )  # besides it: which profile is in use, and "WorkflowError:" by Snakemake itself

@@ -26,7 +26,7 @@ if not Path("heights.npy").exists():
 
 surface = viscorough.read_heights("heights.npy", spacing=1e-6)  # in metres; larger is higher; nan is outside
 curve = viscorough.indent(surface, tolerance=1e-3, until_fraction=0.5)
-motion = viscorough.kinetics(curve, force=0.5, viscosity=1e9)  # 0.5 N on a medium of 1e9 Pa s
+motion = viscorough.kinetics(curve, force=0.5, medium=1e9)  # 0.5 N on a medium of 1e9 Pa s
 figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.6), layout="constrained")
 figure.colorbar(left.imshow(surface.heights * 1e6), label="height (µm)")
 right.loglog(motion.time, motion.depth * 1e6)

@@ -68,7 +68,7 @@ def estimate(hurst, rms, diameter, force, medium, times):
     hurst : Hurst exponent H, 0.1 to 1
     rms : rms height h; diameter : L, in the same unit [length]
     force : F > 0, constant from time 0 on
-    medium : a viscosity, or one of viscorough.viscous.media; in units such that F·J is a length²
+    medium : Medium, as viscorough.Maxwell, or the viscosity of a Newtonian one; in units such that F·J is a length²
     times : above 0, increasing
 
     Returns an Estimate. Raises ValueError for values outside these ranges, and if the law holds at none of the times.
@@ -77,7 +77,7 @@ def estimate(hurst, rms, diameter, force, medium, times):
     rms, diameter, force = positive("rms", rms), positive("diameter", diameter), positive("force", force)
     times = increasing("times", np.atleast_1d(times), above_zero=True)
     compliance, rate = medium.creep_compliance(times), medium.creep_rate(times)
-    if np.isnan(compliance).any():
+    if times[-1] > medium.last_time:
         raise ValueError(
             f"times: up to {times[-1]:g}, beyond the last time of the creep table; earlier ones are allowed"
         )

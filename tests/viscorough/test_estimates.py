@@ -64,7 +64,7 @@ def test_values_outside_their_ranges_are_refused():
     for changes, what in (
         ({"hurst": 1.05}, "hurst of the penetration law: must be from 0.1 to 1"),
         ({"force": np.inf}, "force: must be positive and finite"),
-        ({"medium": 0}, "viscosity: 0; allowed: a finite number above 0"),
+        ({"medium": 0}, "medium: 0; allowed: a medium as viscorough.Maxwell, or the viscosity of a Newtonian one"),
         ({"times": [2, 1]}, "times: allowed is one row"),
         ({"times": [50.0]}, "X = F·J(t)/(4hL) is 50; allowed: 0.001 to 30"),
         ({"force": 1e300, "rms": 1e-300}, "is inf; allowed"),

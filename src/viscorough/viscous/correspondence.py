@@ -66,19 +66,18 @@ class ForceHistory(NamedTuple):
     impulse: np.ndarray
 
 
-def kinetics(curve, force, medium=None, times=None, *, viscosity=None):
+def kinetics(curve, force, medium, times=None):
     """Depth and velocity of an indenter with the given loading curve in a linear viscoelastic half-space.
 
     curve : LoadingCurve of the indenter
     force : a number, the constant force F > 0 applied at t = 0; or samples F ≥ 0 of shape (times,), linear in between,
         applied from times[0] on, with a time given twice where the force steps; or a ForceHistory (`impulses`), whose
         samples need not be those of `times`
-    medium : one of viscorough.viscous.media, or a number, the viscosity η > 0 of a Newtonian medium; in units such that
+    medium : Medium, as viscorough.Maxwell, or a number, the viscosity η > 0 of a Newtonian one; in units such that
         F·t/η, or F over a modulus, is a length² in the curve's unit of length
     times : increasing, and not negative if the force is constant; the default, for a constant force only, is the times
         at which the curve's levels are reached, in a Newtonian medium t = (F/G)·η/F. In a medium that springs at once
         time 0 stands before them, and levels that are never reached are left out
-    viscosity : another name of the medium, if it is a number
 
     Returns Kinetics at `times`. The velocity is that just after each time; at the last time of a history and before a
     step, that before it. Where an elastic medium steps, the velocity is that of the creep alone; it is infinite in a
@@ -87,9 +86,7 @@ def kinetics(curve, force, medium=None, times=None, *, viscosity=None):
     Raises ValueError for values outside these ranges, for a force beyond the curve's last level, and, with the time,
     where the creep decreases and the contact would recede.
     """
-    if (medium is None) == (viscosity is None):
-        raise ValueError("kinetics: one of medium and viscosity is needed")
-    medium = medium_of(viscosity if medium is None else medium)
+    medium = medium_of(medium)
     if times is None and isinstance(force, ForceHistory):
         times = force.times
     constant = np.ndim(force) == 0
@@ -122,7 +119,7 @@ def _at_levels(curve, force, medium):
     if isinstance(medium, Newtonian):
         viscosity = medium.viscosity
         return Kinetics(curve.force * viscosity / force, curve.depth, force / (viscosity * curve.stiffness))
-    limit = medium.times[-1] if hasattr(medium, "times") else _LATEST
+    limit = min(medium.last_time, _LATEST)
     at_once, at_last = force * medium.creep_compliance(np.array([0.0, limit]))
     reached = (curve.force > at_once) & (curve.force < at_last)
     if not reached.any():
@@ -148,8 +145,8 @@ def _creep(force, medium, times):
         history, place = resampled(force, times)
         return history.times[place], *(values[place] for values in creep_response(medium, history))
     times = impulses(force, times).times
-    if hasattr(medium, "times") and times[-1] > medium.times[-1]:
-        raise ValueError(f"times: up to {times[-1]:g}; allowed: up to the last time of the table, {medium.times[-1]:g}")
+    if times[-1] > medium.last_time:
+        raise ValueError(f"times: up to {times[-1]:g}; allowed: up to the last time of the table, {medium.last_time:g}")
     with np.errstate(over="ignore"):
         return times, force * medium.creep_compliance(times), force * medium.creep_rate(times)
 

@@ -23,12 +23,11 @@ def creep_response(medium, history):
 
     Raises ValueError, with the time, where Φ decreases: at a sample, at a step or in between.
     """
-    tabulated = getattr(medium, "times", None)
-    if tabulated is not None and (duration := history.times[-1] - history.times[0]) > tabulated[-1]:
+    if (duration := history.times[-1] - history.times[0]) > medium.last_time:
         raise ValueError(
-            f"times: {duration:g} after the first; allowed: up to the last time of the table, {tabulated[-1]:g}"
+            f"times: {duration:g} after the first; allowed: up to the last time of the table, {medium.last_time:g}"
         )
-    response = (_ByStates if hasattr(medium, "retardation") else _BySums)(medium, history)
+    response = (_BySums if medium.retardation is None else _ByStates)(medium, history)
     time = response.first_decrease()
     if np.isfinite(time):
         raise ValueError(

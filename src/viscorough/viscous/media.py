@@ -1,5 +1,8 @@
 """Linear viscoelastic media, by their creep compliance J(t) and relaxation modulus ψ(t) in shear.
 
+Each is a `Medium` (viscorough.viscous.medium). A function that takes a medium also takes a number, the viscosity of a
+Newtonian one.
+
 The half-space is incompressible at all times. Moduli are in one unit, times in another, viscosities in their product
 and compliances in the inverse of the modulus. All media are passive: J does not decrease and is concave.
 """
@@ -9,41 +12,60 @@ from functools import cached_property
 from numbers import Real
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.special import gamma
 
-from viscorough.viscous.creep_table import CreepTable
+from viscorough.arrays import ReadOnlyArrays, read_only
+from viscorough.types import Array
+from viscorough.viscous.medium import Medium
 from viscorough.viscous.spectra import RelaxationSpectrum, RetardationSpectrum, retardation_spectrum
 
 _NONE = np.array([])
+_TABLE_ROUNDING = 1e-9  # relative; slopes of tables with ten digits may increase by as much
 
 
-class _Exponential:
+class _Exponential(Medium):
     """A medium of springs and dashpots, which has discrete spectra: `relaxation` and `retardation`."""
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         _keep_positive(self)
         self._check_spectra()
 
-    def creep_compliance(self, time):
+    def creep_compliance(self, time: ArrayLike) -> Array:
         """J at times t ≥ 0, any shape; J(0+) at time 0."""
         time = np.asarray(time, dtype=float)
         instantaneous, fluidity, compliances, times = self.retardation
         delayed = -(compliances * np.expm1(-time[..., None] / times)).sum(axis=-1)
         return instantaneous + fluidity * time + delayed
 
-    def creep_rate(self, time):
+    def creep_rate(self, time: ArrayLike, *, left: bool = False) -> Array:
         """dJ/dt at times t ≥ 0, any shape."""
         time = np.asarray(time, dtype=float)
         _, fluidity, compliances, times = self.retardation
         return fluidity + (compliances / times * np.exp(-time[..., None] / times)).sum(axis=-1)
 
-    def relaxation_modulus(self, time):
+    def creep_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
+        """∫J dt from start ≥ 0 to end ≥ start."""
+        start, end = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
+        instantaneous, fluidity, compliances, times = self.retardation
+        x, length = (end - start)[..., None] / times, end - start
+        delayed = compliances * times * (x + np.expm1(-x) + np.expm1(-start[..., None] / times) * np.expm1(-x))
+        return (instantaneous + 0.5 * fluidity * (start + end)) * length + delayed.sum(axis=-1)
+
+    def relaxation_modulus(self, time: ArrayLike) -> Array:
         """ψ at times t > 0, any shape, and its limit at time 0, without the pulse η δ(t) of a dashpot."""
         time = np.asarray(time, dtype=float)
         _, relaxed, moduli, times = self.relaxation
         return relaxed + (moduli * np.exp(-time[..., None] / times)).sum(axis=-1)
 
-    def _check_spectra(self):
+    def relaxation_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
+        """∫ψ dt from start ≥ 0 to end ≥ start, without the pulse η δ(t) of a dashpot."""
+        start, end = np.asarray(start, dtype=float)[..., None], np.asarray(end, dtype=float)[..., None]
+        _, relaxed, moduli, times = self.relaxation
+        decayed = -np.expm1(-(end - start) / times) * np.exp(-start / times)
+        return relaxed * (end - start)[..., 0] + (moduli * times * decayed).sum(axis=-1)
+
+    def _check_spectra(self) -> None:
         """Raise ValueError if spectra cannot be held in double precision."""
         with np.errstate(all="ignore"):
             values = [*self.relaxation, *self.retardation, self.relaxation.instantaneous_modulus]
@@ -65,11 +87,11 @@ class Newtonian(_Exponential):
     viscosity: float
 
     @cached_property
-    def relaxation(self):
+    def relaxation(self) -> RelaxationSpectrum:
         return RelaxationSpectrum(self.viscosity, 0.0, _NONE, _NONE)
 
     @cached_property
-    def retardation(self):
+    def retardation(self) -> RetardationSpectrum:
         return RetardationSpectrum(0.0, _inverse(self.viscosity), _NONE, _NONE)
 
 
@@ -79,7 +101,7 @@ class _SpringAndDashpot(_Exponential):
     viscosity: float
 
     @property
-    def _time(self):
+    def _time(self) -> Array:
         """η/G, shape (1,)."""
         return np.array([self.viscosity]) / self.shear_modulus
 
@@ -91,11 +113,11 @@ class Maxwell(_SpringAndDashpot):
     """
 
     @cached_property
-    def relaxation(self):
+    def relaxation(self) -> RelaxationSpectrum:
         return RelaxationSpectrum(0.0, 0.0, np.array([self.shear_modulus]), self._time)
 
     @cached_property
-    def retardation(self):
+    def retardation(self) -> RetardationSpectrum:
         return RetardationSpectrum(_inverse(self.shear_modulus), _inverse(self.viscosity), _NONE, _NONE)
 
 
@@ -106,11 +128,11 @@ class KelvinVoigt(_SpringAndDashpot):
     """
 
     @cached_property
-    def relaxation(self):
+    def relaxation(self) -> RelaxationSpectrum:
         return RelaxationSpectrum(self.viscosity, self.shear_modulus, _NONE, _NONE)
 
     @cached_property
-    def retardation(self):
+    def retardation(self) -> RetardationSpectrum:
         return RetardationSpectrum(0.0, 0.0, np.array([_inverse(self.shear_modulus)]), self._time)
 
 
@@ -126,7 +148,7 @@ class StandardLinearSolid(_Exponential):
     relaxed_modulus: float
     relaxation_time: float
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         _keep_positive(self)
         if not self.relaxed_modulus < self.instantaneous_modulus:
             raise ValueError(
@@ -136,12 +158,12 @@ class StandardLinearSolid(_Exponential):
         self._check_spectra()
 
     @cached_property
-    def relaxation(self):
+    def relaxation(self) -> RelaxationSpectrum:
         branch = self.instantaneous_modulus - self.relaxed_modulus
         return RelaxationSpectrum(0.0, self.relaxed_modulus, np.array([branch]), np.array([self.relaxation_time]))
 
     @cached_property
-    def retardation(self):
+    def retardation(self) -> RetardationSpectrum:
         instantaneous, relaxed = self.instantaneous_modulus, self.relaxed_modulus
         with np.errstate(over="ignore", invalid="ignore"):
             delayed = np.array([instantaneous - relaxed]) / instantaneous / relaxed
@@ -159,10 +181,10 @@ class Prony(_Exponential):
     """
 
     relaxed_modulus: float
-    moduli: tuple
-    relaxation_times: tuple
+    moduli: tuple[float, ...]
+    relaxation_times: tuple[float, ...]
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         relaxed = _number(self, "relaxed_modulus", self.relaxed_modulus, zero=True)
         object.__setattr__(self, "relaxed_modulus", relaxed)
         for name in ("moduli", "relaxation_times"):
@@ -179,7 +201,7 @@ class Prony(_Exponential):
         self._check_spectra()
 
     @cached_property
-    def relaxation(self):
+    def relaxation(self) -> RelaxationSpectrum:
         times = np.array(self.relaxation_times)
         with np.errstate(over="ignore"):
             # Branches of one rate are one branch.
@@ -188,12 +210,12 @@ class Prony(_Exponential):
         return RelaxationSpectrum(0.0, self.relaxed_modulus, moduli, times[first])
 
     @cached_property
-    def retardation(self):
+    def retardation(self) -> RetardationSpectrum:
         return retardation_spectrum(self.relaxation)
 
 
 @dataclass(frozen=True)
-class Springpot:
+class Springpot(Medium):
     """Creep by a power law: J = t^a/(K Γ(1+a)), ψ = K t^(−a)/Γ(1−a).
 
     modulus : K [modulus · time^a]; exponent : a
@@ -203,7 +225,7 @@ class Springpot:
     modulus: float
     exponent: float
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         _keep_positive(self)
         if not self.exponent < 1:
             text = "allowed: above 0 and below 1 (1 is a Newtonian medium)"
@@ -211,41 +233,122 @@ class Springpot:
         if not np.isfinite(_inverse(self.modulus)):
             raise ValueError(f"Springpot: modulus {self.modulus:g}; allowed: numbers whose inverse is finite")
 
-    def creep_compliance(self, time):
+    def creep_compliance(self, time: ArrayLike) -> Array:
         """J at times t ≥ 0, any shape."""
         return np.asarray(time, dtype=float) ** self.exponent / (self.modulus * gamma(1 + self.exponent))
 
-    def creep_rate(self, time, *, left=False):
+    def creep_rate(self, time: ArrayLike, *, left: bool = False) -> Array:
         """dJ/dt at times t ≥ 0, any shape; infinite at time 0."""
         with np.errstate(divide="ignore"):
             return np.asarray(time, dtype=float) ** (self.exponent - 1) / (self.modulus * gamma(self.exponent))
 
-    def creep_increment(self, start, end):
+    def creep_increment(self, start: ArrayLike, end: ArrayLike) -> Array:
         """J(end) − J(start) for 0 ≤ start ≤ end, to rounding."""
         return _power_increment(start, end, self.exponent) / (self.modulus * gamma(1 + self.exponent))
 
-    def creep_integral(self, start, end):
+    def creep_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
         """∫J dt from start ≥ 0 to end ≥ start, to rounding."""
         return _power_increment(start, end, 1 + self.exponent) / (self.modulus * gamma(2 + self.exponent))
 
-    def relaxation_modulus(self, time):
+    def relaxation_modulus(self, time: ArrayLike) -> Array:
         """ψ at times t ≥ 0, any shape; infinite at time 0."""
         with np.errstate(divide="ignore"):
             return self.modulus * np.asarray(time, dtype=float) ** -self.exponent / gamma(1 - self.exponent)
 
-    def relaxation_integral(self, start, end):
+    def relaxation_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
         """∫ψ dt from start ≥ 0 to end ≥ start, to rounding."""
         return self.modulus * _power_increment(start, end, 1 - self.exponent) / gamma(2 - self.exponent)
 
 
-def medium_of(medium):
+@dataclass(frozen=True)
+class CreepTable(ReadOnlyArrays, Medium):
+    """A measured creep compliance, linear between its points.
+
+    times : 0 and increasing; compliances : J at these times, J(0+) first; arrays of shape (points,), copied
+
+    Raises ValueError unless there are two points, all are finite and J is 0 or more, does not decrease and is concave,
+    as the compliance of every passive medium is: noise has to be smoothed first. Beyond its last point nothing is
+    known.
+    """
+
+    times: np.ndarray
+    compliances: np.ndarray
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        times, values = self.times, self.compliances
+        if times.ndim != 1 or times.shape != values.shape or times.size < 2:
+            raise ValueError(
+                f"CreepTable: shapes {times.shape} and {values.shape}; allowed: two rows of equal length, 2+"
+            )
+        if not all(array.dtype.kind in "iuf" and np.isfinite(array).all() for array in (times, values)):
+            raise ValueError("CreepTable: allowed are finite real numbers")
+        for name, array in (("times", times), ("compliances", values)):
+            object.__setattr__(self, name, read_only(array.astype(float)))
+        if times[0] != 0 or not (np.diff(times) > 0).all():
+            raise ValueError("CreepTable: allowed are times that start with 0 and increase")
+        slopes = self._slopes
+        if not (values[0] >= 0 and (slopes >= 0).all() and values[-1] > 0 and np.isfinite(slopes).all()):
+            raise ValueError("CreepTable: allowed is a compliance that starts at 0 or more, grows and never decreases")
+        if (steeper := slopes[1:] > slopes[:-1] * (1 + _TABLE_ROUNDING)).any():
+            where = self.times[1 + int(np.argmax(steeper))]
+            raise ValueError(
+                f"CreepTable: J grows faster after time {where:g} than before; allowed: a concave J, as of every "
+                "passive medium (smooth what was measured)"
+            )
+
+    @cached_property
+    def _slopes(self) -> Array:
+        return np.diff(self.compliances) / np.diff(self.times)
+
+    @cached_property
+    def _integrals(self) -> Array:
+        """∫J dt up to every point."""
+        return np.append(0.0, np.cumsum(0.5 * (self.compliances[1:] + self.compliances[:-1]) * np.diff(self.times)))
+
+    @property
+    def last_time(self) -> float:
+        return self.times[-1]
+
+    def creep_compliance(self, time: ArrayLike) -> Array:
+        """J at times 0 ≤ t up to the last point, any shape; nan beyond it."""
+        return np.interp(time, self.times, self.compliances, right=np.nan)
+
+    def creep_rate(self, time: ArrayLike, *, left: bool = False) -> Array:
+        """dJ/dt at times 0 ≤ t up to the last point, any shape: that after each point, or with `left` before it."""
+        place = np.searchsorted(self.times, time, side="left" if left else "right") - 1
+        return self._slopes[np.clip(place, 0, self._slopes.size - 1)]
+
+    def creep_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
+        """∫J dt from start ≥ 0 to end ≥ start, without differences of large numbers."""
+        start, end = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
+        first = np.searchsorted(self.times, start, side="right")  # the first point after the start
+        last = np.searchsorted(self.times, end, side="left") - 1  # the last point before the end
+        at_start, at_end = self.creep_compliance(start), self.creep_compliance(end)
+        within = 0.5 * (end - start) * (at_start + at_end)
+        a, b = np.minimum(first, self.times.size - 1), np.maximum(last, 0)
+        across = (
+            0.5 * (self.times[a] - start) * (at_start + self.compliances[a])
+            + (self._integrals[b] - self._integrals[a])
+            + 0.5 * (end - self.times[b]) * (self.compliances[b] + at_end)
+        )
+        return np.where(first > last, within, across)
+
+
+def medium_of(medium: Medium | float) -> Medium:
     """The medium; a number is the viscosity of a Newtonian one. Raises ValueError for anything else."""
-    if isinstance(medium, _Exponential | Springpot | CreepTable):
+    if isinstance(medium, Medium):
         return medium
-    return Newtonian(medium)
+    try:
+        return Newtonian(medium)
+    except ValueError as error:
+        raise ValueError(
+            f"medium: {repr(medium)[:60]}; allowed: a medium as viscorough.Maxwell, or the viscosity of a Newtonian "
+            "one, a finite number above 0"
+        ) from error
 
 
-def _power_increment(start, end, power):
+def _power_increment(start: ArrayLike, end: ArrayLike, power: float) -> Array:
     """end^power − start^power for 0 ≤ start ≤ end and power > 0, to rounding."""
     start, end = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -253,20 +356,20 @@ def _power_increment(start, end, power):
     return np.where(start > 0, increment, end**power)
 
 
-def _keep_positive(medium):
+def _keep_positive(medium: Medium) -> None:
     for field in fields(medium):
         object.__setattr__(medium, field.name, _number(medium, field.name, getattr(medium, field.name)))
 
 
-def _number(medium, name, value, *, zero=False):
+def _number(medium: Medium, name: str, value: object, *, zero: bool = False) -> float:
     """The value as a float. Raises ValueError unless it is a finite number above 0, or 0 where that is allowed."""
     real = isinstance(value, Real) and not isinstance(value, bool) and abs(value) <= np.finfo(float).max
     if not (real and (value > 0 or (zero and value == 0))):
         allowed = "0 or a finite number above 0" if zero else "a finite number above 0"
-        raise ValueError(f"{type(medium).__name__}: {name}: {repr(value)[:60]}; allowed: {allowed}")
+        raise ValueError(f"{type(medium).__name__}: {name} {repr(value)[:60]}; allowed: {allowed}")
     return float(value)
 
 
-def _inverse(value):
+def _inverse(value: float) -> float:
     with np.errstate(over="ignore", divide="ignore"):
         return float(1 / np.float64(value))

@@ -11,7 +11,7 @@ from viscorough.contact.prescribed_force import ForceSearch
 from viscorough.contact.solver import ContactSolver, check_solvable
 from viscorough.viscous.correspondence import ForceHistory, impulses, resampled
 from viscorough.viscous.creep_response import creep_response
-from viscorough.viscous.media import CreepTable, medium_of
+from viscorough.viscous.media import medium_of
 
 
 def pressure_at(indenter, medium, force, time, *, contacts=64, tolerance=1e-4):
@@ -30,8 +30,6 @@ def pressure_at(indenter, medium, force, time, *, contacts=64, tolerance=1e-4):
     where the contact would recede.
     """
     medium = medium_of(medium)
-    if isinstance(medium, CreepTable):
-        raise ValueError("pressure_at: CreepTable; allowed: media whose relaxation is known, as a Prony series")
     check_solvable("pressure_at", indenter, tolerance)
     if not isinstance(force, ForceHistory):
         force = impulses(np.full(2, float(force)), [0.0, time])
@@ -40,7 +38,7 @@ def pressure_at(indenter, medium, force, time, *, contacts=64, tolerance=1e-4):
         raise ValueError(
             f"time: {time}; allowed: within those of the force, above {start:g}, up to {force.times[-1]:g}"
         )
-    has_dashpot = hasattr(medium, "relaxation") and medium.relaxation.viscosity > 0
+    has_dashpot = medium.relaxation is not None and medium.relaxation.viscosity > 0
     between = 1 if has_dashpot else max(int(contacts), 1)
     history, _ = resampled(force, np.linspace(start, time, between + 1))
     creep, _ = creep_response(medium, history)
@@ -69,13 +67,7 @@ def _weights(medium, time, times):
     lengths, lag = np.diff(times), time - times
     ramp, weights = lengths > 0, np.zeros(times.size)
     with np.errstate(divide="ignore", invalid="ignore"):
-        if hasattr(medium, "relaxation"):
-            _, relaxed, moduli, relaxation_times = medium.relaxation
-            x = lengths[:, None] / relaxation_times
-            decays = -np.expm1(-x) / x * np.exp(-lag[1:, None] / relaxation_times)
-            mean = relaxed + (moduli * np.where(ramp[:, None], decays, 0)).sum(axis=1)
-        else:
-            mean = medium.relaxation_integral(lag[1:], lag[:-1]) / lengths
+        mean = medium.relaxation_integral(lag[1:], lag[:-1]) / lengths
     change = np.where(ramp, mean, medium.relaxation_modulus(lag[1:]))
     weights[1:] += change
     weights[:-1] -= change

@@ -10,7 +10,7 @@ import numpy as np
 
 from viscorough.arrays import increasing, read_only, samples
 from viscorough.viscous.creep_response import branch_states
-from viscorough.viscous.media import CreepTable, medium_of
+from viscorough.viscous.media import medium_of
 from viscorough.viscous.spectra import zero_of_increasing
 
 _CHUNK = 2**20  # pairs of times at a time
@@ -41,14 +41,12 @@ def force_under_depth(curve, depth, medium, times):
     Raises ValueError for arguments out of range and for depths beyond the curve's last level.
     """
     medium = medium_of(medium)
-    if isinstance(medium, CreepTable):
-        raise ValueError("force_under_depth: CreepTable; allowed: media whose relaxation is known, as a Prony series")
     times, depth = _depth_samples(curve, depth, times)
     node_times, node_depths, place = _with_levels(curve, times, depth)
     elastic, stiffness = _elastic_force(curve, node_depths)
     lengths = np.diff(node_times)
     jumps = np.append(elastic[0], np.where(lengths == 0, np.diff(elastic), 0.0))
-    if not hasattr(medium, "relaxation"):
+    if medium.relaxation is None:
         force = _by_sums(medium, node_times, elastic, jumps, place)
         return DepthHistory(*map(read_only, (times, depth, force)))
     viscosity, relaxed, moduli, relaxation_times = medium.relaxation

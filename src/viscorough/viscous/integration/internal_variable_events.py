@@ -18,7 +18,7 @@ from viscorough import memory
 from viscorough.contact.growing_cholesky import append_element, solve_flat_punch
 from viscorough.errors import ConvergenceError
 from viscorough.viscous.integration.elements import elements_of_map
-from viscorough.viscous.integration.internal_variables import MediumMotion, branch_factors, load_samples
+from viscorough.viscous.integration.internal_variables import MediumMotion, branch_factors, load_samples, spectrum_of
 
 _TENSION = 1e-9  # relative to the largest pressure
 _ROUNDING = 1e-12  # of the motion in a step in which nothing moves
@@ -48,10 +48,11 @@ def march_medium_events(indenter, medium, times, *, force=None, depth=None, unti
     """
     if not 0 < until_fraction <= 1:
         raise ValueError(f"march_medium_events: until_fraction must lie in (0, 1], not {until_fraction!r}")
-    times, load = load_samples("march_medium_events", medium, times, force, depth)
+    relaxation = spectrum_of("march_medium_events", medium)
+    times, load = load_samples("march_medium_events", times, force, depth)
     elements = elements_of_map(indenter, "march_medium_events")
-    contact = _GrowingContact(elements, medium.relaxation, int(np.ceil(until_fraction * elements.count)))
-    law = _ByForce(medium.relaxation, elements.scale) if depth is None else _ByDepth(medium.relaxation)
+    contact = _GrowingContact(elements, relaxation, int(np.ceil(until_fraction * elements.count)))
+    law = _ByForce(relaxation, elements.scale) if depth is None else _ByDepth(relaxation)
     rows = []
     for k in range(times.size):
         start = times[max(k - 1, 0)]  # before the first sample there is no load
@@ -63,7 +64,7 @@ def march_medium_events(indenter, medium, times, *, force=None, depth=None, unti
     depths, forces, counts = np.array(rows).T
     event_time, event_depth = np.array(contact.events).reshape(-1, 2).T
     pressure = contact.pressure
-    if depth is None and medium.relaxation.viscosity:  # the dashpot carries a step of the force at the last time
+    if depth is None and relaxation.viscosity:  # the dashpot carries a step of the force at the last time
         pressure = pressure + (load[-1] / elements.scale - pressure.sum()) * contact.punch_share
     moved = times, depths, forces, counts.astype(int), elements.count, elements.pressure_map(pressure)
     events = {"event_time": event_time, "event_depth": event_depth}

@@ -18,6 +18,7 @@ from scipy.linalg import cho_factor, cho_solve
 from viscorough.arrays import ReadOnlyArrays, increasing, samples
 from viscorough.errors import ConvergenceError
 from viscorough.viscous.integration.elements import elements_of_map
+from viscorough.viscous.media import medium_of
 
 MEDIUM_SCHEMES = ("backward_euler", "second_order")
 _MAX_ITERATIONS, _ADDED_AT_ONCE = 300, 8
@@ -53,7 +54,7 @@ def march_medium(indenter, medium, times, *, force=None, depth=None, scheme="sec
     within it. Both keep pressures positive where the exact ones are, and neither needs short steps to be stable.
 
     indenter : Indenter with a small two-dimensional map: the cost is of third order in the elements in contact
-    medium : one of viscorough.viscous.media with springs and dashpots (no Springpot, no CreepTable)
+    medium : Medium of springs and dashpots (no Springpot, no CreepTable), or the viscosity of a Newtonian one
     times : ends of the steps, increasing; a time given twice is a step of the load
     force, depth : one of them, a load at these times, of shape (times,), F ≥ 0 and linear in between; before times[0]
         there is none, so that its first value is a step. A force may decrease, and so may a depth: the contact recedes
@@ -64,17 +65,18 @@ def march_medium(indenter, medium, times, *, force=None, depth=None, scheme="sec
     """
     if scheme not in MEDIUM_SCHEMES:
         raise ValueError(f"march_medium: scheme must be one of {', '.join(MEDIUM_SCHEMES)}, not {scheme!r}")
-    times, load = load_samples("march_medium", medium, times, force, depth)
+    relaxation = spectrum_of("march_medium", medium)
+    times, load = load_samples("march_medium", times, force, depth)
     elements = elements_of_map(indenter, "march_medium")
-    state = _State(elements, medium.relaxation)
+    state = _State(elements, relaxation)
     contact = _ContactProblem(elements)
     by_depth, rows, receding, rate = force is None, [], np.nan, 0.0
     for k in range(times.size):
         length = times[k] - times[k - 1] if k else 0.0
         rate = (load[k] - load[k - 1]) / length if length else rate
         before = contact.members
-        if length > 0 or medium.relaxation.viscosity == 0:
-            mean = by_depth or length == 0 or scheme == "backward_euler" or medium.relaxation.viscosity == 0
+        if length > 0 or relaxation.viscosity == 0:
+            mean = by_depth or length == 0 or scheme == "backward_euler" or relaxation.viscosity == 0
             value = load[k] if mean else 0.5 * (load[k - 1] + load[k])
             state.advance(contact, length, scheme, value, by_depth=by_depth)
             if np.isnan(receding) and not np.isin(before, contact.members).all():
@@ -94,10 +96,16 @@ def march_medium(indenter, medium, times, *, force=None, depth=None, scheme="sec
     return MediumMotion(*moved, indenter.length_unit, float(receding))
 
 
-def load_samples(caller, medium, times, force, depth):
-    """Times and load, arrays of shape (times,). Raises ValueError unless they and the medium are allowed."""
-    if not hasattr(medium, "relaxation"):
+def spectrum_of(caller, medium):
+    """The RelaxationSpectrum of a medium. Raises ValueError, which starts with the caller, if it has none."""
+    medium = medium_of(medium)
+    if medium.relaxation is None:
         raise ValueError(f"{caller}: {type(medium).__name__}; allowed: media of springs and dashpots")
+    return medium.relaxation
+
+
+def load_samples(caller, times, force, depth):
+    """Times and load, arrays of shape (times,). Raises ValueError, which starts with the caller, for others."""
     if (force is None) == (depth is None):
         raise ValueError(f"{caller}: one of force and depth is needed")
     name, load = ("force", force) if depth is None else ("depth", depth)

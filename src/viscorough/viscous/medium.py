@@ -1,0 +1,59 @@
+"""What every linear viscoelastic medium answers, whatever is known of it."""
+
+from abc import ABC, abstractmethod
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from viscorough.types import Array
+from viscorough.viscous.spectra import RelaxationSpectrum, RetardationSpectrum
+
+
+class Medium(ABC):
+    """A linear viscoelastic medium: creep compliance J(t) and relaxation modulus ψ(t) in shear.
+
+    A subclass gives J, its rate and its integral. Where its ψ or its spectra are known it gives those as well: ψ is
+    what prescribed depths and pressures need, discrete spectra are what direct integration needs.
+    """
+
+    @property
+    def relaxation(self) -> RelaxationSpectrum | None:
+        """Spectrum of ψ; None unless the medium consists of springs and dashpots."""
+        return None
+
+    @property
+    def retardation(self) -> RetardationSpectrum | None:
+        """Spectrum of J; None unless the medium consists of springs and dashpots."""
+        return None
+
+    @property
+    def last_time(self) -> float:
+        """The time up to which J is known; infinite for all but measured media."""
+        return np.inf
+
+    @abstractmethod
+    def creep_compliance(self, time: ArrayLike) -> Array:
+        """J at times t ≥ 0, any shape; J(0+) at time 0."""
+
+    @abstractmethod
+    def creep_rate(self, time: ArrayLike, *, left: bool = False) -> Array:
+        """dJ/dt at times t ≥ 0, any shape; where J has a kink, the rate after it, or with `left` before it."""
+
+    @abstractmethod
+    def creep_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
+        """∫J dt from start ≥ 0 to end ≥ start."""
+
+    def creep_increment(self, start: ArrayLike, end: ArrayLike) -> Array:
+        """J(end) − J(start) for 0 ≤ start ≤ end."""
+        return self.creep_compliance(end) - self.creep_compliance(start)
+
+    def relaxation_modulus(self, time: ArrayLike) -> Array:
+        """ψ at times t ≥ 0, any shape, without the pulse η δ(t) of a dashpot. Raises ValueError if it is not known."""
+        raise self._without_modulus()
+
+    def relaxation_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
+        """∫ψ dt from start ≥ 0 to end ≥ start, without the pulse at time 0. Raises ValueError if it is not known."""
+        raise self._without_modulus()
+
+    def _without_modulus(self) -> ValueError:
+        return ValueError(f"medium: {type(self).__name__}; allowed: media whose relaxation is known, as a Prony series")

@@ -10,9 +10,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import viscorough
-from viscorough.viscous.media import Prony
 
-polymer = Prony(relaxed_modulus=1e6, moduli=[5e6, 3e6, 1e6], relaxation_times=[1e-2, 0.3, 10.0])  # Pa, s
+polymer = viscorough.Prony(relaxed_modulus=1e6, moduli=[5e6, 3e6, 1e6], relaxation_times=[1e-2, 0.3, 10.0])  # Pa, s
 times = np.concatenate([[0.0], np.geomspace(1e-3, 1e3, 300)])
 force = 0.02 * np.minimum(times / 0.1, 1.0)  # N: a ramp of 0.1 s
 

@@ -10,10 +10,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import viscorough
-from viscorough.viscous.media import StandardLinearSolid
 
 radius, force = 1e-2, 0.5  # m, N
-solid = StandardLinearSolid(instantaneous_modulus=10e6, relaxed_modulus=1e6, relaxation_time=0.1)  # Pa, s
+solid = viscorough.StandardLinearSolid(instantaneous_modulus=10e6, relaxed_modulus=1e6, relaxation_time=0.1)  # Pa, s
 times = np.geomspace(1e-3, 100, 60)
 exact = (3 * force * solid.creep_compliance(times) / (16 * np.sqrt(radius))) ** (2 / 3)
 

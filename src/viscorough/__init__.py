@@ -1,42 +1,69 @@
 """Penetration of self-affine rough rigid indenters into a linearly viscous half-space.
 
-The functions and types that most users need can be imported from here. Each is defined in the module of its subject,
-which is imported when the name is first used.
+All that is public can be imported from here; exact solutions are in `viscorough.reference`. Each name is defined in the
+module of its subject, which is imported when the name is first used.
 """
 
 from importlib import import_module
 
 _MODULE_OF = {
+    "AccuracyWarning": "errors",
+    "Contact": "contact_maps",
+    "ConvergenceError": "errors",
+    "CreepTable": "viscous.media",
+    "ForceHistory": "viscous.correspondence",
     "Indenter": "indenter",
+    "KelvinVoigt": "viscous.media",
+    "LoadingCurve": "loading_curve",
+    "Maxwell": "viscous.media",
+    "Medium": "viscous.medium",
+    "Newtonian": "viscous.media",
+    "Prony": "viscous.media",
+    "SolverOptions": "contact.options",
+    "Springpot": "viscous.media",
+    "StandardLinearSolid": "viscous.media",
+    "contact_at": "contact.one_contact",
+    "cut_disc": "surfaces",
+    "estimate": "estimates",
+    "force_under_depth": "viscous.relaxation",
+    "impulses": "viscous.correspondence",
+    "indent": "contact.loading_path",
+    "kinetics": "viscous.correspondence",
+    "line_of_map": "mdr",
+    "line_of_surface": "mdr",
+    "load_curve": "io.saving",
+    "march_events": "viscous.integration.events",
+    "march_medium": "viscous.integration.internal_variables",
+    "march_medium_events": "viscous.integration.internal_variable_events",
+    "march_steps": "viscous.integration.stepping",
+    "penetration_law": "calibrated_law",
+    "prepare": "preparation",
+    "pressure_at": "viscous.pressures",
+    "read_force_history": "io.motion",
+    "read_heights": "io.heights",
+    "read_line": "io.surfaces",
+    "read_medium": "io.media",
+    "reduce": "mdr",
+    "save_curve": "io.saving",
+    "save_heights": "io.saving",
     "self_affine_disc": "surfaces",
     "self_affine_line": "surfaces",
-    "LoadingCurve": "loading_curve",
-    "ConvergenceError": "errors",
-    "AccuracyWarning": "errors",
-    "SolverOptions": "contact.options",
-    "indent": "contact.loading_path",
-    "Contact": "contact_maps",
-    "contact_at": "contact.one_contact",
-    "reduce": "mdr",
-    "kinetics": "viscous.correspondence",
-    "penetration_law": "calibrated_law",
-    "estimate": "estimates",
-    "read_heights": "io.heights",
-    "prepare": "preparation",
 }
-__all__ = sorted(_MODULE_OF)
+__all__ = [*_MODULE_OF, "reference"]
 
 
-def __getattr__(name):
+def __getattr__(name: str) -> object:
     """Import on first use, so that the command line answers a typing error without loading the solvers."""
     if name == "__version__":
         from importlib.metadata import version
 
         return version("viscorough")
+    if name == "reference":
+        return import_module(f"{__name__}.{name}")
     if name not in _MODULE_OF:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return getattr(import_module(f"{__name__}.{_MODULE_OF[name]}"), name)
 
 
-def __dir__():
+def __dir__() -> list[str]:
     return sorted([*globals(), *__all__, "__version__"])

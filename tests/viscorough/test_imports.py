@@ -1,12 +1,20 @@
-"""Packages that importing the library loads, and names of its top level."""
+"""Packages that importing the library loads, and its public names."""
 
+import ast
 import json
+import re
 import subprocess
 import sys
 import textwrap
 
 import pytest
 
+import viscorough
+from support.documentation import ROOT
+
+LIBRARY = ROOT / "src/viscorough"
+PAGE = (ROOT / "docs/reference/python.md").read_text()
+PUBLIC = {"reference", *re.findall(r"^\.\. auto(?:function|class|exception):: (\w+)$", PAGE, re.MULTILINE)}
 STUDY_ONLY = ("matplotlib", "pandas", "snakemake", "viscorough_study", "xarray")
 
 
@@ -40,15 +48,33 @@ def test_top_level_names_are_the_same_whatever_was_imported_before():
             for module in pkgutil.walk_packages(viscorough.__path__, "viscorough."):
                 importlib.import_module(module.name)
         assert set(viscorough.__all__) <= set(dir(viscorough))
-        print(json.dumps({name: getattr(viscorough, name).__module__ for name in viscorough.__all__}))
+        objects = {name: getattr(viscorough, name) for name in viscorough.__all__}
+        print(json.dumps({name: getattr(value, "__module__", value.__name__) for name, value in objects.items()}))
     """)
     before, after = (json.loads(python("-c", script, *arguments).stdout) for arguments in ([], ["everything"]))
     assert before == after
-    assert {"indent", "reduce", "kinetics", "penetration_law", "read_heights", "SolverOptions"} <= set(before)
+    assert set(before) == PUBLIC, "names of the package differ from those of the reference"
+
+
+def test_type_checkers_see_the_public_names():
+    """The stub names the modules from which the package imports on first use."""
+    stub = ast.parse((LIBRARY / "__init__.pyi").read_text())
+    imports = [node for node in stub.body if isinstance(node, ast.ImportFrom)]
+    modules = {alias.asname: node.module for node in imports for alias in node.names if alias.name == alias.asname}
+    assert modules.pop("reference") == "viscorough"
+    assert modules == {name: f"viscorough.{module}" for name, module in viscorough._MODULE_OF.items()}
+
+
+def test_functions_that_messages_name_are_public():
+    trees = [ast.parse(path.read_text()) for path in LIBRARY.rglob("*.py")]
+    functions = {node.name for tree in trees for node in tree.body if isinstance(node, ast.FunctionDef)}
+    raised = [node for tree in trees for node in ast.walk(tree) if isinstance(node, ast.Raise)]
+    texts = [node.value for each in raised for node in ast.walk(each) if isinstance(node, ast.Constant)]
+    named = {word for text in texts for word in re.findall(r"[a-z]+(?:_[a-z]+)+", str(text))} & functions
+    assert "march_medium" in named
+    assert named - {"length_unit"} <= PUBLIC  # which is also the name of an argument
 
 
 def test_unknown_names_are_refused():
-    import viscorough
-
     with pytest.raises(AttributeError, match="no attribute 'indentation'"):
         viscorough.indentation  # noqa: B018

@@ -77,13 +77,12 @@ def write_output(content, output, **attributes):
 
     The attribute `warnings` holds the warnings given so far.
     """
-    from viscorough.io import netcdf, tables
+    from viscorough.io.saving import write_content
 
     if texts := warning_texts(click.get_current_context().obj):
         attributes["warnings"] = "; ".join(texts)
     with on_interrupt(default_int_handler):  # raises KeyboardInterrupt, so that no temporary file is left
-        write = tables.write if tables.is_table(output) else netcdf.write
-        write(content.with_attributes(**attributes), output)
+        write_content(content.with_attributes(**attributes), output)
 
 
 def warning_texts(caught):

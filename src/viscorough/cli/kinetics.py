@@ -53,7 +53,7 @@ def kinetics(curve, *, force, force_history, viscosity, medium, times, output):
         raise click.UsageError("one of --viscosity and --medium is needed")
 
     from viscorough.io.curves import curve_from_content
-    from viscorough.io.motion import force_history_in
+    from viscorough.io.motion import read_force_history
     from viscorough.viscous import correspondence
     from viscorough.viscous.media import Newtonian
 
@@ -67,7 +67,8 @@ def kinetics(curve, *, force, force_history, viscosity, medium, times, output):
         text = str(error)
         raise ValueError(text if medium and text.startswith(str(medium)) else f"{curve}: {text}") from error
     if force_history is not None:
-        history, about["force"] = force_history_in(force_history, loading.length_unit), printable_name(force_history)
+        history = read_force_history(force_history, loading.length_unit)
+        about["force"] = printable_name(force_history)
     else:
         history = about["force"] = number_in("N", force, loading.length_unit, "--force")
     motion = correspondence.kinetics(loading, history, law, times)

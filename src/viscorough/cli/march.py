@@ -149,9 +149,9 @@ def _in_medium(indenter, method, medium, force, times, history, **options):
 
 def _read_history(path, length_unit):
     """The ForceHistory in a file. Raises ValueError if the file holds none, or if the force is zero at all times."""
-    from viscorough.io.motion import force_history_in
+    from viscorough.io.motion import read_force_history
 
-    history = force_history_in(path, length_unit)
+    history = read_force_history(path, length_unit)
     if not history.impulse[-1] > 0:
         raise ValueError(f"{path}: no time passes while there is a force; allowed: a force above zero for some time")
     return history

@@ -161,10 +161,10 @@ def stack_curves(curves):
     in different units of length.
     """
     if not curves:
-        raise ValueError("stack_curves: there is no curve; at least one is needed")
+        raise ValueError("curves: there is none; at least one is needed")
     length_unit, *others = dict.fromkeys(curve.length_unit for curve in curves)
     if others:
-        raise ValueError(f"stack_curves: lengths are in {length_unit} and {others[0]}; one unit is allowed")
+        raise ValueError(f"curves: lengths are in {length_unit} and {others[0]}; one unit is allowed")
     levels = np.array([curve.depth.size for curve in curves])
     variables = {}
     for name in OVER_LEVELS:

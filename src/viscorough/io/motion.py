@@ -111,19 +111,13 @@ def estimate_to_content(estimate, length_unit="1"):
 
 
 def read_force_history(path, length_unit="1"):
-    """Times and forces, both of shape (times,), in a file of two columns: .csv or .npy (io.columns.read_columns).
+    """The ForceHistory in a file of two columns, times and forces: .csv or .npy (io.columns.read_columns).
 
     length_unit : of the indenter. If it is known, numbers are converted to s and N from the units that a heading states
 
-    Raises a one-line ValueError that names the file and what is wrong. Whether the numbers are a force history is
-    checked by viscous.correspondence.impulses.
+    Raises a one-line ValueError that names the file and what is wrong.
     """
-    return read_columns(path, "a force history", {"time": "s", "force": "N"}, length_unit)
-
-
-def force_history_in(path, length_unit="1"):
-    """The ForceHistory in a file, as of `read_force_history`. Raises a one-line ValueError if it holds none."""
-    times, force = read_force_history(path, length_unit)
+    times, force = read_columns(path, "a force history", {"time": "s", "force": "N"}, length_unit)
     try:
         return impulses(force, times)
     except ValueError as error:

@@ -1,0 +1,42 @@
+"""Loading curves and surfaces as files that the command line reads and writes."""
+
+from viscorough.indenter import Indenter
+from viscorough.io import netcdf, tables
+from viscorough.io.curves import curve_from_content, curve_to_content
+from viscorough.io.netcdf import Content
+from viscorough.io.surfaces import surface_to_content
+from viscorough.loading_curve import LoadingCurve
+from viscorough.types import FilePath
+
+
+def save_curve(curve: LoadingCurve, path: FilePath) -> None:
+    """Write a loading curve as NetCDF, or as a table if the name ends in .csv; atomically.
+
+    Raises ValueError for a path that cannot be written, OSError if writing fails.
+    """
+    write_content(curve_to_content(curve), path)
+
+
+def load_curve(path: FilePath) -> LoadingCurve:
+    """Read the loading curve in a file of `save_curve` or of the command viscorough indent.
+
+    Raises a one-line ValueError if the file is missing or damaged or holds no loading curve.
+    """
+    content = (tables if tables.is_table(path) else netcdf).read(path)
+    try:
+        return curve_from_content(content)
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from error
+
+
+def save_heights(indenter: Indenter, path: FilePath) -> None:
+    """Write the heights of an indenter as NetCDF, with its spacing and unit of length, for `read_heights`; atomically.
+
+    Raises ValueError for a path that cannot be written, OSError if writing fails.
+    """
+    write_content(surface_to_content(indenter), path)
+
+
+def write_content(content: Content, path: FilePath) -> None:
+    """Write a Content as NetCDF, or as a table if the name ends in .csv; errors as of `save_curve`."""
+    (tables if tables.is_table(path) else netcdf).write(content, path)

@@ -1,18 +1,18 @@
 """Which files of a run hold measured times, so that they differ from run to run."""
 
-# Folders of results, and tables and figures under these names with any suffix.
+from pathlib import Path
+
+import yaml
+
 FOLDERS = {"logs", "benchmarks", "methods", "large"}
-NAMES = {
-    "equal_error",
-    "growth",
-    "index",
-    "large",
-    "level_placement",
-    "methods",
-    "other_solvers",
-    "rule_costs",
-    "speed",
+_RESULTS = yaml.safe_load((Path(__file__).parents[1] / "workflow/results.yaml").read_text(encoding="utf-8"))
+_TABLES = {name for rule in _RESULTS["tables"].values() for name, table in rule["tables"].items() if table.get("timed")}
+_FIGURES = {
+    figure.get("file", name)
+    for name, figure in _RESULTS["figures"].items()
+    if _TABLES & {Path(path).stem for path in figure["input"].values()}
 }
+NAMES = _TABLES | _FIGURES | {"index"}  # of tables and figures with any suffix, and of the page
 
 
 def holds_times(path):

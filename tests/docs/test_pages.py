@@ -5,7 +5,7 @@ import re
 import pytest
 
 from support.documentation import PAGES, ROOT, anchors, links, prose, read
-from support.workflow import FIGURES, RESULTS, TARGETS
+from support.workflow import FIGURES, RESULTS, TABLES, TARGETS
 
 WORKFLOW = "\n".join(read(path) for path in [ROOT / "workflow/Snakefile", *(ROOT / "workflow/rules").glob("*.smk")])
 NAMES = [str(page.relative_to(ROOT)) for page in PAGES]
@@ -32,7 +32,7 @@ def test_what_is_named_exists(page):
         for target in targets.split():
             assert re.search(rf"^{target}:", makefiles, re.MULTILINE), target
     for folder, name in re.findall(r"`results/(figures|tables)/(\w+)", text):
-        assert name in FIGURES or name in RESULTS["tables"] or f"results/{folder}/{name}." in WORKFLOW, name
+        assert name in FIGURES or name in TABLES or f"results/{folder}/{name}." in WORKFLOW, name
     for path in re.findall(r"`((?:src|workflow|config|resources|benchmarks|profiles|examples|peers)/[\w./]+)`", text):
         assert (ROOT / path).exists() or f"\n`{path}`:\n" in text, path
     for command in re.findall(r"`snakemake ([^`]*)`", text):
@@ -42,7 +42,7 @@ def test_what_is_named_exists(page):
 def _check_snakemake(words):
     takes_value = {"--cores", "--configfile", "--directory", "--profile", "--forcerun", "--config"}
     rules = set(re.findall(r"^rule (\w+):", WORKFLOW, re.MULTILINE)) | TARGETS
-    rules |= {f"plot_{name}" for name in RESULTS["figures"]}
+    rules |= {f"plot_{name}" for name in RESULTS["figures"]} | set(RESULTS["tables"])
     previous = ""
     for word in words:
         if previous in ("--configfile", "--profile") and word != "mine.yaml":

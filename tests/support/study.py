@@ -122,7 +122,7 @@ def _evidence(zeta, **options):
 
 @cache
 def _direct():
-    return compare_direct(HURST, 17, 25, 1)
+    return compare_direct(hursts=HURST, elements=17, impulses=25, seed=1)
 
 
 def evidence_of(discs, **tables):

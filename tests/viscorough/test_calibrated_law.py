@@ -129,7 +129,7 @@ def test_intervals_contain_the_law_and_follow_from_their_ends():
 
 def test_calibration_takes_rows_in_the_conventions_shown():
     scaling = evidence().tables["scaling"]
-    table = calibrated(scaling, scaling.assign(elements=51433), SHOWN, 257)
+    table = calibrated(scaling, scaling.assign(elements=51433), conventions=SHOWN, across=257)
     assert list(table) == list(calibrated_law.COLUMNS)
     assert table["source"].tolist() == ["discs"] * 3 + ["lines"] * 3
     np.testing.assert_allclose(table.loc[table["hurst"] == 0.6, "beta"], 0.375, atol=1e-6)

@@ -6,19 +6,24 @@ import subprocess
 
 import yaml
 
-from support.workflow import ROOT, TEST, copy_project, plan
+from support.workflow import RESULTS, ROOT, TEST, copy_project, plan
 
 
 def rules():
-    """{rule: its text} of all rules with a script."""
+    """{rule: its text} of all rules with a script of their own."""
     text = "\n".join(path.read_text() for path in (ROOT / "workflow/rules").glob("*.smk"))
     found = re.findall(r"^rule (\w+):\n(.*?)(?=\n\S|\Z)", text, re.MULTILINE | re.DOTALL)
     return {name: body for name, body in found if "script:" in body}
 
 
+def tabulations(kind):
+    """Rules of tables in results.yaml that are `queued`, or run `alone`."""
+    return {name for name, rule in RESULTS["tables"].items() if rule.get(kind)}
+
+
 def test_scripts_are_short_and_named_like_their_rules():
     scripts = {path.stem: path.read_text() for path in (ROOT / "workflow/scripts").glob("*.py")}
-    assert set(scripts) == set(rules()) | {"plot", "show_tables"}  # these two are those of many rules
+    assert set(scripts) == set(rules()) | {"plot", "tabulate", "show_tables"}  # these three serve many rules
     for name, text in rules().items():
         assert f'"../scripts/{name}.py"' in text
     for name, text in scripts.items():
@@ -28,7 +33,7 @@ def test_scripts_are_short_and_named_like_their_rules():
 
 def test_short_rules_run_where_snakemake_runs():
     """Only what computes for long goes through a cluster's queue."""
-    queued = {name for name, text in rules().items() if "localrule: True" not in text}
+    queued = {name for name, text in rules().items() if "localrule: True" not in text} | tabulations("queued")
     timed = {"measure_large", "measure_methods", "time_other_solvers", "compare_level_placement"}
     curves = {"indent_discs", "indent_lines", "indent_measured"}
     assert queued == timed | curves | {"validate", "compare_reduction", "map_failures"}
@@ -36,7 +41,7 @@ def test_short_rules_run_where_snakemake_runs():
 
 def test_timed_jobs_run_alone():
     """With all cores of a machine or, on a cluster, with a node that they do not share."""
-    timed = {name for name, text in rules().items() if "threads: ALL_CORES" in text}
+    timed = {name for name, text in rules().items() if "threads: ALL_CORES" in text} | tabulations("alone")
     assert timed == {"measure_large", "measure_methods", "time_other_solvers", "compare_level_placement"}
     profile = yaml.safe_load((ROOT / "profiles/slurm/config.yaml").read_text())
     assert timed == set(profile["set-threads"])
@@ -48,7 +53,7 @@ def test_slurm_profile(tmp_path):
     """It names existing rules, and plans what a local run does; without its executor, which is not installed."""
     profile = yaml.safe_load((ROOT / "profiles/slurm/config.yaml").read_text())
     for key in ("set-resources", "set-threads"):
-        assert set(profile[key]) <= set(rules()), key
+        assert set(profile[key]) <= set(rules()) | set(RESULTS["tables"]), key
     assert profile.pop("executor") == "slurm"
     folder = copy_project(tmp_path)
     (folder / "local").mkdir()

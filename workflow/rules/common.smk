@@ -223,20 +223,39 @@ CHAPTERS = (
 )
 
 
-def shown(kind):
-    """{name: entry, with what it leaves out} of the figures or tables in results.yaml."""
-    return {
-        name: {"target": "all", "params": [], "file": name, "module": name} | entry
-        for name, entry in read_yaml("workflow/results.yaml")[kind].items()
-    }
-
-
-FIGURES, TABLES = shown("figures"), shown("tables")
+RESULTS = read_yaml("workflow/results.yaml")
+FIGURES = {
+    name: {"target": "all", "params": [], "file": name, "module": name} | entry
+    for name, entry in RESULTS["figures"].items()
+}
+OF_TABLES = {"target": "all", "input": {}, "memory": 1000, "queued": False, "alone": False}
+TABLES = {
+    table: {"target": rule.get("target", "all"), "timed": False} | about
+    for rule in RESULTS["tables"].values()
+    for table, about in rule["tables"].items()
+}
+TABULATIONS = {
+    name: OF_TABLES | entry | {"tables": {table: TABLES[table] for table in entry["tables"]}}
+    for name, entry in RESULTS["tables"].items()
+    if "function" in entry
+}
 
 
 def tables_of(target):
-    """{name: entry} of the tables that a target makes."""
+    """{table: entry} of the tables that a target makes."""
     return {name: table for name, table in TABLES.items() if table["target"] == target}
+
+
+def shown_tables_of(target):
+    """{table: entry} of those that the report shows."""
+    return {name: table for name, table in tables_of(target).items() if "chapter" in table}
+
+
+def functions_of_tables(made):
+    """The function that makes the tables of a rule, and the columns of each table, as in scripts/tabulate.py."""
+    default = made["function"].rpartition(".")[0] + ".COLUMNS"
+    columns = {name: table.get("columns", default) for name, table in made["tables"].items()}
+    return {"tabulate": made["function"]} | columns
 
 
 def plots_of(target):

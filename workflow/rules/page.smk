@@ -6,24 +6,16 @@ PAGE_FIGURES = {
     for figure in FIGURES.values()
     if "alternative" in figure and (MEASURED or figure["target"] != "measured")
 }
+PAGE_TABLES = ["claims", "scaling", "methods", "failure_map", "level_placement", "rule_costs", "media", "literature"]
+PAGE_TABLES += ["measured_scans", "measured_fits"] if MEASURED else []
 
 
 rule make_page:
     input:
         discs="results/ensembles/discs.nc",
         lines="results/ensembles/lines.nc",
-        other_solvers=[rules.time_other_solvers.output.csv] if other_solvers_wanted() else [],
-        tables=[
-            rules.judge_claims.output.csv,
-            rules.fit_scaling.output.csv,
-            rules.tabulate_methods.output.csv,
-            rules.map_failures.output.csv,
-            rules.compare_level_placement.output.csv,
-            rules.tabulate_rule_costs.output.csv,
-            rules.compute_media.output.csv,
-            rules.tabulate_literature.output.csv,
-        ]
-        + ([rules.evaluate_measured.output[name][0] for name in ("scans", "fits")] if MEASURED else []),
+        other_solvers=rules.time_other_solvers.output.csv if other_solvers_wanted() else [],
+        tables=expand("results/tables/{table}.csv", table=PAGE_TABLES),
         figures=expand("results/figures/{file}.png", file=PAGE_FIGURES),
     output:
         page=report(

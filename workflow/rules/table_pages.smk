@@ -6,8 +6,8 @@ for target in dict.fromkeys(table["target"] for table in TABLES.values()):
         name:
             f"show_tables_of_{target}"
         input:
-            csv=expand("results/tables/{table}.csv", table=tables_of(target)),
-            nc=expand("results/tables/{table}.nc", table=tables_of(target)),
+            csv=expand("results/tables/{table}.csv", table=shown_tables_of(target)),
+            nc=expand("results/tables/{table}.nc", table=shown_tables_of(target)),
         output:
             html=[
                 report(
@@ -16,7 +16,7 @@ for target in dict.fromkeys(table["target"] for table in TABLES.values()):
                     category=chapter(table["chapter"]),
                     labels={"result": table["label"], "kind": "table"},
                 )
-                for name, table in tables_of(target).items()
+                for name, table in shown_tables_of(target).items()
             ],
         log:
             f"results/logs/show_tables_of_{target}.log",

@@ -1,10 +1,9 @@
 """A figure of workflow/results.yaml."""
 
-from importlib import import_module
-
 import pandas as pd
 
 from viscorough_study.figures.style import save_figure
+from viscorough_study.run.inputs import named
 from viscorough_study.run.job_log import log_to
 
 
@@ -17,12 +16,6 @@ def main(files, png, pdf, *, functions, **params):
     """
     given = {name: named(functions[name])(files) if name in functions else pd.read_csv(files[name]) for name in files}
     save_figure(named(functions["draw"])(**given, **params), png, pdf)
-
-
-def named(function):
-    """A function by its name and that of its module."""
-    module, _, name = function.rpartition(".")
-    return getattr(import_module(module), name)
 
 
 if job := globals().get("snakemake"):

@@ -32,22 +32,22 @@ LAST_FORCE = 0.9  # of what both curves reach
 TOLERANCE = 1e-6  # of the elastic curve
 
 
-def compare_direct(hursts, across, impulses, seed):
+def compare_direct(*, hursts, elements, impulses, seed):
     """Depths by direct integration over elastic depths; a pandas.DataFrame with the columns of `COLUMNS`.
 
     Sphere and cone: over the exact elastic solution, so that the ratio has the error of the grid. Rough discs, one for
     each Hurst exponent: over the loading curve by boundary elements of the same disc.
-    hursts : Hurst exponents; across : elements across all indenters; impulses : number of impulses ∫F dt/η per indenter
+    hursts : Hurst exponents; elements : across all indenters; impulses : number of impulses ∫F dt/η per indenter
     seed : root of the discs' seeds
     """
     rows = []
     for name, (body, alpha) in BODIES.items():
-        events = march_events(body.indenter(across), until_fraction=BODY_FRACTION)
-        radii = np.array([RADII[0], RADII[1] * across]) / across
+        events = march_events(body.indenter(elements), until_fraction=BODY_FRACTION)
+        radii = np.array([RADII[0], RADII[1] * elements]) / elements
         impulse = np.geomspace(*body.force(body.mdr_profile(radii)), impulses)
         rows += _rows(name, alpha, events, impulse, body.depth(impulse))
     for hurst in hursts:
-        disc = self_affine_disc(hurst, across, seed=realization_seed(seed, *gamma_factor_key(hurst)))
+        disc = self_affine_disc(hurst, elements, seed=realization_seed(seed, *gamma_factor_key(hurst)))
         events = march_events(disc, until_fraction=DISC_FRACTION)
         elastic = indent(disc, tolerance=TOLERANCE, until_fraction=DISC_FRACTION)
         last = LAST_FORCE * min(events.impulse[-1], elastic.force[-1])

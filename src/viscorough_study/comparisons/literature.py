@@ -34,7 +34,7 @@ NONE = pd.DataFrame([dict.fromkeys(OURS, np.nan)])
 X_COMPARED = 0.01  # at which lines are compared with their discs, in region (b)
 
 
-def literature(entries, scaling, interface, reduction, conventions):
+def literature(scaling, interface, reduction, *, entries, conventions):
     """A row for every source, quantity and Hurst exponent; a pandas.DataFrame with the columns of `COLUMNS`, by year.
 
     entries : content of resources/literature/stiffness.yaml

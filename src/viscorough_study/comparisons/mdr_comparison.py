@@ -17,7 +17,9 @@ from viscorough.contact.one_contact import contact_at
 from viscorough.indenter import Indenter
 from viscorough.mdr import line_of_surface, reduce
 from viscorough.surfaces import cut_disc, self_affine_square
+from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.fits.intervals import described, mean_with_interval, three_columns
+from viscorough_study.run.job_log import progress
 from viscorough_study.run.seeds import mdr_comparison_key, realization_seed
 
 COLUMNS = {
@@ -40,19 +42,21 @@ COLUMNS = {
 FORCE_MARGIN = 1.01  # by which the curve of a disc reaches beyond the last force compared, so that it is defined there
 
 
-def compare_reduction(hursts, elements, realizations, x, *, tolerance, seed, progress=iter):
+def compare_reduction(*, hursts, elements, realizations, tolerance, seed, x_low, x_high, per_decade):
     """Lines against the discs whose spectra they have; a pandas.DataFrame with the columns of `COLUMNS`.
 
     hursts : Hurst exponents; realizations : number of discs for each
-    elements : across a disc of diameter and rms height 1, cut from a square of one period; x : X, shape (abscissae,)
-    tolerance : of the loading curves of the discs; seed : root of the surfaces' seeds; progress : wraps the loop
+    elements : across a disc of diameter and rms height 1, cut from a square of one period
+    tolerance : of the loading curves of the discs; seed : root of the surfaces' seeds
+    x_low, x_high, per_decade : of the abscissae X
     Abscissae that some curve does not reach are left out.
     """
-    force, tables = 4 * x, []  # F/G = 4hLX with h = L = 1
+    x, tables = abscissa(x_low, x_high, per_decade), []
+    force = 4 * x  # F/G = 4hLX with h = L = 1
     with_gap = is_power_of_ten(x)
     for hurst in hursts:
         compared = []
-        for number in progress(range(realizations)):
+        for number in progress(range(realizations), realizations, "surfaces"):
             seed_of_both = realization_seed(seed, *mdr_comparison_key(hurst, number))
             disc, line = _disc_and_line(hurst, elements, *seed_of_both.spawn(2))
             disc_curve = indent(disc, tolerance=tolerance, until_force=FORCE_MARGIN * force[-1])

@@ -9,6 +9,7 @@ ln X, whose ends may lie on either side and whose intervals have no such bias.
 import numpy as np
 import pandas as pd
 
+from viscorough_study.ensembles.pool import ensembles, select
 from viscorough_study.fits.intervals import described, described_ends, percentile_interval, three_columns
 from viscorough_study.fits.mdr_lambda import match_lines
 from viscorough_study.fits.power_law import find_region, fit_power_law, in_window, named_windows
@@ -48,6 +49,21 @@ EXPONENT_COLUMNS = {
     **described("beta_lines", "exponent β of the lines"),
     **described("difference", "β of the lines minus β of the discs"),
 }
+
+
+def mdr_tables(discs, lines, *, seed, fit, conventions):
+    """{"mdr_lambda", "mdr_summary", "mdr_exponents": table} of `compare_ensembles`, of pools of base discs and lines.
+
+    fit : settings of region (b); conventions : average, and rms convention of the discs
+    """
+    discs = select(discs, group="base").sel(rms_convention=[conventions["rms_convention"]])
+    lines = lines.isel(realization=np.flatnonzero(np.isin(lines["hurst"], discs["hurst"])))
+    pair = (
+        {hurst: one.isel(rms_convention=0) for hurst, one in ensembles(pool, "hurst").items()}
+        for pool in (discs, lines)
+    )
+    tables = compare_ensembles(*pair, average=conventions["average"], seed=seed, **fit)
+    return dict(zip(("mdr_lambda", "mdr_summary", "mdr_exponents"), tables, strict=True))
 
 
 def compare_ensembles(discs, lines, *, average, stiffness_range, resamples, seed, **limits):

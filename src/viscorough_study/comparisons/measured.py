@@ -10,7 +10,9 @@ from viscorough.indenter import Indenter
 from viscorough.io.curves import unstack_curves
 from viscorough.io.heights import read_heights
 from viscorough.units import metres
-from viscorough_study.comparisons.media_kinetics import motion_on_curve
+from viscorough_study.comparisons.media_kinetics import motion_on_curve, named_media
+from viscorough_study.ensembles.averages import abscissa
+from viscorough_study.ensembles.pool import ensembles
 from viscorough_study.fits.fit_table import fit_rows
 
 COLUMNS = {
@@ -63,6 +65,20 @@ def lengths(indenter):
         "rms_slope": indenter.rms_slope,
         "diameter": 2 * np.sqrt(area / np.pi),
     }
+
+
+def measured_tables(pool, curves, *, media, times, fit, seed, **of_scans):
+    """{"measured_scans", "measured_fits", "measured_kinetics": table} of measured surfaces.
+
+    Their columns are `COLUMNS`, those of fit_table and `KINETICS`.
+    pool : of all scans; curves : Content of the curve of each; of_scans : names, and forces [N] of each scan
+    media : mappings with a name and the keys of a medium; times : low, high [s], per_decade
+    fit : settings in section `scaling`
+    """
+    asked = {"media": named_media(media), "times": abscissa(**times)}
+    scans, motions = scans_and_kinetics(curves, **asked, **of_scans)
+    fits = group_fits(ensembles(pool, "group"), seed=seed, **fit)
+    return {"measured_scans": scans, "measured_fits": fits, "measured_kinetics": motions}
 
 
 def scans_and_kinetics(batches, *, names, forces, media, times):

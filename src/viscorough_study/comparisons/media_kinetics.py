@@ -9,9 +9,11 @@ of J. With the paper's J = t/η this is its vt/h = X/κ. Where X/κ = X^β/ζ, t
 import numpy as np
 import pandas as pd
 
+from viscorough.io.curves import unstack_curves
 from viscorough.io.media import medium_from_mapping
 from viscorough.reference import exponent_beta
 from viscorough.viscous.correspondence import kinetics
+from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.fits.intervals import described, three_columns
 from viscorough_study.fits.power_law import fit_power_law, local_slopes
 
@@ -50,6 +52,26 @@ _CREEPING = 0.05  # exponent of J, below which the medium hardly creeps and no p
 def named_media(cases):
     """{name: medium of viscorough.viscous.media} of the settings: mappings with a name and the keys of a medium."""
     return {case["name"]: medium_from_mapping({k: v for k, v in case.items() if k != "name"}) for case in cases}
+
+
+def media_of_batches(curves, *, discs, until_x, rms_convention, cases, times, **how):
+    """{"media", "media_exponents": table} of `media_tables`, from batches of loading curves.
+
+    curves : Content of the batches, of which the curves of the ensembles `discs` are taken that were to reach
+        X = until_x; rms_convention : of h
+    cases : [name and further keys of a medium]; times : low, high [s] and per_decade
+    how : further arguments of `media_tables`
+    """
+    ensembles = {}
+    for batch in curves:
+        values = {name: variable.values for name, variable in batch.variables.items()}
+        read, heights = unstack_curves(batch), values[f"rms_{rms_convention}"]
+        diameter, hurst = np.broadcast_to(values["diameter"], heights.shape), values["hurst"].item()
+        for i in np.flatnonzero(np.isin(values["case"].astype(str), discs) & (values["until_x"] == until_x)):
+            joined, rms, _ = ensembles.get(hurst, ([], [], None))
+            ensembles[hurst] = [*joined, read[i]], [*rms, heights[i]], diameter[i]
+    tables = media_tables(ensembles, named_media(cases), times=abscissa(**times), **how)
+    return dict(zip(("media", "media_exponents"), tables, strict=True))
 
 
 def media_tables(ensembles, media, *, force, times, stiffness_range, resamples, seed):

@@ -13,7 +13,9 @@ SHIFT = 3.0  # factor between curves of different H
 def plot_collapse(curves, collapse, infinite):
     """vt/h (a) and that of the interface (b) of all grids over the law, (c) the exponents allowed.
 
-    curves, collapse, infinite : tables of the rule fit_collapse. Raises ValueError for a table without rows.
+    curves, collapse, infinite : of fits.infinite_grid.collapse_tables
+
+    Raises ValueError for a table without rows.
     """
     style.require_rows("plot_collapse", collapse)
     figure = style.new_figure(130)

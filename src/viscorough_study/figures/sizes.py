@@ -12,7 +12,7 @@ CONTROL = {"color": style.GREY, "marker": "x", "linestyle": ""}
 def plot_sizes(table, conventions):
     """β over the number of elements, of discs (a) and lines (b) in region (b), and in a fixed window (c), (d).
 
-    table : that of fit_sizes; conventions : {column of it: value}
+    table : sizes, of fits.grid_trends; conventions : {column of it: value}
     The fixed window is that at the largest X. One colour for each Hurst exponent; dotted lines are H/(1 + H), Eq. 10;
     crosses are controls, discs whose spectrum rolls off.
     Raises ValueError for a table without rows.

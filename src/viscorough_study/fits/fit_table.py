@@ -4,6 +4,7 @@ A row is an ensemble in one rms convention, average and window (`FITTED` of fits
 are those of the plain reading of the law; fits.conventions has functions that select rows in any reading.
 """
 
+import logging
 from contextlib import suppress
 from itertools import product
 
@@ -11,7 +12,7 @@ import numpy as np
 import pandas as pd
 
 from viscorough.calibrated_law import COLUMNS as CALIBRATION
-from viscorough_study.ensembles.pool import elements_across
+from viscorough_study.ensembles.pool import elements_across, ensembles, select
 from viscorough_study.fits.conventions import FITTED, fits, interval_columns, of_source, readings
 from viscorough_study.fits.intervals import described, described_ends, three_columns
 from viscorough_study.fits.mdr_lambda import match_lambda
@@ -47,6 +48,24 @@ COLUMNS = {
         "lambda", "λ in C1D = λ q C2D that matches the line to the surface (Eq. 13)", of="of the 95 % interval of λ"
     ),
 }
+
+
+def scaling_table(discs, lines, *, seed, **fit):
+    """Fits of discs, one ensemble for each group and Hurst exponent, and of lines; those of the same H give λ.
+
+    discs, lines : pools (viscorough_study.ensembles.pool); seed, fit : further arguments of `fit_rows`
+    Returns a pandas.DataFrame with the columns of `COLUMNS`.
+    """
+    lines, rows = ensembles(lines, "hurst"), []
+    for group in dict.fromkeys(discs["group"].values.tolist()):
+        for hurst, ensemble in ensembles(select(discs, group=group), "hurst").items():
+            logging.info("discs, %s, H = %g", group, hurst)
+            about = {"source": "discs", "case_group": group, "lines": lines[hurst] if group == "base" else None}
+            rows += fit_rows(ensemble, **about, seed=seed, **fit)
+    for hurst, ensemble in lines.items():
+        logging.info("lines, H = %g", hurst)
+        rows += fit_rows(ensemble, source="lines", case_group="base", seed=seed, **fit)
+    return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
 def fit_rows(ensemble, *, source, case_group, lines=None, resamples, seed, **limits):
@@ -88,13 +107,14 @@ def _fit(ensemble, lines, window, **how):
     return columns
 
 
-def calibrated(table, sizes, conventions, across):
+def calibrated(scaling, sizes, *, conventions, across):
     """Fits of base discs and of lines in these conventions, with the columns of viscorough.calibrated_law.
 
+    scaling : of `scaling_table`, with discs of `across` elements across; conventions : {convention: value}
     sizes : table of discs on grids from coarse to fine, with `elements`; those with as many elements across as the base
         discs are taken for Hurst exponents that these do not have
     """
-    rows = [fits(table, conventions | of_source(source), case_group="base") for source in ("discs", "lines")]
+    rows = [fits(scaling, conventions | of_source(source), case_group="base") for source in ("discs", "lines")]
     further = fits(sizes, conventions | of_source("discs"), case_group="sizes")
     same_grid = further["elements"].map(elements_across) == across
     rows.append(further[same_grid & ~further["hurst"].isin(rows[0]["hurst"])])

@@ -11,9 +11,12 @@ import numpy as np
 import pandas as pd
 
 from viscorough.reference import exponent_beta
+from viscorough_study.ensembles.pool import ensembles, select
+from viscorough_study.fits import fit_table
 from viscorough_study.fits.conventions import FITTED, fits, of_source
 from viscorough_study.fits.intervals import UNDEFINED, described, interval, three_columns
 from viscorough_study.fits.power_law import fit_power_law, in_window
+from viscorough_study.run.job_log import progress
 
 FINDINGS = (
     "agrees on the finest grid",
@@ -32,13 +35,35 @@ COLUMNS = {
     **described("slope", "change of the exponent per decade of elements"),
     "finding": ("one of: " + "; ".join(FINDINGS), ""),
 }
+SIZES = fit_table.COLUMNS | {"elements": ("elements of an indenter: of a disc, points of a line", "1")}
 ERROR_MIN = 1e-12  # of an exponent, so that equal curves have a finite weight
+
+
+def sizes_tables(discs, lines, *, seed, fit, windows, conventions, tolerance):
+    """{"sizes", "sizes_trends": table} of ensembles on grids from coarse to fine, with `SIZES` and `COLUMNS`.
+
+    Every ensemble is fitted by itself, in the windows of region (b) and in those of fixed X.
+    discs, lines : pools; seed, fit : further arguments of fit_table.fit_rows; windows : [(X_low, X_high)]
+    conventions : those of the figures; tolerance : of the exponents
+    """
+    fixed = {name: fit[name] for name in ("elements_min", "fraction_min", "resamples")} | {"seed": seed}
+    fixed |= {name: conventions[name] for name in ("average", "rms_convention")}
+    rows = []
+    for source, group, pool in (("discs", "sizes", discs), ("discs", "controls", discs), ("lines", "sizes", lines)):
+        about = {"source": source, "case_group": group}
+        grids = ensembles(select(pool, group=group), "hurst", "elements").values()
+        for ensemble in progress(grids, len(grids), f"{source}, {group}"):
+            fitted = fit_table.fit_rows(ensemble, **about, seed=seed, **fit)
+            fitted += fixed_window_rows(ensemble, windows, about, **fixed)
+            rows += [row | {"elements": ensemble["elements"].item()} for row in fitted]
+    table = pd.DataFrame(rows, columns=list(SIZES))
+    return {"sizes": table, "sizes_trends": trends(table, conventions, tolerance)}
 
 
 def trends(table, conventions, tolerance):
     """Trend of β over the logarithm of the number of elements, for every source and Hurst exponent.
 
-    table : of workflow/scripts/fit_sizes.py; conventions : {convention: value}; window_rule is that of the windows
+    table : sizes, of `sizes_tables`; conventions : {convention: value}; window_rule is that of the windows
         that move with the grid, beside which are the fixed ones of the table
     tolerance : of β, that of the claims on β in resources/paper/claims.yaml
 

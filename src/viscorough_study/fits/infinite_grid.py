@@ -140,17 +140,18 @@ def _columns(fits, of_hurst, hurst, tolerance):
     return row
 
 
-def collapse_tables(discs, lines, ranges, *, tolerance, **how):
-    """{"collapse", "infinite", "curves": pandas.DataFrame} of discs, of their control and of lines.
+def collapse_tables(discs, lines, *, ranges, conventions, tolerance, **how):
+    """{"collapse", "infinite_grid", "collapse_curves": table} of discs, of their control and of lines.
 
-    Their columns are those of viscorough_study.fits.scaling_collapse, with `CURVES`, and `COLUMNS`.
+    Their columns are scaling_collapse.COLUMNS, `COLUMNS` and scaling_collapse.CURVES.
 
     discs, lines : pools of grids from coarse to fine; ranges : setting `collapse`; tolerance : of exponents
-    how : average, rms_convention, fraction_min and seed, as in `viscorough_study.fits.scaling_collapse.grids`
+    conventions : those of the figures; how : fraction_min and seed, as in viscorough_study.fits.scaling_collapse.grids
     """
+    how |= {name: conventions[name] for name in ("average", "rms_convention")}
     how |= {"elements_min": min(ranges["elements_min"]), "resamples": ranges["resamples"]}
     ends = {"power": ranges["x_high"], "corrected": ranges["corrected_x_high"]}
-    parts = {"collapse": [], "infinite": []}
+    parts = {"collapse": [], "infinite_grid": []}
     for source, pool in (("discs", discs), ("controls", discs), ("lines", lines)):
         found = grids(pool, source, **how)
         parts["collapse"].append(collapse_table(found, source, x_high=ranges["x_high"], tolerance=tolerance))
@@ -158,5 +159,5 @@ def collapse_tables(discs, lines, ranges, *, tolerance, **how):
             curves = curve_table(found, CURVES_END)
         if source != "controls":
             about = {"elements_min": ranges["elements_min"], "x_high": ends, "tolerance": tolerance}
-            parts["infinite"].append(limit_table(found, source, **about))
-    return {name: pd.concat(tables, ignore_index=True) for name, tables in parts.items()} | {"curves": curves}
+            parts["infinite_grid"].append(limit_table(found, source, **about))
+    return {name: pd.concat(tables, ignore_index=True) for name, tables in parts.items()} | {"collapse_curves": curves}

@@ -70,7 +70,20 @@ def ensembles_of(pool, source, case_group, hursts=None):
     return found
 
 
-def interface_tables(cases, rms_convention, **how):
+def interface_tables(discs, lines, size_discs, size_lines, *, fit, rms_convention):
+    """{"interface", "interface_curves": table} of discs and lines, lines at the Hurst exponents of the discs.
+
+    discs, lines, size_discs, size_lines : pools, the last two of grids from coarse to fine
+    fit : further arguments of `examine`; rms_convention : of the discs
+    """
+    discs, size_discs = (pool.sel(rms_convention=[rms_convention]) for pool in (discs, size_discs))
+    cases = ensembles_of(discs, "discs", "base") + ensembles_of(size_discs, "discs", "sizes")
+    hursts = {about["hurst"] for about, _, _ in cases}
+    cases += ensembles_of(lines, "lines", "lines", hursts) + ensembles_of(size_lines, "lines", "sizes")
+    return dict(zip(("interface", "interface_curves"), examine_all(cases, rms_convention, **fit), strict=True))
+
+
+def examine_all(cases, rms_convention, **how):
     """Tables with the columns of `COLUMNS` and `CURVES` (pandas.DataFrame), of every ensemble and average.
 
     cases : as of `ensembles_of`; rms_convention : of discs; how : further arguments of `examine`

@@ -8,10 +8,15 @@ The control has a spectrum without long waves, hence no power law. The test is a
 passes power laws, both with the scatter of the real realizations: shares of synthetic ensembles say how often it does.
 """
 
-import numpy as np
+import logging
 
+import numpy as np
+import pandas as pd
+
+from viscorough_study.ensembles.pool import ensembles, select
 from viscorough_study.fits.intervals import described, described_ends, resampled_means, three_columns, with_interval
 from viscorough_study.fits.power_law import local_slopes
+from viscorough_study.run.seeds import plateau_key, realization_seed
 
 ROUNDING = 1e-9  # relative difference up to which distances on the logarithmic axis count as equal
 COLUMNS = {
@@ -99,6 +104,24 @@ def shares(log_x, mean, residuals, *, draws, decades_min, random, **how):
         passed += found["decades_low"] >= needed
         failed += found["decades_high"] < needed
     return passed / draws, failed / draws
+
+
+def plateau_table(discs, *, control, rms_convention, seed, **how):
+    """Plateaus of every Hurst exponent, of base discs and of a control; a pandas.DataFrame with `COLUMNS`.
+
+    discs : pool (viscorough_study.ensembles.pool); control : group without a power law, None without one
+    how : further arguments of `plateau_row`
+    """
+    discs, rows = discs.sel(rms_convention=[rms_convention]), []
+    groups = {name: ensembles(select(discs, group=name), "hurst") for name in ("base", control) if name}
+    for group, members in groups.items():
+        for hurst, ensemble in sorted(members.items()):
+            logging.info("%s, H = %g", group, hurst)
+            random = np.random.default_rng(realization_seed(seed, *plateau_key(hurst, group)))
+            compared = groups[control][hurst].isel(rms_convention=0) if control else None
+            row = plateau_row(ensemble.isel(rms_convention=0), compared, random=random, **how)
+            rows.append({"case_group": group, **row})
+    return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
 def plateau_row(ensemble, control, *, x_range, half_width, tolerance, decades_min, resamples, draws, random):

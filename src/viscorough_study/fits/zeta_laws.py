@@ -18,9 +18,10 @@ import numpy as np
 import pandas as pd
 
 from viscorough import reference
+from viscorough_study.ensembles.pool import ensembles, select
 from viscorough_study.fits.conventions import PLAIN, zeta_scale
 from viscorough_study.fits.intervals import UNDEFINED, with_interval
-from viscorough_study.fits.power_law import fit_power_law, in_window, log_means
+from viscorough_study.fits.power_law import fit_power_law, in_window, log_means, named_windows
 
 LAWS = {  # {name: (ζ as a function of H, whether the law has the factor 1/Γ(2 − α))}
     "Eq. 4, without Γ": (reference.zeta_elastic, False),
@@ -41,6 +42,17 @@ COLUMNS = {
     "hurst_exponents": ("number of Hurst exponents compared", "1"),
     "realizations": ("fewest discs of a Hurst exponent", "1"),
 }
+
+
+def zeta_laws_of_pool(discs, *, conventions, hurst_mins, fit, resamples, seed):
+    """`zeta_laws` of the base discs of a pool, in the default window of region (b).
+
+    conventions : average and rms convention, as in the figures; fit : arguments of power_law.named_windows
+    """
+    base = select(discs, group="base").sel(rms_convention=[conventions["rms_convention"]])
+    pooled = {hurst: one.isel(rms_convention=0) for hurst, one in sorted(ensembles(base, "hurst").items())}
+    windows = {hurst: named_windows(one, **fit)["default"] for hurst, one in pooled.items()}
+    return zeta_laws(pooled, windows, hurst_mins, average=conventions["average"], resamples=resamples, seed=seed)
 
 
 def zeta_laws(ensembles, windows, hurst_mins=(0.0,), *, average, resamples, seed):

@@ -22,6 +22,12 @@ COLUMNS = {
 }
 
 
+def methods_tables(tables, **settings):
+    """{"methods", "equal_error": table} of the tables of all indenters; settings : with which methods were measured."""
+    methods = pd.concat(tables, ignore_index=True)
+    return {"methods": methods, "equal_error": equal_error(methods)}
+
+
 def equal_error(methods):
     """A row for each indenter; a pandas.DataFrame with the columns of `COLUMNS`.
 

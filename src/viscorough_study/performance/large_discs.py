@@ -4,6 +4,7 @@ import resource
 from functools import partial
 
 import numpy as np
+import pandas as pd
 
 from viscorough.contact.loading_path import indent
 from viscorough.surfaces import self_affine_disc
@@ -22,6 +23,11 @@ COLUMNS = {
     "memory": ("largest memory of the process", "byte"),
     "machine": ("machine on which times and memory were measured", None),
 }
+
+
+def costs_table(costs):
+    """One table of the costs of all sizes, by size; costs : tables of one row, as of `measure_disc`."""
+    return pd.concat(costs).sort_values("elements", ignore_index=True)
 
 
 def measure_disc(hurst, elements, seed, *, tolerance, until_fraction, warm_up, threads):

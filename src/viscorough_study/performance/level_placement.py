@@ -6,11 +6,13 @@ that reaches the accuracy. Naive levels stand in equal steps of depth; their num
 no larger than that of the levels chosen automatically. The tolerance of every level is the accuracy required.
 """
 
+import logging
 from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
 import pandas as pd
+from threadpoolctl import threadpool_limits
 
 from viscorough import reference
 from viscorough.contact.loading_path import indent
@@ -62,6 +64,12 @@ def scenes(elements, hurst, seed):
         Scene("coarse question", disc, 3e-2, few, 0.9),
         Scene("fine question", disc, 1e-4, few, 0.9),
     ]
+
+
+def compare_scenes(*, elements, hurst, seed, repeats):
+    """The three choices of levels for every scene, on one thread; a pandas.DataFrame with the columns of `COLUMNS`."""
+    with threadpool_limits(1):  # Snakemake gives the job all cores, so that nothing runs beside it
+        return pd.concat([compare(scene, repeats, logging.info) for scene in scenes(elements, hurst, seed)])
 
 
 def compare(scene, repeats, report=lambda text: None, *, hand_picked=HAND_PICKED, naive=NAIVE):

@@ -4,17 +4,21 @@ The path's time is for everything, exact stiffness at every level included; that
 and without stiffness. Other solvers start every level from the one before, if they can.
 """
 
+import logging
 from dataclasses import dataclass, field
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
+from threadpoolctl import threadpool_limits
 
 from viscorough import __version__
 from viscorough.contact.loading_path import indent
 from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
 from viscorough_study.performance import other_solvers, timing
+from viscorough_study.run.seeds import realization_seed, solver_race_key
 
 # Tolerances of other solvers, over the residual required, from loose to tight: each solver defines its tolerance in its
 # own way. The search for the loosest that will do begins in the middle of them.
@@ -59,6 +63,28 @@ class Task:
     depths: np.ndarray
     residual: float
     threads: tuple = (1,)
+
+
+def time_other_solvers(*, seed, hursts, pairs, longest, tasks, peers):
+    """`compare_solvers` on every task for every Hurst exponent; solvers that are not installed are left out.
+
+    tasks : setting of that name; peers : {solver: [Python of its environment, its adapter]}
+    longest : seconds after which a run of another solver is abandoned
+    """
+    solvers = [other_solvers.OtherSolver(name, *map(Path, paths)) for name, paths in peers.items()]
+    for solver in solvers:
+        if not solver.installed:
+            logging.warning("%s is not installed: left out (make peers installs it)", solver.name)
+    common = {"pairs": pairs, "time_limit": longest, "report": logging.info}
+    tables, installed = [], [solver for solver in solvers if solver.installed]
+    threadpool_limits(1)  # of linear algebra, for good; Snakemake gives the job all cores: nothing runs beside it
+    for number, task in enumerate(tasks):
+        fractions = np.geomspace(*task["fractions"], task["levels"]) if task["levels"] > 1 else task["fractions"][:1]
+        for hurst in hursts:
+            of_disc = {"seed": realization_seed(seed, *solver_race_key(number, hurst)), "threads": task["threads"]}
+            levels = disc_task(task["name"], hurst, task["elements"], fractions, task["residual"], **of_disc)
+            tables.append(compare_solvers(levels, installed, **common))
+    return pd.concat(tables)
 
 
 def disc_task(name, hurst, elements, fractions, residual, *, seed, threads=(1,)):

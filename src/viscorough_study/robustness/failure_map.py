@@ -4,6 +4,7 @@ A method holds if its error is within its limit. If not, it must have refused wi
 be outside the range that its documentation states. A failure that is none of these goes unnoticed, and is a defect.
 """
 
+import logging
 import warnings
 
 import numpy as np
@@ -11,7 +12,9 @@ import pandas as pd
 
 from viscorough.errors import AccuracyWarning, ConvergenceError
 from viscorough.viscous.correspondence import impulses
+from viscorough_study.robustness.stress_cases import stress_cases
 from viscorough_study.robustness.stress_solutions import METHODS, reference_solution
+from viscorough_study.run.seeds import failure_map_key, realization_seed
 
 MIN_ELEMENTS = 10  # in contact, below which the grid determines the result: region (a)
 FEW_ELEMENTS = "fewer than ten elements touch: region (a), which belongs to the grid"
@@ -25,6 +28,15 @@ COLUMNS = {
     "reason": ("what users are told", ""),
 }
 VERDICTS = ("holds", "model", "stated", "warned", "refused", "not offered", "unnoticed")
+
+
+def map_failures(*, seed, across, grids, hurst_min):
+    """`failure_map` of all stress-test cases, with a warning in the log for every failure that is unnoticed."""
+    cases = stress_cases(realization_seed(seed, *failure_map_key()), across, grids, hurst_min)
+    table = failure_map(cases, report=logging.info)
+    for row in unnoticed(table).itertuples():
+        logging.warning("%s: %s fails unnoticed, error %.2g", row.case, row.method, row.error)
+    return table
 
 
 def failure_map(cases, methods=METHODS, report=lambda text: None):

@@ -8,7 +8,7 @@ from viscorough_study.comparisons.direct_integration import COLUMNS, compare_dir
 
 @pytest.fixture(scope="module")
 def table():
-    return compare_direct([0.4, 0.8], across=33, impulses=25, seed=1)
+    return compare_direct(hursts=[0.4, 0.8], elements=33, impulses=25, seed=1)
 
 
 def test_rough_discs_have_the_elastic_depth(table):

@@ -33,7 +33,7 @@ REDUCTION = pd.DataFrame(
 @pytest.fixture
 def table():
     scaling = evidence().tables["scaling"].assign(beta_low=0.1, beta_high=0.7)
-    return literature(ENTRIES, scaling, INTERFACE, REDUCTION, SHOWN).round({"low": 9, "high": 9})
+    return literature(scaling, INTERFACE, REDUCTION, entries=ENTRIES, conventions=SHOWN).round({"low": 9, "high": 9})
 
 
 def of(table, quantity, place=""):
@@ -68,7 +68,9 @@ def test_u0_stands_beside_that_of_others_and_persson_s_law(table):
 
 
 def test_sources_stay_without_numbers_of_this_study():
-    table = literature(ENTRIES, evidence().tables["scaling"][:0], INTERFACE[:0], REDUCTION[:0], SHOWN)
+    table = literature(
+        evidence().tables["scaling"][:0], INTERFACE[:0], REDUCTION[:0], entries=ENTRIES, conventions=SHOWN
+    )
     assert len(table) == sum(max(len(entry["ours"]), 1) for entry in ENTRIES)
     assert table["value"].isna().all()
 

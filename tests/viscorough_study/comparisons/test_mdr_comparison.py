@@ -9,7 +9,6 @@ from viscorough.indenter import Indenter
 from viscorough.mdr import line_of_surface, reduce
 from viscorough.surfaces import self_affine_square
 from viscorough_study.comparisons.mdr_comparison import COLUMNS, compare_reduction, is_power_of_ten, mean_gaps
-from viscorough_study.ensembles.averages import abscissa
 
 
 @pytest.mark.parametrize("n", [64, 65])
@@ -27,8 +26,8 @@ def test_line_has_the_power_of_the_rings(n):
 
 
 def test_comparison():
-    x = abscissa(1e-3, 3.0, 5)
-    table = compare_reduction([0.8], 33, 6, x, tolerance=1e-3, seed=1)
+    x = {"x_low": 1e-3, "x_high": 3.0, "per_decade": 5}
+    table = compare_reduction(hursts=[0.8], elements=33, realizations=6, tolerance=1e-3, seed=1, **x)
     assert list(table) == list(COLUMNS)
     assert table["stiffness_ratio"].between(0.3, 3).all()
     half_width = stats.t.ppf(0.975, 5) * table["stiffness_scatter"] / np.sqrt(6)

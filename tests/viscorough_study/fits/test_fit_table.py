@@ -66,7 +66,7 @@ def test_calibration_has_base_discs_and_lines_in_the_conventions_shown(discs, li
     rows = rows_of(discs, lines=lines) + rows_of(discs, case_group="roll_off") + rows_of(lines, source="lines")
     sizes = pd.concat([pd.DataFrame(rows_of(discs, case_group="sizes")).assign(hurst=h) for h in (0.7, 0.8, 0.9)])
     sizes = sizes.assign(elements=np.where(sizes["hurst"] == 0.9, 3209, 51433))
-    table = calibrated(pd.DataFrame(rows), sizes, SHOWN | {"gamma": "with"}, 257)
+    table = calibrated(pd.DataFrame(rows), sizes, conventions=SHOWN | {"gamma": "with"}, across=257)
     assert list(table) == list(calibrated_law.COLUMNS)
     assert table["source"].tolist() == ["discs", "discs", "lines"]
     assert table["hurst"].tolist() == [0.7, 0.8, 0.7]  # of sizes, one that is new, on the same grid

@@ -9,7 +9,7 @@ from support.study import pool_of
 from viscorough.calibrated_law import X_LOW, interface_depth, interface_velocity
 from viscorough_study.ensembles.averages import abscissa, ensemble_dataset
 from viscorough_study.ensembles.discs import punch_stiffness
-from viscorough_study.fits.interface import COLUMNS, CURVES, ensembles_of, examine, interface_tables
+from viscorough_study.fits.interface import COLUMNS, CURVES, ensembles_of, examine, examine_all
 
 X = abscissa(1e-9, 30, 20)
 PUNCH = 0.98
@@ -89,7 +89,7 @@ def test_tables_of_every_grid_and_average():
     cases = ensembles_of(pool, "discs", "base")
     assert [(about["across"], about["hurst"]) for about, _, _ in cases] == [(33, 0.5), (33, 0.7), (65, 0.5)]
     assert len(ensembles_of(pool, "discs", "base", {0.7})) == 1
-    table, curves = interface_tables(cases, "disc", **HOW)
+    table, curves = examine_all(cases, "disc", **HOW)
     assert (list(table), list(curves)) == (list(COLUMNS), list(CURVES))
     assert table["average"].tolist() == ["arithmetic", "geometric"] * 3
     assert np.ptp(table["u0"]) < 0.01

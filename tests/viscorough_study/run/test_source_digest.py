@@ -110,20 +110,22 @@ def used(script, *functions):
     return {str(path.relative_to(ROOT / "src")) for path in files if path.is_relative_to(ROOT / "src")}
 
 
-def test_scripts_of_the_workflow():
+def test_rules_count_the_solvers_that_they_use():
     boundary_elements = {"indent_discs", "compare_direct", "compare_reduction", "validate", "map_failures"}
     boundary_elements |= {"measure_large", "measure_methods", "time_other_solvers"}
     boundary_elements |= {"compare_level_placement", "indent_measured"}
     boundary_elements |= {"fit_collapse", "fit_interface", "judge_claims"}  # flat discs, small rough discs
-    # By what they describe:
-    boundary_elements |= {"check_validation", "make_page", "tabulate_large", "tabulate_methods"}
-    for script in sorted(path.stem for path in SCRIPTS.glob("*.py")):
-        modules = used(script)
-        assert ("viscorough/contact/halfspace/column_fft.py" in modules) == (script in boundary_elements), script
-        assert any(name.startswith("viscorough_study/figures/") for name in modules) == (script == "plot"), script
+    boundary_elements |= {"check_validation", "make_page", "tabulate_large"}  # by what they describe
     of_lines = {"indent_lines", "compare_reduction", "validate", "map_failures", "measure_methods"}
-    of_lines |= {"check_validation", "make_page", "tabulate_methods"}  # by what they describe
-    assert {path.stem for path in SCRIPTS.glob("*.py") if "viscorough/mdr.py" in used(path.stem)} == of_lines
+    of_lines |= {"check_validation", "make_page"}  # by what they describe
+    rules = {path.stem: used(path.stem) for path in SCRIPTS.glob("*.py")}
+    rules |= {
+        name: used("tabulate", rule["function"]) for name, rule in RESULTS["tables"].items() if "function" in rule
+    }
+    for rule, modules in rules.items():
+        assert ("viscorough/contact/halfspace/column_fft.py" in modules) == (rule in boundary_elements), rule
+        assert ("viscorough/mdr.py" in modules) == (rule in of_lines), rule
+        assert any(name.startswith("viscorough_study/figures/") for name in modules) == (rule == "plot"), rule
 
 
 def test_a_figure_is_drawn_by_its_own_module():

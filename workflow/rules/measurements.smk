@@ -1,0 +1,60 @@
+# What is timed: every method on every indenter, and one disc on ever finer grids. `make speed` measures more methods on
+# more indenters, and other solvers, which takes over an hour.
+
+
+rule measure_methods:
+    output:
+        csv="results/methods/{problem}.csv",
+    log:
+        "results/logs/measure_methods/{problem}.log",
+    benchmark:
+        "results/benchmarks/measure_methods/{problem}.tsv"
+    conda:
+        "../envs/viscorough.yaml"
+    threads: ALL_CORES
+    resources:
+        mem_mb=8000,
+    params:
+        adapter_digests(),
+        problem=lambda wildcards: PROBLEMS[wildcards.problem],
+        groups=config["methods"]["groups"],
+        seed=config["seed"],
+        levels=config["methods"]["levels"],
+        region={name: config["scaling"][name] for name in ("elements_min", "stiffness_max")},
+        repeats=config["methods"]["repeats"],
+        longest=config["methods"]["longest"],
+        # In pairs of close levels, a solution that takes no start cannot win.
+        peers=(
+            {name: paths for name, paths in other_solvers().items() if name != "ASPHER nested"}
+            if other_solvers_wanted()
+            else {}
+        ),
+    message:
+        "Cost and error of every method: {wildcards.problem}"
+    script:
+        "../scripts/measure_methods.py"
+
+
+rule measure_large:
+    output:
+        csv="results/large/{elements}.csv",
+        curve="results/large/{elements}.nc",
+    log:
+        "results/logs/measure_large/{elements}.log",
+    benchmark:
+        "results/benchmarks/measure_large/{elements}.tsv"
+    conda:
+        "../envs/viscorough.yaml"
+    threads: ALL_CORES
+    resources:
+        mem_mb=large_memory,
+    params:
+        seed=config["seed"],
+        hurst=config["large"]["hurst"],
+        tolerance=config["indentation"]["tolerance"],
+        until_fraction=config["large"]["until_fraction"],
+        warm_up=min(config["large"]["elements"]),
+    message:
+        "Cost of a disc of {wildcards.elements} elements across"
+    script:
+        "../scripts/measure_large.py"

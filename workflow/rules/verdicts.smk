@@ -1,0 +1,60 @@
+# Verdicts: on the comparison with exact solutions, which `all` requires to be met, and on the claims of the paper.
+
+
+rule check_validation:
+    input:
+        table="results/tables/validation.csv",
+    output:
+        passed="results/tables/validation_passed.txt",
+    log:
+        "results/logs/check_validation.log",
+    benchmark:
+        "results/benchmarks/check_validation.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=500,
+    params:
+        order_margin=config["validation"]["order_margin"],
+    message:
+        "Verdict on the comparison with exact solutions"
+    script:
+        "../scripts/check_validation.py"
+
+
+# Tables that the claims are judged by.
+EVIDENCE = ("scaling", "validation", "direct", "reduction", "mdr_summary", "mdr_exponents", "plateaus", "prefactors")
+EVIDENCE += ("zeta_laws", "methods", "sizes", "sizes_trends")
+
+
+rule judge_claims:
+    input:
+        **{table: f"results/tables/{table}.csv" for table in EVIDENCE},
+        discs="results/ensembles/discs.nc",
+    output:
+        csv="results/tables/claims.csv",
+        nc="results/tables/claims.nc",
+        verdicts="results/tables/claims.md",
+    log:
+        "results/logs/judge_claims.log",
+    benchmark:
+        "results/benchmarks/judge_claims.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=2000,
+    params:
+        claims=paper("claims"),
+        numbers=paper("numbers"),
+        rules=config["verdicts"],
+        conventions=config["figures"],
+        across=config["discs"]["elements"],
+        limits=region_limits(),
+        resamples=config["scaling"]["resamples"],
+        seed=config["seed"],
+    message:
+        "Verdicts on the claims of the paper"
+    script:
+        "../scripts/judge_claims.py"

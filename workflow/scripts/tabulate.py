@@ -1,0 +1,28 @@
+"""Tables of workflow/results.yaml."""
+
+import pandas as pd
+
+from viscorough_study.performance import timing
+from viscorough_study.run.inputs import named, read_input
+from viscorough_study.run.job_log import log_to
+from viscorough_study.run.tables import recorded, write_table
+
+
+def main(files, csv, nc, *, functions, tables, timed, arguments):
+    """Make tables from files, {argument of the function: path, or paths}, and its further arguments.
+
+    functions : dotted names of the function that makes the tables ("tabulate"), and of the columns of each of them
+    tables : {table: label and dimension}; timed : whether they hold measured times, so that the machine is recorded
+    """
+    made = named(functions["tabulate"])(**{name: read_input(path) for name, path in files.items()}, **arguments)
+    made = dict.fromkeys(tables, made) if isinstance(made, pd.DataFrame) else made
+    attributes = recorded(settings=arguments, **({"machine": timing.machine()} if timed else {}))
+    for (name, about), *paths in zip(tables.items(), csv, nc, strict=True):
+        title = about["label"][0].upper() + about["label"][1:]
+        how = {"dimension": about["dimension"], "title": title, "attributes": attributes}
+        write_table(made[name], *paths, columns=named(functions[name]), **how)
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(dict(job.input), **job.output, **job.params)

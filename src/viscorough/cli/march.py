@@ -113,8 +113,9 @@ def _in_viscous_medium(indenter, method, viscosity, force, times, history, **opt
     import numpy as np
 
     from viscorough import units
-    from viscorough.io import motion
+    from viscorough.io.motion import viscous_motion_to_content
     from viscorough.viscous.integration.events import march_events
+    from viscorough.viscous.integration.motion import under_constant_force, under_force_history
     from viscorough.viscous.integration.stepping import march_steps
 
     if indenter.length_unit != units.UNKNOWN:
@@ -125,15 +126,16 @@ def _in_viscous_medium(indenter, method, viscosity, force, times, history, **opt
     else:
         steps = np.unique(history.impulse[history.impulse > 0]) / viscosity if history else per_time * np.array(times)
         integrated = march_steps(indenter, steps, scheme=method, **options)
-    if history:
-        return motion.integration_under_history(integrated, history, viscosity)
-    return motion.integration_to_content(integrated, per_time)
+    moved = (
+        under_force_history(integrated, history, viscosity) if history else under_constant_force(integrated, per_time)
+    )
+    return viscous_motion_to_content(moved)
 
 
 def _in_medium(indenter, method, medium, force, times, history, **options):
     """Content of the output for a viscoelastic medium."""
-    from viscorough.io import motion
     from viscorough.io.media import read_medium
+    from viscorough.io.motion import medium_motion_to_content
     from viscorough.viscous.integration.internal_variable_events import march_medium_events
     from viscorough.viscous.integration.internal_variables import march_medium
 
@@ -144,7 +146,7 @@ def _in_medium(indenter, method, medium, force, times, history, **options):
     else:
         scheme = "backward_euler" if method == "implicit" else method
         moved = march_medium(indenter, law, times, force=forces, scheme=scheme, **options)
-    return motion.medium_motion_to_content(moved)
+    return medium_motion_to_content(moved)
 
 
 def _read_history(path, length_unit):

@@ -45,42 +45,16 @@ def _of_levels(length_unit, **values):
     return {name: Variable(("level",), array, level_attributes(name, length_unit)) for name, array in values.items()}
 
 
-def integration_to_content(integration, force_per_viscosity):
-    """A direct integration (Events or Steps of viscous.integration) under constant force as a Content.
-
-    force_per_viscosity : F/η; the time is the impulse over the viscosity, divided by it
-    """
-    depth, count = integration.depth, integration.contact_count
-    variables = _of_levels(integration.length_unit, depth=depth, contact_count=count)
-    overlap = getattr(integration, "overlap", np.zeros_like(depth))
-    variables["overlap"] = _over_levels(overlap, "largest overlap of indenter and surface, over depth", "1")
-    content = Content(variables, {"title": "Penetration of a rigid indenter, integrated directly in time"})
-    return with_motion(content, integration.impulse / force_per_viscosity, force_per_viscosity / integration.resistance)
-
-
-def integration_under_history(integration, history, viscosity):
-    """A direct integration under a force history as a Content; its levels are the times of the history.
-
-    integration : Events of viscous.integration, or Steps that end at every impulse of the history above zero, over the
-        viscosity
-    history : viscous.correspondence.ForceHistory
-
-    Raises ValueError for an impulse beyond the last event.
-    """
-    reached, length_unit = history.impulse / viscosity, integration.length_unit
-    if hasattr(integration, "event_at"):
-        if reached[-1] > integration.impulse[-1] * (1 + 1e-10) and integration.contact_count[-1] < integration.elements:
-            text = f"impulse: {history.impulse[-1]:.6g} is beyond the contact fraction at which events end"
-            raise ValueError(f"{text}; allowed: up to {integration.impulse[-1] * viscosity:.6g}")
-        i, depth = integration.event_at(reached), integration.depth_at(reached)
+def viscous_motion_to_content(motion):
+    """A viscous.integration.motion.ViscousMotion as a Content over its times."""
+    variables = _of_levels(motion.length_unit, depth=motion.depth, contact_count=motion.contact_count)
+    title = "Penetration of a rigid indenter, integrated directly in time"
+    if motion.force is None:
+        variables["overlap"] = _over_levels(motion.overlap, "largest overlap of indenter and surface, over depth", "1")
     else:
-        i = np.searchsorted(integration.impulse, reached * (1 - 1e-12))
-        depth = np.where(reached > 0, integration.depth[i], 0.0)
-    variables = _of_levels(length_unit, depth=depth, contact_count=integration.contact_count[i])
-    variables["force"] = _force(history.force, length_unit)
-    title = "Penetration of a rigid indenter under a force history, integrated directly in time"
-    velocity = history.force / (viscosity * integration.resistance[i])
-    return with_motion(Content(variables, {"title": title}), history.times, velocity)
+        variables["force"] = _force(motion.force, motion.length_unit)
+        title = "Penetration of a rigid indenter under a force history, integrated directly in time"
+    return with_motion(Content(variables, {"title": title}), motion.time, motion.velocity)
 
 
 def medium_motion_to_content(motion):

@@ -1,0 +1,55 @@
+"""Direct integrations of the viscous problem as motions over time, for a given force and viscosity."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+
+class ViscousMotion(NamedTuple):
+    """Penetration into a linearly viscous half-space; arrays of shape (times,).
+
+    time : t [s]; depth : u [length]; velocity : v = du/dt [length/s]; contact_count : elements in contact
+    force : F [N], or None if it is constant; overlap : the largest, over depth [1], or None under a force history
+    length_unit : of the indenter
+    """
+
+    time: np.ndarray
+    depth: np.ndarray
+    velocity: np.ndarray
+    contact_count: np.ndarray
+    force: np.ndarray | None
+    overlap: np.ndarray | None
+    length_unit: str
+
+
+def under_constant_force(integration, force_per_viscosity):
+    """ViscousMotion of Events or Steps: the impulse over the viscosity is t F/η, and the velocity F/η over resistance.
+
+    force_per_viscosity : F/η
+    """
+    time, velocity = integration.impulse / force_per_viscosity, force_per_viscosity / integration.resistance
+    overlap = getattr(integration, "overlap", np.zeros_like(integration.depth))
+    of_levels = time, integration.depth, velocity, integration.contact_count
+    return ViscousMotion(*of_levels, None, overlap, integration.length_unit)
+
+
+def under_force_history(integration, history, viscosity):
+    """ViscousMotion of Events or Steps at the times of a force history.
+
+    integration : Events, or Steps that end at every impulse of the history above zero, over the viscosity
+    history : viscous.correspondence.ForceHistory
+
+    Raises ValueError for an impulse beyond the last event.
+    """
+    reached = history.impulse / viscosity
+    if hasattr(integration, "event_at"):
+        if reached[-1] > integration.impulse[-1] * (1 + 1e-10) and integration.contact_count[-1] < integration.elements:
+            text = f"impulse: {history.impulse[-1]:.6g} is beyond the contact fraction at which events end"
+            raise ValueError(f"{text}; allowed: up to {integration.impulse[-1] * viscosity:.6g}")
+        i, depth = integration.event_at(reached), integration.depth_at(reached)
+    else:
+        i = np.searchsorted(integration.impulse, reached * (1 - 1e-12))
+        depth = np.where(reached > 0, integration.depth[i], 0.0)
+    velocity = history.force / (viscosity * integration.resistance[i])
+    of_times = history.times, depth, velocity, integration.contact_count[i]
+    return ViscousMotion(*of_times, history.force, None, integration.length_unit)

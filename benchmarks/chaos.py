@@ -101,7 +101,7 @@ def job_processes(run):
         with contextlib.suppress(psutil.Error):
             script = Path([*process.cmdline(), "", ""][1])
             if script.parent.name == "scripts" and script.suffix == ".py":
-                jobs[process] = script.stem.split(".")[-1]  # tmpabcdefgh.indent_discs.py
+                jobs[process] = script.stem.split(".")[-1]  # tmpabcdefgh.indent_surfaces.py
     return jobs
 
 

@@ -19,7 +19,8 @@ import yaml
 from measuring import command
 
 from viscorough_study.ensembles.averages import abscissa, on_abscissae
-from viscorough_study.ensembles.discs import end_of_curve, ensemble_disc, indent_disc
+from viscorough_study.ensembles.discs import ensemble_disc
+from viscorough_study.ensembles.indentation import end_of_curve, indent_surface
 from viscorough_study.fits.power_law import in_window
 from viscorough_study.performance import timing
 from viscorough_study.run import cases
@@ -56,13 +57,13 @@ def _turn(settings, ensemble, number, whole_curves, x):
         seed = realization_seed(settings["seed"], *ensemble["spawn_key"], number)
         disc, rms = ensemble_disc(ensemble["elements"], surface, seed)
         until = {"until_x": end_of_curve(number, ends), "until_fraction": until_fraction}
-        curve = indent_disc(disc, rms, surface["diameter"], tolerance=discs["tolerance"], **until)
+        curve = indent_surface(disc, rms, surface["diameter"], tolerance=discs["tolerance"], **until)
         conventions = {name: rms[name] for name in cases.POOLS["discs"]}
         return disc, rms, on_abscissae([curve], conventions, surface["diameter"], x)[0][0, 0]
 
     def whole_curve():
         until = {"until_x": indentation["until_x"], "until_fraction": until_fraction}
-        return indent_disc(disc, rms, surface["diameter"], tolerance=TOLERANCE, **until)
+        return indent_surface(disc, rms, surface["diameter"], tolerance=TOLERANCE, **until)
 
     (disc, rms, of_member), _, member_s = timing.timed(member)
     whole, _, curve_s = timing.timed(whole_curve)

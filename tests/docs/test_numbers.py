@@ -13,7 +13,7 @@ from support.documentation import ROOT, read
 from support.study import CLAIMS
 from support.workflow import merged, read_settings
 from viscorough.reference import exponent_beta, zeta_elastic
-from viscorough_study.ensembles.discs import punch_stiffness
+from viscorough_study.ensembles.indentation import punch_stiffness
 from viscorough_study.performance.costs import fit_cost, median_costs
 from viscorough_study.run.cases import disc_cases
 from viscorough_study.verdicts.claims import overall
@@ -161,7 +161,7 @@ def discs_of_paper():
 
 def line_over_disc():
     """Cost of a line over that of a disc."""
-    return costs()["indent_lines"] / 50500 / (costs()["indent_discs"] / discs_of_paper().sum())
+    return costs()["reduce_lines"] / 50500 / (costs()["indent_surfaces"] / discs_of_paper().sum())
 
 
 def minutes_of_paper():
@@ -290,7 +290,7 @@ QUOTED = {
         "at most {:.3g} times in the others": lambda: 1 / placed("best by hand").iloc[1],
         "at least {:.2g} times the time of the automatic ones": lambda: placed("naive").iloc[0],
         "lines took {:.0f} % and discs {:.0f} %": lambda: (
-            100 * costs()[["indent_lines", "indent_discs"]] / costs().sum()
+            100 * costs()[["reduce_lines", "indent_surfaces"]] / costs().sum()
         ),
         "the largest job took {:.0f} GB": lambda: costs("memory_mb").max() / 1000,
         "takes {:.2g} to {:.2g} times as long for the single levels": lambda: [

@@ -61,7 +61,7 @@ def test_damaged_input_of_a_rule_is_named_and_can_be_made_again(lines):
     before = contents(lines)
     (lines / CURVES).write_bytes(DAMAGES["second half zeros"](before[CURVES]))
     damaged = contents(lines / "results/curves")
-    shown = failure(lines, "--forcerun", "pool_curves", "--", TARGET)
+    shown = failure(lines, "--forcerun", "aggregate_curves", "--", TARGET)
     assert re.search("ERROR (.*)", shown)[1].startswith(f"ValueError: {CURVES}: not readable (")
     assert contents(lines / "results/curves") == damaged
     assert not (lines / TARGET).exists()

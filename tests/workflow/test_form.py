@@ -35,7 +35,7 @@ def test_short_rules_run_where_snakemake_runs():
     """Only what computes for long goes through a cluster's queue."""
     queued = {name for name, text in rules().items() if "localrule: True" not in text} | tabulations("queued")
     timed = {"measure_large", "measure_methods", "time_other_solvers", "compare_level_placement"}
-    curves = {"indent_discs", "indent_lines", "indent_measured"}
+    curves = {"generate_discs", "prepare_measured", "indent_surfaces", "reduce_lines"}
     assert queued == timed | curves | {"validate", "compare_reduction", "map_failures"}
 
 

@@ -62,7 +62,7 @@ def test_every_job_has_a_log_and_a_benchmark(finished_once, tmp_path):
     load_script("tabulate_rule_costs").main(**files, benchmarks=finished_once / "results/benchmarks")
     table = pd.read_csv(files["csv"]).set_index("rule")
     assert table["jobs"].sum() == number + 1
-    assert table.loc["indent_discs", "jobs"] == 8
+    assert table.loc["indent_surfaces", "jobs"] == 8
     assert (table["longest_s"] <= table["seconds"]).all()
     assert table["seconds"].is_monotonic_decreasing
 
@@ -122,7 +122,7 @@ def test_combinations_are_in_real_units(finished_once):
 
 def test_deleted_curves_are_made_again_by_a_target(finished):
     (finished / "results/curves/discs/h04000/0000-0001.nc").unlink()
-    assert plan(finished, *TEST, "--", "curves") == {"indent_discs": 1}
+    assert plan(finished, *TEST, "--", "curves") == {"generate_discs": 1, "indent_surfaces": 1}
 
 
 def test_report(finished):

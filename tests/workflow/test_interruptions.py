@@ -61,7 +61,7 @@ def wait_until(reached, run):
 def interrupted(folder, target, signal_number):
     """Outputs of `make <target>` that is sent a signal while it makes its second batch, and that is typed again."""
     with make(folder, target) as run:
-        wait_until(lambda: len(list((folder / "results/logs/indent_lines/h09000").glob("*.log"))) == 2, run)
+        wait_until(lambda: len(list((folder / "results/logs/reduce_lines/h09000").glob("*.log"))) == 2, run)
         os.killpg(run.pid, signal_number)
         first, _ = run.communicate(timeout=HANGS)
     assert run.returncode != 0

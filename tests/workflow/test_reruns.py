@@ -4,15 +4,24 @@ import ast
 import re
 
 import pytest
+import xarray as xr
 
-from support.workflow import TEST, copy_sources, jobs, plan, settings_file, snakemake
+from support.workflow import TEST, copy_sources, jobs, plan, read_settings, settings_file, snakemake
+from viscorough_study.ensembles.surface_files import opened_surfaces
 
 FITS_AND_FIGURES = {"match_lines", "fit_scaling", "judge_claims", "compare_prefactors", "compare_zeta_laws"}
 FITS_AND_FIGURES |= {"tabulate_calibration", "tabulate_literature", "plot_mdr_lambda", "plot_kinetics", "plot_exponent"}
 # With the values of others, which stand beside the exponents in one table, `plot_interface`.
 FITS_AND_FIGURES |= {"plot_master_curve", "plot_conventions", "plot_prefactors", "plot_interface"}
-BOUNDARY_ELEMENTS = {"indent_discs", "compare_direct", "compare_reduction", "validate"}
-BOUNDARY_ELEMENTS |= {"measure_methods", "map_failures", "compare_level_placement"}
+BOUNDARY_ELEMENTS = {"generate_discs", "indent_surfaces"}  # discs were temporary
+BOUNDARY_ELEMENTS |= {
+    "compare_direct",
+    "compare_reduction",
+    "validate",
+    "measure_methods",
+    "map_failures",
+    "compare_level_placement",
+}
 MEDIA = {"compute_media", "plot_media", "plot_media_exponents"}
 SIZES = {"fit_sizes", "plot_sizes", "fit_collapse", "plot_collapse"}
 INTERFACE = {"fit_interface", "plot_interface"}
@@ -62,9 +71,9 @@ FEW_STEPS |= {"stability": {"across": 11}, "direct": {"elements": 31}}
 OF_FEW_STEPS = MEDIA | INTERFACE | SPEED | {"measure_plateaus", "judge_claims", "tabulate_literature"}
 OF_FEW_STEPS |= {"validate", "check_validation", "plot_validation", "compare_direct", "plot_direct"}
 OF_FEW_STEPS |= {"map_failures", "plot_failure_map", "compare_level_placement", "plot_level_placement"}
-POOLED = {"pool_curves", "measure_plateaus"}
+POOLED = {"aggregate_curves", "measure_plateaus"}
 OF_SURFACES = FITS_AND_FIGURES | INTERFACE | MEDIA | SIZES | POOLED
-OF_SURFACES |= {"indent_discs", "generate_example_discs", "plot_surfaces"}
+OF_SURFACES |= {"generate_discs", "indent_surfaces", "generate_examples", "plot_surfaces"}
 
 
 @pytest.mark.parametrize(
@@ -77,7 +86,7 @@ OF_SURFACES |= {"indent_discs", "generate_example_discs", "plot_surfaces"}
         ({"ensemble": {"per_decade": 25}}, FITS_AND_FIGURES | SIZES | INTERFACE | POOLED),
         (
             {"lines": {"points": 2048}},
-            (FITS_AND_FIGURES | INTERFACE | {"indent_lines", "pool_curves"}) - {"compare_zeta_laws"},
+            (FITS_AND_FIGURES | INTERFACE | {"reduce_lines", "aggregate_curves"}) - {"compare_zeta_laws"},
         ),
         ({"surface": {"period": 1.5}}, OF_SURFACES),  # not of the variant that has its own period, nor of lines
     ],
@@ -87,7 +96,7 @@ def test_a_changed_setting_reruns_what_uses_it(finished_once, tmp_path, changed,
     planned = plan(finished_once, *TEST, settings_file(tmp_path, "changed", **changed))
     assert set(planned) == rerun | LAST
     if "surface" in changed:  # two Hurst exponents, two batches each of grids from coarse to fine and of their control
-        assert planned["indent_discs"] == 2 + 4
+        assert planned["generate_discs"] == planned["indent_surfaces"] == 2 + 4
 
 
 def test_a_further_exponent_reruns_only_what_depends_on_it(finished_once, tmp_path):
@@ -96,14 +105,46 @@ def test_a_further_exponent_reruns_only_what_depends_on_it(finished_once, tmp_pa
     cases = set(re.findall(r"^Job \d+: .*\b(h\d{5}\w*)", text, re.MULTILINE))
     assert cases == {"h06000", "h06000_longer_period"}
     planned = jobs(text)
-    assert (planned["indent_discs"], planned["indent_lines"], planned["pool_curves"]) == (2, 2, 2)
+    assert (planned["indent_surfaces"], planned["reduce_lines"], planned["aggregate_curves"]) == (2, 2, 2)
     assert "validate" not in planned
 
 
-def test_more_realizations_keep_those_that_are_there(finished_once, tmp_path):
-    planned = plan(finished_once, *TEST, settings_file(tmp_path, "more", discs={"realizations": 4}))
-    assert planned["indent_discs"] == 2  # the second batch of both Hurst exponents
-    assert "indent_lines" not in planned
+@pytest.mark.parametrize("more", ["realizations", "a combination"])
+def test_what_is_added_keeps_the_curves_that_are_there(finished_once, tmp_path, more):
+    discs = {"realizations": 4}  # a second batch of both Hurst exponents
+    if more == "a combination":
+        known = read_settings("test")["discs"]["combinations"]
+        discs = {"combinations": [*known, known[0] | {"number": 10}]}
+    planned = plan(finished_once, *TEST, settings_file(tmp_path, "more", discs=discs))
+    assert planned["generate_discs"] == planned["indent_surfaces"] == 2
+    assert "reduce_lines" not in planned
+
+
+def test_another_seed_reruns_the_curves_of_all_random_surfaces(finished_once, tmp_path):
+    planned = plan(finished_once, *TEST, settings_file(tmp_path, "seed", seed=5), "--", "curves")
+    assert planned == dict.fromkeys(("generate_discs", "indent_surfaces", "reduce_lines"), 4)
+
+
+def test_kept_surfaces_are_those_that_curves_are_made_from(finished):
+    """Surfaces that are asked for are made again, and kept; curves only where what they are made from changes."""
+    surfaces = "results/surfaces/discs/h04000/0000-0001.nc"
+    assert not (finished / surfaces).exists()
+    snakemake(finished, *TEST, "--", surfaces)
+    with opened_surfaces(finished / surfaces) as discs:
+        number, kept = len(discs), [realization.rms["disc"] for realization, _ in discs]
+    with xr.open_dataset(finished / "results/curves/discs/h04000/0000-0001.nc") as curves:
+        assert curves["rms_disc"].values.tolist() == kept
+        assert number == curves.sizes["realization"]
+    assert plan(finished, *TEST) == {}
+    planned = plan(finished, *TEST, settings_file(finished, "accurate", discs={"tolerance": 5e-3}))
+    assert (planned["generate_discs"], planned["indent_surfaces"]) == (3, 4)  # one file of discs is there
+
+
+def test_an_edit_of_the_generator_reruns_discs_and_their_curves(editable):
+    edit(editable / "src/viscorough/surfaces.py", lambda text: text.replace("if period < 1:", "if not period >= 1:"))
+    planned = plan(editable, *TEST, "--", "curves", "figure_1")
+    of_discs = {"generate_discs": 4, "indent_surfaces": 4}
+    assert planned == of_discs | {"generate_examples": 1, "plot_surfaces": 1}
 
 
 def test_reworded_docstrings_and_comments_rerun_nothing(editable):
@@ -119,9 +160,16 @@ def test_reworded_docstrings_and_comments_rerun_nothing(editable):
 
 
 def test_a_changed_line_of_the_column_convolution_reruns_what_uses_boundary_elements(editable):
-    """And what depends on it, but neither lines nor example discs."""
+    """And what depends on it, but neither lines nor the discs of Figure 1."""
     edit(editable / "src/viscorough/contact/halfspace/column_fft.py", with_another_statement)
-    after = {"pool_curves", "measure_plateaus", "plot_direct", "plot_reduction", "check_validation", "plot_validation"}
+    after = {
+        "aggregate_curves",
+        "measure_plateaus",
+        "plot_direct",
+        "plot_reduction",
+        "check_validation",
+        "plot_validation",
+    }
     after |= {"plot_failure_map", "plot_level_placement", *SPEED, *MEDIA, *INTERFACE, *LAST}
     assert set(plan(editable, *TEST)) == BOUNDARY_ELEMENTS | FITS_AND_FIGURES | SIZES | after
 

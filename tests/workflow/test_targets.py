@@ -10,22 +10,23 @@ from support.workflow import TEST, jobs, plan, snakemake
 
 
 @pytest.mark.parametrize(
-    ("name", "indent_discs", "indent_lines"),
+    ("name", "indent_surfaces", "reduce_lines"),
     [("config", 4 * (2 + 1) + 2, 22), ("paper", 4 * (8 + 8) + 4, 102), ("test", 2 * (1 + 1) + 4, 2 * 2 + 2)],
 )
-def test_plans_of_every_scale(unmade, name, indent_discs, indent_lines):
+def test_plans_of_every_scale(unmade, name, indent_surfaces, reduce_lines):
     planned = plan(unmade, "--configfile", f"config/{name}.yaml")
-    assert (planned.pop("indent_discs"), planned.pop("indent_lines")) == (indent_discs, indent_lines)
-    assert planned.pop("pool_curves") == 4
+    assert (planned.pop("indent_surfaces"), planned.pop("reduce_lines")) == (indent_surfaces, reduce_lines)
+    assert planned.pop("generate_discs") == indent_surfaces
+    assert planned.pop("aggregate_curves") == 4
     assert planned.pop("measure_methods") == (2 if name == "test" else 3)
     assert set(planned.values()) == {1}
     assert {"check_validation", "fit_scaling", "judge_claims", "make_page"} < set(planned)
-    assert indent_discs + indent_lines + sum(planned.values()) <= (100 if name == "config" else 250)
+    assert 2 * indent_surfaces + reduce_lines + sum(planned.values()) <= (110 if name == "config" else 300)
 
 
 def test_one_figure_needs_only_its_own(unmade):
-    assert plan(unmade, *TEST, "--", "figure_1") == {"generate_example_discs": 1, "plot_surfaces": 1}
-    assert plan(unmade, *TEST, "--", "plot_surfaces") == {"generate_example_discs": 1, "plot_surfaces": 1}
+    assert plan(unmade, *TEST, "--", "figure_1") == {"generate_examples": 1, "plot_surfaces": 1}
+    assert plan(unmade, *TEST, "--", "plot_surfaces") == {"generate_examples": 1, "plot_surfaces": 1}
 
 
 def test_targets_beside_the_default_one(finished):

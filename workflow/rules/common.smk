@@ -80,7 +80,7 @@ def require_valid(settings):
 def measured_cases(settings):
     """Cases of the measured surfaces; ends with one line about a file that is not there."""
     try:
-        return cases.measured_cases(scans(settings))
+        return cases.measured_cases(scans(settings["measured"]), settings["indentation"])
     except SettingsError as error:
         raise SystemExit(f"Error in the settings: {error}")
 
@@ -88,18 +88,8 @@ def measured_cases(settings):
 # ---- inputs and params
 
 
-def of_disc(name):
-    """Params function: a value of the disc's case."""
-    return lambda wildcards: DISCS[wildcards.case][name]
-
-
-def of_line(name):
-    """Params function: a value of the line's case."""
-    return lambda wildcards: LINES[wildcards.line][name]
-
-
 def of_scan(name):
-    """Params function: a value of the measured surface."""
+    """Input or params function: a value of the measured surface."""
     return lambda wildcards: MEASURED[wildcards.scan][name]
 
 
@@ -108,25 +98,27 @@ def disc_ensembles(wildcards):
     return cases.ensembles_of_batch(DISCS[wildcards.case], wildcards.batch)
 
 
-def line_ensembles(wildcards):
-    """Ensembles of lines in a batch."""
-    return cases.ensembles_of_batch(LINES[wildcards.line], wildcards.batch)
+def origin_of_surfaces(wildcards):
+    """Params of the rule that makes the surfaces of a batch, and a digest of its source code."""
+    if wildcards.kind == "discs":
+        script, params = "generate_discs", [disc_ensembles(wildcards), config["seed"]]
+    else:
+        shaping = ("digest", "group", "spacing", "unit", "preparation")
+        script, params = "prepare_measured", [MEASURED[wildcards.case][name] for name in shaping]
+    return [*params, SOURCES.digest(WORKFLOW / "scripts" / f"{script}.py")]
 
 
-def cases_of_pool(pool):
-    if pool == "measured":
-        return MEASURED
-    return LINES if pool.endswith("lines") else DISCS
+def kind_of_pool(pool):
+    return pool if pool == "measured" else "lines" if pool.endswith("lines") else "discs"
 
 
 def batches_of_pool(pool):
     """[(case, batch)] of a pool."""
-    return cases.pool_batches(cases_of_pool(pool), pool)
+    return cases.pool_batches(CASES[kind_of_pool(pool)], pool)
 
 
 def curves_of_pool(pool):
-    kind = pool if pool == "measured" else "lines" if pool.endswith("lines") else "discs"
-    return [f"results/curves/{kind}/{case}/{batch}.nc" for case, batch in batches_of_pool(pool)]
+    return [f"results/curves/{kind_of_pool(pool)}/{case}/{batch}.nc" for case, batch in batches_of_pool(pool)]
 
 
 def curves_of_combinations():
@@ -137,7 +129,7 @@ def curves_of_combinations():
 
 def groups_of_pool(wildcards):
     """Group of each batch of a pool."""
-    return [cases_of_pool(wildcards.pool)[case]["group"] for case, _ in batches_of_pool(wildcards.pool)]
+    return [CASES[kind_of_pool(wildcards.pool)][case]["group"] for case, _ in batches_of_pool(wildcards.pool)]
 
 
 @cache
@@ -292,20 +284,13 @@ def require_current():
 # ---- memory of a job [MB]
 
 
-def disc_memory(wildcards):
-    return cases.disc_memory(DISCS[wildcards.case])
-
-
-def line_memory(wildcards):
-    return cases.line_memory(LINES[wildcards.line])
+def indentation_memory(wildcards):
+    case = CASES[wildcards.kind][wildcards.case]
+    return cases.measured_memory(case) if wildcards.kind == "measured" else cases.disc_memory(case)
 
 
 def pool_memory(wildcards):
-    return cases.pool_memory(cases_of_pool(wildcards.pool), wildcards.pool, config["ensemble"])
-
-
-def measured_memory(wildcards):
-    return cases.measured_memory(MEASURED[wildcards.scan])
+    return cases.pool_memory(CASES[kind_of_pool(wildcards.pool)], wildcards.pool, config["ensemble"])
 
 
 def large_memory(wildcards):

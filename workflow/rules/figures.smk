@@ -1,28 +1,5 @@
 # Figures 1 to 4 of the paper, and what its conventions change. PNG for the report, PDF as vector graphics.
 
-
-rule generate_example_discs:
-    output:
-        surfaces="results/surfaces/examples.nc",
-    log:
-        "results/logs/generate_example_discs.log",
-    benchmark:
-        "results/benchmarks/generate_example_discs.tsv"
-    localrule: True
-    conda:
-        "../envs/viscorough.yaml"
-    resources:
-        mem_mb=cases.example_memory(config),
-    params:
-        **cases.example_discs(config),
-        seed=config["seed"],
-        elements=config["discs"]["elements"],
-    message:
-        "Discs of Figure 1"
-    script:
-        "../scripts/generate_example_discs.py"
-
-
 # {further argument of functions that draw: its value}
 FIGURE_PARAMS = {
     "combinations": combinations(),

@@ -1,15 +1,11 @@
-"""Measured surfaces as indenters in metres, and their tables: lengths, power laws of their groups, and kinetics."""
+"""Tables of measured surfaces: lengths, power laws of their groups, and kinetics."""
 
 import json
 from itertools import product
 
-import numpy as np
 import pandas as pd
 
-from viscorough.indenter import Indenter
 from viscorough.io.curves import unstack_curves
-from viscorough.io.heights import read_heights
-from viscorough.units import metres
 from viscorough_study.comparisons.media_kinetics import motion_on_curve, named_media
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.ensembles.pool import ensembles
@@ -37,36 +33,6 @@ KINETICS = {
 }
 
 
-def measured_indenter(file, *, spacing, unit, preparation):
-    """The prepared Indenter of a scan, in metres.
-
-    spacing : [], as the file states; [of both directions] or [between columns, between rows]
-    unit : of the heights, None as the file states; preparation : further arguments of read_heights
-    Raises ValueError if the unit of length is not known.
-    """
-    both = {0: None, 1: spacing[:1], 2: spacing}[len(spacing)]
-    spacing = both[0] if both and len(both) == 1 else both
-    indenter = read_heights(file, spacing, unit=unit, **preparation)
-    if indenter.length_unit == "1":
-        raise ValueError(f"{file}: states no unit of length; measured.unit in the settings is needed")
-    factor = metres(indenter.length_unit)
-    spacings = indenter.spacing * factor, indenter.row_spacing * factor
-    return Indenter(indenter.heights * factor, *spacings, length_unit="m")
-
-
-def lengths(indenter):
-    """{column: value} of an indenter: spacings, rms height and slope, diameter of the circle of equal area."""
-    area = indenter.elements * indenter.spacing * indenter.row_spacing
-    return {
-        "elements": indenter.elements,
-        "spacing": indenter.spacing,
-        "row_spacing": indenter.row_spacing,
-        "rms": float(np.nanstd(indenter.heights, dtype=float)),
-        "rms_slope": indenter.rms_slope,
-        "diameter": 2 * np.sqrt(area / np.pi),
-    }
-
-
 def measured_tables(pool, curves, *, media, times, fit, seed, **of_scans):
     """{"measured_scans", "measured_fits", "measured_kinetics": table} of measured surfaces.
 
@@ -89,7 +55,7 @@ def scans_and_kinetics(batches, *, names, forces, media, times):
     """
     scans, motions = [], [pd.DataFrame(columns=list(KINETICS))]
     for name, batch, of_scan in zip(names, batches, forces, strict=True):
-        (curve,), settings = unstack_curves(batch), json.loads(batch.attributes["settings"])
+        (curve,), (settings,) = unstack_curves(batch), json.loads(batch.attributes["settings"])["ensembles"]
         same = {"scan": name, "group": settings["group"]}
         scans.append(same | {"file": settings["file"]} | settings["lengths"])
         motions += [part.assign(**same) for part in _motions(curve, media, of_scan, times)]

@@ -1,6 +1,7 @@
 """Batches: the loading curves of some realizations of a case, with the lengths that make them dimensionless."""
 
 import json
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,27 +17,41 @@ RMS = {
 }
 
 
-def batch_of_curves(curves, *, realizations, hurst, rms, spacing, diameter, until_x, cases, settings):
+class Realization(NamedTuple):
+    """One surface of an ensemble; lengths in m.
+
+    ensemble : its name; number : of the realization
+    hurst : Hurst exponent, nan of a measured surface; diameter : L; spacing : between columns, or points of a line
+    rms : {convention of `RMS`: rms height}
+    """
+
+    ensemble: str
+    number: int
+    hurst: float
+    diameter: float
+    spacing: float
+    rms: dict
+
+
+def batch_of_curves(curves, realizations, *, until_x, settings):
     """Content of a NetCDF file; lengths in m.
 
-    curves : LoadingCurve of every realization; realizations : their numbers
-    rms : {convention: rms heights, shape (realizations,)}, conventions of `RMS`
-    hurst, spacing, diameter, until_x : Hurst exponent, spacing of the grid, L and the X that its curve was to reach, of
-        every realization; one number in the file where all are equal
-    cases : name of the ensemble of every realization
-    settings : what the curves were made from, for the attribute settings
+    curves, realizations : LoadingCurve and Realization of every surface; those of numbers that all surfaces share are
+        stored once
+    until_x : X that each curve was to reach; settings : what the curves were made from, for the attribute settings
     """
     content = stack_curves(curves)
-    lengths = {f"rms_{name}": (np.asarray(values), RMS[name], "m") for name, values in rms.items()}
-    lengths |= {
+    ensemble, number, hurst, diameter, spacing, rms = zip(*realizations, strict=True)
+    stored = {f"rms_{name}": (np.array([one[name] for one in rms]), RMS[name], "m") for name in rms[0]}
+    stored |= {
         "spacing": (_one_if_equal(spacing), "spacing of the grid", "m"),
         "diameter": (_one_if_equal(diameter), "diameter of the indenter", "m"),
         "hurst": (_one_if_equal(hurst), "Hurst exponent", "1"),
         "until_x": (_one_if_equal(until_x), "X that the curve was to reach", "1"),
-        "number": (np.asarray(realizations), "number of the realization", "1"),
-        "case": (np.asarray(cases, dtype=object), "name of the ensemble", ""),
+        "number": (np.asarray(number), "number of the realization", "1"),
+        "case": (np.asarray(ensemble, dtype=object), "name of the ensemble", ""),
     }
-    for name, (values, text, units) in lengths.items():
+    for name, (values, text, units) in stored.items():
         dimensions = ("realization",) if values.ndim else ()
         attributes = {"long_name": text} | ({"units": units} if units else {})
         content.variables[name] = Variable(dimensions, values, attributes)

@@ -1,11 +1,7 @@
-"""Discs of an ensemble: one realization with its rms heights by every convention, its curve, and the flat disc."""
-
-from functools import cache
+"""Discs of an ensemble: one realization with its rms heights by every convention."""
 
 import numpy as np
 
-from viscorough.contact.loading_path import indent
-from viscorough.contact.one_contact import contact_at
 from viscorough.indenter import Indenter
 from viscorough.surfaces import cut_disc, square_of_disc
 
@@ -28,27 +24,3 @@ def ensemble_disc(elements, surface, seed):
     factor = surface["rms"] / rms[surface["rms_over"]]
     indenter = Indenter(disc * factor, surface["diameter"] / elements, length_unit="m")
     return indenter, {name: float(height * factor) for name, height in rms.items()}
-
-
-def end_of_curve(number, indentation):
-    """X at which the curve of a realization ends: `until_x` for the first `whole_curves`, `short_until_x` for others.
-
-    number : of the realization, which is known before the surface is: longer curves are a random sample of the ensemble
-    """
-    return indentation["until_x" if number < indentation["whole_curves"] else "short_until_x"]
-
-
-def indent_disc(disc, rms, diameter, *, tolerance, until_fraction, until_x):
-    """LoadingCurve of a disc until a contact fraction or X = F/(4GhL) is reached.
-
-    disc, rms : of `ensemble_disc`; diameter : L [m]; h in X is the larger of the rms heights over disc and square
-    """
-    until_force = 4 * max(rms["disc"], rms["square"]) * diameter * until_x
-    return indent(disc, tolerance=tolerance, until_fraction=until_fraction, until_force=until_force)
-
-
-@cache
-def punch_stiffness(elements_across):
-    """κ_c of a flat disc of so many elements across, by boundary elements; 1 for ever finer grids."""
-    disc = cut_disc(np.zeros((elements_across, elements_across)), elements_across)
-    return contact_at(Indenter(disc, 1 / elements_across), depth=1.0, tolerance=1e-5).stiffness / 4

@@ -3,13 +3,13 @@
 from viscorough.io.datasets import read_dataset
 from viscorough_study.ensembles.pool import ensembles as ensembles_by
 from viscorough_study.ensembles.pool import select
+from viscorough_study.ensembles.surface_files import opened_surfaces
 
 
 def examples(files):
     """List of (Hurst exponent, heights, spacing) of the example discs."""
-    ds = read_dataset(files["examples"])
-    spacing = ds["spacing"].item()
-    return [(hurst, ds["heights"].sel(hurst=hurst).values, spacing) for hurst in ds["hurst"].values.tolist()]
+    with opened_surfaces(files["examples"]) as surfaces:
+        return [(realization.hurst, indenter.heights, indenter.spacing) for realization, indenter in surfaces]
 
 
 def ensembles(files):

@@ -14,7 +14,7 @@ from scipy.optimize import least_squares
 
 from viscorough.calibrated_law import LARGEST_DEVIATION, X_LOW, interface_depth, interface_velocity
 from viscorough.reference import COMPLETE_CONTACT_STIFFNESS
-from viscorough_study.ensembles.discs import punch_stiffness
+from viscorough_study.ensembles.indentation import punch_stiffness
 from viscorough_study.ensembles.pool import elements_across, ensembles, select
 from viscorough_study.fits.conventions import FITTED
 from viscorough_study.fits.intervals import described, described_ends, percentile_interval, three_columns, with_interval

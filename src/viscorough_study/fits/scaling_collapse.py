@@ -21,7 +21,7 @@ import pandas as pd
 from scipy.special import zeta
 
 from viscorough.reference import COMPLETE_CONTACT_STIFFNESS, exponent_beta
-from viscorough_study.ensembles.discs import punch_stiffness
+from viscorough_study.ensembles.indentation import punch_stiffness
 from viscorough_study.ensembles.pool import elements_across, ensembles, select
 from viscorough_study.fits.power_law import log_means
 

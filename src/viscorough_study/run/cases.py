@@ -1,10 +1,11 @@
 """Tables of cases: which ensembles, batches and indenters the settings ask for, and what their jobs need.
 
 A case is a dictionary of what its jobs need: one ensemble of surfaces of one kind, or several. The combinations of one
-Hurst exponent are batched side by side, so that a job has the same realizations of all of them; grids from coarse to
-fine are batched one after the other, so that a job can hold many small discs. The name of a case stands in file names,
-which hold no floating-point numbers, that of an ensemble in the tables. Cases of one meaning form a group; the curves
-of all cases that are evaluated together are brought to common abscissae in one pool.
+Hurst exponent are batched side by side, so that a job has the same realizations of all of them; those of the numbers 1
+to 9 are one case, of 10 to 19 the next, so that a tenth combination leaves the curves of nine alone. Grids from coarse
+to fine are batched one after the other, so that a job can hold many small discs. The name of a case stands in file
+names, which hold no floating-point numbers, that of an ensemble in the tables. Cases of one meaning form a group; the
+curves of all cases that are evaluated together are brought to common abscissae in one pool.
 """
 
 import itertools
@@ -59,7 +60,9 @@ def _paper_discs(settings):
             for combination in discs["combinations"]
         ]
         about = {"group": "base", "realizations": discs["realizations"], "batch": discs["batch"], "side_by_side": True}
-        cases[hurst_id(hurst)] = shared | about | {"ensembles": combinations}
+        for tens in sorted({one["combination"]["number"] // 10 for one in combinations}):
+            alike = [one for one in combinations if one["combination"]["number"] // 10 == tens]
+            cases[hurst_id(hurst) + (f"_{tens}0" if tens else "")] = shared | about | {"ensembles": alike}
         for name, changed in _changes_of_variants(settings).items():
             ensemble = {
                 "name": f"{hurst_id(hurst)}_{name}",
@@ -162,12 +165,14 @@ def method_problems(settings):
     }
 
 
-def measured_cases(scans):
-    """{scan: its description} of measured surfaces, each an ensemble of one; scans : run.scans.scans."""
-    return {
-        name: {"pool": "measured", "group": scan["group"], "realizations": 1, "batch": 1, **scan}
-        for name, scan in scans.items()
-    }
+def measured_cases(scans, indentation):
+    """{scan: its description} of measured surfaces, each an ensemble of one.
+
+    scans : run.scans.scans; indentation : setting of that name
+    """
+    shared = {"pool": "measured", "realizations": 1, "batch": 1}
+    shared["indentation"] = indentation | {"whole_curves": 1}
+    return {name: shared | scan for name, scan in scans.items()}
 
 
 def first_combination(settings):
@@ -183,16 +188,10 @@ def combined_ensembles(settings):
 
 
 def example_discs(settings):
-    """Spawn keys, and arguments of self_affine_disc, of one disc for every Hurst exponent: the first combination's.
-
-    Rms height and diameter are 1.
-    """
+    """Ensembles, as of a batch, of the first disc of every Hurst exponent: of the first combination, with h = L = 1."""
     ensembles = combined_ensembles(settings)
-    examples = [ensembles[name] for name in first_combination(settings)]
-    return {
-        "spawn_keys": [one["spawn_key"] for one in examples],
-        "discs": [one["surface"] | UNIT_DISC for one in examples],
-    }
+    examples = [_in_batch(ensembles[name], [0, 1]) for name in first_combination(settings)]
+    return [one | {"surface": one["surface"] | UNIT_DISC} for one in examples]
 
 
 # ---- batches: the realizations of one job
@@ -216,14 +215,18 @@ def ensembles_of_batch(case, batch):
     numbers : first realization of the batch in this ensemble, and the one after its last
     """
     first, end = realizations(batch)
-    parts, before, kept = [], 0, ("name", "spawn_key", "surface", "elements", "points")
+    parts, before = [], 0
     for ensemble in case.get("ensembles", [case]):
         after = before + ensemble["realizations"]
         if before < end and first < after:
-            numbers = [max(first - before, 0), min(end, after) - before]
-            parts.append({name: ensemble[name] for name in kept if name in ensemble} | {"numbers": numbers})
+            parts.append(_in_batch(ensemble, [max(first - before, 0), min(end, after) - before]))
         before = 0 if case.get("side_by_side") else after
     return parts
+
+
+def _in_batch(ensemble, numbers):
+    kept = ("name", "spawn_key", "surface", "elements", "points")
+    return {name: ensemble[name] for name in kept if name in ensemble} | {"numbers": numbers}
 
 
 def pool_batches(cases, pool):
@@ -236,17 +239,15 @@ def pool_batches(cases, pool):
 BASE_MEMORY = 700  # Python with its imports and, as a job of Slurm, two Snakemakes around it
 
 
-def disc_memory(case):
-    """A disc, the square that it is cut from, and the fields of the solver on a doubled grid."""
-    ensembles = case.get("ensembles", [case])
-    bytes_ = max((424 + 64 * one["surface"]["period"] ** 2) * one["elements"] ** 2 for one in ensembles)
+def generation_memory(ensembles):
+    """A disc, and the square that it is cut from."""
+    bytes_ = max((24 + 64 * one["surface"]["period"] ** 2) * one["elements"] ** 2 for one in ensembles)
     return round(BASE_MEMORY + bytes_ / 1e6)
 
 
-def example_memory(settings):
-    """One disc for every Hurst exponent, and the square that a disc is cut from."""
-    heights, square = 24 * len(settings["discs"]["hurst"]), 64 * settings["surface"]["period"] ** 2
-    return round(BASE_MEMORY + (heights + square) * settings["discs"]["elements"] ** 2 / 1e6)
+def disc_memory(case):
+    """A disc, and the fields of the solver on a doubled grid."""
+    return round(BASE_MEMORY + 424 * max(one["elements"] for one in case["ensembles"]) ** 2 / 1e6)
 
 
 def large_memory(elements):

@@ -1,14 +1,11 @@
-"""Surfaces and curves of realizations, as the scripts make them."""
+"""Discs of ensembles and their rms heights."""
 
 import numpy as np
 import pytest
 
-from support.workflow import load_script, read_settings
-from viscorough.io import netcdf
 from viscorough.surfaces import cut_disc, self_affine_square
-from viscorough_study.ensembles.discs import ensemble_disc, punch_stiffness
+from viscorough_study.ensembles.discs import ensemble_disc
 from viscorough_study.ensembles.pool import elements_across
-from viscorough_study.run import cases
 from viscorough_study.run.seeds import realization_seed
 
 
@@ -38,47 +35,6 @@ def test_rms_height_of_the_ensemble_is_that_of_the_spectrum():
     error = random.std(ddof=1) / np.sqrt(random.size)
     assert error < 0.04  # a realization's own mean square scatters by more than half
     assert abs(random.mean() - 1) < 4 * error
-
-
-ENDS = {"until_x": 3.0, "short_until_x": 0.1, "whole_curves": 1}
-INDENTATION = {"tolerance": 1e-3, "until_fraction": 1.0} | ENDS
-
-
-@pytest.mark.parametrize("kind", ["discs", "lines"])
-def test_a_realization_is_the_same_in_every_batch(tmp_path, kind):
-    settings = read_settings("config")
-    table, size = (cases.disc_cases, {"elements": 17}) if kind == "discs" else (cases.line_cases, {"points": 512})
-    about = {"seed": 7} | ({"indentation": INDENTATION} if kind == "discs" else {"until_x": 30.0})
-    ensembles = [one | size for one in cases.ensembles_of_batch(table(settings)["h04000"], "0000-0002")[-2:]]
-    curves = {}
-    for first in (0, 2):
-        batch = [ensemble | {"numbers": [first, 3]} for ensemble in ensembles]
-        load_script(f"indent_{kind}").main(tmp_path / "curves.nc", ensembles=batch, **about)
-        content = netcdf.read(tmp_path / "curves.nc")
-        names, numbers = (content.variables[name].values.tolist() for name in ("case", "number"))
-        force = [row[np.isfinite(row)] for row in content.variables["force"].values]
-        curves[first] = dict(zip(zip(names, numbers, strict=True), force, strict=True))
-    for key, force in curves[2].items():
-        np.testing.assert_array_equal(curves[0][key], force)
-    assert not np.array_equal(*list(curves[0].values())[:2])
-
-
-def test_the_first_curves_of_every_ensemble_go_further(tmp_path):
-    settings = read_settings("config")
-    ensembles = cases.ensembles_of_batch(cases.disc_cases(settings)["h09000"], "0000-0002")[:2]
-    batch = [ensemble | {"elements": 17} for ensemble in ensembles]
-    load_script("indent_discs").main(tmp_path / "curves.nc", ensembles=batch, seed=7, indentation=INDENTATION)
-    values = {name: one.values for name, one in netcdf.read(tmp_path / "curves.nc").variables.items()}
-    assert values["until_x"].tolist() == [3.0, 0.1, 0.1] * 2
-    largest_rms = np.maximum(values["rms_disc"], values["rms_square"])
-    ends = np.nanmax(values["force"], axis=1) / (4 * largest_rms * values["diameter"])
-    assert (ends >= values["until_x"]).all()
-    assert (ends < 1.5 * values["until_x"]).all()
-
-
-def test_stiffness_of_a_flat_disc_approaches_that_of_the_punch_at_first_order():
-    errors = np.array([(1 - punch_stiffness(across)) * across for across in (33, 65, 129)])
-    np.testing.assert_allclose(errors, 1.3, rtol=0.05)
 
 
 def test_elements_across_follow_from_their_number():

@@ -8,7 +8,7 @@ import xarray as xr
 from support.study import pool_of
 from viscorough.calibrated_law import X_LOW, interface_depth, interface_velocity
 from viscorough_study.ensembles.averages import abscissa, ensemble_dataset
-from viscorough_study.ensembles.discs import punch_stiffness
+from viscorough_study.ensembles.indentation import punch_stiffness
 from viscorough_study.fits.interface import COLUMNS, CURVES, ensembles_of, examine, examine_all
 
 X = abscissa(1e-9, 30, 20)

@@ -60,6 +60,17 @@ def test_a_batch_has_the_same_realizations_of_all_combinations(settings):
     assert {(*one["numbers"], one["elements"]) for one in batch} == {(2, 6, 257)}
 
 
+def test_a_tenth_combination_is_a_case_of_its_own(settings):
+    """So that it leaves the batches of the nine as they are, in whichever order the settings name them."""
+    nine = cases.disc_cases(settings)
+    combinations = settings["discs"]["combinations"]
+    combinations.insert(4, combinations[0] | {"number": 10})
+    ten = cases.disc_cases(settings)
+    assert {name: ten[name] for name in nine} == nine
+    assert set(ten) - set(nine) == {f"{cases.hurst_id(hurst)}_10" for hurst in settings["discs"]["hurst"]}
+    assert [one["name"] for one in ten["h01000_10"]["ensembles"]] == ["h01000_c10"]
+
+
 def test_surfaces_that_are_compared_differ_only_in_what_the_paper_leaves_open(settings):
     assert list(cases.surface_conventions(settings)) == ["base"]  # without the control
     surfaces = cases.surface_conventions(merged(settings, read_settings("paper")))
@@ -71,6 +82,7 @@ def test_memory_of_every_job_is_below_two_gigabytes(settings, name):
     settings = merged(settings, read_settings(name))
     discs, lines = cases.disc_cases(settings), cases.line_cases(settings)
     needed = [cases.disc_memory(case) for case in discs.values()] + [cases.line_memory(case) for case in lines.values()]
+    needed += [cases.generation_memory(case["ensembles"]) for case in discs.values()]
     for table, pools in ((discs, ("discs", "size_discs")), (lines, ("lines", "size_lines"))):
         needed += [cases.pool_memory(table, pool, settings["ensemble"]) for pool in pools]
     assert min(needed) >= cases.BASE_MEMORY

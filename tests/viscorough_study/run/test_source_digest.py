@@ -111,12 +111,12 @@ def used(script, *functions):
 
 
 def test_rules_count_the_solvers_that_they_use():
-    boundary_elements = {"indent_discs", "compare_direct", "compare_reduction", "validate", "map_failures"}
+    boundary_elements = {"indent_surfaces", "compare_direct", "compare_reduction", "validate", "map_failures"}
     boundary_elements |= {"measure_large", "measure_methods", "time_other_solvers"}
-    boundary_elements |= {"compare_level_placement", "indent_measured"}
+    boundary_elements |= {"compare_level_placement"}
     boundary_elements |= {"fit_collapse", "fit_interface", "judge_claims"}  # flat discs, small rough discs
     boundary_elements |= {"check_validation", "make_page", "tabulate_large"}  # by what they describe
-    of_lines = {"indent_lines", "compare_reduction", "validate", "map_failures", "measure_methods"}
+    of_lines = {"reduce_lines", "compare_reduction", "validate", "map_failures", "measure_methods"}
     of_lines |= {"check_validation", "make_page"}  # by what they describe
     rules = {path.stem: used(path.stem) for path in SCRIPTS.glob("*.py")}
     rules |= {

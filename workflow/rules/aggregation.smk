@@ -1,15 +1,15 @@
 # Realizations of all cases on common abscissae.
 
 
-rule pool_curves:
+rule aggregate_curves:
     input:
         curves=lambda wildcards: curves_of_pool(wildcards.pool),
     output:
         pool="results/ensembles/{pool}.nc",
     log:
-        "results/logs/pool_curves/{pool}.log",
+        "results/logs/aggregate_curves/{pool}.log",
     benchmark:
-        "results/benchmarks/pool_curves/{pool}.tsv"
+        "results/benchmarks/aggregate_curves/{pool}.tsv"
     localrule: True
     conda:
         "../envs/viscorough.yaml"
@@ -22,4 +22,4 @@ rule pool_curves:
     message:
         "Realizations on common abscissae: {wildcards.pool}"
     script:
-        "../scripts/pool_curves.py"
+        "../scripts/aggregate_curves.py"

@@ -1,4 +1,4 @@
-"""All realizations of a pool of cases on common abscissae."""
+"""All realizations of a pool of cases on common abscissae, in one dataset."""
 
 from viscorough.io import netcdf
 from viscorough.io.datasets import write_dataset

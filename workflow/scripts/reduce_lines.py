@@ -3,18 +3,18 @@
 from viscorough.io import netcdf
 from viscorough.lines import SelfAffineLines
 from viscorough.mdr import reduce_heights
-from viscorough_study.ensembles.batches import batch_of_curves, numbered, without_numbers
+from viscorough_study.ensembles.batches import Realization, batch_of_curves, numbered, without_numbers
 from viscorough_study.run.job_log import log_to, progress
 from viscorough_study.run.seeds import realization_seed
 
 
 def main(curves, *, ensembles, seed, until_x):
-    """Indent the realizations of a batch until X = F/(4GhL) is until_x; lengths in m.
+    """Generate and reduce the realizations of a batch until X = F/(4GhL) is until_x; lengths in m.
 
     ensembles : the batch's, each with spawn_key, points, surface (arguments of SelfAffineLines) and numbers, first
         realization and the one after the last
     """
-    batch, reduced, before = numbered(ensembles), [], None
+    batch, reduced, realizations, before = numbered(ensembles), [], [], None
     for one, number in progress(batch, len(batch), "lines"):
         surface = one["surface"]
         if one is not before:  # what the realizations of an ensemble share is computed once
@@ -22,14 +22,10 @@ def main(curves, *, ensembles, seed, until_x):
         heights = lines.heights_in_any_order(realization_seed(seed, *one["spawn_key"], number))
         until_force = 4 * surface["rms"] * surface["length"] * until_x
         reduced.append(reduce_heights(heights, lines.spacing, until_force=until_force, length_unit="m"))
+        lengths = surface["length"], lines.spacing, {"line": surface["rms"]}  # every line has the nominal rms height
+        realizations.append(Realization(one["name"], number, surface["hurst"], *lengths))
     settings = {"seed": seed, "until_x": until_x, "ensembles": without_numbers(ensembles)}
-    surfaces = [one["surface"] for one, _ in batch]
-    about = {"hurst": [surface["hurst"] for surface in surfaces], "realizations": [number for _, number in batch]}
-    about |= {"rms": {"line": [surface["rms"] for surface in surfaces]}}  # every line has the nominal rms height
-    about |= {"spacing": [one["surface"]["length"] / one["points"] for one, _ in batch]}
-    about |= {"diameter": [surface["length"] for surface in surfaces], "settings": settings, "until_x": until_x}
-    about["cases"] = [one["name"] for one, _ in batch]
-    netcdf.write(batch_of_curves(reduced, **about), curves)
+    netcdf.write(batch_of_curves(reduced, realizations, until_x=until_x, settings=settings), curves)
 
 
 if job := globals().get("snakemake"):

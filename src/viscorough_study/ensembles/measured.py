@@ -1,0 +1,37 @@
+"""Measured surfaces as indenters in metres, and their lengths."""
+
+import numpy as np
+
+from viscorough.indenter import Indenter
+from viscorough.io.heights import read_heights
+from viscorough.units import metres
+
+
+def measured_indenter(file, *, spacing, unit, preparation):
+    """The prepared Indenter of a scan, in metres.
+
+    spacing : [], as the file states; [of both directions] or [between columns, between rows]
+    unit : of the heights, None as the file states; preparation : further arguments of read_heights
+    Raises ValueError if the unit of length is not known.
+    """
+    both = {0: None, 1: spacing[:1], 2: spacing}[len(spacing)]
+    spacing = both[0] if both and len(both) == 1 else both
+    indenter = read_heights(file, spacing, unit=unit, **preparation)
+    if indenter.length_unit == "1":
+        raise ValueError(f"{file}: states no unit of length; measured.unit in the settings is needed")
+    factor = metres(indenter.length_unit)
+    spacings = indenter.spacing * factor, indenter.row_spacing * factor
+    return Indenter(indenter.heights * factor, *spacings, length_unit="m")
+
+
+def lengths(indenter):
+    """{column: value} of an indenter: spacings, rms height and slope, diameter of the circle of equal area."""
+    area = indenter.elements * indenter.spacing * indenter.row_spacing
+    return {
+        "elements": indenter.elements,
+        "spacing": indenter.spacing,
+        "row_spacing": indenter.row_spacing,
+        "rms": float(np.nanstd(indenter.heights, dtype=float)),
+        "rms_slope": indenter.rms_slope,
+        "diameter": 2 * np.sqrt(area / np.pi),
+    }

@@ -1,0 +1,88 @@
+"""Files of surfaces: a NetCDF group for each ensemble, written and read one realization at a time."""
+
+import json
+from collections.abc import Sequence
+from contextlib import contextmanager
+
+import netCDF4
+import numpy as np
+
+from viscorough.indenter import Indenter
+from viscorough.io import netcdf
+from viscorough.io.atomic import atomic_write
+from viscorough_study.ensembles.batches import RMS, Realization
+
+
+def write_surfaces(ensembles, path):
+    """Write surfaces as NetCDF, atomically; only one of them is in memory at a time.
+
+    ensembles : list of (settings, number, surfaces): a dict of what they are made from, the number of realizations, and
+        an iterable of (Realization, Indenter), which agree in all but numbers, heights and rms heights
+    """
+    with atomic_write(path) as temporary, netCDF4.Dataset(temporary, "w") as file:
+        file.set_fill_off()  # every value is written
+        file.setncatts({"title": "Heights of rigid indenters; larger is higher"} | netcdf.global_attributes())
+        for position, (settings, number, surfaces) in enumerate(ensembles):
+            group = file.createGroup(f"ensemble_{position}")
+            group.createDimension("realization", number)
+            for i, (realization, indenter) in enumerate(surfaces):
+                if i == 0:
+                    group.setncatts({"title": realization.ensemble, "settings": json.dumps(settings)})
+                    _define(group, realization, indenter)
+                group["number"][i] = realization.number
+                group["heights"][i] = indenter.heights
+                for name, height in realization.rms.items():
+                    group[f"rms_{name}"][i] = height
+
+
+def _define(group, realization, indenter):
+    """The variables of a group, with the values that all its realizations share."""
+
+    def variable(name, dimensions, long_name, units="m", **kind):
+        stored = group.createVariable(name, kind.pop("kind", "f8"), dimensions, **kind)
+        stored.setncatts({"long_name": long_name, "units": units})
+        return stored
+
+    axes = ("y", "rows", indenter.row_spacing), ("x", "columns", indenter.spacing)
+    for (name, neighbours, spacing), points in zip(axes, indenter.heights.shape, strict=True):
+        group.createDimension(name, points)
+        variable(name, name, f"position along {name}")[:] = spacing * (np.arange(points) - (points - 1) / 2)
+        variable(f"spacing_{name}", (), f"distance between neighbouring {neighbours}")[:] = spacing
+    variable("diameter", (), "diameter of the indenter")[:] = realization.diameter
+    variable("hurst", (), "Hurst exponent", "1")[:] = realization.hurst
+    variable("number", "realization", "number of the realization", "1", kind="i8")
+    for name in realization.rms:
+        variable(f"rms_{name}", "realization", RMS[name])
+    variable("heights", ("realization", "y", "x"), "height", kind=indenter.heights.dtype, fill_value=np.nan)
+
+
+@contextmanager
+def opened_surfaces(path):
+    """Context that yields the Surfaces in a file; any fault of the file becomes a one-line ValueError."""
+    with netcdf.opened(path) as file:
+        file.set_auto_mask(False)
+        yield Surfaces(file)
+
+
+class Surfaces(Sequence):
+    """The surfaces in an open file as (Realization, Indenter), each read when it is asked for.
+
+    settings : dict of each ensemble, of what it is made from
+    """
+
+    def __init__(self, file):
+        groups = list(file.groups.values())
+        self.settings = [json.loads(group.settings) for group in groups]
+        self._places = [(group, i) for group in groups for i in range(len(group.dimensions["realization"]))]
+
+    def __len__(self):
+        return len(self._places)
+
+    def __getitem__(self, position):
+        group, i = self._places[position]
+        spacing, row_spacing, hurst, diameter = (
+            group[name][...].item() for name in ("spacing_x", "spacing_y", "hurst", "diameter")
+        )
+        rms = {name: group[f"rms_{name}"][i].item() for name in RMS if f"rms_{name}" in group.variables}
+        realization = Realization(group.title, group["number"][i].item(), hurst, diameter, spacing, rms)
+        return realization, Indenter(group["heights"][i], spacing, row_spacing, length_unit="m")

@@ -1,0 +1,79 @@
+"""Curves of realizations, as the scripts make them, and the stiffness of flat discs."""
+
+import numpy as np
+import pytest
+
+from support.workflow import load_script, read_settings
+from viscorough.contact.loading_path import indent
+from viscorough.io import netcdf
+from viscorough_study.ensembles.batches import Realization
+from viscorough_study.ensembles.discs import ensemble_disc
+from viscorough_study.ensembles.indentation import punch_stiffness
+from viscorough_study.ensembles.surface_files import write_surfaces
+from viscorough_study.run import cases
+
+ENDS = {"until_x": 3.0, "short_until_x": 0.1, "whole_curves": 1}
+INDENTATION = {"tolerance": 1e-3, "until_fraction": 1.0} | ENDS
+
+
+def curves_of_discs(folder, batch):
+    """{name: values} in the file of curves that scripts make of a batch, by way of the file of its surfaces."""
+    load_script("generate_discs").main(folder / "surfaces.nc", ensembles=batch, seed=7)
+    load_script("indent_surfaces").main(folder / "surfaces.nc", folder / "curves.nc", indentation=INDENTATION)
+    return {name: one.values for name, one in netcdf.read(folder / "curves.nc").variables.items()}
+
+
+def curves_of_lines(folder, batch):
+    load_script("reduce_lines").main(folder / "curves.nc", ensembles=batch, seed=7, until_x=30.0)
+    return {name: one.values for name, one in netcdf.read(folder / "curves.nc").variables.items()}
+
+
+@pytest.mark.parametrize("kind", ["discs", "lines"])
+def test_a_realization_is_the_same_in_every_batch(tmp_path, kind):
+    settings = read_settings("config")
+    table, size = (cases.disc_cases, {"elements": 17}) if kind == "discs" else (cases.line_cases, {"points": 512})
+    make = {"discs": curves_of_discs, "lines": curves_of_lines}
+    ensembles = [one | size for one in cases.ensembles_of_batch(table(settings)["h04000"], "0000-0002")[-2:]]
+    curves = {}
+    for first in (0, 2):
+        batch = [ensemble | {"numbers": [first, 3]} for ensemble in ensembles]
+        values = make[kind](tmp_path, batch)
+        names, numbers = values["case"].tolist(), values["number"].tolist()
+        force = [row[np.isfinite(row)] for row in values["force"]]
+        curves[first] = dict(zip(zip(names, numbers, strict=True), force, strict=True))
+    for key, force in curves[2].items():
+        np.testing.assert_array_equal(curves[0][key], force)
+    assert not np.array_equal(*list(curves[0].values())[:2])
+
+
+def test_the_first_curves_of_every_ensemble_go_further(tmp_path):
+    settings = read_settings("config")
+    ensembles = cases.ensembles_of_batch(cases.disc_cases(settings)["h09000"], "0000-0002")[:2]
+    batch = [ensemble | {"elements": 17} for ensemble in ensembles]
+    values = curves_of_discs(tmp_path, batch)
+    assert values["until_x"].tolist() == [3.0, 0.1, 0.1] * 2
+    largest_rms = np.maximum(values["rms_disc"], values["rms_square"])
+    ends = np.nanmax(values["force"], axis=1) / (4 * largest_rms * values["diameter"])
+    assert (ends >= values["until_x"]).all()
+    assert (ends < 1.5 * values["until_x"]).all()
+
+
+def test_stiffness_of_a_flat_disc_approaches_that_of_the_punch_at_first_order():
+    errors = np.array([(1 - punch_stiffness(across)) * across for across in (33, 65, 129)])
+    np.testing.assert_allclose(errors, 1.3, rtol=0.05)
+
+
+def test_a_curve_is_that_of_the_surface_itself(tmp_path):
+    """Bit by bit: nothing of a surface is lost in its file. A measured one has only the rms height over itself."""
+    surface = {"hurst": 0.5, "rms": 1.7, "diameter": 33.0, "period": 1.5, "rms_over": "disc"}
+    disc, rms = ensemble_disc(17, surface, 3)
+    for known in (rms, {"disc": rms["disc"]}):
+        realization = Realization("disc", 0, 0.5, 33.0, disc.spacing, known)
+        write_surfaces([({}, 1, [(realization, disc)])], tmp_path / "surfaces.nc")
+        files = tmp_path / "surfaces.nc", tmp_path / "curves.nc"
+        load_script("indent_surfaces").main(*files, indentation=INDENTATION)
+        until_force = 4 * max(known["disc"], known.get("square", 0.0)) * 33.0 * INDENTATION["until_x"]
+        curve = indent(disc, tolerance=1e-3, until_fraction=1.0, until_force=until_force)
+        made = netcdf.read(files[1]).variables
+        np.testing.assert_array_equal(made["force"].values[0], curve.force)
+        np.testing.assert_array_equal(made["stiffness"].values[0], curve.stiffness)

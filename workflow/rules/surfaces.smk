@@ -1,0 +1,65 @@
+# Surfaces that boundary elements indent: generated discs and prepared measured surfaces, in files of one form. They are
+# temporary (`--notemp` keeps them). Each batch has a file of its own, since Snakemake would make curves again that share
+# a file of surfaces with further ones. Lines are not stored: rules/indentation.smk.
+
+
+rule generate_discs:
+    output:
+        surfaces=temp("results/surfaces/discs/{case}/{batch}.nc"),
+    log:
+        "results/logs/generate_discs/{case}/{batch}.log",
+    benchmark:
+        "results/benchmarks/generate_discs/{case}/{batch}.tsv"
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=lambda wildcards: cases.generation_memory(DISCS[wildcards.case]["ensembles"]),
+    params:
+        ensembles=disc_ensembles,
+        seed=config["seed"],
+    message:
+        "Discs {wildcards.case}, realizations {wildcards.batch}"
+    script:
+        "../scripts/generate_discs.py"
+
+
+use rule generate_discs as generate_examples with:
+    output:
+        surfaces="results/surfaces/examples.nc",
+    log:
+        "results/logs/generate_examples.log",
+    benchmark:
+        "results/benchmarks/generate_examples.tsv"
+    resources:
+        mem_mb=cases.generation_memory(cases.example_discs(config)),
+    params:
+        ensembles=cases.example_discs(config),
+        seed=config["seed"],
+    message:
+        "Discs of Figure 1"
+
+
+rule prepare_measured:
+    input:
+        heights=ancient(of_scan("file")),  # the digest of its content counts
+    output:
+        surfaces=temp("results/surfaces/measured/{scan}/0000-0000.nc"),
+    log:
+        "results/logs/prepare_measured/{scan}.log",
+    benchmark:
+        "results/benchmarks/prepare_measured/{scan}.tsv"
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=lambda wildcards: cases.measured_memory(MEASURED[wildcards.scan]),
+    params:
+        of_scan("digest"),
+        name=lambda wildcards: wildcards.scan,
+        group=of_scan("group"),
+        spacing=of_scan("spacing"),
+        unit=of_scan("unit"),
+        preparation=of_scan("preparation"),
+    message:
+        "Measured surface {wildcards.scan}"
+    script:
+        "../scripts/prepare_measured.py"

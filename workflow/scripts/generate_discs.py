@@ -1,0 +1,28 @@
+"""Self-affine discs of a batch, with their rms heights by every convention."""
+
+from viscorough_study.ensembles.batches import Realization, without_numbers
+from viscorough_study.ensembles.discs import ensemble_disc
+from viscorough_study.ensembles.surface_files import write_surfaces
+from viscorough_study.run.job_log import log_to
+from viscorough_study.run.seeds import realization_seed
+
+
+def main(surfaces, *, ensembles, seed):
+    """Generate the realizations of a batch; lengths in m.
+
+    ensembles : of `viscorough_study.run.cases.ensembles_of_batch`; surface : arguments of self_affine_disc
+    """
+
+    def discs(name, spawn_key, surface, elements, numbers):
+        for number in range(*numbers):
+            disc, rms = ensemble_disc(elements, surface, realization_seed(seed, *spawn_key, number))
+            yield Realization(name, number, surface["hurst"], surface["diameter"], disc.spacing, rms), disc
+
+    settings = [{"seed": seed} | one for one in without_numbers(ensembles)]
+    sizes = [len(range(*one["numbers"])) for one in ensembles]
+    write_surfaces(zip(settings, sizes, (discs(**one) for one in ensembles), strict=True), surfaces)
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(**job.output, **job.params)

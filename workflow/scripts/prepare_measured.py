@@ -1,0 +1,27 @@
+"""A measured surface, read, checked and prepared for indentation."""
+
+import logging
+
+from viscorough_study.ensembles.batches import Realization
+from viscorough_study.ensembles.measured import lengths, measured_indenter
+from viscorough_study.ensembles.surface_files import write_surfaces
+from viscorough_study.run.job_log import log_to
+
+
+def main(heights, surfaces, *, name, group, **reading):
+    """Prepare one scan.
+
+    heights : its file; name : of the scan; group : of scans; reading : spacing, unit, preparation
+    """
+    indenter = measured_indenter(heights, **reading)
+    measured = lengths(indenter)
+    logging.info("%s: %s", heights, measured)
+    settings = {"name": name, "group": group, "file": str(heights), **reading, "lengths": measured}
+    rms = {"disc": measured["rms"]}
+    realization = Realization(name, 0, float("nan"), measured["diameter"], indenter.spacing, rms)
+    write_surfaces([(settings, 1, [(realization, indenter)])], surfaces)
+
+
+if job := globals().get("snakemake"):
+    log_to(job.log[0])
+    main(**job.input, **job.output, **job.params)

@@ -4,7 +4,7 @@ import os
 import signal
 
 
-def _open_standard_streams():
+def _open_standard_streams() -> None:
     """Connect closed standard streams to the null device: a file opened later must not get one of their numbers."""
     for descriptor in range(3):
         try:

@@ -1,11 +1,15 @@
 """Arrays that an object keeps: copies that cannot be changed, in which masked entries are nan; increasing numbers."""
 
 import dataclasses
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from viscorough.types import Array
 
 
-def read_only(values):
+def read_only(values: ArrayLike) -> NDArray[Any]:
     """The values as an array that cannot be changed: a copy, unless nobody can change it already.
 
     Masked entries of numpy's masked arrays, also of a list of them, become nan.
@@ -24,13 +28,13 @@ def read_only(values):
 class ReadOnlyArrays:
     """Base of frozen dataclasses: every field declared as an array becomes a read-only one."""
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for field in dataclasses.fields(self):
             if field.type is np.ndarray:
                 object.__setattr__(self, field.name, read_only(getattr(self, field.name)))
 
 
-def increasing(name, values, *, above_zero=False, steps=None):
+def increasing(name: str, values: ArrayLike, *, above_zero: bool = False, steps: str | None = None) -> Array:
     """The values as a row of floats. Raises ValueError, which starts with the name, unless they increase.
 
     steps : quantity that steps at a time given twice, for the message; None if no value may be given twice
@@ -48,7 +52,7 @@ def increasing(name, values, *, above_zero=False, steps=None):
     raise ValueError(f"{name}: allowed is {allowed}{f', or given twice where {steps} steps' if steps else ''}")
 
 
-def samples(name, values, times, reason=""):
+def samples(name: str, values: ArrayLike, times: Array, reason: str = "") -> Array:
     """A load at the times, as floats. Raises ValueError unless there is a finite one from 0 on for each of them.
 
     reason : why it must be, for the message
@@ -62,7 +66,7 @@ def samples(name, values, times, reason=""):
     return values
 
 
-def _cannot_change(array):
+def _cannot_change(array: NDArray[Any] | None) -> bool:
     """Whether an array and all arrays that it is a view of are read-only."""
     while isinstance(array, np.ndarray):
         if array.flags.writeable:

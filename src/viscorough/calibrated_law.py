@@ -18,13 +18,17 @@ all that is known beyond, and that vt/h = X at complete contact.
 """
 
 import csv
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.special import gamma as gamma_function
 from scipy.special import gammainc
+
+from viscorough.types import Array
 
 X_LOW, X_HIGH = 1e-3, 30.0  # the widest range of the law; from X_HIGH on, vt/h is X to 2 %
 LARGEST_DEVIATION = 0.05  # of the law from the mean vt/h of the calibration, in its range
@@ -43,13 +47,13 @@ COLUMNS = {
 }
 
 
-def interface_velocity(x, exponent, peak, peak_x):
+def interface_velocity(x: ArrayLike, exponent: float, peak: float, peak_x: float) -> Array:
     """g(X), the interface's part of vt/h: peak (X/peak_x)^exponent exp(2 exponent (1 − √(X/peak_x))); any shape."""
     scaled = x / peak_x
     return peak * scaled**exponent * np.exp(2 * exponent * (1 - np.sqrt(scaled)))
 
 
-def interface_depth(x, exponent, peak, peak_x):
+def interface_depth(x: ArrayLike, exponent: float, peak: float, peak_x: float) -> Array:
     """∫₀^X g dX/X, the interface's part of u/h: 2 peak (e/2b)^(2b) γ(2b, 2b√(X/peak_x)), b = exponent; any shape.
 
     γ(a, w) = ∫₀^w s^(a−1) e^(−s) ds is the lower incomplete gamma function.
@@ -93,12 +97,12 @@ class PenetrationLaw:
     x_low: float
     x_high: float
 
-    def velocity(self, x):
+    def velocity(self, x: ArrayLike) -> Array:
         """vt/h at X, any shape. Raises ValueError outside the range of X in which the law was calibrated."""
         x = self._inside(x)
         return x + interface_velocity(x, self.exponent, self.peak, self.peak_x)
 
-    def velocity_interval(self, x):
+    def velocity_interval(self, x: ArrayLike) -> tuple[Array, Array]:
         """(lower, upper) ends of vt/h, by the relative error of the law: arrays.
 
         This is the uncertainty of the mean of many surfaces; single ones scatter more. Raises ValueError as `velocity`.
@@ -106,7 +110,7 @@ class PenetrationLaw:
         velocity = self.velocity(x)
         return velocity * (1 - self.error), velocity * (1 + self.error)
 
-    def depth(self, x):
+    def depth(self, x: ArrayLike) -> Array:
         """u/h = ∫ vt/h dX/X at X, any shape. Raises ValueError as `velocity`.
 
         Below x_low the law does not hold: the grid of the calibration limits the approach before the first contacts.
@@ -114,16 +118,16 @@ class PenetrationLaw:
         """
         return self._depth(self._inside(x), self.depth_offset)
 
-    def depth_interval(self, x):
+    def depth_interval(self, x: ArrayLike) -> tuple[Array, Array]:
         """(lower, upper) ends of u/h over the interval of the offset and the error of vt/h; see `velocity_interval`."""
         x = self._inside(x)
         low, high = (self._depth(x, offset) for offset in self.depth_offset_interval)
         return low * (1 - self.error), high * (1 + self.error)
 
-    def _depth(self, x, offset):
+    def _depth(self, x: Array, offset: float) -> Array:
         return offset + x + interface_depth(x, self.exponent, self.peak, self.peak_x)
 
-    def _inside(self, x):
+    def _inside(self, x: ArrayLike) -> Array:
         """X as an array. Raises ValueError outside the range of the law."""
         x = np.asarray(x, dtype=float)
         if not np.all((x >= self.x_low) & (x <= self.x_high)):
@@ -134,7 +138,7 @@ class PenetrationLaw:
         return x
 
 
-def _read(name, chosen, numbers):
+def _read(name: str, chosen: Callable[[dict[str, str]], bool], numbers: Sequence[str]) -> dict[str, Array]:
     """Columns of a table in data/, {name: array over ascending H}, of the rows that are chosen."""
     with resources.files("viscorough").joinpath(f"data/{name}").open(encoding="utf-8") as file:
         rows = sorted(filter(chosen, csv.DictReader(file)), key=lambda row: float(row["hurst"]))
@@ -142,7 +146,7 @@ def _read(name, chosen, numbers):
 
 
 @cache
-def calibration():
+def calibration() -> dict[str, Array]:
     """The power law of discs in region (b), {column of COLUMNS but the source: array over ascending H}."""
     return _read(
         "calibration.csv", lambda row: row["source"] == "discs", [name for name in COLUMNS if name != "source"]
@@ -150,7 +154,7 @@ def calibration():
 
 
 @cache
-def interface_calibration():
+def interface_calibration() -> dict[str, Array]:
     """The law beyond region (b), {column of data/interface.csv: array over the H of `calibration`}."""
     names = ("hurst", "exponent", "peak", "peak_x", "law_low", "error", "depth_offset", "depth_low", "depth_high")
     chosen = {"source": "discs", "average": "geometric", "across": "257"}
@@ -165,7 +169,7 @@ def interface_calibration():
     return {name: values[order] for name, values in joined.items()}
 
 
-def penetration_law(hurst):
+def penetration_law(hurst: float) -> PenetrationLaw:
     """PenetrationLaw of a self-affine surface with Hurst exponent H.
 
     Between the calibrated exponents all constants and intervals are interpolated linearly in H, of places in X their
@@ -176,10 +180,10 @@ def penetration_law(hurst):
     if not low <= hurst <= high:
         raise ValueError(f"hurst of the penetration law: must be from {low:g} to {high:g}, not {hurst!r}")
 
-    def linear(name, columns=table):
+    def linear(name: str, columns: dict[str, Array] = table) -> float:
         return float(np.interp(hurst, columns["hurst"], columns[name]))
 
-    def logarithmic(name, columns=table):
+    def logarithmic(name: str, columns: dict[str, Array] = table) -> float:
         place = np.interp(hurst, columns["hurst"], np.arange(len(columns["hurst"])))
         first = min(int(place), len(columns["hurst"]) - 2)
         below, above = columns[name][first : first + 2]

@@ -11,8 +11,10 @@ import functools
 import inspect
 import logging
 import os
+from collections.abc import Callable
 from hashlib import sha256
 from pathlib import Path
+from typing import Any
 
 import numba
 from numba.core import caching
@@ -23,11 +25,11 @@ _CHECKSUM_SIZE = sha256().digest_size
 
 
 class _CheckedFile(caching.IndexDataCacheFile):
-    def _dump(self, obj):
+    def _dump(self, obj: object) -> bytes:
         dumped = super()._dump(obj)
         return dumped + sha256(dumped).digest()
 
-    def _load_data(self, name):
+    def _load_data(self, name: str) -> Any:
         content = Path(self._data_path(name)).read_bytes()
         if sha256(content[:-_CHECKSUM_SIZE]).digest() != content[-_CHECKSUM_SIZE:]:
             raise ValueError(f"the checksum of {name} is wrong")
@@ -35,12 +37,12 @@ class _CheckedFile(caching.IndexDataCacheFile):
 
 
 class _CheckedCache(caching.FunctionCache):
-    def __init__(self, function):
+    def __init__(self, function: Callable[..., Any]) -> None:
         super().__init__(function)
         locator = self._impl.locator
         self._cache_file = _CheckedFile(self._cache_path, self._impl.filename_base, locator.get_source_stamp())
 
-    def load_overload(self, sig, target_context):
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
         try:
             with uninterrupted():
                 return super().load_overload(sig, target_context)
@@ -51,14 +53,14 @@ class _CheckedCache(caching.FunctionCache):
                 self.flush()
             return None
 
-    def save_overload(self, sig, data):
+    def save_overload(self, sig: Any, data: Any) -> None:
         try:
             super().save_overload(sig, data)
         except OSError:  # a full disk, for example
             _say_that_nothing_is_kept()
 
 
-def _cache(function):
+def _cache(function: Callable[..., Any]) -> _CheckedCache:
     """The cache of a function's compiled code; an inactive one if there is no folder for it."""
     try:
         return _CheckedCache(function)
@@ -69,14 +71,14 @@ def _cache(function):
 
 
 @functools.cache  # said once
-def _say_that_nothing_is_kept():
+def _say_that_nothing_is_kept() -> None:
     logging.warning(
         "compiled code cannot be kept on disk, so every process compiles it again, which takes up to a minute; "
         "set NUMBA_CACHE_DIR to a folder that is writable and has room"
     )
 
 
-def njit(function=None, **options):
+def njit(function: Callable[..., Any] | None = None, **options: Any) -> Callable[..., Any]:
     """numba.njit with the given options, cached on disk. Use as a decorator, with or without options."""
     if function is None:
         return functools.partial(njit, **options)

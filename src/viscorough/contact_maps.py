@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from viscorough.arrays import ReadOnlyArrays
-from viscorough.summaries import Summarised, unit_power, with_unit
+from viscorough.summaries import Summarised, Summary, unit_power, with_unit
 
 # Neighbours of an element that belong to its patch: those that share a side, or a corner too.
 _CONNECTIVITIES = (4, 8)
@@ -55,7 +55,7 @@ class Contact(ReadOnlyArrays, Summarised):
     row_spacing: float
     length_unit: str = "1"
 
-    def _summary(self):
+    def _summary(self) -> Summary:
         """What it is; depth, force and stiffness; contact and pressure."""
         unit, area = self.length_unit, unit_power(self.length_unit, 2)
         motion = [
@@ -71,36 +71,36 @@ class Contact(ReadOnlyArrays, Summarised):
         return f"Contact of {self.contact_count} of {self.elements} elements", motion, contact
 
     @property
-    def elements(self):
+    def elements(self) -> int:
         """Number of elements of the indenter."""
         return int(np.count_nonzero(~np.isnan(self.pressure)))
 
     @property
-    def contact_count(self):
+    def contact_count(self) -> int:
         """Number of elements in contact."""
         return int(np.count_nonzero(self.contact))
 
     @property
-    def contact_fraction(self):
+    def contact_fraction(self) -> float:
         """Share of the indenter's elements that are in contact."""
         return self.contact_count / self.elements
 
     @property
-    def contact_area(self):
+    def contact_area(self) -> float:
         """Area of the elements in contact [length²]."""
         return self.contact_count * self.spacing * self.row_spacing
 
     @property
-    def mean_pressure(self):
+    def mean_pressure(self) -> float:
         """Mean of p/G over the contact [1]."""
         return self.force / self.contact_area
 
     @property
-    def largest_pressure(self):
+    def largest_pressure(self) -> float:
         """Largest p/G [1]."""
         return float(np.nanmax(self.pressure))
 
-    def patches(self, connectivity=4):
+    def patches(self, connectivity: int = 4) -> Patches:
         """The Patches of the contact: regions of elements in contact that are neighbours.
 
         connectivity : 4: elements that share a side are neighbours; 8: those that share a corner, too

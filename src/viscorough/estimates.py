@@ -7,14 +7,17 @@ With X = F·J(t)/(4hL) the law gives
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from viscorough.arrays import ReadOnlyArrays, increasing
 from viscorough.calibrated_law import PenetrationLaw, penetration_law
 from viscorough.indenter import positive
 from viscorough.summaries import html_table, span
 from viscorough.viscous.media import medium_of
+from viscorough.viscous.medium import Medium
 
 
 @dataclass(frozen=True)
@@ -38,11 +41,11 @@ class Estimate(ReadOnlyArrays):
     law: PenetrationLaw
 
     @property
-    def where(self):
+    def where(self) -> NDArray[Any]:
         """For every time: "" in the range of the law, else "below" or "above" it."""
         return np.select([self.x < self.law.x_low, self.x > self.law.x_high], ["below", "above"], "")
 
-    def __str__(self):
+    def __str__(self) -> str:
         """A table: time, X, depth and velocity with their intervals."""
         head = f"{'time':>10} {'X':>10} {'depth':>10} {'from':>10} {'to':>10} {'velocity':>10} {'from':>10} {'to':>10}"
         columns = (self.time, self.x, self.depth, self.depth_low, self.depth_high)
@@ -54,7 +57,7 @@ class Estimate(ReadOnlyArrays):
         ]
         return "\n".join([head, *rows])
 
-    def _repr_html_(self):
+    def _repr_html_(self) -> str:
         law, rows = self.law, []
         for time, depth, velocity, where in zip(self.time, self.depth, self.velocity, self.where, strict=True):
             text = f"X is {where} the range of the law" if where else f"depth {depth:.4g}, velocity {velocity:.4g}"
@@ -62,7 +65,9 @@ class Estimate(ReadOnlyArrays):
         return html_table(f"Penetration law, H = {law.hurst:g}, X from {law.x_low:.3g} to {law.x_high:.3g}", rows)
 
 
-def estimate(hurst, rms, diameter, force, medium, times):
+def estimate(
+    hurst: float, rms: float, diameter: float, force: float, medium: Medium | float, times: ArrayLike
+) -> Estimate:
     """Depth and velocity of a self-affine indenter under a constant force, by the calibrated law, without a simulation.
 
     hurst : Hurst exponent H, 0.1 to 1

@@ -2,10 +2,13 @@
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from viscorough.arrays import read_only
+from viscorough.types import Array
 
 LARGEST_ASPECT = 5  # of the sides of an element, either way
 _LARGEST_WHOLE = 2**53  # larger whole numbers are not all numbers of double precision
@@ -35,7 +38,7 @@ class Indenter:
     row_spacing: float | None = None
     length_unit: str = "1"
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         heights = read_only(self.heights)
         if heights.dtype.kind not in "fiu":
             raise ValueError(f"indenter heights: must be real numbers, not {heights.dtype}")
@@ -63,22 +66,22 @@ class Indenter:
             raise ValueError(f"indenter length_unit: must be a text such as 'um' or '1', not {self.length_unit!r}")
 
     @property
-    def aspect(self):
+    def aspect(self) -> float:
         """Aspect dy/dx of an element: its side along the columns over that along the rows; 1 for squares."""
         return self.row_spacing / self.spacing
 
     @property
-    def element_side(self):
+    def element_side(self) -> float:
         """Side d = √(dx dy) of the square with the area of an element [length]."""
         return self.spacing * math.sqrt(self.aspect)
 
     @property
-    def elements(self):
+    def elements(self) -> int:
         """Number of elements: points that are not nan."""
         return int(np.count_nonzero(~np.isnan(self.heights)))
 
     @property
-    def rms_slope(self):
+    def rms_slope(self) -> float:
         """Root mean square of the slope |∇h| [1], from differences between neighbours; 0 for a single element."""
         squares = 0.0
         with np.errstate(over="ignore"):  # a slope that overflows is infinite
@@ -89,12 +92,12 @@ class Indenter:
         return float(np.sqrt(squares))
 
     @property
-    def initial_gap(self):
+    def initial_gap(self) -> Array:
         """Initial gap [length]: depth below the highest element, in double precision; shape (rows, columns)."""
         return np.subtract(np.fmax.reduce(self.heights, axis=None), self.heights, dtype=float)
 
 
-def _spacings(spacing, row_spacing):
+def _spacings(spacing: float | tuple[float, float], row_spacing: float | None) -> tuple[float, float]:
     """Both spacings (dx, dy) as floats."""
     if isinstance(spacing, str) or np.ndim(spacing) == 0:
         spacing = positive("indenter spacing", spacing)
@@ -112,14 +115,14 @@ def _spacings(spacing, row_spacing):
     return spacing, row_spacing
 
 
-def _exact(values):
+def _exact(values: ArrayLike) -> NDArray[Any]:
     """Whether double precision holds these values exactly, if they are whole numbers; masked ones do not matter."""
     if values.dtype.kind not in "iu" or np.ma.count(values) == 0:
         return True
     return int(values.min()) >= -_LARGEST_WHOLE and int(values.max()) <= _LARGEST_WHOLE
 
 
-def _native(heights):
+def _native(heights: Array) -> Array:
     """Heights in single or double precision, in rows and in the byte order of this machine."""
     kept = np.float32 if heights.dtype == np.float32 else np.float64
     with np.errstate(over="ignore"):  # what does not fit becomes infinite
@@ -128,7 +131,7 @@ def _native(heights):
     return native
 
 
-def positive(name, value):
+def positive(name: str, value: float) -> float:
     """The value as a float. Raises ValueError with the name unless it is finite and above 0."""
     try:
         number = float(value)

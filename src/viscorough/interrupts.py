@@ -3,10 +3,12 @@
 import contextlib
 import signal
 import threading
+from collections.abc import Callable, Iterator
+from typing import Any
 
 
 @contextlib.contextmanager
-def on_interrupt(handler):
+def on_interrupt(handler: Callable[..., Any] | signal.Handlers) -> Iterator[None]:
     """Context in which an interrupt calls handler(signal number, frame).
 
     Outside the main thread, which interrupts never reach, nothing is changed.
@@ -22,7 +24,7 @@ def on_interrupt(handler):
 
 
 @contextlib.contextmanager
-def uninterrupted():
+def uninterrupted() -> Iterator[None]:
     """Context in which an interrupt is deferred: it is handled at the end.
 
     In LLVM's callbacks into Python an interrupt would be lost or crash the process, and a compiled function that was

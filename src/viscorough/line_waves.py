@@ -12,6 +12,7 @@ number of points, with polynomials for logarithm, sine and cosine, because the c
 import numpy as np
 
 from viscorough.compilation import njit
+from viscorough.types import Array, Complex, Integers
 
 MOST_WAVES = 2**32 - 1  # the largest counter
 _BLOCK = 1024  # waves computed at a time: their arrays stay in the fastest cache
@@ -41,12 +42,12 @@ _EIGHTH_TURN = _F32(np.pi / 4 * 2.0**-31)
 _ROOT_HALF, _MANTISSA = _I32(0x3F3504F3), _I32(23)  # bits of √(1/2) in single precision; bits of a mantissa
 
 
-def key_of(seed_sequence):
+def key_of(seed_sequence: np.random.SeedSequence) -> Integers:
     """Key of the random numbers: two 32-bit numbers."""
     return seed_sequence.generate_state(2, np.uint32).astype(np.uint64)
 
 
-def waves(first, key, amplitude, *, fixed):
+def waves(first: int, key: Integers, amplitude: Array, *, fixed: bool) -> Complex:
     """Coefficients X_k of the waves k = first, first + 1, ..., in double precision; shape of `amplitude`.
 
     first : at least 0, whole
@@ -77,7 +78,7 @@ def random_words(first, key, low, high):
         high[i] = _U32(right)
 
 
-def shortest_wave(points, key, amplitude, *, fixed):
+def shortest_wave(points: int, key: Integers, amplitude: float, *, fixed: bool) -> float:
     """Real coefficient of wave n/2 of a line of an even number n of points.
 
     The wave is its own mirror image: only a cosine, of the same mean power as if it were not.
@@ -87,7 +88,7 @@ def shortest_wave(points, key, amplitude, *, fixed):
     return np.copysign(abs(wave), wave.real) if fixed else np.sqrt(2) * wave.real
 
 
-def fill_packed_spectrum(spectrum, key, amplitude, *, fixed):
+def fill_packed_spectrum(spectrum: Complex, key: Integers, amplitude: Array, *, fixed: bool) -> float:
     """Fill `spectrum` with that of a line whose points are taken in pairs; returns the mean square of the heights.
 
     spectrum : Z, shape (m,), complex, single precision, for a line of n = 2m points

@@ -12,9 +12,11 @@ import math
 
 import numpy as np
 from ducc0 import fft
+from numpy.typing import DTypeLike
 
 from viscorough import line_waves, memory, spectrum
 from viscorough.indenter import positive
+from viscorough.types import Array, Complex, Integers
 
 _ROOM = 1000  # between the rms height and the limits of the floating-point type
 _BLOCK = 16384  # waves computed at a time in double precision
@@ -33,16 +35,16 @@ class SelfAffineLines:
 
     def __init__(
         self,
-        hurst,
-        points,
+        hurst: float,
+        points: int,
         *,
-        rms=1.0,
-        length=1.0,
-        roll_off_wavelength=None,
-        roll_off_level=0.0,
-        amplitudes="random",
-        dtype=np.float32,
-    ):
+        rms: float = 1.0,
+        length: float = 1.0,
+        roll_off_wavelength: float | None = None,
+        roll_off_level: float = 0.0,
+        amplitudes: str = "random",
+        dtype: DTypeLike = np.float32,
+    ) -> None:
         self._points = points = spectrum.whole("points", points, at_least=2)
         self._exponent = spectrum.hurst_exponent(hurst) + 0.5
         self._rms, length = positive("rms", rms), positive("length", length)
@@ -66,7 +68,7 @@ class SelfAffineLines:
             rows = _divisor_near_root(points // 2)
             self._packed = np.empty((rows, points // 2 // rows), np.complex64)
 
-    def heights(self, seed):
+    def heights(self, seed: int | np.random.SeedSequence) -> Array:
         """Heights of the realization of this seed, in order; shape (points,), read-only."""
         if not self._in_pairs:
             return self._by_real_transform(seed)
@@ -74,7 +76,7 @@ class SelfAffineLines:
         ordered.flags.writeable = False  # so that an indenter need not copy them
         return ordered.reshape(-1).view(np.float32)
 
-    def heights_in_any_order(self, seed):
+    def heights_in_any_order(self, seed: int | np.random.SeedSequence) -> Array:
         """The same heights, read-only, in an order without a meaning; valid until the next call of a method."""
         if not self._in_pairs:
             return self._by_real_transform(seed)
@@ -82,7 +84,7 @@ class SelfAffineLines:
         heights.flags.writeable = False
         return heights
 
-    def _by_four_steps(self, seed):
+    def _by_four_steps(self, seed: int | np.random.SeedSequence) -> Complex:
         """Pairs of heights, y_2j + i y_2j+1 at [j₁, j₂]; overwritten by the next call."""
         packed = self._packed
         mean_square = line_waves.fill_packed_spectrum(
@@ -92,7 +94,7 @@ class SelfAffineLines:
         line_waves.twiddle(packed.view(np.float32), np.float32(spectrum.scale_factor(self._rms, mean_square)))
         return fft.c2c(packed, axes=[1], forward=False, out=packed)
 
-    def _by_real_transform(self, seed):
+    def _by_real_transform(self, seed: int | np.random.SeedSequence) -> Array:
         points, key = self._points, self._key(seed)
         memory_ = np.empty(2 * (points // 2 + 1), self._dtype)
         coefficients = memory_.view(np.result_type(self._dtype, np.complex64))  # of the waves k = 0, 1, ...
@@ -114,21 +116,21 @@ class SelfAffineLines:
         memory_.flags.writeable = heights.flags.writeable = False
         return heights
 
-    def _moduli(self, first, count, dtype=np.float32):
+    def _moduli(self, first: int, count: int, dtype: DTypeLike = np.float32) -> Array:
         """Moduli of the waves first, first + 1, ...; that of wave 0 has no meaning."""
         return spectrum.amplitude(np.arange(first, first + count, dtype=dtype), self._exponent, *self._roll_off)
 
     @staticmethod
-    def _key(seed):
+    def _key(seed: int | np.random.SeedSequence) -> Integers:
         return line_waves.key_of(spectrum.seed_sequence(seed))
 
 
-def _divisor_near_root(number):
+def _divisor_near_root(number: int) -> int:
     """The largest divisor that is at most √number."""
     return next(d for d in range(math.isqrt(number), 0, -1) if number % d == 0)
 
 
-def _copies(points):
+def _copies(points: int) -> float:
     """Memory for the generation of a line of that many points, over that of its heights."""
     if fft.good_size(points, True) == points:
         return _COPIES

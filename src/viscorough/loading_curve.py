@@ -5,11 +5,14 @@ and times only rescale it.
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from viscorough.arrays import ReadOnlyArrays
-from viscorough.summaries import Summarised, span, unit_power
+from viscorough.summaries import Summarised, Summary, span, unit_power
+from viscorough.types import Array, Integers, Pair
 
 # Relative rounding error of forces and depths that is allowed for.
 _ROUNDING = 1e-12
@@ -46,7 +49,7 @@ class LoadingCurve(ReadOnlyArrays, Summarised):
     residual: np.ndarray
     length_unit: str = "1"
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         super().__post_init__()
         if self.depth.size == 0:
             raise ValueError("loading curve: there is no level; at least one is needed")
@@ -57,7 +60,7 @@ class LoadingCurve(ReadOnlyArrays, Summarised):
         if not (np.isfinite(self.stiffness).all() and (self.stiffness > 0).all()):
             raise ValueError("loading curve: stiffness must be finite and positive")
 
-    def _summary(self):
+    def _summary(self) -> Summary:
         """What it is; the range of depths, forces and stiffnesses; that of the contact fraction."""
         unit, levels = self.length_unit, self.depth.size
         title = f"Loading curve by {self.method}: {levels} level{'s' * (levels > 1)}, {self.elements} elements"
@@ -69,15 +72,15 @@ class LoadingCurve(ReadOnlyArrays, Summarised):
         return title, ranges, [("contact fraction", span(self.contact_fraction))]
 
     @property
-    def contact_fraction(self):
+    def contact_fraction(self) -> Array:
         """Share of the indenter's elements that are in contact, shape (levels,)."""
         return self.contact_count / self.elements
 
-    def normalised(self, rms, diameter):
+    def normalised(self, rms: float, diameter: float) -> tuple[Array, Array]:
         """X = F/(4GhL) and κ = k/(4GL) (paper, Eq. 3) for rms height h and diameter L; both of shape (levels,)."""
         return self.force / (4 * rms * diameter), self.stiffness / (4 * diameter)
 
-    def at_force(self, force):
+    def at_force(self, force: ArrayLike) -> tuple[Array, Array]:
         """Depth u and stiffness k/G at given F/G, interpolated between the levels; nan beyond the last one.
 
         Where at most one element joined the contact from one level to the next, the curve is made of the two
@@ -107,7 +110,9 @@ class LoadingCurve(ReadOnlyArrays, Summarised):
         return depth, stiffness
 
 
-def interpolate_levels(depth, force, stiffness, contact_count, wanted):
+def interpolate_levels(
+    depth: Array, force: Array, stiffness: Array, contact_count: Integers, wanted: Array
+) -> tuple[Array, Array]:
     """Depth and tangent stiffness at forces above the first and up to the last level; see LoadingCurve.at_force.
 
     depth, force, stiffness, contact_count : of the levels, shape (levels,), in any consistent units
@@ -118,7 +123,9 @@ def interpolate_levels(depth, force, stiffness, contact_count, wanted):
     return interpolate_between(forces, depths, stiffnesses, contact_count[j] - contact_count[j - 1], wanted)
 
 
-def interpolate_between(forces, depths, stiffnesses, joined, wanted):
+def interpolate_between(
+    forces: Pair, depths: Pair, stiffnesses: Pair, joined: Any, wanted: Array
+) -> tuple[Array, Array]:
     """Depth and tangent stiffness at forces between two levels; see LoadingCurve.at_force.
 
     forces, depths, stiffnesses : pairs of those at the level before and at the level after: numbers, or arrays (n,)
@@ -142,7 +149,7 @@ def interpolate_between(forces, depths, stiffnesses, joined, wanted):
     )
 
 
-def _hermite_in_logarithms(force, forces, depths, stiffnesses):
+def _hermite_in_logarithms(force: Array, forces: Pair, depths: Pair, stiffnesses: Pair) -> tuple[Array, Array]:
     """Depth and stiffness of the cubic Hermite interpolant of ln u over ln F between two levels."""
     (f0, f1), (u0, u1), (k0, k1) = forces, depths, stiffnesses
     span = np.log(f1 / f0)

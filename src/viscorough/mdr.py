@@ -12,6 +12,7 @@ from ducc0 import fft
 from viscorough.compilation import njit
 from viscorough.indenter import Indenter
 from viscorough.loading_curve import LoadingCurve
+from viscorough.types import Array, Integers
 
 _OCTAVES = 128  # octaves below the largest gap that are divided into bins; smaller gaps share one bin
 _SPOILED = 3  # longest waves of a map that a window changes
@@ -19,7 +20,9 @@ _LANES = 4  # neighbouring points often fall into one bin: separate counters avo
 _BLOCK = 512  # points whose bins are found at a time
 
 
-def reduce(line, *, until_fraction=1.0, until_force=None, bins_per_octave=64):
+def reduce(
+    line: Indenter, *, until_fraction: float = 1.0, until_force: float | None = None, bins_per_octave: int = 64
+) -> LoadingCurve:
     """Loading curve of a line by the method of reduction of dimensionality (MDR).
 
     line : Indenter with one-dimensional heights
@@ -53,7 +56,15 @@ def reduce(line, *, until_fraction=1.0, until_force=None, bins_per_octave=64):
     )
 
 
-def reduce_heights(heights, spacing, *, until_fraction=1.0, until_force=None, bins_per_octave=64, length_unit="1"):
+def reduce_heights(
+    heights: Array,
+    spacing: float,
+    *,
+    until_fraction: float = 1.0,
+    until_force: float | None = None,
+    bins_per_octave: int = 64,
+    length_unit: str = "1",
+) -> LoadingCurve:
     """As `reduce`, for heights in any order: springs are independent, so that the order does not matter.
 
     heights : shape (points,), in single or double precision [length]
@@ -92,7 +103,7 @@ def reduce_heights(heights, spacing, *, until_fraction=1.0, until_force=None, bi
     )
 
 
-def _levels(heights, spacing, bins_per_octave):
+def _levels(heights: Array, spacing: float, bins_per_octave: int) -> tuple[Array, Array, Array, Integers]:
     """Depth, force F/G, stiffness k/G and contact count at the edges of the bins in which contact grows."""
     edges, counts, sums = _binned_gaps(heights, bins_per_octave)
     grown = 1 + np.flatnonzero(counts[1:])
@@ -106,7 +117,7 @@ def _levels(heights, spacing, bins_per_octave):
     return depth, force, stiffness, contact_count
 
 
-def line_of_surface(square, spacing, seed):
+def line_of_surface(square: Array, spacing: float, seed: int) -> Indenter:
     """Line with the power spectrum of a periodic map, C1D = π q C2D (Eq. 13), and random phases.
 
     square : heights, shape (n, n) [length]
@@ -126,7 +137,7 @@ def line_of_surface(square, spacing, seed):
     return Indenter(_random_line(rings, n, seed), spacing)
 
 
-def line_of_map(surface, seed):
+def line_of_map(surface: Indenter, seed: int) -> Indenter:
     """Line with the radially averaged power spectrum of a map that is not periodic, and with its rms height.
 
     surface : Indenter with two-dimensional heights; elements that are nan count as of mean height
@@ -162,20 +173,20 @@ def line_of_map(surface, seed):
     return Indenter(line, spacing, length_unit=surface.length_unit)
 
 
-def _power_of_piece(heights, weights):
+def _power_of_piece(heights: Array, weights: Array) -> Array:
     """Power of the waves of the heights over their mean, multiplied with weights; per mean square of the weights."""
     over_mean = np.where(weights > 0, heights - np.sum(weights * np.nan_to_num(heights)) / weights.sum(), 0)
     return np.abs(np.fft.fft2(weights * over_mean)) ** 2 / (weights.size * np.sum(weights**2, dtype=float))
 
 
-def _ring_sums(power, wavenumber, points):
+def _ring_sums(power: Array, wavenumber: Array, points: int) -> Array:
     """Sums of the power of the waves whose wavenumber per length rounds to 0, 1, ..., points // 2."""
     ring = np.rint(wavenumber).astype(int)
     most = points // 2 + 1
     return np.bincount(ring.ravel(), weights=power.ravel(), minlength=most)[:most]
 
 
-def _random_line(power, points, seed):
+def _random_line(power: Array, points: int, seed: int) -> Array:
     """Heights, shape (points,), of waves of this power and of random phases; without the zero mode."""
     amplitude = np.sqrt(power / 2)
     if points % 2 == 0:
@@ -186,7 +197,7 @@ def _random_line(power, points, seed):
     return fft.c2r(spectrum, lastsize=points, forward=False)
 
 
-def _binned_gaps(heights, bins_per_octave):
+def _binned_gaps(heights: Array, bins_per_octave: int) -> tuple[Array, Integers, Array]:
     """Initial gaps sorted into bins: the edges of the bins, and the number and the sum of the gaps in every bin.
 
     Bin r holds edges[r] <= g < edges[r + 1], bin 0 all g < edges[1]. The leading bits of a floating-point number

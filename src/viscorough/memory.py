@@ -3,7 +3,7 @@
 import psutil
 
 
-def require(needed, what):
+def require(needed: float, what: str) -> None:
     """Raise MemoryError, which names both numbers, unless `needed` bytes are available for `what`."""
     available = psutil.virtual_memory().available
     if needed > available:

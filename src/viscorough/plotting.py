@@ -5,16 +5,21 @@ The only module of the library that imports matplotlib, which is not needed for 
 
 import re
 from pathlib import Path
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from viscorough import units
 from viscorough.io.atomic import atomic_write
 from viscorough.io.curves import STORED, curve_from_content, unstack_curves
+from viscorough.io.netcdf import Content, Variable
+from viscorough.types import Array, FilePath
 
+Variables = dict[str, Variable]
 FORMATS = (".png", ".pdf", ".svg")
 _BLUE, _VERMILION = "#0072b2", "#d55e00"  # of Okabe and Ito, which can be told apart with any colour vision
 _FEW = 40  # points below which a curve has markers
@@ -34,7 +39,7 @@ _LABELS |= {"contact_fraction": "contact fraction", "heights": "height $z$", "x"
 _STATE = {"depth": "$u$", "force": "$F/G$", "contact_fraction": "contact fraction", "patches": "patches"}
 
 
-def plot(content, path):
+def plot(content: Content, path: FilePath) -> None:
     """Draw what an io.netcdf.Content holds and write it, atomically, in the format of the suffix: .png, .pdf or .svg.
 
     The same content gives the same bytes. Raises ValueError for another suffix, and for a content that is no surface,
@@ -50,7 +55,7 @@ def plot(content, path):
             figure.savefig(temporary, format=suffix[1:], metadata=dates[suffix])
 
 
-def figure_of(content):
+def figure_of(content: Content) -> Figure:
     """The matplotlib Figure of a Content; its kind follows from names and dimensions. Raises ValueError as `plot`."""
     if set(STORED) <= set(content.variables):  # of a loading curve, also in files of motions that follow from one
         (unstack_curves if "levels" in content.variables else curve_from_content)(content)
@@ -67,7 +72,7 @@ def figure_of(content):
 # ---- maps
 
 
-def _surface(variables):
+def _surface(variables: Variables) -> Figure:
     values, (*_, x) = variables["heights"].values, variables["heights"].dimensions
     if values.ndim == 1:
         figure, (axes,) = _panels(1)
@@ -80,7 +85,7 @@ def _surface(variables):
     return figure
 
 
-def _fields(variables):
+def _fields(variables: Variables) -> Figure:
     variables = _in_readable_units(variables)
     names = [name for name in ("pressure", "gap", "contact") if name in variables]
     stacks = {name: variables[name].values.reshape(-1, *variables[name].values.shape[-2:]) for name in names}
@@ -95,7 +100,7 @@ def _fields(variables):
     return figure
 
 
-def _in_readable_units(variables):
+def _in_readable_units(variables: Variables) -> Variables:
     """The variables with positions, gap, heights and depth in units in which their numbers are easy to read.
 
     Positions along x and y have one unit. Lengths of no known unit stay as they are.
@@ -115,7 +120,7 @@ def _in_readable_units(variables):
     return changed
 
 
-def _state(variables, index):
+def _state(variables: Variables, index: int | None) -> str:
     """Numbers of one of the contacts in a file, as text."""
     texts = []
     for name, symbol in _STATE.items():
@@ -125,7 +130,7 @@ def _state(variables, index):
     return ", ".join(texts)
 
 
-def _map(figure, axes, variables, name, values):
+def _map(figure: Figure, axes: Axes, variables: Variables, name: str, values: Array) -> None:
     """Image of a map, grey outside the indenter, where it is nan; with a bar of colours unless it is of the contact."""
     y, x = variables[name].dimensions[-2:]
     extent = []
@@ -140,7 +145,7 @@ def _map(figure, axes, variables, name, values):
     _label(axes, _axis_label(variables, x), _axis_label(variables, y))
 
 
-def _positions(variables, dimension, points):
+def _positions(variables: Variables, dimension: str, points: int) -> tuple[Array, str]:
     """Positions along a dimension and their distance: those of its coordinate, else the numbers of the points."""
     if _has_positions(variables, dimension):
         values = variables[dimension].values.astype(float)
@@ -148,7 +153,7 @@ def _positions(variables, dimension, points):
     return np.arange(points), 1.0
 
 
-def _has_positions(variables, dimension):
+def _has_positions(variables: Variables, dimension: str) -> bool:
     """Whether a dimension has a coordinate, increasing or decreasing."""
     if dimension not in variables or variables[dimension].dimensions != (dimension,):
         return False
@@ -156,14 +161,14 @@ def _has_positions(variables, dimension):
     return bool(np.isfinite(steps).all() and ((steps > 0).all() or (steps < 0).all()))
 
 
-def _axis_label(variables, dimension):
+def _axis_label(variables: Variables, dimension: str) -> str:
     return _label_of(variables, dimension) if _has_positions(variables, dimension) else f"{dimension}, points"
 
 
 # ---- curves
 
 
-def _motion(variables):
+def _motion(variables: Variables) -> Figure:
     time = variables["time"].values
     if not (np.diff(time) >= 0).all():
         raise ValueError("time must not decrease; a file that viscorough wrote is needed")
@@ -181,7 +186,7 @@ def _motion(variables):
     return figure
 
 
-def _loading_curve(variables):
+def _loading_curve(variables: Variables) -> Figure:
     dimensions = variables["depth"].values.ndim
     pairs = [("depth", "force"), ("force", "stiffness"), ("force", "contact_fraction")]
     pairs = [pair for pair in pairs if pair[1] in variables and variables[pair[1]].values.ndim == dimensions]
@@ -193,12 +198,12 @@ def _loading_curve(variables):
     return figure
 
 
-def _panels(count, width=3.1, height=2.7):
+def _panels(count: int, width: float = 3.1, height: float = 2.7) -> tuple[Figure, Any]:
     figure = Figure(figsize=(width * count, height), layout="constrained")
     return figure, figure.subplots(1, count, squeeze=False)[0]
 
 
-def _curve(axes, x, y, thin=False):
+def _curve(axes: Axes, x: Array, y: Array, thin: bool = False) -> None:
     """A curve on logarithmic axes, where both values are positive."""
     x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
     shown = (x > 0) & (y > 0)
@@ -207,7 +212,7 @@ def _curve(axes, x, y, thin=False):
     axes.plot(x[shown], y[shown], color=_BLUE, **look)
 
 
-def _label(axes, x, y):
+def _label(axes: Axes, x: str, y: str) -> None:
     axes.set(xlabel=x, ylabel=y)
     for axis in (axes.xaxis, axes.yaxis):
         low, high = axis.get_view_interval()
@@ -217,18 +222,18 @@ def _label(axes, x, y):
             axis.set_minor_formatter(NullFormatter())
 
 
-def _tick_label(value, _position):
+def _tick_label(value: float, _position: int) -> str:
     """A number of three digits, with a power of ten where it is very small or large."""
     mantissa, _, exponent = f"{value:.3g}".partition("e")
     return rf"${mantissa}\times 10^{{{int(exponent)}}}$" if exponent else mantissa
 
 
-def _label_of(variables, name):
+def _label_of(variables: Variables, name: str) -> str:
     unit = _unit(variables[name])
     return f"{_LABELS.get(name, name)}{f' ({unit})' if unit else ''}"
 
 
-def _unit(variable):
+def _unit(variable: Variable) -> str:
     """The unit of a variable as people write it: µm², µm/s; "" without one."""
     unit = str(variable.attributes.get("units", "1")).replace("um", "µm")
     if unit == "1":

@@ -3,9 +3,12 @@
 And doubts about maps that were not: what makes the results of a contact wrong without an error.
 """
 
+from collections.abc import Iterator, Sequence
+
 import numpy as np
 
 from viscorough.indenter import Indenter
+from viscorough.types import Array, Integers
 
 DETREND = ("none", "mean", "plane", "sphere")
 FILL = ("none", "harmonic")
@@ -17,7 +20,15 @@ _SPIKE = 20  # height of a point above all its neighbours over the usual distanc
 _LARGEST_SLOPE = 0.99  # of a fitted sphere within the map
 
 
-def prepare(indenter, *, nodata=(), crop=None, flip=False, detrend="none", fill="none"):
+def prepare(
+    indenter: Indenter,
+    *,
+    nodata: Sequence[float] = (),
+    crop: Sequence[int] | str | None = None,
+    flip: bool = False,
+    detrend: str = "none",
+    fill: str = "none",
+) -> Indenter:
     """A map of heights made ready, as a new Indenter; each step is done only if asked for, in this order.
 
     nodata : a value, or several, that mark points that were not measured; these become nan
@@ -53,7 +64,7 @@ def prepare(indenter, *, nodata=(), crop=None, flip=False, detrend="none", fill=
     return Indenter(heights, indenter.spacing, indenter.row_spacing, indenter.length_unit)
 
 
-def doubts(indenter):
+def doubts(indenter: Indenter) -> list[str]:
     """Texts, one line each, about tilt, enclosed nan regions, suspicious values and spikes of a map; empty for none."""
     if indenter.heights.ndim != 2 or min(indenter.heights.shape) < 3:
         return []
@@ -63,7 +74,7 @@ def doubts(indenter):
     return [*texts, *_holes(heights)]
 
 
-def _cropped(heights, crop):
+def _cropped(heights: Array, crop: Sequence[int] | str | None) -> Array:
     for (first, end), size, name in zip(crop, heights.shape[::-1], ("columns", "rows"), strict=True):
         if not 0 <= first < end <= size:
             raise ValueError(f"crop to {name} {first}:{end}; within 0:{size} is allowed")
@@ -74,7 +85,7 @@ def _cropped(heights, crop):
 # ---- mean, plane, sphere
 
 
-def _detrended(heights, dx, dy, form):
+def _detrended(heights: Array, dx: float, dy: float, form: str) -> Array:
     """The heights less a fitted form."""
     values, curvature = _fit(heights, dx, dy, form)
     heights = heights if heights.dtype == np.float64 else heights.astype(np.float64)
@@ -85,7 +96,7 @@ def _detrended(heights, dx, dy, form):
     return heights
 
 
-def _blocks(shape, dx, dy, form):
+def _blocks(shape: tuple[int, int], dx: float, dy: float, form: str) -> Iterator[tuple[slice, Array]]:
     """Pairs of rows (a slice) and the functions 1, x, y there, shape (functions, points), from the middle."""
     x = dx * (np.arange(shape[1]) - (shape[1] - 1) / 2)
     y = dy * (np.arange(shape[0]) - (shape[0] - 1) / 2)
@@ -95,16 +106,16 @@ def _blocks(shape, dx, dy, form):
         yield rows, np.stack([part.ravel() for part in grid[: 1 if form == "mean" else 3]])
 
 
-def _distance_squared(basis):
+def _distance_squared(basis: Array) -> Array:
     return basis[1] ** 2 + basis[2] ** 2
 
 
-def _sag(curvature, squared):
+def _sag(curvature: float, squared: Array) -> Array:
     """Height of a sphere above its lowest point (k > 0), k r²/(1 + √(1 − k²r²))."""
     return curvature * squared / (1 + np.sqrt(1 - curvature**2 * squared))
 
 
-def _fit(heights, dx, dy, form):
+def _fit(heights: Array, dx: float, dy: float, form: str) -> tuple[Array, float]:
     """Least-squares values of the plane (1, x, y), or the mean, and the curvature of the sphere; by Gauss-Newton."""
     rows, columns = heights.shape
     reach = np.hypot(dx * columns, dy * rows) / 2
@@ -135,7 +146,7 @@ def _fit(heights, dx, dy, form):
     return values[:3], curvature
 
 
-def _tilt(indenter):
+def _tilt(indenter: Indenter) -> Iterator[str]:
     """A text if the map is tilted by much more than its roughness explains."""
     heights, dx, dy = indenter.heights, indenter.spacing, indenter.row_spacing
     lowest, highest, squares, count = np.inf, -np.inf, 0.0, 0
@@ -158,7 +169,7 @@ def _tilt(indenter):
 # ---- values that mark missing points, spikes
 
 
-def _suspicious_values(heights):
+def _suspicious_values(heights: Array) -> Iterator[str]:
     """Texts about extreme values that are repeated and far from all others."""
     for extreme, sign in ((np.fmin, 1), (np.fmax, -1)):
         value = float(extreme.reduce(heights, axis=None))
@@ -180,7 +191,7 @@ def _suspicious_values(heights):
             )
 
 
-def _spikes(heights):
+def _spikes(heights: Array) -> Iterator[str]:
     """A text about single points that stand high above all their neighbours."""
     middle = heights[1:-1, 1:-1]
     highest = np.full(middle.shape, -np.inf, dtype=heights.dtype)
@@ -206,7 +217,7 @@ def _spikes(heights):
 # ---- holes
 
 
-def _enclosed(heights):
+def _enclosed(heights: Array) -> tuple[Integers, int]:
     """Labels of the nan regions that do not reach the edge, from 1 on, and their number; None if there is no nan."""
     from scipy import ndimage
 
@@ -221,7 +232,7 @@ def _enclosed(heights):
     return np.searchsorted(kept, new)[labels], kept.size - 1
 
 
-def _holes(heights):
+def _holes(heights: Array) -> Iterator[str]:
     labels, count = _enclosed(heights)
     if count:
         points = int(np.count_nonzero(labels))
@@ -232,7 +243,7 @@ def _holes(heights):
         )
 
 
-def _filled(heights, aspect):
+def _filled(heights: Array, aspect: float) -> Array:
     """The heights with enclosed holes filled: each point is the mean of its neighbours, those along x and y weighted.
 
     aspect : dy/dx. The five-point Laplace equation on rectangles: weights 1/dx² and 1/dy².

@@ -13,6 +13,7 @@ Johnson 1985, Contact Mechanics (flat ellipse); Lee and Radok 1960 (viscous sphe
 Popov and Heß 2015 (method of reduction of dimensionality, MDR).
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,6 +23,7 @@ from scipy.special import ellipk
 from scipy.special import gamma as gamma_function
 
 from viscorough.indenter import Indenter, positive
+from viscorough.types import Array, Numbers
 
 UNIT_SQUARE_DEFLECTION = 4 * np.log(1 + np.sqrt(2))  # K₀₀ = πE*u/(pd), u at the centre of a loaded square
 COMPLETE_CONTACT_STIFFNESS = 1.0  # κ of the whole disc as a flat punch, k = 2E*·L/2; region (c): vt/h = X
@@ -43,34 +45,34 @@ class PowerLawBody:
     coefficient: float
     exponent: float
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for name in ("coefficient", "exponent"):
             positive(f"{name} of a power-law body", getattr(self, name))
 
-    def mdr_profile(self, x):
+    def mdr_profile(self, x: Numbers) -> Numbers:
         """One-dimensional profile g(x) = κ_n c |x|ⁿ with κ_n = √π Γ(n/2+1)/Γ((n+1)/2); same unit as x."""
         n = self.exponent
         kappa = np.sqrt(np.pi) * gamma_function(n / 2 + 1) / gamma_function((n + 1) / 2)
         return kappa * self.coefficient * np.abs(x) ** n
 
-    def contact_radius(self, depth):
+    def contact_radius(self, depth: Numbers) -> Numbers:
         """Contact radius a at depth u: the root of g(a) = u; the depth at radius a is `mdr_profile(a)`."""
         return (depth / self.mdr_profile(1.0)) ** (1 / self.exponent)
 
-    def force(self, depth):
+    def force(self, depth: Numbers) -> Numbers:
         """F/G [length²] at depth u."""
         return 8 * self.exponent / (self.exponent + 1) * depth * self.contact_radius(depth)
 
-    def depth(self, force):
+    def depth(self, force: Numbers) -> Numbers:
         """Depth u at F/G: the inverse of `force`."""
         n = self.exponent
         return self.mdr_profile((force * (n + 1) / (8 * n * self.mdr_profile(1.0))) ** (1 / (n + 1)))
 
-    def stiffness(self, depth):
+    def stiffness(self, depth: Numbers) -> Numbers:
         """k/G = 8a [length] at depth u."""
         return 8 * self.contact_radius(depth)
 
-    def indenter(self, elements_across, width=1.0, rows=None):
+    def indenter(self, elements_across: int, width: float = 1.0, rows: int | None = None) -> Indenter:
         """Indenter of this shape on a square of the given width, its tip (height 0) at the centre of the square.
 
         elements_across : columns of elements; rows : rows of elements, by default as many
@@ -80,23 +82,23 @@ class PowerLawBody:
         heights = -self.coefficient * np.hypot(y[:, None], x) ** self.exponent
         return Indenter(heights, width / elements_across, width / rows)
 
-    def mdr_line(self, points, width=1.0):
+    def mdr_line(self, points: int, width: float = 1.0) -> Indenter:
         """Indenter on a line of the given width that represents this body in the MDR."""
         return Indenter(-self.mdr_profile(_element_centres(points, width)), width / points)
 
 
-def sphere(radius):
+def sphere(radius: float) -> PowerLawBody:
     """Sphere z = r²/(2R), R = `radius`: F = (4/3)E*√R u^(3/2), a = √(Ru) (Hertz)."""
     positive("radius of a sphere", radius)
     return PowerLawBody(1 / (2 * radius), 2)
 
 
-def cone(slope):
+def cone(slope: float) -> PowerLawBody:
     """Cone z = r tanθ with `slope` = tanθ: F = 2E*u²/(π tanθ), u = (π/2) a tanθ (Love)."""
     return PowerLawBody(slope, 1)
 
 
-def flat_ellipse_stiffness(major, minor):
+def flat_ellipse_stiffness(major: float, minor: float) -> float:
     """k/G [length] of a flat elliptical punch with semi-axes a = `major` ≥ b = `minor` (Johnson): k = πE*a/K(m).
 
     K is the complete elliptic integral of the first kind of parameter m = 1 − b²/a². The force is k u at every depth u.
@@ -107,7 +109,7 @@ def flat_ellipse_stiffness(major, minor):
     return 4 * np.pi * major / ellipk(1 - (minor / major) ** 2)
 
 
-def flat_disc_stiffness(radius):
+def flat_disc_stiffness(radius: float) -> float:
     """k/G = 8a [length] of a flat disc of radius a; the force is k u at every depth u."""
     return flat_ellipse_stiffness(radius, radius)
 
@@ -115,7 +117,9 @@ def flat_disc_stiffness(radius):
 # ---- a sphere in a viscoelastic half-space, whose contact grows and recedes
 
 
-def sphere_approach_and_retreat(time, radius, speed, turning_time, relaxation):
+def sphere_approach_and_retreat(
+    time: Numbers, radius: float, speed: float, turning_time: float, relaxation: Callable[[float], float]
+) -> Numbers:
     """Force and contact radius of a sphere moved into a viscoelastic half-space and out again at one speed (Ting 1966).
 
     The depth is vt up to the turning time t_m and v(2t_m − t) after it. While the contact grows, a² = Ru and
@@ -125,7 +129,7 @@ def sphere_approach_and_retreat(time, radius, speed, turning_time, relaxation):
     time : t > 0, a number; relaxation : ψ(t) of the medium, a function. Returns (F, a), both 0 once contact has ended.
     """
 
-    def integral(duration):
+    def integral(duration: Array) -> Numbers:
         return quad(relaxation, 0, duration, epsrel=1e-12, epsabs=0)[0]
 
     end = time
@@ -142,49 +146,51 @@ def sphere_approach_and_retreat(time, radius, speed, turning_time, relaxation):
 # ---- the paper's laws
 
 
-def stiffness_law(x, zeta, alpha):
+def stiffness_law(x: Numbers, zeta: float, alpha: float) -> Numbers:
     """κ = ζ X^α (Eq. 3)."""
     return zeta * x**alpha
 
 
-def zeta_elastic(hurst):
+def zeta_elastic(hurst: Numbers) -> Numbers:
     """ζ ≈ π(3 − H)/10, the paper's fit to elastic contact (Eq. 4)."""
     return np.pi * (3 - hurst) / 10
 
 
-def exponent_alpha(hurst):
+def exponent_alpha(hurst: Numbers) -> Numbers:
     """α = 1/(1 + H), which the paper states for H in (0.4, 1) (Eq. 5)."""
     return 1 / (1 + hurst)
 
 
-def depth_law(x, zeta, alpha, *, gamma=False):
+def depth_law(x: Numbers, zeta: float, alpha: float, *, gamma: bool = False) -> Numbers:
     """u/h = X^(1−α)/(ζ(1−α)) (Eq. 6); with `gamma` divided by Γ(2−α) (Eq. 8). Raises ValueError unless α < 1."""
     if not np.all(np.asarray(alpha) < 1):
         raise ValueError(f"exponent alpha of the depth law: {alpha}; allowed: below 1")
     return velocity_law(x, zeta, alpha, gamma=gamma) / (1 - alpha)
 
 
-def velocity_law(x, zeta, alpha, *, gamma=False):
+def velocity_law(x: Numbers, zeta: float, alpha: float, *, gamma: bool = False) -> Numbers:
     """vt/h = X^(1−α)/ζ = X/κ (Eqs. 1 and 3); with `gamma` divided by Γ(2−α) (Eq. 9)."""
     return x ** (1 - alpha) / (zeta * (gamma_function(2 - alpha) if gamma else 1))
 
 
-def exponent_beta(hurst):
+def exponent_beta(hurst: Numbers) -> Numbers:
     """β = 1 − α = H/(1 + H) (Eq. 10)."""
     return hurst / (1 + hurst)
 
 
-def zeta_viscous(hurst):
+def zeta_viscous(hurst: Numbers) -> Numbers:
     """ζ ≈ 2 − H, the paper's fit of the law with the factor 1/Γ(2−α) to viscous indentation (Eq. 11)."""
     return 2 - hurst
 
 
-def rate_law(x, hurst, *, gamma=False):
+def rate_law(x: Numbers, hurst: float, *, gamma: bool = False) -> Numbers:
     """vt/h with Eqs. 5 and 11 for α and ζ; with `gamma` this is Eq. 12, Γ(2−α) = Γ((1+2H)/(1+H))."""
     return velocity_law(x, zeta_viscous(hurst), exponent_alpha(hurst), gamma=gamma)
 
 
-def line_spectrum(wavenumber, spectrum, transfer=np.pi):
+def line_spectrum(
+    wavenumber: Numbers, spectrum: Callable[[Array], Array], transfer: Callable[[Array], Array] = np.pi
+) -> Numbers:
     """C1D(q) = λ q C2D(q), the two-sided spectrum of the line that represents a surface; λ = `transfer` is π in Eq. 13.
 
     λ = π gives line and surface the same rms height; in general λ = π (h1D/h2D)².
@@ -192,7 +198,7 @@ def line_spectrum(wavenumber, spectrum, transfer=np.pi):
     return transfer * wavenumber * spectrum
 
 
-def one_element_stiffness(elements_across):
+def one_element_stiffness(elements_across: int) -> float:
     """κ while one square element is in contact (region a): π/(K₀₀ n), n elements across L; vt/h = X/κ has slope 1.
 
     A square of side d = L/n under uniform pressure p sinks by u = pd K₀₀/(πE*) at its centre.
@@ -200,6 +206,6 @@ def one_element_stiffness(elements_across):
     return np.pi / (UNIT_SQUARE_DEFLECTION * elements_across)
 
 
-def _element_centres(number, width):
+def _element_centres(number: int, width: float) -> Numbers:
     """Centres of equal elements that fill an interval of the given width around 0, shape (number,)."""
     return (np.arange(number) - (number - 1) / 2) * width / number

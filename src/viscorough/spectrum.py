@@ -5,9 +5,10 @@ from numbers import Integral
 import numpy as np
 
 from viscorough.indenter import positive
+from viscorough.types import Array
 
 
-def amplitude(wavenumber, exponent, longest, level):
+def amplitude(wavenumber: Array, exponent: float, longest: float, level: float) -> Array:
     """Modulus k^-exponent of waves with wavenumber k per period; for k < longest √level times that of k = longest.
 
     longest : wavenumber per period of the roll-off, 0 if there is none
@@ -22,7 +23,7 @@ def amplitude(wavenumber, exponent, longest, level):
     return modulus
 
 
-def roll_off(wavelength, level, points):
+def roll_off(wavelength: float | None, level: float, points: int) -> tuple[float, float]:
     """Wavenumber per period (0 if there is no roll-off) and level of the roll-off at a wavelength in points."""
     if not 0 <= level < np.inf:
         raise ValueError(f"roll_off_level: must be a finite number >= 0, not {level!r}")
@@ -32,33 +33,33 @@ def roll_off(wavelength, level, points):
     return rounding * points / positive("roll_off_wavelength", wavelength), level
 
 
-def scale_factor(rms, mean_square):
+def scale_factor(rms: float, mean_square: float) -> float:
     """Scale factor to the requested rms height."""
     if mean_square == 0:
         raise ValueError("roll_off_wavelength: must leave at least one wave of two spacings or more")
     return rms / np.sqrt(mean_square)
 
 
-def seed_sequence(seed):
+def seed_sequence(seed: int | np.random.SeedSequence) -> np.random.SeedSequence:
     """The SeedSequence of a whole number, or the one given."""
     return seed if isinstance(seed, np.random.SeedSequence) else np.random.SeedSequence(whole("seed", seed, at_least=0))
 
 
-def hurst_exponent(hurst):
+def hurst_exponent(hurst: float) -> float:
     """The Hurst exponent as a float. Raises ValueError unless it is from 0 to 1."""
     if not 0 <= hurst <= 1:
         raise ValueError(f"hurst: must be from 0 to 1, not {hurst!r}")
     return float(hurst)
 
 
-def fixed_amplitudes(amplitudes):
+def fixed_amplitudes(amplitudes: str) -> bool:
     """Whether only phases are random."""
     if amplitudes not in ("random", "fixed"):
         raise ValueError(f"amplitudes: must be 'random' or 'fixed', not {amplitudes!r}")
     return amplitudes == "fixed"
 
 
-def whole(name, value, at_least):
+def whole(name: str, value: int, at_least: int) -> int:
     """The value as an int. Raises ValueError with the name unless it is a whole number of at least `at_least`."""
     if not isinstance(value, Integral) or value < at_least:
         raise ValueError(f"{name}: must be a whole number of at least {at_least}, not {value!r}")

@@ -1,34 +1,40 @@
 """Short texts about a result: lines for print, and a small table of HTML for notebooks."""
 
+from collections.abc import Iterable, Sequence
 from html import escape
 from itertools import chain
+
+from viscorough.types import Array
+
+# A title, and the quantities and texts of each line.
+Summary = tuple[str, *tuple[Sequence[tuple[str, str]], ...]]
 
 
 class Summarised:
     """A result with the method `_summary`, which gives a title, and rows of (quantity, text), one for each line."""
 
-    def __str__(self):
+    def __str__(self) -> str:
         title, *lines = self._summary()
         return "\n".join([title, *(", ".join(f"{name} {text}" for name, text in line) for line in lines)])
 
-    def _repr_html_(self):
+    def _repr_html_(self) -> str:
         """A table of the same, which notebooks show."""
         title, *lines = self._summary()
         return html_table(title, chain(*lines))
 
 
-def span(values, unit="1"):
+def span(values: Array, unit: str = "1") -> str:
     """First and last of some values, with their unit: "1e-09 to 2e-07 m"."""
     first, last = (f"{float(values[i]):.4g}" for i in (0, -1))
     return f"{first} to {last}{'' if unit == '1' else f' {unit}'}" if len(values) > 1 else with_unit(values[0], unit)
 
 
-def with_unit(value, unit="1", digits=4):
+def with_unit(value: float, unit: str = "1", digits: int = 4) -> str:
     """A number of so many digits, with its unit unless that is "1"."""
     return f"{float(value):.{digits}g}{'' if unit == '1' else f' {unit}'}"
 
 
-def unit_power(unit, exponent):
+def unit_power(unit: str, exponent: int) -> str:
     """A unit of length to a power, as UDUNITS spells it: m2, but (1e-6 m)2; "1" for "1"."""
     if unit == "1" or exponent == 0:
         return "1"
@@ -37,7 +43,7 @@ def unit_power(unit, exponent):
     return f"{unit if unit.isascii() and unit.isalpha() else f'({unit})'}{exponent}"
 
 
-def html_table(title, rows):
+def html_table(title: str, rows: Iterable[tuple[str, str]]) -> str:
     """A table of HTML with a caption and one row for every (quantity, value)."""
     body = "".join(
         f'<tr><th scope="row" style="text-align:left">{escape(name)}</th>'

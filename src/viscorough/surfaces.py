@@ -6,31 +6,35 @@ from the period of the surface down to the Nyquist wavelength of two spacings. T
 realization is scaled to the requested rms height.
 """
 
+from typing import Any
+
 import numpy as np
 from ducc0 import fft
+from numpy.typing import DTypeLike
 
 from viscorough import memory, spectrum
 from viscorough.indenter import Indenter, positive
 from viscorough.lines import SelfAffineLines
+from viscorough.types import Array
 
 _BYTES_PER_POINT = 100  # memory that must be available for a square, three times what its arrays take
 
 
 def self_affine_disc(
-    hurst,
-    elements_across=257,
+    hurst: float,
+    elements_across: int = 257,
     *,
-    rms=1.0,
-    diameter=1.0,
-    period=1.0,
-    corners=False,
-    roll_off_wavelength=None,
-    roll_off_level=0.0,
-    amplitudes="random",
-    rms_over="disc",
-    length_unit="1",
-    seed,
-):
+    rms: float = 1.0,
+    diameter: float = 1.0,
+    period: float = 1.0,
+    corners: bool = False,
+    roll_off_wavelength: float | None = None,
+    roll_off_level: float = 0.0,
+    amplitudes: str = "random",
+    rms_over: str = "disc",
+    length_unit: str = "1",
+    seed: int | np.random.SeedSequence,
+) -> Indenter:
     """Disc with n = `elements_across` elements across its diameter, cut from a periodic self-affine square.
 
     hurst : Hurst exponent H, 0 to 1
@@ -76,7 +80,9 @@ def self_affine_disc(
     return Indenter(heights, diameter / n, length_unit=length_unit)
 
 
-def square_of_disc(hurst, elements_across, *, period=1.0, roll_off_wavelength=None, **options):
+def square_of_disc(
+    hurst: float, elements_across: int, *, period: float = 1.0, roll_off_wavelength: float | None = None, **options: Any
+) -> Array:
     """Heights of the periodic square that a disc is cut from, shape (points, points); see `self_affine_square`.
 
     hurst, elements_across, period, roll_off_wavelength : as in `self_affine_disc`; options : of `self_affine_square`
@@ -89,16 +95,16 @@ def square_of_disc(hurst, elements_across, *, period=1.0, roll_off_wavelength=No
 
 
 def self_affine_square(
-    hurst,
-    points,
+    hurst: float,
+    points: int,
     *,
-    corners=False,
-    roll_off_wavelength=None,
-    roll_off_level=0.0,
-    amplitudes="random",
-    normalised=True,
-    seed,
-):
+    corners: bool = False,
+    roll_off_wavelength: float | None = None,
+    roll_off_level: float = 0.0,
+    amplitudes: str = "random",
+    normalised: bool = True,
+    seed: int | np.random.SeedSequence,
+) -> Array:
     """Heights of a periodic self-affine square, shape (points, points), of mean 0.
 
     hurst, corners, roll_off_level, amplitudes, seed : as in `self_affine_disc`
@@ -131,7 +137,7 @@ def self_affine_square(
     return heights
 
 
-def _expected_mean_square(amplitude, points, *, fixed):
+def _expected_mean_square(amplitude: Array, points: int, *, fixed: bool) -> float:
     """Mean square height that filtered white noise has on average over all realizations (Parseval's theorem).
 
     amplitude : modulus of the filter at the waves of a real Fourier transform; all but those of the first and, of an
@@ -142,7 +148,7 @@ def _expected_mean_square(amplitude, points, *, fixed):
     return (2 * square.sum() - once) * (1 if fixed else points**2)
 
 
-def cut_disc(square, elements_across):
+def cut_disc(square: Array, elements_across: int) -> Array:
     """Disc cut from the corner [:n, :n] of a map of heights, n = `elements_across`; shape (n, n), nan outside.
 
     An element belongs to the disc if x² + y² <= ((n-1)/2)², with x and y from the centre of the disc in spacings.
@@ -156,18 +162,18 @@ def cut_disc(square, elements_across):
 
 
 def self_affine_line(
-    hurst,
-    points,
+    hurst: float,
+    points: int,
     *,
-    rms=1.0,
-    length=1.0,
-    roll_off_wavelength=None,
-    roll_off_level=0.0,
-    amplitudes="random",
-    length_unit="1",
-    seed,
-    dtype=np.float32,
-):
+    rms: float = 1.0,
+    length: float = 1.0,
+    roll_off_wavelength: float | None = None,
+    roll_off_level: float = 0.0,
+    amplitudes: str = "random",
+    length_unit: str = "1",
+    seed: int | np.random.SeedSequence,
+    dtype: DTypeLike = np.float32,
+) -> Indenter:
     """Periodic self-affine line, C1D ∝ q^(-(2H+1)): an indenter for the method of reduction of dimensionality (MDR).
 
     hurst, rms, amplitudes, seed : as in `self_affine_disc`
@@ -192,6 +198,6 @@ def self_affine_line(
     return Indenter(lines.heights(seed), lines.spacing, length_unit=length_unit)
 
 
-def _generator(seed):
+def _generator(seed: int | np.random.SeedSequence) -> np.random.Generator:
     """Random numbers from SFC64, the fastest of numpy's generators."""
     return np.random.Generator(np.random.SFC64(spectrum.seed_sequence(seed)))

@@ -1,13 +1,17 @@
-"""Abbreviations for annotations."""
+"""Abbreviations for annotations: arrays of real numbers, of indices, of truth values; paths; reports of progress."""
 
 import os
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
-Integers = NDArray[np.int64]
+Array = NDArray[np.floating[Any]]  # in double precision, but for fields of the contact on a grid
+Integers = NDArray[np.integer[Any]]
 Mask = NDArray[np.bool_]
+Complex = NDArray[np.complexfloating[Any, Any]]
+Numbers = float | Array  # what formulas take and give
+Pair = tuple[Array, Array] | tuple[float, float]  # at both ends of an interval
 FilePath = str | os.PathLike[str]
 Progress = Callable[[float], object]  # called with the share of the work that is done

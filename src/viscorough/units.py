@@ -10,6 +10,9 @@ import functools
 import math
 import re
 from dataclasses import dataclass
+from typing import Any
+
+import pint
 
 UNKNOWN = "1"
 # Units of length that are read without pint: spelling, and how files and results spell it.
@@ -31,15 +34,15 @@ class Quantity:
     number: float
     unit: str = ""
 
-    def to(self, unit):
+    def to(self, unit: str) -> float:
         """The number in another unit; a plain number is returned unchanged. Raises ValueError as `factor` does."""
         return self.number * factor(self.unit, unit) if self.unit else self.number
 
-    def __str__(self):
+    def __str__(self) -> str:
         return f"{self.number:g} {self.unit}".rstrip()
 
 
-def quantity(text):
+def quantity(text: str) -> Quantity:
     """The Quantity that a text such as "5 mN", "1e6 Pa s" or "2" states. Raises ValueError if it states none."""
     with contextlib.suppress(ValueError):
         return Quantity(float(text))
@@ -50,7 +53,7 @@ def quantity(text):
     return Quantity(float(match[1]), match[2])
 
 
-def factor(unit, to):
+def factor(unit: str, to: str) -> float:
     """What numbers in `unit` are multiplied with to be in the unit `to`.
 
     Raises ValueError if one of them is not a unit, or if they measure different things.
@@ -63,17 +66,17 @@ def factor(unit, to):
     return _rounded((one / other).to_base_units().magnitude)
 
 
-def counts_points(unit):
+def counts_points(unit: str) -> bool:
     """Whether a unit counts the points of a map, as px does, so that it is no length."""
     return bool(_POINTS.fullmatch(unit.strip()))
 
 
-def metres(unit):
+def metres(unit: str) -> float:
     """A unit of length in metres. Raises ValueError if it is not a unit of length, as "1" is none."""
     return factor(length_unit(unit), "m")
 
 
-def length_unit(text):
+def length_unit(text: str) -> str:
     """A unit of length as results spell it: "um" for µm, micron and micrometer.
 
     Raises ValueError unless the text is a unit of length.
@@ -91,13 +94,13 @@ def length_unit(text):
     return f"{metres!r} m"
 
 
-def _rounded(number):
+def _rounded(number: float) -> float:
     """A factor without the rounding errors of its computation, so that a nanometre is exactly 1e-9 metres."""
     return float(f"{number:.14g}")
 
 
 @functools.cache
-def _registry():
+def _registry() -> pint.UnitRegistry:
     import pint
 
     registry = pint.UnitRegistry()
@@ -106,7 +109,7 @@ def _registry():
 
 
 @functools.cache
-def _parsed(text):
+def _parsed(text: str) -> Any:
     """A unit as a pint quantity: number and unit. Raises ValueError if it is none.
 
     Powers of more than one digit and powers of powers are refused: pint would compute them, however long that takes.

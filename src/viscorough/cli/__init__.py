@@ -29,7 +29,7 @@ from viscorough.interrupts import on_interrupt
 
 @click.group(no_args_is_help=False, context_settings={"show_default": True})
 @click.version_option(package_name="viscorough", message="%(prog)s %(version)s")
-def cli():
+def cli() -> None:
     """Penetration of rough rigid indenters into a linearly viscous half-space.
 
     \b
@@ -43,7 +43,7 @@ for _command in (indent, contact, kinetics, march, reduce, generate, estimate, p
     cli.add_command(_command)
 
 
-def main(arguments=None, commands=cli):
+def main(arguments: list[str] | None = None, commands: click.Group = cli) -> int:
     """Run the command line and return its exit code.
 
     arguments : list of texts; default: those of the process

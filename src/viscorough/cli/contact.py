@@ -1,5 +1,11 @@
 """`viscorough contact`: a map of heights to the fields of contact at a given force or depth."""
 
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
 import click
 
 from viscorough.cli.elasticity import elastic_constants_options, elasticity, lengths
@@ -9,6 +15,10 @@ from viscorough.cli.options import Increasing, PositiveNumber, output_option, th
 from viscorough.cli.progress import progress_bar, progress_option
 from viscorough.cli.surface_options import heights_input, read_indenter
 from viscorough.summaries import unit_power, with_unit
+
+if TYPE_CHECKING:
+    from viscorough.cli.surface_options import Surface
+    from viscorough.units import Quantity
 
 
 @click.command(short_help="Pressure, gap and contact at a given force or depth.")
@@ -20,7 +30,19 @@ from viscorough.summaries import unit_power, with_unit
 @click.option("--tolerance", type=PositiveNumber(0.1), default=1e-3, help="Relative accuracy.")
 @threads_option
 @progress_option
-def contact(surface, output, *, force, depth, shear_modulus, young, poisson, tolerance, threads, progress):
+def contact(
+    surface: Surface,
+    output: Path,
+    *,
+    force: Sequence[Quantity] | None,
+    depth: Sequence[Quantity] | None,
+    shear_modulus: Quantity | None,
+    young: Quantity | None,
+    poisson: float | None,
+    tolerance: float,
+    threads: int,
+    progress: bool,
+) -> None:
     """Pressure, gap and contact of an indenter pressed into an elastic half-space, at a given force or depth.
 
     HEIGHTS, spacing and units are as for viscorough indent; no loading curve is computed. Without a modulus,

@@ -1,13 +1,21 @@
 """Options for the half-space's elastic constants, and what forces are in terms of the solver's F/G."""
 
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from viscorough.cli.options import PositiveNumber, Quantity, number_in
 
+if TYPE_CHECKING:
+    from viscorough.io.netcdf import Content
+    from viscorough.types import FilePath
 
-def elastic_constants_options(command):
+
+def elastic_constants_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """Add --shear-modulus, --young and --poisson to a command."""
     ratio = PositiveNumber(0.5, above=-1)
     command = click.option("--poisson", type=ratio, help="Poisson ratio, with --young  [default: 0.5]")(command)
@@ -30,7 +38,7 @@ class Elasticity:
     shear_modulus: float | None
     attributes: dict
 
-    def forces_over_modulus(self, quantities, option):
+    def forces_over_modulus(self, quantities: Sequence[Quantity] | None, option: str) -> list[float]:
         """F/G [length²] of forces, Quantities given with an option.
 
         With a modulus, forces are in N, or in consistent units if the unit of length is not known; without one, they
@@ -51,7 +59,9 @@ class Elasticity:
         return [force / self.shear_modulus / area for force in forces]
 
 
-def elasticity(shear_modulus, young, poisson, length_unit):
+def elasticity(
+    shear_modulus: Quantity | None, young: Quantity | None, poisson: float | None, length_unit: str
+) -> Elasticity:
     """The Elasticity of the options. Raises UsageError if they contradict each other."""
     if shear_modulus is not None and young is not None:
         raise click.UsageError("--shear-modulus and --young exclude each other; one of them is allowed")
@@ -68,12 +78,12 @@ def elasticity(shear_modulus, young, poisson, length_unit):
     return Elasticity(length_unit, None, {})
 
 
-def lengths(quantities, length_unit, option):
+def lengths(quantities: Sequence[Quantity] | None, length_unit: str, option: str) -> list[float]:
     """Numbers in the unit of length of the indenter, of Quantities given with an option."""
     return [number_in(length_unit, quantity, length_unit, option) for quantity in quantities]
 
 
-def check_incompressible(content, path):
+def check_incompressible(content: Content, path: FilePath) -> None:
     """Raise ValueError if a curve, the Content of a file, is that of a compressible half-space.
 
     The kinetics of a viscous half-space follow from the elastic curve of an incompressible one only.

@@ -1,6 +1,10 @@
 """`viscorough estimate`: depth and velocity from the calibrated law alone."""
 
+from __future__ import annotations
+
 import warnings
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -8,6 +12,9 @@ from viscorough.cli.files import check_output, printable_name, write_output
 from viscorough.cli.messages import announce
 from viscorough.cli.options import FILE, Increasing, PositiveNumber, Quantity, number_in
 from viscorough.errors import AccuracyWarning
+
+if TYPE_CHECKING:
+    from viscorough.calibrated_law import PenetrationLaw
 
 
 @click.command(short_help="Depth and velocity of a self-affine surface by the calibrated law, without a simulation.")
@@ -19,7 +26,17 @@ from viscorough.errors import AccuracyWarning
 @click.option("--medium", type=FILE, metavar="MEDIUM.yaml", help="Medium, as for kinetics, instead of --viscosity.")
 @click.option("--times", type=Increasing(), required=True, help="Times at which depth and velocity are wanted.")
 @click.option("-o", "--output", type=FILE, metavar="FILE", help="NetCDF file or table (.csv) to write  [default: none]")
-def estimate(*, hurst, rms, diameter, force, viscosity, medium, times, output):
+def estimate(
+    *,
+    hurst: float,
+    rms: Quantity,
+    diameter: Quantity,
+    force: Quantity,
+    viscosity: Quantity | None,
+    medium: Path | None,
+    times: list[float],
+    output: Path | None,
+) -> None:
     """Depth and velocity of a self-affine indenter without a simulation, from the calibrated penetration law.
 
     The law, vt/h = X + g(X) with X = Ft/(4 viscosity h L), was calibrated with boundary elements on discs of 257
@@ -69,7 +86,7 @@ def estimate(*, hurst, rms, diameter, force, viscosity, medium, times, output):
     announce(output, f"{len(times)} times, {len(times) - outside} in the range of the law")
 
 
-def _length_unit(rms, diameter, others):
+def _length_unit(rms: Quantity, diameter: Quantity, others: dict[str, Any]) -> str:
     """Unit of the results: "m" if both lengths have a unit, "1", which stands for that of the user, if none has one."""
     if bool(rms.unit) != bool(diameter.unit):
         raise click.UsageError(f"--rms {rms}, --diameter {diameter}: one has a unit; both or none is allowed")
@@ -79,7 +96,7 @@ def _length_unit(rms, diameter, others):
     return "m" if rms.unit else "1"
 
 
-def _heading(law):
+def _heading(law: PenetrationLaw) -> str:
     (low, high), (least, most), region = law.beta_interval, law.zeta_interval, law.region
     return (
         f"vt/h = X + g(X) for H = {law.hurst:g}, X from {law.x_low:.3g} to {law.x_high:.3g}; X^beta/zeta from "

@@ -1,17 +1,27 @@
 """Files that the commands of the command line read and write."""
 
+from __future__ import annotations
+
 import contextlib
 import os
 import threading
+import warnings
+from collections.abc import Iterator, Sequence
+from pathlib import Path
 from signal import default_int_handler
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from viscorough.cli.messages import complain
 from viscorough.interrupts import on_interrupt
 
+if TYPE_CHECKING:
+    from viscorough.io.netcdf import Content
+    from viscorough.types import FilePath
 
-def check_output(output, **inputs):
+
+def check_output(output: Path, **inputs: Path | None) -> None:
     """Raise ValueError unless the output can be written and would replace no file that is read.
 
     inputs : files that are read, or None, by what they hold
@@ -24,7 +34,7 @@ def check_output(output, **inputs):
             raise ValueError(f"{output}: would replace the {kind.replace('_', ' ')}; another name is needed")
 
 
-def printable_name(file):
+def printable_name(file: Path) -> str:
     """Name of a file, for an attribute: bytes that are not letters appear with backslashes."""
     return file.name.encode(errors="backslashreplace").decode()
 
@@ -33,13 +43,13 @@ LONGEST = 60  # seconds that opening a file may take
 
 
 @contextlib.contextmanager
-def time_limit(path):
+def time_limit(path: FilePath) -> Iterator[None]:
     """Context in which a NetCDF file is opened; if that takes too long, the process ends with one line and exit code 2.
 
     Damage can make the HDF5 library run without end, where Python cannot interrupt it. Opening takes milliseconds.
     """
 
-    def end():
+    def end() -> None:
         text = f"{path}: not opened within {LONGEST:g} s, as can happen if it is damaged; a whole NetCDF file is needed"
         complain(command, text)
         os._exit(2)
@@ -54,7 +64,7 @@ def time_limit(path):
         timer.cancel()
 
 
-def check_opens(path):
+def check_opens(path: FilePath) -> None:
     """Raise a one-line ValueError unless the NetCDF file can be opened, within a time limit."""
     from viscorough.io import netcdf
 
@@ -62,7 +72,7 @@ def check_opens(path):
         pass
 
 
-def read_content(path):
+def read_content(path: FilePath) -> Content:
     """The io.netcdf.Content of a NetCDF file, or of a table (.csv) that a command wrote."""
     from viscorough.io import netcdf, tables
 
@@ -72,7 +82,7 @@ def read_content(path):
     return netcdf.read(path)
 
 
-def write_output(content, output, **attributes):
+def write_output(content: Content, output: Path, **attributes: Any) -> None:
     """Write an io.netcdf.Content with attributes added, as NetCDF, or as a table if the name ends in .csv.
 
     The attribute `warnings` holds the warnings given so far.
@@ -85,6 +95,6 @@ def write_output(content, output, **attributes):
         write_content(content.with_attributes(**attributes), output)
 
 
-def warning_texts(caught):
+def warning_texts(caught: Sequence[warnings.WarningMessage]) -> list[str]:
     """The texts of the different warnings, each on one line."""
     return list(dict.fromkeys(" ".join(str(warning.message).split()) for warning in caught))

@@ -1,5 +1,7 @@
 """`viscorough generate`: a random self-affine surface."""
 
+from pathlib import Path
+
 import click
 
 from viscorough.cli.files import check_output, write_output
@@ -18,7 +20,19 @@ from viscorough.cli.options import PositiveNumber, Quantity, number_in, output_o
 @click.option("--roll-off", type=PositiveNumber(), help="Longest wavelength of the power law, in diameters.")
 @click.option("--plateau", is_flag=True, help="With --roll-off: longer waves have the spectral density there.")
 @output_option("SURFACE.nc", table=False)
-def generate(*, hurst, elements, points, rms, diameter, unit, seed, roll_off, plateau, output):
+def generate(
+    *,
+    hurst: float,
+    elements: int | None,
+    points: int | None,
+    rms: Quantity,
+    diameter: Quantity,
+    unit: str,
+    seed: int,
+    roll_off: float | None,
+    plateau: bool,
+    output: Path,
+) -> None:
     """Make a random self-affine disc, an indenter, or a line for viscorough reduce.
 
     Its power spectral density falls as q^(-2(H+1)), that of a line as q^(-(2H+1)), down to waves of two spacings.

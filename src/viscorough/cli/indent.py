@@ -1,5 +1,11 @@
 """`viscorough indent`: a map of heights to a loading curve."""
 
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
 import click
 
 from viscorough.cli.elasticity import elastic_constants_options, elasticity, lengths
@@ -9,6 +15,9 @@ from viscorough.cli.options import Increasing, PositiveNumber, Quantity, output_
 from viscorough.cli.progress import progress_bar, progress_option
 from viscorough.cli.surface_options import heights_input, read_indenter
 from viscorough.summaries import with_unit
+
+if TYPE_CHECKING:
+    from viscorough.cli.surface_options import Surface
 
 
 @click.command(short_help="Loading curve of an indenter on an elastic half-space.")
@@ -24,7 +33,19 @@ from viscorough.summaries import with_unit
 @elastic_constants_options
 @threads_option
 @progress_option
-def indent(surface, output, *, depths, forces, tolerance, until_fraction, until_force, threads, progress, **constants):
+def indent(
+    surface: Surface,
+    output: Path,
+    *,
+    depths: Sequence[Quantity] | None,
+    forces: Sequence[Quantity] | None,
+    tolerance: float,
+    until_fraction: float,
+    until_force: Quantity | None,
+    threads: int,
+    progress: bool,
+    **constants: Any,
+) -> None:
     """Loading curve of an indenter pressed into an elastic half-space.
 
     HEIGHTS is a map of heights: .npy, NetCDF, text (a matrix, an ESRI grid, columns x, y, z), TIFF, or a format of an

@@ -1,6 +1,10 @@
 """`viscorough kinetics`: a loading curve to penetration over time."""
 
+from __future__ import annotations
+
 import warnings
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -10,6 +14,12 @@ from viscorough.cli.messages import announce
 from viscorough.cli.options import FILE, Increasing, Quantity, force_history_option, number_in, output_option
 from viscorough.errors import AccuracyWarning
 from viscorough.summaries import with_unit
+
+if TYPE_CHECKING:
+    from viscorough.io.netcdf import Content
+    from viscorough.loading_curve import LoadingCurve
+    from viscorough.viscous.correspondence import ForceHistory, Kinetics
+    from viscorough.viscous.medium import Medium
 
 _EXACT = "exact for every topography, without 1/Gamma(2 - alpha)"
 
@@ -22,7 +32,16 @@ _EXACT = "exact for every topography, without 1/Gamma(2 - alpha)"
 @click.option("--medium", type=FILE, metavar="MEDIUM.yaml", help="Medium of the half-space, instead of --viscosity.")
 @click.option("--times", type=Increasing(), help="Times of the output  [default: of levels, or of the history]")
 @output_option("KIN.nc")
-def kinetics(curve, *, force, force_history, viscosity, medium, times, output):
+def kinetics(
+    curve: Path,
+    *,
+    force: Quantity | None,
+    force_history: Path | None,
+    viscosity: Quantity | None,
+    medium: Path | None,
+    times: list[float] | None,
+    output: Path,
+) -> None:
     """Penetration over time of the indenter whose loading curve is in CURVE.nc.
 
     For a constant force on a linearly viscous half-space, the times at which the levels of the curve are reached: time
@@ -82,7 +101,7 @@ def kinetics(curve, *, force, force_history, viscosity, medium, times, output):
     announce(output, f"{motion.time.size} {points}, depth {depth} at time {motion.time[-1]:.6g}")
 
 
-def _medium(viscosity, medium, length_unit):
+def _medium(viscosity: Quantity | None, medium: Path | None, length_unit: str) -> tuple[Medium, dict[str, Any]]:
     """The medium in N and the unit of length of the curve, and attributes of the output."""
     from viscorough.io.media import medium_from_mapping, read_medium
     from viscorough.viscous.media import CreepTable
@@ -104,7 +123,7 @@ def _medium(viscosity, medium, length_unit):
     }
 
 
-def _check_that_levels_follow_each_other(motion, options):
+def _check_that_levels_follow_each_other(motion: Kinetics, options: str) -> None:
     import numpy as np
 
     known = np.isfinite(motion.time).all() and (np.diff(motion.time, prepend=0) > 0).all()
@@ -112,7 +131,9 @@ def _check_that_levels_follow_each_other(motion, options):
         raise ValueError(f"{options}: times overflow; closer values are allowed")
 
 
-def _content(content, motion, history, loading, of_levels):
+def _content(
+    content: Content, motion: Kinetics, history: float | ForceHistory, loading: LoadingCurve, of_levels: bool
+) -> tuple[Content, str]:
     """Content and title of the output; a warning for times at which depth or velocity are not known."""
     import numpy as np
 

@@ -1,5 +1,10 @@
 """`viscorough march`: direct integration of the viscous or viscoelastic problem in time."""
 
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
 import click
 
 from viscorough.cli.files import check_output, printable_name, write_output
@@ -16,6 +21,13 @@ from viscorough.cli.options import (
 from viscorough.cli.progress import progress_bar, progress_option
 from viscorough.cli.surface_options import heights_input, read_indenter
 from viscorough.summaries import with_unit
+
+if TYPE_CHECKING:
+    from viscorough.cli.surface_options import Surface
+    from viscorough.indenter import Indenter
+    from viscorough.io.netcdf import Content
+    from viscorough.types import FilePath
+    from viscorough.viscous.correspondence import ForceHistory
 
 METHODS = ("events", "explicit", "heun", "implicit", "second_order")
 _OF_MEDIA = ("events", "implicit", "second_order")  # methods that integrate viscoelastic media
@@ -44,8 +56,19 @@ _OF_MEDIA = ("events", "implicit", "second_order")  # methods that integrate vis
 @click.option("--until-fraction", type=PositiveNumber(1), help="Contact fraction at which events stop  [default: 1]")
 @progress_option
 def march(
-    surface, output, *, method, force, viscosity, medium, times, force_history, overlap, until_fraction, progress
-):
+    surface: Surface,
+    output: Any,
+    *,
+    method: str,
+    force: Quantity | None,
+    viscosity: Quantity | None,
+    medium: Path | None,
+    times: list[float] | None,
+    force_history: Path | None,
+    overlap: float | None,
+    until_fraction: float | None,
+    progress: bool,
+) -> None:
     """Integrate the viscous or viscoelastic problem directly in time, without its correspondence with the elastic one.
 
     HEIGHTS and units are as for indent and kinetics. KIN.nc has the dimension "level" (contact events or ends of steps)
@@ -93,7 +116,14 @@ def march(
     announce(output, f"{time.size} levels, depth {depth} at time {time[-1]:.6g} with {contact}")
 
 
-def _check_options_of_method(method, has_medium, has_history, times, overlap, until_fraction):
+def _check_options_of_method(
+    method: str,
+    has_medium: bool,
+    has_history: bool,
+    times: list[float] | None,
+    overlap: float | None,
+    until_fraction: float | None,
+) -> None:
     """Raise UsageError if an option that the method requires is missing, or one is given that does not apply to it."""
     if has_medium and method not in _OF_MEDIA:
         raise click.UsageError(f"--method {method} is not for --medium; allowed: {', '.join(_OF_MEDIA)}")
@@ -108,7 +138,15 @@ def _check_options_of_method(method, has_medium, has_history, times, overlap, un
         raise click.UsageError(f"--until-fraction is not for --method {method}; allowed: events")
 
 
-def _in_viscous_medium(indenter, method, viscosity, force, times, history, **options):
+def _in_viscous_medium(
+    indenter: Indenter,
+    method: str,
+    viscosity: float,
+    force: float,
+    times: list[float] | None,
+    history: ForceHistory | None,
+    **options: Any,
+) -> Content:
     """Content of the output for a Newtonian medium; viscosity in Pa s where the unit of length is known."""
     import numpy as np
 
@@ -132,7 +170,15 @@ def _in_viscous_medium(indenter, method, viscosity, force, times, history, **opt
     return viscous_motion_to_content(moved)
 
 
-def _in_medium(indenter, method, medium, force, times, history, **options):
+def _in_medium(
+    indenter: Indenter,
+    method: str,
+    medium: Path,
+    force: float,
+    times: list[float] | None,
+    history: ForceHistory | None,
+    **options: Any,
+) -> Content:
     """Content of the output for a viscoelastic medium."""
     from viscorough.io.media import read_medium
     from viscorough.io.motion import medium_motion_to_content
@@ -149,7 +195,7 @@ def _in_medium(indenter, method, medium, force, times, history, **options):
     return medium_motion_to_content(moved)
 
 
-def _read_history(path, length_unit):
+def _read_history(path: FilePath, length_unit: str) -> ForceHistory:
     """The ForceHistory in a file. Raises ValueError if the file holds none, or if the force is zero at all times."""
     from viscorough.io.motion import read_force_history
 

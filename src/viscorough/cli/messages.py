@@ -3,11 +3,12 @@
 import contextlib
 import os
 import sys
+from pathlib import Path
 
 import click
 
 
-def announce(output, text):
+def announce(output: Path, text: str) -> None:
     """Write the closing line of a command, which names its output file, to standard output.
 
     The file is complete by then. If the line cannot be written, a line on standard error says so; if nobody
@@ -22,13 +23,13 @@ def announce(output, text):
         complain(click.get_current_context().command_path, text)
 
 
-def complain(command, text):
+def complain(command: str, text: str) -> None:
     """Write one line about an error or a warning to standard error, if it can be written."""
     with contextlib.suppress(OSError):
         click.echo(f"{command}: {' '.join(text.split())}", err=True)
 
 
-def report(command, error):
+def report(command: str, error: BaseException) -> None:
     """Write one line about an error to stderr."""
     hint = ""
     if isinstance(error, click.ClickException):
@@ -45,13 +46,13 @@ def report(command, error):
     complain(command, f"{text.strip().removesuffix('.')}{hint}")
 
 
-def escape_letters_without_code():
+def escape_letters_without_code() -> None:
     """Write letters that the encoding of standard output lacks, as in names of files, with backslashes."""
     if getattr(sys.stdout, "errors", None) == "strict":
         sys.stdout.reconfigure(errors="backslashreplace")
 
 
-def discard_what_cannot_be_written():
+def discard_what_cannot_be_written() -> None:
     """Else the interpreter would fail to write it once more at its end, with a message and another exit code."""
     for stream in (sys.stdout, sys.stderr):
         try:

@@ -1,7 +1,9 @@
 """Types of options, and options, that the commands of the command line share."""
 
+from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -11,10 +13,10 @@ class PositiveNumber(click.ParamType):
 
     name = "number"
 
-    def __init__(self, maximum=float("inf"), above=0):
+    def __init__(self, maximum: float = float("inf"), above: float = 0) -> None:
         self.maximum, self.above = maximum, above
 
-    def convert(self, value, param, ctx):
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         try:
             number = float(value)
         except ValueError:
@@ -33,10 +35,10 @@ class Quantity(click.ParamType):
 
     name = "quantity"
 
-    def __init__(self, unit):
+    def __init__(self, unit: str) -> None:
         self.unit = unit
 
-    def convert(self, value, param, ctx):
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         from viscorough import units
 
         number, reason = 0, ""
@@ -51,7 +53,7 @@ class Quantity(click.ParamType):
         return stated
 
 
-def number_in(unit, quantity, length_unit, option):
+def number_in(unit: str, quantity: Quantity, length_unit: str, option: str) -> float:
     """The number of a Quantity in `unit`; a plain number is returned unchanged.
 
     Raises UsageError if the quantity has a unit although the unit of length is not known: numbers are then in
@@ -71,10 +73,10 @@ class Increasing(click.ParamType):
 
     name = "a,b,c"
 
-    def __init__(self, unit=None):
+    def __init__(self, unit: str | None = None) -> None:
         self.unit = unit
 
-    def convert(self, value, param, ctx):
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         entry_type = Quantity(self.unit) if self.unit else PositiveNumber()
         entries = [entry_type.convert(entry.strip(), param, ctx) for entry in value.split(",")]
         if self.unit and len({bool(entry.unit) for entry in entries}) == 2:
@@ -88,11 +90,11 @@ class Increasing(click.ParamType):
 FILE = click.Path(path_type=Path)
 
 
-def output_option(metavar, table=True):
+def output_option(metavar: str, table: bool = True) -> Callable[..., Any]:
     """Decorator that adds -o/--output to a command; `table` says whether the results can also be written as CSV."""
     text = "File to write or replace" + ("; as a table if it ends in .csv." if table else ".")
 
-    def check(context, parameter, path):
+    def check(context: click.Context, parameter: click.Parameter, path: Path | None) -> Path | None:
         if path.suffix.lower() == ".csv" and not table:
             raise click.BadParameter(f"{path}: maps are no table; a NetCDF file (.nc) is needed", context, parameter)
         return path

@@ -1,5 +1,7 @@
 """`viscorough plot`: a figure of what another command wrote."""
 
+from typing import Any
+
 import click
 
 from viscorough.cli.files import check_output, read_content
@@ -10,7 +12,7 @@ from viscorough.cli.options import FILE
 @click.command(short_help="A figure of a curve, a motion, a contact or a surface.")
 @click.argument("file", type=FILE, metavar="FILE.nc")
 @click.option("-o", "--output", type=FILE, required=True, metavar="FIGURE", help="A .png, .pdf or .svg file.")
-def plot(file, output):
+def plot(file: Any, output: Any) -> None:
     """Draw what is in FILE.nc, or in a table (.csv), that another command wrote.
 
     A surface is a map of heights; fields of a contact are maps of pressure, gap and contact; a loading curve is force

@@ -1,21 +1,28 @@
 """The progress of a command, with an estimate of the time left, on standard error."""
 
+from __future__ import annotations
+
 import contextlib
 import sys
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any
 
 import click
+
+if TYPE_CHECKING:
+    from viscorough.types import Progress
 
 _DELAY = 1.0  # seconds: what is done sooner shows no progress
 
 
-def progress_option(command):
+def progress_option(command: Callable[..., Any]) -> Callable[..., Any]:
     """Add --progress/--no-progress to a command."""
     text = "Show progress on standard error, after a second  [default: if it is a terminal]"
     return click.option("--progress/--no-progress", default=None, help=text)(command)
 
 
 @contextlib.contextmanager
-def progress_bar(label, wanted):
+def progress_bar(label: str, wanted: bool) -> Iterator[Progress]:
     """Context that yields a function of the share that is done, 0 to 1; from the first second on it is shown.
 
     wanted : True or False; None: only if standard error is a terminal. The bar is erased at the end, so that standard

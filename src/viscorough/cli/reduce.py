@@ -1,6 +1,10 @@
 """`viscorough reduce`: the loading curve of a line of independent springs."""
 
+from __future__ import annotations
+
 import warnings
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -11,6 +15,9 @@ from viscorough.cli.progress import progress_bar, progress_option
 from viscorough.cli.surface_options import heights_input, read_indenter
 from viscorough.errors import AccuracyWarning
 from viscorough.summaries import with_unit
+
+if TYPE_CHECKING:
+    from viscorough.cli.surface_options import Surface
 
 _OF_A_MAP = (
     "lines with a map's spectrum give the mean stiffness of many such surfaces, to about 20 %, not the curve of this "
@@ -25,7 +32,9 @@ _OF_A_MAP = (
 @click.option("--seed", type=click.IntRange(min=0), help="Of the lines that are made of a map  [default: 0]")
 @output_option("CURVE.nc")
 @progress_option
-def reduce(surface, until_fraction, realizations, seed, output, progress):
+def reduce(
+    surface: Surface, until_fraction: float, realizations: int | None, seed: int, output: Path, progress: bool
+) -> None:
     """Loading curve of a line by the method of reduction of dimensionality (MDR), in a fraction of a second.
 
     LINE_OR_MAP is a .npy or NetCDF file with the heights of a line, as viscorough generate --points makes it: springs

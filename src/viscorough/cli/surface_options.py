@@ -1,16 +1,23 @@
 """The options of all commands that read a map of heights: spacing, unit, channel and preparation."""
 
+from __future__ import annotations
+
 import functools
 import re
 import warnings
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from viscorough.cli.files import check_opens, check_output, printable_name
 from viscorough.cli.options import FILE, Quantity
 from viscorough.errors import AccuracyWarning
+
+if TYPE_CHECKING:
+    from viscorough.indenter import Indenter
 
 _STEEP_SLOPE = 0.3  # rms slope above which the theory of small slopes is doubtful, so that users are warned
 
@@ -29,7 +36,7 @@ class Surface:
     channel: str | None = None
     preparation: dict = field(default_factory=dict)
 
-    def attributes(self, indenter):
+    def attributes(self, indenter: Indenter) -> dict[str, float | str]:
         """What an output file says about the surface and how it was read and prepared."""
         attributes = {"heights": printable_name(self.path), "spacing": indenter.spacing}
         attributes |= {"row_spacing": indenter.row_spacing, "length_unit": indenter.length_unit}
@@ -38,7 +45,7 @@ class Surface:
         return attributes | {"preparation": _in_words(self.preparation)}
 
 
-def _spacing(value):
+def _spacing(value: str) -> tuple[Quantity, Quantity]:
     """One or two positive distances separated by a comma, plain or with a unit of length."""
     entries = value.split(",")
     if len(entries) > 2:
@@ -47,7 +54,7 @@ def _spacing(value):
     return distances[0], distances[-1]
 
 
-def _length_unit(value):
+def _length_unit(value: str) -> str:
     from viscorough import units
 
     try:
@@ -56,7 +63,7 @@ def _length_unit(value):
         raise click.BadParameter(str(error)) from error
 
 
-def _numbers(value):
+def _numbers(value: str) -> tuple[float, ...]:
     """Numbers separated by commas, of any sign."""
     try:
         numbers = [float(entry) for entry in value.split(",")]
@@ -67,7 +74,7 @@ def _numbers(value):
     return numbers
 
 
-def _crop(value):
+def _crop(value: str) -> tuple[int, ...] | str:
     """Columns and rows to keep, FIRST:END each."""
     match = re.fullmatch(r"(\d{1,9}):(\d{1,9}),(\d{1,9}):(\d{1,9})", value, re.ASCII)
     if match is None:
@@ -106,12 +113,12 @@ _OPTIONS = (
 )
 
 
-def heights_input(argument="heights"):
+def heights_input(argument: str = "heights") -> Callable[..., Any]:
     """Decorator that adds the argument HEIGHTS and the options to read it, which reach the command as `surface`."""
 
-    def decorate(command):
+    def decorate(command: Callable[..., Any]) -> Callable[..., Any]:
         @functools.wraps(command)
-        def packed(*arguments, **values):
+        def packed(*arguments: Any, **values: Any) -> Any:
             path, spacing, unit, channel = (values.pop(name) for name in (argument, "spacing", "unit", "channel"))
             preparation = {name: values.pop(name) for name in ("nodata", "crop", "flip", "detrend", "fill")}
             given = {name: value for name, value in preparation.items() if value and value != "none"}
@@ -125,7 +132,7 @@ def heights_input(argument="heights"):
     return decorate
 
 
-def read_indenter(surface, output):
+def read_indenter(surface: Surface, output: Path) -> Indenter:
     """The indenter that a Surface describes, read after a check that the output can be written.
 
     Raises ValueError for an output that cannot be written and for invalid heights; steep ones give an AccuracyWarning.
@@ -143,7 +150,7 @@ def read_indenter(surface, output):
     return indenter
 
 
-def _in_words(preparation):
+def _in_words(preparation: dict[str, Any]) -> str:
     """The steps of a preparation, as options."""
     steps = []
     for name, value in preparation.items():

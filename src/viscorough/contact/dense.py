@@ -13,9 +13,10 @@ from scipy.linalg.lapack import dposv
 from viscorough.compilation import njit
 from viscorough.contact.growing_cholesky import append_element, solve_flat_punch
 from viscorough.contact.options import LATE
-from viscorough.contact.state import ContactState, MemberLoads
+from viscorough.contact.state import ContactState, Elements, MemberLoads, Units
 from viscorough.errors import ConvergenceError
 from viscorough.interrupts import uninterrupted
+from viscorough.types import Array, Integers
 
 # Rounding error allowed for in a gap over the depth, in a pressure over the largest one, and in the depth of an event.
 ROUNDING = 1e-12
@@ -65,13 +66,15 @@ def _deflections(influence, row, column, members, pressure, tangent, targets):
     return of_pressure, of_tangent
 
 
-def gap_at_all(elements, contact):
+def gap_at_all(elements: Elements, contact: ContactState) -> Array:
     """Reduced gap e between the deformed surfaces at every element, by rank."""
     deflection, _ = _deflections_at(elements, *contact.member_loads(), np.arange(elements.count))
     return deflection - contact.reduced_depth + elements.initial_gap
 
 
-def solve(elements, contact, depth, candidates, max_count):
+def solve(
+    elements: Elements, contact: ContactState, depth: float, candidates: int, max_count: int
+) -> ContactState | None:
     """The contact at a larger reduced depth by the primal-dual active set method; None beyond `max_count` members.
 
     Only the `candidates` elements of lowest rank have an initial gap below the depth. As gaps are convex functions of
@@ -105,7 +108,9 @@ def solve(elements, contact, depth, candidates, max_count):
     )
 
 
-def follow_events(elements, contact, most, pressure_sum):
+def follow_events(
+    elements: Elements, contact: ContactState, most: int, pressure_sum: float
+) -> tuple[ContactEvents, ContactState]:
     """The contact events after a contact: the depths at which the next elements touch, computed one after the other.
 
     Until the next element touches, pressures grow at the constant tangent q, so that depths are exact. Every element
@@ -133,7 +138,9 @@ def follow_events(elements, contact, most, pressure_sum):
     return events, contact
 
 
-def _last_contact(elements, units, events, members, factor):
+def _last_contact(
+    elements: Elements, units: Units, events: ContactEvents, members: Integers, factor: Array
+) -> ContactState:
     """The ContactState at the last event, solved again from the members and their Cholesky factor."""
     count, depth = events.count[-1], events.depth[-1]
     members, factor = members[:count], factor[:count, :count]
@@ -143,17 +150,17 @@ def _last_contact(elements, units, events, members, factor):
     return _exact_contact(units, depth, members[order], *solution[order].T)
 
 
-def _deflections_at(elements, *loads_and_targets):
+def _deflections_at(elements: Elements, *loads_and_targets: Array | Integers) -> tuple[Array, Array]:
     """`_deflections` of the elements."""
     return _deflections(elements.influence, elements.row, elements.column, *loads_and_targets)
 
 
-def _without(elements, members):
+def _without(elements: Integers, members: Integers) -> Integers:
     """Those of the elements that are not among the members."""
     return np.setdiff1d(elements, members, assume_unique=True)
 
 
-def _pressure_and_tangent(elements, members, depth):
+def _pressure_and_tangent(elements: Elements, members: Integers, depth: float) -> tuple[Array, Array]:
     """P and q of a contact set at a depth, each of shape (count,)."""
     matrix = _influence_matrix(elements.influence, elements.row, elements.column, members)
     right = np.stack([depth - elements.initial_gap[members], np.ones(members.size)])
@@ -164,7 +171,7 @@ def _pressure_and_tangent(elements, members, depth):
     return solution[:, 0], solution[:, 1]
 
 
-def _exact_contact(units, depth, members, pressure, tangent):
+def _exact_contact(units: Units, depth: float, members: Integers, pressure: Array, tangent: Array) -> ContactState:
     """The ContactState of a dense solution."""
     pressure = np.maximum(pressure, 0.0)  # of elements that just touch, rounding can make it negative
     loads = MemberLoads(members, pressure, tangent)

@@ -7,14 +7,18 @@ is straight, so that interpolation is exact. Later, levels are placed where inte
 """
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from viscorough.arrays import increasing
 from viscorough.contact.dense import ROUNDING
-from viscorough.contact.options import DEFAULT
+from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.prescribed_force import ForceSearch
 from viscorough.contact.solver import ContactSolver, check_solvable
+from viscorough.contact.state import ContactState
 from viscorough.contact.step_control import ContactsAhead, Level, StepControl, division
+from viscorough.indenter import Indenter
 from viscorough.loading_curve import LoadingCurve
+from viscorough.types import Array, Progress
 
 # The approach to the start fraction takes steps of this ratio of depths up to this share of it; they become shorter
 # until their ratio is the last number.
@@ -24,18 +28,18 @@ _PROGRESS_EXPONENT = 0.5
 
 
 def indent(
-    indenter,
+    indenter: Indenter,
     *,
-    tolerance=1e-3,
-    depths=None,
-    forces=None,
-    start_fraction=0.0,
-    until_fraction=0.9,
-    until_force=np.inf,
-    progress=None,
-    threads=1,
-    options=DEFAULT,
-):
+    tolerance: float = 1e-3,
+    depths: ArrayLike | None = None,
+    forces: ArrayLike | None = None,
+    start_fraction: float = 0.0,
+    until_fraction: float = 0.9,
+    until_force: float = np.inf,
+    progress: Progress | None = None,
+    threads: int = 1,
+    options: SolverOptions = DEFAULT,
+) -> LoadingCurve:
     """Loading curve of a rigid indenter pressed without friction into an incompressible elastic half-space.
 
     Solves w = (1/4πG) ∫ p/r dA with p ≥ 0, w ≥ u − g and p (w − u + g) = 0 for the initial gaps g of the indenter's
@@ -100,7 +104,7 @@ def indent(
     )
 
 
-def _levels_at_depths(solver, depths, progress):
+def _levels_at_depths(solver: ContactSolver, depths: Array, progress: Progress) -> list[Level]:
     levels, contact = [], solver.unloaded_state()
     for depth in depths:
         contact = solver.advance(contact, depth)
@@ -109,7 +113,7 @@ def _levels_at_depths(solver, depths, progress):
     return levels
 
 
-def _levels_at_forces(solver, forces, progress):
+def _levels_at_forces(solver: ContactSolver, forces: Array, progress: Progress) -> list[Level]:
     levels, search = [], ForceSearch(solver)
     for force in forces:
         levels.append(Level.of(search.contact_at(force)))
@@ -120,7 +124,7 @@ def _levels_at_forces(solver, forces, progress):
 class _LoadingPath:
     """The path from first contact to the contact fraction or force at which to stop; works in reduced units."""
 
-    def __init__(self, solver, until_fraction, until_force, progress):
+    def __init__(self, solver: ContactSolver, until_fraction: float, until_force: float, progress: Progress) -> None:
         self._solver, self._progress = solver, progress
         self._control = StepControl(solver.tolerance, solver.threads)
         self._until_count = until_fraction * solver.elements.count
@@ -130,23 +134,23 @@ class _LoadingPath:
         self._levels = [Level.of(self._contact)]
         self._ahead = ContactsAhead()
 
-    def levels_from(self, start_fraction):
+    def levels_from(self, start_fraction: float) -> list[Level]:
         """All levels; only a few of them below the start fraction."""
         self._approach(start_fraction * self._solver.elements.count)
         self._follow_events()
         self._step_to_the_end()
         return self._levels
 
-    def _is_unfinished(self):
+    def _is_unfinished(self) -> bool:
         return self._contact.count < self._until_count and self._contact.pressure_sum < self._until_pressure_sum
 
-    def _add(self, contact):
+    def _add(self, contact: ContactState) -> None:
         self._contact = contact
         self._levels.append(Level.of(contact))
         done = max(contact.count / self._until_count, contact.pressure_sum / self._until_pressure_sum)
         self._progress(min(done, 1.0) ** _PROGRESS_EXPONENT)
 
-    def _approach(self, start_count):
+    def _approach(self, start_count: float) -> None:
         """Take long steps towards the contact count from which on the curve is needed, shorter ones close to it."""
         ratio, most = _APPROACH_DEPTH_RATIO, _APPROACH_SHARE * start_count
         while self._is_unfinished() and self._contact.count < most and ratio > _APPROACH_MIN_RATIO:
@@ -159,7 +163,7 @@ class _LoadingPath:
             if self._ahead:  # then levels approach the nearest of these contacts
                 ratio = (self._ahead[-1].reduced_depth / self._contact.reduced_depth) ** 0.5
 
-    def _follow_events(self):
+    def _follow_events(self) -> None:
         """Add the contact events as levels while few elements are in contact; only a dense solution is exact enough."""
         contact = self._contact
         if not self._is_unfinished() or contact.fields is not None or contact.count >= self._control.events:
@@ -172,7 +176,7 @@ class _LoadingPath:
         nearest = self._control.min_ratio * self._contact.reduced_depth
         self._ahead = ContactsAhead(contact for contact in self._ahead if contact.reduced_depth > nearest)
 
-    def _step_to_the_end(self):
+    def _step_to_the_end(self) -> None:
         ratio = self._control.first_ratio(self._levels)
         while self._is_unfinished():
             if not self._ahead:
@@ -186,7 +190,7 @@ class _LoadingPath:
             self._add(self._ahead.pop())
             ratio = self._control.next_ratio(step, excess)
 
-    def _advance(self, ratio):
+    def _advance(self, ratio: float) -> ContactState:
         """The contact at a depth larger by a ratio, or by less where the force at which to stop is reached before."""
         contact = self._contact
         # The curve lies above its tangent: at this depth the force at which to stop is reached or just exceeded.

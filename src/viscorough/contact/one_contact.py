@@ -1,17 +1,32 @@
 """The contact at a given depth or force, with its maps, without a loading curve."""
 
+from collections.abc import Iterator
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from viscorough.arrays import increasing
-from viscorough.contact.options import DEFAULT
+from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.prescribed_force import ForceSearch
 from viscorough.contact.solver import ContactSolver, check_solvable
+from viscorough.contact.state import ContactState
 from viscorough.contact_maps import Contact
+from viscorough.indenter import Indenter
+from viscorough.types import Array, Progress
 
 _SHARE_OF_APPROACH = 0.6  # of the time for a force, which the contacts up to it take
 
 
-def contact_at(indenter, *, depth=None, force=None, tolerance=1e-3, progress=None, threads=1, options=DEFAULT):
+def contact_at(
+    indenter: Indenter,
+    *,
+    depth: ArrayLike | None = None,
+    force: ArrayLike | None = None,
+    tolerance: float = 1e-3,
+    progress: Progress | None = None,
+    threads: int = 1,
+    options: SolverOptions = DEFAULT,
+) -> Contact | list[Contact]:
     """Contact of a rigid indenter with an incompressible elastic half-space at a given depth or force.
 
     Solves the same problem as `indent`, at this depth only, or at the few depths that lead to the force.
@@ -47,14 +62,14 @@ def contact_at(indenter, *, depth=None, force=None, tolerance=1e-3, progress=Non
     return contacts if np.ndim(given) else contacts[0]
 
 
-def _states_at_depths(solver, depths):
+def _states_at_depths(solver: ContactSolver, depths: Array) -> Iterator[ContactState]:
     contact = solver.unloaded_state()
     for depth in depths:
         contact = solver.advance(contact, depth)
         yield solver.settled(contact, contact.reduced_depth, contact.pressure_sum)
 
 
-def _states_at_forces(solver, forces, progress):
+def _states_at_forces(solver: ContactSolver, forces: Array, progress: Progress) -> Iterator[ContactState]:
     search = ForceSearch(solver)
     for number, force in enumerate(forces):
         # The last contacts, near the force, take the rest of the time.
@@ -63,7 +78,9 @@ def _states_at_forces(solver, forces, progress):
         )
 
 
-def _contact(indenter, tolerance, solver, state, given):
+def _contact(
+    indenter: Indenter, tolerance: float, solver: ContactSolver, state: ContactState, given: dict[str, float]
+) -> Contact:
     """The Contact of a ContactState, with the depth or force that was given instead of its rounded value."""
     place = solver.elements.map_place
     pressure, gap = np.full((2, *indenter.heights.shape), np.nan)

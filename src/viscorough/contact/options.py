@@ -46,7 +46,7 @@ class SolverOptions:
     dense_interactions: int = 1_000_000
     padding: bool = True
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         allowed = {"precision": PRECISIONS, "preconditioner": PRECONDITIONERS, "warm_start": WARM_STARTS}
         for name, values in allowed.items():
             if getattr(self, name) not in values:

@@ -6,12 +6,15 @@ order: computed numbers are the same to the last bit, however many threads there
 """
 
 import os
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from functools import lru_cache
 from numbers import Integral
+from typing import Any
 
 import numpy as np
+from numpy.typing import DTypeLike, NDArray
 
 # Entries of a block: those of a map of 257 x 257 elements are one block, so that such maps take no more time.
 BLOCK = 1 << 17
@@ -20,13 +23,15 @@ MOST_THREADS = 1024
 _CACHE_LINE = 64
 
 
-def require_threads(name, threads):
+def require_threads(name: str, threads: object) -> None:
     """Raise ValueError, which starts with the name, unless `threads` is a whole number from 1 to MOST_THREADS."""
     if not isinstance(threads, Integral) or isinstance(threads, bool) or not 1 <= threads <= MOST_THREADS:
         raise ValueError(f"{name}: threads must be a whole number from 1 to {MOST_THREADS}, not {threads!r}")
 
 
-def run_blocks(function, size, threads, block=BLOCK, multiple=1):
+def run_blocks(
+    function: Callable[[int, int], Any], size: int, threads: int, block: int = BLOCK, multiple: int = 1
+) -> list[Any]:
     """Call function(start, stop) for every block of range(size), on so many threads; returns its results in order.
 
     function : releases the interpreter's lock while it computes, and writes to no entry that another block reads
@@ -41,7 +46,7 @@ def run_blocks(function, size, threads, block=BLOCK, multiple=1):
     starts = range(0, size, block)
     results, remaining = [None] * len(starts), iter(enumerate(starts))
 
-    def work():
+    def work() -> None:
         for number, start in remaining:
             results[number] = function(start, min(start + block, size))
 
@@ -56,7 +61,7 @@ def run_blocks(function, size, threads, block=BLOCK, multiple=1):
     return results
 
 
-def aligned_zeros(shape, dtype):
+def aligned_zeros(shape: tuple[int, ...], dtype: DTypeLike) -> NDArray[Any]:
     """Zeros of which the first one starts a line of the cache, where loops read and write them faster."""
     size = int(np.prod(shape)) * np.dtype(dtype).itemsize
     memory = np.zeros(size + _CACHE_LINE, np.uint8)
@@ -67,11 +72,12 @@ def aligned_zeros(shape, dtype):
 class Buffers:
     """Arrays to compute in, as many as threads compute at the same time; zero when they are made."""
 
-    def __init__(self, shape, dtype):
-        self._shape, self._dtype, self._free = shape, dtype, []
+    def __init__(self, shape: tuple[int, ...], dtype: DTypeLike) -> None:
+        self._shape, self._dtype = shape, dtype
+        self._free: list[NDArray[Any]] = []
 
     @contextmanager
-    def one(self):
+    def one(self) -> Iterator[NDArray[Any]]:
         """Context that lends an array, with what its last user left in it."""
         try:
             buffer = self._free.pop()
@@ -82,6 +88,6 @@ class Buffers:
 
 
 @lru_cache(maxsize=1)
-def _helpers(_process, threads):
+def _helpers(_process: int, threads: int) -> ThreadPoolExecutor:
     """Threads besides the calling one; a process that was forked from another one needs its own."""
     return ThreadPoolExecutor(threads, thread_name_prefix="viscorough")

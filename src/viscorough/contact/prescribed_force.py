@@ -9,8 +9,11 @@ The last, small correction follows the tangent.
 import numpy as np
 
 from viscorough.contact.dense import ROUNDING
+from viscorough.contact.solver import ContactSolver
+from viscorough.contact.state import ContactState
 from viscorough.contact.step_control import ContactsAhead, Level, interpolate
 from viscorough.errors import ConvergenceError
+from viscorough.types import Progress
 
 # Largest ratio of successive depths before the force is exceeded.
 _MAX_DEPTH_RATIO = 4.0
@@ -21,12 +24,12 @@ _TINY = 1e-300
 class ForceSearch:
     """Contacts of one ContactSolver at increasing forces; works in reduced units."""
 
-    def __init__(self, solver):
+    def __init__(self, solver: ContactSolver) -> None:
         self._solver = solver
         self._first = self._below = solver.first_contact()
         self._above = ContactsAhead()
 
-    def contact_at(self, force, progress=lambda share: None):
+    def contact_at(self, force: float, progress: Progress = lambda share: None) -> ContactState:
         """The ContactState at F/G [length²], a larger one than at the last call.
 
         ΣP is that of the force, and the pressures sum to it. The depth is the one at which the tangent from the nearest
@@ -60,7 +63,7 @@ class ForceSearch:
             f"contact at F/G = {force:g}: the force is not met within {_MAX_ATTEMPTS} depths; choose a larger tolerance"
         )
 
-    def _next_depth(self, target, attempt):
+    def _next_depth(self, target: float, attempt: int) -> float:
         """Depth to solve next, between the nearest contacts below and above the force."""
         below = Level.of(self._below)
         if below.count == self._solver.elements.count:
@@ -79,7 +82,7 @@ class ForceSearch:
             depth = interpolate(below, above, np.array([target]))[0]
         return float(np.clip(depth, below.depth, above.depth))
 
-    def _is_near(self, contact, other, target):
+    def _is_near(self, contact: ContactState, other: ContactState, target: float) -> bool:
         """Whether the tangent of a contact leads to the force: the stiffness changes by less than the tolerance.
 
         other : a contact from which the change of the stiffness with depth is known

@@ -11,13 +11,16 @@ from dataclasses import replace
 import numpy as np
 
 from viscorough.contact import dense
+from viscorough.contact.dense import ContactEvents
 from viscorough.contact.grid.loops import GridLoops
 from viscorough.contact.grid.memory_demand import require_for_contact
 from viscorough.contact.grid.solver import GridSolver
-from viscorough.contact.options import DEFAULT
+from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.parallel import require_threads
 from viscorough.contact.state import ContactState, MemberLoads, elements_of
 from viscorough.errors import ConvergenceError
+from viscorough.indenter import Indenter
+from viscorough.types import Array
 
 # Depth that the box of a grid allows for, over the requested depth: less makes boxes smaller, but there are more of
 # them, each of which takes two applications of the operator. A box that would cover more than this share of the whole
@@ -30,7 +33,7 @@ _LOST_CONTACT = 3
 _LARGEST_DEPTH = 1e25
 
 
-def check_solvable(name, indenter, tolerance, threads=1):
+def check_solvable(name: str, indenter: Indenter, tolerance: float, threads: int = 1) -> None:
     """Raise ValueError, which starts with the name, unless an indenter is a map, and tolerance and threads in range."""
     if indenter.heights.ndim != 2:
         raise ValueError(f"{name}: the indenter's heights must be two-dimensional (lines are for reduce)")
@@ -53,29 +56,38 @@ class ContactSolver:
     Raises MemoryError if the available memory does not suffice for the map.
     """
 
-    def __init__(self, indenter, tolerance, options=DEFAULT, threads=1, *, largest_depth=np.inf):
+    def __init__(
+        self,
+        indenter: Indenter,
+        tolerance: float,
+        options: SolverOptions = DEFAULT,
+        threads: int = 1,
+        *,
+        largest_depth: float = np.inf,
+    ) -> None:
         require_for_contact(indenter.heights, exact=tolerance < options.exact_gap_below, threads=threads)
         self.elements, self.units = elements_of(indenter, threads)
         self.tolerance, self.options, self.threads, self._loops = tolerance, options, threads, GridLoops(threads)
-        self._grid, self._reach, self._former_applications = None, 0, 0
+        self._grid: GridSolver | None = None
+        self._reach, self._former_applications = 0, 0
         self._largest_depth = largest_depth / self.units.length
 
     @property
-    def operator_applications(self):
+    def operator_applications(self) -> int:
         """Applications of the half-space operator on the grid so far."""
         return self._former_applications + (self._grid.operator_applications if self._grid else 0)
 
-    def unloaded_state(self):
+    def unloaded_state(self) -> ContactState:
         """The ContactState at depth zero: no pressure, and no element in contact yet."""
         nothing = np.empty(0)
         return ContactState(self.units, 0.0, 0, 0.0, 0.0, loads=MemberLoads(nothing.astype(int), nothing, nothing))
 
     @property
-    def is_flat(self):
+    def is_flat(self) -> bool:
         """Whether all elements are of one height, so that all touch at once."""
         return self.elements.initial_gap[-1] == 0
 
-    def first_contact(self):
+    def first_contact(self) -> ContactState:
         """The ContactState up to which the curve is straight, since only the highest elements are in contact.
 
         Its depth is the smallest positive initial gap, or the side of an element for an indenter of one height.
@@ -84,7 +96,7 @@ class ContactSolver:
         depth = 1.0 if self.is_flat else gap[np.searchsorted(gap, 0, side="right")]
         return self.advance_reduced(self.unloaded_state(), depth)
 
-    def settled(self, contact, depth, pressure_sum):
+    def settled(self, contact: ContactState, depth: float, pressure_sum: float) -> ContactState:
         """The contact at a depth so near that its tangent leads there, with pressures of exactly the given sum.
 
         contact : the last one that was solved
@@ -93,20 +105,20 @@ class ContactSolver:
         Its residual may be up to twice the tolerance. It includes a bound on the overlap of elements outside the box of
         the grid: the depth beyond the initial gap.
         """
-        if contact.fields is None:
+        if contact.fields is None or self._grid is None:
             return replace(contact, reduced_depth=depth, pressure_sum=pressure_sum)
         settled = self._grid.settled(contact, depth, pressure_sum)
         overlap = depth - self.elements.initial_gap[self._reach] if self._reach < self.elements.count else 0.0
         return replace(settled, residual=max(settled.residual, overlap / depth))
 
-    def advance(self, contact, depth):
+    def advance(self, contact: ContactState, depth: float) -> ContactState:
         """The ContactState at a depth [length] larger than that of `contact`.
 
         Raises ConvergenceError if it is not solved to the tolerance, ValueError for a depth beyond all measure.
         """
         return self.advance_reduced(contact, depth / self.units.length)
 
-    def advance_reduced(self, contact, depth):
+    def advance_reduced(self, contact: ContactState, depth: float) -> ContactState:
         """The ContactState at a larger depth in units of the largest initial gap. Raises what `advance` raises."""
         if depth > _LARGEST_DEPTH:
             text = f"contact at depth {depth * self.units.length:g}: larger than {_LARGEST_DEPTH:g} times the largest"
@@ -121,23 +133,25 @@ class ContactSolver:
             contact = replace(contact, fields=grid.fields(contact))
         return self._checked(contact, grid.solve(contact, depth))
 
-    def follow_events(self, contact, most, pressure_sum):
+    def follow_events(
+        self, contact: ContactState, most: int, pressure_sum: float
+    ) -> tuple[ContactEvents, ContactState]:
         """Events at which the next elements touch, and the contact at the last one; see dense.follow_events."""
         return dense.follow_events(self.elements, contact, most, pressure_sum)
 
-    def gap(self, contact):
+    def gap(self, contact: ContactState) -> Array:
         """Gap e between the deformed surfaces at every element, by rank [length]."""
         if self._is_small(self.elements.count, contact):
             return dense.gap_at_all(self.elements, contact) * self.units.length
         grid = self._grid_up_to(self.elements.count)
-        fields = contact.fields if _has_fields_on(grid, contact) else grid.fields(contact)
+        fields = contact.grid_fields if _has_fields_on(grid, contact) else grid.fields(contact)
         return (fields.gap_change.values[fields.place] + self.elements.initial_gap) * self.units.length
 
-    def _is_small(self, candidates, contact):
+    def _is_small(self, candidates: int, contact: ContactState) -> bool:
         """Whether a dense evaluation is cheaper than the grid."""
         return candidates * contact.count <= self.options.dense_interactions
 
-    def _grid_up_to(self, rank):
+    def _grid_up_to(self, rank: int) -> GridSolver:
         """The grid solver of a box around the elements up to a rank: the current one, or else one with a larger box.
 
         Only elements whose initial gap is below the depth can touch.
@@ -148,21 +162,22 @@ class ContactSolver:
             deepest = min(_BOX_DEPTH_MARGIN * gap[rank - 1], self._largest_depth)
             reach = max(rank, int(np.searchsorted(gap, deepest)))
             first, last = ([pick(place[:reach]) for place in (row, column)] for pick in (np.min, np.max))
-            box = [int(n) for n in (*first, *np.subtract(last, first) + 1)]
+            box = tuple(int(n) for n in (*first, *np.subtract(last, first) + 1))
             rows, columns = self.elements.shape
             if box[2] * box[3] > _LARGEST_BOX * rows * columns:
                 reach, box = self.elements.count, (0, 0, rows, columns)
             self._former_applications, self._reach = self.operator_applications, reach
             self._grid = None  # its memory is free for the larger one
-            how = {"aspect": self.elements.aspect, "threads": self.threads}
             if reach == self.elements.count:
                 self.elements.free_influence()  # contacts on the whole grid need no dense solutions
-            self._grid = GridSolver(box, row, column, gap, self.tolerance, self.options, **how)
+            self._grid = GridSolver(
+                box, row, column, gap, self.tolerance, self.options, aspect=self.elements.aspect, threads=self.threads
+            )
         return self._grid
 
-    def _checked(self, before, after):
+    def _checked(self, before: ContactState, after: ContactState) -> ContactState:
         """The contact after a step, if it has no tension, a residual within the tolerance, and has only grown."""
-        pressure = after.fields.pressure if after.fields else after.loads.pressure
+        pressure = after.fields.pressure if after.fields else after.member_loads().pressure
         if after.residual > self.tolerance or self._loops.lowest(pressure) < 0:
             raise ConvergenceError(
                 f"contact at depth {after.depth:g}: residual {after.residual:.1e} of the depth is above "
@@ -179,7 +194,7 @@ class ContactSolver:
             return replace(after, pressure_sum=after.reduced_depth * after.tangent_sum)
         return after
 
-    def _lost_contact(self, before, after):
+    def _lost_contact(self, before: ContactState, after: ContactState) -> tuple[int, float]:
         """Number of elements that left the contact in a step, and the largest gap there, reduced."""
         if after.fields and before.fields and before.fields.place is after.fields.place:
             lost = self._loops.difference(before.fields.inside, after.fields.inside)
@@ -193,6 +208,6 @@ class ContactSolver:
         return lost.size, after.fields.gap_at(lost).max() if after.fields else np.inf
 
 
-def _has_fields_on(grid, contact):
+def _has_fields_on(grid: GridSolver, contact: ContactState) -> bool:
     """Whether a contact has fields that are those of this grid."""
     return contact.fields is not None and contact.fields.place is grid.place

@@ -22,6 +22,8 @@ import numpy as np
 
 from viscorough.contact.halfspace.influence import influence_table
 from viscorough.contact.parallel import BLOCK, run_blocks
+from viscorough.indenter import Indenter
+from viscorough.types import Array, Integers
 
 # Values from which the ranges that threads sort are chosen, and the largest number of ranges.
 _SAMPLE, _MOST_RANGES = 1000, 8
@@ -39,17 +41,17 @@ class Units:
     side: float
 
     @property
-    def stiffness(self):
+    def stiffness(self) -> float:
         """Factor 4π d of the tangent stiffness k/G = 4π d Σq [length]."""
         return 4 * np.pi * self.side
 
     @property
-    def force(self):
+    def force(self) -> float:
         """Factor of the force F/G = 4π d ΣP [length²]."""
         return 4 * np.pi * self.side * self.length
 
     @property
-    def pressure(self):
+    def pressure(self) -> float:
         """Factor of the pressure p/G = 4π P/d [1]."""
         return 4 * np.pi * self.length / self.side
 
@@ -73,27 +75,27 @@ class Elements:
     aspect: float
 
     @cached_property
-    def influence(self):
+    def influence(self) -> Array:
         """Influence coefficients K by distance in rows and columns, of the shape of the grid, for dense solutions."""
-        distance = [np.arange(n, dtype=float) for n in self.shape]
-        return influence_table(*distance, self.aspect)
+        rows, columns = (np.arange(n, dtype=float) for n in self.shape)
+        return influence_table(rows, columns, self.aspect)
 
-    def free_influence(self):
+    def free_influence(self) -> None:
         """Free the memory of `influence` until it is next used."""
         self.__dict__.pop("influence", None)
 
     @property
-    def count(self):
+    def count(self) -> int:
         """Number of elements."""
         return self.initial_gap.size
 
     @property
-    def map_place(self):
+    def map_place(self) -> tuple[Integers, Integers]:
         """Rows and columns of the elements in the indenter's heights."""
         return self.row + self.origin[0], self.column + self.origin[1]
 
 
-def elements_of(indenter, threads=1):
+def elements_of(indenter: Indenter, threads: int = 1) -> tuple[Elements, Units]:
     """The Elements of an indenter, and the Units in which their initial gaps are expressed."""
     heights = indenter.heights.ravel()
     inside, highest = np.isfinite(indenter.heights), np.fmax.reduce(heights)
@@ -102,7 +104,7 @@ def elements_of(indenter, threads=1):
     place = np.flatnonzero(inside)
     gap = np.empty(place.size)
 
-    def subtract(i, j):
+    def subtract(i: int, j: int) -> None:
         np.subtract(highest, heights[place[i:j]], out=gap[i:j], dtype=float)
 
     run_blocks(subtract, gap.size, threads)
@@ -110,7 +112,7 @@ def elements_of(indenter, threads=1):
     order = _increasing_order(gap, threads)
     row, column, in_order = (np.empty(gap.size, dtype) for dtype in (np.int32, np.int32, float))
 
-    def arrange(i, j):
+    def arrange(i: int, j: int) -> None:
         row[i:j], column[i:j] = np.divmod(place[order[i:j]], columns)
         row[i:j] -= origin[0]
         column[i:j] -= origin[1]
@@ -121,7 +123,7 @@ def elements_of(indenter, threads=1):
     return Elements(row, column, in_order, origin, shape, indenter.aspect), units
 
 
-def _increasing_order(gap, threads):
+def _increasing_order(gap: Array, threads: int) -> Integers:
     """Indices that sort an array, equal values in the order in which they stand, so that ranks are the same everywhere.
 
     Sorting is several times as fast where that order need not be kept; indices of equal values are sorted afterwards.
@@ -129,7 +131,7 @@ def _increasing_order(gap, threads):
     order = np.argsort(gap) if threads == 1 or gap.size <= BLOCK else _order_by_ranges(gap, min(threads, _MOST_RANGES))
     is_equal = np.zeros(gap.size, dtype=bool)  # to the value before
 
-    def compare(i, j):
+    def compare(i: int, j: int) -> None:
         in_order = gap[order[max(i - 1, 0) : j]]
         is_equal[max(i, 1) : j] = in_order[1:] == in_order[:-1]
 
@@ -142,12 +144,12 @@ def _increasing_order(gap, threads):
     return order
 
 
-def _order_by_ranges(gap, ranges):
+def _order_by_ranges(gap: Array, ranges: int) -> Integers:
     """Indices that sort an array, found for ranges of about as many values each on threads of their own."""
     inner = np.quantile(gap[:: max(gap.size // _SAMPLE, 1)], np.arange(1, ranges) / ranges)
     limits = [-np.inf, *inner, np.inf]
 
-    def order(i, _):
+    def order(i: int, _: int) -> Integers:
         members = np.flatnonzero((gap >= limits[i]) & (gap < limits[i + 1]))
         return members[np.argsort(gap[members])]
 
@@ -209,15 +211,15 @@ class GridFields:
     initial_gap: np.ndarray
     place: np.ndarray
 
-    def gap(self, places):
+    def gap(self, places: Integers) -> Array:
         """Reduced gap e at places of the flat arrays."""
         return self.gap_change.values[places] + self.initial_gap[places]
 
-    def gap_at(self, ranks):
+    def gap_at(self, ranks: Integers) -> Array:
         """Reduced gap e at the elements of given ranks."""
         return self.gap(self.place[ranks])
 
-    def member_loads(self):
+    def member_loads(self) -> MemberLoads:
         """The MemberLoads, in double precision."""
         members = np.flatnonzero(self.inside[self.place])
         place = self.place[members]
@@ -247,36 +249,36 @@ class ContactState:
     loads: MemberLoads | None = None
     fields: GridFields | None = None
 
-    def member_loads(self):
+    def member_loads(self) -> MemberLoads:
         """The MemberLoads; on the grid they are gathered at every call."""
         return self.loads or self.fields.member_loads()
 
     @property
-    def members(self):
+    def members(self) -> Integers:
         """Elements in contact, as ranks, shape (count,)."""
         return self.member_loads().members
 
     @property
-    def reduced_pressure(self):
+    def reduced_pressure(self) -> Array:
         """P on the members, shape (count,)."""
         return self.member_loads().pressure
 
     @property
-    def depth(self):
+    def depth(self) -> float:
         """Depth u [length]."""
         return self.reduced_depth * self.units.length
 
     @property
-    def force(self):
+    def force(self) -> float:
         """F/G = 4π d ΣP [length²]."""
         return self.pressure_sum * self.units.force
 
     @property
-    def stiffness(self):
+    def stiffness(self) -> float:
         """Tangent stiffness k/G = 4π d Σq [length]."""
         return self.tangent_sum * self.units.stiffness
 
     @property
-    def pressure(self):
+    def pressure(self) -> Array:
         """Pressure p/G = 4π P/d on the members, shape (count,) [1]."""
         return self.reduced_pressure * self.units.pressure

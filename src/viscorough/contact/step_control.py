@@ -8,10 +8,13 @@ the bound; three times the bound is accepted where the depths at which elements 
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from viscorough.contact.grid import kernels
 from viscorough.contact.grid.loops import GridLoops
+from viscorough.contact.state import ContactState, GridFields
 from viscorough.loading_curve import interpolate_between
+from viscorough.types import Array, Integers
 
 # Smallest accuracy of interpolation that is offered: a smaller one would require every contact event as a level, as in
 # direct integration.
@@ -51,7 +54,7 @@ class Level:
     residual: float = 0.0
 
     @classmethod
-    def of(cls, contact):
+    def of(cls, contact: ContactState) -> "Level":
         """The level of a contact."""
         return cls(contact.reduced_depth, contact.pressure_sum, contact.tangent_sum, contact.count, contact.residual)
 
@@ -59,7 +62,7 @@ class Level:
 class ContactsAhead(list):
     """Contacts already solved beyond the one that is wanted, the nearest last; few, as each takes memory."""
 
-    def keep(self, contact):
+    def keep(self, contact: ContactState) -> None:
         """Add a contact nearer than all others."""
         self.append(contact)
         del self[:-_MOST_AHEAD]
@@ -75,12 +78,12 @@ class StepControl:
     events : contact count up to which every contact event is a level
     """
 
-    def __init__(self, tolerance, threads=1):
+    def __init__(self, tolerance: float, threads: int = 1) -> None:
         self._threads, self._accuracy = threads, max(tolerance, FINEST_ACCURACY)
         self.min_ratio = 1 + self._accuracy
         self.events = int(min(_EVENTS_PER_ACCURACY / self._accuracy, _MAX_EVENTS))
 
-    def first_ratio(self, levels):
+    def first_ratio(self, levels: list[Level]) -> float:
         """Ratio of the first step after contact events, from the bound over the last quarter of them."""
         first = levels[-1 - len(levels) // 4]
         ratio = levels[-1].depth / first.depth
@@ -88,7 +91,7 @@ class StepControl:
             return _INITIAL_DEPTH_RATIO
         return self.next_ratio(ratio, interpolation_bound(first, levels[-1]) / self._accuracy)
 
-    def excess(self, before, after):
+    def excess(self, before: ContactState, after: ContactState) -> float:
         """Bound on the error of interpolation between two contacts, over the bound that is allowed there.
 
         before, after : ContactStates
@@ -99,17 +102,17 @@ class StepControl:
         is_smooth = _predicted_error(before, after, self._threads) <= _PREDICTED_ERROR * self._accuracy
         return bound / _RELAXED_BOUND if is_smooth else bound
 
-    def is_too_long(self, ratio, excess):
+    def is_too_long(self, ratio: float, excess: float) -> bool:
         """Whether a step with this ratio of depths is to be divided."""
         return excess > 1 and ratio > self.min_ratio
 
-    def next_ratio(self, ratio, excess):
+    def next_ratio(self, ratio: float, excess: float) -> float:
         """Ratio of the step after one with this ratio."""
         change = (_AIM / max(excess, _TINY)) ** (1 / _ORDER)
         return np.clip(ratio ** np.clip(change, _LEAST_CHANGE, _LARGEST_CHANGE), self.min_ratio, _MAX_DEPTH_RATIO)
 
 
-def interpolation_bound(before, after):
+def interpolation_bound(before: Level, after: Level) -> float:
     """Bound on the relative error of the depth interpolated between two levels, from the convexity of the curve.
 
     It is the largest distance of the interpolated depth from the sides of the triangle of chord and tangents, which is
@@ -132,7 +135,7 @@ def interpolation_bound(before, after):
     return _BETWEEN_POINTS * (np.maximum(tangents - depth, depth - chord) / depth).max()
 
 
-def division(before, after):
+def division(before: Level, after: Level) -> float:
     """Depth at which to divide the interval between two levels: where their tangents meet.
 
     If the stiffness jumps at one depth, it is this one. Otherwise it is near the middle of the interval.
@@ -140,7 +143,7 @@ def division(before, after):
     return before.depth + (after.depth - before.depth) * np.clip(_meeting(before, after), *_DIVISION)
 
 
-def _meeting(before, after):
+def _meeting(before: Level, after: Level) -> float:
     """Depth at which the tangents of two levels meet, as a share of the interval between them."""
     width = after.depth - before.depth
     rise = after.tangent_sum - before.tangent_sum
@@ -148,14 +151,14 @@ def _meeting(before, after):
     return missing / (rise * width) if rise > 0 else 0.5
 
 
-def interpolate(before, after, force):
+def interpolate(before: Level, after: Level, force: ArrayLike) -> Array:
     """Depths interpolated between two Levels at reduced forces ΣP, as LoadingCurve.at_force does."""
     forces, depths = (before.pressure_sum, after.pressure_sum), (before.depth, after.depth)
     stiffnesses = before.tangent_sum, after.tangent_sum
     return interpolate_between(forces, depths, stiffnesses, after.count - before.count, force)[0]
 
 
-def _predicted_error(before, after, threads):
+def _predicted_error(before: ContactState, after: ContactState, threads: int) -> float:
     """Relative error of interpolation between two contacts, predicted from the depths at which elements touch.
 
     Returns infinity where it cannot be predicted. The stiffness that an element adds is taken as proportional to e_q²,
@@ -178,7 +181,9 @@ def _predicted_error(before, after, threads):
     return np.abs(interpolated / depth - 1).max()
 
 
-def _predicted_touches(before, after, share, threads):
+def _predicted_touches(
+    before: ContactState, after: ContactState, share: Array, threads: int
+) -> tuple[int, float, float, Array]:
     """Sums over the elements that join between two contacts, of functions of where they touch, from 0 to 1.
 
     The gap e of an element outside the contact is convex in the depth: it touches no earlier than at u₀ − e/e_q, with
@@ -191,7 +196,7 @@ def _predicted_touches(before, after, share, threads):
     """
     if before.fields is None or after.fields is None:  # the one after may have been solved from an earlier contact
         return 0, 0.0, 0.0, np.zeros(share.size)
-    place, pressure, tangent = _new_elements(before.fields, after, threads)
+    place, pressure, tangent = _new_elements(before.fields, after.fields, threads)
     if not place.all():  # place 0 is outside the grid of the contact before
         return 0, 0.0, 0.0, np.zeros(share.size)
     fields = before.fields.gap_change.values, before.fields.initial_gap, before.fields.tangent_gap.values
@@ -201,12 +206,12 @@ def _predicted_touches(before, after, share, threads):
     return place.size, weight, rise, np.array(above_tangent)
 
 
-def _new_elements(before, after, threads):
+def _new_elements(before: GridFields, after: GridFields, threads: int) -> tuple[Integers, Array, Array]:
     """Elements that join a contact: their places on the grid of the GridFields before, and P and q after."""
-    fields, loops = after.fields, GridLoops(threads)
-    if fields.place is before.place:
-        place = places_before = loops.difference(fields.inside, before.inside)
+    loops = GridLoops(threads)
+    if after.place is before.place:
+        place = places_before = loops.difference(after.inside, before.inside)
     else:
-        members = loops.new_members(fields, before)
-        place, places_before = fields.place[members], before.place[members]
-    return places_before, fields.pressure[place].astype(float), fields.tangent[place].astype(float)
+        members = loops.new_members(after, before)
+        place, places_before = after.place[members], before.place[members]
+    return places_before, after.pressure[place].astype(float), after.tangent[place].astype(float)

@@ -11,18 +11,21 @@ import platform
 import stat
 import sys
 import uuid
+from collections.abc import Iterator
 from hashlib import sha256
 from pathlib import Path
 
 import psutil
 
+from viscorough.types import FilePath
 
-def reason(error):
+
+def reason(error: BaseException) -> str:
     """The message of an error, on one line."""
     return " ".join(str(getattr(error, "strerror", None) or error).split())
 
 
-def check_readable(path):
+def check_readable(path: FilePath) -> None:
     """Raise a one-line ValueError if a file to be read exists but is none whose bytes can be read to an end.
 
     Opening a pipe waits for a writer, and a device may have no end. A file that does not exist, or may not be read, is
@@ -37,7 +40,7 @@ def check_readable(path):
         raise ValueError(f"{path}: not readable (it is {kind}); a regular file is needed")
 
 
-def check_output(path):
+def check_output(path: FilePath) -> None:
     """The path with links resolved, so that a link's target is replaced and not the link.
 
     Raises ValueError unless the folder exists and is writable, the path does not exist yet or is a regular file, and
@@ -58,7 +61,7 @@ def check_output(path):
 
 
 @contextlib.contextmanager
-def atomic_write(path):
+def atomic_write(path: FilePath) -> Iterator[Path]:
     """Context that yields a temporary path beside `path`; the file written there replaces `path` on success.
 
     A file that is replaced keeps its permissions. On an error the temporary file is removed and `path` is not changed.
@@ -87,7 +90,7 @@ def atomic_write(path):
         temporary.unlink(missing_ok=True)
 
 
-def _error_of_plain_writing(path):
+def _error_of_plain_writing(path: FilePath) -> OSError | None:
     """The error where a file cannot be continued; the NetCDF library calls a full disk a denied permission."""
     try:
         with open(path, "ab") as file:
@@ -100,7 +103,7 @@ def _error_of_plain_writing(path):
 
 
 @functools.cache
-def _place():
+def _place() -> str:
     """A name for where the numbers of processes are those that this process sees: a running system or a container.
 
     Systems that share a disk, or containers, may have one host name, so the name holds those of the system's start and

@@ -3,6 +3,7 @@
 import contextlib
 import itertools
 import re
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ from viscorough import units
 from viscorough.io.atomic import check_readable, reason
 from viscorough.io.headers import explicit_unit
 from viscorough.io.heights import npy_array
+from viscorough.types import Array, FilePath
 
 # A common unit as the last word of a heading, as in t_ms.
 _LAST_WORD = re.compile(
@@ -23,7 +25,7 @@ _TWO_NAMES = re.compile(r"# *[^\W\d_][^,]*, *[^\W\d_][^,]*")
 _MISSING = re.compile(r"#[A-Z][^\s,]*,\s*[-+.\d]")
 
 
-def read_columns(path, what, columns, length_unit):
+def read_columns(path: FilePath, what: str, columns: dict[str, str], length_unit: str) -> tuple[Array, Array]:
     """Two columns in a .csv or .npy file, arrays of shape (rows,) with at least two rows.
 
     The first row of a .csv file may be a heading, in which no field is or starts like a number, nan or infinity. Lines
@@ -54,7 +56,7 @@ def read_columns(path, what, columns, length_unit):
     return tuple(table[:, i].astype(float) * factors[i] for i in range(2))
 
 
-def _rows_and_factors(path, wanted, length_unit):
+def _rows_and_factors(path: FilePath, wanted: Iterable[str], length_unit: str) -> tuple[Array, list[float]]:
     """The numbers in a .csv file, and the factors that convert its columns to the units wanted."""
     lines = [line.strip() for line in Path(path).read_text(encoding="utf-8-sig").splitlines() if line.strip()]
     if missing := next(filter(_MISSING.match, lines), None):
@@ -70,11 +72,11 @@ def _rows_and_factors(path, wanted, length_unit):
     return table, _factors(heading, wanted, length_unit) if heading else (1.0, 1.0)
 
 
-def _is_comment(line):
+def _is_comment(line: str) -> bool:
     return line.startswith("#")
 
 
-def _factors(heading, wanted, length_unit):
+def _factors(heading: str, wanted: Iterable[str], length_unit: str) -> list[float]:
     """Factors that convert the columns from the units in their heading to those wanted."""
     fields = [field.strip('# \t"') for field in heading.split(",")]
     if len(fields) != 2 or fields[0] == fields[1] or not all(map(_LETTER.search, fields)):
@@ -93,7 +95,7 @@ def _factors(heading, wanted, length_unit):
     return factors
 
 
-def _check_comments(comments, wanted):
+def _check_comments(comments: Iterable[str], wanted: Iterable[str]) -> None:
     """Raise ValueError if a comment ends with a unit to which numbers would have to be converted."""
     for comment in comments:
         stated = _unit_in(comment.strip("# "))
@@ -101,20 +103,20 @@ def _check_comments(comments, wanted):
             raise ValueError(f"the comment {comment[:40]!r} states a unit; a heading of both columns is needed for it")
 
 
-def _unit_in(heading):
+def _unit_in(heading: str) -> str | None:
     """The unit that a heading states; None for none."""
     stated, last = explicit_unit(heading), _LAST_WORD.fullmatch(heading)
     return last[1] if stated is None and last else stated
 
 
-def _is_another(unit, wanted):
+def _is_another(unit: str, wanted: str) -> bool:
     """Whether a text is a unit that measures the same as that wanted, but another one."""
     with contextlib.suppress(ValueError):
         return units.factor(unit, wanted) != 1
     return False
 
 
-def _starts_like_a_number(field):
+def _starts_like_a_number(field: Array) -> bool:
     """Whether a field is a number, nan or infinite, or starts with a digit ("1N" is a mistake, not a heading)."""
     field = field.strip().lower()
     with contextlib.suppress(ValueError):

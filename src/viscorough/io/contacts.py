@@ -1,10 +1,16 @@
 """Contacts in NetCDF files: maps of pressure, gap and contact with the coordinates of their points, and numbers."""
 
-import numpy as np
+from collections.abc import Sequence
+from typing import Any
 
+import numpy as np
+from numpy.typing import ArrayLike, DTypeLike, NDArray
+
+from viscorough.contact_maps import Contact
 from viscorough.io.curves import OVER_LEVELS
 from viscorough.io.netcdf import Content, Variable
 from viscorough.summaries import unit_power
+from viscorough.types import Array
 
 COMMENT = (
     "Rigid indenter on an incompressible half-space, no friction, no adhesion. Depth is from first contact, "
@@ -30,7 +36,7 @@ NUMBERS = {
 _SINGLE_FROM, _SINGLE_RANGE = 1e-4, (1e-25, 1e30)
 
 
-def contacts_to_content(contacts, heights):
+def contacts_to_content(contacts: Sequence[Contact], heights: Array) -> Content:
     """Contacts of one indenter, and its heights, as the Content of a file.
 
     contacts : Contacts; if there are several, maps and numbers have the dimension `level` before their own
@@ -43,10 +49,10 @@ def contacts_to_content(contacts, heights):
     unit, several = first.length_unit, len(contacts) > 1
     level = ("level",) if several else ()
 
-    def joined(arrays):
+    def joined(arrays: Sequence[ArrayLike]) -> NDArray[Any]:
         return np.stack(arrays) if several else np.asarray(arrays[0])
 
-    def attributes(long_name, power):
+    def attributes(long_name: str, power: int) -> dict[str, str]:
         return {"long_name": long_name, "units": unit_power(unit, power)}
 
     variables = {}
@@ -75,7 +81,7 @@ def contacts_to_content(contacts, heights):
     return Content(variables, about | {"tolerance": first.tolerance, "spacing": [first.spacing, first.row_spacing]})
 
 
-def _kind_of_maps(contacts):
+def _kind_of_maps(contacts: Sequence[Contact]) -> DTypeLike:
     """Type of the numbers in the maps of pressure and gap."""
     least, largest = _SINGLE_RANGE
     small = min(min(contact.depth, contact.mean_pressure) for contact in contacts)

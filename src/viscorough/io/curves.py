@@ -1,6 +1,8 @@
 """Loading curves in NetCDF files, one or a stack of them: variables over levels, and how the curve was obtained."""
 
 import contextlib
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -36,13 +38,13 @@ PER_CURVE = {
 }
 
 
-def level_attributes(name, length_unit):
+def level_attributes(name: str, length_unit: str) -> dict[str, str]:
     """Attributes of a variable of OVER_LEVELS: long_name and units, a power of the length unit."""
     long_name, power = OVER_LEVELS[name]
     return {"long_name": long_name, "units": unit_power(length_unit, power)}
 
 
-def curve_to_content(curve):
+def curve_to_content(curve: LoadingCurve) -> Content:
     """A LoadingCurve as the Content of a file: variables OVER_LEVELS on the dimension `level`, attributes PER_CURVE."""
     variables = {
         name: Variable(("level",), getattr(curve, name), level_attributes(name, curve.length_unit))
@@ -52,7 +54,7 @@ def curve_to_content(curve):
     return Content(variables, attributes | {name: getattr(curve, name) for name in PER_CURVE})
 
 
-def curve_from_content(content):
+def curve_from_content(content: Content) -> LoadingCurve:
     """The LoadingCurve in a Content made by curve_to_content.
 
     Raises ValueError if it holds none, for units that do not follow from that of the depth, and for numbers that no
@@ -80,7 +82,7 @@ def curve_from_content(content):
     return curve
 
 
-def _length_unit(content):
+def _length_unit(content: Content) -> str:
     """Unit of the depth in a Content; "1" if it states none. Raises ValueError if the other units contradict it."""
     length = _unit_of("depth", content)
     if length != units.UNKNOWN:
@@ -97,14 +99,14 @@ def _length_unit(content):
     return length
 
 
-def _are_same(unit, other):
+def _are_same(unit: str, other: str) -> bool:
     """Whether two units are the same, however they are spelled."""
     with contextlib.suppress(ValueError):
         return unit == other or units.factor(unit, other) == 1
     return False
 
 
-def _unit_of(name, content):
+def _unit_of(name: str, content: Content) -> str:
     """Unit of a variable as the Content states it; "1" if it states none."""
     unit = content.variables[name].attributes.get("units", units.UNKNOWN)
     if not isinstance(unit, str):
@@ -112,7 +114,7 @@ def _unit_of(name, content):
     return unit.strip() or units.UNKNOWN
 
 
-def _check_contact(curve):
+def _check_contact(curve: LoadingCurve) -> None:
     """Raise ValueError unless the numbers of a curve can be those of a growing contact, within its tolerance.
 
     Contact only grows, so that the force is a convex function of the depth: between two levels its mean slope is not
@@ -142,7 +144,7 @@ def _check_contact(curve):
             raise ValueError(f"{needed} (level {np.argmax(where)}); {_NEEDED}")
 
 
-def _converted(name, value, kind):
+def _converted(name: str, value: Any, kind: type) -> Any:
     """A global attribute as int, float or str. Raises ValueError unless it is a whole number, a number or text."""
     try:
         converted = kind(value)
@@ -154,7 +156,7 @@ def _converted(name, value, kind):
     raise ValueError(f"attribute {name} is {value!r}; {needed} is needed")
 
 
-def stack_curves(curves):
+def stack_curves(curves: Sequence[LoadingCurve]) -> Content:
     """LoadingCurves as one Content over (realization, level), nan beyond each curve's last level.
 
     Per realization: `levels`, the number of levels, and PER_CURVE. Raises ValueError for an empty list, and for curves
@@ -181,7 +183,7 @@ def stack_curves(curves):
     return Content(variables, {"title": "Loading curves of rigid indenters", "comment": COMMENT})
 
 
-def unstack_curves(content):
+def unstack_curves(content: Content) -> list[LoadingCurve]:
     """The LoadingCurves in a Content made by stack_curves, in order. Raises ValueError as curve_from_content."""
     if missing := [name for name in (*STORED, *PER_CURVE, "levels") if name not in content.variables]:
         raise ValueError(f"no variable {missing[0]}; loading curves of viscorough reduce are needed")

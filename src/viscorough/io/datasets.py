@@ -7,9 +7,10 @@ import xarray as xr
 
 from viscorough.io import netcdf
 from viscorough.io.atomic import atomic_write
+from viscorough.types import FilePath
 
 
-def write_dataset(ds, path):
+def write_dataset(ds: xr.Dataset, path: FilePath) -> None:
     """Write a dataset as CF-1.11 NetCDF, atomically.
 
     Every data variable needs `long_name`, and `units` unless it holds text. Adds the attributes Conventions, source
@@ -32,7 +33,7 @@ def write_dataset(ds, path):
         ds.to_netcdf(temporary, engine="netcdf4", encoding=encoding)
 
 
-def read_dataset(path):
+def read_dataset(path: FilePath) -> xr.Dataset:
     """Read a NetCDF file into memory, with labels as write_dataset got them, and close it.
 
     Raises a one-line ValueError if it is missing or damaged.

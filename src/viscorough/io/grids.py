@@ -2,12 +2,14 @@
 
 import numpy as np
 
+from viscorough.types import Array, Integers
+
 _MERGED = 1e-6  # positions closer than this, relative to their range, are one
 _OFF_GRID = 0.05  # largest distance from the grid, relative to its spacing
 _LEAST_SHARE, _LEAST_POINTS = 0.5, 9  # of the grid, that rows of unknown meaning need to be taken for its points
 
 
-def gridded(points, required):
+def gridded(points: Array, required: bool) -> tuple[Array, tuple[float, float]] | None:
     """(heights, (dx, dy)) of points on a grid of equal spacing; heights[row, column], both in increasing order.
 
     points : x, y, z, shape (points, 3)
@@ -40,7 +42,7 @@ def gridded(points, required):
     return heights, (dx, dy)
 
 
-def _axis(positions):
+def _axis(positions: Array) -> tuple[Integers, int, float] | str:
     """(index of each position, number of indices, spacing) along an axis of equal spacing; a text about what it lacks.
 
     Positions may be rounded, and whole columns may be missing.

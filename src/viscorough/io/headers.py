@@ -7,9 +7,12 @@ length whose meaning is not known is refused, and so is what can be read in two 
 """
 
 import re
+from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from viscorough import units
+
+Stated = dict[str, list[tuple[str, str, str]]]  # what a header states, by role: line, unit in brackets, value
 
 _AGREEMENT = 1e-3  # relative difference up to which statements of the same length agree
 _ROUNDING = 5e-3  # the same for a width and a distance of points, which are rounded to few digits
@@ -32,7 +35,7 @@ _AXIS = re.compile(
 _OTHER_LANGUAGE = re.compile(r"(?i)breite|höhe|kanal|einheit|größe|abstand|largeur|hauteur|canal|unité|taille")
 
 
-def _keys(template):
+def _keys(template: str) -> dict[str, set[str]]:
     """The spellings of a key in a text, by axis: a before it or behind it, as in "x pixel size" and "pixel size x"."""
     return {a: {f"{a}{key}" for key in template.split()} | {f"{key}{a}" for key in template.split()} for a in "xy"}
 
@@ -72,20 +75,20 @@ class Header(NamedTuple):
     columns : names of the columns of points in their order, such as ("x", "y", "z"); None if it states none
     """
 
-    spacing: tuple | None
+    spacing: tuple[float, float] | None
     spacing_unit: str
     lateral_unit: str
     unit: str
     factor: float
-    columns: tuple | None
+    columns: tuple[str, ...] | None
 
 
-def states(line):
+def states(line: str) -> bool:
     """Whether a line states a length, a unit or the name of a map."""
     return any(role for role, *_ in _statements([line]))
 
 
-def read_header(lines, shape, delimiter, decimal):
+def read_header(lines: Sequence[str], shape: tuple[int, ...], delimiter: str | None, decimal: str) -> Header:
     """The Header in lines of text above, below and beside a table of that shape.
 
     delimiter, decimal : of the table; a decimal comma there makes "1,234" a number below two
@@ -104,7 +107,7 @@ def read_header(lines, shape, delimiter, decimal):
             text = "of which lengths is not stated; 'x units', 'y units', 'z units' are allowed"
             raise ValueError(f"header {line!r}: {text}")
 
-    def unit_among(*roles, of_column=""):
+    def unit_among(*roles: str, of_column: str = "") -> str:
         texts = [_unit_text(value) for role in roles for _, _, value in stated[role]]
         return _agreed([text for text in [*texts, of_column] if not units.counts_points(text)])
 
@@ -124,14 +127,14 @@ def read_header(lines, shape, delimiter, decimal):
     return Header(spacing, spacing_unit, lateral_unit, unit or own or general or "1", factor, columns)
 
 
-def _has_unit_of_unknown_meaning(line, value):
+def _has_unit_of_unknown_meaning(line: str, value: str) -> bool:
     """Whether a statement gives a unit of length to something unknown, such as "foo units: um"."""
     key, unit = re.split(r"[:=]", line)[0].lower(), _unit_text(value)
     is_unit = re.search(r"(?:units?|einheit(?:en)?|unités?)\W*$", key) and not units.counts_points(unit)
     return bool(is_unit) and _is_unit(unit)
 
 
-def _statements(lines):
+def _statements(lines: Sequence[str]) -> list[tuple[str, str, str, str]]:
     """The statements in lines: role or "", the text, the unit in brackets behind the key, and the value."""
     found = []
     for line in lines:
@@ -148,13 +151,13 @@ def _statements(lines):
     return found
 
 
-def _role(key):
+def _role(key: str) -> str:
     """What a key states, one of `_ROLES`; "" if it is not known."""
     compact = re.sub(r"[\s_.-]+", "", key.lower())
     return _ROLE_OF.get(re.sub(r"(unité?|einheit)(?:s|en)", r"\1", compact), "")
 
 
-def _unit_text(value):
+def _unit_text(value: str) -> str:
     """The unit at the start of a value: "nm" of "[nm] (height)", "1e-6 m" of "1e-6 m"."""
     words = value.strip("[](){}\"' ").split()
     if not words:
@@ -163,7 +166,7 @@ def _unit_text(value):
     return " ".join(words[: 2 if several else 1]).strip("[](){}\"',;")
 
 
-def _agreed(texts):
+def _agreed(texts: Iterable[str]) -> str:
     """The unit in texts, which may spell it differently; "" for none. Raises ValueError if they are different units."""
     different = list(dict.fromkeys(text for text in texts if text not in ("", "1")))
     for other in different[1:]:
@@ -172,7 +175,7 @@ def _agreed(texts):
     return different[0] if different else ""
 
 
-def _number(text, comma):
+def _number(text: str, comma: bool) -> float:
     """A number of a header. Raises ValueError if its comma may be a decimal mark or part thousands."""
     if "," in text and not comma and re.fullmatch(r"[+-]?[1-9]\d{0,2},\d{3}", text):
         readings = f"{text.replace(',', '')} or {text.replace(',', '.')}"
@@ -180,7 +183,7 @@ def _number(text, comma):
     return float(text.replace(",", ".").replace("D", "e").replace("d", "e"))
 
 
-def _lengths(line, unit, value, comma):
+def _lengths(line: str, unit: str, value: str, comma: bool) -> list[tuple[float, str]]:
     """[(number, unit)] of a statement, one or two. Raises ValueError for what cannot be read for certain."""
     if match := _PAIR.match(value):
         _, first, unit_first, between, second, unit_second, behind = match.groups()
@@ -197,7 +200,9 @@ def _lengths(line, unit, value, comma):
     return [(_number(match[1], comma), own or unit)]
 
 
-def _spacing(stated, shape, lateral, comma):
+def _spacing(
+    stated: Stated, shape: tuple[int, ...], lateral: Sequence[str], comma: bool
+) -> tuple[tuple[float, float] | None, str]:
     """((dx, dy), unit) that statements give; (None, "1") for none; nan for a direction without statement."""
     steps, extents = ([], []), ([], [])
     axes_of = {"step x": (0,), "step y": (1,), "step": (0, 1), "extent x": (0,), "extent y": (1,), "extent": (0, 1)}
@@ -224,10 +229,12 @@ def _spacing(stated, shape, lateral, comma):
     return found, unit or "1"
 
 
-def _agreed_step(axis, steps, extents, count, unit):
+def _agreed_step(
+    axis: int, steps: Iterable[tuple[float, str]], extents: Iterable[tuple[float, str]], count: int, unit: str
+) -> float:
     """The distance of points along an axis, in a unit, from statements that must agree; nan for none."""
 
-    def converted(lengths):
+    def converted(lengths: Iterable[tuple[float, str]]) -> Iterator[float]:
         for number, own in lengths:
             if unit and not own:
                 raise ValueError("the header states a unit for one direction only; one for both, or none, is needed")
@@ -251,7 +258,9 @@ def _agreed_step(axis, steps, extents, count, unit):
     return float(f"{steps[0] if steps else extents[0] / count:.14g}")
 
 
-def _headings(lines, shape, delimiter):
+def _headings(
+    lines: Sequence[str], shape: tuple[int, ...], delimiter: str | None
+) -> tuple[tuple[str, ...] | None, dict[str, str]]:
     """(names of the columns in their order or None, {name: unit}) of a line that heads columns x, y and z, or heights.
 
     Raises ValueError for degrees, units that are none of length, and headings that differ.
@@ -282,7 +291,7 @@ def _headings(lines, shape, delimiter):
     return names, found
 
 
-def _cells(line, delimiter):
+def _cells(line: str, delimiter: str | None) -> list[str]:
     """The headings in a line, each with its unit."""
     line = line.strip().lstrip("#%/;! \t").replace('"', "")
     if delimiter is None or delimiter not in line:
@@ -294,7 +303,7 @@ def _cells(line, delimiter):
     return [cell.strip() for cell in re.split(delimiter, line)]
 
 
-def _axis(cell):
+def _axis(cell: str) -> str:
     """Which of x, y and z a heading names; "" for none. Raises ValueError for longitude and latitude."""
     for word in re.split(r"[\W_]+", re.split(r"[\[(/]", cell.lower())[0]):
         if match := _AXIS.fullmatch(word):
@@ -304,13 +313,13 @@ def _axis(cell):
     return ""
 
 
-def explicit_unit(heading):
+def explicit_unit(heading: str) -> str | None:
     """The unit in a heading such as "x [um]", "x (um)", "x/um" or "x in um"; None for other headings."""
     match = re.search(r"[\[(]([^\])]*)[\])]|/\s*(.+)$|\bin\s+(\S+)$", heading)
     return next(text for text in match.groups() if text is not None).strip() if match else None
 
 
-def _unit_of_heading(cell):
+def _unit_of_heading(cell: str) -> str:
     """The unit in a heading, also as its last word, as in "x_um"; "" for none."""
     if unit := explicit_unit(cell):
         return unit
@@ -318,7 +327,7 @@ def _unit_of_heading(cell):
     return words[-1] if len(words) > 1 and not _axis(words[-1]) and _is_unit(words[-1]) else ""
 
 
-def _is_unit(text):
+def _is_unit(text: str) -> bool:
     """Whether a text is a unit of length, or counts points."""
     try:
         return units.counts_points(text) or bool(units.length_unit(text))

@@ -2,23 +2,37 @@
 
 import warnings
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from netCDF4 import Dataset
+from netCDF4 import Variable as NetCDFVariable
+from numpy.typing import NDArray
 
 from viscorough import units
 from viscorough.errors import AccuracyWarning
+from viscorough.indenter import Indenter
 from viscorough.io import netcdf
 from viscorough.io.atomic import check_readable, reason
-from viscorough.io.scan import Scan, to_indenter, uniform_spacing
+from viscorough.io.scan import Scan, Spacing, to_indenter, uniform_spacing
 from viscorough.io.text import is_binary, read_text
 from viscorough.io.unpacking import unpacked
 from viscorough.preparation import doubts, prepare
+from viscorough.types import Array, FilePath
+from viscorough.units import Quantity
 
 TEXT = (".txt", ".csv", ".asc", ".dat", ".xyz", ".tsv")
 TIFF = (".tif", ".tiff")
 
 
-def read_heights(path, spacing=None, *, unit=None, channel=None, **preparation):
+def read_heights(
+    path: FilePath,
+    spacing: Spacing | None = None,
+    *,
+    unit: str | None = None,
+    channel: str | int | None = None,
+    **preparation: Any,
+) -> Indenter:
     """Read a map of heights as an Indenter: the highest point touches first, points that are nan lie outside it.
 
     path : .npy, NetCDF (.nc), text (.txt, .csv, .asc, .dat, .tsv, .xyz: a matrix, an ESRI grid, or columns x, y, z),
@@ -47,7 +61,7 @@ def read_heights(path, spacing=None, *, unit=None, channel=None, **preparation):
     return indenter
 
 
-def _pair(spacing):
+def _pair(spacing: Spacing) -> tuple[Quantity, Quantity]:
     """A spacing as (dx, dy)."""
     if not isinstance(spacing, tuple | list | np.ndarray):
         return spacing, spacing
@@ -56,7 +70,7 @@ def _pair(spacing):
     return tuple(spacing)
 
 
-def _read_scan(path, channel):
+def _read_scan(path: FilePath, channel: str | int | None) -> Scan:
     """The Scan in a file, by the reader for its suffix."""
     check_readable(path)
     suffix = Path(path).suffix.lower()
@@ -79,7 +93,7 @@ def _read_scan(path, channel):
     return read_instrument(path, channel)
 
 
-def npy_array(path):
+def npy_array(path: FilePath) -> NDArray[Any]:
     """The array in a .npy file. Raises a one-line ValueError if it cannot be read; pickled objects are refused."""
     check_readable(path)
     try:
@@ -91,7 +105,7 @@ def npy_array(path):
         raise ValueError(f"{path}: not readable ({reason(error)}); a .npy file of numbers is needed") from error
 
 
-def _netcdf_scan(path, channel):
+def _netcdf_scan(path: FilePath, channel: str | int | None) -> Scan:
     """The variable named `channel` of a NetCDF file, or `heights`, or else the only one with two dimensions."""
     with netcdf.opened(path) as file:
         maps = [name for name, variable in file.variables.items() if variable.ndim == 2]
@@ -115,14 +129,14 @@ def _netcdf_scan(path, channel):
     return Scan(heights, unit, spacing, spacing_unit)
 
 
-def unit_of(variable):
+def unit_of(variable: NetCDFVariable) -> str:
     """The attribute `units` of a NetCDF variable, or `unit`, as some programs spell it; "1" if it has none."""
     attributes = netcdf.attributes_of(variable)
     unit = attributes.get("units", attributes.get("unit"))
     return unit if isinstance(unit, str) and unit.strip() else "1"
 
 
-def positions_along(file, dimension):
+def positions_along(file: Dataset, dimension: str) -> tuple[str, Array, str] | None:
     """Name, positions and unit along a dimension: of the variable of that name, or of the only one that has only it."""
     variables = {name: each for name, each in file.variables.items() if each.dimensions == (dimension,)}
     along = [name for name, each in variables.items() if each.dtype is not str and np.dtype(each.dtype).kind in "iuf"]
@@ -130,7 +144,7 @@ def positions_along(file, dimension):
     return None if name is None else (name, unpacked(file.variables[name]), unit_of(file.variables[name]))
 
 
-def _spacing(rows, columns):
+def _spacing(rows: tuple[str, Array, str] | None, columns: tuple[str, Array, str] | None) -> tuple[Any, ...]:
     """((dx, dy), unit) that the positions of rows and columns state; (None, "1") for none, or mere indices.
 
     Raises ValueError if only one of them is there, or if their units differ in kind.
@@ -149,7 +163,7 @@ def _spacing(rows, columns):
     return tuple(distances), unit
 
 
-def are_indices(positions, unit):
+def are_indices(positions: Array, unit: str) -> bool:
     """Whether positions only count points, from 0 or 1 on, so that they state no distance."""
     if units.counts_points(unit):
         return True

@@ -2,6 +2,7 @@
 
 import warnings
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -9,9 +10,10 @@ from viscorough import units
 from viscorough.errors import AccuracyWarning
 from viscorough.io.atomic import reason
 from viscorough.io.scan import Scan
+from viscorough.types import Array, FilePath
 
 
-def read_instrument(path, channel=None):
+def read_instrument(path: FilePath, channel: str | int | None = None) -> Scan:
     """The Scan in a file of any format that SurfaceTopography knows; its formats are told apart by their contents.
 
     channel : name or number of the channel, from 0. By default the first one of heights, with a warning that names the
@@ -55,7 +57,7 @@ class _NoHeightsError(ValueError):
     """A file without the channel that was asked for."""
 
 
-def _choose(file, wanted):
+def _choose(file: Any, wanted: str | int | None) -> Any:
     """The channel to read, and the names of the other channels of heights if none was asked for."""
     maps = [channel for channel in file.channels if channel.dim == 2]
     if not maps:
@@ -74,7 +76,7 @@ def _choose(file, wanted):
     return of_heights[0], [channel.channel_id for channel in of_heights[1:]]
 
 
-def _holds_heights(channel):
+def _holds_heights(channel: Any) -> bool:
     """Whether a channel holds heights, in a unit of length or in none."""
     if not channel.is_height_channel or not isinstance(channel.unit, str | None):
         return False
@@ -84,6 +86,6 @@ def _holds_heights(channel):
         return False
 
 
-def _placeholders(channel):
+def _placeholders(channel: Any) -> Array:
     """What SurfaceTopography requires of files that state no size; the size of a pixel is not used then."""
     return {"physical_sizes": channel.nb_grid_pts} if channel.physical_sizes is None else {}

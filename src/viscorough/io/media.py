@@ -2,7 +2,9 @@
 
 import contextlib
 import dataclasses
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import yaml
 
@@ -10,7 +12,10 @@ from viscorough import units
 from viscorough.io.atomic import check_readable, reason
 from viscorough.io.columns import read_columns
 from viscorough.io.unique_keys import UniqueKeys
+from viscorough.types import FilePath
 from viscorough.viscous import media
+from viscorough.viscous.media import CreepTable
+from viscorough.viscous.medium import Medium
 
 MODULUS, VISCOSITY, TIME, PLAIN = "Pa", "Pa s", "s", ""
 # Kinds of media, and their keys with the units that numbers in them may have. The keys are fields of the class.
@@ -30,7 +35,7 @@ _MODULI = {"viscosity", "shear_modulus", "instantaneous_modulus", "relaxed_modul
 _LARGEST_FILE = 1_000_000  # bytes
 
 
-def read_medium(path, length_unit="1"):
+def read_medium(path: FilePath, length_unit: str = "1") -> Medium:
     """The medium in a YAML file, which holds one mapping as `medium_from_mapping` takes it.
 
     The file of a creep table is relative to the YAML file.
@@ -43,7 +48,7 @@ def read_medium(path, length_unit="1"):
         raise ValueError(f"{path}: {error}") from error
 
 
-def medium_from_mapping(mapping, length_unit="1", *, folder=Path()):
+def medium_from_mapping(mapping: Mapping[str, Any], length_unit: str = "1", *, folder: Path = Path()) -> Medium:
     """The medium of a mapping, with moduli in N per square of the unit of length.
 
     mapping : `kind`, one of KINDS, and all keys of that kind. Where the unit of length is known, plain moduli are in
@@ -69,7 +74,7 @@ def medium_from_mapping(mapping, length_unit="1", *, folder=Path()):
     return medium if length_unit == "1" else scaled(medium, units.metres(length_unit) ** 2)
 
 
-def scaled(medium, factor):
+def scaled(medium: Medium, factor: float) -> Medium:
     """The medium with its moduli and viscosities multiplied by a factor, as to other units of length."""
     if factor == 1:
         return medium
@@ -84,13 +89,13 @@ def scaled(medium, factor):
 
 
 class _WithoutAliases(UniqueKeys):
-    def compose_node(self, parent, index):
+    def compose_node(self, parent: yaml.Node | None, index: Any) -> yaml.Node | None:
         if self.check_event(yaml.AliasEvent):
             raise yaml.YAMLError("aliases are not allowed")
         return super().compose_node(parent, index)
 
 
-def _mapping(path):
+def _mapping(path: FilePath) -> dict[str, Any]:
     wanted = "one mapping of YAML with the kind of medium and its parameters is needed"
     check_readable(path)
     try:
@@ -104,7 +109,7 @@ def _mapping(path):
     return content
 
 
-def _values(key, value, unit, length_unit):
+def _values(key: str, value: object, unit: str, length_unit: str) -> Any:
     """A number, or a list of numbers, in `unit`."""
     if isinstance(value, list):
         return [_values(f"{key}[{i}]", entry, unit, length_unit) for i, entry in enumerate(value)]
@@ -122,13 +127,13 @@ def _values(key, value, unit, length_unit):
         raise ValueError(f"{key}: {error}; allowed: a number above 0, plain or with a unit such as {unit}") from error
 
 
-def _table(folder, name, length_unit):
+def _table(folder: Path, name: object, length_unit: str) -> CreepTable:
     if not isinstance(name, str) or not name or "\0" in name:
         raise ValueError(f"file: {_shown(name)}; allowed: the name of a .csv or .npy file")
     columns = {"time": TIME, "compliance": "1/Pa"}
     return media.CreepTable(*read_columns(folder / name, "a creep table", columns, length_unit))
 
 
-def _shown(value):
+def _shown(value: object) -> str:
     text = repr(value)
     return text if len(text) <= 60 else f"{text[:60]}..."

@@ -1,14 +1,26 @@
 """Penetration over time in NetCDF files, and force histories read from files."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from viscorough.io.columns import read_columns
 from viscorough.io.curves import level_attributes
 from viscorough.io.netcdf import Content, Variable
+from viscorough.types import Array, FilePath
 from viscorough.viscous.correspondence import impulses
 
+if TYPE_CHECKING:
+    from viscorough.estimates import Estimate
+    from viscorough.viscous.correspondence import ForceHistory, Kinetics
+    from viscorough.viscous.integration.internal_variables import MediumMotion
+    from viscorough.viscous.integration.motion import ViscousMotion
 
-def with_motion(content, time, velocity):
+
+def with_motion(content: Content, time: Array, velocity: Array) -> Content:
     """The Content with time [s] and velocity [length unit of its depth per s] over levels added.
 
     Raises ValueError unless they are finite, which they are not where force and viscosity are too far apart.
@@ -18,34 +30,34 @@ def with_motion(content, time, velocity):
     return _with_time_and_velocity(content, time, velocity)
 
 
-def _with_time_and_velocity(content, time, velocity):
+def _with_time_and_velocity(content: Content, time: Array, velocity: Array) -> Content:
     unit = content.variables["depth"].attributes.get("units", "1")
     added = {"time": _time(time), "velocity": _over_levels(velocity, "velocity of penetration du/dt", _per_time(unit))}
     return Content(content.variables | added, content.attributes)
 
 
-def _over_levels(values, long_name, unit):
+def _over_levels(values: Array, long_name: str, unit: str) -> Variable:
     return Variable(("level",), values, {"long_name": long_name, "units": unit})
 
 
-def _time(values):
+def _time(values: Array) -> Variable:
     return _over_levels(values, "time since the force was applied", "s")
 
 
-def _force(values, length_unit):
+def _force(values: Array, length_unit: str) -> Variable:
     return _over_levels(values, "force F at that time", "1" if length_unit == "1" else "N")
 
 
-def _per_time(unit):
+def _per_time(unit: str) -> str:
     return "s-1" if unit == "1" else f"{unit} s-1"
 
 
-def _of_levels(length_unit, **values):
+def _of_levels(length_unit: str, **values: Any) -> dict[str, Variable]:
     """Variables of curves.OVER_LEVELS."""
     return {name: Variable(("level",), array, level_attributes(name, length_unit)) for name, array in values.items()}
 
 
-def viscous_motion_to_content(motion):
+def viscous_motion_to_content(motion: ViscousMotion) -> Content:
     """A viscous.integration.motion.ViscousMotion as a Content over its times."""
     variables = _of_levels(motion.length_unit, depth=motion.depth, contact_count=motion.contact_count)
     title = "Penetration of a rigid indenter, integrated directly in time"
@@ -57,7 +69,7 @@ def viscous_motion_to_content(motion):
     return with_motion(Content(variables, {"title": title}), motion.time, motion.velocity)
 
 
-def medium_motion_to_content(motion):
+def medium_motion_to_content(motion: MediumMotion) -> Content:
     """A direct integration in a viscoelastic medium as a Content over its times.
 
     motion : viscous.integration.internal_variables.MediumMotion
@@ -73,7 +85,7 @@ def medium_motion_to_content(motion):
     return Content(variables, attributes)
 
 
-def estimate_to_content(estimate, length_unit="1"):
+def estimate_to_content(estimate: Estimate, length_unit: str = "1") -> Content:
     """An estimates.Estimate as a Content; values are nan at times at which the law does not hold."""
     x = _over_levels(estimate.x, "dimensionless force X = F J(t)/(4 h L)", "1")
     variables, per_time = {"time": _time(estimate.time), "x": x}, _per_time(length_unit)
@@ -84,7 +96,7 @@ def estimate_to_content(estimate, length_unit="1"):
     return Content(variables, {"title": "Penetration of a self-affine indenter by the calibrated law, no simulation"})
 
 
-def read_force_history(path, length_unit="1"):
+def read_force_history(path: FilePath, length_unit: str = "1") -> ForceHistory:
     """The ForceHistory in a file of two columns, times and forces: .csv or .npy (io.columns.read_columns).
 
     length_unit : of the indenter. If it is known, numbers are converted to s and N from the units that a heading states
@@ -98,7 +110,7 @@ def read_force_history(path, length_unit="1"):
         raise ValueError(f"{path}: {error}") from error
 
 
-def kinetics_to_content(motion, force, length_unit="1"):
+def kinetics_to_content(motion: Kinetics, force: ArrayLike, length_unit: str = "1") -> Content:
     """A viscous.correspondence.Kinetics as a Content over its times; `force` is F there, or a constant.
 
     Where a depth is undetermined (before the curve's first level) or a velocity infinite, the value is missing.

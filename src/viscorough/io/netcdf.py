@@ -1,16 +1,19 @@
 """CF NetCDF files read and written with netCDF4 alone, since xarray (`io.datasets`) takes long to import."""
 
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import netCDF4
 import numpy as np
+from numpy.typing import NDArray
 
 from viscorough import __version__
 from viscorough.arrays import read_only
 from viscorough.io.atomic import atomic_write, check_readable, reason
 from viscorough.io.unpacking import STORAGE, unpacked
+from viscorough.types import FilePath
 
 COMPRESSED_FROM = 4096  # number of values; for fewer, chunks cost more than compression saves
 
@@ -27,26 +30,26 @@ class Variable(NamedTuple):
 class Content:
     """The content of a NetCDF file: variables {name: Variable} and global attributes {name: value}."""
 
-    variables: dict
-    attributes: dict
+    variables: "dict[str, Variable]"
+    attributes: dict[str, Any]
 
-    def with_attributes(self, **attributes):
+    def with_attributes(self, **attributes: Any) -> "Content":
         """The same variables, with global attributes added or replaced."""
         return Content(self.variables, self.attributes | attributes)
 
 
-def global_attributes():
+def global_attributes() -> dict[str, str]:
     """The attributes that every file gets; nothing in them depends on when or where it is written."""
     program = f"viscorough {__version__}"
     return {"Conventions": "CF-1.11", "source": program, "history": f"written by {program}"}
 
 
-def compression(size):
+def compression(size: int) -> dict[str, Any]:
     """Keyword arguments of netCDF4 that compress a variable of `size` values; none if it is small."""
     return {"zlib": True, "complevel": 4, "shuffle": True} if size >= COMPRESSED_FROM else {}
 
 
-def check_attributes(path, name, dtype, attributes):
+def check_attributes(path: FilePath, name: str, dtype: np.dtype[Any] | type, attributes: Mapping[str, Any]) -> None:
     """Raise ValueError unless a variable has `long_name` and, if it holds numbers, `units`."""
     needed = ("long_name", "units") if dtype.kind in "biufc" else ("long_name",)
     present = {attribute for attribute, value in attributes.items() if isinstance(value, str) and value}
@@ -54,7 +57,7 @@ def check_attributes(path, name, dtype, attributes):
         raise ValueError(f"{path}: variable {name} lacks {' and '.join(missing)}; text is needed for both")
 
 
-def write(content, path):
+def write(content: Content, path: FilePath) -> None:
     """Write a Content of numbers as CF-1.11 NetCDF, atomically; nan is the fill value.
 
     Adds global_attributes and compresses large arrays. Raises ValueError for missing attributes (check_attributes) and
@@ -68,7 +71,9 @@ def write(content, path):
             _write_variable(file, name, dimensions, np.asarray(values), attributes)
 
 
-def _write_variable(file, name, dimensions, values, attributes):
+def _write_variable(
+    file: netCDF4.Dataset, name: str, dimensions: tuple[str, ...], values: NDArray[Any], attributes: Mapping[str, Any]
+) -> None:
     for dimension, size in zip(dimensions, values.shape, strict=True):
         if dimension not in file.dimensions:
             file.createDimension(dimension, size)
@@ -80,7 +85,7 @@ def _write_variable(file, name, dimensions, values, attributes):
 
 
 @contextmanager
-def faults_named(path):
+def faults_named(path: FilePath) -> Iterator[None]:
     """Context in which a file is read: any fault of it becomes a one-line ValueError that names it."""
     check_readable(path)
     try:
@@ -91,13 +96,13 @@ def faults_named(path):
 
 
 @contextmanager
-def opened(path):
+def opened(path: FilePath) -> Iterator[netCDF4.Dataset]:
     """Context that yields the netCDF4.Dataset of a file; any fault of the file becomes a one-line ValueError."""
     with faults_named(path), netCDF4.Dataset(path) as file:
         yield file
 
 
-def read(path):
+def read(path: FilePath) -> Content:
     """Read a NetCDF file into memory as a Content; missing values are nan.
 
     Raises a one-line ValueError if the file is missing or damaged.
@@ -110,6 +115,6 @@ def read(path):
         return Content(variables, {name: file.getncattr(name) for name in file.ncattrs()})
 
 
-def attributes_of(variable):
+def attributes_of(variable: netCDF4.Variable) -> dict[str, Any]:
     """The attributes of a netCDF4.Variable, without those of its storage, which reading undoes."""
     return {name: variable.getncattr(name) for name in variable.ncattrs() if name not in STORAGE}

@@ -6,7 +6,10 @@ import numpy as np
 
 from viscorough import units
 from viscorough.indenter import Indenter, positive
+from viscorough.types import Array
+from viscorough.units import Quantity
 
+Spacing = tuple[float | units.Quantity, float | units.Quantity]  # between columns and between rows
 _AGREEMENT = 1e-3  # relative difference up to which a spacing that is given agrees with the file's
 _UNIFORMITY = 1e-2  # deviation from equal spacing that rounding of coordinates may cause, relative to the spacing
 
@@ -23,11 +26,11 @@ class Scan(NamedTuple):
 
     heights: np.ndarray
     unit: str = units.UNKNOWN
-    spacing: tuple | None = None
+    spacing: tuple[float, float] | None = None
     spacing_unit: str = units.UNKNOWN
 
 
-def to_indenter(scan, spacing=None, unit=None):
+def to_indenter(scan: Scan, spacing: Spacing | None = None, unit: str | None = None) -> Indenter:
     """The Indenter of a Scan: heights in their unit, spacings converted to it.
 
     spacing : (dx, dy), numbers in the unit of the heights, or a viscorough.units.Quantity each, needed where the file
@@ -60,7 +63,7 @@ def to_indenter(scan, spacing=None, unit=None):
     return Indenter(heights, dx, dy, length_unit=length_unit)
 
 
-def _check_unit_of_spacing(scan, length_unit, spacing):
+def _check_unit_of_spacing(scan: Scan, length_unit: str, spacing: Spacing) -> None:
     """Raise ValueError for plain numbers where lengths along x and y have another unit than the heights."""
     if scan.spacing is not None or scan.spacing_unit == units.UNKNOWN or units.counts_points(scan.spacing_unit):
         return
@@ -71,7 +74,7 @@ def _check_unit_of_spacing(scan, length_unit, spacing):
         raise ValueError(f"--spacing {spacing[0]}: {text}; a spacing with a unit, and the unit of heights, are needed")
 
 
-def _number(distance, length_unit):
+def _number(distance: float | Quantity, length_unit: str) -> float:
     """A given distance, in the unit of the heights."""
     if not isinstance(distance, units.Quantity):
         return positive("spacing", distance)
@@ -80,7 +83,7 @@ def _number(distance, length_unit):
     return distance.to(length_unit)
 
 
-def _length_unit(scan, given):
+def _length_unit(scan: Scan, given: str | None) -> str:
     """The unit of the heights, stated by the file or given."""
     stated = None if scan.unit.strip() in ("", units.UNKNOWN) else units.length_unit(scan.unit)
     given = None if given is None or given == units.UNKNOWN else units.length_unit(given)
@@ -89,7 +92,7 @@ def _length_unit(scan, given):
     return stated or given or units.UNKNOWN
 
 
-def _stated_spacing(scan, length_unit, given):
+def _stated_spacing(scan: Scan, length_unit: str, given: Spacing | None) -> tuple[float, float] | None:
     """The spacing (dx, dy) that the file states, in the unit of the heights; None if it states none.
 
     given : a given spacing, which then stands for one without a unit, or None
@@ -110,7 +113,7 @@ def _stated_spacing(scan, length_unit, given):
     return tuple(float(f"{factor * distance:.14g}") for distance in scan.spacing)
 
 
-def _check_ratio(stated, given):
+def _check_ratio(stated: tuple[float, float], given: tuple[float, float]) -> None:
     """Raise ValueError unless a given spacing is one power of ten times that stated without a unit."""
     lengths = [each.number if isinstance(each, units.Quantity) else each for each in given]
     powers = np.log10([a / b for a, b in zip(lengths, stated, strict=True) if a > 0 and b > 0])
@@ -119,7 +122,7 @@ def _check_ratio(stated, given):
         raise ValueError(f"{text} without a unit; the same length in a unit is needed")
 
 
-def uniform_spacing(name, positions):
+def uniform_spacing(name: str, positions: Array) -> float:
     """The distance between equally spaced positions, in either direction.
 
     Raises ValueError unless there are at least two, and their distances are equal, as far as their precision tells.

@@ -3,15 +3,17 @@
 from pathlib import Path
 
 import numpy as np
+from netCDF4 import Dataset
 
 from viscorough.indenter import Indenter
 from viscorough.io.heights import are_indices, npy_array, positions_along, unit_of
 from viscorough.io.netcdf import Content, Variable, opened
-from viscorough.io.scan import Scan, to_indenter, uniform_spacing
+from viscorough.io.scan import Scan, Spacing, to_indenter, uniform_spacing
 from viscorough.io.unpacking import unpacked
+from viscorough.types import FilePath
 
 
-def surface_to_content(indenter):
+def surface_to_content(indenter: Indenter) -> Content:
     """An Indenter as the Content of a file: `heights` over (y, x), or over x for a line, and these coordinates.
 
     Coordinates count from the centre of the map, or of the line.
@@ -25,7 +27,7 @@ def surface_to_content(indenter):
     return Content(variables, {"title": "Heights of a rigid indenter; larger is higher and touches first"})
 
 
-def read_line(path, spacing=None, unit=None):
+def read_line(path: FilePath, spacing: Spacing | None = None, unit: str | None = None) -> Indenter:
     """Read the heights of a line as an Indenter, for the method of reduction of dimensionality (mdr.reduce).
 
     path : .npy of shape (points,), or .nc with a variable `heights` of one dimension, or only one such variable
@@ -46,7 +48,7 @@ def read_line(path, spacing=None, unit=None):
         raise ValueError(f"{path}: {error}") from error
 
 
-def dimensions_of_heights(path):
+def dimensions_of_heights(path: FilePath) -> int:
     """Number of dimensions of the heights in a .npy or NetCDF file: 1 for a line; 2 where there are no such heights."""
     if Path(path).suffix == ".npy":
         return npy_array(path).ndim
@@ -56,7 +58,7 @@ def dimensions_of_heights(path):
         return 1 if _line_in(file) else 2
 
 
-def _line_in(file):
+def _line_in(file: Dataset) -> str:
     """Name of the variable with the heights of a line in an open NetCDF file; None if there is none."""
     if "heights" in file.variables:
         return "heights" if file["heights"].ndim == 1 else None
@@ -65,7 +67,7 @@ def _line_in(file):
     return lines[0] if len(lines) == 1 and not maps else None
 
 
-def _scan_of_netcdf(path):
+def _scan_of_netcdf(path: FilePath) -> Scan:
     """The Scan of a line, whose heights are of shape (points,)."""
     with opened(path) as file:
         name = _line_in(file)

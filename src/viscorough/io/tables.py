@@ -11,7 +11,9 @@ import io
 import itertools
 import json
 import re
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -19,24 +21,25 @@ from viscorough.arrays import read_only
 from viscorough.io import netcdf
 from viscorough.io.atomic import atomic_write, check_readable, reason
 from viscorough.io.netcdf import Content, Variable
+from viscorough.types import Array, FilePath
 
 _ATTRIBUTE = re.compile(r"# ?((?:column )?[A-Za-z]\w*): (.*)", re.ASCII)
 _COLUMN = re.compile(r"(\w+)\s*(?:\((.*)\)|\[(.*)\])?")
 
 
-def is_table(path):
+def is_table(path: FilePath) -> bool:
     """Whether a file name asks for a table: it ends in .csv."""
     return Path(path).suffix.lower() == ".csv"
 
 
-def check_columns(content, path):
+def check_columns(content: Content, path: FilePath) -> None:
     """Raise ValueError unless all variables with dimensions stand along the same one."""
     dimensions = {variable.dimensions for variable in content.variables.values() if variable.dimensions}
     if len(dimensions) != 1 or len(*dimensions) != 1:
         raise ValueError(f"{path}: what was computed is no table of one dimension; a NetCDF file (.nc) is needed")
 
 
-def write(content, path):
+def write(content: Content, path: FilePath) -> None:
     """Write a Content, whose variables share one dimension, as CSV, atomically; numbers without one are attributes.
 
     Raises ValueError for other contents, missing attributes and a path that cannot be written, OSError if writing
@@ -59,7 +62,7 @@ def write(content, path):
         temporary.write_text("\n".join(lines) + "\n" + text.getvalue(), encoding="utf-8")
 
 
-def read(path):
+def read(path: FilePath) -> Content:
     """Read a table that `write` made into memory as a Content on the dimension `level`; empty fields are nan.
 
     Raises a one-line ValueError if the file is missing or is no such table.
@@ -85,16 +88,16 @@ def read(path):
         raise ValueError(f"{path}: not readable ({reason(error)}); a whole table of viscorough is needed") from error
 
 
-def _title(name, unit):
+def _title(name: str, unit: str) -> str:
     return name if unit == "1" else f"{name} ({unit})"
 
 
-def _as_text(value):
+def _as_text(value: object) -> str:
     """A value of an attribute as JSON."""
     return json.dumps(np.asarray(value).tolist(), ensure_ascii=False)
 
 
-def _attribute(line):
+def _attribute(line: str) -> tuple[str, Any] | None:
     """Name and value in a line "# name: value"; None for other lines. A value that is no JSON is a text."""
     match = _ATTRIBUTE.fullmatch(line.strip())
     if match is None:
@@ -107,7 +110,7 @@ def _attribute(line):
     return name, text
 
 
-def _numbers(cells):
+def _numbers(cells: Sequence[str]) -> Array:
     """The numbers in a column; whole ones, such as counts, if all are written without point and exponent."""
     whole = all(cell.isdecimal() and len(cell) < 16 for cell in cells)
     return read_only(np.array([(int if whole else float)(cell or "nan") for cell in cells]))

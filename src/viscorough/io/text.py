@@ -8,14 +8,17 @@ and nothing is left out but comments.
 
 import io
 import re
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
 from viscorough import units
 from viscorough.io.atomic import reason
 from viscorough.io.grids import gridded
-from viscorough.io.headers import read_header, states
+from viscorough.io.headers import Header, read_header, states
 from viscorough.io.scan import Scan
+from viscorough.types import Array, FilePath
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?"
 _MISSING = (
@@ -36,7 +39,7 @@ _ESRI_KEY = re.compile(r"(?i)^\s*(ncols|nrows|cellsize|dx|dy|nodata_value|[xy]ll
 _LEAST_LABELS = 6  # evenly spaced numbers that are taken for positions rather than heights
 
 
-def read_text(path):
+def read_text(path: FilePath) -> Scan:
     """The Scan in a text file. Raises a one-line ValueError if it holds no map of heights, or none for certain."""
     text = _decoded(path)
     if text.startswith("Zygo XYZ Data File"):
@@ -71,13 +74,13 @@ def read_text(path):
     return Scan(heights, header.unit, header.spacing, spacing_unit)
 
 
-def is_binary(path):
+def is_binary(path: FilePath) -> bool:
     """Whether a file cannot be text. Raises a one-line ValueError if it cannot be read."""
     start = _content(path, 4096)
     return b"\x00" in start and _utf16(start) is None
 
 
-def _utf16(start):
+def _utf16(start: bytes) -> str | None:
     """The encoding of UTF-16 text, with or without a byte order mark; None for other text."""
     if start.startswith(_UTF16):
         return "utf-16"
@@ -87,7 +90,7 @@ def _utf16(start):
     return "utf-16-le" if places[0] else "utf-16-be"
 
 
-def _content(path, size=-1):
+def _content(path: FilePath, size: int = -1) -> bytes:
     """The first bytes of a file."""
     try:
         with open(path, "rb") as file:
@@ -96,7 +99,7 @@ def _content(path, size=-1):
         raise ValueError(f"{path}: not readable ({reason(error)}); a text file of heights is needed") from error
 
 
-def _decoded(path):
+def _decoded(path: FilePath) -> str:
     """The text of a file, in the encodings that instruments use, with \\n at the end of lines and ASCII minus signs."""
     content = _content(path)
     if encoding := _utf16(content[:4096]):
@@ -109,7 +112,7 @@ def _decoded(path):
     return text.replace("\r\n", "\n").replace("\r", "\n").replace("\N{MINUS SIGN}", "-")
 
 
-def _is_row(line):
+def _is_row(line: str) -> bool:
     """Whether a line starts a table: numbers, marks of missing points and empty cells only, and at least one number."""
     line = _REMARK.sub("", _MARK.sub("nan", line.replace('"', "").strip()))
     if (_COMMENT.match(line) and not line.startswith(";")) or not re.search(r"\d|nan", line, re.IGNORECASE):
@@ -118,7 +121,7 @@ def _is_row(line):
     return all(_FIELD.fullmatch(part) for cell in cells for part in cell.split(","))
 
 
-def _first_row_without_points(lines, first, delimiter, wanted):
+def _first_row_without_points(lines: Sequence[str], first: int, delimiter: str | None, wanted: int) -> int:
     """Number of the first of the rows just above `first` in which every point is missing; `first` if there is none."""
     missing = re.compile(f"(?:{_MISSING})?", re.IGNORECASE)
     for number in range(first - 1, -1, -1):
@@ -131,7 +134,9 @@ def _first_row_without_points(lines, first, delimiter, wanted):
     return first
 
 
-def _rows(lines, first, has_semicolons=None):
+def _rows(
+    lines: Sequence[str], first: int, has_semicolons: bool | None = None
+) -> tuple[dict[int, str], list[str], int]:
     """({number of a line: row}, comments, line of the first row that empty lines separate from those above, or 0).
 
     Comments beside rows are removed from them; those that are returned have lines of their own. Empty lines separate
@@ -162,7 +167,7 @@ def _rows(lines, first, has_semicolons=None):
     return rows, [*comments.values()], separated
 
 
-def _punctuation(rows):
+def _punctuation(rows: dict[int, str]) -> tuple[str | None, str]:
     """(delimiter, decimal mark) of rows; the delimiter is None for white space. Raises ValueError if not certain."""
     body = "\n".join(rows.values())
     comma, point = "," in body, "." in body
@@ -191,10 +196,10 @@ def _punctuation(rows):
     return ",", "."
 
 
-def _without_quotes(number, line):
+def _without_quotes(number: int, line: str) -> str:
     """A row without quotation marks; commas inside them are decimal commas."""
 
-    def unquoted(match):
+    def unquoted(match: re.Match[str]) -> str:
         if "." in match[1] and "," in match[1]:
             raise ValueError(f"line {number}: {match[0]} is not a number for certain; one decimal mark is needed")
         return match[1].replace(",", ".")
@@ -202,7 +207,7 @@ def _without_quotes(number, line):
     return re.sub(r'"([^"]*)"', unquoted, line)
 
 
-def _table(rows, delimiter, decimal):
+def _table(rows: dict[int, str], delimiter: str | None, decimal: str) -> Array:
     """The rows as an array of two dimensions; missing values are nan. Raises ValueError that names the line."""
     text = "\n".join(rows.values())
     if decimal == ",":
@@ -222,7 +227,7 @@ def _table(rows, delimiter, decimal):
         raise ValueError(_fault([*rows], text.split("\n"), delimiter) or reason(error)) from error
 
 
-def _fill_empty_cells(text, delimiter):
+def _fill_empty_cells(text: str, delimiter: str) -> str:
     """A text with nan in empty cells; a delimiter that ends, or starts, every line is left out."""
     if f"{delimiter} " in text:
         text = re.sub(rf"{delimiter} +", delimiter, text)
@@ -238,7 +243,7 @@ def _fill_empty_cells(text, delimiter):
     return text
 
 
-def _fault(numbers, lines, delimiter):
+def _fault(numbers: Sequence[int], lines: Sequence[str], delimiter: str | None) -> str:
     """Which line is not a row of as many numbers as the first, in words; "" for none."""
     wanted = len(lines[0].split(delimiter))
     for number, line in zip(numbers, lines, strict=False):
@@ -253,7 +258,7 @@ def _fault(numbers, lines, delimiter):
     return ""
 
 
-def _check_above(lines, delimiter, counts, esri):
+def _check_above(lines: Sequence[str], delimiter: str | None, counts: set[int], esri: dict[str, float]) -> None:
     """Raise ValueError if a line above the first row may be a row itself: nothing of a map is left out for a misprint.
 
     Such a line has as many cells as the table, with or without outer delimiters, and one of them is, or almost is, a
@@ -278,7 +283,7 @@ def _check_above(lines, delimiter, counts, esri):
             raise ValueError(f"line {number} ({line[:40]!r}) is not a row of numbers; numbers or a comment are needed")
 
 
-def _check_labels(table):
+def _check_labels(table: Array) -> None:
     """Raise ValueError if the first column or row counts up evenly, unlike the others, so that it holds no heights."""
     for name, first, others in (("column", table[:, 0], table[:, 1:].T), ("row", table[0], table[1:])):
         even = first.size >= _LEAST_LABELS and _is_even(first[1:] if np.isnan(first[0]) else first)
@@ -287,13 +292,13 @@ def _check_labels(table):
             raise ValueError(f"the first {name} {text}; heights alone, or columns x, y, z, are needed")
 
 
-def _is_even(values):
+def _is_even(values: Any) -> bool:
     """Whether values rise, or fall, in equal steps."""
     steps = np.diff(values)
     return bool(np.isfinite(steps).all() and steps[0] != 0 and np.ptp(steps) <= 1e-6 * abs(steps[0]))
 
 
-def _grid(table, header, required):
+def _grid(table: Array, header: Header, required: bool) -> Any:
     """(heights, (dx, dy)) of a table with columns x, y, z; None for a matrix of heights.
 
     Raises ValueError for points that form no grid, and for a table that may be either.
@@ -316,7 +321,7 @@ def _grid(table, header, required):
     return grid
 
 
-def _scan_of_points(grid, header):
+def _scan_of_points(grid: tuple[Array, tuple[float, float]], header: Header) -> Scan:
     """The Scan of a grid of points, with the units that the header states for them."""
     heights, spacing = grid
     if units.counts_points(header.lateral_unit):
@@ -325,7 +330,7 @@ def _scan_of_points(grid, header):
     return Scan(header.factor * heights, header.unit, spacing, lateral)
 
 
-def _esri(lines):
+def _esri(lines: Sequence[str]) -> dict[str, float]:
     """The keys of an ESRI grid in lines, and their numbers. Raises ValueError for no number, and for two of a key."""
     found = {}
     for number, line in enumerate(lines, 1):
@@ -338,7 +343,7 @@ def _esri(lines):
     return found if {"ncols", "nrows"} <= set(found) else {}
 
 
-def _esri_scan(table, esri):
+def _esri_scan(table: Array, esri: dict[str, float]) -> Scan:
     """A grid with the keys ncols, nrows, cellsize (or dx, dy) and nodata_value.
 
     A row of the grid may stand in several lines of the file, or all of them in one.

@@ -2,12 +2,16 @@
 
 import logging
 import xml.etree.ElementTree as ElementTree
+from typing import Any
 
 import numpy as np
+import tifffile
+from numpy.typing import NDArray
 
 from viscorough import units
 from viscorough.io.atomic import reason
 from viscorough.io.scan import Scan
+from viscorough.types import FilePath
 
 _PARK_SYSTEMS = 50432  # tag of the atomic force microscopes whose heights are not in the picture
 _LINEAR_UNITS = {9001: "m", 9002: "foot", 9003: "survey_foot", 9036: "km"}
@@ -17,7 +21,7 @@ _GDAL_METADATA = 42112
 logging.getLogger("tifffile").addHandler(logging.NullHandler())
 
 
-def read_tiff(path, channel=None):
+def read_tiff(path: FilePath, channel: str | int | None = None) -> Scan:
     """The Scan in a TIFF file.
 
     channel : number of the page, from 0; needed if the file has several of the same size
@@ -49,7 +53,7 @@ def read_tiff(path, channel=None):
     return Scan(heights, unit, spacing, spacing_unit)
 
 
-def _page(file, channel):
+def _page(file: tifffile.TiffFile, channel: str | int | None) -> Any:
     """The page that holds the heights."""
     pages = [page for page in file.pages if page.imagewidth and not page.is_reduced]
     if not pages:
@@ -63,7 +67,7 @@ def _page(file, channel):
     return pages[int(channel)]
 
 
-def _stated(file, page):
+def _stated(file: tifffile.TiffFile, page: Any) -> tuple[Any, ...]:
     """((dx, dy) or None, unit of the spacing, unit of the heights) that tags state."""
     if page.is_geotiff:
         keys = page.geotiff_tags
@@ -93,13 +97,13 @@ def _stated(file, page):
     return None, "1", "1"
 
 
-def _unit_of_imagej(text):
+def _unit_of_imagej(text: str) -> str:
     """A unit of ImageJ, in which µ is escaped; "1" for none, and for numbers of points."""
     unit = str(text or "").strip().strip("\x00").replace("\\u00B5", "µ").replace("\\u00b5", "µ")
     return "1" if not unit or units.counts_points(unit) else unit
 
 
-def _scaling(file, page):
+def _scaling(file: tifffile.TiffFile, page: Any) -> tuple[float, float, str]:
     """(scale, offset, unit) of stored numbers, by GDAL's metadata or ImageJ's calibration; "1" for no unit.
 
     Raises ValueError for a calibration by a function that is not linear.
@@ -116,18 +120,18 @@ def _scaling(file, page):
     return float(roles.get("scale", 1)), float(roles.get("offset", 0)), roles.get("unittype") or "1"
 
 
-def _one_of(unit, other):
+def _one_of(unit: str, other: str) -> str:
     """The unit that is stated. Raises ValueError for two that differ."""
     if "1" not in (unit, other) and units.metres(unit) != units.metres(other):
         raise ValueError(f"its heights are in {unit} and in {other}; one unit is needed")
     return other if unit == "1" else unit
 
 
-def _unit_of_key(key):
+def _unit_of_key(key: Any) -> str:
     return "1" if key is None else _LINEAR_UNITS.get(int(key), f"EPSG:{int(key)}")
 
 
-def _without(heights, nodata):
+def _without(heights: NDArray[Any], nodata: Any) -> NDArray[Any]:
     """The heights with those that equal the tag of missing values as nan."""
     if nodata is None or heights.dtype.kind not in "iuf":
         return heights

@@ -4,8 +4,14 @@ netCDF4 and xarray ignore attributes whose type is not that of the variable, suc
 precision for a variable in single precision, so that a missing value would become the highest peak.
 """
 
+from typing import Any
+
 import netCDF4
 import numpy as np
+from netCDF4 import Variable as NetCDFVariable
+from numpy.typing import NDArray
+
+from viscorough.types import Array, Integers, Mask
 
 # Attributes that describe how values are stored; they no longer hold for values that were read.
 MISSING = ("_FillValue", "missing_value", "valid_range", "valid_min", "valid_max")
@@ -13,7 +19,7 @@ STORAGE = (*MISSING, "scale_factor", "add_offset", "_Unsigned")
 _DEFAULT_FILL = {kind: fill for kind, fill in netCDF4.default_fillvals.items() if kind not in ("i1", "u1")}
 
 
-def unpacked(variable):
+def unpacked(variable: NetCDFVariable) -> NDArray[Any]:
     """The values of a netCDF4.Variable: unpacked, as a masked array if any are missing; text is returned unchanged.
 
     Missing are those that equal _FillValue (without it, what the format writes where nothing was written, except for
@@ -36,7 +42,7 @@ def unpacked(variable):
     return np.ma.array(values, mask=missing) if missing.any() else values
 
 
-def _numbers(variable, name, value, stored):
+def _numbers(variable: NetCDFVariable, name: str, value: float, stored: np.dtype[Any]) -> Array:
     """An attribute as an array of numbers; those that are compared with stored values have their precision."""
     try:
         numbers = np.atleast_1d(np.asarray(value)).ravel()
@@ -55,7 +61,7 @@ def _numbers(variable, name, value, stored):
     return numbers.view(stored) if numbers.dtype == signed else numbers  # as the format stores unsigned numbers
 
 
-def _absent(stored, numbers):
+def _absent(stored: NDArray[Any], numbers: dict[str, Any]) -> Mask:
     """Where stored values are the fill value or a missing value."""
     kind, absent = stored.dtype.str[1:], np.zeros(stored.shape, dtype=bool)
     default = [_DEFAULT_FILL[kind]] if kind in _DEFAULT_FILL else []
@@ -64,7 +70,7 @@ def _absent(stored, numbers):
     return absent
 
 
-def _invalid(stored, values, numbers):
+def _invalid(stored: NDArray[Any], values: Array | Integers, numbers: dict[str, Any]) -> Mask:
     """Where values lie outside the valid range, which holds for stored values or, if it is finer, for unpacked ones."""
     invalid = np.zeros(stored.shape, dtype=bool)
     limits = {name: numbers[name] for name in ("valid_range", "valid_min", "valid_max") if name in numbers}

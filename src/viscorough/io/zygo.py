@@ -1,11 +1,13 @@
 """Zygo's XYZ data files: a header of fixed lines, "#", and a line "column row height" or "column row No Data" each."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from viscorough.io.scan import Scan
 
 
-def zygo_scan(lines):
+def zygo_scan(lines: Sequence[str]) -> Scan:
     """The Scan in the lines of a file of Format 1.
 
     Line 4 of the header holds the origin and size of the map in points, the seventh number of line 8 the distance of

@@ -23,11 +23,15 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from viscorough.arrays import ReadOnlyArrays, increasing, read_only, samples
-from viscorough.summaries import Summarised, span
+from viscorough.loading_curve import LoadingCurve
+from viscorough.summaries import Summarised, Summary, span
+from viscorough.types import Array, Integers
 from viscorough.viscous.creep_response import creep_response
 from viscorough.viscous.media import Newtonian, medium_of
+from viscorough.viscous.medium import Medium
 from viscorough.viscous.spectra import zero_of_increasing
 
 _LATEST = 1e300  # at which creep that stops has stopped
@@ -47,7 +51,7 @@ class Kinetics(ReadOnlyArrays, Summarised):
     depth: np.ndarray
     velocity: np.ndarray
 
-    def _summary(self):
+    def _summary(self) -> Summary:
         """What it is; the first and last time, depth and velocity."""
         spans = ("time t", self.time), ("depth u", self.depth), ("velocity v", self.velocity)
         return f"Penetration at {self.time.size} times", *([(name, span(values))] for name, values in spans)
@@ -66,7 +70,9 @@ class ForceHistory(NamedTuple):
     impulse: np.ndarray
 
 
-def kinetics(curve, force, medium, times=None):
+def kinetics(
+    curve: LoadingCurve, force: ArrayLike | ForceHistory, medium: Medium | float, times: ArrayLike | None = None
+) -> Kinetics:
     """Depth and velocity of an indenter with the given loading curve in a linear viscoelastic half-space.
 
     curve : LoadingCurve of the indenter
@@ -104,7 +110,9 @@ def kinetics(curve, force, medium, times=None):
         return Kinetics(times, depth, np.where(creep == 0, 0.0, np.maximum(rate, 0) / stiffness))
 
 
-def _newtonian_kinetics(curve, force, viscosity, times):
+def _newtonian_kinetics(
+    curve: LoadingCurve, force: ArrayLike | ForceHistory, viscosity: float, times: ArrayLike
+) -> Kinetics:
     """Kinetics in a Newtonian medium, of which the impulse is the state."""
     history, place = resampled(force, times)
     times, force, impulse = (values[place] for values in history)
@@ -114,7 +122,7 @@ def _newtonian_kinetics(curve, force, viscosity, times):
     return Kinetics(times, depth, velocity)
 
 
-def _at_levels(curve, force, medium):
+def _at_levels(curve: LoadingCurve, force: float, medium: Medium) -> Kinetics:
     """Kinetics under a constant force at the times at which the levels of the curve are reached."""
     if isinstance(medium, Newtonian):
         viscosity = medium.viscosity
@@ -139,7 +147,7 @@ def _at_levels(curve, force, medium):
     return Kinetics(time, depth, velocity)
 
 
-def _creep(force, medium, times):
+def _creep(force: ArrayLike | ForceHistory, medium: Medium, times: ArrayLike) -> tuple[Array, Array, Array]:
     """Times, Φ and dΦ/dt there."""
     if np.ndim(force) > 0:
         history, place = resampled(force, times)
@@ -151,7 +159,7 @@ def _creep(force, medium, times):
         return times, force * medium.creep_compliance(times), force * medium.creep_rate(times)
 
 
-def resampled(force, times):
+def resampled(force: ArrayLike | ForceHistory, times: ArrayLike) -> tuple[ForceHistory, Integers]:
     """The ForceHistory with samples at `times` added, and the indices of those; after a step, where one is.
 
     force, times : as of `impulses`, or a ForceHistory and times within it
@@ -174,7 +182,7 @@ def resampled(force, times):
     return history, np.searchsorted(history.times, times, side="right") - 1
 
 
-def impulses(force, times):
+def impulses(force: ArrayLike, times: ArrayLike) -> ForceHistory:
     """The ForceHistory of a force F(t) ≥ 0 at the given times.
 
     force : a constant F > 0 from t = 0 on, or samples of shape (times,), linear in between, from times[0] on
@@ -195,7 +203,7 @@ def impulses(force, times):
     return ForceHistory(*map(read_only, (times, force, impulse)))
 
 
-def _at_impulse(curve, elastic_force, viscosity):
+def _at_impulse(curve: LoadingCurve, elastic_force: Array, viscosity: float) -> tuple[Array, Array]:
     """Depth and k/G at the impulse over viscosity I/η: those of the loading curve at F/G = `elastic_force` = I/η."""
     last, largest = curve.force[-1], elastic_force.max()
     if largest > last * (1 + _ROUNDING):
@@ -206,7 +214,7 @@ def _at_impulse(curve, elastic_force, viscosity):
     return _on_curve(curve, elastic_force)
 
 
-def _at_elastic_force(curve, creep, times):
+def _at_elastic_force(curve: LoadingCurve, creep: Array, times: Array) -> tuple[Array, Array]:
     """Depth and k/G at F/G = Φ = `creep`, at the given times."""
     beyond = creep > curve.force[-1] * (1 + _ROUNDING)
     if beyond.any() or not np.isfinite(creep).all():
@@ -218,12 +226,12 @@ def _at_elastic_force(curve, creep, times):
     return _on_curve(curve, creep)
 
 
-def _remedy(force):
+def _remedy(force: float) -> str:
     """What makes a curve long enough for this F/G."""
     return f"indent further, with until_fraction=1 or a level at F/G = {1.01 * force:.3g} (forces)"
 
 
-def _on_curve(curve, elastic_force):
+def _on_curve(curve: LoadingCurve, elastic_force: Array) -> tuple[Array, Array]:
     """Depth and k/G of the loading curve at F/G not beyond its last level."""
     first, last = curve.force[0], curve.force[-1]
     # A force that equals that of the first or last level up to rounding must not fall outside the curve.

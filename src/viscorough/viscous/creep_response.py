@@ -4,9 +4,19 @@ For media of springs and dashpots Φ is a sum of states that are carried from sa
 branches. For others every sample is summed over all before it, at a cost of samples². Either way the integral is exact.
 """
 
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from viscorough.compilation import njit
+from viscorough.types import Array, Integers
+from viscorough.viscous.medium import Medium
+
+if TYPE_CHECKING:
+    from viscorough.viscous.correspondence import ForceHistory
 
 _ROUNDING = 1e-12  # relative to the terms of dΦ/dt, which may be negative by as much
 _HALVINGS = 60  # of an interval in which dΦ/dt may change its sign
@@ -15,7 +25,7 @@ _CHUNK = 2**20  # pairs of samples at a time
 _SERIES_BELOW, _SERIES_TERMS, _FEWER_BELOW, _FEWER_TERMS = 0.3, 12, 0.01, 6
 
 
-def creep_response(medium, history):
+def creep_response(medium: Medium, history: ForceHistory) -> tuple[Array, Array]:
     """Φ and dΦ/dt at the samples of a force history: two arrays of shape (times,).
 
     history : ForceHistory; before its first sample the force is 0. At a step (one time in two samples) Φ and dΦ/dt are
@@ -41,7 +51,7 @@ def creep_response(medium, history):
 class _Intervals:
     """The force between the samples of a history, and the places where dΦ/dt is wanted."""
 
-    def __init__(self, medium, history):
+    def __init__(self, medium: Medium, history: ForceHistory) -> None:
         self.medium, self.times, self.force = medium, history.times, history.force
         self.lengths, increments = np.diff(self.times), np.diff(self.force)
         step = self.lengths == 0
@@ -49,7 +59,7 @@ class _Intervals:
         self.jumps = np.append(self.force[0], np.where(step, increments, 0.0))  # just before each sample
         self.intervals = np.flatnonzero(~step)
 
-    def first_decrease(self):
+    def first_decrease(self) -> float:
         """The first time at which Φ decreases; infinite if it never does.
 
         dΦ/dt is a sum of terms that rise and terms that fall within an interval, so that it is nowhere below the sum of
@@ -75,14 +85,14 @@ class _Intervals:
             start, end = np.concatenate([start, middle]), np.concatenate([middle, end])
         return found
 
-    def _first_jump_down(self):
+    def _first_jump_down(self) -> float:
         """The first time of a step down to which the medium responds at once."""
         with np.errstate(over="ignore"):
             at_once = self.medium.creep_compliance(0.0) > 0 or np.isinf(self.medium.creep_rate(0.0))
         down = self.jumps < -_ROUNDING * self.force
         return self.times[down].min(initial=np.inf) if at_once else np.inf
 
-    def rate_at_samples(self):
+    def rate_at_samples(self) -> Array:
         """dΦ/dt just after every sample; just before it at the last one and before a step."""
         count = self.times.size
         after = np.append(self.lengths > 0, False)
@@ -102,7 +112,7 @@ class _ByStates(_Intervals):
     θ y' + y = F, both exact for a force linear in time and computed without differences where the force is positive.
     """
 
-    def __init__(self, medium, history):
+    def __init__(self, medium: Medium, history: ForceHistory) -> None:
         super().__init__(medium, history)
         instantaneous, fluidity, self.compliances, self.retardation_times = medium.retardation
         self.instantaneous, self.fluidity = instantaneous, fluidity
@@ -110,7 +120,7 @@ class _ByStates(_Intervals):
         self.creep = instantaneous * self.force + fluidity * history.impulse + delayed @ self.compliances
         self.rate = self.rate_at_samples()
 
-    def parts(self, interval, offset, *, left):
+    def parts(self, interval: Integers, offset: Array, *, left: bool) -> tuple[Array, Array, Array]:
         """Terms of dΦ/dt that rise and that fall with the time after the start of an interval, and their size."""
         own = self.instantaneous, self.fluidity, self.compliances, self.retardation_times
         return _parts(interval, offset, self.slopes, self.force, self.left, *own)
@@ -119,25 +129,33 @@ class _ByStates(_Intervals):
 class _BySums(_Intervals):
     """Media without a discrete spectrum: sums over all steps and intervals before."""
 
-    def __init__(self, medium, history):
+    def __init__(self, medium: Medium, history: ForceHistory) -> None:
         super().__init__(medium, history)
         sample = np.arange(self.times.size)
         self.creep = self._over_the_past(sample, np.zeros(sample.size), self._creep_of, sample)[0]
         self.rate = self.rate_at_samples()
 
-    def _creep_of(self, time, left):
+    def _creep_of(self, time: Array, left: bool) -> tuple[Array, Array]:
         jumps = self.medium.creep_compliance(np.maximum(time - self.times, 0))
         return jumps, self._of_intervals(self.medium.creep_integral, time)
 
-    def _rate_of(self, time, left):
+    def _rate_of(self, time: Array, left: bool) -> tuple[Array, Array]:
         jumps = self.medium.creep_rate(np.maximum(time - self.times, 0), left=left)
         return jumps, self._of_intervals(self.medium.creep_increment, time)
 
-    def _of_intervals(self, function, time):
+    def _of_intervals(self, function: Callable[[Array, Array], Array], time: Array) -> Array:
         start, end = self.times[:-1], self.times[1:]
         return function(np.maximum(time - end, 0), np.maximum(time - start, 0))
 
-    def _over_the_past(self, sample, offset, kernels, last_interval, *, left=False):
+    def _over_the_past(
+        self,
+        sample: Integers,
+        offset: Array,
+        kernels: Callable[[Array, bool], tuple[Array, Array]],
+        last_interval: Integers,
+        *,
+        left: bool = False,
+    ) -> tuple[Array, Array, Array]:
         """Sums of jumps up to `sample` and intervals before `last_interval`: all, positive and negative terms."""
         positive, negative = np.zeros(sample.size), np.zeros(sample.size)
         rows = max(1, _CHUNK // self.times.size)
@@ -154,7 +172,7 @@ class _BySums(_Intervals):
                 total[chunk] = clip(jumps, 0).sum(axis=1) + clip(intervals, 0).sum(axis=1)
         return positive + negative, positive, negative
 
-    def parts(self, interval, offset, *, left):
+    def parts(self, interval: Integers, offset: Array, *, left: bool) -> tuple[Array, Array, Array]:
         """As of _ByStates: J is concave, so that what is left of the past falls where it is positive."""
         _, falling, rising = self._over_the_past(interval, offset, self._rate_of, interval, left=left)
         present = self.slopes[interval] * self.medium.creep_compliance(offset)

@@ -17,8 +17,8 @@ from scipy.special import gamma
 
 from viscorough.arrays import ReadOnlyArrays, read_only
 from viscorough.types import Array
-from viscorough.viscous.medium import Medium
-from viscorough.viscous.spectra import RelaxationSpectrum, RetardationSpectrum, retardation_spectrum
+from viscorough.viscous.medium import Medium, RelaxationSpectrum, RetardationSpectrum
+from viscorough.viscous.spectra import retardation_spectrum
 
 _NONE = np.array([])
 _TABLE_ROUNDING = 1e-9  # relative; slopes of tables with ten digits may increase by as much

@@ -1,12 +1,42 @@
 """What every linear viscoelastic medium answers, whatever is known of it."""
 
 from abc import ABC, abstractmethod
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from viscorough.types import Array
-from viscorough.viscous.spectra import RelaxationSpectrum, RetardationSpectrum
+
+
+class RelaxationSpectrum(NamedTuple):
+    """ψ(t) = η δ(t) + G∞ + Σ G_i exp(−t/τ_i): a dashpot, a spring and Maxwell branches side by side.
+
+    viscosity : η; relaxed_modulus : G∞; moduli, times : G_i > 0 and τ_i > 0, arrays of shape (branches,)
+    """
+
+    viscosity: float
+    relaxed_modulus: float
+    moduli: Array
+    times: Array
+
+    @property
+    def instantaneous_modulus(self) -> float:
+        """G∞ + Σ G_i, the modulus of a medium without a dashpot at time 0."""
+        return self.relaxed_modulus + self.moduli.sum()
+
+
+class RetardationSpectrum(NamedTuple):
+    """J(t) = J₀ + φ t + Σ J_j (1 − exp(−t/θ_j)): a spring, a dashpot and Kelvin-Voigt elements in series.
+
+    instantaneous_compliance : J₀; fluidity : φ
+    compliances, times : J_j > 0 and θ_j > 0, arrays of shape (elements,)
+    """
+
+    instantaneous_compliance: float
+    fluidity: float
+    compliances: Array
+    times: Array
 
 
 class Medium(ABC):

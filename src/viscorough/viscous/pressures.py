@@ -9,12 +9,23 @@ import numpy as np
 
 from viscorough.contact.prescribed_force import ForceSearch
 from viscorough.contact.solver import ContactSolver, check_solvable
+from viscorough.indenter import Indenter
+from viscorough.types import Array
 from viscorough.viscous.correspondence import ForceHistory, impulses, resampled
 from viscorough.viscous.creep_response import creep_response
 from viscorough.viscous.media import medium_of
+from viscorough.viscous.medium import Medium
 
 
-def pressure_at(indenter, medium, force, time, *, contacts=64, tolerance=1e-4):
+def pressure_at(
+    indenter: Indenter,
+    medium: Medium | float,
+    force: float | ForceHistory,
+    time: float,
+    *,
+    contacts: int = 64,
+    tolerance: float = 1e-4,
+) -> Array:
     """Pressure p on an indenter in a viscoelastic half-space at one time, in the unit of the moduli.
 
     indenter : Indenter with two-dimensional heights; medium : as in kinetics, but no CreepTable, whose ψ is not known
@@ -62,7 +73,7 @@ def pressure_at(indenter, medium, force, time, *, contacts=64, tolerance=1e-4):
     return total
 
 
-def _weights(medium, time, times):
+def _weights(medium: Medium, time: float, times: Array) -> Array:
     """Weights of the elastic pressures at `times` in the pressure at `time`, the last of them, without a dashpot's."""
     lengths, lag = np.diff(times), time - times
     ramp, weights = lengths > 0, np.zeros(times.size)

@@ -7,10 +7,14 @@ F_el/G, relaxed with the modulus ψ of the medium: F(t) = ∫ ψ(t − s) df(u(s
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from viscorough.arrays import increasing, read_only, samples
+from viscorough.loading_curve import LoadingCurve
+from viscorough.types import Array, Integers
 from viscorough.viscous.creep_response import branch_states
 from viscorough.viscous.media import medium_of
+from viscorough.viscous.medium import Medium
 from viscorough.viscous.spectra import zero_of_increasing
 
 _CHUNK = 2**20  # pairs of times at a time
@@ -27,7 +31,7 @@ class DepthHistory(NamedTuple):
     force: np.ndarray
 
 
-def force_under_depth(curve, depth, medium, times):
+def force_under_depth(curve: LoadingCurve, depth: ArrayLike, medium: Medium | float, times: ArrayLike) -> DepthHistory:
     """Force on an indenter that is moved to given depths in a viscoelastic half-space.
 
     curve : LoadingCurve of the indenter; medium : as in kinetics, but no CreepTable, whose ψ is not known
@@ -63,7 +67,7 @@ def force_under_depth(curve, depth, medium, times):
     return DepthHistory(*map(read_only, (times, depth, force[place])))
 
 
-def _depth_samples(curve, depth, times):
+def _depth_samples(curve: LoadingCurve, depth: ArrayLike, times: ArrayLike) -> tuple[Array, Array]:
     times = increasing("times", times, steps="the depth")
     depth = samples("depth", depth, times)
     if not (rises := np.diff(depth, prepend=0) >= 0).all():
@@ -80,7 +84,7 @@ def _depth_samples(curve, depth, times):
     return times, np.minimum(depth, curve.depth[-1])
 
 
-def _with_levels(curve, times, depth):
+def _with_levels(curve: LoadingCurve, times: Array, depth: Array) -> tuple[Array, Array, Integers]:
     """Times and depths with the levels of the curve on every ramp added, and the indices of the times given."""
     new_times, new_depths, before = [], [], []
     for k in np.flatnonzero((np.diff(depth) > 0) & (np.diff(times) > 0)):
@@ -102,7 +106,7 @@ def _with_levels(curve, times, depth):
     return node_times[kept], node_depths[kept], (np.cumsum(kept) - 1)[place]
 
 
-def _elastic_force(curve, depth):
+def _elastic_force(curve: LoadingCurve, depth: Array) -> tuple[Array, Array]:
     """F_el/G and k/G at depths up to the last level; before the first one the curve is taken for straight."""
     stiffness = np.full(depth.shape, curve.force[0] / curve.depth[0])
     force = depth * stiffness
@@ -119,7 +123,7 @@ def _elastic_force(curve, depth):
     return force, stiffness
 
 
-def _by_sums(medium, node_times, elastic, jumps, place):
+def _by_sums(medium: Medium, node_times: Array, elastic: Array, jumps: Array, place: Integers) -> Array:
     """∫ ψ(t − s) df(s) at the nodes `place`, summed over all nodes before each: the cost is times × nodes."""
     lengths = np.diff(node_times)
     slopes = np.divide(np.diff(elastic), lengths, out=np.zeros_like(lengths), where=lengths > 0)

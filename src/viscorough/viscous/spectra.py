@@ -4,44 +4,17 @@ With the relaxance Q(s) = s ψ̂(s) of a relaxation modulus ψ, the creep compli
 rates are the zeros of Q at s = −λ, which separate its poles, the relaxation rates (Gross 1953; Tschoegl 1989).
 """
 
-from typing import NamedTuple
+from collections.abc import Callable
 
 import numpy as np
+
+from viscorough.types import Array
+from viscorough.viscous.medium import RelaxationSpectrum, RetardationSpectrum
 
 _BISECTIONS = 80  # ten halve the exponent of any bracket to a factor of 2; the rest halve the number to its rounding
 
 
-class RelaxationSpectrum(NamedTuple):
-    """ψ(t) = η δ(t) + G∞ + Σ G_i exp(−t/τ_i): a dashpot, a spring and Maxwell branches side by side.
-
-    viscosity : η; relaxed_modulus : G∞; moduli, times : G_i > 0 and τ_i > 0, arrays of shape (branches,)
-    """
-
-    viscosity: float
-    relaxed_modulus: float
-    moduli: np.ndarray
-    times: np.ndarray
-
-    @property
-    def instantaneous_modulus(self):
-        """G∞ + Σ G_i, the modulus of a medium without a dashpot at time 0."""
-        return self.relaxed_modulus + self.moduli.sum()
-
-
-class RetardationSpectrum(NamedTuple):
-    """J(t) = J₀ + φ t + Σ J_j (1 − exp(−t/θ_j)): a spring, a dashpot and Kelvin-Voigt elements in series.
-
-    instantaneous_compliance : J₀; fluidity : φ
-    compliances, times : J_j > 0 and θ_j > 0, arrays of shape (elements,)
-    """
-
-    instantaneous_compliance: float
-    fluidity: float
-    compliances: np.ndarray
-    times: np.ndarray
-
-
-def retardation_spectrum(relaxation):
+def retardation_spectrum(relaxation: RelaxationSpectrum) -> RetardationSpectrum:
     """The RetardationSpectrum of a RelaxationSpectrum without a dashpot (viscosity 0) and with a branch.
 
     The zeros of Q(−λ) = G∞ + Σ G_i λ/(λ − r_i), r_i = 1/τ_i, lie one between neighbouring poles and, if G∞ > 0, one
@@ -56,7 +29,7 @@ def retardation_spectrum(relaxation):
     above = rates[rates.size - below.size :]
     from_rates = rates[:, None]  # relaxation rates down, zeros across
 
-    def relaxance(pole, distance):
+    def relaxance(pole: Array, distance: Array) -> Array:
         rate = pole + distance
         return relaxed + (moduli[:, None] * rate / (pole - from_rates + distance)).sum(axis=0)
 
@@ -74,7 +47,7 @@ def retardation_spectrum(relaxation):
     return RetardationSpectrum(1 / relaxation.instantaneous_modulus, fluidity, 1 / (zeros * slopes), 1 / zeros)
 
 
-def zero_of_increasing(function, low, high):
+def zero_of_increasing(function: Callable[[Array], Array], low: Array, high: Array) -> Array:
     """Zeros of an increasing function of arrays, entry by entry, between 0 < low < high, to rounding.
 
     Bisection, of the exponent at first: zeros may be many decades from either end.

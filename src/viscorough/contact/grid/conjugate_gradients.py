@@ -1,9 +1,16 @@
 """Preconditioned conjugate gradients on the contact sets of a grid, one after the other."""
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 
 from viscorough.contact.grid import kernels
-from viscorough.contact.grid.loops import joined
+from viscorough.contact.grid.loops import GridLoops, joined
+from viscorough.contact.halfspace.operator import Halfspace
+from viscorough.contact.preconditioner.multilevel import Preconditioner
+from viscorough.contact.state import ContactSet
+from viscorough.types import Array, Integers
 
 # Largest share of the last change of pressure in the next direction: a safeguard where many elements left the set.
 _LARGEST_SHARE = 1.0
@@ -18,28 +25,31 @@ class ConjugateGradients:
     a copy. Only one search can therefore be under way on a half-space.
     """
 
-    def __init__(self, halfspace, preconditioner, contact_set, loops):
+    def __init__(
+        self, halfspace: Halfspace, preconditioner: Preconditioner, contact_set: ContactSet, loops: GridLoops
+    ) -> None:
         self._halfspace, self._preconditioner, self._loops = halfspace, preconditioner, loops
         self._direction = halfspace.load.ravel()  # a view: the direction is the operator's load
         loops.fill(self._direction, 0)
-        self._deflection, self._limit, self._released = None, np.inf, np.empty(0, dtype=int)
+        self._deflection: Array | None = None
+        self._limit, self._released = np.inf, np.empty(0, dtype=int)
         self.change_set(contact_set)
 
-    def change_set(self, contact_set):
+    def change_set(self, contact_set: ContactSet) -> None:
         """Go on with another contact set, where the direction is zero on elements that have joined or left."""
         self._direction[self._released] = 0
         self._set, self._released = contact_set, self._released[:0]
         self._preconditioner.prepare(contact_set.inside, contact_set.places.size)
 
-    def precondition(self, gap):
+    def precondition(self, gap: Array) -> None:
         """Compute the preconditioned gap z = M e on the set."""
         self._preconditioned, self._gap = self._preconditioner.apply(gap), gap
 
-    def norm(self):
+    def norm(self) -> float:
         """zᵀe, the square of the norm of the residual."""
         return self._loops.inner_product(self._preconditioned, self._gap, self._set.places)
 
-    def update_direction(self):
+    def update_direction(self) -> None:
         """Update the search direction: conjugate to the last one, from the preconditioned residual.
 
         If the last step had not the length that minimises the energy along it, because elements left the set, what is
@@ -52,7 +62,7 @@ class ConjugateGradients:
                 factor = max(-self._limit, min((of_preconditioned - of_gap) / of_direction, self._limit))
         self._over_set(kernels.update_search_direction, self._direction, self._preconditioned, factor)
 
-    def step(self, pressure, gap):
+    def step(self, pressure: Array, gap: Array) -> bool:
         """Take a step of conjugate gradients, which changes pressure and gap in place.
 
         gap : e − g, or e_q, flat field
@@ -66,15 +76,15 @@ class ConjugateGradients:
         self._limit = np.inf
         return any(self._over_set(kernels.update_pressure, length, self._direction, pressure))
 
-    def unloaded_under_tension(self, pressure):
+    def unloaded_under_tension(self, pressure: Array) -> Integers:
         """Places of elements without pressure that a step along the direction would put under tension."""
         return joined(self._over_set(kernels.unloaded_under_tension, self._direction, pressure))
 
-    def step_causes_tension(self, length, pressure):
+    def step_causes_tension(self, length: float, pressure: Array) -> bool:
         """Whether a step of that length along the direction puts any element under tension."""
         return any(self._over_set(kernels.step_causes_tension, length, self._direction, pressure))
 
-    def step_and_release(self, length, pressure, width):
+    def step_and_release(self, length: float, pressure: Array, width: int) -> None:
         """Take a step of given length, after which elements under tension leave the set; changes both in place.
 
         width : of a row of flat fields
@@ -89,21 +99,21 @@ class ConjugateGradients:
         self._released = contact_set.slots[released]
         self._deflection, self._limit = None, _LARGEST_SHARE
 
-    def update_gap(self, gap):
+    def update_gap(self, gap: Array) -> None:
         """Change the gap, e − g, by the deflection of the direction, in place."""
         self._loops.update_gap(gap.dtype.type(1), self._deflect(), gap)
 
-    def _deflect(self):
+    def _deflect(self) -> Array:
         """K d in rows and columns; kept until the next call."""
         deflection = self._halfspace.apply()
         self._deflection = deflection.ravel()
         return deflection[:, : self._halfspace.shape[1]]
 
-    def _sums(self):
+    def _sums(self) -> Array:
         """z·Kd, d·e and d·Kd over the set."""
         fields = self._direction, self._deflection, self._preconditioned, self._gap
         return sum(self._over_set(kernels.direction_sums, *fields))
 
-    def _over_set(self, kernel, *fixed):
+    def _over_set(self, kernel: Callable[..., Any], *fixed: Any) -> Any:
         """Results of kernel(*fixed, places, slots) for the blocks of the set."""
         return self._loops.each(kernel, fixed, self._set.places, self._set.slots)

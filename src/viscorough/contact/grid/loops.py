@@ -1,15 +1,20 @@
 """The kernels over large arrays, block by block on several threads."""
 
+from collections.abc import Callable, Sequence
 from functools import partial
 from itertools import accumulate
+from typing import Any
 
 import numpy as np
+from numpy.typing import DTypeLike, NDArray
 
 from viscorough.contact.grid import kernels
 from viscorough.contact.parallel import BLOCK, run_blocks
+from viscorough.contact.state import GridFields
+from viscorough.types import Array, Integers, Mask
 
 
-def field_to_fill(size, dtype, inner):
+def field_to_fill(size: int, dtype: DTypeLike, inner: slice) -> NDArray[Any]:
     """A flat field that a loop fills, on its threads, but for the rows of its border, which are zero.
 
     inner : slice of the field without these rows
@@ -19,7 +24,7 @@ def field_to_fill(size, dtype, inner):
     return field
 
 
-def joined(parts):
+def joined(parts: list[Integers]) -> Integers:
     """Arrays of all blocks one after the other."""
     return parts[0] if len(parts) == 1 else np.concatenate(parts)
 
@@ -27,31 +32,43 @@ def joined(parts):
 class GridLoops:
     """Loops over the fields of a grid and its contact sets on so many threads."""
 
-    def __init__(self, threads):
+    def __init__(self, threads: int) -> None:
         self._threads = threads
 
-    def each(self, kernel, fixed, *arrays):
+    def each(self, kernel: Callable[..., Any], fixed: Sequence[Any], *arrays: Any) -> list[Any]:
         """Results of kernel(*fixed, *blocks) for the blocks of arrays of one length, in order."""
         return self._over(arrays[0], lambda i, j: kernel(*fixed, *(array[i:j] for array in arrays)))
 
     # Over the places of a set.
 
-    def inner_product(self, left, right, slots):
+    def inner_product(self, left: Array, right: Array, slots: Integers) -> float:
         """Σ left·right over the set."""
         return sum(self.each(kernels.inner_product, (left, right), slots))
 
-    def total(self, field, places):
+    def total(self, field: Array, places: Integers) -> float:
         """Sum of a field over the set."""
         return sum(self.each(kernels.total, (field,), places))
 
-    def largest_gap(self, gap_change, initial_gap, gap, places):
+    def largest_gap(self, gap_change: Array, initial_gap: Array, gap: Array, places: Integers) -> float:
         """Largest |e| on the set, where e is stored in the flat field `gap`."""
         return max(self.each(kernels.gap_on_set, (gap_change, initial_gap, gap), places))
 
-    def step_and_release(self, length, direction, pressure, inside, places, slots, *, stencil, width, stride):
+    def step_and_release(
+        self,
+        length: float,
+        direction: Array,
+        pressure: Array,
+        inside: Mask,
+        places: Integers,
+        slots: Integers,
+        *,
+        stencil: Array,
+        width: int,
+        stride: int,
+    ) -> Integers:
         """kernels.step_and_find_tension and `release`; returns the indices in the set of elements that left it."""
 
-        def step(i, j):
+        def step(i: int, j: int) -> Integers:
             return kernels.step_and_find_tension(length, direction, pressure, inside, places[i:j], slots[i:j], i)
 
         released = joined(self._over(places, step))
@@ -62,7 +79,7 @@ class GridLoops:
         if pressure.size > band:
             bands = np.split(released, np.searchsorted(places[released], np.arange(band, pressure.size, band)))
 
-        def release(of_bands, first, last):
+        def release(of_bands: list[Integers], first: int, last: int) -> None:
             for of_band in of_bands[first:last]:
                 kernels.release(direction, pressure, inside, places, slots, of_band, stencil, width, stride)
 
@@ -72,7 +89,9 @@ class GridLoops:
 
     # Over the elements, by rank.
 
-    def place_elements(self, box, row, column, initial_gap, field):
+    def place_elements(
+        self, box: tuple[int, ...], row: Integers, column: Integers, initial_gap: Array, field: Array
+    ) -> Integers:
         """Indices of the elements in a flat field for the elements in a box, where their initial gaps are stored.
 
         box : (first row, first column, rows, columns)
@@ -83,7 +102,7 @@ class GridLoops:
         width, kept = columns + 2 * kernels.REACH, field[0]
         place = np.empty(row.size, np.int32 if field.size < 2**31 else np.int64)
 
-        def store(i, j):
+        def store(i: int, j: int) -> None:
             in_rows, in_columns = row[i:j].astype(place.dtype) - top, column[i:j] - left
             inside = (in_rows >= 0) & (in_rows < rows) & (in_columns >= 0) & (in_columns < columns)
             place[i:j] = inside * ((in_rows + kernels.REACH) * width + in_columns + kernels.REACH)
@@ -93,10 +112,10 @@ class GridLoops:
         field[0] = kept
         return place
 
-    def transfer(self, fields, place, inside, pressure, tangent):
+    def transfer(self, fields: GridFields, place: Integers, inside: Mask, pressure: Array, tangent: Array) -> None:
         """Store the members, P and q of GridFields in flat fields of another grid, with the elements at `place`."""
 
-        def store(i, j):
+        def store(i: int, j: int) -> None:
             source = fields.place[i:j]
             members = np.flatnonzero(fields.inside[source])
             source, target = source[members], place[i:j][members]
@@ -104,17 +123,17 @@ class GridLoops:
 
         self._over(place, store)
 
-    def new_members(self, after, before):
+    def new_members(self, after: GridFields, before: GridFields) -> Integers:
         """Ranks of the elements in contact in GridFields, but not in other ones, which may be of another grid."""
 
-        def new(i, j):
+        def new(i: int, j: int) -> Integers:
             return i + np.flatnonzero(after.inside[after.place[i:j]] > before.inside[before.place[i:j]])
 
         return joined(self._over(after.place, new))
 
     # Over flat fields.
 
-    def contact_places(self, inside, width, stride):
+    def contact_places(self, inside: Mask, width: int, stride: int) -> tuple[Integers, Integers]:
         """Places in contact, and their indices in the load array, as uint32, or int64 where these are too large.
 
         Loops take less time where an index cannot be negative, which would count from the end of an array.
@@ -124,43 +143,43 @@ class GridLoops:
         ends = dict(zip(stops, accumulate(counts), strict=True))
         places, slots = np.empty((2, ends[inside.size]), whole_number)
 
-        def store(i, j):
+        def store(i: int, j: int) -> None:
             kernels.contact_places(inside, i, j, width, stride, ends[j], places, slots)
 
         self._over(inside, store)
         return places, slots
 
-    def difference(self, inside, other):
+    def difference(self, inside: Mask, other: Mask) -> Integers:
         """Places of a set that are not in another one."""
         return joined(self._over(inside, lambda i, j: i + np.flatnonzero(inside[i:j] > other[i:j])))
 
-    def lowest(self, field):
+    def lowest(self, field: Array) -> float:
         """Lowest value of a field."""
         return min(self._over(field, lambda i, j: field[i:j].min()))
 
-    def fill(self, field, value):
+    def fill(self, field: Array, value: float) -> None:
         """Set a field to a value everywhere, in place."""
         self._over(field, lambda i, j: field[i:j].fill(value))
 
-    def shifted(self, field, shift, out):
+    def shifted(self, field: Array, shift: float, out: Array) -> None:
         """Store a field minus a number; both fields in rows and columns."""
         rows, columns = field.shape
-        shift = out.dtype.type(shift)
+        rounded = out.dtype.type(shift)
 
-        def subtract(i, j):
+        def subtract(i: int, j: int) -> None:
             np.subtract(field[i:j], shift, out=out[i:j])
 
         run_blocks(subtract, rows, self._threads, -(-BLOCK // columns))
 
-    def update_gap(self, length, deflection, gap):
+    def update_gap(self, length: float, deflection: Array, gap: Array) -> None:
         """e − g, or e_q, += α K d everywhere, in place."""
         rows, columns = deflection.shape
         width = gap.size // (rows + 2 * kernels.REACH)
 
-        def update(i, j):
+        def update(i: int, j: int) -> None:
             kernels.update_gap(length, deflection[i:j], gap[i * width :])
 
         run_blocks(update, rows, self._threads, -(-BLOCK // columns))
 
-    def _over(self, array, function):
+    def _over(self, array: NDArray[Any], function: Callable[..., Any]) -> list[Any]:
         return run_blocks(function, array.size, self._threads)

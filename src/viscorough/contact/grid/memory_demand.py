@@ -6,6 +6,7 @@ from viscorough import memory
 from viscorough.contact.halfspace.operator import convolution_lengths
 from viscorough.contact.parallel import BLOCK
 from viscorough.contact.preconditioner.multilevel import REACH
+from viscorough.types import Array
 
 # Bytes of the rank, place, gap and temporary arrays of an element; of a map's entry, while its elements are found.
 _PER_ELEMENT, _PER_HEIGHT = 60, 10
@@ -22,7 +23,7 @@ _BLOCK_OF_COLUMNS, _COLUMNS_OF_BLOCK = 2 * 152, 64
 _CONSTANT = 6e6
 
 
-def require_for_contact(heights, *, exact, threads=1):
+def require_for_contact(heights: Array, *, exact: bool, threads: int = 1) -> None:
     """Raise MemoryError, which names the bytes needed and available, unless the contact of a map fits into memory.
 
     heights : a map, nan outside the indenter
@@ -40,7 +41,7 @@ def require_for_contact(heights, *, exact, threads=1):
     memory.require(needed, f"contact of a map of {heights.shape} heights")
 
 
-def _of_grid(rows, columns, *, exact, threads):
+def _of_grid(rows: int, columns: int, *, exact: bool, threads: int) -> float:
     """Bytes of a grid solver, its operators, and the contacts on its grid."""
     rows, columns = sorted((int(rows), int(columns)))
     along_columns, along_rows = convolution_lengths(rows, columns)

@@ -17,15 +17,20 @@ precision where the tolerance needs it, when the bound nears the tolerance: if p
 which the operator is applied anyway.
 """
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import DTypeLike, NDArray
 
 from viscorough.contact.grid import kernels
 from viscorough.contact.grid.conjugate_gradients import ConjugateGradients
 from viscorough.contact.grid.loops import GridLoops
 from viscorough.contact.halfspace.operator import Halfspace
+from viscorough.contact.options import SolverOptions
 from viscorough.contact.preconditioner.multilevel import LEAST_EIGENVALUE, REACH, Preconditioner
 from viscorough.contact.state import BoundedField, ContactSet
 from viscorough.errors import ConvergenceError
+from viscorough.types import Array, Mask
 
 # Elements without pressure that the first step would put under tension leave the first set before it if they are more
 # than this share of it: the preconditioned residual of a set far too large is of little use.
@@ -66,9 +71,18 @@ class ContactSearch:
     inner : slice of flat fields without the first and last rows of their border, which are most of those of a strip
     """
 
-    def __init__(self, rows, columns, tolerance, options, *, aspect=1.0, threads=1):
+    def __init__(
+        self,
+        rows: int,
+        columns: int,
+        tolerance: float,
+        options: SolverOptions,
+        *,
+        aspect: float = 1.0,
+        threads: int = 1,
+    ) -> None:
         self._tolerance, self._options, self._loops = tolerance, options, GridLoops(threads)
-        of_grid = {"aspect": aspect, "padding": options.padding, "threads": threads}
+        of_grid: dict[str, Any] = {"aspect": aspect, "padding": options.padding, "threads": threads}
         self._halfspace = Halfspace(rows, columns, _PRECISIONS[options.precision], **of_grid)
         exact = tolerance < options.exact_gap_below
         self._exact = Halfspace(rows, columns, **of_grid) if exact else self._halfspace
@@ -85,15 +99,16 @@ class ContactSearch:
         self.initial_gap = np.empty((rows + 2 * REACH) * self._width, dtype=self.precision)
         self._loops.fill(self.initial_gap, _OUTSIDE)
         self.residual = np.zeros(self.initial_gap.size, dtype=np.float32)
-        of_grid = {"aspect": aspect, "precision": np.float32, "threads": threads}
-        self._preconditioner = Preconditioner(rows + 2 * REACH, self._width, options.preconditioner, **of_grid)
+        self._preconditioner = Preconditioner(
+            rows + 2 * REACH, self._width, options.preconditioner, aspect=aspect, precision=np.float32, threads=threads
+        )
 
     @property
-    def operator_applications(self):
+    def operator_applications(self) -> int:
         """Applications of the half-space operator so far."""
         return sum(halfspace.count for halfspace in {self._halfspace, self._exact})
 
-    def solve_pressure(self, pressure, change, inside, depth):
+    def solve_pressure(self, pressure: Array, change: BoundedField, inside: Mask, depth: float) -> ContactSet:
         """Pressure P ≥ 0 with |e| on the set below the limit and no overlap beyond it elsewhere.
 
         change : BoundedField of e − g
@@ -101,7 +116,8 @@ class ContactSearch:
         Changes pressure, e − g and set in place. Returns the contact set.
         """
         limit = _SEARCH_SHARE * self._tolerance * depth
-        changed, releases, tension, search = True, 0, self._loops.lowest(pressure) < 0, None
+        changed, releases, tension = True, 0, self._loops.lowest(pressure) < 0
+        search: ConjugateGradients | None = None
         for iteration in range(self._options.max_iterations):
             if changed:
                 contact_set = self.contact_set(inside)
@@ -118,7 +134,7 @@ class ContactSearch:
                     self._add_penetrating_elements(change, inside, limit)
                     changed, search = True, None  # the load array holds another load now
                 continue
-            if changed:
+            if changed or search is None:
                 search = self._search(contact_set, search if 0 < releases < _HALVE_STEP_EVERY else None)
             search.precondition(self.residual)
             search.update_direction()
@@ -140,7 +156,7 @@ class ContactSearch:
             changed = self._add_penetrating_elements(change, inside, close_enough) > 0 or changed
         raise self._not_converged(contact_set, largest, limit)
 
-    def solve_tangent(self, contact_set, tangent, tangent_gap):
+    def solve_tangent(self, contact_set: ContactSet, tangent: Array, tangent_gap: BoundedField) -> None:
         """Solve K q = 1 on a set by conjugate gradients; changes q and e_q, with its rounding bound, in place."""
         tolerance = min(_TANGENT_TOLERANCE, np.sqrt(self._tolerance))
         accepted = max(_TANGENT_ROUNDING * self._tolerance, self._exact_rounding + self.field_rounding)
@@ -163,11 +179,11 @@ class ContactSearch:
             search.step(tangent, tangent_gap.values)
         raise self._not_converged(contact_set, error, tolerance)
 
-    def contact_set(self, inside):
+    def contact_set(self, inside: Mask) -> ContactSet:
         """The ContactSet of a flat field that says whether an element is in it."""
         return ContactSet(inside, *self._loops.contact_places(inside, self._width, self._halfspace.load.shape[1]))
 
-    def gap_change(self, pressure, depth):
+    def gap_change(self, pressure: Array, depth: float) -> BoundedField:
         """e − g = K P − u of a pressure as a BoundedField."""
         change = BoundedField(self.zeros(), self.field_rounding * depth)
         if pressure.any():
@@ -176,26 +192,26 @@ class ContactSearch:
             self._loops.fill(change.values, -depth)
         return change
 
-    def tangent_gap(self, tangent):
+    def tangent_gap(self, tangent: Array) -> BoundedField:
         """e_q = K q − 1 of a tangent as a BoundedField."""
         return self.gap_change(tangent, 1)
 
-    def zeros(self, dtype=None):
+    def zeros(self, dtype: DTypeLike | None = None) -> NDArray[Any]:
         """A flat field of zeros, whose memory is taken by whatever loop fills it, on the threads of that loop."""
         return np.zeros(self.initial_gap.size, dtype or self.precision)
 
-    def _release_step(self, releases):
+    def _release_step(self, releases: int) -> float:
         later = _LATER_STEPS if releases else 1.0
         return self._options.release_step * later * 0.5 ** (releases // _HALVE_STEP_EVERY)
 
-    def _search(self, contact_set, last=None):
+    def _search(self, contact_set: ContactSet, last: ConjugateGradients | None = None) -> ConjugateGradients:
         """Conjugate gradients on a set: the last search goes on, unless there is none or steps have no fixed length."""
         if last is None or self._options.release_step == 0:
             return ConjugateGradients(self._halfspace, self._preconditioner, contact_set, self._loops)
         last.change_set(contact_set)
         return last
 
-    def _exclude(self, search, pressure, contact_set):
+    def _exclude(self, search: ConjugateGradients, pressure: Array, contact_set: ContactSet) -> bool:
         """Take unloaded elements under tension out of the set if they are a large share; returns whether they are."""
         places = search.unloaded_under_tension(pressure)
         is_large = places.size > _EXCLUDED * contact_set.places.size
@@ -203,18 +219,18 @@ class ContactSearch:
             contact_set.inside[places] = False
         return is_large
 
-    def _must_recompute(self, change, largest, limit, depth):
+    def _must_recompute(self, change: BoundedField, largest: float, limit: float, depth: float) -> bool:
         """Whether the rounding error is too large, and recomputing the gap reduces it for the rest of this level."""
         too_large = max(_INEXACT * limit, 2 * (self._exact_rounding + self.field_rounding) * depth)
         return change.rounding > too_large and self._rounding * largest < _INEXACT * limit
 
-    def _not_converged(self, contact_set, residual, limit):
+    def _not_converged(self, contact_set: ContactSet, residual: float, limit: float) -> ConvergenceError:
         return ConvergenceError(
             f"contact of {contact_set.places.size} elements: the residual {residual:.1e} does not fall below "
             f"{limit:.1e} in {self._options.max_iterations} steps; choose a larger tolerance"
         )
 
-    def _deflect(self, pressure, depth, change):
+    def _deflect(self, pressure: Array, depth: float, change: BoundedField) -> None:
         """Compute e − g = K P − u from a pressure, in double precision where the tolerance needs it; in place.
 
         change : BoundedField of e − g, whose border is kept
@@ -225,10 +241,10 @@ class ContactSearch:
         self._loops.shifted(deflection, depth, self._interior(change.values))
         change.rounding = (self._exact_rounding + self.field_rounding) * depth
 
-    def _add_penetrating_elements(self, change, inside, limit):
+    def _add_penetrating_elements(self, change: BoundedField, inside: Mask, limit: float) -> int:
         fields = (field[self.inner] for field in (change.values, self.initial_gap, inside))
         return sum(self._loops.each(kernels.add_penetrating_elements, (limit,), *fields))
 
-    def _interior(self, field):
+    def _interior(self, field: Array) -> Array:
         """View of a flat field without its border, in rows and columns."""
         return field.reshape(-1, self._width)[REACH:-REACH, REACH:-REACH]

@@ -16,8 +16,9 @@ from viscorough.contact.grid import kernels
 from viscorough.contact.grid.loops import GridLoops, field_to_fill
 from viscorough.contact.grid.search import ContactSearch
 from viscorough.contact.grid.tangent_start import Loads, initial_tangent
-from viscorough.contact.options import LATE
-from viscorough.contact.state import BoundedField, ContactState, GridFields
+from viscorough.contact.options import LATE, SolverOptions
+from viscorough.contact.state import BoundedField, ContactSet, ContactState, GridFields, Units
+from viscorough.types import Array, Integers, Mask
 
 # A box with more than this many times as many rows as columns is transposed: the operator works on blocks of columns,
 # which few columns do not fill.
@@ -39,7 +40,18 @@ class GridSolver:
     initial_gap : flat field
     """
 
-    def __init__(self, box, row, column, initial_gap, tolerance, options, *, aspect=1.0, threads=1):
+    def __init__(
+        self,
+        box: tuple[int, ...],
+        row: Integers,
+        column: Integers,
+        initial_gap: Array,
+        tolerance: float,
+        options: SolverOptions,
+        *,
+        aspect: float = 1.0,
+        threads: int = 1,
+    ) -> None:
         top, left, rows, columns = box
         if rows > _TALL * columns:
             row, column, top, left, rows, columns = column, row, left, top, columns, rows
@@ -50,23 +62,24 @@ class GridSolver:
         self.place = self._loops.place_elements(box, row, column, initial_gap, self.initial_gap)
 
     @property
-    def operator_applications(self):
+    def operator_applications(self) -> int:
         """Applications of the half-space operator so far."""
         return self._search.operator_applications
 
-    def fields(self, contact):
+    def fields(self, contact: ContactState) -> GridFields:
         """GridFields of a contact from elsewhere on this grid; costs two applications of the operator."""
         search = self._search
         inside, pressure, tangent = search.zeros(bool), search.zeros(), search.zeros()
         if contact.fields:
             self._loops.transfer(contact.fields, self.place, inside, pressure, tangent)
         else:
-            place = self.place[contact.loads.members]
-            inside[place], pressure[place], tangent[place] = True, contact.loads.pressure, contact.loads.tangent
+            loads = contact.member_loads()
+            place = self.place[loads.members]
+            inside[place], pressure[place], tangent[place] = True, loads.pressure, loads.tangent
         change, tangent_gap = search.gap_change(pressure, contact.reduced_depth), search.tangent_gap(tangent)
         return GridFields(inside, pressure, change, tangent, tangent_gap, self.initial_gap, self.place)
 
-    def solve(self, contact, depth):
+    def solve(self, contact: ContactState, depth: float) -> ContactState:
         """The ContactState at a larger reduced depth, from a contact with GridFields on this grid.
 
         Raises ConvergenceError if the tolerance is not reached in max_iterations.
@@ -81,7 +94,7 @@ class GridSolver:
         fields = GridFields(*solution, self.initial_gap, self.place)
         return self._state(contact.units, depth, fields, contact_set)
 
-    def _predicted(self, before, last_depth, depth):
+    def _predicted(self, before: GridFields, last_depth: float, depth: float) -> tuple[Array, BoundedField, Mask]:
         """Pressure, e − g and contact set at a depth as predicted from GridFields at the last depth."""
         inner, precision, depth_step = self._search.inner, self._search.precision, depth - last_depth
         predicted = [field_to_fill(self.initial_gap.size, dtype, inner) for dtype in (precision, precision, bool)]
@@ -92,13 +105,13 @@ class GridSolver:
         pressure, change, inside = predicted
         return pressure, BoundedField(change, rounding + self._search.field_rounding * depth), inside
 
-    def settled(self, contact, depth, pressure_sum):
+    def settled(self, contact: ContactState, depth: float, pressure_sum: float) -> ContactState:
         """The contact at a depth so near that its tangent leads there, with pressures of exactly the given sum.
 
         Changing the pressures by a multiple of q shifts the gap in contact by that multiple: the residual grows by no
         more than the mean gap left in contact, weighted with q, and the distance of the depths. The gap is recomputed.
         """
-        fields, search, precision = contact.fields, self._search, self._search.precision
+        fields, search, precision = contact.grid_fields, self._search, self._search.precision
         places = np.flatnonzero(fields.inside)
         share = (pressure_sum - self._loops.total(fields.pressure, places)) / self._loops.total(fields.tangent, places)
         pressure = np.maximum(fields.pressure + precision(share) * fields.tangent, precision(0))
@@ -108,7 +121,7 @@ class GridSolver:
         settled = self._state(contact.units, depth, fields, search.contact_set(inside))
         return replace(settled, pressure_sum=pressure_sum, tangent_sum=contact.tangent_sum)
 
-    def solve_flat_punch(self, inside, tangent, tangent_gap):
+    def solve_flat_punch(self, inside: Mask, tangent: Array, tangent_gap: Array) -> float:
         """Solve K q = 1 on a set by iteration from the given q, which must be zero outside the set; changes q in place.
 
         inside : whether an element is in the set, flat field
@@ -123,7 +136,7 @@ class GridSolver:
         places = contact_set.places
         return self._loops.total(tangent, places) - self._loops.inner_product(tangent, tangent_gap, places)
 
-    def _state(self, units, depth, fields, contact_set):
+    def _state(self, units: Units, depth: float, fields: GridFields, contact_set: ContactSet) -> ContactState:
         """The ContactState of GridFields at a reduced depth."""
         places, change, tangent = contact_set.places, fields.gap_change, fields.tangent
         inner, residual = self._search.inner, self._search.residual
@@ -141,9 +154,9 @@ class GridSolver:
             fields=fields,
         )
 
-    def _start_fields(self, contact):
+    def _start_fields(self, contact: ContactState) -> GridFields:
         """The fields of the last contact; if the warm start uses the pressure only, with a tangent of zero."""
-        fields = contact.fields
+        fields = contact.grid_fields
         if self._options.warm_start == "tangent":
             return fields
         no_tangent_gap = BoundedField(np.full_like(fields.pressure, -1.0), fields.tangent_gap.rounding)

@@ -10,8 +10,9 @@ import numpy as np
 import scipy.linalg
 
 from viscorough.contact.grid import kernels
-from viscorough.contact.grid.loops import field_to_fill
-from viscorough.contact.state import BoundedField
+from viscorough.contact.grid.loops import GridLoops, field_to_fill
+from viscorough.contact.state import BoundedField, ContactSet, GridFields
+from viscorough.types import Array
 
 
 class Loads(NamedTuple):
@@ -22,7 +23,9 @@ class Loads(NamedTuple):
     depth: float
 
 
-def initial_tangent(now, last, before, contact_set, inner, loops):
+def initial_tangent(
+    now: Loads, last: Loads, before: GridFields, contact_set: ContactSet, inner: slice, loops: GridLoops
+) -> tuple[Array, BoundedField]:
     """The combination as initial q, and e_q = K q − 1 everywhere as a BoundedField.
 
     now, last : Loads after and before the step; before : the GridFields before it
@@ -39,13 +42,15 @@ def initial_tangent(now, last, before, contact_set, inner, loops):
     return tangent, BoundedField(tangent_gap, _rounding(weights, now, last, before.tangent_gap.rounding))
 
 
-def _known_fields(now, last, before):
+def _known_fields(now: Loads, last: Loads, before: GridFields) -> tuple[Array, ...]:
     """The fields that are combined, each with its deflection."""
     loads = now.pressure, now.gap_change.values, last.pressure, last.gap_change.values
     return *loads, before.tangent, before.tangent_gap.values
 
 
-def _weights(now, last, before, contact_set, loops):
+def _weights(
+    now: Loads, last: Loads, before: GridFields, contact_set: ContactSet, loops: GridLoops
+) -> tuple[float, float, float]:
     """Weights of pressure, last pressure and last tangent in the combination of them closest to q in energy."""
     fixed = (now.depth, last.depth), *_known_fields(now, last, before)
     energy, sums = (sum(parts) for parts in zip(*loops.each(kernels.energies, fixed, contact_set.places), strict=True))
@@ -59,7 +64,7 @@ def _weights(now, last, before, contact_set, loops):
     return *weights, *[0.0] * (3 - weights.size)
 
 
-def _rounding(weights, now, last, tangent_rounding):
+def _rounding(weights: tuple[float, float, float], now: Loads, last: Loads, tangent_rounding: float) -> float:
     """Bound on the rounding error of the combined e_q."""
     pressure_weight, last_pressure_weight, tangent_weight = weights
     rounding, last_rounding, depth_step = now.gap_change.rounding, last.gap_change.rounding, now.depth - last.depth

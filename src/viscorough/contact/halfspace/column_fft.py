@@ -8,9 +8,11 @@ so that every operation below acts on as many columns at once as a register of t
 """
 
 import numpy as np
+from numpy.typing import DTypeLike
 
 from viscorough.compilation import njit
 from viscorough.contact.parallel import Buffers, aligned_zeros, run_blocks
+from viscorough.types import Array, Complex
 
 # Columns of a block, which is small enough for the cache, and how many more columns the last block may have.
 _BLOCK, _REST = 64, 8
@@ -20,14 +22,14 @@ _PARTS = _BLOCK + _REST
 _ROW = 2 * _PARTS + 8
 
 
-def good_length(least):
+def good_length(least: int) -> int:
     """Smallest length 2^a 3^b ≥ least with a ≥ 2: the lengths for which there are transforms."""
     most = int(np.ceil(np.log2(max(least, 4))))
     lengths = [2**a * 3**b for a in range(2, most + 1) for b in range(most)]
     return min(length for length in lengths if length >= least)
 
 
-def _radices(length):
+def _radices(length: int) -> list[int]:
     """Factors 3, 4 and 8 of a length, small ones first: the last stage is one of four or eight."""
     twos = (length & -length).bit_length() - 1
     threes = round(np.log(length >> twos) / np.log(3))
@@ -261,7 +263,7 @@ class ColumnConvolution:
     threads : on which blocks of columns are convolved
     """
 
-    def __init__(self, rows, spectrum, precision, threads=1):
+    def __init__(self, rows: int, spectrum: Array, precision: DTypeLike, threads: int = 1) -> None:
         length, columns = 2 * (spectrum.shape[0] - 1), spectrum.shape[1]
         radices = _radices(length)
         frequency, factors, rest = np.zeros(1, dtype=int), [], length
@@ -283,10 +285,10 @@ class ColumnConvolution:
         self._blocks, self._threads = edges.size - 1, threads
         self._work = Buffers((2, length, _ROW), precision)
 
-    def apply(self, data):
+    def apply(self, data: Complex) -> None:
         """Convolve the columns of `data`, complex numbers of shape (rows, columns), in place."""
 
-        def convolve(start, stop):
+        def convolve(start: int, stop: int) -> None:
             with self._work.one() as (x, y):
                 _convolve(start, stop, data, *self._plan, x, y)
 

@@ -3,13 +3,14 @@
 import numpy as np
 
 from viscorough.compilation import njit
+from viscorough.types import Array, Integers
 
 # Beyond this distance (in sides of an element or of its parts) the series below is more accurate than the difference
 # of logarithms.
 _FAR = 30
 
 
-def influence_coefficient(row, column, aspect=1.0):
+def influence_coefficient(row: Array | Integers, column: Array | Integers, aspect: float = 1.0) -> Array:
     """K: displacement at a distance in rows and columns, of a rectangular element under uniform pressure.
 
     Love's solution, w = p d/(πE*) K = p d/(4πG) K, for an element with sides dx along the rows and dy along the columns
@@ -28,7 +29,7 @@ def influence_coefficient(row, column, aspect=1.0):
     return _potentials(x.astype(float).ravel(), y.astype(float).ravel(), *parts).reshape(x.shape)
 
 
-def influence_table(row, column, aspect=1.0):
+def influence_table(row: Array, column: Array, aspect: float = 1.0) -> Array:
     """K of `influence_coefficient` at all pairs of distances in rows and columns, in a small part of the time.
 
     row, column : distances, arrays of shapes (m,) and (n,)
@@ -40,7 +41,7 @@ def influence_table(row, column, aspect=1.0):
     return _fill_table(abs(row) * height, abs(column) * width, *parts)
 
 
-def _sides_and_parts(aspect):
+def _sides_and_parts(aspect: float) -> tuple[float, ...]:
     """dy and dx in units of d, the sides of the parts into which elements are divided from far, and their numbers.
 
     From far, a long rectangle is the sum of parts that are at most twice as long as wide.

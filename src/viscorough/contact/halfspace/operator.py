@@ -4,10 +4,12 @@ from functools import lru_cache
 
 import ducc0
 import numpy as np
+from numpy.typing import DTypeLike
 
 from viscorough.contact.halfspace.column_fft import ColumnConvolution, good_length
 from viscorough.contact.halfspace.influence import influence_table
 from viscorough.contact.parallel import BLOCK, Buffers, run_blocks
+from viscorough.types import Array, Complex
 
 # Rows that lie a power of two apart in memory compete for the same cache lines; this many extra numbers per row prevent
 # that.
@@ -21,7 +23,7 @@ _KEPT = 1 << 20
 _ROWS_AT_ONCE = 16
 
 
-def convolution_lengths(rows, columns):
+def convolution_lengths(rows: int, columns: int) -> tuple[int, int]:
     """Lengths of the periodic convolution along the columns and along the rows of a grid.
 
     A single row has no distances along the columns: its length there is 1.
@@ -30,12 +32,12 @@ def convolution_lengths(rows, columns):
 
 
 @lru_cache(maxsize=6)
-def _kept_spectrum(lengths, period, aspect):
+def _kept_spectrum(lengths: tuple[int, int], period: tuple[float, float] | None, aspect: float) -> Array:
     """The same as `_spectrum`, kept for further grids with these lengths."""
     return _spectrum(lengths, period, aspect, threads=1)
 
 
-def _spectrum(lengths, period, aspect, threads):
+def _spectrum(lengths: tuple[int, int], period: tuple[float, float] | None, aspect: float, threads: int) -> Array:
     """Real spectrum of K on a periodic grid of these lengths, divided by their product.
 
     K and its spectrum are even, so that a cosine transform over distances up to half the lengths gives the spectrum at
@@ -49,13 +51,13 @@ def _spectrum(lengths, period, aspect, threads):
         row, column = (np.minimum(d, abs(n - d)) for d, n in zip((row, column), period, strict=True))
     spectrum = np.empty((row.size, column.size))
 
-    def transform_columns(start, stop):
+    def transform_columns(start: int, stop: int) -> None:
         part = spectrum[:, start:stop]
         part[:] = influence_table(row, column[start:stop], aspect)
         if row.size > 1:
             ducc0.fft.dct(part, axes=[0], type=1, out=part)
 
-    def transform_rows(start, stop):
+    def transform_rows(start: int, stop: int) -> None:
         part = spectrum[start:stop]
         ducc0.fft.dct(part, axes=[1], type=1, out=part)
         part /= np.prod(lengths)
@@ -79,7 +81,7 @@ class _RowTransforms:
     width : of rows as `forward` takes them; what lies beyond the columns of the grid must be zero
     """
 
-    def __init__(self, rows, columns, length, precision, threads):
+    def __init__(self, rows: int, columns: int, length: int, precision: DTypeLike, threads: int) -> None:
         folds = 1 if rows >= _FOLDED_BELOW else max(n for n in range(1, int(length**0.5) + 1) if length % n == 0)
         self._shape, self._folded, self._threads = (length // folds, folds), folds > 1, threads
         first, second = np.arange(length // folds // 2 + 1)[:, None], np.arange(folds)
@@ -92,7 +94,7 @@ class _RowTransforms:
         buffers = Buffers((2, self._block, length + _ROW_PADDING), precision)
         self._columns, self._buffers = columns, None if is_one else buffers
 
-    def forward(self, data, out):
+    def forward(self, data: Array, out: Complex) -> None:
         """Transform the rows of `data`."""
         if self._buffers is None:
             ducc0.fft.r2c(self._fold(data), axes=[1], out=out)
@@ -101,14 +103,14 @@ class _RowTransforms:
                 ducc0.fft.c2c(out, axes=[2], out=out)
             return
 
-        def transform(start, stop):
+        def transform(start: int, stop: int) -> None:
             with self._buffers.one() as (padded, _):
                 padded[: stop - start, : self._columns] = data[start:stop, : self._columns]
                 ducc0.fft.r2c(self._fold(padded[: stop - start]), axes=[1], out=out[start:stop])
 
         run_blocks(transform, len(data), self._threads, self._block, _ROWS_AT_ONCE)
 
-    def backward(self, data, out):
+    def backward(self, data: Complex, out: Array) -> None:
         """The inverse of `forward`, which overwrites `data`; the columns of `out` beyond the grid are undefined."""
         if self._buffers is None:
             if self._folded:
@@ -117,17 +119,17 @@ class _RowTransforms:
             self._inverse(data, out)
             return
 
-        def transform(start, stop):
+        def transform(start: int, stop: int) -> None:
             with self._buffers.one() as (_, rows):
                 self._inverse(data[start:stop], rows[: stop - start])
                 out[start:stop, : self._columns] = rows[: stop - start, : self._columns]
 
         run_blocks(transform, len(data), self._threads, self._block, _ROWS_AT_ONCE)
 
-    def _inverse(self, data, out):
+    def _inverse(self, data: Complex, out: Array) -> None:
         ducc0.fft.c2r(data, axes=[1], forward=False, lastsize=self._shape[0], out=self._fold(out))
 
-    def _fold(self, data):
+    def _fold(self, data: Array) -> Array:
         length, folds = self._shape
         return data[:, : length * folds].reshape(len(data), length, folds)
 
@@ -156,7 +158,16 @@ class Halfspace:
     are undefined.
     """
 
-    def __init__(self, rows, columns, precision=np.float64, *, aspect=1.0, padding=True, threads=1):
+    def __init__(
+        self,
+        rows: int,
+        columns: int,
+        precision: DTypeLike = np.float64,
+        *,
+        aspect: float = 1.0,
+        padding: bool = True,
+        threads: int = 1,
+    ) -> None:
         self.shape = (rows, columns)
         of_grid = convolution_lengths(rows, columns), None if padding else (rows, columns), aspect
         spectrum = _kept_spectrum(*of_grid) if rows * columns <= _KEPT else _spectrum(*of_grid, threads)
@@ -172,7 +183,7 @@ class Halfspace:
         self._deflection = np.empty_like(self.load)
         self.count = 0
 
-    def apply(self):
+    def apply(self) -> Array:
         """Deflection w = K P of the pressure in `load`, in the same layout; valid until the next call."""
         data = self._transformed
         self._rows.forward(self.load, data)

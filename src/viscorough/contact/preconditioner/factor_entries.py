@@ -5,10 +5,13 @@ are in contact: there are 4096 rows.
 """
 
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from viscorough.contact.halfspace.influence import influence_coefficient
+from viscorough.types import Array
 
 # Largest distance of a neighbour, in rows or columns: the width of the border that fields need.
 REACH = 2
@@ -20,7 +23,7 @@ _LARGEST_ENTRY = 120
 
 
 @lru_cache(maxsize=4)
-def factor_rows(aspect):
+def factor_rows(aspect: float) -> Array:
     """Rows of G by pattern, the last entry for the element, for elements of an aspect dy/dx; shape (4096, 13).
 
     Bit s of a pattern is set if neighbour s is in contact. With A the influence matrix of the neighbours in contact and
@@ -41,7 +44,7 @@ def factor_rows(aspect):
 
 
 @lru_cache(maxsize=4)
-def factor_entries(aspect, precision):
+def factor_entries(aspect: float, precision: type[np.floating[Any]]) -> tuple[NDArray[Any], Any]:
     """Entries of G by neighbour and pattern, the last ones their sums, and the unit in which they are stored."""
     rows, unit = factor_rows(aspect), 1.0
     if precision == np.float32:

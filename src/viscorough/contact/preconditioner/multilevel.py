@@ -22,6 +22,7 @@ Compiled functions take plain arrays, hence their many arguments.
 """
 
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 import scipy.linalg
@@ -31,6 +32,7 @@ from viscorough.contact.halfspace.influence import influence_coefficient
 from viscorough.contact.parallel import run_blocks
 from viscorough.contact.preconditioner.factor_entries import BEFORE, NEIGHBOURS, REACH
 from viscorough.contact.preconditioner.sparse_factor import SparseFactor
+from viscorough.types import Array, Integers, Mask
 
 # Lower bound of the eigenvalues of M K (tests/viscorough/contact/preconditioner/test_multilevel.py).
 LEAST_EIGENVALUE = 0.35
@@ -51,7 +53,7 @@ _OWN = 1.0
 
 
 @lru_cache(maxsize=4)
-def load_redistribution_stencil(aspect):
+def load_redistribution_stencil(aspect: float) -> Array:
     """Share of an element's load that each of its eight neighbours takes over when it leaves the contact, shape (3, 3).
 
     Obtained by eliminating the element from the influence matrix of the 5 × 5 elements around it; the centre is −1.
@@ -151,7 +153,16 @@ class Preconditioner:
     stencil : load_redistribution_stencil of the elements
     """
 
-    def __init__(self, height, width, kind="multilevel", *, aspect=1.0, precision=np.float64, threads=1):
+    def __init__(
+        self,
+        height: int,
+        width: int,
+        kind: str = "multilevel",
+        *,
+        aspect: float = 1.0,
+        precision: type[np.floating[Any]] = np.float64,
+        threads: int = 1,
+    ) -> None:
         self.stencil = load_redistribution_stencil(aspect)
         self._kind, self._precision = kind, precision
         sides = round(_SIDE / aspect**0.5), round(_SIDE * aspect**0.5)  # blocks about as long as wide
@@ -162,7 +173,7 @@ class Preconditioner:
         self._changed, self._scale = 0, np.zeros(blocks)
         self._squares, self._loads = np.zeros((2, *blocks))
 
-    def apply(self, residual):
+    def apply(self, residual: Array) -> Array:
         """M r of a residual r, both flat fields, of which only the set is defined; valid until the next call."""
         if self._kind == "none":
             return residual
@@ -176,7 +187,7 @@ class Preconditioner:
         corrected = corrected.reshape(loads.shape) * self._scale
         return self._factor.prolong(corrected[REACH:-REACH, REACH:-REACH])
 
-    def prepare(self, inside, count):
+    def prepare(self, inside: Mask, count: int) -> None:
         """Prepare for a contact set.
 
         inside : whether an element is in the set, flat field; count : elements in it
@@ -199,22 +210,22 @@ class Preconditioner:
 class _ManyBlocks:
     """The approximate inverse of 1 + a K a on blocks; `squares`, those of a, must be set before `prepare`."""
 
-    def __init__(self, sides, aspect, height, width, threads):
+    def __init__(self, sides: tuple[int, int], aspect: float, height: int, width: int, threads: int) -> None:
         self._width, self._threads = width, threads
         self.squares, self._work = np.zeros((2, height * width))
         self._before = np.array(_BEFORE_BLOCK) @ [self._width, 1]
         self._slots = np.array([*map(BEFORE.index, _BEFORE_BLOCK), NEIGHBOURS])
         self._kernel = _coupling(sides, aspect, *np.transpose([*_BEFORE_BLOCK, (0, 0)]))
         self._blocks, blocks = _block_of_places(height, width, (_RATIO, _RATIO))
-        self._coarser = _coarse_level((_RATIO * sides[0], _RATIO * sides[1]), aspect, *blocks, threads)
+        self._coarser = _coarse_level((_RATIO * sides[0], _RATIO * sides[1]), aspect, blocks[0], blocks[1], threads)
         self.places = np.empty(0, dtype=int)
 
-    def prepare(self):
+    def prepare(self) -> None:
         places = self.places = np.flatnonzero(self.squares)
         rows, weights, blocks = np.zeros((places.size, NEIGHBOURS + 1)), np.empty(places.size), self._blocks[places]
         amplitude = np.sqrt(self.squares)
 
-        def factorise(i, j):
+        def factorise(i: int, j: int) -> None:
             of_grid = self._before, self._slots, self._kernel
             _factorise(amplitude, places[i:j], *of_grid, rows[i:j], weights[i:j])
 
@@ -224,7 +235,7 @@ class _ManyBlocks:
         self._factor = places, rows, self._width, weights, blocks
         self._values, self._loads = np.empty(places.size), np.empty_like(self._coarser.squares)
 
-    def apply(self, residual):
+    def apply(self, residual: Array) -> Array:
         """M r at the places, valid until the next call, for a residual r on the flat grid of blocks."""
         _restrict(residual, *self._factor, self._values, self._loads)
         self._loads[self._coarser.places] -= self._coarser.apply(self._loads)
@@ -235,12 +246,12 @@ class _ManyBlocks:
 class _FewBlocks:
     """The inverse of 1 + a K a on blocks, dense; `squares`, those of a, must be set before `prepare`."""
 
-    def __init__(self, sides, aspect, height, width):
+    def __init__(self, sides: tuple[int, int], aspect: float, height: int, width: int) -> None:
         self.squares, self.places = np.zeros(height * width), np.empty(0, dtype=int)
         self._kernel = _dense_coupling(sides, aspect, height, width)
-        self._coupling = np.empty((0, 0))  # between the places
+        self._coupling: Array = np.empty((0, 0))  # between the places
 
-    def prepare(self):
+    def prepare(self) -> None:
         places = np.flatnonzero(self.squares)
         if not np.array_equal(places, self.places):  # mostly all blocks have contact already
             self.places, self._coupling = places, self._kernel[np.ix_(places, places)]
@@ -249,31 +260,33 @@ class _FewBlocks:
         matrix.flat[:: places.size + 1] += 1
         self._factor, _ = scipy.linalg.lapack.dpotrf(matrix.T, overwrite_a=True)
 
-    def apply(self, residual):
+    def apply(self, residual: Array) -> Array:
         return scipy.linalg.lapack.dpotrs(self._factor, residual[self.places])[0]
 
 
 class _NoCorrection:
     """Replaces the coarse levels by a unit matrix, so that nothing is corrected."""
 
-    def __init__(self, height, width):
+    def __init__(self, height: int, width: int) -> None:
         self.squares, self.places = np.zeros(height * width), np.empty(0, dtype=int)
 
-    def prepare(self):
+    def prepare(self) -> None:
         self.places = np.flatnonzero(self.squares)
 
-    def apply(self, residual):
+    def apply(self, residual: Array) -> Array:
         return residual[self.places]
 
 
-def _coarse_level(sides, aspect, height, width, threads):
+def _coarse_level(
+    sides: tuple[int, int], aspect: float, height: int, width: int, threads: int
+) -> _ManyBlocks | _FewBlocks | _NoCorrection:
     """The grid level of blocks of sides[0] rows and sides[1] columns, on a flat grid of given height and width."""
     few = max(height, width) - 2 * REACH <= _DENSE
     grid = sides, aspect, height, width
     return _FewBlocks(*grid) if few else _ManyBlocks(*grid, threads)
 
 
-def _block_of_places(height, width, sides):
+def _block_of_places(height: int, width: int, sides: tuple[int, int]) -> tuple[Integers, list[int]]:
     """Place of the block of every place of a flat grid, and height and width of the grid of blocks; with borders."""
     row, column = ((np.arange(n) - REACH) // side + REACH for n, side in ((height, sides[0]), (width, sides[1])))
     blocks = [-(-(n - 2 * REACH) // side) + 2 * REACH for n, side in ((height, sides[0]), (width, sides[1]))]
@@ -281,12 +294,12 @@ def _block_of_places(height, width, sides):
 
 
 @lru_cache(maxsize=2)
-def _dense_coupling(sides, aspect, height, width):
+def _dense_coupling(sides: tuple[int, int], aspect: float, height: int, width: int) -> Array:
     """K between all blocks of a grid with its border."""
     return _coupling(sides, aspect, *np.divmod(np.arange(height * width), width))
 
 
-def _coupling(sides, aspect, row, column):
+def _coupling(sides: tuple[int, int], aspect: float, row: Integers, column: Integers) -> Array:
     """K between blocks at (row, column): mean deflection of a block by a unit load distributed evenly over another."""
     row, column = (abs(position[:, None] - position).astype(float) for position in (row, column))
     of_others = influence_coefficient(row, column, aspect * sides[0] / sides[1])

@@ -10,11 +10,15 @@ cache. Rounding changes G, and with it the preconditioner, by a few percent, but
 without contact are skipped. Compiled functions take plain arrays, hence many arguments.
 """
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 
 from viscorough.compilation import njit
 from viscorough.contact.parallel import BLOCK, run_blocks
 from viscorough.contact.preconditioner.factor_entries import BEFORE, NEIGHBOURS, REACH, factor_entries
+from viscorough.types import Array, Integers, Mask
 
 # Blocks side by side that are processed together if any of them has elements in contact: wide enough for registers.
 _TOGETHER = 4
@@ -210,7 +214,15 @@ class SparseFactor:
     squares : of the lengths of the vectors of row sums of G, by rows and columns of blocks
     """
 
-    def __init__(self, height, width, sides, aspect, precision, threads=1):
+    def __init__(
+        self,
+        height: int,
+        width: int,
+        sides: tuple[int, int],
+        aspect: float,
+        precision: type[np.floating[Any]],
+        threads: int = 1,
+    ) -> None:
         self._height, self._sides = height - 2 * REACH, sides
         self._threads, self._rows_at_once = threads, -(-BLOCK // (sides[0] * width))
         self._entries, self._unit = factor_entries(aspect, precision)
@@ -223,10 +235,10 @@ class SparseFactor:
         blocks = [-(-(n - 2 * REACH) // side) for n, side in zip((height, width), sides, strict=True)]
         self.squares, self._loads = np.zeros((2, *blocks))
 
-    def update(self, inside):
+    def update(self, inside: Mask) -> int:
         """Change to another contact set, whether an element is in it, flat field; returns how many joined or left."""
 
-        def changes(i, j):
+        def changes(i: int, j: int) -> Integers:
             changed = i + np.flatnonzero(inside[i:j] != self._inside[i:j])
             self._inside[i:j] = inside[i:j]
             return changed
@@ -236,7 +248,7 @@ class SparseFactor:
             self._over_rows(self._renew_rows, changed)
         return changed.size
 
-    def _renew_rows(self, first_row, last_row, changed):
+    def _renew_rows(self, first_row: int, last_row: int, changed: Integers) -> None:
         """Renew what depends on elements that joined or left the set, of some rows of blocks."""
         width, side = self._factor.shape[2], self._sides[0]
         start, stop = ((row * side + REACH) * width for row in (first_row, last_row))
@@ -252,7 +264,7 @@ class SparseFactor:
             _renew(start, stop, self._inside, changed[first:last], self._offsets, *stored)
         _sum_squares(first_row, last_row, self._factor, self._unit, self._height, self._sides, self.squares)
 
-    def restrict(self, residual):
+    def restrict(self, residual: Array) -> Array:
         """Compute G r, which is kept, from a flat field r; returns Wᵀ G r by rows and columns of blocks.
 
         W is the matrix of the vectors of row sums in the blocks, not normalised.
@@ -261,14 +273,14 @@ class SparseFactor:
         self._over_rows(_restrict, self._factor, self._unit, residual, *of_grid, self._values, self._loads)
         return self._loads
 
-    def prolong(self, loads):
+    def prolong(self, loads: Array) -> Array:
         """Gᵀ (G r − W loads), flat field, of which only the contact set is defined; valid until the next call."""
         of_grid = self._height, self._sides, self.squares
         self._over_rows(_correct, self._factor, self._unit, loads, *of_grid, self._values)
         self._over_rows(_prolong, self._factor, self._unit, self._values, *of_grid, self._result)
         return self._result
 
-    def _over_rows(self, function, *arguments):
+    def _over_rows(self, function: Callable[..., Any], *arguments: Any) -> None:
         """Call function(first, last, *arguments) for all rows of blocks."""
         size = len(self.squares), self._threads, self._rows_at_once
         run_blocks(lambda first, last: function(first, last, *arguments), *size)

@@ -8,6 +8,8 @@ import numpy as np
 from viscorough import memory
 from viscorough.contact.halfspace.operator import Halfspace
 from viscorough.contact.state import Elements
+from viscorough.indenter import Indenter
+from viscorough.types import Array, Integers
 
 
 @dataclass(frozen=True)
@@ -21,33 +23,33 @@ class MapElements(Elements):
     side: float
 
     @property
-    def scale(self):
+    def scale(self) -> float:
         """4π d, with which the force is 4π d ΣQ for Q = p d/(4π)."""
         return 4 * np.pi * self.side
 
     @cached_property
-    def _operator(self):
+    def _operator(self) -> Halfspace:
         return Halfspace(*self.shape, aspect=self.aspect)
 
-    def deflection(self, load):
+    def deflection(self, load: Array) -> Array:
         """K times a load at all elements."""
         self._operator.load[self.row, self.column] = load
         return self._operator.apply()[self.row, self.column]
 
-    def influence_among(self, members):
+    def influence_among(self, members: Integers) -> Array:
         """K between elements, shape (members, members)."""
         memory.require(24 * members.size**2, f"direct integration with {members.size} elements in contact")
         row, column = self.row[members], self.column[members]
         return self.influence[abs(row[:, None] - row), abs(column[:, None] - column)]
 
-    def pressure_map(self, load):
+    def pressure_map(self, load: Array) -> Array:
         """Pressure p = 4π Q/d on the grid, nan where there is no element."""
         pressure = np.full(self.shape, np.nan)
         pressure[self.row, self.column] = 4 * np.pi / self.side * load
         return pressure
 
 
-def elements_of_map(indenter, caller):
+def elements_of_map(indenter: Indenter, caller: str) -> MapElements:
     """The MapElements of an indenter. Raises ValueError, which starts with the caller, unless it is a map."""
     if indenter.heights.ndim != 2:
         raise ValueError(f"{caller}: the indenter's heights must be two-dimensional")

@@ -9,13 +9,16 @@ the impulse ∫F dt, so that the next contact event, the depth at which the next
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from viscorough import memory
 from viscorough.arrays import ReadOnlyArrays
 from viscorough.compilation import njit
 from viscorough.contact.growing_cholesky import append_element, solve_flat_punch
 from viscorough.errors import ConvergenceError
+from viscorough.indenter import Indenter
 from viscorough.interrupts import uninterrupted
+from viscorough.types import Array, Integers
 from viscorough.viscous.integration.elements import elements_of_map
 
 
@@ -38,17 +41,17 @@ class Events(ReadOnlyArrays):
     elements: int
     length_unit: str = "1"
 
-    def depth_at(self, impulse):
+    def depth_at(self, impulse: ArrayLike) -> Array:
         """Depth [length] at impulses ∫F dt/η [length²] of any shape; linear between events and beyond the last one."""
         i = self.event_at(impulse)
         return self.depth[i] + (impulse - self.impulse[i]) / self.resistance[i]
 
-    def event_at(self, impulse):
+    def event_at(self, impulse: ArrayLike) -> Integers:
         """Index of the last event at or before impulses ∫F dt/η [length²] of any shape."""
         return np.searchsorted(self.impulse, impulse, side="right") - 1
 
 
-def march_events(indenter, *, until_fraction=1.0):
+def march_events(indenter: Indenter, *, until_fraction: float = 1.0) -> Events:
     """Penetration of a rigid indenter into a linearly viscous half-space, exact from contact event to contact event.
 
     Every event adds one element to the contact set and one row to the Cholesky factor of its influence matrix. The

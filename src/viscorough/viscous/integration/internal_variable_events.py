@@ -12,13 +12,17 @@ correspondence with the elastic problem, nor retardation times: this module chec
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.linalg import expm
 
 from viscorough import memory
 from viscorough.contact.growing_cholesky import append_element, solve_flat_punch
 from viscorough.errors import ConvergenceError
-from viscorough.viscous.integration.elements import elements_of_map
+from viscorough.indenter import Indenter
+from viscorough.types import Array, Progress
+from viscorough.viscous.integration.elements import MapElements, elements_of_map
 from viscorough.viscous.integration.internal_variables import MediumMotion, branch_factors, load_samples, spectrum_of
+from viscorough.viscous.medium import Medium, RelaxationSpectrum
 
 _TENSION = 1e-9  # relative to the largest pressure
 _ROUNDING = 1e-12  # of the motion in a step in which nothing moves
@@ -36,7 +40,16 @@ class MediumEvents(MediumMotion):
     event_depth: np.ndarray
 
 
-def march_medium_events(indenter, medium, times, *, force=None, depth=None, until_fraction=1.0, progress=None):
+def march_medium_events(
+    indenter: Indenter,
+    medium: Medium | float,
+    times: ArrayLike,
+    *,
+    force: ArrayLike | None = None,
+    depth: ArrayLike | None = None,
+    until_fraction: float = 1.0,
+    progress: Progress | None = None,
+) -> MediumEvents:
     """Motion of a rigid indenter on a viscoelastic half-space while the contact grows, exact between contact events.
 
     indenter, medium, times, force, depth, progress : as of march_medium
@@ -71,7 +84,9 @@ def march_medium_events(indenter, medium, times, *, force=None, depth=None, unti
     return MediumEvents(*moved, indenter.length_unit, **events)
 
 
-def _advance(contact, law, start, length, loads):
+def _advance(
+    contact: "_GrowingContact", law: "_ByForce | _ByDepth", start: float, length: float, loads: tuple[float, float]
+) -> None:
     """From one sample to the next, through the contact events in between; a step of the load if the length is 0."""
     law.begin(length, *loads)
     if law.end_motion < law.motion(0.0) - _ROUNDING * abs(law.end_motion):
@@ -91,11 +106,11 @@ def _advance(contact, law, start, length, loads):
 class _ByForce:
     """The motion Y = Σy over all elements under a force that is linear in time, from 0 to 1 in a step."""
 
-    def __init__(self, relaxation, scale):
+    def __init__(self, relaxation: RelaxationSpectrum, scale: float) -> None:
         self._medium, self._scale = relaxation, scale
         self._state = np.zeros(1 + relaxation.moduli.size)  # Y and the sums W_i of the internal variables
 
-    def begin(self, length, load, end_load):
+    def begin(self, length: float, load: float, end_load: float) -> None:
         viscosity, relaxed, moduli, times = self._medium
         self.length, size = length, self._state.size
         if length == 0:  # everything springs at once, or, with a dashpot, nothing
@@ -119,25 +134,25 @@ class _ByForce:
         self._state = self.state(1.0)
         self.end_motion = self._state[0]
 
-    def state(self, share):
+    def state(self, share: float) -> Array:
         """Y and W_i after a share of the step."""
         if self._matrix is None:
             return self._start + share * self._change
         return (expm(share * self.length * self._matrix) @ self._augmented)[: self._state.size]
 
-    def motion(self, share):
+    def motion(self, share: float) -> float:
         return self.state(share)[0]
 
-    def motion_per_depth(self, contact):
+    def motion_per_depth(self, contact: "_GrowingContact") -> float:
         return contact.punch
 
-    def rate(self, share):
+    def rate(self, share: float) -> float:
         """Y' per share of the step."""
         if self._matrix is None:
             return self._change[0]
         return self.length * (self._matrix @ expm(share * self.length * self._matrix) @ self._augmented)[0]
 
-    def reach(self, motion, passed):
+    def reach(self, motion: float, passed: float) -> float:
         """The share of the step at which Y has grown to `motion`: by Newton's method, kept inside a bracket."""
         low, high, share = passed, 1.0, passed
         for _ in range(_MAX_NEWTON_ITERATIONS):
@@ -151,7 +166,7 @@ class _ByForce:
             share = following
         return share
 
-    def internal(self, before, punch_share, first, last):
+    def internal(self, before: Array, punch_share: Array, first: float, last: float) -> Array:
         """Internal variables of elements with a share q/Σq of the motion, from one share of the step to another."""
         viscosity, _, _, times = self._medium
         start, end = self.state(first), self.state(last)
@@ -164,26 +179,26 @@ class _ByForce:
 class _ByDepth:
     """The depth itself as the motion, linear in time, from 0 to 1 in a step."""
 
-    def __init__(self, relaxation):
+    def __init__(self, relaxation: RelaxationSpectrum) -> None:
         self._medium = relaxation
 
-    def begin(self, length, load, end_load):
+    def begin(self, length: float, load: float, end_load: float) -> None:
         self.length, self._begin, self.end_motion = length, load, end_load
         if self._medium.viscosity and length == 0 and load != end_load:
             raise ValueError(
                 "march_medium_events: a step of depth takes an infinite force in this medium; allowed: ramps"
             )
 
-    def motion(self, share):
+    def motion(self, share: float) -> float:
         return self._begin + share * (self.end_motion - self._begin)
 
-    def motion_per_depth(self, contact):
+    def motion_per_depth(self, contact: "_GrowingContact") -> float:
         return 1.0
 
-    def reach(self, motion, passed):
+    def reach(self, motion: float, passed: float) -> float:
         return (motion - self._begin) / (self.end_motion - self._begin)
 
-    def internal(self, before, punch_share, first, last):
+    def internal(self, before: Array, punch_share: Array, first: float, last: float) -> Array:
         """As of _ByForce, with q in place of q/Σq."""
         decay, mean = branch_factors((last - first) * self.length / self._medium.times, "second_order")
         change = self.motion(last) - self.motion(first)
@@ -195,7 +210,7 @@ class _ByDepth:
 class _GrowingContact:
     """The contact set, its flat-punch solution q, and the state of its elements."""
 
-    def __init__(self, elements, relaxation, most):
+    def __init__(self, elements: MapElements, relaxation: RelaxationSpectrum, most: int) -> None:
         memory.require(8 * most**2, f"march_medium_events: the factor for {most} elements in contact")
         self._elements, self._medium, self._most = elements, relaxation, most
         self.gap, self._factor, self._members = elements.initial_gap.copy(), np.empty((most, most)), np.zeros(most, int)
@@ -206,7 +221,7 @@ class _GrowingContact:
         self._next = int(np.argmin(self.gap))
         self.add_next(None)
 
-    def add_next(self, time):
+    def add_next(self, time: float) -> None:
         """Add the element that touches now; `time` is that of the event, None for the first element."""
         if self.count == self._most:
             raise ConvergenceError(
@@ -228,17 +243,17 @@ class _GrowingContact:
         self._find_next()
 
     @property
-    def punch_share(self):
+    def punch_share(self) -> Array:
         """q over Σq of the contact set, for all elements."""
         return self._load / self.punch
 
-    def _find_next(self):
+    def _find_next(self) -> None:
         with np.errstate(divide="ignore"):
             depth_step = np.where(self._inside, np.inf, np.maximum(self.gap, 0) / np.maximum(self._closing, 1e-300))
         self._next = int(np.argmin(depth_step))
         self.depth_to_next = depth_step[self._next]
 
-    def follow(self, law, first, last):
+    def follow(self, law: "_ByForce | _ByDepth", first: float, last: float) -> None:
         """Move on with this contact set from one share of the step to another."""
         punch = law.motion_per_depth(self)
         share = self._load / punch

@@ -13,12 +13,16 @@ the contact, and the surface behind them recovers.
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.linalg import cho_factor, cho_solve
 
 from viscorough.arrays import ReadOnlyArrays, increasing, samples
 from viscorough.errors import ConvergenceError
-from viscorough.viscous.integration.elements import elements_of_map
+from viscorough.indenter import Indenter
+from viscorough.types import Array, Integers, Progress
+from viscorough.viscous.integration.elements import MapElements, elements_of_map
 from viscorough.viscous.media import medium_of
+from viscorough.viscous.medium import Medium, RelaxationSpectrum
 
 MEDIUM_SCHEMES = ("backward_euler", "second_order")
 _MAX_ITERATIONS, _ADDED_AT_ONCE = 300, 8
@@ -46,7 +50,16 @@ class MediumMotion(ReadOnlyArrays):
     receding_from: float = np.nan
 
 
-def march_medium(indenter, medium, times, *, force=None, depth=None, scheme="second_order", progress=None):
+def march_medium(
+    indenter: Indenter,
+    medium: Medium | float,
+    times: ArrayLike,
+    *,
+    force: ArrayLike | None = None,
+    depth: ArrayLike | None = None,
+    scheme: str = "second_order",
+    progress: Progress | None = None,
+) -> MediumMotion:
     """Motion of a rigid indenter on a viscoelastic half-space, one contact problem per step in time.
 
     "backward_euler" is of first order in the steps. "second_order" integrates the branches exactly for surfaces that
@@ -96,7 +109,7 @@ def march_medium(indenter, medium, times, *, force=None, depth=None, scheme="sec
     return MediumMotion(*moved, indenter.length_unit, float(receding))
 
 
-def spectrum_of(caller, medium):
+def spectrum_of(caller: str, medium: Medium | float) -> RelaxationSpectrum:
     """The RelaxationSpectrum of a medium. Raises ValueError, which starts with the caller, if it has none."""
     medium = medium_of(medium)
     if medium.relaxation is None:
@@ -104,7 +117,9 @@ def spectrum_of(caller, medium):
     return medium.relaxation
 
 
-def load_samples(caller, times, force, depth):
+def load_samples(
+    caller: str, times: ArrayLike, force: ArrayLike | None, depth: ArrayLike | None
+) -> tuple[Array, Array]:
     """Times and load, arrays of shape (times,). Raises ValueError, which starts with the caller, for others."""
     if (force is None) == (depth is None):
         raise ValueError(f"{caller}: one of force and depth is needed")
@@ -119,12 +134,12 @@ class _State:
     With a parallel dashpot Q is that which a step assumes, its mean over the step in the second-order scheme.
     """
 
-    def __init__(self, elements, relaxation):
+    def __init__(self, elements: MapElements, relaxation: RelaxationSpectrum) -> None:
         self._elements, self._relaxation = elements, relaxation
         self.depth, self.motion, self.pressure = 0.0, np.zeros(elements.count), np.zeros(elements.count)
         self._branches = np.zeros((relaxation.moduli.size, elements.count))
 
-    def advance(self, contact, length, scheme, load, *, by_depth):
+    def advance(self, contact: "_ContactProblem", length: float, scheme: str, load: float, *, by_depth: bool) -> None:
         """One step, at whose end Q = `kept` + c (y − y₀): a contact problem in Q alone."""
         relaxed, moduli = self._relaxation.relaxed_modulus, self._relaxation.moduli[:, None]
         decay, gain = branch_factors(length / self._relaxation.times, scheme)
@@ -140,7 +155,7 @@ class _State:
         self._branches = decay[:, None] * self._branches + gain[:, None] * change
         self.motion = self.motion + change
 
-    def pressure_now(self, contact, load, *, by_depth):
+    def pressure_now(self, contact: "_ContactProblem", load: float, *, by_depth: bool) -> Array:
         """Q at this time: with a parallel dashpot, K y' = u' on the contact set, and Q = 0 elsewhere.
 
         load : the force F, or u' if `by_depth`
@@ -157,14 +172,14 @@ class _State:
         return contact.solve_among(members, -self._elements.deflection(kept), wanted, by_depth=by_depth)
 
 
-def branch_factors(x, scheme):
+def branch_factors(x: Array, scheme: str) -> tuple[Array, Array]:
     """Factors of w₀ and of y − y₀ in the internal variables w at the end of a step of x = h/τ."""
     if scheme == "backward_euler":
         return 1 / (1 + x), 1 / (1 + x)
     return np.exp(-x), np.divide(-np.expm1(-x), x, out=np.ones_like(x), where=x > 0)
 
 
-def _dashpot_stiffness(relaxation, length, scheme):
+def _dashpot_stiffness(relaxation: RelaxationSpectrum, length: float, scheme: str) -> float:
     """The factor of y − y₀ in the pressure of spring and dashpot at the end of a step, or in its mean over the step.
 
     Under a constant pressure y − y₀ = (Q/G∞ − y₀)(1 − exp(−h G∞/η)), exactly.
@@ -184,10 +199,10 @@ class _ContactProblem:
     contact set, the first guess of the next problem.
     """
 
-    def __init__(self, elements):
+    def __init__(self, elements: MapElements) -> None:
         self._elements, self.members, self._of_factor, self._factor = elements, np.array([], int), None, None
 
-    def solve(self, free, wanted, *, by_depth):
+    def solve(self, free: Array, wanted: float, *, by_depth: bool) -> tuple[Array, float]:
         """Q of all elements, and c u.
 
         free : e; wanted : c u if `by_depth`, else ΣQ. Without a force the indenter stands where it would touch.
@@ -216,7 +231,7 @@ class _ContactProblem:
             members = np.union1d(members, deepest)
         raise ConvergenceError(f"march_medium: no contact set found in {_MAX_ITERATIONS} iterations")
 
-    def solve_among(self, members, free, wanted, *, by_depth):
+    def solve_among(self, members: Integers, free: Array, wanted: float, *, by_depth: bool) -> Array:
         """Q ≥ 0 where only some elements may touch, those of them under tension released."""
         pressure = np.zeros(free.size)
         if by_depth or wanted > 0:
@@ -225,7 +240,7 @@ class _ContactProblem:
             pressure[members] = load
         return pressure
 
-    def _solve_on(self, members, free, wanted, *, by_depth):
+    def _solve_on(self, members: Integers, free: Array, wanted: float, *, by_depth: bool) -> tuple[Array, float]:
         if members.size == 0:
             return np.zeros(0), wanted
         if self._of_factor is None or not np.array_equal(members, self._of_factor):

@@ -1,8 +1,15 @@
 """Direct integrations of the viscous problem as motions over time, for a given force and viscosity."""
 
-from typing import NamedTuple
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+
+if TYPE_CHECKING:
+    from viscorough.viscous.correspondence import ForceHistory
+    from viscorough.viscous.integration.events import Events
+    from viscorough.viscous.integration.stepping import Steps
 
 
 class ViscousMotion(NamedTuple):
@@ -22,7 +29,7 @@ class ViscousMotion(NamedTuple):
     length_unit: str
 
 
-def under_constant_force(integration, force_per_viscosity):
+def under_constant_force(integration: Events | Steps, force_per_viscosity: float) -> ViscousMotion:
     """ViscousMotion of Events or Steps: the impulse over the viscosity is t F/η, and the velocity F/η over resistance.
 
     force_per_viscosity : F/η
@@ -33,7 +40,7 @@ def under_constant_force(integration, force_per_viscosity):
     return ViscousMotion(*of_levels, None, overlap, integration.length_unit)
 
 
-def under_force_history(integration, history, viscosity):
+def under_force_history(integration: Events | Steps, history: ForceHistory, viscosity: float) -> ViscousMotion:
     """ViscousMotion of Events or Steps at the times of a force history.
 
     integration : Events, or Steps that end at every impulse of the history above zero, over the viscosity

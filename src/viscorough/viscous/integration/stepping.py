@@ -10,6 +10,7 @@ import warnings
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from viscorough.arrays import ReadOnlyArrays, increasing
 from viscorough.contact.grid.solver import GridSolver
@@ -17,6 +18,7 @@ from viscorough.contact.options import DEFAULT
 from viscorough.contact.solver import ContactSolver
 from viscorough.errors import AccuracyWarning, ConvergenceError
 from viscorough.indenter import Indenter
+from viscorough.types import Progress
 
 SCHEMES = ("explicit", "heun", "implicit")
 # Overlap over the depth from which on a warning is given: the error of the depth is about as large.
@@ -50,7 +52,15 @@ class Steps(ReadOnlyArrays):
     length_unit: str = "1"
 
 
-def march_steps(indenter, impulses, *, scheme="explicit", overlap=np.inf, tolerance=1e-6, progress=None):
+def march_steps(
+    indenter: Indenter,
+    impulses: ArrayLike,
+    *,
+    scheme: str = "explicit",
+    overlap: float = np.inf,
+    tolerance: float = 1e-6,
+    progress: Progress | None = None,
+) -> Steps:
     """Penetration of a rigid indenter into a linearly viscous half-space by steps of impulse.
 
     "explicit" (forward Euler) advances with u' = 1/(4π d Σq) and w' = u' K q, where K q = 1 on the elements that touch
@@ -106,7 +116,7 @@ def march_steps(indenter, impulses, *, scheme="explicit", overlap=np.inf, tolera
 class _Explicit:
     """Surface and indenter in the explicit scheme; impulses are over 4π d, fields are flat as those of GridSolver."""
 
-    def __init__(self, indenter, tolerance):
+    def __init__(self, indenter: Indenter, tolerance: float) -> None:
         row, column = np.nonzero(np.isfinite(indenter.heights))
         gap = indenter.initial_gap[row, column].astype(float)
         # The error of Σq is the square of that of q.
@@ -121,7 +131,7 @@ class _Explicit:
         self.depth, self.steps = 0.0, 0
         self._solve_flat_punch()
 
-    def longest_step(self, overlap):
+    def longest_step(self, overlap: float) -> float:
         """Impulse until some element overlaps the surface by the given share of the depth."""
         if np.isinf(overlap):
             return np.inf
@@ -134,7 +144,7 @@ class _Explicit:
         # At first contact the depth, and with it the overlap allowed, is zero; a step must not be.
         return self.resistance * max(depth_step.min(), np.finfo(float).tiny)
 
-    def step(self, impulse):
+    def step(self, impulse: float) -> None:
         """Advance by an impulse."""
         depth_step = impulse / self.resistance
         self._check_depth(self.depth + depth_step)
@@ -147,23 +157,23 @@ class _Explicit:
             self._solve_flat_punch()
 
     @property
-    def count(self):
+    def count(self) -> int:
         """Elements in contact."""
         return np.count_nonzero(self._inside)
 
     @property
-    def overlap(self):
+    def overlap(self) -> float:
         """Largest overlap of indenter and surface, over the depth."""
         return max(-self._gap.min(), 0.0) / self.depth
 
-    def _check_depth(self, depth):
+    def _check_depth(self, depth: float) -> None:
         if not depth <= self._largest_depth:
             raise ValueError(
                 f"march_steps: depth {depth:g} is above {self._largest_depth:g}, the largest that is allowed; smaller "
                 "impulses are needed"
             )
 
-    def _solve_flat_punch(self):
+    def _solve_flat_punch(self) -> None:
         """q, K q − 1 and Σq of the contact set. Without adhesion no element may pull, and none of a flat punch does."""
         self.resistance = self._grid.solve_flat_punch(self._inside, self._tangent, self._tangent_gap)
         if self._tangent.min() < -self._tolerance * self._tangent.max():
@@ -173,7 +183,7 @@ class _Explicit:
 class _Heun(_Explicit):
     """The explicit scheme with the mean of the velocities at the start of the step and at its predicted end."""
 
-    def step(self, impulse):
+    def step(self, impulse: float) -> None:
         """Advance by an impulse."""
         self._check_depth(self.depth + impulse / self.resistance)
         start_velocity, start_gap = 1 / self.resistance, self._tangent_gap / self.resistance
@@ -198,16 +208,16 @@ class _Heun(_Explicit):
 class _Implicit:
     """Surface and indenter in the implicit scheme; impulses are over 4π d."""
 
-    def __init__(self, indenter, tolerance):
+    def __init__(self, indenter: Indenter, tolerance: float) -> None:
         self._gap, self._tolerance = indenter.initial_gap.astype(float), tolerance
         self._spacings = indenter.spacing, indenter.row_spacing
         self.depth, self.resistance, self.count, self.overlap, self.steps = 0.0, None, 0, 0.0, 0
 
-    def longest_step(self, _overlap):
+    def longest_step(self, _overlap: float) -> float:
         """A step of any length is exact."""
         return np.inf
 
-    def step(self, impulse):
+    def step(self, impulse: float) -> None:
         """Advance by an impulse; the depth that belongs to it is found by Newton's method."""
         solver = ContactSolver(Indenter(-self._gap, self._spacings), self._tolerance)
         depth_step = impulse / (self.resistance or 1.0)

@@ -251,7 +251,13 @@ class ContactState:
 
     def member_loads(self) -> MemberLoads:
         """The MemberLoads; on the grid they are gathered at every call."""
-        return self.loads or self.fields.member_loads()
+        return self.loads or self.grid_fields.member_loads()
+
+    @property
+    def grid_fields(self) -> GridFields:
+        """The fields of a contact that is known to be on a grid."""
+        assert self.fields is not None
+        return self.fields
 
     @property
     def members(self) -> Integers:

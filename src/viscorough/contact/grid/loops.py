@@ -167,7 +167,7 @@ class GridLoops:
         rounded = out.dtype.type(shift)
 
         def subtract(i: int, j: int) -> None:
-            np.subtract(field[i:j], shift, out=out[i:j])
+            np.subtract(field[i:j], rounded, out=out[i:j])
 
         run_blocks(subtract, rows, self._threads, -(-BLOCK // columns))
 

@@ -2,8 +2,9 @@
 
     python benchmarks/campaign.py --output results/campaign.json
 
-Three families of cases are checked against the direct integration in time: levels at given depths, also against the
-dense influence matrix; whole loading curves, at their levels and between them; and curves with a start fraction.
+Four families of cases are checked against the direct integration in time: levels at given depths, also against the
+dense influence matrix; whole loading curves, at their levels and between them; curves with a start fraction; and levels
+at given forces.
 `make stability` runs it. A failure is printed with the command that repeats it.
 """
 
@@ -25,6 +26,7 @@ FAMILIES = {
     "levels": (random_case, silent_failure, 1.0),
     "curves": (random_curve, curve_failure, 1.0),
     "starts": (partial(random_curve, with_start=True), curve_failure, 0.1),
+    "forces": (partial(random_curve, at_forces=True), curve_failure, 1.0),
 }
 
 

@@ -1,9 +1,10 @@
 """Contacts at prescribed forces, found by solving as few depths as possible.
 
 The force is a convex function F(u) of the depth, and the contact solver gives F and its exact tangent k at any depth.
-Depths grow by large ratios until the force is exceeded. Between a contact below and one above, the next depth is that
-of the interpolant of a loading curve, which lies in the triangle of chord and tangents, or where the tangents put it.
-The last, small correction follows the tangent.
+Dense solutions at depths that grow by large ratios give the exponent of a power law, and this a first guess of the
+depth. On a grid the depth is then adjusted while the contact is solved (grid.depth_adjustment). Where that is not
+accurate enough, the next depth lies between a contact below and one above: that of the interpolant of a loading curve,
+in the triangle of chord and tangents, or where the tangents put it. The last, small correction follows the tangent.
 """
 
 import numpy as np
@@ -18,6 +19,8 @@ from viscorough.types import Progress
 # Largest ratio of successive depths before the force is exceeded.
 _MAX_DEPTH_RATIO = 4.0
 _MAX_ATTEMPTS = 100
+# Elements in contact from which on the power law is trusted over larger ratios.
+_REPRESENTATIVE = 100
 _TINY = 1e-300
 
 
@@ -47,7 +50,8 @@ class ForceSearch:
         while self._above and self._above[-1].pressure_sum <= target:
             self._below = self._above.pop()
         for attempt in range(_MAX_ATTEMPTS):
-            contact = self._solver.advance_reduced(self._below, self._next_depth(target, attempt))
+            depth = self._next_depth(target, attempt)
+            contact = self._solver.advance_reduced(self._below, depth, None if self._above else target)
             progress(1.0 if self._above else min(1.0, contact.pressure_sum / target))
             other = self._above[-1] if self._above else self._below
             if contact.pressure_sum <= target:
@@ -66,21 +70,21 @@ class ForceSearch:
     def _next_depth(self, target: float, attempt: int) -> float:
         """Depth to solve next, between the nearest contacts below and above the force."""
         below = Level.of(self._below)
+        by_tangent = below.depth + (target - below.pressure_sum) / below.tangent_sum
         if below.count == self._solver.elements.count:
-            return below.depth + (target - below.pressure_sum) / below.tangent_sum
+            return by_tangent
         if not self._above:
             # The power law through the last contact, whose exponent only grows where the contact does.
             exponent = below.pressure_sum / (below.tangent_sum * below.depth)
-            return below.depth * min((target / below.pressure_sum) ** exponent, _MAX_DEPTH_RATIO)
+            ratio = (target / below.pressure_sum) ** exponent
+            return below.depth * (ratio if below.count >= _REPRESENTATIVE else min(ratio, _MAX_DEPTH_RATIO))
         above = Level.of(self._above[-1])
         if attempt % 2:  # converges for any convex curve
-            depth = min(
-                below.depth + (target - below.pressure_sum) / below.tangent_sum,
-                above.depth - (above.pressure_sum - target) / above.tangent_sum,
-            )
+            depth = min(by_tangent, above.depth - (above.pressure_sum - target) / above.tangent_sum)
         else:
             depth = interpolate(below, above, np.array([target]))[0]
-        return float(np.clip(depth, below.depth, above.depth))
+        # Both contacts are only as exact as the tolerance: the tangent leads on where they are too close to each other.
+        return float(min(depth, above.depth) if depth > below.depth else by_tangent)
 
     def _is_near(self, contact: ContactState, other: ContactState, target: float) -> bool:
         """Whether the tangent of a contact leads to the force: the stiffness changes by less than the tolerance.

@@ -31,6 +31,8 @@ _BOX_DEPTH_MARGIN, _LARGEST_BOX = 2.0, 0.8
 _LOST_CONTACT = 3
 # Largest reduced depth: single precision holds numbers a thousand times as large and more.
 _LARGEST_DEPTH = 1e25
+# Ratio of depths up to which a contact is transferred to another grid as the start there.
+_LARGEST_RATIO_OF_START = 2.0
 
 
 def check_solvable(name: str, indenter: Indenter, tolerance: float, threads: int = 1) -> None:
@@ -118,8 +120,13 @@ class ContactSolver:
         """
         return self.advance_reduced(contact, depth / self.units.length)
 
-    def advance_reduced(self, contact: ContactState, depth: float) -> ContactState:
-        """The ContactState at a larger depth in units of the largest initial gap. Raises what `advance` raises."""
+    def advance_reduced(self, contact: ContactState, depth: float, pressure_sum: float | None = None) -> ContactState:
+        """The ContactState at a larger depth in units of the largest initial gap. Raises what `advance` raises.
+
+        pressure_sum : ΣP at a given force, of which the depth is then a first guess: on the grid the contact is the one
+            at this force, within the tolerance, or the last one before elements outside its box could touch; a dense
+            solution is that at the guess
+        """
         if depth > _LARGEST_DEPTH:
             text = f"contact at depth {depth * self.units.length:g}: larger than {_LARGEST_DEPTH:g} times the largest"
             raise ValueError(f"{text} initial gap, up to which depths are allowed")
@@ -128,10 +135,15 @@ class ContactSolver:
             solution = dense.solve(self.elements, contact, depth, candidates, self.options.dense_contacts)
             if solution is not None:
                 return self._checked(contact, solution)
-        grid = self._grid_up_to(max(candidates, 1))
+        grid, start = self._grid_up_to(max(candidates, 1)), contact
         if not _has_fields_on(grid, contact):
-            contact = replace(contact, fields=grid.fields(contact))
-        return self._checked(contact, grid.solve(contact, depth))
+            # The fields of a much shallower contact cost more than they save.
+            start = contact if depth < _LARGEST_RATIO_OF_START * contact.reduced_depth else self.unloaded_state()
+            start = replace(start, fields=grid.fields(start))
+        gap = self.elements.initial_gap
+        largest_depth = gap[self._reach] if self._reach < gap.size else _LARGEST_DEPTH
+        force = None if pressure_sum is None else (pressure_sum, largest_depth)
+        return self._checked(contact, grid.solve(start, depth, force))
 
     def follow_events(
         self, contact: ContactState, most: int, pressure_sum: float

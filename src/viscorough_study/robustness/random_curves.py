@@ -29,10 +29,11 @@ class RandomCurve:
     arguments: dict
 
 
-def random_curve(generator, with_start=None):
+def random_curve(generator, with_start=None, at_forces=False):
     """A RandomCurve from a numpy Generator.
 
     with_start : whether `start_fraction` is given; by chance by default
+    at_forces : whether levels are given by forces, and nothing else is
     """
     heights = random_heights(generator, int(generator.integers(2, _LARGEST + 1)))
     height, length = 10.0 ** generator.uniform(-9, 9, 2) if generator.random() < 0.2 else (1.0, 1.0)
@@ -46,6 +47,9 @@ def random_curve(generator, with_start=None):
         arguments["until_force"] = span * length * indenter.elements**0.5 * 10.0 ** generator.uniform(-3, 1)
     if generator.random() < 0.2:
         arguments["depths"] = np.sort(span * 10.0 ** generator.uniform(-3, 1, generator.integers(1, 5)))
+    if at_forces:
+        forces = span * length * indenter.elements**0.5 * 10.0 ** generator.uniform(-5, 1.5, generator.integers(1, 5))
+        arguments = {name: arguments[name] for name in ("tolerance", "options")} | {"forces": np.sort(forces)}
     return RandomCurve(with_random_aspect(indenter, generator), arguments)
 
 
@@ -65,7 +69,7 @@ def curve_failure(case, compute=indent):
     exact = events.depth_at(curve.force)
     if wrong := _error("depth {:.3g} of a level", curve.depth, curve.depth, exact, tolerance, rounding):
         return wrong
-    if "depths" in case.arguments:
+    if "depths" in case.arguments or "forces" in case.arguments:
         return _error_before(curve, events, max(tolerance, FINEST_ACCURACY), rounding)
     return "" if caught else _error_between(curve, events, case, max(tolerance, FINEST_ACCURACY), rounding)
 

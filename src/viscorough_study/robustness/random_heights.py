@@ -125,6 +125,19 @@ def _measured_like(generator, rows, columns):
     return np.where(spikes, heights + generator.normal(), heights)
 
 
+def _islands(generator, rows, columns):
+    """Many small bumps of nearly equal heights, far from each other on a plate at a lower height."""
+    bumps = generator.random((rows, columns)) < generator.uniform(0.01, 0.2)
+    return np.where(bumps, 1 + 10.0 ** generator.uniform(-4, 0) * generator.random((rows, columns)), 0.0)
+
+
+def _edge_patch(generator, rows, columns):
+    """A rough patch at an edge or in a corner of a plate at a lower height."""
+    heights, (height, width) = np.zeros((rows, columns)), -(-np.array([rows, columns]) // 3)
+    heights[:height, :width] = 1 + generator.random((height, width))
+    return np.flip(heights, axis=tuple(np.flatnonzero(generator.random(2) < 0.5)))
+
+
 def _noise(generator, shape):
     """Uniform noise of an amplitude from 1e-6 to 0.1; none in half of the cases."""
     amplitude = 10.0 ** generator.uniform(-6, -1) if generator.random() < 0.5 else 0.0
@@ -148,4 +161,6 @@ KINDS = {
     "comb": _comb,
     "quantized": _quantized,
     "measured-like": _measured_like,
+    "islands": _islands,
+    "edge patch": _edge_patch,
 }

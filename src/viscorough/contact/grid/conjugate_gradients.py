@@ -45,6 +45,23 @@ class ConjugateGradients:
         """Compute the preconditioned gap z = M e on the set."""
         self._preconditioned, self._gap = self._preconditioner.apply(gap), gap
 
+    def uniform_response(self) -> Array:
+        """M 1 on the set, in the order of its places: about the tangent. To be called before `precondition`."""
+        ones = np.ones(self._set.inside.size, np.float32)
+        return self._preconditioner.apply(ones)[self._set.places]
+
+    def total_preconditioned(self) -> float:
+        """Σz over the set."""
+        return self._loops.total(self._preconditioned, self._set.places)
+
+    def shift(self, depth_step: float, response: Array) -> None:
+        """Change e and z = M e on the set, in place, as a step of the depth does.
+
+        response : M 1, as of `uniform_response`
+        """
+        fixed = np.float32(depth_step), self._gap, self._preconditioned
+        self._loops.each(kernels.shift_on_set, fixed, self._set.places, response)
+
     def norm(self) -> float:
         """zᵀe, the square of the norm of the residual."""
         return self._loops.inner_product(self._preconditioned, self._gap, self._set.places)

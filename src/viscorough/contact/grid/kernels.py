@@ -92,6 +92,14 @@ def gather_on_set(field, gathered, places):
     return largest
 
 
+@njit(nogil=True)
+def shift_on_set(depth_step, gap, preconditioned, places, response):
+    """e −= Δu and z −= Δu M 1 on the set, in place."""
+    for t in range(places.size):
+        gap[places[t]] -= depth_step
+        preconditioned[places[t]] -= depth_step * response[t]
+
+
 @njit(fastmath=True, nogil=True)
 def energies(
     depths, pressure, gap_change, last_pressure, last_gap_change, last_tangent, last_tangent_gap, places

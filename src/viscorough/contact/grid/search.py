@@ -24,6 +24,7 @@ from numpy.typing import DTypeLike, NDArray
 
 from viscorough.contact.grid import kernels
 from viscorough.contact.grid.conjugate_gradients import ConjugateGradients
+from viscorough.contact.grid.depth_adjustment import PrescribedForce
 from viscorough.contact.grid.loops import GridLoops
 from viscorough.contact.halfspace.operator import Halfspace
 from viscorough.contact.options import SolverOptions
@@ -108,12 +109,20 @@ class ContactSearch:
         """Applications of the half-space operator so far."""
         return sum(halfspace.count for halfspace in {self._halfspace, self._exact})
 
-    def solve_pressure(self, pressure: Array, change: BoundedField, inside: Mask, depth: float) -> ContactSet:
+    def solve_pressure(
+        self,
+        pressure: Array,
+        change: BoundedField,
+        inside: Mask,
+        depth: float,
+        force: PrescribedForce | None = None,
+    ) -> tuple[ContactSet, float]:
         """Pressure P ≥ 0 with |e| on the set below the limit and no overlap beyond it elsewhere.
 
         change : BoundedField of e − g
+        force : PrescribedForce, to which the depth is brought while it is iterated; None: the depth is kept
 
-        Changes pressure, e − g and set in place. Returns the contact set.
+        Changes pressure, e − g and set in place. Returns the contact set and the depth.
         """
         limit = _SEARCH_SHARE * self._tolerance * depth
         changed, releases, tension = True, 0, self._loops.lowest(pressure) < 0
@@ -125,18 +134,24 @@ class ContactSearch:
             # Residual and rounding error together must not exceed the limit. Where the rounding error takes most of it,
             # the gap is recomputed as soon as it is no larger than its rounding error.
             close_enough = max(limit - change.rounding, change.rounding)
-            if largest <= close_enough and not tension:
+            is_close = largest <= close_enough and not tension
+            if is_close and (not force or force.is_met(pressure, contact_set.places, depth, limit)):
                 changed = self._add_penetrating_elements(change, inside, close_enough) > 0
                 if not changed:
                     if change.rounding <= 0.5 * limit:
-                        return contact_set
+                        return contact_set, depth
                     self._deflect(pressure, depth, change)
                     self._add_penetrating_elements(change, inside, limit)
                     changed, search = True, None  # the load array holds another load now
                 continue
             if changed or search is None:
                 search = self._search(contact_set, search if 0 < releases < _HALVE_STEP_EVERY else None)
+                if force:
+                    force.prepare(search, contact_set.places)
             search.precondition(self.residual)
+            if force:
+                depth = force.adjust_depth(search, pressure, change, depth)
+                limit = _SEARCH_SHARE * self._tolerance * depth
             search.update_direction()
             release_step = self._release_step(releases)
             if iteration == 0 and release_step > 0 and self._exclude(search, pressure, contact_set):

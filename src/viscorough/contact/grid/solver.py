@@ -13,6 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from viscorough.contact.grid import kernels
+from viscorough.contact.grid.depth_adjustment import PrescribedForce
 from viscorough.contact.grid.loops import GridLoops, field_to_fill
 from viscorough.contact.grid.search import ContactSearch
 from viscorough.contact.grid.tangent_start import Loads, initial_tangent
@@ -79,14 +80,17 @@ class GridSolver:
         change, tangent_gap = search.gap_change(pressure, contact.reduced_depth), search.tangent_gap(tangent)
         return GridFields(inside, pressure, change, tangent, tangent_gap, self.initial_gap, self.place)
 
-    def solve(self, contact: ContactState, depth: float) -> ContactState:
+    def solve(self, contact: ContactState, depth: float, force: tuple[float, float] | None = None) -> ContactState:
         """The ContactState at a larger reduced depth, from a contact with GridFields on this grid.
+
+        force : (ΣP, largest depth) where the depth is only a first guess of the one with this ΣP
 
         Raises ConvergenceError if the tolerance is not reached in max_iterations.
         """
         search, before, last_depth = self._search, self._start_fields(contact), contact.reduced_depth
         pressure, change, inside = self._predicted(before, last_depth, depth)
-        contact_set = search.solve_pressure(pressure, change, inside, depth)
+        prescribed = PrescribedForce(*force, self._loops) if force else None
+        contact_set, depth = search.solve_pressure(pressure, change, inside, depth, prescribed)
         now, last = Loads(pressure, change, depth), Loads(before.pressure, before.gap_change, last_depth)
         tangent, tangent_gap = initial_tangent(now, last, before, contact_set, search.inner, self._loops)
         search.solve_tangent(contact_set, tangent, tangent_gap)

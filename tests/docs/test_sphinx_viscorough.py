@@ -1,27 +1,13 @@
 """Docstrings as reStructuredText, formulas as MathML."""
 
-import sys
-
 import pytest
+import sphinx_viscorough
 from docutils.core import publish_string
 
-from support.documentation import ROOT
 
-
-@pytest.fixture(scope="module")
-def extension():
-    sys.path.insert(0, str(ROOT / "docs"))
-    try:
-        import sphinx_viscorough
-
-        return sphinx_viscorough
-    finally:
-        sys.path.remove(str(ROOT / "docs"))
-
-
-def html(extension, docstring):
+def html(docstring):
     settings = {"halt_level": 2, "report_level": 2, "embed_stylesheet": False}
-    text = "\n".join(extension.to_rst(docstring.splitlines()))
+    text = "\n".join(sphinx_viscorough.to_rst(docstring.splitlines()))
     whole = publish_string(text, writer="html5", settings_overrides=settings).decode()
     return " ".join(whole.split("<main>")[1].split("</main>")[0].split())
 
@@ -39,7 +25,7 @@ def html(extension, docstring):
         ("Either\n- one, which\n  goes on;\n- two.\nOr not.", ["one, which goes on;", "<li><p>two.", "<p>Or not.</p>"]),
     ],
 )
-def test_docstrings_are_shown_as_they_read(extension, docstring, contained):
-    shown = html(extension, docstring)
+def test_docstrings_are_shown_as_they_read(docstring, contained):
+    shown = html(docstring)
     assert "<em>" not in shown
     assert all(text in shown for text in contained), shown

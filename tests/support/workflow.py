@@ -30,7 +30,8 @@ def copy_project(folder):
         shutil.copytree(ROOT / name, folder / name)
     shutil.copy(ROOT / "Snakefile", folder)
     (folder / "docs").mkdir()
-    shutil.copy(ROOT / "docs/claims.csv", folder / "docs")  # published verdicts, for the page
+    for name in ("claims.csv", "rules.png"):  # published verdicts and a picture of the rules, for the page
+        shutil.copy(ROOT / "docs" / name, folder / "docs")
     return folder
 
 

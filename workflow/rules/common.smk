@@ -190,7 +190,7 @@ def other_solvers_wanted():
 def page_digests():
     """Digests of the texts of the page that are no results, whose paths depend on where the project lies."""
     texts = sorted([*(WORKFLOW / "page").iterdir(), *(WORKFLOW / "report").rglob("*.rst"), WORKFLOW / "results.yaml"])
-    texts += [PROJECT / name for name in ("resources/published/other_solvers.csv", "docs/claims.csv")]
+    texts += [PROJECT / name for name in ("resources/published/other_solvers.csv", "docs/claims.csv", "docs/rules.png")]
     return [hashlib.sha256(path.read_bytes()).hexdigest()[:16] for path in texts]
 
 

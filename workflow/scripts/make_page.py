@@ -10,7 +10,8 @@ from viscorough_study.run.job_log import log_to
 def main(project, discs, lines, other_solvers, tables, figures, page_file, *, claims, numbers, alternative):
     """Write the page.
 
-    project : folder of the project, which has template, style, captions, published numbers and verdicts
+    project : folder of the project, which has template, style, captions, published numbers and verdicts, and the
+        picture of the rules
     other_solvers : [] or [path of their table]; tables, figures : paths, whose stems name them
     alternative : {figure: text for those who cannot see it}
     """
@@ -20,7 +21,7 @@ def main(project, discs, lines, other_solvers, tables, figures, page_file, *, cl
     *texts, section, script = [(project / "workflow/page" / name).read_text("utf-8") for name in names]
     (others,) = other_solvers or [project / "resources/published/other_solvers.csv"]
     more = {"calculator": (section, script), "claims": claims, "numbers": numbers, "alternative": alternative}
-    more["published"] = project / "docs/claims.csv"
+    more |= {"published": project / "docs/claims.csv", "rules": project / "docs/rules.png"}
     html = page(*texts, discs, lines, other_solvers=others, tables=tables, figures=figures, captions=captions, **more)
     with atomic_write(page_file) as temporary:
         temporary.write_text(html, encoding="utf-8")

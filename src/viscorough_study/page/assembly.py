@@ -3,7 +3,7 @@
 from viscorough_study.page import answers, content
 from viscorough_study.page.calculator import calculator as with_law
 from viscorough_study.page.discussion import QUANTITIES, discussion
-from viscorough_study.page.render import render
+from viscorough_study.page.render import embedded_png, render
 from viscorough_study.page.results import netcdf_of, read_results, read_table, readable
 from viscorough_study.robustness.failure_map import VERDICTS as OUTCOMES
 from viscorough_study.run.rule_costs import in_words
@@ -24,6 +24,7 @@ def page(
     claims,
     numbers,
     published,
+    rules,
     alternative,
 ):
     """HTML of the page.
@@ -33,7 +34,7 @@ def page(
     discs, lines : paths of the pools; other_solvers : path of a table of the workflow or of published numbers
     tables, figures, captions : {name: path}, of CSV, PNG and reStructuredText
     claims, numbers : what the paper says, the contents of resources/paper/claims.yaml and numbers.yaml
-    published : path of the table of verdicts of the full scale
+    published : path of the table of verdicts of the full scale; rules : of a picture of the workflow
     alternative : {figure: what it shows, for those who cannot see it}
     """
     results = read_results(tables)
@@ -48,6 +49,7 @@ def page(
         captions,
         conventions,
         calculator=with_law(*calculator),
+        rules=embedded_png(rules.read_bytes()),
         alternative=alternative,
         readable=readable,
         scale=scale,

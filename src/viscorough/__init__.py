@@ -12,6 +12,7 @@ _MODULE_OF = {
     "ConvergenceError": "errors",
     "CreepTable": "viscous.media",
     "ForceHistory": "viscous.correspondence",
+    "IdentifiedMedium": "viscous.identification",
     "Indenter": "indenter",
     "KelvinVoigt": "viscous.media",
     "LoadingCurve": "loading_curve",
@@ -26,6 +27,7 @@ _MODULE_OF = {
     "cut_disc": "surfaces",
     "estimate": "estimates",
     "force_under_depth": "viscous.relaxation",
+    "identify_medium": "viscous.identification",
     "impulses": "viscous.correspondence",
     "indent": "contact.loading_path",
     "kinetics": "viscous.correspondence",
@@ -46,6 +48,7 @@ _MODULE_OF = {
     "reduce": "mdr",
     "save_curve": "io.saving",
     "save_heights": "io.saving",
+    "save_identified": "io.media",
     "self_affine_disc": "surfaces",
     "self_affine_line": "surfaces",
 }

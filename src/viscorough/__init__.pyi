@@ -12,6 +12,7 @@ from viscorough.estimates import estimate as estimate
 from viscorough.indenter import Indenter as Indenter
 from viscorough.io.heights import read_heights as read_heights
 from viscorough.io.media import read_medium as read_medium
+from viscorough.io.media import save_identified as save_identified
 from viscorough.io.motion import read_force_history as read_force_history
 from viscorough.io.saving import load_curve as load_curve
 from viscorough.io.saving import save_curve as save_curve
@@ -28,6 +29,8 @@ from viscorough.surfaces import self_affine_line as self_affine_line
 from viscorough.viscous.correspondence import ForceHistory as ForceHistory
 from viscorough.viscous.correspondence import impulses as impulses
 from viscorough.viscous.correspondence import kinetics as kinetics
+from viscorough.viscous.identification import IdentifiedMedium as IdentifiedMedium
+from viscorough.viscous.identification import identify_medium as identify_medium
 from viscorough.viscous.integration.events import march_events as march_events
 from viscorough.viscous.integration.internal_variable_events import march_medium_events as march_medium_events
 from viscorough.viscous.integration.internal_variables import march_medium as march_medium

@@ -43,6 +43,11 @@ def unit_power(unit: str, exponent: int) -> str:
     return f"{unit if unit.isascii() and unit.isalpha() else f'({unit})'}{exponent}"
 
 
+def velocity_unit(unit: str) -> str:
+    """The unit of a velocity with times in s: "um s-1"; "s-1" for "1", a unit of length that is not known."""
+    return "s-1" if unit == "1" else f"{unit} s-1"
+
+
 def html_table(title: str, rows: Iterable[tuple[str, str]]) -> str:
     """A table of HTML with a caption and one row for every (quantity, value)."""
     body = "".join(

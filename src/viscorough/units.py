@@ -53,6 +53,34 @@ def quantity(text: str) -> Quantity:
     return Quantity(float(match[1]), match[2])
 
 
+def number(value: float | str | Quantity, unit: str, length_unit: str, name: str) -> float:
+    """A number in `unit`, of a plain number, which is returned unchanged, a Quantity, or a text such as "5 mN".
+
+    Raises ValueError, which starts with the name, for what is no number in such a unit, and for one with a unit
+    although the unit of length is not known: numbers are then in consistent units.
+    """
+    if isinstance(value, str):
+        try:
+            value = quantity(value)
+            value.to(unit)
+        except ValueError as error:
+            raise ValueError(f"{name}: {error}; a number in {unit}, or with such a unit, is needed") from error
+    if not isinstance(value, Quantity):
+        return value
+    if value.unit and length_unit == UNKNOWN:
+        text = f"{name} {value}: needs a plain number, since the unit of length is not known"
+        raise ValueError(f"{text}; state it with --unit where the heights are read")
+    return value.to(unit)
+
+
+def square_metres(length_unit: str) -> float:
+    """The square of a unit of length in m²; 1 where it is not known, since units are then consistent by themselves.
+
+    Moduli in Pa and forces in N per this area are consistent with lengths in that unit.
+    """
+    return 1.0 if length_unit == UNKNOWN else metres(length_unit) ** 2
+
+
 def factor(unit: str, to: str) -> float:
     """What numbers in `unit` are multiplied with to be in the unit `to`.
 

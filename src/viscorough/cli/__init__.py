@@ -14,6 +14,7 @@ from signal import SIG_DFL
 import click
 
 from viscorough.cli.contact import contact
+from viscorough.cli.creep import creep
 from viscorough.cli.estimate import estimate
 from viscorough.cli.files import warning_texts
 from viscorough.cli.generate import generate
@@ -39,7 +40,7 @@ def cli() -> None:
     """
 
 
-for _command in (indent, contact, kinetics, march, reduce, generate, estimate, plot):
+for _command in (indent, contact, kinetics, creep, march, reduce, generate, estimate, plot):
     cli.add_command(_command)
 
 

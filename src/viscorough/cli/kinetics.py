@@ -102,21 +102,21 @@ def kinetics(
 
 
 def _medium(viscosity: Quantity | None, medium: Path | None, length_unit: str) -> tuple[Medium, dict[str, Any]]:
-    """The medium in N and the unit of length of the curve, and attributes of the output."""
-    from viscorough.io.media import medium_from_mapping, read_medium
-    from viscorough.viscous.media import CreepTable
+    """The medium and attributes of the output."""
+    from viscorough.io.media import read_medium
+    from viscorough.viscous.media import CreepTable, Newtonian
 
     if viscosity is None:
         law = read_medium(medium, length_unit)
         about = {"medium": printable_name(medium)}
         if not isinstance(law, CreepTable):
-            about["medium_in_units_of_the_curve"] = repr(law)
+            about["medium_parameters"] = repr(law)
         return law, about | {
             "correspondence": "depth at a time is the elastic one at F/G = integral of J(t - s) dF(s), velocity is its "
             f"derivative over k/G there; {_EXACT}"
         }
     number = number_in("Pa s", viscosity, length_unit, "--viscosity")
-    return medium_from_mapping({"kind": "newtonian", "viscosity": number}, length_unit), {
+    return Newtonian(number), {
         "viscosity": number,
         "correspondence": "depth at a time is the elastic one at F/G = impulse / viscosity, which is force * time / "
         f"viscosity for a constant force, velocity is force / (viscosity * k/G) there; {_EXACT}",

@@ -59,10 +59,12 @@ def number_in(unit: str, quantity: Quantity, length_unit: str, option: str) -> f
     Raises UsageError if the quantity has a unit although the unit of length is not known: numbers are then in
     consistent units of the user's choice.
     """
-    if quantity.unit and length_unit == "1":
-        text = f"{option} {quantity}: needs a plain number, since the unit of length is not known"
-        raise click.UsageError(f"{text}; state it with --unit where the heights are read")
-    return quantity.to(unit)
+    from viscorough import units
+
+    try:
+        return units.number(quantity, unit, length_unit, option)
+    except ValueError as error:
+        raise click.UsageError(str(error)) from error
 
 
 class Increasing(click.ParamType):

@@ -17,7 +17,7 @@ from viscorough.types import Array, FilePath
 # A common unit as the last word of a heading, as in t_ms.
 _LAST_WORD = re.compile(
     r"(?:.*[\s_:;])?((?:[kMmunpµμ]|kilo|milli|micro|nano)?(?:[sN]|sec|seconds?|newtons?)"
-    r"|min|minutes?|h|hours?|[kMG]?Pa\^?-1)"
+    r"|min|minutes?|h|hours?|[kMG]?Pa\^?-1|[munµμ]m)"
 )
 _LETTER = re.compile(r"[^\W\d_]")
 _TWO_NAMES = re.compile(r"# *[^\W\d_][^,]*, *[^\W\d_][^,]*")
@@ -26,9 +26,10 @@ _MISSING = re.compile(r"#[A-Z][^\s,]*,\s*[-+.\d]")
 
 
 def read_columns(path: FilePath, what: str, columns: dict[str, str], length_unit: str) -> tuple[Array, Array]:
-    """Two columns in a .csv or .npy file, arrays of shape (rows,) with at least two rows.
+    """The first two columns in a .csv or .npy file, arrays of shape (rows,) with at least two rows.
 
-    The first row of a .csv file may be a heading, in which no field is or starts like a number, nan or infinity. Lines
+    The first row of a .csv file may be a heading, in which no field is or starts like a number, nan or infinity; only
+    under a heading that names them all may there be more than two columns. Lines
     that start with "#" are comments; two names above the first row are a heading there, too. Where a heading states
     units, as in t [ms], t (ms), t/ms, t in ms or t_ms, numbers are converted.
 
@@ -68,6 +69,8 @@ def _rows_and_factors(path: FilePath, wanted: Iterable[str], length_unit: str) -
     else:
         heading = above[-1] if above and _TWO_NAMES.fullmatch(above[-1]) else None
     table = np.loadtxt(rows, delimiter=",", ndmin=2) if rows else np.empty((0, 0))
+    if heading is not None and 2 < heading.count(",") + 1 == table.shape[1]:
+        table, heading = table[:, :2], ",".join(heading.split(",")[:2])
     _check_comments([line for line in lines if _is_comment(line) and line is not heading], wanted)
     return table, _factors(heading, wanted, length_unit) if heading else (1.0, 1.0)
 

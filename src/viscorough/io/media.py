@@ -1,7 +1,6 @@
-"""Media read from YAML files: one mapping with the kind of medium and its parameters."""
+"""Media in YAML files: one mapping with the kind of medium and its parameters."""
 
 import contextlib
-import dataclasses
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -9,11 +8,14 @@ from typing import Any
 import yaml
 
 from viscorough import units
-from viscorough.io.atomic import check_readable, reason
+from viscorough.io import tables
+from viscorough.io.atomic import atomic_write, check_readable, reason
 from viscorough.io.columns import read_columns
+from viscorough.io.netcdf import Content, Variable
 from viscorough.io.unique_keys import UniqueKeys
 from viscorough.types import FilePath
 from viscorough.viscous import media
+from viscorough.viscous.identification import IdentifiedMedium
 from viscorough.viscous.media import CreepTable
 from viscorough.viscous.medium import Medium
 
@@ -31,7 +33,6 @@ KINDS = {
     "springpot": (media.Springpot, {"modulus": PLAIN, "exponent": PLAIN}),
     "creep_table": (media.CreepTable, {"file": None}),
 }
-_MODULI = {"viscosity", "shear_modulus", "instantaneous_modulus", "relaxed_modulus", "moduli", "modulus"}
 _LARGEST_FILE = 1_000_000  # bytes
 
 
@@ -49,7 +50,7 @@ def read_medium(path: FilePath, length_unit: str = "1") -> Medium:
 
 
 def medium_from_mapping(mapping: Mapping[str, Any], length_unit: str = "1", *, folder: Path = Path()) -> Medium:
-    """The medium of a mapping, with moduli in N per square of the unit of length.
+    """The medium of a mapping, in SI units where the unit of length of the indenter is known.
 
     mapping : `kind`, one of KINDS, and all keys of that kind. Where the unit of length is known, plain moduli are in
         Pa, viscosities in Pa s and times in s, and any of them may be given with a unit ("2 MPa"), but for the
@@ -68,24 +69,56 @@ def medium_from_mapping(mapping: Mapping[str, Any], length_unit: str = "1", *, f
     if missing := [key for key in keys if key not in mapping]:
         raise ValueError(f"lacks {', '.join(missing)}; {kind} needs {', '.join(keys)}")
     if make is media.CreepTable:
-        medium = _table(folder, mapping["file"], length_unit)
-    else:
-        medium = make(**{key: _values(key, mapping[key], keys[key], length_unit) for key in keys})
-    return medium if length_unit == "1" else scaled(medium, units.metres(length_unit) ** 2)
+        return _table(folder, mapping["file"], length_unit)
+    return make(**{key: _values(key, mapping[key], keys[key], length_unit) for key in keys})
 
 
-def scaled(medium: Medium, factor: float) -> Medium:
-    """The medium with its moduli and viscosities multiplied by a factor, as to other units of length."""
-    if factor == 1:
-        return medium
+def save_identified(identified: IdentifiedMedium, path: FilePath, **attributes: Any) -> None:
+    """Write an IdentifiedMedium as YAML for `read_medium`, atomically; of a creep table, J stands in a table beside it.
+
+    The table, with the suffix .csv, has the columns time, compliance, and the ends of its interval, low and high.
+    attributes : what else the table says above its columns
+
+    Raises ValueError for a path that is not .yaml or cannot be written, OSError if writing fails.
+    """
+    path, medium, table = Path(path), identified.medium, check_medium_file(path)
+    (kind,) = (kind for kind, (make, _) in KINDS.items() if make is type(medium))
+    mapping: dict[str, Any] = {"kind": kind}
     if isinstance(medium, media.CreepTable):
-        return media.CreepTable(medium.times, medium.compliances / factor)
-    changed = {}
-    for field in dataclasses.fields(medium):
-        value = getattr(medium, field.name)
-        if field.name in _MODULI:
-            changed[field.name] = tuple(factor * each for each in value) if isinstance(value, tuple) else factor * value
-    return dataclasses.replace(medium, **changed)
+        tables.write(_content_of_table(identified).with_attributes(**attributes), table)
+        mapping["file"] = table.name
+    else:
+        mapping |= {key: _plain(getattr(medium, key)) for key in KINDS[kind][1]}
+    with atomic_write(path) as temporary:
+        temporary.write_text(yaml.safe_dump(mapping, sort_keys=False, allow_unicode=True), encoding="utf-8")
+
+
+def check_medium_file(path: FilePath) -> Path:
+    """Path of the table beside a file of a medium. Raises ValueError unless the name of the file ends in .yaml."""
+    if Path(path).suffix.lower() not in (".yaml", ".yml"):
+        raise ValueError(f"{path}: unknown kind of file; a medium is written as .yaml")
+    return Path(path).with_suffix(".csv")
+
+
+def _plain(value: Any) -> Any:
+    return list(value) if isinstance(value, tuple) else value
+
+
+def _content_of_table(identified: IdentifiedMedium) -> Content:
+    """Creep compliance over time as a Content, with the ends of its interval."""
+    known = identified.length_unit != units.UNKNOWN
+    compliance = "1/Pa" if known else "1"
+    about = {
+        "time": ("time since a step of the force", "s" if known else "1"),
+        "compliance": ("creep compliance J", compliance),
+        "low": ("creep compliance J, lower end of 95 %", compliance),
+        "high": ("creep compliance J, upper end of 95 %", compliance),
+    }
+    variables = {
+        name: Variable(("level",), getattr(identified, name), {"long_name": text, "units": unit})
+        for name, (text, unit) in about.items()
+    }
+    return Content(variables, {"title": "Creep compliance identified from a record of depth over time"})
 
 
 class _WithoutAliases(UniqueKeys):

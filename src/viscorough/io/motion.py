@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from viscorough.io.columns import read_columns
 from viscorough.io.curves import level_attributes
 from viscorough.io.netcdf import Content, Variable
+from viscorough.summaries import velocity_unit
 from viscorough.types import Array, FilePath
 from viscorough.viscous.correspondence import impulses
 
@@ -32,7 +33,10 @@ def with_motion(content: Content, time: Array, velocity: Array) -> Content:
 
 def _with_time_and_velocity(content: Content, time: Array, velocity: Array) -> Content:
     unit = content.variables["depth"].attributes.get("units", "1")
-    added = {"time": _time(time), "velocity": _over_levels(velocity, "velocity of penetration du/dt", _per_time(unit))}
+    added = {
+        "time": _time(time),
+        "velocity": _over_levels(velocity, "velocity of penetration du/dt", velocity_unit(unit)),
+    }
     return Content(content.variables | added, content.attributes)
 
 
@@ -46,10 +50,6 @@ def _time(values: Array) -> Variable:
 
 def _force(values: Array, length_unit: str) -> Variable:
     return _over_levels(values, "force F at that time", "1" if length_unit == "1" else "N")
-
-
-def _per_time(unit: str) -> str:
-    return "s-1" if unit == "1" else f"{unit} s-1"
 
 
 def _of_levels(length_unit: str, **values: Any) -> dict[str, Variable]:
@@ -88,7 +88,7 @@ def medium_motion_to_content(motion: MediumMotion) -> Content:
 def estimate_to_content(estimate: Estimate, length_unit: str = "1") -> Content:
     """An estimates.Estimate as a Content; values are nan at times at which the law does not hold."""
     x = _over_levels(estimate.x, "dimensionless force X = F J(t)/(4 h L)", "1")
-    variables, per_time = {"time": _time(estimate.time), "x": x}, _per_time(length_unit)
+    variables, per_time = {"time": _time(estimate.time), "x": x}, velocity_unit(length_unit)
     about = (("depth", "depth of penetration u", length_unit), ("velocity", "velocity of penetration du/dt", per_time))
     for name, text, unit in about:
         for end, meaning in {"": "", "_low": ", lower end of 95 %", "_high": ", upper end of 95 %"}.items():

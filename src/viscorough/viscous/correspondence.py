@@ -25,9 +25,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from viscorough import units
 from viscorough.arrays import ReadOnlyArrays, increasing, read_only, samples
 from viscorough.loading_curve import LoadingCurve
-from viscorough.summaries import Summarised, Summary, span
+from viscorough.summaries import Summarised, Summary, span, velocity_unit
 from viscorough.types import Array, Integers
 from viscorough.viscous.creep_response import creep_response
 from viscorough.viscous.media import Newtonian, medium_of
@@ -40,21 +41,25 @@ _ROUNDING = 1e-10  # relative; the rounding error of an impulse summed over a mi
 
 @dataclass(frozen=True)
 class Kinetics(ReadOnlyArrays, Summarised):
-    """Penetration over time; read-only arrays of shape (times,), in the units of curve, force and viscosity.
+    """Penetration over time; read-only arrays of shape (times,).
 
-    time : t
-    depth : u
-    velocity : v = du/dt
+    time : t, in s where the unit of length is known, else in the unit that those of force and viscosity make
+    depth : u [length]
+    velocity : v = du/dt [length/time]
+    length_unit : unit of the lengths; "1" if it is not known
     """
 
     time: np.ndarray
     depth: np.ndarray
     velocity: np.ndarray
+    length_unit: str = units.UNKNOWN
 
     def _summary(self) -> Summary:
         """What it is; the first and last time, depth and velocity."""
-        spans = ("time t", self.time), ("depth u", self.depth), ("velocity v", self.velocity)
-        return f"Penetration at {self.time.size} times", *([(name, span(values))] for name, values in spans)
+        known, unit = self.length_unit != units.UNKNOWN, self.length_unit
+        spans = ("time t", self.time, "s" if known else unit), ("depth u", self.depth, unit)
+        spans += (("velocity v", self.velocity, velocity_unit(unit) if known else unit),)
+        return f"Penetration at {self.time.size} times", *([(name, span(*values))] for name, *values in spans)
 
 
 class ForceHistory(NamedTuple):
@@ -71,16 +76,18 @@ class ForceHistory(NamedTuple):
 
 
 def kinetics(
-    curve: LoadingCurve, force: ArrayLike | ForceHistory, medium: Medium | float, times: ArrayLike | None = None
+    curve: LoadingCurve, force: ArrayLike | ForceHistory, medium: Medium | float | str, times: ArrayLike | None = None
 ) -> Kinetics:
     """Depth and velocity of an indenter with the given loading curve in a linear viscoelastic half-space.
 
     curve : LoadingCurve of the indenter
     force : a number, the constant force F > 0 applied at t = 0; or samples F ≥ 0 of shape (times,), linear in between,
         applied from times[0] on, with a time given twice where the force steps; or a ForceHistory (`impulses`), whose
-        samples need not be those of `times`
-    medium : Medium, as viscorough.Maxwell, or a number, the viscosity η > 0 of a Newtonian one; in units such that
-        F·t/η, or F over a modulus, is a length² in the curve's unit of length
+        samples need not be those of `times`. Forces are in N, or texts with a unit as "5 mN", if the curve's unit of
+        length is known
+    medium : Medium, as viscorough.Maxwell, or the viscosity η > 0 of a Newtonian one; in Pa, s and Pa s, or a text as
+        "2 kPa s", if the curve's unit of length is known, else in units such that F·t/η, or F over a modulus, is a
+        length²
     times : increasing, and not negative if the force is constant; the default, for a constant force only, is the times
         at which the curve's levels are reached, in a Newtonian medium t = (F/G)·η/F. In a medium that springs at once
         time 0 stands before them, and levels that are never reached are left out
@@ -92,9 +99,10 @@ def kinetics(
     Raises ValueError for values outside these ranges, for a force beyond the curve's last level, and, with the time,
     where the creep decreases and the contact would recede.
     """
-    medium = medium_of(medium)
+    medium = medium_of(medium, curve.length_unit)
     if times is None and isinstance(force, ForceHistory):
         times = force.times
+    force = consistent_force(force, curve.length_unit)
     constant = np.ndim(force) == 0
     if constant and not (np.isfinite(force) and force > 0):
         raise ValueError(f"constant force: {force}; allowed: a finite number above 0")
@@ -107,7 +115,19 @@ def kinetics(
     times, creep, rate = _creep(force, medium, times)
     depth, stiffness = _at_elastic_force(curve, creep, times)
     with np.errstate(invalid="ignore"):
-        return Kinetics(times, depth, np.where(creep == 0, 0.0, np.maximum(rate, 0) / stiffness))
+        velocity = np.where(creep == 0, 0.0, np.maximum(rate, 0) / stiffness)
+    return Kinetics(times, depth, velocity, curve.length_unit)
+
+
+def consistent_force(force: ArrayLike | ForceHistory, length_unit: str) -> float | Array | ForceHistory:
+    """A force in N as one that is consistent with moduli in Pa and the unit of length of an indenter.
+
+    force : a number, a text with a unit, samples or a ForceHistory; it is returned unchanged if the unit is not known
+    """
+    area = units.square_metres(length_unit)
+    if isinstance(force, ForceHistory):
+        return ForceHistory(force.times, read_only(force.force / area), read_only(force.impulse / area))
+    return units.number(force, "N", length_unit, "force") / area if np.ndim(force) == 0 else read_only(force) / area
 
 
 def _newtonian_kinetics(
@@ -119,14 +139,15 @@ def _newtonian_kinetics(
     depth, stiffness = _at_impulse(curve, impulse / viscosity, viscosity)
     # Without a force the velocity is 0 even before the first level, where the stiffness is nan.
     velocity = np.where(force == 0, 0.0, force / (viscosity * stiffness))
-    return Kinetics(times, depth, velocity)
+    return Kinetics(times, depth, velocity, curve.length_unit)
 
 
 def _at_levels(curve: LoadingCurve, force: float, medium: Medium) -> Kinetics:
     """Kinetics under a constant force at the times at which the levels of the curve are reached."""
     if isinstance(medium, Newtonian):
         viscosity = medium.viscosity
-        return Kinetics(curve.force * viscosity / force, curve.depth, force / (viscosity * curve.stiffness))
+        velocity = force / (viscosity * curve.stiffness)
+        return Kinetics(curve.force * viscosity / force, curve.depth, velocity, curve.length_unit)
     limit = min(medium.last_time, _LATEST)
     at_once, at_last = force * medium.creep_compliance(np.array([0.0, limit]))
     reached = (curve.force > at_once) & (curve.force < at_last)
@@ -144,7 +165,7 @@ def _at_levels(curve: LoadingCurve, force: float, medium: Medium) -> Kinetics:
         rate = force * medium.creep_rate(0.0)
         time, depth = np.append(0.0, time), np.append(start[0], depth)
         velocity = np.append(rate / start[1], velocity)
-    return Kinetics(time, depth, velocity)
+    return Kinetics(time, depth, velocity, curve.length_unit)
 
 
 def _creep(force: ArrayLike | ForceHistory, medium: Medium, times: ArrayLike) -> tuple[Array, Array, Array]:
@@ -207,9 +228,10 @@ def _at_impulse(curve: LoadingCurve, elastic_force: Array, viscosity: float) -> 
     """Depth and k/G at the impulse over viscosity I/η: those of the loading curve at F/G = `elastic_force` = I/η."""
     last, largest = curve.force[-1], elastic_force.max()
     if largest > last * (1 + _ROUNDING):
+        impulse = viscosity * units.square_metres(curve.length_unit)
         raise ValueError(
-            f"impulse: {largest * viscosity:.6g} is beyond the curve's last level; "
-            f"allowed: up to {last * viscosity:.6g}; {_remedy(largest)}"
+            f"impulse: {largest * impulse:.6g} is beyond the curve's last level; "
+            f"allowed: up to {last * impulse:.6g}; {_remedy(largest)}"
         )
     return _on_curve(curve, elastic_force)
 

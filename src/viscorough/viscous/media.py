@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import gamma
 
+from viscorough import units
 from viscorough.arrays import ReadOnlyArrays, read_only
 from viscorough.types import Array
 from viscorough.viscous.medium import Medium, RelaxationSpectrum, RetardationSpectrum
@@ -22,6 +23,7 @@ from viscorough.viscous.spectra import retardation_spectrum
 
 _NONE = np.array([])
 _TABLE_ROUNDING = 1e-9  # relative; slopes of tables with ten digits may increase by as much
+_LAST_DIGITS = 1e-14  # relative; rounding of compliances, which their slopes show where J hardly grows
 
 
 class _Exponential(Medium):
@@ -290,7 +292,8 @@ class CreepTable(ReadOnlyArrays, Medium):
         slopes = self._slopes
         if not (values[0] >= 0 and (slopes >= 0).all() and values[-1] > 0 and np.isfinite(slopes).all()):
             raise ValueError("CreepTable: allowed is a compliance that starts at 0 or more, grows and never decreases")
-        if (steeper := slopes[1:] > slopes[:-1] * (1 + _TABLE_ROUNDING)).any():
+        rounding = _LAST_DIGITS * values[1:-1] / np.minimum(np.diff(times)[1:], np.diff(times)[:-1])
+        if (steeper := slopes[1:] > slopes[:-1] * (1 + _TABLE_ROUNDING) + rounding).any():
             where = self.times[1 + int(np.argmax(steeper))]
             raise ValueError(
                 f"CreepTable: J grows faster after time {where:g} than before; allowed: a concave J, as of every "
@@ -335,12 +338,16 @@ class CreepTable(ReadOnlyArrays, Medium):
         return np.where(first > last, within, across)
 
 
-def medium_of(medium: Medium | float) -> Medium:
-    """The medium; a number is the viscosity of a Newtonian one. Raises ValueError for anything else."""
+def medium_of(medium: Medium | float | str, length_unit: str = units.UNKNOWN) -> Medium:
+    """The medium; a number, or a text as "2 kPa s", is the viscosity of a Newtonian one.
+
+    length_unit : of the indenter; where it is not known, a viscosity has no unit. Raises ValueError for anything else.
+    """
     if isinstance(medium, Medium):
         return medium
+    viscosity = units.number(medium, "Pa s", length_unit, "viscosity")
     try:
-        return Newtonian(medium)
+        return Newtonian(viscosity)
     except ValueError as error:
         raise ValueError(
             f"medium: {repr(medium)[:60]}; allowed: a medium as viscorough.Maxwell, or the viscosity of a Newtonian "

@@ -7,11 +7,12 @@ leave of the force, distributed as dp_el/dF, the pressure of a flat punch of the
 
 import numpy as np
 
+from viscorough import units
 from viscorough.contact.prescribed_force import ForceSearch
 from viscorough.contact.solver import ContactSolver, check_solvable
 from viscorough.indenter import Indenter
 from viscorough.types import Array
-from viscorough.viscous.correspondence import ForceHistory, impulses, resampled
+from viscorough.viscous.correspondence import ForceHistory, consistent_force, impulses, resampled
 from viscorough.viscous.creep_response import creep_response
 from viscorough.viscous.media import medium_of
 from viscorough.viscous.medium import Medium
@@ -19,14 +20,14 @@ from viscorough.viscous.medium import Medium
 
 def pressure_at(
     indenter: Indenter,
-    medium: Medium | float,
-    force: float | ForceHistory,
+    medium: Medium | float | str,
+    force: float | str | ForceHistory,
     time: float,
     *,
     contacts: int = 64,
     tolerance: float = 1e-4,
 ) -> Array:
-    """Pressure p on an indenter in a viscoelastic half-space at one time, in the unit of the moduli.
+    """Pressure p on an indenter in a viscoelastic half-space at one time, in Pa or the unit of the moduli.
 
     indenter : Indenter with two-dimensional heights; medium : as in kinetics, but no CreepTable, whose ψ is not known
     force : a number, the constant force F > 0 from t = 0 on; or a ForceHistory
@@ -40,10 +41,11 @@ def pressure_at(
     to the error in time, so that this shows its size. Raises ValueError for arguments out of range and, with the time,
     where the contact would recede.
     """
-    medium = medium_of(medium)
+    medium = medium_of(medium, indenter.length_unit)
     check_solvable("pressure_at", indenter, tolerance)
     if not isinstance(force, ForceHistory):
-        force = impulses(np.full(2, float(force)), [0.0, time])
+        force = impulses(np.full(2, units.number(force, "N", indenter.length_unit, "force")), [0.0, time])
+    force = consistent_force(force, indenter.length_unit)
     start = force.times[0]
     if not start < time <= force.times[-1]:
         raise ValueError(

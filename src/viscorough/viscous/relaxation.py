@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from viscorough import units
 from viscorough.arrays import increasing, read_only, samples
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import Array, Integers
@@ -44,15 +45,15 @@ def force_under_depth(curve: LoadingCurve, depth: ArrayLike, medium: Medium | fl
     and just before the last one.
     Raises ValueError for arguments out of range and for depths beyond the curve's last level.
     """
-    medium = medium_of(medium)
+    medium, area = medium_of(medium, curve.length_unit), units.square_metres(curve.length_unit)
     times, depth = _depth_samples(curve, depth, times)
     node_times, node_depths, place = _with_levels(curve, times, depth)
-    elastic, stiffness = _elastic_force(curve, node_depths)
+    elastic, stiffness = elastic_force(curve, node_depths)
     lengths = np.diff(node_times)
     jumps = np.append(elastic[0], np.where(lengths == 0, np.diff(elastic), 0.0))
     if medium.relaxation is None:
         force = _by_sums(medium, node_times, elastic, jumps, place)
-        return DepthHistory(*map(read_only, (times, depth, force)))
+        return DepthHistory(*map(read_only, (times, depth, force * area)))
     viscosity, relaxed, moduli, relaxation_times = medium.relaxation
     _, left = branch_states(lengths, elastic, jumps, relaxation_times)
     force = relaxed * elastic + left @ moduli
@@ -64,7 +65,7 @@ def force_under_depth(curve: LoadingCurve, depth: ArrayLike, medium: Medium | fl
             )
         speed = np.divide(np.diff(node_depths), lengths, out=np.zeros_like(lengths), where=lengths > 0)
         force = force + viscosity * stiffness * np.append(speed, speed[-1:] if speed.size else 0.0)
-    return DepthHistory(*map(read_only, (times, depth, force[place])))
+    return DepthHistory(*map(read_only, (times, depth, force[place] * area)))
 
 
 def _depth_samples(curve: LoadingCurve, depth: ArrayLike, times: ArrayLike) -> tuple[Array, Array]:
@@ -106,7 +107,7 @@ def _with_levels(curve: LoadingCurve, times: Array, depth: Array) -> tuple[Array
     return node_times[kept], node_depths[kept], (np.cumsum(kept) - 1)[place]
 
 
-def _elastic_force(curve: LoadingCurve, depth: Array) -> tuple[Array, Array]:
+def elastic_force(curve: LoadingCurve, depth: Array) -> tuple[Array, Array]:
     """F_el/G and k/G at depths up to the last level; before the first one the curve is taken for straight."""
     stiffness = np.full(depth.shape, curve.force[0] / curve.depth[0])
     force = depth * stiffness

@@ -1,18 +1,21 @@
 """Kinetics from exact loading curves, against solutions that do not use the correspondence."""
 
+import dataclasses
 import re
 
 import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
 
+from support.contract import refused
 from support.curves import curve_of_body, curve_of_levels
 from support.media import MEDIA
 from viscorough import reference
 from viscorough.contact.loading_path import indent
 from viscorough.surfaces import self_affine_disc
 from viscorough.viscous.correspondence import impulses, kinetics
-from viscorough.viscous.media import Newtonian
+from viscorough.viscous.media import Maxwell, Newtonian
+from viscorough.viscous.relaxation import force_under_depth
 
 RADIUS, VISCOSITY, FORCE = 1.7, 30.0, 0.03
 DEPTHS = np.geomspace(1e-6, 10, 71)
@@ -186,3 +189,28 @@ def test_refusals(curve, arguments, message):
     with pytest.raises(ValueError, match=r"^[^\n]+$") as refusal:
         kinetics(curve, **call)
     assert message in str(refusal.value)
+
+
+# ---- units
+
+
+def test_forces_and_viscosities_are_in_si_where_the_unit_of_length_is_known():
+    """1 Pa s is 1e-12 N s/um², so that newtons on pascals are 1e12 times as large as on consistent units."""
+    curve = curve_of_body(reference.sphere(100.0), np.geomspace(0.01, 1, 20))
+    in_micrometres = dataclasses.replace(curve, length_unit="um")
+    wanted = kinetics(curve, 2e-5, 3e-9, [1e-4, 1e-3])
+    for force, viscosity in ((2e-5, 3e3), ("20 uN", "3 kPa s"), ("2e-5 N", 3e3)):
+        motion = kinetics(in_micrometres, force, viscosity, [1e-4, 1e-3])
+        np.testing.assert_allclose([motion.depth, motion.velocity], [wanted.depth, wanted.velocity], rtol=1e-12)
+    assert str(motion).splitlines()[1:] == [
+        "time t 0.0001 to 0.001 s",
+        f"depth u {wanted.depth[0]:.4g} to {wanted.depth[1]:.4g} um",
+        f"velocity v {wanted.velocity[0]:.4g} to {wanted.velocity[1]:.4g} um s-1",
+    ]
+    relaxed = force_under_depth(in_micrometres, [1.0, 1.0], Maxwell(2e6, 1e6), [0.0, 0.5])
+    consistent = force_under_depth(curve, [1.0, 1.0], Maxwell(2e-6, 1e-6), [0.0, 0.5])
+    np.testing.assert_allclose(relaxed.force, consistent.force, rtol=1e-12)
+    with refused("force 20 uN: needs a plain number, since the unit of length is not known"):
+        kinetics(curve, "20 uN", 3e3)
+    with refused("force: .* cannot be converted to N"):
+        kinetics(in_micrometres, "20 um", 3e3)

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.linalg import expm
 
-from viscorough import memory
+from viscorough import memory, units
 from viscorough.contact.growing_cholesky import append_element, solve_flat_punch
 from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
@@ -61,8 +61,9 @@ def march_medium_events(
     """
     if not 0 < until_fraction <= 1:
         raise ValueError(f"march_medium_events: until_fraction must lie in (0, 1], not {until_fraction!r}")
-    relaxation = spectrum_of("march_medium_events", medium)
-    times, load = load_samples("march_medium_events", times, force, depth)
+    relaxation = spectrum_of("march_medium_events", medium, indenter.length_unit)
+    area = units.square_metres(indenter.length_unit)
+    times, load = load_samples("march_medium_events", times, force, depth, area)
     elements = elements_of_map(indenter, "march_medium_events")
     contact = _GrowingContact(elements, relaxation, int(np.ceil(until_fraction * elements.count)))
     law = _ByForce(relaxation, elements.scale) if depth is None else _ByDepth(relaxation)
@@ -79,7 +80,7 @@ def march_medium_events(
     pressure = contact.pressure
     if depth is None and relaxation.viscosity:  # the dashpot carries a step of the force at the last time
         pressure = pressure + (load[-1] / elements.scale - pressure.sum()) * contact.punch_share
-    moved = times, depths, forces, counts.astype(int), elements.count, elements.pressure_map(pressure)
+    moved = times, depths, forces * area, counts.astype(int), elements.count, elements.pressure_map(pressure)
     events = {"event_time": event_time, "event_depth": event_depth}
     return MediumEvents(*moved, indenter.length_unit, **events)
 

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.linalg import cho_factor, cho_solve
 
+from viscorough import units
 from viscorough.arrays import ReadOnlyArrays, increasing, samples
 from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
@@ -70,7 +71,8 @@ def march_medium(
     medium : Medium of springs and dashpots (no Springpot, no CreepTable), or the viscosity of a Newtonian one
     times : ends of the steps, increasing; a time given twice is a step of the load
     force, depth : one of them, a load at these times, of shape (times,), F ≥ 0 and linear in between; before times[0]
-        there is none, so that its first value is a step. A force may decrease, and so may a depth: the contact recedes
+        there is none, so that its first value is a step. A force may decrease, and so may a depth: the contact recedes.
+        Forces are in N and moduli in Pa if the unit of length is known
     progress : function that is called at each of the times with the share of them that is done
 
     Returns MediumMotion. Raises ValueError for arguments out of range, ConvergenceError if a contact problem is not
@@ -78,8 +80,9 @@ def march_medium(
     """
     if scheme not in MEDIUM_SCHEMES:
         raise ValueError(f"march_medium: scheme must be one of {', '.join(MEDIUM_SCHEMES)}, not {scheme!r}")
-    relaxation = spectrum_of("march_medium", medium)
-    times, load = load_samples("march_medium", times, force, depth)
+    relaxation = spectrum_of("march_medium", medium, indenter.length_unit)
+    area = units.square_metres(indenter.length_unit)
+    times, load = load_samples("march_medium", times, force, depth, area)
     elements = elements_of_map(indenter, "march_medium")
     state = _State(elements, relaxation)
     contact = _ContactProblem(elements)
@@ -105,27 +108,27 @@ def march_medium(
         if progress:
             progress(len(rows) / times.size)
     depths, forces, counts = np.array(rows).T
-    moved = times, depths, forces, counts.astype(int), elements.count, elements.pressure_map(pressure)
+    moved = times, depths, forces * area, counts.astype(int), elements.count, elements.pressure_map(pressure)
     return MediumMotion(*moved, indenter.length_unit, float(receding))
 
 
-def spectrum_of(caller: str, medium: Medium | float) -> RelaxationSpectrum:
+def spectrum_of(caller: str, medium: Medium | float | str, length_unit: str) -> RelaxationSpectrum:
     """The RelaxationSpectrum of a medium. Raises ValueError, which starts with the caller, if it has none."""
-    medium = medium_of(medium)
+    medium = medium_of(medium, length_unit)
     if medium.relaxation is None:
         raise ValueError(f"{caller}: {type(medium).__name__}; allowed: media of springs and dashpots")
     return medium.relaxation
 
 
 def load_samples(
-    caller: str, times: ArrayLike, force: ArrayLike | None, depth: ArrayLike | None
+    caller: str, times: ArrayLike, force: ArrayLike | None, depth: ArrayLike | None, area: float
 ) -> tuple[Array, Array]:
-    """Times and load, arrays of shape (times,). Raises ValueError, which starts with the caller, for others."""
+    """Times and load, a depth or a force per area, of shape (times,). Raises ValueError that starts with the caller."""
     if (force is None) == (depth is None):
         raise ValueError(f"{caller}: one of force and depth is needed")
     name, load = ("force", force) if depth is None else ("depth", depth)
     times = increasing(f"{caller}: times", times, steps=f"the {name}")
-    return times, samples(f"{caller}: {name}", load, times)
+    return times, samples(f"{caller}: {name}", load, times) / (area if depth is None else 1.0)
 
 
 class _State:

@@ -1,0 +1,79 @@
+"""`viscorough creep`: the medium of a half-space from the measured depth of an indenter."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from viscorough.cli.elasticity import check_incompressible
+from viscorough.cli.files import check_output, printable_name, read_content
+from viscorough.cli.messages import announce
+from viscorough.cli.options import FILE, Quantity, force_history_option, number_in
+from viscorough.summaries import with_unit
+
+
+@click.command(short_help="The medium from a measured depth over time.")
+@click.argument("curve", type=FILE, metavar="CURVE.nc")
+@click.argument("record", type=FILE, metavar="RECORD.csv")
+@click.option("--force", type=Quantity("N"), help="Constant force F, applied at time 0.")
+@force_history_option
+@click.option(
+    "--fit",
+    type=click.Choice(["table", "prony", "springpot"]),
+    default="table",
+    help="Kind of medium: a table of J(t), a Prony series or a springpot.",
+)
+@click.option("-o", "--output", type=FILE, required=True, metavar="MEDIUM.yaml", help="File to write or replace.")
+def creep(
+    curve: Path, record: Path, *, force: Quantity | None, force_history: Path | None, fit: str, output: Path
+) -> None:
+    """The medium of a half-space from the measured depth of the indenter whose loading curve is in CURVE.nc.
+
+    RECORD.csv has two columns, times and depths, with units in a heading as t [s],u [um] or plain numbers in s and in
+    the unit of length of the curve. At a known depth the curve gives F/G, which is the creep, the integral of J(t - s)
+    dF(s): at once the compliance J(t) for a constant force, else by inversion. MEDIUM.yaml is a medium for viscorough
+    kinetics. A creep table stands in MEDIUM.csv, with the columns time, compliance, low and high: of all J that do not
+    decrease and are concave, the one that fits best, and its interval of 95 % from the scatter of the record.
+
+    A depth that recedes by more than the scatter, or that leaves the curve, is refused.
+
+    \b
+    Example:
+        viscorough creep curve.nc record.csv --force "10 mN" -o rubber.yaml
+    """
+    if (force is None) == (force_history is None):
+        raise click.UsageError("one of --force and --force-history is needed")
+
+    from viscorough.io.columns import read_columns
+    from viscorough.io.curves import curve_from_content
+    from viscorough.io.media import check_medium_file, save_identified
+    from viscorough.io.motion import read_force_history
+    from viscorough.viscous.identification import identify_medium
+
+    table = check_medium_file(output)
+    for path in (output, table):
+        check_output(path, curve=curve, record=record, force_history=force_history)
+    content = read_content(curve)
+    check_incompressible(content, curve)
+    try:
+        loading = curve_from_content(content)
+    except ValueError as error:
+        raise ValueError(f"{curve}: {error}") from error
+    unit = loading.length_unit
+    times, depth = read_columns(record, "a record", {"time": "s", "depth": unit}, unit)
+    history = number_in("N", force, unit, "--force") if force else read_force_history(force_history, unit)
+    identified = identify_medium(loading, history, times, depth, kind=fit)
+    stated = history if force else printable_name(force_history)
+    save_identified(
+        identified,
+        output,
+        curve=printable_name(curve),
+        record=printable_name(record),
+        force=stated,
+        scatter=identified.scatter,
+    )
+    first, last = identified.compliance[[1, -1]]
+    inverse = "1" if unit == "1" else "1/Pa"
+    text = f"J {first:.4g} to {with_unit(last, inverse)} from time {identified.time[1]:.4g} to {times[-1]:.4g}"
+    announce(output, f"{text}, scatter of depth {with_unit(identified.scatter, unit, 3)}")

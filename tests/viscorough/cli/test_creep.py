@@ -1,0 +1,78 @@
+"""`viscorough creep`: a medium from a record of depth, in the units of its heading, and what is refused."""
+
+import numpy as np
+import pytest
+import yaml
+
+import viscorough
+from support.command_line import run
+from support.contract import complaint
+from support.curves import curve_of_body
+from viscorough.io import tables
+
+MEDIUM = viscorough.StandardLinearSolid(3e6, 1e6, 0.2)
+TIMES = np.geomspace(0.01, 10, 30)
+FORCE = 2e-5  # N, brings the creep to 20 um2
+
+
+@pytest.fixture
+def here(here):
+    """A curve in micrometres, and a record in ms and nm of a step of force on a rubber."""
+    curve = curve_of_body(viscorough.reference.sphere(100.0), np.geomspace(1e-6, 3, 200))
+    object.__setattr__(curve, "length_unit", "um")
+    viscorough.save_curve(curve, "curve.nc")
+    motion = viscorough.kinetics(curve, FORCE, MEDIUM, TIMES)
+    np.savetxt("record.csv", np.c_[1e3 * TIMES, 1e3 * motion.depth], "%.17g", ",", header="t_ms,u [nm]", comments="")
+    return here
+
+
+@pytest.mark.parametrize("fit", ["table", "prony", "springpot"])
+def test_media_are_read_back(here, capsys, fit):
+    assert run(f"creep curve.nc record.csv --force '20 uN' --fit {fit} -o rubber.yaml") == 0
+    assert "rubber.yaml: J " in capsys.readouterr().out
+    medium = viscorough.read_medium("rubber.yaml", "um")
+    error = 0.2 if fit == "springpot" else 0.003
+    np.testing.assert_allclose(medium.creep_compliance(TIMES[1:]), MEDIUM.creep_compliance(TIMES[1:]), rtol=error)
+    assert (here / "rubber.csv").exists() == (fit == "table")
+    assert run("kinetics curve.nc --force 2e-5 --medium rubber.yaml --times 0.5,5 -o motion.nc") == 0
+
+
+def test_tables_hold_the_intervals(here):
+    assert run("creep curve.nc record.csv --force 20e-6 -o rubber.yaml") == 0
+    assert yaml.safe_load((here / "rubber.yaml").read_text()) == {"kind": "creep_table", "file": "rubber.csv"}
+    table = tables.read("rubber.csv")
+    assert table.attributes["record"] == "record.csv"
+    assert {name: v.attributes["units"] for name, v in table.variables.items()} == {
+        "time": "s",
+        **dict.fromkeys(("compliance", "low", "high"), "1/Pa"),
+    }
+    j = table.variables["compliance"].values
+    np.testing.assert_allclose(j[1:], MEDIUM.creep_compliance(TIMES), rtol=1e-9)
+    assert (table.variables["low"].values <= j).all()
+
+
+def test_force_histories(here):
+    """A force that steps at time 0 is the constant one."""
+    (here / "force.csv").write_text("t,F [uN]\n0,20\n10,20\n")
+    for name, force in (("a", "--force 20e-6"), ("b", "--force-history force.csv")):
+        assert run(f"creep curve.nc record.csv {force} -o {name}.yaml") == 0
+    a, b = (tables.read(f"{name}.csv").variables["compliance"].values for name in "ab")
+    np.testing.assert_allclose(a, b, rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("line", "text"),
+    [
+        ("creep curve.nc record.csv -o m.yaml", "one of --force and --force-history is needed"),
+        ("creep curve.nc record.csv --force 1 -o m.nc", "m.nc: unknown kind of file; a medium is written as .yaml"),
+        ("creep curve.nc record.csv --force 1 -o record.yaml", "record.csv: would replace the record"),
+        ("creep curve.nc record.csv --force '1 um' -o m.yaml", "'1 um' is not a number above 0"),
+        ("creep record.csv record.csv --force 1 -o m.yaml", "a loading curve of viscorough indent is needed"),
+        ("creep curve.nc receding.csv --force 1 -o m.yaml", "at time 6 the depth has receded by 1"),
+        ("creep curve.nc deep.csv --force 1 -o m.yaml", "depth 9 at time 6 is beyond the curve's last level"),
+    ],
+)
+def test_mistakes_are_answered_in_one_line(here, capsys, line, text):
+    (here / "receding.csv").write_text("1,1\n2,1.3\n3,1.6\n4,1.9\n5,2.2\n6,1.2\n")
+    (here / "deep.csv").write_text("1,1\n2,1.2\n3,1.3\n4,1.4\n5,1.5\n6,9\n")
+    assert text in complaint(line, capsys, here)

@@ -184,8 +184,10 @@ QUOTED = {
         "at H = 0.4 and 0.1 it is {:.2f} and {:.2f} larger": lambda: above(fits("default")["beta"])[[0.4, 0.1]],
         "in region (b) to {:.0f} %": lambda: 100 * value("exact_correspondence").abs().iloc[::2].max(),
         "F/({:.2f} h)": lambda: LAW["u0"].mean(),
-        "within 5 % from X = {:.1g} until contact is complete": lambda: of_base(LAW)["law_low"].max(),
-        "until contact is complete": lambda: (of_base(LAW)["law_high"] > 25).all(),
+        "within 5 % from X = {:.1g} to {:.0f}": lambda: [
+            of_base(LAW)["law_low"].max(),
+            of_base(LAW)["law_high"].min(),
+        ],
         "take {:.0f} to {:.0f}": lambda: [other_times().min(), 10 * round(other_times().max() / 10)],
         "{} minutes here": minutes_of_reproduction,
         "at about a fifth of the cost": lambda: 0.17 < line_over_disc() < 0.23,
@@ -259,6 +261,11 @@ QUOTED = {
         ],
         "between 4097 and 8193 to the power {:.2f}": lambda: growth_of_large([4097, 8193], "memory"),
         "at most 200 bytes": lambda: (large([4097, 8193], "memory") / large([4097, 8193], "elements")).max() < 200,
+    },
+    "docs/solver.md": {
+        "{:.0f} at 257 elements across, {:.0f} at 4097 and {:.0f} at 8193": lambda: (
+            large([257, 4097, 8193], "operator_applications") / (large([257, 4097, 8193], "levels") - 400)
+        ),
     },
     "docs/questions.md": {
         "4097 elements across takes {:.0f} s and {:.1f} GB": lambda: cost_of_large(4097, 1),

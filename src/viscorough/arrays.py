@@ -26,7 +26,17 @@ def read_only(values: ArrayLike) -> NDArray[Any]:
 
 
 class ReadOnlyArrays:
-    """Base of frozen dataclasses: every field declared as an array becomes a read-only one."""
+    """Base of frozen dataclasses: fields declared as arrays become read-only ones, and are compared as a whole."""
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        cls.__eq__ = ReadOnlyArrays.__eq__  # else dataclasses compare tuples, of which arrays cannot be parts
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        pairs = ((getattr(self, field.name), getattr(other, field.name)) for field in dataclasses.fields(self))
+        return all(_are_equal(a, b) for a, b in pairs)
 
     def __post_init__(self) -> None:
         for field in dataclasses.fields(self):
@@ -64,6 +74,13 @@ def samples(name: str, values: ArrayLike, times: Array, reason: str = "") -> Arr
         where = int(np.argmin(allowed))
         raise ValueError(f"{name}: sample {where} is {values[where]}; allowed: finite, 0 or more{reason}")
     return values
+
+
+def _are_equal(one: object, other: object) -> bool:
+    """Whether two values are equal; nan equals nan in arrays."""
+    if not isinstance(one, np.ndarray):
+        return one == other
+    return np.array_equal(one, other, equal_nan=one.dtype.kind == "f")
 
 
 def _cannot_change(array: NDArray[Any] | None) -> bool:

@@ -11,6 +11,7 @@ import functools
 import inspect
 import logging
 import os
+import sys
 from collections.abc import Callable
 from hashlib import sha256
 from pathlib import Path
@@ -22,6 +23,13 @@ from numba.core import caching
 from viscorough.interrupts import uninterrupted
 
 _CHECKSUM_SIZE = sha256().digest_size
+
+
+@functools.cache  # said once
+def _announce_compilation() -> None:
+    """Tell those who wait at a terminal or a notebook why the first computation takes longer."""
+    if "ipykernel" in sys.modules or (sys.stderr is not None and sys.stderr.isatty()):
+        print("viscorough: compiling once, which takes about 20 s", file=sys.stderr, flush=True)
 
 
 class _CheckedFile(caching.IndexDataCacheFile):
@@ -45,7 +53,9 @@ class _CheckedCache(caching.FunctionCache):
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         try:
             with uninterrupted():
-                return super().load_overload(sig, target_context)
+                if (loaded := super().load_overload(sig, target_context)) is None:
+                    _announce_compilation()
+                return loaded
         except Exception as error:  # unpickling and linking damaged bytes can fail in any way
             text = "compiled code of %s in %s is damaged (%s): it is compiled again"
             logging.warning(text, self._py_func.__name__, self.cache_path, error)

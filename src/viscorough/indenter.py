@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from viscorough.arrays import read_only
+from viscorough import units
+from viscorough.arrays import ReadOnlyArrays, read_only
 from viscorough.types import Array
 
 LARGEST_ASPECT = 5  # of the sides of an element, either way
@@ -15,7 +16,7 @@ _LARGEST_WHOLE = 2**53  # larger whole numbers are not all numbers of double pre
 
 
 @dataclass(frozen=True)
-class Indenter:
+class Indenter(ReadOnlyArrays):
     """A rigid indenter: heights on a rectangular grid, or along a line, of equal spacing.
 
     heights : a map of shape (rows, columns), nan outside the indenter, or a line of shape (points,); larger is higher,
@@ -64,6 +65,14 @@ class Indenter:
         object.__setattr__(self, "row_spacing", row_spacing)
         if not isinstance(self.length_unit, str) or not self.length_unit.strip():
             raise ValueError(f"indenter length_unit: must be a text such as 'um' or '1', not {self.length_unit!r}")
+
+    def to(self, unit: str) -> "Indenter":
+        """The same indenter with lengths in another unit, such as "m". Raises ValueError if its own is not known."""
+        if self.length_unit == units.UNKNOWN:
+            raise ValueError(f"indenter: its unit of length is not known, so that it cannot be converted to {unit}")
+        unit = units.length_unit(unit)
+        factor = units.factor(self.length_unit, unit)
+        return Indenter(self.heights * factor, self.spacing * factor, self.row_spacing * factor, unit)
 
     @property
     def aspect(self) -> float:
@@ -129,6 +138,13 @@ def _native(heights: Array) -> Array:
         native = np.ascontiguousarray(heights, dtype=kept)
     native.flags.writeable = False
     return native
+
+
+def check_indenter(caller: str, indenter: object) -> None:
+    """Raise TypeError, which starts with the caller, for anything but an Indenter, such as an array of heights."""
+    if not isinstance(indenter, Indenter):
+        text = "an Indenter is needed, as viscorough.Indenter(heights, spacing) or viscorough.read_heights makes it"
+        raise TypeError(f"{caller}: {type(indenter).__name__}; {text}")
 
 
 def positive(name: str, value: float) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 from ducc0 import fft
 
 from viscorough.compilation import njit
-from viscorough.indenter import Indenter
+from viscorough.indenter import Indenter, check_indenter
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import Array, Integers
 
@@ -44,6 +44,7 @@ def reduce(
     Source: V. L. Popov and M. Heß, Method of Dimensionality Reduction in Contact Mechanics and Friction
     (2015); paper, Sec. V.
     """
+    check_indenter("reduce", line)
     if line.heights.ndim != 1:
         raise ValueError("reduce: the indenter's heights must be one-dimensional (maps are for indent)")
     return reduce_heights(

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from viscorough.indenter import Indenter
+from viscorough.indenter import Indenter, check_indenter
 from viscorough.types import Array, Integers
 
 DETREND = ("none", "mean", "plane", "sphere")
@@ -41,6 +41,7 @@ def prepare(
     A sphere of curvature k is a + bx + cy + k r²/(1 + √(1 − k²r²)), with r the distance from the middle of the map.
     Raises ValueError for a line, an unknown option, a crop beyond the map, and where no sphere fits.
     """
+    check_indenter("prepare", indenter)
     if detrend not in DETREND or fill not in FILL:
         raise ValueError(f"detrend {detrend!r}, fill {fill!r}; allowed: {', '.join(DETREND)}; {', '.join(FILL)}")
     if not (np.size(nodata) or crop or flip) and (detrend, fill) == ("none", "none"):

@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Sequence
 from html import escape
 from itertools import chain
+from typing import Any
 
 from viscorough.types import Array
 
@@ -12,6 +13,10 @@ Summary = tuple[str, *tuple[Sequence[tuple[str, str]], ...]]
 
 class Summarised:
     """A result with the method `_summary`, which gives a title, and rows of (quantity, text), one for each line."""
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        cls.__repr__ = Summarised.__str__  # else that of a dataclass, with all numbers of its arrays
 
     def __str__(self) -> str:
         title, *lines = self._summary()

@@ -108,3 +108,18 @@ def test_interrupt_waits_for_the_end_of_a_block(interrupts_raise):
         block()
     assert done == ["first", "last"]
     assert signal.getsignal(signal.SIGINT) is handler
+
+
+@pytest.mark.parametrize("terminal", [True, False])
+def test_who_waits_at_a_terminal_is_told(tmp_path, terminal):
+    (tmp_path / "script.py").write_text(
+        "import sys\n"
+        f"sys.stderr.isatty = lambda: {terminal}\n"
+        "from viscorough.compilation import njit\n"
+        "@njit\ndef one(x):\n    return x + 1\n"
+        "@njit\ndef two(x):\n    return x + 2\n"
+        "assert one(1) + two(1) == 5\n"
+    )
+    for expected in ("viscorough: compiling once, which takes about 20 s\n" if terminal else "", ""):
+        script = f"import runpy; runpy.run_path({str(tmp_path / 'script.py')!r})"
+        assert run(script, NUMBA_CACHE_DIR=str(tmp_path / "cache")).stderr == expected

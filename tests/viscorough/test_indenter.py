@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+import viscorough
+from support.contract import refused
 from viscorough.contact.loading_path import indent
 from viscorough.indenter import Indenter
 from viscorough.mdr import reduce
@@ -89,3 +91,34 @@ def test_heights_that_make_no_indenter_are_refused(heights, what):
     with pytest.raises(ValueError, match=what) as error:
         Indenter(heights, 1.0)
     assert "\n" not in str(error.value)
+
+
+# ---- units, comparison and mistaken types
+
+
+def test_lengths_are_converted():
+    indenter = Indenter([[0.0, 2.0], [1.0, np.nan]], (500.0, 250.0), length_unit="nm").to("m")
+    np.testing.assert_allclose(indenter.heights, [[0, 2e-9], [1e-9, np.nan]], rtol=1e-15)
+    assert (indenter.spacing, indenter.row_spacing) == pytest.approx((5e-7, 2.5e-7), rel=1e-15)
+    assert indenter.length_unit == "m"
+    with refused("indenter: its unit of length is not known"):
+        Indenter([[1.0]], 1.0).to("m")
+    with refused("unit 's': "):
+        indenter.to("s")
+
+
+def test_indenters_and_curves_are_compared_by_their_numbers():
+    heights = np.array([[0.0, 2.0], [1.0, np.nan]])
+    assert Indenter(heights, 1.0) == Indenter(heights.copy(), 1.0)
+    assert Indenter(heights, 1.0) != Indenter(heights, 2.0)
+    assert Indenter(heights, 1.0) != heights.size
+    curve = viscorough.indent(Indenter(heights, 1.0))
+    assert curve == viscorough.indent(Indenter(heights, 1.0))
+    assert curve != viscorough.indent(Indenter(2 * heights, 1.0))
+    assert len(repr(curve).splitlines()) <= 5
+
+
+@pytest.mark.parametrize("function", ["indent", "reduce", "prepare"])
+def test_arrays_are_no_indenters(function):
+    with pytest.raises(TypeError, match=f"{function}: ndarray; an Indenter is needed, as viscorough.Indenter"):
+        getattr(viscorough, function)(np.zeros((3, 3)))

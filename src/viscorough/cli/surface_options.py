@@ -27,7 +27,7 @@ class Surface:
     """A file of heights and how to read it.
 
     spacing : (dx, dy) as viscorough.units.Quantity, or None
-    preparation : keyword arguments of viscorough.prepare that were given
+    preparation : scale and keyword arguments of viscorough.prepare that were given
     """
 
     path: Path
@@ -94,6 +94,7 @@ _OPTIONS = (
     click.option(
         "--unit", type=_length_unit, metavar="UNIT", help="Unit of heights, such as um, if the file has none."
     ),
+    click.option("--scale", type=Quantity("m"), help="Factor of the heights, such as 0.053 nm per count."),
     click.option("--channel", help="Name or number of the map to read from a file that holds several."),
     click.option("--nodata", type=_numbers, metavar="VALUE", help="Values, such as -9999, of points not measured."),
     click.option("--crop", type=_crop, metavar="X0:X1,Y0:Y1", help="Columns and rows to keep, from 0, ends excluded."),
@@ -120,7 +121,7 @@ def heights_input(argument: str = "heights") -> Callable[..., Any]:
         @functools.wraps(command)
         def packed(*arguments: Any, **values: Any) -> Any:
             path, spacing, unit, channel = (values.pop(name) for name in (argument, "spacing", "unit", "channel"))
-            preparation = {name: values.pop(name) for name in ("nodata", "crop", "flip", "detrend", "fill")}
+            preparation = {name: values.pop(name) for name in ("scale", "nodata", "crop", "flip", "detrend", "fill")}
             given = {name: value for name, value in preparation.items() if value and value != "none"}
             surface = Surface(path, spacing, unit, channel, given)
             return command(*arguments, surface=surface, **values)

@@ -19,7 +19,7 @@ from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.parallel import require_threads
 from viscorough.contact.state import ContactState, MemberLoads, elements_of
 from viscorough.errors import ConvergenceError
-from viscorough.indenter import Indenter
+from viscorough.indenter import Indenter, check_indenter
 from viscorough.types import Array
 
 # Depth that the box of a grid allows for, over the requested depth: less makes boxes smaller, but there are more of
@@ -37,6 +37,7 @@ _LARGEST_RATIO_OF_START = 2.0
 
 def check_solvable(name: str, indenter: Indenter, tolerance: float, threads: int = 1) -> None:
     """Raise ValueError, which starts with the name, unless an indenter is a map, and tolerance and threads in range."""
+    check_indenter(name, indenter)
     if indenter.heights.ndim != 2:
         raise ValueError(f"{name}: the indenter's heights must be two-dimensional (lines are for reduce)")
     if not 1e-12 <= tolerance <= 0.1:

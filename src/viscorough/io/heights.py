@@ -31,6 +31,7 @@ def read_heights(
     *,
     unit: str | None = None,
     channel: str | int | None = None,
+    scale: float | str | None = None,
     **preparation: Any,
 ) -> Indenter:
     """Read a map of heights as an Indenter: the highest point touches first, points that are nan lie outside it.
@@ -43,6 +44,7 @@ def read_heights(
     unit : unit of length of the heights, where the file states none, such as "um"
     channel : name or number (from 0) of the map to read, where a file holds several; by default the variable `heights`
         of a NetCDF file, and the first channel of heights of an instrument's file
+    scale : what the numbers in a file without a unit are multiplied with, as "0.053 nm" per count of a detector
     preparation : keyword arguments of viscorough.prepare
 
     Rows are along y and columns along x, in the order of the file; columns of x, y, z in increasing order. Values that
@@ -51,7 +53,8 @@ def read_heights(
     """
     try:
         given = None if spacing is None else _pair(spacing)
-        indenter = to_indenter(_read_scan(path, channel), given, unit)
+        scan = _read_scan(path, channel)
+        indenter = to_indenter(scan if scale is None else _scaled(scan, scale), given, unit)
         indenter = prepare(indenter, **preparation)
     except ValueError as error:
         text = str(error)
@@ -59,6 +62,17 @@ def read_heights(
     for text in doubts(indenter):
         warnings.warn(f"{path}: {text}", AccuracyWarning, stacklevel=2)
     return indenter
+
+
+def _scaled(scan: Scan, scale: float | str | units.Quantity) -> Scan:
+    """The Scan with its heights multiplied by a number, which may have a unit: then that of the heights."""
+    quantity = units.quantity(scale) if isinstance(scale, str) else scale
+    number, unit = (quantity.number, quantity.unit) if isinstance(quantity, units.Quantity) else (quantity, "")
+    if unit and scan.unit.strip() not in ("", units.UNKNOWN):
+        raise ValueError(f"--scale {scale}: heights are in {scan.unit} in the file; a plain number is needed")
+    if not (np.isfinite(number) and number > 0):
+        raise ValueError(f"--scale {scale}: allowed are numbers above 0, plain or with a unit of length")
+    return scan._replace(heights=scan.heights * number, unit=unit or scan.unit)
 
 
 def _pair(spacing: Spacing) -> tuple[Quantity, Quantity]:

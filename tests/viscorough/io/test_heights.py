@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+import viscorough
 from support.contract import refused
 from viscorough.io.datasets import write_dataset
 from viscorough.io.heights import read_heights
@@ -67,3 +68,18 @@ def test_bad_files_of_heights_are_one_line(tmp_path):
     for name in (*cases, "missing.npy", "missing.nc", "missing", "folder.npy"):
         with refused(name):
             read_heights(tmp_path / name, 1.0)
+
+
+def test_counts_are_scaled(tmp_path):
+    """A detector's counts of 0.053 nm, without a unit in the file."""
+    np.save(tmp_path / "counts.npy", np.array([[0, 100], [200, 300]], np.int16))
+    indenter = viscorough.read_heights(tmp_path / "counts.npy", 20.0, scale="0.053 nm")
+    np.testing.assert_allclose(indenter.heights, [[0, 5.3], [10.6, 15.9]], rtol=1e-15)
+    assert (indenter.spacing, indenter.length_unit) == (20.0, "nm")
+    assert viscorough.read_heights(tmp_path / "counts.npy", 20.0, scale=2).heights[1, 1] == 600
+    for scale in (0, "-1 nm", "1 s"):
+        with refused(r"counts\.npy: "):
+            viscorough.read_heights(tmp_path / "counts.npy", 20.0, scale=scale)
+    viscorough.save_heights(indenter, tmp_path / "nm.nc")
+    with refused("--scale 0.053 nm: heights are in nm in the file"):
+        viscorough.read_heights(tmp_path / "nm.nc", scale="0.053 nm")

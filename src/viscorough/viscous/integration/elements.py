@@ -8,7 +8,7 @@ import numpy as np
 from viscorough import memory
 from viscorough.contact.halfspace.operator import Halfspace
 from viscorough.contact.state import Elements
-from viscorough.indenter import Indenter
+from viscorough.indenter import Indenter, check_indenter
 from viscorough.types import Array, Integers
 
 
@@ -51,6 +51,7 @@ class MapElements(Elements):
 
 def elements_of_map(indenter: Indenter, caller: str) -> MapElements:
     """The MapElements of an indenter. Raises ValueError, which starts with the caller, unless it is a map."""
+    check_indenter(caller, indenter)
     if indenter.heights.ndim != 2:
         raise ValueError(f"{caller}: the indenter's heights must be two-dimensional")
     row, column = np.nonzero(np.isfinite(indenter.heights))

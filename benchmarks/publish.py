@@ -157,7 +157,7 @@ def other_solver_times():
     """Times of other solvers over that of the loading path, as a table in Markdown, by task and Hurst exponent."""
     table = pd.read_csv(ROOT / OTHER_SOLVERS)
     solvers = list(dict.fromkeys(table["solver"]))
-    lines = [f"| | across | H | {' | '.join(solvers)} |", "|---|---|---" + len(solvers) * "|---" + "|"]
+    lines = [f"| task | elements across | H | {' | '.join(solvers)} |", "|---|---|---" + len(solvers) * "|---" + "|"]
     for (task, across, hurst), rows in table.groupby(["task", "elements", "hurst"], sort=False):
         ratios = rows.set_index("solver")["ratio"]
         cells = [f"{ratios[name]:.3g}" if name in ratios else "–" for name in solvers]
@@ -183,7 +183,7 @@ def infinite_grid():
 
 
 def correction_exponents(table):
-    """Sentences on corrected fits of the table of infinite grids whose ω the data do not tell; rows with that law."""
+    """Sentences on corrected fits of the table of infinite grids whose ω the data do not determine; rows with that law."""
     omega = table[["omega", "omega_low", "omega_high"]].itertuples(index=False)
     places = pd.Series([place_of(*values) for values in omega], index=table.index)
     of_place = {}

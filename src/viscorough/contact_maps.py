@@ -7,6 +7,7 @@ import numpy as np
 
 from viscorough.arrays import ReadOnlyArrays
 from viscorough.summaries import Summarised, Summary, unit_power, with_unit
+from viscorough.units import square_metres
 
 # Neighbours of an element that belong to its patch: those that share a side, or a corner too.
 _CONNECTIVITIES = (4, 8)
@@ -39,6 +40,7 @@ class Contact(ReadOnlyArrays, Summarised):
     tolerance : requested bound of the residual
     spacing, row_spacing : distances between neighbouring columns and rows, dx and dy [length]
     length_unit : unit of all lengths; "1" if it is not known
+    shear_modulus : G [Pa], or in consistent units if the unit of length is not known; None if it is not known
 
     Arrays are copied and read-only.
     """
@@ -54,6 +56,7 @@ class Contact(ReadOnlyArrays, Summarised):
     spacing: float
     row_spacing: float
     length_unit: str = "1"
+    shear_modulus: float | None = None
 
     def _summary(self) -> Summary:
         """What it is; depth, force and stiffness; contact and pressure."""
@@ -68,7 +71,20 @@ class Contact(ReadOnlyArrays, Summarised):
             ("mean p/G", with_unit(self.mean_pressure)),
             ("largest p/G", with_unit(self.largest_pressure)),
         ]
-        return f"Contact of {self.contact_count} of {self.elements} elements", motion, contact
+        lines = [motion, contact]
+        if self.shear_modulus is not None:
+            newtons, pascals = ("1", "1") if unit == "1" else ("N", "Pa")
+            mean, largest = (self.shear_modulus * each for each in (self.mean_pressure, self.largest_pressure))
+            names = ("force F", self.normal_force, newtons), ("mean p", mean, pascals), ("largest p", largest, pascals)
+            lines.append([(name, with_unit(value, unit)) for name, value, unit in names])
+        return f"Contact of {self.contact_count} of {self.elements} elements", *lines
+
+    @property
+    def normal_force(self) -> float | None:
+        """Force F [N], or in consistent units if the unit of length is not known; None without a shear modulus."""
+        if self.shear_modulus is None:
+            return None
+        return self.force * self.shear_modulus * square_metres(self.length_unit)
 
     @property
     def elements(self) -> int:

@@ -36,7 +36,8 @@ _SYMBOLS = {"depth": "u", "force": "F/G", "stiffness": "k/G", "pressure": "p/G",
 _LABELS = {name: f"{name} ${symbol}$" for name, symbol in _SYMBOLS.items()}
 _LABELS |= {"contact_fraction": "contact fraction", "heights": "height $z$", "x": "$x$", "y": "$y$"}
 # Name of a number of a contact: what it is called above its maps.
-_STATE = {"depth": "$u$", "force": "$F/G$", "contact_fraction": "contact fraction", "patches": "patches"}
+_STATE = {"depth": "$u$", "force": "$F/G$", "normal_force": "$F$", "largest_normal_pressure": "largest $p$"}
+_STATE |= {"contact_fraction": "contact fraction", "patches": "patches"}
 
 
 def plot(content: Content, path: FilePath) -> None:

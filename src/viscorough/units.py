@@ -5,14 +5,17 @@ pint knows them. It takes a second to import, and is imported when a unit is rea
 "1" stands for a unit of length that is not known.
 """
 
+from __future__ import annotations
+
 import contextlib
 import functools
 import math
 import re
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import pint
+if TYPE_CHECKING:
+    import pint
 
 UNKNOWN = "1"
 # Units of length that are read without pint: spelling, and how files and results spell it.
@@ -71,6 +74,31 @@ def number(value: float | str | Quantity, unit: str, length_unit: str, name: str
         text = f"{name} {value}: needs a plain number, since the unit of length is not known"
         raise ValueError(f"{text}; state it with --unit where the heights are read")
     return value.to(unit)
+
+
+def numbers(values: Any, unit: str, length_unit: str, name: str) -> Any:
+    """Numbers in `unit`, as of `number`, of one or of a list of them; an array is returned unchanged."""
+    if isinstance(values, list | tuple):
+        return [number(value, unit, length_unit, name) for value in values]
+    return number(values, unit, length_unit, name)
+
+
+def forces_over_modulus(forces: Any, shear_modulus: float | None, length_unit: str, name: str) -> Any:
+    """F/G [length²] of one force or several.
+
+    shear_modulus : G in Pa, forces then are in N, or both are in consistent units if the unit of length is not known;
+        None if the forces are F/G
+
+    Raises ValueError, which starts with the name, as `number` does, and for a force with a unit where G is not known.
+    """
+    if shear_modulus is not None:
+        newtons, divisor = numbers(forces, "N", length_unit, name), shear_modulus * square_metres(length_unit)
+        return [force / divisor for force in newtons] if isinstance(newtons, list) else newtons / divisor
+    for force in forces if isinstance(forces, list | tuple) else [forces]:
+        if isinstance(force, str) or (isinstance(force, Quantity) and force.unit):
+            text = "a force needs --shear-modulus or --young (shear_modulus in Python); a plain number is F/G"
+            raise ValueError(f"{name} {force}: {text}")
+    return numbers(forces, "N", length_unit, name)
 
 
 def square_metres(length_unit: str) -> float:

@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+import viscorough
+from support.contract import refused
 from viscorough.contact_maps import Contact
 
 # Three patches if sides connect, two if corners do, too; one point lies outside the indenter.
@@ -34,3 +36,21 @@ def test_patches_are_connected_by_sides_or_corners_and_the_largest_comes_first()
     assert labels[2, 2] == 1
     with pytest.raises(ValueError, match="patches: connectivity must be 4 or 8, not 6"):
         contact().patches(6)
+
+
+def test_forces_in_newtons_on_a_modulus():
+    """A map in nm under 10 uN on G = 0.5 MPa: F/G is 2e-11 m2, 2e7 nm2; p in Pa adds up to F over m2."""
+    indenter = viscorough.Indenter(-np.add.outer(np.arange(9.0), np.arange(9.0)), 5e3, length_unit="nm")
+    contact = viscorough.contact_at(indenter, force="10 uN", shear_modulus="0.5 MPa")
+    assert contact.force == pytest.approx(2e7, rel=1e-12)
+    assert contact.normal_force == pytest.approx(1e-5, rel=1e-12)
+    assert np.nansum(contact.pressure) * 0.5e6 * 5e-6**2 == pytest.approx(1e-5, rel=1e-6)
+    assert str(contact).splitlines()[-1].startswith("force F 1e-05 N, mean p ")
+    assert viscorough.contact_at(indenter, force=2e7).normal_force is None
+    assert viscorough.contact_at(indenter, depth="20 nm").depth == 20
+    curve = viscorough.indent(indenter, forces=["5 uN", "10 uN"], shear_modulus=0.5e6)
+    np.testing.assert_allclose(curve.force, [1e7, 2e7], rtol=1e-12)
+    with refused("force 10 uN: a force needs .* a plain number is F/G"):
+        viscorough.contact_at(indenter, force="10 uN")
+    with refused("shear_modulus: must be positive and finite, not -1.0"):
+        viscorough.contact_at(indenter, force=1, shear_modulus=-1)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -53,7 +54,8 @@ def contact(
     FIELDS.nc has the dimensions y and x, and level if several forces or depths are given; the maps pressure = p/G
     (nan outside the indenter), gap, contact (0 or 1) and heights; and the numbers depth, force = F/G,
     stiffness = k/G, contact_fraction, contact_area, mean_pressure, largest_pressure, residual and patches, the
-    number of patches of contact, whose areas are in patch_area. G is the shear modulus of the incompressible half-space
+    number of patches of contact, whose areas are in patch_area; with a modulus also normal_force F, normal_pressure p,
+    mean_normal_pressure and largest_normal_pressure. G is the shear modulus of the incompressible half-space
     with the same E/(1 - nu^2) = 4 G.
 
     \b
@@ -74,6 +76,8 @@ def contact(
 
     with progress_bar("viscorough contact", progress) as report:
         contacts = contact_at(indenter, tolerance=tolerance, progress=report, threads=threads, **given)
+    if medium.shear_modulus is not None:
+        contacts = [replace(each, shear_modulus=medium.shear_modulus) for each in contacts]
     content = contacts_to_content(contacts, indenter.heights)
     write_output(content, output, **surface.attributes(indenter), **medium.attributes)
     last, patches = contacts[-1], int(content.variables["patches"].values.flat[-1])
@@ -81,4 +85,8 @@ def contact(
     depth, force = with_unit(last.depth, unit, 6), with_unit(last.force, unit_power(unit, 2), 6)
     text = f"depth {depth}, F/G {force}, contact fraction {last.contact_fraction:.4g}, "
     text += f"{patches} patch{'' if patches == 1 else 'es'}"
+    if last.shear_modulus is not None:
+        newtons, pascals = ("1", "1") if unit == "1" else ("N", "Pa")
+        largest = with_unit(last.shear_modulus * last.largest_pressure, pascals)
+        text += f", F {with_unit(last.normal_force, newtons, 6)}, largest p {largest}"
     announce(output, text if len(contacts) == 1 else f"{len(contacts)} levels, the last at {text}")

@@ -44,19 +44,12 @@ class Elasticity:
         With a modulus, forces are in N, or in consistent units if the unit of length is not known; without one, they
         are F/G. Raises UsageError for a force with a unit where no modulus or no unit of length is known.
         """
-        if self.shear_modulus is None:
-            if stated := next((quantity for quantity in quantities if quantity.unit), None):
-                text = f"{option} {stated}: a force needs --shear-modulus or --young; a plain number is F/G"
-                raise click.UsageError(text)
-            return [quantity.number for quantity in quantities]
-        forces = [number_in("N", quantity, self.length_unit, option) for quantity in quantities]
-        if self.length_unit == "1":
-            return [force / self.shear_modulus for force in forces]
-
         from viscorough import units
 
-        area = units.metres(self.length_unit) ** 2
-        return [force / self.shear_modulus / area for force in forces]
+        try:
+            return list(units.forces_over_modulus(quantities, self.shear_modulus, self.length_unit, option))
+        except ValueError as error:
+            raise click.UsageError(str(error)) from error
 
 
 def elasticity(

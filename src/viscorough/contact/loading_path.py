@@ -9,6 +9,7 @@ is straight, so that interpolation is exact. Later, levels are placed where inte
 import numpy as np
 from numpy.typing import ArrayLike
 
+from viscorough import units
 from viscorough.arrays import increasing
 from viscorough.contact.dense import ROUNDING
 from viscorough.contact.options import DEFAULT, SolverOptions
@@ -16,7 +17,7 @@ from viscorough.contact.prescribed_force import ForceSearch
 from viscorough.contact.solver import ContactSolver, check_solvable
 from viscorough.contact.state import ContactState
 from viscorough.contact.step_control import ContactsAhead, Level, StepControl, division
-from viscorough.indenter import Indenter
+from viscorough.indenter import Indenter, positive
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import Array, Progress
 
@@ -35,7 +36,8 @@ def indent(
     forces: ArrayLike | None = None,
     start_fraction: float = 0.0,
     until_fraction: float = 0.9,
-    until_force: float = np.inf,
+    until_force: float | str = np.inf,
+    shear_modulus: float | str | None = None,
     progress: Progress | None = None,
     threads: int = 1,
     options: SolverOptions = DEFAULT,
@@ -57,6 +59,7 @@ def indent(
         forces are given
     until_fraction : contact fraction at which to stop, in (0, 1]; ignored where depths or forces are given
     until_force : F/G at which to stop [length²]; ignored where depths or forces are given
+    shear_modulus : G [Pa], or a text as "2 MPa"; forces are then F [N], or texts as "5 mN". Depths may be texts, too
     progress : function that is called after a level with the estimated share of the computation that is done, up to 1
     threads : of the processor on which a curve is computed; the result does not depend on them. Worth it for large maps
     options : SolverOptions
@@ -73,15 +76,22 @@ def indent(
         raise ValueError(f"indent: until_fraction must lie in (0, 1], not {until_fraction!r}")
     if not 0 <= start_fraction < until_fraction:
         raise ValueError(f"indent: start_fraction must be from 0 to below until_fraction, not {start_fraction!r}")
+    unit = indenter.length_unit
+    if shear_modulus is not None:
+        shear_modulus = positive("shear_modulus", units.number(shear_modulus, "Pa", unit, "shear_modulus"))
+    if until_force != np.inf:
+        until_force = units.forces_over_modulus(until_force, shear_modulus, unit, "until_force")
     if not until_force > 0:
         raise ValueError(f"indent: until_force must be positive, not {until_force!r}")
     progress = progress or (lambda done: None)
     if depths is not None:
-        depths = increasing("indent: depths", np.atleast_1d(depths), above_zero=True)
+        depths = np.atleast_1d(units.numbers(depths, unit, unit, "depths"))
+        depths = increasing("indent: depths", depths, above_zero=True)
         solver = ContactSolver(indenter, tolerance, options, threads, largest_depth=depths[-1])
         levels = _levels_at_depths(solver, depths, progress)
     elif forces is not None:
-        forces = increasing("indent: forces", np.atleast_1d(forces), above_zero=True)
+        forces = np.atleast_1d(units.forces_over_modulus(forces, shear_modulus, unit, "forces"))
+        forces = increasing("indent: forces", forces, above_zero=True)
         # The correction to the force takes the other half of the tolerance.
         solver = ContactSolver(indenter, tolerance / 2, options, threads)
         levels = _levels_at_forces(solver, forces, progress)

@@ -5,13 +5,14 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import ArrayLike
 
+from viscorough import units
 from viscorough.arrays import increasing
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.prescribed_force import ForceSearch
 from viscorough.contact.solver import ContactSolver, check_solvable
 from viscorough.contact.state import ContactState
 from viscorough.contact_maps import Contact
-from viscorough.indenter import Indenter
+from viscorough.indenter import Indenter, positive
 from viscorough.types import Array, Progress
 
 _SHARE_OF_APPROACH = 0.6  # of the time for a force, which the contacts up to it take
@@ -22,6 +23,7 @@ def contact_at(
     *,
     depth: ArrayLike | None = None,
     force: ArrayLike | None = None,
+    shear_modulus: float | str | None = None,
     tolerance: float = 1e-3,
     progress: Progress | None = None,
     threads: int = 1,
@@ -32,8 +34,11 @@ def contact_at(
     Solves the same problem as `indent`, at this depth only, or at the few depths that lead to the force.
 
     indenter : Indenter with two-dimensional heights
-    depth : u, from first contact [length]; or several ones, increasing
-    force : F/G, G the shear modulus [length²]; or several ones, increasing. Either depth or force must be given
+    depth : u, from first contact [length], or a text with a unit as "20 nm"; or several ones, increasing
+    force : F/G, G the shear modulus [length²]; with `shear_modulus` F [N], or a text with a unit as "5 mN"; or several
+        ones, increasing. Either depth or force must be given
+    shear_modulus : G [Pa], or a text as "2 MPa": E/4/(1 − ν²) of the half-space. If the unit of length is not known, it
+        is in consistent units
     tolerance : largest gap in contact, or overlap outside it, over the depth, rounding included; the relative errors of
         force at a given depth, and of depth at a given force, are of second order in it. Between 1e-12 and 0.1
     progress : function that is called after a contact is solved with the estimated share of the computation that is
@@ -49,7 +54,13 @@ def contact_at(
     if (depth is None) == (force is None):
         raise ValueError("contact_at: either depth or force must be given")
     by_depth = force is None
-    given = depth if by_depth else force
+    unit = indenter.length_unit
+    if shear_modulus is not None:
+        shear_modulus = positive("shear_modulus", units.number(shear_modulus, "Pa", unit, "shear_modulus"))
+    if by_depth:
+        given = units.numbers(depth, unit, unit, "depth")
+    else:
+        given = units.forces_over_modulus(force, shear_modulus, unit, "force")
     values = increasing(f"contact_at: {'depth' if by_depth else 'force'}", np.atleast_1d(given), above_zero=True)
     # Pressures that add up to the force exactly take the other half of the tolerance.
     solver = ContactSolver(indenter, tolerance / 2, options, threads)
@@ -57,7 +68,8 @@ def contact_at(
     states = _states_at_depths(solver, values) if by_depth else _states_at_forces(solver, values, progress)
     contacts = []
     for state, value in zip(states, values.tolist(), strict=True):
-        contacts.append(_contact(indenter, tolerance, solver, state, {"depth" if by_depth else "force": value}))
+        stated = {"depth" if by_depth else "force": value, "shear_modulus": shear_modulus}
+        contacts.append(_contact(indenter, tolerance, solver, state, stated))
         progress(len(contacts) / values.size)
     return contacts if np.ndim(given) else contacts[0]
 
@@ -79,7 +91,7 @@ def _states_at_forces(solver: ContactSolver, forces: Array, progress: Progress) 
 
 
 def _contact(
-    indenter: Indenter, tolerance: float, solver: ContactSolver, state: ContactState, given: dict[str, float]
+    indenter: Indenter, tolerance: float, solver: ContactSolver, state: ContactState, given: dict[str, float | None]
 ) -> Contact:
     """The Contact of a ContactState, with the depth or force that was given instead of its rounded value."""
     place = solver.elements.map_place

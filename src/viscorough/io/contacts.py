@@ -1,6 +1,6 @@
 """Contacts in NetCDF files: maps of pressure, gap and contact with the coordinates of their points, and numbers."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -70,6 +70,8 @@ def contacts_to_content(contacts: Sequence[Contact], heights: Array) -> Content:
     for name, about in NUMBERS.items():
         values = joined([getattr(contact, name) for contact in contacts])
         variables[name] = Variable(level, values, attributes(*about))
+    if first.shear_modulus is not None:
+        variables |= _with_modulus(contacts, variables, joined)
     areas = [contact.patches().areas for contact in contacts]
     padded = np.full((len(areas), max(map(len, areas))), np.nan)
     for row, of_contact in zip(padded, areas, strict=True):
@@ -79,6 +81,21 @@ def contacts_to_content(contacts: Sequence[Contact], heights: Array) -> Content:
     variables["patch_area"] = Variable((*level, "patch"), joined(list(padded)), attributes("area of a patch", 2))
     about = {"title": "Contact of a rigid indenter with an elastic half-space", "comment": COMMENT}
     return Content(variables, about | {"tolerance": first.tolerance, "spacing": [first.spacing, first.row_spacing]})
+
+
+def _with_modulus(
+    contacts: Sequence[Contact], variables: dict[str, Variable], joined: Callable[[list[Any]], Array]
+) -> dict[str, Variable]:
+    """The force F and the pressures p of contacts whose shear modulus is known."""
+    known, modulus = contacts[0].length_unit != "1", contacts[0].shear_modulus
+    force = joined([contact.normal_force for contact in contacts])
+    about = {"long_name": "normal force F", "units": "N" if known else "1"}
+    added = {"normal_force": Variable(variables["force"].dimensions, force, about)}
+    for name, text in {"": "", "mean_": "mean ", "largest_": "largest "}.items():
+        dimensions, values, _ = variables[f"{name}pressure"]
+        about = {"long_name": f"{text}normal pressure p", "units": "Pa" if known else "1"}
+        added[f"{name}normal_pressure"] = Variable(dimensions, values * modulus, about)
+    return added
 
 
 def _kind_of_maps(contacts: Sequence[Contact]) -> DTypeLike:

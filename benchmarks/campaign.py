@@ -4,7 +4,8 @@
 
 Four families of cases are checked against the direct integration in time: levels at given depths, also against the
 dense influence matrix; whole loading curves, at their levels and between them; curves with a start fraction; and levels
-at given forces.
+at given forces. The curves of a fifth one are checked by the two integrals that linear solutions give
+(viscorough.sum_rules).
 `make stability` runs it. A failure is printed with the command that repeats it.
 """
 
@@ -17,7 +18,7 @@ import numpy as np
 from measuring import save
 from tqdm import tqdm
 
-from viscorough_study.robustness.random_curves import curve_failure, random_curve
+from viscorough_study.robustness.random_curves import audit_failure, curve_failure, random_audit, random_curve
 from viscorough_study.robustness.random_indenters import random_case, silent_failure
 from viscorough_study.run.seeds import random_indenter_key, realization_seed
 
@@ -27,6 +28,7 @@ FAMILIES = {
     "curves": (random_curve, curve_failure, 1.0),
     "starts": (partial(random_curve, with_start=True), curve_failure, 0.1),
     "forces": (partial(random_curve, at_forces=True), curve_failure, 1.0),
+    "audits": (random_audit, audit_failure, 0.1),
 }
 
 

@@ -23,6 +23,8 @@ _MODULE_OF = {
     "SolverOptions": "contact.options",
     "Springpot": "viscous.media",
     "StandardLinearSolid": "viscous.media",
+    "audit": "sum_rules",
+    "complete_contact": "sum_rules",
     "contact_at": "contact.one_contact",
     "cut_disc": "surfaces",
     "estimate": "estimates",

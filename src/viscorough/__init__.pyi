@@ -23,6 +23,8 @@ from viscorough.mdr import line_of_map as line_of_map
 from viscorough.mdr import line_of_surface as line_of_surface
 from viscorough.mdr import reduce as reduce
 from viscorough.preparation import prepare as prepare
+from viscorough.sum_rules import audit as audit
+from viscorough.sum_rules import complete_contact as complete_contact
 from viscorough.surfaces import cut_disc as cut_disc
 from viscorough.surfaces import self_affine_disc as self_affine_disc
 from viscorough.surfaces import self_affine_line as self_affine_line

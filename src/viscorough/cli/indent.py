@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,6 +15,7 @@ from viscorough.cli.messages import announce
 from viscorough.cli.options import Increasing, PositiveNumber, Quantity, output_option, threads_option
 from viscorough.cli.progress import progress_bar, progress_option
 from viscorough.cli.surface_options import heights_input, read_indenter
+from viscorough.errors import AccuracyWarning
 from viscorough.summaries import with_unit
 
 if TYPE_CHECKING:
@@ -30,6 +32,7 @@ if TYPE_CHECKING:
 @click.option("--tolerance", type=PositiveNumber(0.1), default=1e-3, help="Relative accuracy.")
 @click.option("--until-fraction", type=PositiveNumber(1), help="Contact fraction at which to stop  [default: 0.9]")
 @click.option("--until-force", type=Quantity("N"), help="F/G, or F with a modulus, at which to stop.")
+@click.option("--audit", is_flag=True, help="Compare two integrals of the curve with their exact values.")
 @elastic_constants_options
 @threads_option
 @progress_option
@@ -42,6 +45,7 @@ def indent(
     tolerance: float,
     until_fraction: float,
     until_force: Quantity | None,
+    audit: bool,
     threads: int,
     progress: bool,
     **constants: Any,
@@ -66,19 +70,24 @@ def indent(
     incompressible half-space with the same E/(1 - nu^2) = 4 G. The curve ends at the contact fraction or at the
     force, whichever comes first, or where all elements are in contact.
 
+    With --audit the curve is followed to complete contact, unless an end is stated, and two integrals of it are
+    compared with exact values from linear problems, in which no contact is solved. Contacts are solved to a hundredth
+    of the tolerance, and levels are added until the estimated errors of the integrals are within the tolerance. If the
+    integrals do not agree, a warning says so; of a curve that stops before, what it lacks is stated.
+
     \b
     Example:
         viscorough indent heights.npy --spacing 2e-6 --depths 1e-6,2e-6,4e-6 -o curve.nc
         viscorough indent scan.txt --spacing 0.37,0.5 --unit um --detrend plane -o curve.nc
     """
     levels = {"--depths": depths, "--forces": forces}
-    ends = {"--until-fraction": until_fraction, "--until-force": until_force}
-    stated = [name for name, value in (levels | ends).items() if value is not None]
+    others = {"--until-fraction": until_fraction, "--until-force": until_force, "--audit": audit or None}
+    stated = [name for name, value in (levels | others).items() if value is not None]
     if len(stated) > 1 and stated[0] in levels:
         raise click.UsageError(f"{stated[0]} and {stated[1]} exclude each other; one of them is allowed")
     indenter = read_indenter(surface, output)
     medium = elasticity(length_unit=indenter.length_unit, **constants)
-    given = {}
+    given: dict[str, Any] = {}
     if depths is not None:
         given["depths"] = lengths(depths, indenter.length_unit, "--depths")
     if forces is not None:
@@ -89,12 +98,21 @@ def indent(
     if until_fraction is not None:
         given["until_fraction"] = until_fraction
 
+    from viscorough import sum_rules
     from viscorough.contact.loading_path import indent
     from viscorough.io.curves import curve_to_content
 
+    attributes, lines = surface.attributes(indenter) | medium.attributes, []
     with progress_bar("viscorough indent", progress) as report:
-        curve = indent(indenter, tolerance=tolerance, progress=report, threads=threads, **given)
-    write_output(curve_to_content(curve), output, **surface.attributes(indenter), **medium.attributes)
+        how: dict[str, Any] = {"tolerance": tolerance, "progress": report, "threads": threads, **given}
+        if audit:
+            result = sum_rules.audit(indenter, **how)
+            curve, lines, attributes["audit"] = result.curve, str(result).splitlines(), str(result)
+            if not result.agrees:
+                warnings.warn(lines[0], AccuracyWarning, stacklevel=2)
+        else:
+            curve = indent(indenter, **how)
+    write_output(curve_to_content(curve), output, **attributes)
     depth = with_unit(curve.depth[-1], curve.length_unit, 6)
     count = f"{curve.contact_count[-1]} of {curve.elements} elements in contact"
-    announce(output, f"{curve.depth.size} levels, the last at depth {depth} with {count}")
+    announce(output, "\n".join([f"{curve.depth.size} levels, the last at depth {depth} with {count}", *lines]))

@@ -1,4 +1,6 @@
-"""Random loading curves for detecting silent failures: at their levels, between them, and in what is made of them."""
+"""Random loading curves for detecting silent failures: at their levels, between them, in what is made of them, and in
+their integrals.
+"""
 
 import warnings
 from dataclasses import dataclass
@@ -10,6 +12,7 @@ from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.step_control import FINEST_ACCURACY
 from viscorough.errors import AccuracyWarning
 from viscorough.indenter import Indenter
+from viscorough.sum_rules import audit
 from viscorough.viscous.correspondence import kinetics
 from viscorough.viscous.integration.events import march_events
 from viscorough_study.robustness.random_heights import random_heights, with_random_aspect
@@ -51,6 +54,19 @@ def random_curve(generator, with_start=None, at_forces=False):
         forces = span * length * indenter.elements**0.5 * 10.0 ** generator.uniform(-5, 1.5, generator.integers(1, 5))
         arguments = {name: arguments[name] for name in ("tolerance", "options")} | {"forces": np.sort(forces)}
     return RandomCurve(with_random_aspect(indenter, generator), arguments)
+
+
+def random_audit(generator):
+    """A RandomCurve whose arguments are those of `audit`, from a numpy Generator."""
+    case = random_curve(generator)
+    arguments = {name: case.arguments[name] for name in ("until_fraction", "options")}
+    return RandomCurve(case.indenter, arguments | {"tolerance": 10.0 ** -generator.uniform(2, 4)})
+
+
+def audit_failure(case):
+    """What is wrong, in words, with the integrals of the loading curve of a RandomCurve; "" if they are exact."""
+    result = audit(case.indenter, **case.arguments)
+    return "" if result.agrees else str(result)
 
 
 def curve_failure(case, compute=indent):

@@ -7,9 +7,16 @@ import numpy as np
 import pytest
 
 from viscorough.contact.loading_path import indent
+from viscorough.contact.options import SolverOptions
 from viscorough.errors import AccuracyWarning
 from viscorough.surfaces import self_affine_disc
-from viscorough_study.robustness.random_curves import RandomCurve, curve_failure, random_curve
+from viscorough_study.robustness.random_curves import (
+    RandomCurve,
+    audit_failure,
+    curve_failure,
+    random_audit,
+    random_curve,
+)
 from viscorough_study.robustness.random_heights import KINDS
 from viscorough_study.run.seeds import random_indenter_key, realization_seed
 
@@ -24,6 +31,17 @@ def test_random_curves_do_not_fail_silently(count, with_start):
         case = random_curve(generator(number, seed=12 + with_start), with_start=with_start)
         assert ("start_fraction" in case.arguments) == with_start
         assert curve_failure(case) == "", f"case {number}"
+
+
+def test_integrals_of_random_curves_are_exact():
+    for number in range(20):
+        assert audit_failure(random_audit(generator(number))) == "", f"case {number}"
+
+
+def test_wrong_integrals_are_found():
+    no_padding = SolverOptions(dense_contacts=0, dense_interactions=0, padding=False)
+    case = RandomCurve(DISC, {"tolerance": 1e-3, "options": no_padding})
+    assert audit_failure(case).startswith("Audit over ")
 
 
 @pytest.mark.parametrize("kind", list(KINDS))

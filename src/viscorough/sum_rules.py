@@ -1,0 +1,417 @@
+"""Two exact integrals of every loading curve, from two linear solutions, and the audit of curves by them.
+
+Let all elements touch and stay joined to the surface, under tension as well. The pressures are then p/G = u q − s with
+K q = 1 and K s = g₀, where K is the displacement per p/G and g₀ the initial gap. By reciprocity F = k_c (u − ⟨g₀⟩_q),
+with k_c the stiffness of the flat punch of the whole outline and ⟨·⟩_q the mean with the weights q. The frictionless
+curve ends on this straight line, and du = dF/k on the way to it. Hence
+
+    ∫₀^∞ (1/k − 1/k_c) dF = ⟨g₀⟩_q        ∫₀^∞ (⟨g₀⟩_q + F/k_c − u) dF = ∫ F (1/k − 1/k_c) dF = U
+
+where U is the elastic energy of the joined surface at zero mean force. In units of h and 4GhL the integrands are the
+interface's part of vt/h, g(X) = X/κ − X/κ_c, over ln X and over X. No contact problem enters the right-hand sides, so
+that they check levels, stiffness and interpolation of a curve together.
+"""
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import scipy.linalg
+
+from viscorough.arrays import ReadOnlyArrays
+from viscorough.contact.halfspace.operator import Halfspace
+from viscorough.contact.loading_path import indent
+from viscorough.contact.options import DEFAULT, SolverOptions
+from viscorough.contact.preconditioner.multilevel import REACH, Preconditioner
+from viscorough.contact.state import Elements, elements_of
+from viscorough.errors import ConvergenceError
+from viscorough.indenter import Indenter
+from viscorough.loading_curve import LoadingCurve
+from viscorough.summaries import Summarised, Summary, unit_power, with_unit
+from viscorough.types import Array, Progress
+
+# Elements up to which the linear problem is solved densely; of larger ones, largest residual over the right-hand side
+# of the last iteration, and iterations after which ConvergenceError is raised.
+_DENSE_ELEMENTS, _RESIDUAL, _MAX_ITERATIONS = 400, 1e-12, 500
+# Relative difference of chord and tangent below which the curve is straight between two levels.
+_STRAIGHT = 1e-9
+# Points between two levels at which the interpolated curve is evaluated.
+_POINTS, _WEIGHTS = (np.polynomial.legendre.leggauss(8) + np.array([[1.0], [0.0]])) / 2
+# Standard deviations of the two quadratures over an interval in which the stiffness has a single jump at a random
+# force, over the jump of 1/k and the width, and over the square of the width: √(1/12) and √(1/720).
+_JUMP, _JUMP_OF_SECOND = 12**-0.5, 720**-0.5
+# Tolerance of the contacts over that of the audit: it leaves a tenth of the latter for the errors of the stiffness,
+# whose effect on the first integral grows with the force at complete contact.
+_CONTACT_TOLERANCE, _LEAST_CONTACT_TOLERANCE = 0.01, 1e-12
+# Largest number of parts into which an interval is divided at a time, and of times.
+_MOST_PARTS, _MAX_ROUNDS = 3, 12
+_TINY = 1e-300
+
+
+@dataclass(frozen=True)
+class CompleteContact(Summarised):
+    """Where the loading curve of an indenter ends, and its two integrals, from linear solutions alone.
+
+    mean_gap : ⟨g₀⟩_q, the first integral [length]
+    energy : U/G, the second integral [length³]
+    stiffness : k_c/G of the whole outline as a flat punch [length]
+    depth : u from which on all elements touch [length]
+    length_unit : unit of the lengths; "1" if it is not known
+    """
+
+    mean_gap: float
+    energy: float
+    stiffness: float
+    depth: float
+    length_unit: str = "1"
+
+    @property
+    def force(self) -> float:
+        """F/G = k_c (u − ⟨g₀⟩_q)/G from which on all elements touch [length²]."""
+        return self.stiffness * (self.depth - self.mean_gap)
+
+    def _summary(self) -> Summary:
+        unit = self.length_unit
+        return (
+            f"Complete contact: from depth {with_unit(self.depth, unit)} on",
+            [("mean gap", with_unit(self.mean_gap, unit)), ("stiffness k/G", with_unit(self.stiffness, unit))],
+        )
+
+
+@dataclass(frozen=True)
+class Integral:
+    """One of the two integrals of a loading curve beside its exact value; in the units of the latter.
+
+    exact : from linear solutions
+    values : {name: quadrature over the curve}
+    error : estimated error of the quadrature "by levels"
+    missing : bounds on what the curve lacks beyond its last level, from its convexity; both 0 once all elements touch
+    scale : what errors are relative to: the exact value, unless that is 0
+    """
+
+    exact: float
+    values: dict[str, float]
+    error: float
+    missing: tuple[float, float]
+    scale: float
+
+    @property
+    def relative_error(self) -> float:
+        """The estimated error over the scale."""
+        return self.error / self.scale
+
+    @property
+    def deviations(self) -> dict[str, float]:
+        """{name: what separates quadrature and missing part from the exact value, over the scale}."""
+        lacking = {name: self.exact - value for name, value in self.values.items()}
+        return {name: (float(np.clip(part, *self.missing)) - part) / self.scale for name, part in lacking.items()}
+
+
+@dataclass(frozen=True)
+class SumRules(ReadOnlyArrays):
+    """Both integrals of a loading curve.
+
+    first : Integral for ⟨g₀⟩_q: u − F/k_c at the "last level", ∫ (1/k − 1/k_c) dF "by levels", from forces and
+        stiffnesses alone, and "between levels", with the stiffness of LoadingCurve.at_force [length]
+    second : Integral for U/G: ∫ (⟨g₀⟩_q + F/k_c − u) dF "by levels", from depths and stiffnesses there, and
+        "between levels", with the depth of LoadingCurve.at_force [length³]
+    errors : estimated error in each interval, of both integrals over their scales, shape (levels − 1,)
+    """
+
+    first: Integral
+    second: Integral
+    errors: np.ndarray
+
+    @property
+    def error(self) -> float:
+        """The larger one of the estimated errors of both integrals, relative."""
+        return max(self.first.relative_error, self.second.relative_error)
+
+    @property
+    def largest_deviation(self) -> float:
+        """The largest deviation of any quadrature from the exact value, relative."""
+        return max(abs(value) for rule in (self.first, self.second) for value in rule.deviations.values())
+
+
+@dataclass(frozen=True)
+class Audit(Summarised):
+    """A loading curve with levels added until its integrals are known to a tolerance, and what they are.
+
+    tolerance : of both integrals, relative
+    complete : CompleteContact of the indenter
+    curve : LoadingCurve with the added levels
+    rules : SumRules of this curve
+    """
+
+    tolerance: float
+    complete: CompleteContact
+    curve: LoadingCurve
+    rules: SumRules
+
+    @property
+    def is_accurate(self) -> bool:
+        """Whether the estimated error is within the tolerance: if not, added levels did not reduce it."""
+        return self.rules.error <= self.tolerance
+
+    @property
+    def agrees(self) -> bool:
+        """Whether the estimated error, and all deviations from the exact integrals, are within the tolerance."""
+        return self.is_accurate and self.rules.largest_deviation <= self.tolerance
+
+    def _summary(self) -> Summary:
+        """Verdict; exact value, deviations and estimated error of both integrals; what the curve lacks."""
+        curve, verdict = self.curve, "agree" if self.agrees else "do not agree"
+        title = f"Audit over {curve.depth.size} levels: both integrals {verdict} to {self.tolerance:g}"
+        integrals = ("mean gap", self.rules.first, 1), ("energy U/G", self.rules.second, 3)
+        lines = [
+            [
+                (name, with_unit(integral.exact, unit_power(curve.length_unit, power), 8)),
+                *((of, f"{deviation:+.1e}") for of, deviation in integral.deviations.items()),
+                ("estimated error", f"{integral.relative_error:.1e}"),
+            ]
+            for name, integral, power in integrals
+        ]
+        if self.rules.second.missing[1] > 0:
+            lines.append([("up to", f"{curve.force[-1] / self.complete.force:.2%} of the force of complete contact")])
+            for name, integral, _ in integrals:
+                part, *bounds = (
+                    f"{value / integral.scale:.2%}"
+                    for value in (integral.exact - integral.values["by levels"], *integral.missing)
+                )
+                lines[-1].append((f"{name} beyond", f"{part} (possible: {' to '.join(bounds)})"))
+        return title, *lines
+
+
+def complete_contact(indenter: Indenter, threads: int = 1) -> CompleteContact:
+    """The complete contact of an indenter, from two linear problems without a contact problem.
+
+    With P = p d/(4πG), d the side of an element and K the influence coefficients, K q = 1 and K s = g₀ give
+        ⟨g₀⟩_q = Σs/Σq,   k_c/G = 4π d Σq,   U/G = 2π d (Σ s g₀ − (Σs)²/Σq),   u = max s/q
+    where u is the depth at which the last tension vanishes. Up to 400 elements they are solved densely, more on the
+    grid by preconditioned conjugate gradients. On a line, springs of stiffness 4G Δx are independent (MDR):
+        ⟨g₀⟩_q = mean g₀,   k_c/G = 4 Δx n,   U/G = 2 Δx Σ (g₀ − mean g₀)²,   u = max g₀
+
+    indenter : Indenter
+    threads : of the processor
+
+    Returns a CompleteContact. Raises ConvergenceError if the linear problems are not solved to 1e-12.
+
+    Examples
+    --------
+    >>> import numpy as np, viscorough
+    >>> heights = np.array([[0.0, -1.0], [-1.0, 0.0]])
+    >>> end = viscorough.complete_contact(viscorough.Indenter(heights, spacing=1.0))
+    >>> float(end.mean_gap)  # the four elements are equivalent
+    0.5
+    """
+    if indenter.heights.ndim == 1:
+        gap, stiffness = indenter.initial_gap, 4 * indenter.spacing * indenter.elements
+        return CompleteContact(gap.mean(), stiffness / 2 * gap.var(), stiffness, gap.max(), indenter.length_unit)
+    elements, units = elements_of(indenter, threads)
+    solve = _dense_solution if elements.count <= _DENSE_ELEMENTS else _grid_solution
+    gap = elements.initial_gap
+    tangent, load = solve(elements, [np.ones(gap.size), gap], threads)
+    mean_gap = load.sum() / tangent.sum()
+    energy = units.stiffness / 2 * load @ (gap - mean_gap)
+    return CompleteContact(
+        mean_gap=mean_gap * units.length,
+        energy=energy * units.length**2,
+        stiffness=units.stiffness * tangent.sum(),
+        depth=(load / tangent).max() * units.length,
+        length_unit=indenter.length_unit,
+    )
+
+
+def integrals(curve: LoadingCurve, complete: CompleteContact) -> SumRules:
+    """Both integrals of a loading curve as quadratures, with estimates of their errors, beside the exact ones.
+
+    Before its first level the curve is taken as straight. Between two levels 1/k jumps down wherever an element joins.
+    "By levels", the first integral is therefore a sum of trapezoids. In the second one, the curve cuts off from the
+    triangle of chord and tangents, to which convexity confines it, what m equal jumps at random forces do on average:
+    the share (1 − 1/m)/3, none for one jump, that of a parabola for many. Where chord and tangent coincide, the curve
+    is straight, and both are exact. The estimated error of an interval is what its trapezoid differs from its rise in
+    depth, at least the standard deviation for such jumps, 0.29 ΔF Δ(1/k)/√m; that of the second integral is 0.13 ΔF
+    times as large, the ratio for such jumps, or what the two quadratures differ by. Errors of intervals add as
+    independent ones, but at least as their known parts do; that of the second integral is two standard deviations.
+
+    curve : LoadingCurve; complete : CompleteContact of its indenter
+
+    Returns SumRules.
+    """
+    depth, force, stiffness, count = (
+        np.append(first, values)
+        for first, values in (
+            (0.0, curve.depth),
+            (0.0, curve.force),
+            (curve.force[0] / curve.depth[0], curve.stiffness),
+            (curve.contact_count[0], curve.contact_count),
+        )
+    )
+    rise, sink = np.diff(force), np.diff(depth)
+    before, after = 1 / stiffness[:-1], 1 / stiffness[1:]
+    drop, least = np.maximum(before - after, _TINY), 1 / complete.stiffness
+    is_straight = np.abs(rise * before - sink) <= _STRAIGHT * sink
+
+    trapezoid = np.where(is_straight, rise * before, rise * (before + after) / 2)
+    off = np.where(is_straight, 0.0, trapezoid - sink)
+    joined = np.maximum(np.diff(count), 1)
+    jumps = _JUMP * rise * drop / np.sqrt(joined)
+    error = np.where(is_straight, 0.0, np.maximum(np.abs(off), jumps))
+
+    # ⟨g₀⟩_q + F/k_c − u, which is convex and falls to zero.
+    remaining = complete.mean_gap + force * least - depth
+    triangle = np.maximum((rise * before - sink) * (sink - rise * after), 0.0) / (2 * drop)
+    triangle = np.minimum(triangle, rise**2 * drop / 8)  # the largest one; 0 where the stiffness is lower by rounding
+    areas = rise * (remaining[1:] + remaining[:-1]) / 2 - (2 + 1 / joined) / 3 * triangle
+    inner = force[1:-1, None] + rise[1:, None] * _POINTS
+    inner_depth, inner_stiffness = curve.at_force(inner)
+    inner_areas = rise[1:] * ((complete.mean_gap + inner * least - inner_depth) @ _WEIGHTS)
+    inner_sinks = rise[1:] * ((1 / inner_stiffness - least) @ _WEIGHTS)
+    error_of_second = np.maximum(_JUMP_OF_SECOND / _JUMP * rise * error, np.append(0, np.abs(inner_areas - areas[1:])))
+
+    # Beyond the last level `remaining` lies between its tangent and its chord to the force of complete contact.
+    is_complete = curve.contact_count[-1] == curve.elements
+    left, slope = (0.0, least) if is_complete else (max(complete.force - force[-1], 0.0), after[-1])
+    rest = max(remaining[-1], 0.0) if left > 0 else 0.0
+    first = Integral(
+        exact=complete.mean_gap,
+        values={
+            "last level": depth[-1] - force[-1] * least,
+            "by levels": trapezoid.sum() - force[-1] * least,
+            "between levels": sink[0] - rise[0] * least + inner_sinks.sum(),
+        },
+        error=max(abs(off.sum()), np.sqrt((error**2).sum())),
+        missing=(0.0, left * max(slope - least, 0.0)),
+        scale=complete.mean_gap or depth[-1],
+    )
+    second = Integral(
+        exact=complete.energy,
+        values={"by levels": areas.sum(), "between levels": areas[0] + inner_areas.sum()},
+        error=max(abs(areas[1:].sum() - inner_areas.sum()), 2 * np.sqrt((error_of_second**2).sum())),
+        missing=(rest**2 / (2 * max(slope - least, rest / left)) if rest else 0.0, left * rest / 2),
+        scale=complete.energy or force[-1] * depth[-1],
+    )
+    return SumRules(first, second, np.hypot(error / first.scale, error_of_second / second.scale))
+
+
+def audit(
+    indenter: Indenter,
+    *,
+    tolerance: float = 1e-3,
+    until_fraction: float = 1.0,
+    until_force: float = np.inf,
+    progress: Progress | None = None,
+    threads: int = 1,
+    options: SolverOptions = DEFAULT,
+) -> Audit:
+    """Follow a loading curve to complete contact and compare its two integrals with the exact ones.
+
+    Its contacts are solved to a hundredth of the tolerance, and levels are added where they reduce the estimated errors
+    of both integrals (`integrals`) most, until these are within the tolerance. As k jumps at every contact event, the
+    errors fall as the inverse of the number of levels. On maps of up to 400 elements every event is a level, and the
+    integrals are exact to rounding.
+
+    indenter : Indenter with two-dimensional heights
+    tolerance : of both integrals, relative; between 1e-10 and 0.1
+    until_fraction, until_force : as in `indent`; a curve that stops before complete contact lacks a part of both
+        integrals, of which only bounds are known
+    progress : function that is called with the share of the rounds of added levels that is done, up to 1
+    threads, options : as in `indent`
+
+    Returns an Audit. Raises ValueError for arguments out of range, ConvergenceError if a contact cannot be solved.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> disc = viscorough.self_affine_disc(0.8, 17, seed=1)
+    >>> viscorough.audit(disc, tolerance=1e-9).agrees
+    True
+    """
+    if not 1e-10 <= tolerance <= 0.1:
+        raise ValueError(f"audit: tolerance must be between 1e-10 and 0.1, not {tolerance!r}")
+    progress = progress or (lambda done: None)
+    contact_tolerance = max(_CONTACT_TOLERANCE * tolerance, _LEAST_CONTACT_TOLERANCE)
+    how: dict[str, Any] = {"tolerance": contact_tolerance, "threads": threads, "options": options}
+    complete = complete_contact(indenter, threads)
+    until_force = min(until_force, (1 + _STRAIGHT) * complete.force or np.inf)
+    curve = indent(indenter, until_fraction=until_fraction, until_force=until_force, **how)
+    rules = integrals(curve, complete)
+    for number in range(_MAX_ROUNDS):
+        if rules.error <= tolerance or (depths := _depths_to_add(curve, rules, tolerance)).size == 0:
+            break
+        progress((number + 1) / _MAX_ROUNDS)
+        try:
+            curve = _merged(curve, indent(indenter, depths=depths, **how))
+        except ValueError:
+            break  # the added levels contradict the others, so that the estimated error remains
+        rules = integrals(curve, complete)
+    return Audit(tolerance, complete, curve, rules)
+
+
+def _depths_to_add(curve: LoadingCurve, rules: SumRules, allowed: float) -> Array:
+    """Depths that divide the intervals between levels into equal parts, as few as reduce the error to the allowed one.
+
+    The error of an interval of n parts is 1/n of that of the interval, and errors add as independent ones do: the sum
+    of n is smallest with n in proportion to the error to the power 2/3. Where errors have one sign they add up to more
+    than that, by the ratio of the estimated error to the independent sum.
+    """
+    weight = rules.errors[1:] ** (2 / 3)
+    of_one_sign = max(rules.error / max(float(np.linalg.norm(rules.errors)), _TINY), 1.0)
+    parts = np.minimum(np.ceil(weight * np.sqrt(weight.sum()) / allowed * of_one_sign), _MOST_PARTS)
+    # Levels must not be so close that their differences are lost to rounding.
+    parts[np.diff(curve.depth) < 1e-6 * curve.depth[1:]] = 1
+    parts = np.maximum(parts, 1).astype(int)
+    before = np.repeat(np.arange(parts.size), parts - 1)
+    number = 1 + np.arange(before.size) - np.repeat(np.cumsum(parts - 1) - (parts - 1), parts - 1)
+    return curve.depth[before] + np.diff(curve.depth)[before] * number / parts[before]
+
+
+def _merged(curve: LoadingCurve, added: LoadingCurve) -> LoadingCurve:
+    """The LoadingCurve with the levels of both."""
+    order = np.argsort(np.append(curve.depth, added.depth))
+    levels: dict[str, Any] = {
+        name: np.append(getattr(curve, name), getattr(added, name))[order]
+        for name in ("depth", "force", "stiffness", "contact_count", "residual")
+    }
+    applications = curve.operator_applications + added.operator_applications
+    return replace(curve, operator_applications=applications, **levels)
+
+
+def _dense_solution(elements: Elements, right_sides: list[Array], _threads: int) -> Array:
+    """Solutions x of K x = b for several b over the elements, by rank."""
+    row, column = elements.row, elements.column
+    influence = elements.influence[abs(row[:, None] - row), abs(column[:, None] - column)]
+    return scipy.linalg.solve(influence, np.transpose(right_sides), assume_a="pos").T
+
+
+def _grid_solution(elements: Elements, right_sides: list[Array], threads: int) -> list[Array]:
+    """The same by conjugate gradients in double precision."""
+    rows, columns = elements.shape
+    height, width = rows + 2 * REACH, columns + 2 * REACH
+    halfspace = Halfspace(rows, columns, aspect=elements.aspect, threads=threads)
+    preconditioner = Preconditioner(height, width, aspect=elements.aspect, threads=threads)
+    place = (elements.row + REACH) * width + elements.column + REACH
+    inside, field = np.zeros(height * width, dtype=bool), np.zeros(height * width)
+    inside[place] = True
+    preconditioner.prepare(inside, place.size)
+    solutions = []
+    for right in right_sides:
+        solution, residual, direction, last = np.zeros(right.size), right, 0.0, np.inf
+        for _ in range(_MAX_ITERATIONS):
+            if abs(residual).max() <= _RESIDUAL * abs(right).max():
+                break
+            field[place] = residual
+            preconditioned = preconditioner.apply(field)[place]
+            product = preconditioned @ residual
+            direction = preconditioned + product / last * direction
+            halfspace.load[elements.row, elements.column] = direction
+            deflection = halfspace.apply()[elements.row, elements.column]
+            length, last = product / (direction @ deflection), product
+            solution, residual = solution + length * direction, residual - length * deflection
+        else:
+            raise ConvergenceError(
+                f"complete contact: the residual {abs(residual).max():.1e} does not fall below {_RESIDUAL:.0e} in "
+                f"{_MAX_ITERATIONS} steps"
+            )
+        solutions.append(solution)
+    return solutions

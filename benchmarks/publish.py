@@ -183,7 +183,7 @@ def infinite_grid():
 
 
 def correction_exponents(table):
-    """Sentences on corrected fits of the table of infinite grids whose ω the data do not determine; rows with that law."""
+    """Sentences on the corrected fits of the table of infinite grids whose ω the data do not determine."""
     omega = table[["omega", "omega_low", "omega_high"]].itertuples(index=False)
     places = pd.Series([place_of(*values) for values in omega], index=table.index)
     of_place = {}

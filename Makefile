@@ -16,8 +16,8 @@ help:
 	@echo "make reproduce   the default reproduction: figures, tables, and the page results/index.html, which shows them"
 	@echo "make paper       the same at the paper's full scale, and its cost in results/costs.json"
 	@echo "make report      results/report.html of the existing results, with the SETTINGS that they were made with"
-	@echo "make check       format, lint, contracts and the tests of what has changed since the last commit; half a minute"
-	@echo "make test        format, lint, documentation and every test"
+	@echo "make check       format, lint, contracts, types and the tests of what has changed since the last commit; half a minute"
+	@echo "make test        format, lint, types, documentation and every test"
 	@echo "make docs        the documentation as a site, in build/docs/index.html"
 	@echo "make bench       cost and errors of curves, lines and operators, in results/benchmarks.json and files beside it"
 	@echo "make speed       speed against accuracy of every method, in results/figures/speed.png; 80 minutes"
@@ -85,6 +85,7 @@ check: environment
 	$(BIN)/ruff format --check .
 	$(BIN)/snakefmt --check .
 	$(BIN)/lint-imports
+	$(BIN)/mypy
 	@tests=$$($(BIN)/python tests/changed.py $(COMMIT)) && if [ -n "$$tests" ]; then $(BIN)/python -m pytest $$tests; \
 		else echo "no file has changed since $(COMMIT) that has tests of its own"; fi
 
@@ -93,6 +94,7 @@ test: environment docs
 	$(BIN)/ruff format --check .
 	$(BIN)/snakefmt --check .
 	$(BIN)/lint-imports
+	$(BIN)/mypy
 	$(BIN)/snakemake --lint
 	$(BIN)/python -m viscorough_study.run.kernels
 	$(BIN)/python -m pytest -n $(CORES) --dist worksteal
@@ -158,5 +160,5 @@ lock-slurm:
 
 clean:
 	find results -mindepth 1 ! -path results/README.md -delete
-	rm -rf .snakemake .pytest_cache .ruff_cache .hypothesis build
+	rm -rf .snakemake .pytest_cache .ruff_cache .mypy_cache .hypothesis build
 	find src tests workflow benchmarks docs -name __pycache__ -prune -exec rm -rf {} + 2>/dev/null || true

@@ -1,7 +1,7 @@
 """Arrays that an object keeps: copies that cannot be changed, in which masked entries are nan; increasing numbers."""
 
 import dataclasses
-from typing import Any
+from typing import Any, cast, get_origin
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from viscorough.types import Array
 
 
-def read_only(values: ArrayLike) -> NDArray[Any]:
+def read_only(values: Any) -> NDArray[Any]:
     """The values as an array that cannot be changed: a copy, unless nobody can change it already.
 
     Masked entries of numpy's masked arrays, also of a list of them, become nan.
@@ -30,17 +30,20 @@ class ReadOnlyArrays:
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
-        cls.__eq__ = ReadOnlyArrays.__eq__  # else dataclasses compare tuples, of which arrays cannot be parts
+        # Else dataclasses compare tuples, of which arrays cannot be parts.
+        cls.__eq__ = ReadOnlyArrays.__eq__  # type: ignore[method-assign]  # a dataclass makes one of its own
 
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
             return NotImplemented
-        pairs = ((getattr(self, field.name), getattr(other, field.name)) for field in dataclasses.fields(self))
+        pairs = (
+            (getattr(self, field.name), getattr(other, field.name)) for field in dataclasses.fields(cast(Any, self))
+        )
         return all(_are_equal(a, b) for a, b in pairs)
 
     def __post_init__(self) -> None:
-        for field in dataclasses.fields(self):
-            if field.type is np.ndarray:
+        for field in dataclasses.fields(cast(Any, self)):
+            if np.ndarray in (field.type, get_origin(field.type)):
                 object.__setattr__(self, field.name, read_only(getattr(self, field.name)))
 
 
@@ -62,7 +65,7 @@ def increasing(name: str, values: ArrayLike, *, above_zero: bool = False, steps:
     raise ValueError(f"{name}: allowed is {allowed}{f', or given twice where {steps} steps' if steps else ''}")
 
 
-def samples(name: str, values: ArrayLike, times: Array, reason: str = "") -> Array:
+def samples(name: str, values: ArrayLike | None, times: Array, reason: str = "") -> Array:
     """A load at the times, as floats. Raises ValueError unless there is a finite one from 0 on for each of them.
 
     reason : why it must be, for the message
@@ -76,7 +79,7 @@ def samples(name: str, values: ArrayLike, times: Array, reason: str = "") -> Arr
     return values
 
 
-def _are_equal(one: object, other: object) -> bool:
+def _are_equal(one: Any, other: Any) -> bool:
     """Whether two values are equal; nan equals nan in arrays."""
     if not isinstance(one, np.ndarray):
         return one == other

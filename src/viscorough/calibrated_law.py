@@ -24,11 +24,10 @@ from functools import cache
 from importlib import resources
 
 import numpy as np
-from numpy.typing import ArrayLike
 from scipy.special import gamma as gamma_function
 from scipy.special import gammainc
 
-from viscorough.types import Array
+from viscorough.types import Array, Numbers
 
 X_LOW, X_HIGH = 1e-3, 30.0  # the widest range of the law; from X_HIGH on, vt/h is X to 2 %
 LARGEST_DEVIATION = 0.05  # of the law from the mean vt/h of the calibration, in its range
@@ -47,13 +46,13 @@ COLUMNS = {
 }
 
 
-def interface_velocity(x: ArrayLike, exponent: float, peak: float, peak_x: float) -> Array:
+def interface_velocity(x: Numbers, exponent: float, peak: float, peak_x: float) -> Array:
     """g(X), the interface's part of vt/h: peak (X/peak_x)^exponent exp(2 exponent (1 − √(X/peak_x))); any shape."""
     scaled = x / peak_x
     return peak * scaled**exponent * np.exp(2 * exponent * (1 - np.sqrt(scaled)))
 
 
-def interface_depth(x: ArrayLike, exponent: float, peak: float, peak_x: float) -> Array:
+def interface_depth(x: Numbers, exponent: float, peak: float, peak_x: float) -> Array:
     """∫₀^X g dX/X, the interface's part of u/h: 2 peak (e/2b)^(2b) γ(2b, 2b√(X/peak_x)), b = exponent; any shape.
 
     γ(a, w) = ∫₀^w s^(a−1) e^(−s) ds is the lower incomplete gamma function.
@@ -97,12 +96,12 @@ class PenetrationLaw:
     x_low: float
     x_high: float
 
-    def velocity(self, x: ArrayLike) -> Array:
+    def velocity(self, x: Numbers) -> Array:
         """vt/h at X, any shape. Raises ValueError outside the range of X in which the law was calibrated."""
         x = self._inside(x)
         return x + interface_velocity(x, self.exponent, self.peak, self.peak_x)
 
-    def velocity_interval(self, x: ArrayLike) -> tuple[Array, Array]:
+    def velocity_interval(self, x: Numbers) -> tuple[Array, Array]:
         """(lower, upper) ends of vt/h, by the relative error of the law: arrays.
 
         This is the uncertainty of the mean of many surfaces; single ones scatter more. Raises ValueError as `velocity`.
@@ -110,7 +109,7 @@ class PenetrationLaw:
         velocity = self.velocity(x)
         return velocity * (1 - self.error), velocity * (1 + self.error)
 
-    def depth(self, x: ArrayLike) -> Array:
+    def depth(self, x: Numbers) -> Array:
         """u/h = ∫ vt/h dX/X at X, any shape. Raises ValueError as `velocity`.
 
         Below x_low the law does not hold: the grid of the calibration limits the approach before the first contacts.
@@ -118,7 +117,7 @@ class PenetrationLaw:
         """
         return self._depth(self._inside(x), self.depth_offset)
 
-    def depth_interval(self, x: ArrayLike) -> tuple[Array, Array]:
+    def depth_interval(self, x: Numbers) -> tuple[Array, Array]:
         """(lower, upper) ends of u/h over the interval of the offset and the error of vt/h; see `velocity_interval`."""
         x = self._inside(x)
         low, high = (self._depth(x, offset) for offset in self.depth_offset_interval)
@@ -127,7 +126,7 @@ class PenetrationLaw:
     def _depth(self, x: Array, offset: float) -> Array:
         return offset + x + interface_depth(x, self.exponent, self.peak, self.peak_x)
 
-    def _inside(self, x: ArrayLike) -> Array:
+    def _inside(self, x: Numbers) -> Array:
         """X as an array. Raises ValueError outside the range of the law."""
         x = np.asarray(x, dtype=float)
         if not np.all((x >= self.x_low) & (x <= self.x_high)):
@@ -158,10 +157,11 @@ def interface_calibration() -> dict[str, Array]:
     """The law beyond region (b), {column of data/interface.csv: array over the H of `calibration`}."""
     names = ("hurst", "exponent", "peak", "peak_x", "law_low", "error", "depth_offset", "depth_low", "depth_high")
     chosen = {"source": "discs", "average": "geometric", "across": "257"}
-    tables = [
-        _read("interface.csv", lambda row, group=group: row.items() >= (chosen | {"case_group": group}).items(), names)
-        for group in ("base", "sizes")
-    ]
+
+    def table(group: str) -> dict[str, Array]:
+        return _read("interface.csv", lambda row: row.items() >= (chosen | {"case_group": group}).items(), names)
+
+    tables = table("base"), table("sizes")
     # Exponents that only the grids from coarse to fine have, such as H = 1.
     further = ~np.isin(tables[1]["hurst"], tables[0]["hurst"]) & np.isin(tables[1]["hurst"], calibration()["hurst"])
     joined = {name: np.append(tables[0][name], tables[1][name][further]) for name in names}

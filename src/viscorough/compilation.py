@@ -70,7 +70,7 @@ class _CheckedCache(caching.FunctionCache):
             _say_that_nothing_is_kept()
 
 
-def _cache(function: Callable[..., Any]) -> _CheckedCache:
+def _cache(function: Callable[..., Any]) -> Any:
     """The cache of a function's compiled code; an inactive one if there is no folder for it."""
     try:
         return _CheckedCache(function)
@@ -92,7 +92,7 @@ def njit(function: Callable[..., Any] | None = None, **options: Any) -> Callable
     """numba.njit with the given options, cached on disk. Use as a decorator, with or without options."""
     if function is None:
         return functools.partial(njit, **options)
-    compiled = numba.njit(function, **options)
+    compiled: Any = numba.njit(function, **options)
     if compiled is function:  # NUMBA_DISABLE_JIT is set
         return function
     compiled._cache = _cache(function)

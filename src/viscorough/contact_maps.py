@@ -76,7 +76,7 @@ class Contact(ReadOnlyArrays, Summarised):
             newtons, pascals = ("1", "1") if unit == "1" else ("N", "Pa")
             mean, largest = (self.shear_modulus * each for each in (self.mean_pressure, self.largest_pressure))
             names = ("force F", self.normal_force, newtons), ("mean p", mean, pascals), ("largest p", largest, pascals)
-            lines.append([(name, with_unit(value, unit)) for name, value, unit in names])
+            lines.append([(name, with_unit(cast(float, value), unit)) for name, value, unit in names])
         return f"Contact of {self.contact_count} of {self.elements} elements", *lines
 
     @property

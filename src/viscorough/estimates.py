@@ -98,4 +98,5 @@ def estimate(
     values = np.full((6, times.size), np.nan)
     values[:3, inside] = rms * np.array([law.depth(covered), *law.depth_interval(covered)])
     values[3:, inside] = per_time * np.array([law.velocity(covered), *law.velocity_interval(covered)])
-    return Estimate(times, x, *values, law)
+    depth, depth_low, depth_high, velocity, velocity_low, velocity_high = values
+    return Estimate(times, x, depth, depth_low, depth_high, velocity, velocity_low, velocity_high, law)

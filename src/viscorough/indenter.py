@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from viscorough import units
 from viscorough.arrays import ReadOnlyArrays, read_only
@@ -36,7 +36,7 @@ class Indenter(ReadOnlyArrays):
 
     heights: np.ndarray
     spacing: float
-    row_spacing: float | None = None
+    row_spacing: float = None  # type: ignore[assignment]  # a number in every Indenter: by default the spacing
     length_unit: str = "1"
 
     def __post_init__(self) -> None:
@@ -106,7 +106,7 @@ class Indenter(ReadOnlyArrays):
         return np.subtract(np.fmax.reduce(self.heights, axis=None), self.heights, dtype=float)
 
 
-def _spacings(spacing: float | tuple[float, float], row_spacing: float | None) -> tuple[float, float]:
+def _spacings(spacing: Any, row_spacing: float | None) -> tuple[float, float]:
     """Both spacings (dx, dy) as floats."""
     if isinstance(spacing, str) or np.ndim(spacing) == 0:
         spacing = positive("indenter spacing", spacing)
@@ -124,14 +124,14 @@ def _spacings(spacing: float | tuple[float, float], row_spacing: float | None) -
     return spacing, row_spacing
 
 
-def _exact(values: ArrayLike) -> NDArray[Any]:
+def _exact(values: NDArray[Any]) -> bool:
     """Whether double precision holds these values exactly, if they are whole numbers; masked ones do not matter."""
     if values.dtype.kind not in "iu" or np.ma.count(values) == 0:
         return True
     return int(values.min()) >= -_LARGEST_WHOLE and int(values.max()) <= _LARGEST_WHOLE
 
 
-def _native(heights: Array) -> Array:
+def _native(heights: NDArray[Any]) -> NDArray[Any]:
     """Heights in single or double precision, in rows and in the byte order of this machine."""
     kept = np.float32 if heights.dtype == np.float32 else np.float64
     with np.errstate(over="ignore"):  # what does not fit becomes infinite

@@ -16,7 +16,7 @@ from numpy.typing import DTypeLike
 
 from viscorough import line_waves, memory, spectrum
 from viscorough.indenter import positive
-from viscorough.types import Array, Complex, Integers
+from viscorough.types import Array, Complex, Integers, Seed
 
 _ROOM = 1000  # between the rms height and the limits of the floating-point type
 _BLOCK = 16384  # waves computed at a time in double precision
@@ -68,7 +68,7 @@ class SelfAffineLines:
             rows = _divisor_near_root(points // 2)
             self._packed = np.empty((rows, points // 2 // rows), np.complex64)
 
-    def heights(self, seed: int | np.random.SeedSequence) -> Array:
+    def heights(self, seed: Seed) -> Array:
         """Heights of the realization of this seed, in order; shape (points,), read-only."""
         if not self._in_pairs:
             return self._by_real_transform(seed)
@@ -76,7 +76,7 @@ class SelfAffineLines:
         ordered.flags.writeable = False  # so that an indenter need not copy them
         return ordered.reshape(-1).view(np.float32)
 
-    def heights_in_any_order(self, seed: int | np.random.SeedSequence) -> Array:
+    def heights_in_any_order(self, seed: Seed) -> Array:
         """The same heights, read-only, in an order without a meaning; valid until the next call of a method."""
         if not self._in_pairs:
             return self._by_real_transform(seed)
@@ -84,7 +84,7 @@ class SelfAffineLines:
         heights.flags.writeable = False
         return heights
 
-    def _by_four_steps(self, seed: int | np.random.SeedSequence) -> Complex:
+    def _by_four_steps(self, seed: Seed) -> Complex:
         """Pairs of heights, y_2j + i y_2j+1 at [j₁, j₂]; overwritten by the next call."""
         packed = self._packed
         mean_square = line_waves.fill_packed_spectrum(
@@ -94,7 +94,7 @@ class SelfAffineLines:
         line_waves.twiddle(packed.view(np.float32), np.float32(spectrum.scale_factor(self._rms, mean_square)))
         return fft.c2c(packed, axes=[1], forward=False, out=packed)
 
-    def _by_real_transform(self, seed: int | np.random.SeedSequence) -> Array:
+    def _by_real_transform(self, seed: Seed) -> Array:
         points, key = self._points, self._key(seed)
         memory_ = np.empty(2 * (points // 2 + 1), self._dtype)
         coefficients = memory_.view(np.result_type(self._dtype, np.complex64))  # of the waves k = 0, 1, ...
@@ -121,7 +121,7 @@ class SelfAffineLines:
         return spectrum.amplitude(np.arange(first, first + count, dtype=dtype), self._exponent, *self._roll_off)
 
     @staticmethod
-    def _key(seed: int | np.random.SeedSequence) -> Integers:
+    def _key(seed: Seed) -> Integers:
         return line_waves.key_of(spectrum.seed_sequence(seed))
 
 

@@ -6,13 +6,16 @@ are the initial gaps, measured from the highest point. With η for G they are da
 gaps, and it is enough to count and add them in narrow bins.
 """
 
+from typing import Any
+
 import numpy as np
 from ducc0 import fft
+from numpy.typing import NDArray
 
 from viscorough.compilation import njit
 from viscorough.indenter import Indenter, check_indenter
 from viscorough.loading_curve import LoadingCurve
-from viscorough.types import Array, Integers
+from viscorough.types import Array, Integers, Seed
 
 _OCTAVES = 128  # octaves below the largest gap that are divided into bins; smaller gaps share one bin
 _SPOILED = 3  # longest waves of a map that a window changes
@@ -118,7 +121,7 @@ def _levels(heights: Array, spacing: float, bins_per_octave: int) -> tuple[Array
     return depth, force, stiffness, contact_count
 
 
-def line_of_surface(square: Array, spacing: float, seed: int) -> Indenter:
+def line_of_surface(square: Array, spacing: float, seed: Seed) -> Indenter:
     """Line with the power spectrum of a periodic map, C1D = π q C2D (Eq. 13), and random phases.
 
     square : heights, shape (n, n) [length]
@@ -138,7 +141,7 @@ def line_of_surface(square: Array, spacing: float, seed: int) -> Indenter:
     return Indenter(_random_line(rings, n, seed), spacing)
 
 
-def line_of_map(surface: Indenter, seed: int) -> Indenter:
+def line_of_map(surface: Indenter, seed: Seed) -> Indenter:
     """Line with the radially averaged power spectrum of a map that is not periodic, and with its rms height.
 
     surface : Indenter with two-dimensional heights; elements that are nan count as of mean height
@@ -180,14 +183,14 @@ def _power_of_piece(heights: Array, weights: Array) -> Array:
     return np.abs(np.fft.fft2(weights * over_mean)) ** 2 / (weights.size * np.sum(weights**2, dtype=float))
 
 
-def _ring_sums(power: Array, wavenumber: Array, points: int) -> Array:
+def _ring_sums(power: Array, wavenumber: Array, points: int) -> NDArray[Any]:
     """Sums of the power of the waves whose wavenumber per length rounds to 0, 1, ..., points // 2."""
     ring = np.rint(wavenumber).astype(int)
     most = points // 2 + 1
     return np.bincount(ring.ravel(), weights=power.ravel(), minlength=most)[:most]
 
 
-def _random_line(power: Array, points: int, seed: int) -> Array:
+def _random_line(power: Array, points: int, seed: Seed) -> Array:
     """Heights, shape (points,), of waves of this power and of random phases; without the zero mode."""
     amplitude = np.sqrt(power / 2)
     if points % 2 == 0:

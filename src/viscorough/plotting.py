@@ -12,6 +12,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
+from numpy.typing import NDArray
 
 from viscorough import units
 from viscorough.io.atomic import atomic_write
@@ -25,10 +26,16 @@ _BLUE, _VERMILION = "#0072b2", "#d55e00"  # of Okabe and Ito, which can be told 
 _FEW = 40  # points below which a curve has markers
 _FEW_DECADES = 80  # ratio of the ends of a logarithmic axis
 _MOST_MAPS = 4  # contacts of one file that are drawn
-_STYLE = {"font.size": 8, "axes.titlesize": 8, "axes.linewidth": 0.6, "lines.linewidth": 1.2, "lines.markersize": 3}
+_STYLE: dict[Any, Any] = {
+    "font.size": 8,
+    "axes.titlesize": 8,
+    "axes.linewidth": 0.6,
+    "lines.linewidth": 1.2,
+    "lines.markersize": 3,
+}
 _STYLE |= {"xtick.direction": "in", "ytick.direction": "in"}
 _STYLE |= {"savefig.dpi": 200, "pdf.fonttype": 42, "svg.hashsalt": "viscorough"}
-_COLOURS = {"heights": "cividis", "gap": "cividis", "pressure": "inferno"}
+_COLOURS: dict[str, Any] = {"heights": "cividis", "gap": "cividis", "pressure": "inferno"}
 _COLOURS |= {"contact": mpl.colors.ListedColormap(["white", _VERMILION])}
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _SYMBOLS = {"depth": "u", "force": "F/G", "stiffness": "k/G", "pressure": "p/G", "time": "t", "velocity": "v"}
@@ -121,7 +128,7 @@ def _in_readable_units(variables: Variables) -> Variables:
     return changed
 
 
-def _state(variables: Variables, index: int | None) -> str:
+def _state(variables: Variables, index: int) -> str:
     """Numbers of one of the contacts in a file, as text."""
     texts = []
     for name, symbol in _STATE.items():
@@ -134,19 +141,21 @@ def _state(variables: Variables, index: int | None) -> str:
 def _map(figure: Figure, axes: Axes, variables: Variables, name: str, values: Array) -> None:
     """Image of a map, grey outside the indenter, where it is nan; with a bar of colours unless it is of the contact."""
     y, x = variables[name].dimensions[-2:]
-    extent = []
+    extent: list[float] = []
     for dimension, points in ((x, values.shape[1]), (y, values.shape[0])):
         position, step = _positions(variables, dimension, points)
         extent += [position[0] - step / 2, position[-1] + step / 2]
-    limits = {"vmin": 0, "vmax": 1} if name == "contact" else {}
-    image = axes.imshow(values, origin="lower", extent=extent, cmap=_COLOURS[name], **limits)
+    look: dict[str, Any] = {"extent": extent, "cmap": _COLOURS[name]}
+    if name == "contact":
+        look |= {"vmin": 0, "vmax": 1}
+    image = axes.imshow(values, origin="lower", **look)
     axes.set_facecolor("0.85")
     if name != "contact":
         figure.colorbar(image, ax=axes, label=_label_of(variables, name), shrink=0.85)
     _label(axes, _axis_label(variables, x), _axis_label(variables, y))
 
 
-def _positions(variables: Variables, dimension: str, points: int) -> tuple[Array, str]:
+def _positions(variables: Variables, dimension: str, points: int) -> tuple[NDArray[Any], float]:
     """Positions along a dimension and their distance: those of its coordinate, else the numbers of the points."""
     if _has_positions(variables, dimension):
         values = variables[dimension].values.astype(float)
@@ -177,11 +186,11 @@ def _motion(variables: Variables) -> Figure:
     names = [name for name in ("depth", "velocity") if name in variables and variables[name].dimensions == along]
     figure, axes = _panels(len(names))
     for panel, name in zip(axes, names, strict=True):
-        ends = [variables.get(f"{name}_{end}") for end in ("low", "high")]
-        if None not in ends:  # an estimate
+        ends = [variables[key] for end in ("low", "high") if (key := f"{name}_{end}") in variables]
+        if len(ends) == 2:  # an estimate
             if {end.attributes.get("units") for end in ends} != {variables[name].attributes.get("units")}:
                 raise ValueError(f"{name} and its interval have different units; one is needed")
-            panel.fill_between(time, *(end.values for end in ends), color=_BLUE, alpha=0.25, linewidth=0)
+            panel.fill_between(time, ends[0].values, ends[1].values, color=_BLUE, alpha=0.25, linewidth=0)
         _curve(panel, time, variables[name].values)
         _label(panel, _label_of(variables, "time"), _label_of(variables, name))
     return figure
@@ -193,8 +202,8 @@ def _loading_curve(variables: Variables) -> Figure:
     pairs = [pair for pair in pairs if pair[1] in variables and variables[pair[1]].values.ndim == dimensions]
     figure, axes = _panels(len(pairs))
     for panel, (x, y) in zip(axes, pairs, strict=True):
-        for row in zip(*(np.atleast_2d(variables[name].values) for name in (x, y)), strict=True):
-            _curve(panel, *row, thin=dimensions == 2)
+        for along, over in zip(*(np.atleast_2d(variables[name].values) for name in (x, y)), strict=True):
+            _curve(panel, along, over, thin=dimensions == 2)
         _label(panel, _label_of(variables, x), _label_of(variables, y))
     return figure
 
@@ -223,7 +232,7 @@ def _label(axes: Axes, x: str, y: str) -> None:
             axis.set_minor_formatter(NullFormatter())
 
 
-def _tick_label(value: float, _position: int) -> str:
+def _tick_label(value: float, _position: float) -> str:
     """A number of three digits, with a power of ten where it is very small or large."""
     mantissa, _, exponent = f"{value:.3g}".partition("e")
     return rf"${mantissa}\times 10^{{{int(exponent)}}}$" if exponent else mantissa

@@ -4,11 +4,12 @@ And doubts about maps that were not: what makes the results of a contact wrong w
 """
 
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
 from viscorough.indenter import Indenter, check_indenter
-from viscorough.types import Array, Integers
+from viscorough.types import Array
 
 DETREND = ("none", "mean", "plane", "sphere")
 FILL = ("none", "harmonic")
@@ -19,12 +20,14 @@ _MARKS = (-9999.0, -99999.0, -32768.0, -32767.0, 32767.0, 65535.0, -1e38, 1e38)
 _SPIKE = 20  # height of a point above all its neighbours over the usual distance of neighbours
 _LARGEST_SLOPE = 0.99  # of a fitted sphere within the map
 
+Crop = Sequence[Sequence[int]]  # ((first column, end), (first row, end))
+
 
 def prepare(
     indenter: Indenter,
     *,
     nodata: Sequence[float] = (),
-    crop: Sequence[int] | str | None = None,
+    crop: Crop | None = None,
     flip: bool = False,
     detrend: str = "none",
     fill: str = "none",
@@ -75,7 +78,7 @@ def doubts(indenter: Indenter) -> list[str]:
     return [*texts, *_holes(heights)]
 
 
-def _cropped(heights: Array, crop: Sequence[int] | str | None) -> Array:
+def _cropped(heights: Array, crop: Crop) -> Array:
     for (first, end), size, name in zip(crop, heights.shape[::-1], ("columns", "rows"), strict=True):
         if not 0 <= first < end <= size:
             raise ValueError(f"crop to {name} {first}:{end}; within 0:{size} is allowed")
@@ -218,7 +221,7 @@ def _spikes(heights: Array) -> Iterator[str]:
 # ---- holes
 
 
-def _enclosed(heights: Array) -> tuple[Integers, int]:
+def _enclosed(heights: Array) -> tuple[Any, int]:
     """Labels of the nan regions that do not reach the edge, from 1 on, and their number; None if there is no nan."""
     from scipy import ndimage
 

@@ -84,7 +84,7 @@ class PowerLawBody:
 
     def mdr_line(self, points: int, width: float = 1.0) -> Indenter:
         """Indenter on a line of the given width that represents this body in the MDR."""
-        return Indenter(-self.mdr_profile(_element_centres(points, width)), width / points)
+        return Indenter(np.negative(self.mdr_profile(_element_centres(points, width))), width / points)
 
 
 def sphere(radius: float) -> PowerLawBody:
@@ -118,8 +118,8 @@ def flat_disc_stiffness(radius: float) -> float:
 
 
 def sphere_approach_and_retreat(
-    time: Numbers, radius: float, speed: float, turning_time: float, relaxation: Callable[[float], float]
-) -> Numbers:
+    time: float, radius: float, speed: float, turning_time: float, relaxation: Callable[[float], float]
+) -> tuple[float, float]:
     """Force and contact radius of a sphere moved into a viscoelastic half-space and out again at one speed (Ting 1966).
 
     The depth is vt up to the turning time t_m and v(2t_m − t) after it. While the contact grows, a² = Ru and
@@ -129,7 +129,7 @@ def sphere_approach_and_retreat(
     time : t > 0, a number; relaxation : ψ(t) of the medium, a function. Returns (F, a), both 0 once contact has ended.
     """
 
-    def integral(duration: Array) -> Numbers:
+    def integral(duration: float) -> float:
         return quad(relaxation, 0, duration, epsrel=1e-12, epsabs=0)[0]
 
     end = time
@@ -146,7 +146,7 @@ def sphere_approach_and_retreat(
 # ---- the paper's laws
 
 
-def stiffness_law(x: Numbers, zeta: float, alpha: float) -> Numbers:
+def stiffness_law(x: Numbers, zeta: Numbers, alpha: Numbers) -> Numbers:
     """κ = ζ X^α (Eq. 3)."""
     return zeta * x**alpha
 
@@ -161,14 +161,14 @@ def exponent_alpha(hurst: Numbers) -> Numbers:
     return 1 / (1 + hurst)
 
 
-def depth_law(x: Numbers, zeta: float, alpha: float, *, gamma: bool = False) -> Numbers:
+def depth_law(x: Numbers, zeta: Numbers, alpha: Numbers, *, gamma: bool = False) -> Numbers:
     """u/h = X^(1−α)/(ζ(1−α)) (Eq. 6); with `gamma` divided by Γ(2−α) (Eq. 8). Raises ValueError unless α < 1."""
     if not np.all(np.asarray(alpha) < 1):
         raise ValueError(f"exponent alpha of the depth law: {alpha}; allowed: below 1")
     return velocity_law(x, zeta, alpha, gamma=gamma) / (1 - alpha)
 
 
-def velocity_law(x: Numbers, zeta: float, alpha: float, *, gamma: bool = False) -> Numbers:
+def velocity_law(x: Numbers, zeta: Numbers, alpha: Numbers, *, gamma: bool = False) -> Numbers:
     """vt/h = X^(1−α)/ζ = X/κ (Eqs. 1 and 3); with `gamma` divided by Γ(2−α) (Eq. 9)."""
     return x ** (1 - alpha) / (zeta * (gamma_function(2 - alpha) if gamma else 1))
 
@@ -183,14 +183,12 @@ def zeta_viscous(hurst: Numbers) -> Numbers:
     return 2 - hurst
 
 
-def rate_law(x: Numbers, hurst: float, *, gamma: bool = False) -> Numbers:
+def rate_law(x: Numbers, hurst: Numbers, *, gamma: bool = False) -> Numbers:
     """vt/h with Eqs. 5 and 11 for α and ζ; with `gamma` this is Eq. 12, Γ(2−α) = Γ((1+2H)/(1+H))."""
     return velocity_law(x, zeta_viscous(hurst), exponent_alpha(hurst), gamma=gamma)
 
 
-def line_spectrum(
-    wavenumber: Numbers, spectrum: Callable[[Array], Array], transfer: Callable[[Array], Array] = np.pi
-) -> Numbers:
+def line_spectrum(wavenumber: Numbers, spectrum: Numbers, transfer: Numbers = np.pi) -> Numbers:
     """C1D(q) = λ q C2D(q), the two-sided spectrum of the line that represents a surface; λ = `transfer` is π in Eq. 13.
 
     λ = π gives line and surface the same rms height; in general λ = π (h1D/h2D)².
@@ -206,6 +204,6 @@ def one_element_stiffness(elements_across: int) -> float:
     return np.pi / (UNIT_SQUARE_DEFLECTION * elements_across)
 
 
-def _element_centres(number: int, width: float) -> Numbers:
+def _element_centres(number: int, width: float) -> Array:
     """Centres of equal elements that fill an interval of the given width around 0, shape (number,)."""
     return (np.arange(number) - (number - 1) / 2) * width / number

@@ -1,11 +1,12 @@
 """The power-law spectrum of self-affine surfaces and lines, and checks of the arguments that describe it."""
 
 from numbers import Integral
+from typing import Any
 
 import numpy as np
 
 from viscorough.indenter import positive
-from viscorough.types import Array
+from viscorough.types import Array, Seed
 
 
 def amplitude(wavenumber: Array, exponent: float, longest: float, level: float) -> Array:
@@ -33,14 +34,14 @@ def roll_off(wavelength: float | None, level: float, points: int) -> tuple[float
     return rounding * points / positive("roll_off_wavelength", wavelength), level
 
 
-def scale_factor(rms: float, mean_square: float) -> float:
+def scale_factor(rms: float, mean_square: Any) -> float:
     """Scale factor to the requested rms height."""
     if mean_square == 0:
         raise ValueError("roll_off_wavelength: must leave at least one wave of two spacings or more")
     return rms / np.sqrt(mean_square)
 
 
-def seed_sequence(seed: int | np.random.SeedSequence) -> np.random.SeedSequence:
+def seed_sequence(seed: Seed) -> np.random.SeedSequence:
     """The SeedSequence of a whole number, or the one given."""
     return seed if isinstance(seed, np.random.SeedSequence) else np.random.SeedSequence(whole("seed", seed, at_least=0))
 
@@ -59,7 +60,7 @@ def fixed_amplitudes(amplitudes: str) -> bool:
     return amplitudes == "fixed"
 
 
-def whole(name: str, value: int, at_least: int) -> int:
+def whole(name: str, value: Any, at_least: int) -> int:
     """The value as an int. Raises ValueError with the name unless it is a whole number of at least `at_least`."""
     if not isinstance(value, Integral) or value < at_least:
         raise ValueError(f"{name}: must be a whole number of at least {at_least}, not {value!r}")

@@ -1,11 +1,14 @@
 """Short texts about a result: lines for print, and a small table of HTML for notebooks."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable, Sequence
 from html import escape
 from itertools import chain
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from viscorough.types import Array
+if TYPE_CHECKING:
+    from viscorough.types import Array
 
 # A title, and the quantities and texts of each line.
 Summary = tuple[str, *tuple[Sequence[tuple[str, str]], ...]]
@@ -16,7 +19,11 @@ class Summarised:
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
-        cls.__repr__ = Summarised.__str__  # else that of a dataclass, with all numbers of its arrays
+        # Else that of a dataclass, with all numbers of its arrays.
+        cls.__repr__ = Summarised.__str__  # type: ignore[assignment, method-assign]  # defined for objects of all kinds
+
+    def _summary(self) -> Summary:
+        raise NotImplementedError
 
     def __str__(self) -> str:
         title, *lines = self._summary()

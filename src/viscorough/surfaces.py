@@ -15,7 +15,7 @@ from numpy.typing import DTypeLike
 from viscorough import memory, spectrum
 from viscorough.indenter import Indenter, positive
 from viscorough.lines import SelfAffineLines
-from viscorough.types import Array
+from viscorough.types import Array, Seed
 
 _BYTES_PER_POINT = 100  # memory that must be available for a square, three times what its arrays take
 
@@ -33,7 +33,7 @@ def self_affine_disc(
     amplitudes: str = "random",
     rms_over: str = "disc",
     length_unit: str = "1",
-    seed: int | np.random.SeedSequence,
+    seed: Seed,
 ) -> Indenter:
     """Disc with n = `elements_across` elements across its diameter, cut from a periodic self-affine square.
 
@@ -103,7 +103,7 @@ def self_affine_square(
     roll_off_level: float = 0.0,
     amplitudes: str = "random",
     normalised: bool = True,
-    seed: int | np.random.SeedSequence,
+    seed: Seed,
 ) -> Array:
     """Heights of a periodic self-affine square, shape (points, points), of mean 0.
 
@@ -171,7 +171,7 @@ def self_affine_line(
     roll_off_level: float = 0.0,
     amplitudes: str = "random",
     length_unit: str = "1",
-    seed: int | np.random.SeedSequence,
+    seed: Seed,
     dtype: DTypeLike = np.float32,
 ) -> Indenter:
     """Periodic self-affine line, C1D ∝ q^(-(2H+1)): an indenter for the method of reduction of dimensionality (MDR).
@@ -198,6 +198,6 @@ def self_affine_line(
     return Indenter(lines.heights(seed), lines.spacing, length_unit=length_unit)
 
 
-def _generator(seed: int | np.random.SeedSequence) -> np.random.Generator:
+def _generator(seed: Seed) -> np.random.Generator:
     """Random numbers from SFC64, the fastest of numpy's generators."""
     return np.random.Generator(np.random.SFC64(spectrum.seed_sequence(seed)))

@@ -1,7 +1,7 @@
 """Abbreviations for annotations: arrays of real numbers, of indices, of truth values; paths; reports of progress."""
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,6 +11,7 @@ Array = NDArray[np.floating[Any]]  # in double precision, but for fields of the 
 Integers = NDArray[np.integer[Any]]
 Mask = NDArray[np.bool_]
 Complex = NDArray[np.complexfloating[Any, Any]]
+Seed = int | Sequence[int] | np.random.SeedSequence
 Numbers = float | Array  # what formulas take and give
 Pair = tuple[Array, Array] | tuple[float, float]  # at both ends of an interval
 FilePath = str | os.PathLike[str]

@@ -12,10 +12,7 @@ import functools
 import math
 import re
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    import pint
+from typing import Any
 
 UNKNOWN = "1"
 # Units of length that are read without pint: spelling, and how files and results spell it.
@@ -156,10 +153,10 @@ def _rounded(number: float) -> float:
 
 
 @functools.cache
-def _registry() -> pint.UnitRegistry:
+def _registry() -> Any:
     import pint
 
-    registry = pint.UnitRegistry()
+    registry: Any = pint.UnitRegistry()
     registry.define("@alias angstrom = Angstrom")
     return registry
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -66,16 +66,17 @@ def contact(
         raise click.UsageError("one of --force and --depth is needed")
     indenter = read_indenter(surface, output)
     medium = elasticity(shear_modulus, young, poisson, indenter.length_unit)
-    if force is None:
+    given: dict[str, Any]
+    if depth is not None:
         given = {"depth": lengths(depth, indenter.length_unit, "--depth")}
-    else:
+    elif force is not None:
         given = {"force": medium.forces_over_modulus(force, "--force")}
 
     from viscorough.contact.one_contact import contact_at
     from viscorough.io.contacts import contacts_to_content
 
     with progress_bar("viscorough contact", progress) as report:
-        contacts = contact_at(indenter, tolerance=tolerance, progress=report, threads=threads, **given)
+        contacts: Any = contact_at(indenter, tolerance=tolerance, progress=report, threads=threads, **given)
     if medium.shear_modulus is not None:
         contacts = [replace(each, shear_modulus=medium.shear_modulus) for each in contacts]
     content = contacts_to_content(contacts, indenter.heights)

@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from viscorough.cli.elasticity import check_incompressible
 from viscorough.cli.files import check_output, printable_name, read_content
 from viscorough.cli.messages import announce
-from viscorough.cli.options import FILE, Quantity, force_history_option, number_in
+from viscorough.cli.options import FILE, QuantityOption, force_history_option, number_in
 from viscorough.summaries import with_unit
+
+if TYPE_CHECKING:
+    from viscorough.units import Quantity
 
 
 @click.command(short_help="The medium from a measured depth over time.")
 @click.argument("curve", type=FILE, metavar="CURVE.nc")
 @click.argument("record", type=FILE, metavar="RECORD.csv")
-@click.option("--force", type=Quantity("N"), help="Constant force F, applied at time 0.")
+@click.option("--force", type=QuantityOption("N"), help="Constant force F, applied at time 0.")
 @force_history_option
 @click.option(
     "--fit",
@@ -62,9 +66,12 @@ def creep(
         raise ValueError(f"{curve}: {error}") from error
     unit = loading.length_unit
     times, depth = read_columns(record, "a record", {"time": "s", "depth": unit}, unit)
-    history = number_in("N", force, unit, "--force") if force else read_force_history(force_history, unit)
+    history: Any = None
+    if force is not None:
+        history = stated = number_in("N", force, unit, "--force")
+    elif force_history is not None:
+        history, stated = read_force_history(force_history, unit), printable_name(force_history)
     identified = identify_medium(loading, history, times, depth, kind=fit)
-    stated = history if force else printable_name(force_history)
     save_identified(
         identified,
         output,

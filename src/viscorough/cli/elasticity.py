@@ -8,7 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscorough.cli.options import PositiveNumber, Quantity, number_in
+from viscorough.cli.options import PositiveNumber, QuantityOption, number_in
+
+if TYPE_CHECKING:
+    from viscorough.units import Quantity
 
 if TYPE_CHECKING:
     from viscorough.io.netcdf import Content
@@ -19,9 +22,9 @@ def elastic_constants_options(command: Callable[..., Any]) -> Callable[..., Any]
     """Add --shear-modulus, --young and --poisson to a command."""
     ratio = PositiveNumber(0.5, above=-1)
     command = click.option("--poisson", type=ratio, help="Poisson ratio, with --young  [default: 0.5]")(command)
-    command = click.option("--young", type=Quantity("Pa"), help="Young's modulus, instead of G.")(command)
+    command = click.option("--young", type=QuantityOption("Pa"), help="Young's modulus, instead of G.")(command)
     text = "Shear modulus G of the incompressible half-space."
-    return click.option("--shear-modulus", type=Quantity("Pa"), help=text)(command)
+    return click.option("--shear-modulus", type=QuantityOption("Pa"), help=text)(command)
 
 
 @dataclass(frozen=True)
@@ -38,7 +41,7 @@ class Elasticity:
     shear_modulus: float | None
     attributes: dict
 
-    def forces_over_modulus(self, quantities: Sequence[Quantity] | None, option: str) -> list[float]:
+    def forces_over_modulus(self, quantities: Sequence[Quantity], option: str) -> list[float]:
         """F/G [length²] of forces, Quantities given with an option.
 
         With a modulus, forces are in N, or in consistent units if the unit of length is not known; without one, they
@@ -71,7 +74,7 @@ def elasticity(
     return Elasticity(length_unit, None, {})
 
 
-def lengths(quantities: Sequence[Quantity] | None, length_unit: str, option: str) -> list[float]:
+def lengths(quantities: Sequence[Quantity], length_unit: str, option: str) -> list[float]:
     """Numbers in the unit of length of the indenter, of Quantities given with an option."""
     return [number_in(length_unit, quantity, length_unit, option) for quantity in quantities]
 

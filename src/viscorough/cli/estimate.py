@@ -10,8 +10,12 @@ import click
 
 from viscorough.cli.files import check_output, printable_name, write_output
 from viscorough.cli.messages import announce
-from viscorough.cli.options import FILE, Increasing, PositiveNumber, Quantity, number_in
+from viscorough.cli.options import FILE, Increasing, PositiveNumber, QuantityOption, number_in
 from viscorough.errors import AccuracyWarning
+
+if TYPE_CHECKING:
+    from viscorough.units import Quantity
+    from viscorough.viscous.medium import Medium
 
 if TYPE_CHECKING:
     from viscorough.calibrated_law import PenetrationLaw
@@ -19,10 +23,10 @@ if TYPE_CHECKING:
 
 @click.command(short_help="Depth and velocity of a self-affine surface by the calibrated law, without a simulation.")
 @click.option("--hurst", type=PositiveNumber(1), required=True, help="Hurst exponent H, from 0.1 to 1.")
-@click.option("--rms", type=Quantity("m"), required=True, help="Rms height h of the surface.")
-@click.option("--diameter", type=Quantity("m"), required=True, help="Diameter L of the indenter.")
-@click.option("--force", type=Quantity("N"), required=True, help="Constant force F, applied at time 0.")
-@click.option("--viscosity", type=Quantity("Pa s"), help="Shear viscosity of a Newtonian half-space.")
+@click.option("--rms", type=QuantityOption("m"), required=True, help="Rms height h of the surface.")
+@click.option("--diameter", type=QuantityOption("m"), required=True, help="Diameter L of the indenter.")
+@click.option("--force", type=QuantityOption("N"), required=True, help="Constant force F, applied at time 0.")
+@click.option("--viscosity", type=QuantityOption("Pa s"), help="Shear viscosity of a Newtonian half-space.")
 @click.option("--medium", type=FILE, metavar="MEDIUM.yaml", help="Medium, as for kinetics, instead of --viscosity.")
 @click.option("--times", type=Increasing(), required=True, help="Times at which depth and velocity are wanted.")
 @click.option("-o", "--output", type=FILE, metavar="FILE", help="NetCDF file or table (.csv) to write  [default: none]")
@@ -66,10 +70,12 @@ def estimate(
     unit = _length_unit(rms, diameter, {"--force": force, "--viscosity": viscosity})
     lengths = number_in("m", rms, unit, "--rms"), number_in("m", diameter, unit, "--diameter")
     force = number_in("N", force, unit, "--force")
-    if medium is None:
+    half_space: Medium | float
+    about: dict[str, Any]
+    if viscosity is not None:
         half_space = number_in("Pa s", viscosity, unit, "--viscosity")
         about = {"viscosity": half_space}
-    else:
+    elif medium is not None:
         half_space, about = read_medium(medium, unit), {"medium": printable_name(medium)}
     result = estimate(hurst, *lengths, force, half_space, times)
     law, outside = result.law, np.count_nonzero(result.where != "")

@@ -1,20 +1,28 @@
 """`viscorough generate`: a random self-affine surface."""
 
+from __future__ import annotations
+
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from viscorough.cli.files import check_output, write_output
 from viscorough.cli.messages import announce
-from viscorough.cli.options import PositiveNumber, Quantity, number_in, output_option
+from viscorough.cli.options import PositiveNumber, QuantityOption, number_in, output_option
+
+if TYPE_CHECKING:
+    from viscorough.units import Quantity
 
 
 @click.command(short_help="A random self-affine disc or line.")
 @click.option("--hurst", type=click.FloatRange(0, 1), required=True, help="Hurst exponent H, from 0 to 1.")
 @click.option("--elements", type=click.IntRange(min=3), help="Disc of so many elements across its diameter.")
 @click.option("--points", type=click.IntRange(min=2), help="Line of so many points, instead of a disc.")
-@click.option("--rms", type=Quantity("m"), required=True, help="Rms height, exact in every realization.")
-@click.option("--diameter", type=Quantity("m"), required=True, help="Diameter of the disc, or length of the line.")
+@click.option("--rms", type=QuantityOption("m"), required=True, help="Rms height, exact in every realization.")
+@click.option(
+    "--diameter", type=QuantityOption("m"), required=True, help="Diameter of the disc, or length of the line."
+)
 @click.option("--unit", default="m", help="Unit of length, such as um; 1 if it does not matter.")
 @click.option("--seed", type=click.IntRange(min=0), required=True, help="The same seed gives the same surface.")
 @click.option("--roll-off", type=PositiveNumber(), help="Longest wavelength of the power law, in diameters.")
@@ -58,11 +66,16 @@ def generate(
     check_output(output)
     unit = unit if unit == units.UNKNOWN else units.length_unit(unit)
     rms, diameter = number_in(unit, rms, unit, "--rms"), number_in(unit, diameter, unit, "--diameter")
-    options = {"rms": rms, "roll_off_wavelength": roll_off, "roll_off_level": float(plateau), "seed": seed}
+    options: dict[str, Any] = {
+        "rms": rms,
+        "roll_off_wavelength": roll_off,
+        "roll_off_level": float(plateau),
+        "seed": seed,
+    }
     if elements:
         made = surfaces.self_affine_disc(hurst, elements, diameter=diameter, **options)
         what = f"disc of {elements} elements across, {made.elements} elements"
-    else:
+    elif points:
         made = surfaces.self_affine_line(hurst, points, length=diameter, **options)
         what = f"line of {points} points"
     content = surface_to_content(replace(made, length_unit=unit))

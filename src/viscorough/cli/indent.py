@@ -12,11 +12,14 @@ import click
 from viscorough.cli.elasticity import elastic_constants_options, elasticity, lengths
 from viscorough.cli.files import write_output
 from viscorough.cli.messages import announce
-from viscorough.cli.options import Increasing, PositiveNumber, Quantity, output_option, threads_option
+from viscorough.cli.options import Increasing, PositiveNumber, QuantityOption, output_option, threads_option
 from viscorough.cli.progress import progress_bar, progress_option
 from viscorough.cli.surface_options import heights_input, read_indenter
 from viscorough.errors import AccuracyWarning
 from viscorough.summaries import with_unit
+
+if TYPE_CHECKING:
+    from viscorough.units import Quantity
 
 if TYPE_CHECKING:
     from viscorough.cli.surface_options import Surface
@@ -31,7 +34,7 @@ if TYPE_CHECKING:
 @click.option("--forces", type=Increasing("N"), help="Levels at exactly these F/G, or F with a modulus.")
 @click.option("--tolerance", type=PositiveNumber(0.1), default=1e-3, help="Relative accuracy.")
 @click.option("--until-fraction", type=PositiveNumber(1), help="Contact fraction at which to stop  [default: 0.9]")
-@click.option("--until-force", type=Quantity("N"), help="F/G, or F with a modulus, at which to stop.")
+@click.option("--until-force", type=QuantityOption("N"), help="F/G, or F with a modulus, at which to stop.")
 @click.option("--audit", is_flag=True, help="Compare two integrals of the curve with their exact values.")
 @elastic_constants_options
 @threads_option

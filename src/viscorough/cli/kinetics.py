@@ -11,9 +11,12 @@ import click
 from viscorough.cli.elasticity import check_incompressible
 from viscorough.cli.files import check_output, printable_name, read_content, write_output
 from viscorough.cli.messages import announce
-from viscorough.cli.options import FILE, Increasing, Quantity, force_history_option, number_in, output_option
+from viscorough.cli.options import FILE, Increasing, QuantityOption, force_history_option, number_in, output_option
 from viscorough.errors import AccuracyWarning
 from viscorough.summaries import with_unit
+
+if TYPE_CHECKING:
+    from viscorough.units import Quantity
 
 if TYPE_CHECKING:
     from viscorough.io.netcdf import Content
@@ -26,9 +29,9 @@ _EXACT = "exact for every topography, without 1/Gamma(2 - alpha)"
 
 @click.command(short_help="Penetration over time in any linear viscoelastic half-space.")
 @click.argument("curve", type=FILE, metavar="CURVE.nc")
-@click.option("--force", type=Quantity("N"), help="Constant force F, applied at time 0.")
+@click.option("--force", type=QuantityOption("N"), help="Constant force F, applied at time 0.")
 @force_history_option
-@click.option("--viscosity", type=Quantity("Pa s"), help="Shear viscosity of a Newtonian half-space.")
+@click.option("--viscosity", type=QuantityOption("Pa s"), help="Shear viscosity of a Newtonian half-space.")
 @click.option("--medium", type=FILE, metavar="MEDIUM.yaml", help="Medium of the half-space, instead of --viscosity.")
 @click.option("--times", type=Increasing(), help="Times of the output  [default: of levels, or of the history]")
 @output_option("KIN.nc")
@@ -88,7 +91,7 @@ def kinetics(
     if force_history is not None:
         history = read_force_history(force_history, loading.length_unit)
         about["force"] = printable_name(force_history)
-    else:
+    elif force is not None:
         history = about["force"] = number_in("N", force, loading.length_unit, "--force")
     motion = correspondence.kinetics(loading, history, law, times)
     if force is not None and times is None and isinstance(law, Newtonian):
@@ -106,7 +109,7 @@ def _medium(viscosity: Quantity | None, medium: Path | None, length_unit: str) -
     from viscorough.io.media import read_medium
     from viscorough.viscous.media import CreepTable, Newtonian
 
-    if viscosity is None:
+    if medium is not None:
         law = read_medium(medium, length_unit)
         about = {"medium": printable_name(medium)}
         if not isinstance(law, CreepTable):
@@ -115,6 +118,7 @@ def _medium(viscosity: Quantity | None, medium: Path | None, length_unit: str) -
             "correspondence": "depth at a time is the elastic one at F/G = integral of J(t - s) dF(s), velocity is its "
             f"derivative over k/G there; {_EXACT}"
         }
+    assert viscosity is not None
     number = number_in("Pa s", viscosity, length_unit, "--viscosity")
     return Newtonian(number), {
         "viscosity": number,
@@ -142,8 +146,8 @@ def _content(
     if np.ndim(history) == 0 and of_levels:
         title = "Penetration of a rigid indenter into a linearly viscous half-space under a constant force"
         return with_motion(content, motion.time, motion.velocity), title
-    force = history
-    if np.ndim(history) > 0:
+    force: Any = history
+    if not isinstance(history, float):
         at_samples = np.array_equal(motion.time, history.times)
         force = history.force if at_samples else np.interp(motion.time, history.times, history.force)
     unknown = np.count_nonzero(~np.isfinite(motion.depth) | ~np.isfinite(motion.velocity))

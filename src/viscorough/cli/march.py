@@ -13,7 +13,7 @@ from viscorough.cli.options import (
     FILE,
     Increasing,
     PositiveNumber,
-    Quantity,
+    QuantityOption,
     force_history_option,
     number_in,
     output_option,
@@ -21,6 +21,10 @@ from viscorough.cli.options import (
 from viscorough.cli.progress import progress_bar, progress_option
 from viscorough.cli.surface_options import heights_input, read_indenter
 from viscorough.summaries import with_unit
+
+if TYPE_CHECKING:
+    from viscorough.units import Quantity
+    from viscorough.viscous.integration.internal_variables import MediumMotion
 
 if TYPE_CHECKING:
     from viscorough.cli.surface_options import Surface
@@ -43,8 +47,8 @@ _OF_MEDIA = ("events", "implicit", "second_order")  # methods that integrate vis
     help="events: exactly from one contact event to the next; or in time steps by the forward Euler (explicit), "
     "Heun (heun) or backward Euler method (implicit), or with --medium by one of second order.",
 )
-@click.option("--force", type=Quantity("N"), help="Constant force F  [default: 1]")
-@click.option("--viscosity", type=Quantity("Pa s"), help="Shear viscosity  [default: 1]")
+@click.option("--force", type=QuantityOption("N"), help="Constant force F  [default: 1]")
+@click.option("--viscosity", type=QuantityOption("Pa s"), help="Shear viscosity  [default: 1]")
 @click.option("--medium", type=FILE, metavar="MEDIUM.yaml", help="Medium, as for kinetics, instead of --viscosity.")
 @click.option("--times", type=Increasing(), help="Ends of the time steps; for events with --medium, times of output.")
 @force_history_option
@@ -98,11 +102,11 @@ def march(
     unit = indenter.length_unit
     force = 1.0 if force is None else number_in("N", force, unit, "--force")
     viscosity = 1.0 if viscosity is None else number_in("Pa s", viscosity, unit, "--viscosity")
-    about = {"medium": printable_name(medium)} if medium else {"viscosity": viscosity}
+    about: dict[str, Any] = {"medium": printable_name(medium)} if medium else {"viscosity": viscosity}
     about["force"] = printable_name(force_history) if force_history else force
     history = _read_history(force_history, unit) if force_history else None
     given = {"until_fraction": until_fraction, "overlap": overlap}
-    options = {name: value for name, value in given.items() if value is not None}
+    options: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     with progress_bar("viscorough march", progress) as report:
         if medium:
             content = _in_medium(indenter, method, medium, force, times, history, progress=report, **options)
@@ -186,12 +190,14 @@ def _in_medium(
     from viscorough.viscous.integration.internal_variables import march_medium
 
     law = read_medium(medium, indenter.length_unit)
-    times, forces = history[:2] if history else ([0.0, *times], [force] * (1 + len(times)))
+    steps: Any = times
+    loads: Any
+    steps, loads = history[:2] if history else ([0.0, *steps], [force] * (1 + len(steps)))
     if method == "events":
-        moved = march_medium_events(indenter, law, times, force=forces, **options)
+        moved: MediumMotion = march_medium_events(indenter, law, steps, force=loads, **options)
     else:
         scheme = "backward_euler" if method == "implicit" else method
-        moved = march_medium(indenter, law, times, force=forces, scheme=scheme, **options)
+        moved = march_medium(indenter, law, steps, force=loads, scheme=scheme, **options)
     return medium_motion_to_content(moved)
 
 

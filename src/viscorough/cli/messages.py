@@ -1,6 +1,7 @@
 """What the command line writes to standard output and standard error, which may be closed, full or of few letters."""
 
 import contextlib
+import io
 import os
 import sys
 from pathlib import Path
@@ -48,7 +49,7 @@ def report(command: str, error: BaseException) -> None:
 
 def escape_letters_without_code() -> None:
     """Write letters that the encoding of standard output lacks, as in names of files, with backslashes."""
-    if getattr(sys.stdout, "errors", None) == "strict":
+    if isinstance(sys.stdout, io.TextIOWrapper) and sys.stdout.errors == "strict":
         sys.stdout.reconfigure(errors="backslashreplace")
 
 

@@ -1,11 +1,16 @@
 """Types of options, and options, that the commands of the command line share."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
+
+if TYPE_CHECKING:
+    from viscorough.units import Quantity
 
 
 class PositiveNumber(click.ParamType):
@@ -27,7 +32,7 @@ class PositiveNumber(click.ParamType):
         return number
 
 
-class Quantity(click.ParamType):
+class QuantityOption(click.ParamType):
     """A finite number above 0, plain or with a unit that measures the same as `unit`, such as "5 mN" for "N".
 
     Converted to a viscorough.units.Quantity; number_in gives the number that the solvers need.
@@ -79,8 +84,8 @@ class Increasing(click.ParamType):
         self.unit = unit
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        entry_type = Quantity(self.unit) if self.unit else PositiveNumber()
-        entries = [entry_type.convert(entry.strip(), param, ctx) for entry in value.split(",")]
+        entry_type: click.ParamType = QuantityOption(self.unit) if self.unit else PositiveNumber()
+        entries: list[Any] = [entry_type.convert(entry.strip(), param, ctx) for entry in value.split(",")]
         if self.unit and len({bool(entry.unit) for entry in entries}) == 2:
             self.fail(f"{value!r}: some numbers have a unit; all or none of them may have one", param, ctx)
         for last, entry in pairwise(entries):
@@ -96,7 +101,7 @@ def output_option(metavar: str, table: bool = True) -> Callable[..., Any]:
     """Decorator that adds -o/--output to a command; `table` says whether the results can also be written as CSV."""
     text = "File to write or replace" + ("; as a table if it ends in .csv." if table else ".")
 
-    def check(context: click.Context, parameter: click.Parameter, path: Path | None) -> Path | None:
+    def check(context: click.Context, parameter: click.Parameter, path: Path) -> Path:
         if path.suffix.lower() == ".csv" and not table:
             raise click.BadParameter(f"{path}: maps are no table; a NetCDF file (.nc) is needed", context, parameter)
         return path

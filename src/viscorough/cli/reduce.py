@@ -59,7 +59,6 @@ def reduce(
 
     line_or_map = surface.path
     check_output(output, heights=line_or_map)
-    options = {"until_fraction": until_fraction or 1.0}
     about = {"heights": printable_name(line_or_map)}
     if dimensions_of_heights(line_or_map) == 1:
         if realizations or seed is not None:
@@ -78,7 +77,7 @@ def reduce(
     curves = []
     with progress_bar("viscorough reduce", progress) as report:
         for line in lines:
-            curves.append(mdr.reduce(line, **options))
+            curves.append(mdr.reduce(line, until_fraction=until_fraction or 1.0))
             report(len(curves) / (realizations or 1))
     content = curve_to_content(curves[0]) if len(curves) == 1 else stack_curves(curves)
     write_output(content, output, **about)

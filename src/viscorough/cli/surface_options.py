@@ -13,8 +13,11 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscorough.cli.files import check_opens, check_output, printable_name
-from viscorough.cli.options import FILE, Quantity
+from viscorough.cli.options import FILE, QuantityOption
 from viscorough.errors import AccuracyWarning
+
+if TYPE_CHECKING:
+    from viscorough.units import Quantity
 
 if TYPE_CHECKING:
     from viscorough.indenter import Indenter
@@ -36,7 +39,7 @@ class Surface:
     channel: str | None = None
     preparation: dict = field(default_factory=dict)
 
-    def attributes(self, indenter: Indenter) -> dict[str, float | str]:
+    def attributes(self, indenter: Indenter) -> dict[str, object]:
         """What an output file says about the surface and how it was read and prepared."""
         attributes = {"heights": printable_name(self.path), "spacing": indenter.spacing}
         attributes |= {"row_spacing": indenter.row_spacing, "length_unit": indenter.length_unit}
@@ -50,7 +53,7 @@ def _spacing(value: str) -> tuple[Quantity, Quantity]:
     entries = value.split(",")
     if len(entries) > 2:
         raise click.BadParameter(f"{value!r} has {len(entries)} distances; DX or DX,DY is allowed")
-    distances = [Quantity("m").convert(entry.strip(), None, None) for entry in entries]
+    distances = [QuantityOption("m").convert(entry.strip(), None, None) for entry in entries]
     return distances[0], distances[-1]
 
 
@@ -63,7 +66,7 @@ def _length_unit(value: str) -> str:
         raise click.BadParameter(str(error)) from error
 
 
-def _numbers(value: str) -> tuple[float, ...]:
+def _numbers(value: str) -> list[float]:
     """Numbers separated by commas, of any sign."""
     try:
         numbers = [float(entry) for entry in value.split(",")]
@@ -74,7 +77,7 @@ def _numbers(value: str) -> tuple[float, ...]:
     return numbers
 
 
-def _crop(value: str) -> tuple[int, ...] | str:
+def _crop(value: str) -> tuple[tuple[int, int], tuple[int, int]]:
     """Columns and rows to keep, FIRST:END each."""
     match = re.fullmatch(r"(\d{1,9}):(\d{1,9}),(\d{1,9}):(\d{1,9})", value, re.ASCII)
     if match is None:
@@ -94,7 +97,7 @@ _OPTIONS = (
     click.option(
         "--unit", type=_length_unit, metavar="UNIT", help="Unit of heights, such as um, if the file has none."
     ),
-    click.option("--scale", type=Quantity("m"), help="Factor of the heights, such as 0.053 nm per count."),
+    click.option("--scale", type=QuantityOption("m"), help="Factor of the heights, such as 0.053 nm per count."),
     click.option("--channel", help="Name or number of the map to read from a file that holds several."),
     click.option("--nodata", type=_numbers, metavar="VALUE", help="Values, such as -9999, of points not measured."),
     click.option("--crop", type=_crop, metavar="X0:X1,Y0:Y1", help="Columns and rows to keep, from 0, ends excluded."),

@@ -35,7 +35,7 @@ class ContactEvents(NamedTuple):
     depth: np.ndarray
     pressure_sum: np.ndarray
     tangent_sum: np.ndarray
-    count: np.ndarray
+    count: np.ndarray  # type: ignore[assignment]  # in place of the method of a tuple
 
 
 @njit

@@ -101,8 +101,8 @@ def indent(
     depth = solver.units.length * np.array([level.depth for level in levels])
     force = solver.units.force * np.array([level.pressure_sum for level in levels])
     return LoadingCurve(
-        depth=depth if depths is None else depths,
-        force=force if forces is None else forces,
+        depth=depth if depths is None else np.asarray(depths),
+        force=force if forces is None else np.asarray(forces),
         stiffness=solver.units.stiffness * np.array([level.tangent_sum for level in levels]),
         contact_count=np.array([level.count for level in levels]),
         elements=solver.elements.count,

@@ -1,6 +1,7 @@
 """The contact at a given depth or force, with its maps, without a loading curve."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -57,6 +58,7 @@ def contact_at(
     unit = indenter.length_unit
     if shear_modulus is not None:
         shear_modulus = positive("shear_modulus", units.number(shear_modulus, "Pa", unit, "shear_modulus"))
+    given: Any
     if by_depth:
         given = units.numbers(depth, unit, unit, "depth")
     else:
@@ -84,14 +86,16 @@ def _states_at_depths(solver: ContactSolver, depths: Array) -> Iterator[ContactS
 def _states_at_forces(solver: ContactSolver, forces: Array, progress: Progress) -> Iterator[ContactState]:
     search = ForceSearch(solver)
     for number, force in enumerate(forces):
-        # The last contacts, near the force, take the rest of the time.
-        yield search.contact_at(
-            force, lambda share, number=number: progress((number + _SHARE_OF_APPROACH * share) / forces.size)
-        )
+
+        def report(share: float, number: int = number) -> None:
+            # The last contacts, near the force, take the rest of the time.
+            progress((number + _SHARE_OF_APPROACH * share) / forces.size)
+
+        yield search.contact_at(force, report)
 
 
 def _contact(
-    indenter: Indenter, tolerance: float, solver: ContactSolver, state: ContactState, given: dict[str, float | None]
+    indenter: Indenter, tolerance: float, solver: ContactSolver, state: ContactState, given: dict[str, Any]
 ) -> Contact:
     """The Contact of a ContactState, with the depth or force that was given instead of its rounded value."""
     place = solver.elements.map_place
@@ -100,7 +104,7 @@ def _contact(
     loads = state.member_loads()
     rows, columns = (positions[loads.members] for positions in place)
     pressure[rows, columns] = loads.pressure * solver.units.pressure
-    quantities = {"depth": state.depth, "force": state.force, "stiffness": state.stiffness} | given
+    quantities: dict[str, Any] = {"depth": state.depth, "force": state.force, "stiffness": state.stiffness} | given
     return Contact(
         pressure=pressure,
         gap=gap,

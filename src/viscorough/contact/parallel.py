@@ -23,9 +23,10 @@ MOST_THREADS = 1024
 _CACHE_LINE = 64
 
 
-def require_threads(name: str, threads: object) -> None:
+def require_threads(name: str, threads: Any) -> None:
     """Raise ValueError, which starts with the name, unless `threads` is a whole number from 1 to MOST_THREADS."""
-    if not isinstance(threads, Integral) or isinstance(threads, bool) or not 1 <= threads <= MOST_THREADS:
+    whole = isinstance(threads, Integral) and not isinstance(threads, bool)
+    if not whole or not 1 <= threads <= MOST_THREADS:
         raise ValueError(f"{name}: threads must be a whole number from 1 to {MOST_THREADS}, not {threads!r}")
 
 

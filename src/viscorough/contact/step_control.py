@@ -8,7 +8,6 @@ the bound; three times the bound is accepted where the depths at which elements 
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from viscorough.contact.grid import kernels
 from viscorough.contact.grid.loops import GridLoops
@@ -151,7 +150,7 @@ def _meeting(before: Level, after: Level) -> float:
     return missing / (rise * width) if rise > 0 else 0.5
 
 
-def interpolate(before: Level, after: Level, force: ArrayLike) -> Array:
+def interpolate(before: Level, after: Level, force: Array) -> Array:
     """Depths interpolated between two Levels at reduced forces ΣP, as LoadingCurve.at_force does."""
     forces, depths = (before.pressure_sum, after.pressure_sum), (before.depth, after.depth)
     stiffnesses = before.tangent_sum, after.tangent_sum

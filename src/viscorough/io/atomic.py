@@ -40,7 +40,7 @@ def check_readable(path: FilePath) -> None:
         raise ValueError(f"{path}: not readable (it is {kind}); a regular file is needed")
 
 
-def check_output(path: FilePath) -> None:
+def check_output(path: FilePath) -> Path:
     """The path with links resolved, so that a link's target is replaced and not the link.
 
     Raises ValueError unless the folder exists and is writable, the path does not exist yet or is a regular file, and

@@ -3,7 +3,7 @@
 import contextlib
 import itertools
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -42,7 +42,8 @@ def read_columns(path: FilePath, what: str, columns: dict[str, str], length_unit
     """
     if Path(path).suffix not in (".npy", ".csv"):
         raise ValueError(f"{path}: unknown kind of file; {what} is read from .csv and .npy")
-    names, factors = " and ".join(columns), (1.0, 1.0)
+    names = " and ".join(columns)
+    factors: Sequence[float] = (1.0, 1.0)
     if Path(path).suffix == ".npy":
         table = npy_array(path)
     else:
@@ -54,10 +55,10 @@ def read_columns(path: FilePath, what: str, columns: dict[str, str], length_unit
             raise ValueError(text) from error
     if table.ndim != 2 or table.shape[1] != 2 or table.shape[0] < 2 or table.dtype.kind not in "iuf":
         raise ValueError(f"{path}: has the shape {table.shape}; two columns, {names}, and two rows are needed")
-    return tuple(table[:, i].astype(float) * factors[i] for i in range(2))
+    return table[:, 0].astype(float) * factors[0], table[:, 1].astype(float) * factors[1]
 
 
-def _rows_and_factors(path: FilePath, wanted: Iterable[str], length_unit: str) -> tuple[Array, list[float]]:
+def _rows_and_factors(path: FilePath, wanted: Iterable[str], length_unit: str) -> tuple[Array, Sequence[float]]:
     """The numbers in a .csv file, and the factors that convert its columns to the units wanted."""
     lines = [line.strip() for line in Path(path).read_text(encoding="utf-8-sig").splitlines() if line.strip()]
     if missing := next(filter(_MISSING.match, lines), None):
@@ -119,7 +120,7 @@ def _is_another(unit: str, wanted: str) -> bool:
     return False
 
 
-def _starts_like_a_number(field: Array) -> bool:
+def _starts_like_a_number(field: str) -> bool:
     """Whether a field is a number, nan or infinite, or starts with a digit ("1N" is a mistake, not a heading)."""
     field = field.strip().lower()
     with contextlib.suppress(ValueError):

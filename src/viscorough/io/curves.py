@@ -60,7 +60,8 @@ def curve_from_content(content: Content) -> LoadingCurve:
     Raises ValueError if it holds none, for units that do not follow from that of the depth, and for numbers that no
     curve can have, within its tolerance.
     """
-    level_fields, curve_fields = {}, {}
+    level_fields: dict[str, Any] = {}
+    curve_fields: dict[str, Any] = {}
     for name in OVER_LEVELS:
         variable = content.variables.get(name)
         if variable is None and name not in STORED:
@@ -177,7 +178,7 @@ def stack_curves(curves: Sequence[LoadingCurve]) -> Content:
     attributes = {"long_name": "number of levels of the curve", "units": "1"}
     variables["levels"] = Variable(("realization",), levels, attributes)
     for name, (kind, long_name) in PER_CURVE.items():
-        values = np.array([getattr(curve, name) for curve in curves], dtype=object if kind is str else kind)
+        values: Any = np.array([getattr(curve, name) for curve in curves], dtype=object if kind is str else kind)
         attributes = {"long_name": long_name} | ({} if kind is str else {"units": "1"})
         variables[name] = Variable(("realization",), values, attributes)
     return Content(variables, {"title": "Loading curves of rigid indenters", "comment": COMMENT})
@@ -190,7 +191,7 @@ def unstack_curves(content: Content) -> list[LoadingCurve]:
     values = {name: content.variables[name].values for name in (*STORED, *PER_CURVE, "levels")}
     length_unit, curves = _length_unit(content), []
     for index, levels in enumerate(values["levels"].tolist()):
-        level_fields = {name: values[name][index, :levels] for name in STORED}
+        level_fields: dict[str, Any] = {name: values[name][index, :levels] for name in STORED}
         level_fields["contact_count"] = level_fields["contact_count"].astype(int)  # stored as floats because of nan
         curve_fields = {name: convert(values[name][index]) for name, (convert, _) in PER_CURVE.items()}
         curves.append(LoadingCurve(**level_fields, **curve_fields, length_unit=length_unit))

@@ -3,6 +3,8 @@
 The only module of the library that imports xarray.
 """
 
+from typing import Any
+
 import xarray as xr
 
 from viscorough.io import netcdf
@@ -19,7 +21,7 @@ def write_dataset(ds: xr.Dataset, path: FilePath) -> None:
     Raises ValueError for missing attributes and for a path that cannot be written, OSError if writing fails.
     """
     for name, variable in ds.data_vars.items():
-        netcdf.check_attributes(path, name, variable.dtype, variable.attrs)
+        netcdf.check_attributes(path, str(name), variable.dtype, variable.attrs)
     labels = {name: f"{name}_index" for name in ds.indexes if ds[name].dtype.kind not in "biuf"}
     ds = ds.reset_index(list(labels)).rename_dims(labels)
     encoding = {}
@@ -38,7 +40,7 @@ def read_dataset(path: FilePath) -> xr.Dataset:
 
     Raises a one-line ValueError if it is missing or damaged.
     """
-    as_stored = {"decode_times": False, "decode_timedelta": False}
+    as_stored: dict[str, Any] = {"decode_times": False, "decode_timedelta": False}
     with netcdf.faults_named(path), xr.open_dataset(path, engine="netcdf4", **as_stored) as ds:
-        labels = {dim: dim.removesuffix("_index") for dim in ds.dims if dim.endswith("_index")}
+        labels = {dim: dim.removesuffix("_index") for dim in map(str, ds.dims) if dim.endswith("_index")}
         return ds.load().drop_encoding().swap_dims(labels)

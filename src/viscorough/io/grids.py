@@ -7,6 +7,7 @@ from viscorough.types import Array, Integers
 _MERGED = 1e-6  # positions closer than this, relative to their range, are one
 _OFF_GRID = 0.05  # largest distance from the grid, relative to its spacing
 _LEAST_SHARE, _LEAST_POINTS = 0.5, 9  # of the grid, that rows of unknown meaning need to be taken for its points
+_Axis = tuple[Integers, int, float]  # index of each position, number of indices, spacing
 
 
 def gridded(points: Array, required: bool) -> tuple[Array, tuple[float, float]] | None:
@@ -17,14 +18,19 @@ def gridded(points: Array, required: bool) -> tuple[Array, tuple[float, float]] 
 
     Where a point of the grid is missing, the height is nan. Raises ValueError for required points that form no grid.
     """
-    fault, axes = None, []
+    fault: str | None = None
+    axes: list[_Axis] = []
     if points.shape[1] != 3:
         fault = f"{points.shape[1]} columns; three, x, y and z, are needed"
     elif not np.isfinite(points[:, :2]).all():
         fault = "x and y must be finite"
     else:
-        axes = [_axis(points[:, column]) for column in (0, 1)]
-        fault = next((axis for axis in axes if isinstance(axis, str)), None)
+        for column in (0, 1):
+            axis = _axis(points[:, column])
+            if isinstance(axis, str):
+                fault = fault or axis
+            else:
+                axes.append(axis)
     if fault is None:
         (column, columns, dx), (row, rows, dy) = axes
         if columns * rows > max(4 * len(points), 100):
@@ -42,7 +48,7 @@ def gridded(points: Array, required: bool) -> tuple[Array, tuple[float, float]] 
     return heights, (dx, dy)
 
 
-def _axis(positions: Array) -> tuple[Integers, int, float] | str:
+def _axis(positions: Array) -> _Axis | str:
     """(index of each position, number of indices, spacing) along an axis of equal spacing; a text about what it lacks.
 
     Positions may be rounded, and whole columns may be missing.

@@ -99,7 +99,7 @@ def read_header(lines: Sequence[str], shape: tuple[int, ...], delimiter: str | N
     statements = _statements(lines)
     columns, units_of_columns = _headings(lines, shape, delimiter)
     comma = decimal == "," or any(_OTHER_LANGUAGE.search(line) for line in lines)
-    stated = {role: [] for role in _ROLES}
+    stated: Stated = {role: [] for role in _ROLES}
     for role, line, unit, value in statements:
         if role:
             stated[role].append((line, unit, value))
@@ -204,7 +204,8 @@ def _spacing(
     stated: Stated, shape: tuple[int, ...], lateral: Sequence[str], comma: bool
 ) -> tuple[tuple[float, float] | None, str]:
     """((dx, dy), unit) that statements give; (None, "1") for none; nan for a direction without statement."""
-    steps, extents = ([], []), ([], [])
+    steps: list[list[tuple[float, str]]] = [[], []]
+    extents: list[list[tuple[float, str]]] = [[], []]
     axes_of = {"step x": (0,), "step y": (1,), "step": (0, 1), "extent x": (0,), "extent y": (1,), "extent": (0, 1)}
     for role, axes in axes_of.items():
         for line, bracket, value in stated[role]:
@@ -225,8 +226,8 @@ def _spacing(
     if not (any(steps) or all(extents)):  # a height alone may be one of the heights
         return None, "1"
     unit = next((unit for axis in (0, 1) for _, unit in steps[axis] + extents[axis] if unit), "")
-    found = tuple(_agreed_step(axis, steps[axis], extents[axis], shape[1 - axis], unit) for axis in (0, 1))
-    return found, unit or "1"
+    dx, dy = (_agreed_step(axis, steps[axis], extents[axis], shape[1 - axis], unit) for axis in (0, 1))
+    return (dx, dy), unit or "1"
 
 
 def _agreed_step(
@@ -265,7 +266,8 @@ def _headings(
 
     Raises ValueError for degrees, units that are none of length, and headings that differ.
     """
-    names, found = None, {}
+    names: tuple[str, ...] | None = None
+    found: dict[str, str] = {}
     for number, line in enumerate(lines):
         cells = _cells(line, delimiter)
         axes = [_axis(cell) for cell in cells]

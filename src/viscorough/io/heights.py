@@ -14,12 +14,11 @@ from viscorough.errors import AccuracyWarning
 from viscorough.indenter import Indenter
 from viscorough.io import netcdf
 from viscorough.io.atomic import check_readable, reason
-from viscorough.io.scan import Scan, Spacing, to_indenter, uniform_spacing
+from viscorough.io.scan import Distance, Scan, Spacing, to_indenter, uniform_spacing
 from viscorough.io.text import is_binary, read_text
 from viscorough.io.unpacking import unpacked
 from viscorough.preparation import doubts, prepare
 from viscorough.types import Array, FilePath
-from viscorough.units import Quantity
 
 TEXT = (".txt", ".csv", ".asc", ".dat", ".xyz", ".tsv")
 TIFF = (".tif", ".tiff")
@@ -27,11 +26,11 @@ TIFF = (".tif", ".tiff")
 
 def read_heights(
     path: FilePath,
-    spacing: Spacing | None = None,
+    spacing: Distance | Spacing | None = None,
     *,
     unit: str | None = None,
-    channel: str | int | None = None,
-    scale: float | str | None = None,
+    channel: str | None = None,
+    scale: float | str | units.Quantity | None = None,
     **preparation: Any,
 ) -> Indenter:
     """Read a map of heights as an Indenter: the highest point touches first, points that are nan lie outside it.
@@ -75,16 +74,16 @@ def _scaled(scan: Scan, scale: float | str | units.Quantity) -> Scan:
     return scan._replace(heights=scan.heights * number, unit=unit or scan.unit)
 
 
-def _pair(spacing: Spacing) -> tuple[Quantity, Quantity]:
+def _pair(spacing: Distance | Spacing) -> Spacing:
     """A spacing as (dx, dy)."""
     if not isinstance(spacing, tuple | list | np.ndarray):
         return spacing, spacing
     if len(spacing) != 2:
         raise ValueError(f"spacing {spacing!r}: one distance, or the two of columns and rows, is needed")
-    return tuple(spacing)
+    return spacing[0], spacing[1]
 
 
-def _read_scan(path: FilePath, channel: str | int | None) -> Scan:
+def _read_scan(path: FilePath, channel: str | None) -> Scan:
     """The Scan in a file, by the reader for its suffix."""
     check_readable(path)
     suffix = Path(path).suffix.lower()
@@ -119,7 +118,7 @@ def npy_array(path: FilePath) -> NDArray[Any]:
         raise ValueError(f"{path}: not readable ({reason(error)}); a .npy file of numbers is needed") from error
 
 
-def _netcdf_scan(path: FilePath, channel: str | int | None) -> Scan:
+def _netcdf_scan(path: FilePath, channel: str | None) -> Scan:
     """The variable named `channel` of a NetCDF file, or `heights`, or else the only one with two dimensions."""
     with netcdf.opened(path) as file:
         maps = [name for name, variable in file.variables.items() if variable.ndim == 2]

@@ -10,10 +10,10 @@ from viscorough import units
 from viscorough.errors import AccuracyWarning
 from viscorough.io.atomic import reason
 from viscorough.io.scan import Scan
-from viscorough.types import Array, FilePath
+from viscorough.types import FilePath
 
 
-def read_instrument(path: FilePath, channel: str | int | None = None) -> Scan:
+def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
     """The Scan in a file of any format that SurfaceTopography knows; its formats are told apart by their contents.
 
     channel : name or number of the channel, from 0. By default the first one of heights, with a warning that names the
@@ -49,15 +49,17 @@ def read_instrument(path: FilePath, channel: str | int | None = None) -> Scan:
         text = "states that it is one period of a periodic surface; it is treated as a body with edges"
         warnings.warn(f"{path}: {text}", AccuracyWarning, stacklevel=2)
     unit = chosen.unit or units.UNKNOWN
-    spacing = None if chosen.physical_sizes is None else tuple(map(float, chosen.pixel_size))
-    return Scan(heights.T, unit, spacing, unit)
+    if chosen.physical_sizes is None:
+        return Scan(heights.T, unit, None, unit)
+    dx, dy = map(float, chosen.pixel_size)
+    return Scan(heights.T, unit, (dx, dy), unit)
 
 
 class _NoHeightsError(ValueError):
     """A file without the channel that was asked for."""
 
 
-def _choose(file: Any, wanted: str | int | None) -> Any:
+def _choose(file: Any, wanted: str | None) -> Any:
     """The channel to read, and the names of the other channels of heights if none was asked for."""
     maps = [channel for channel in file.channels if channel.dim == 2]
     if not maps:
@@ -86,6 +88,6 @@ def _holds_heights(channel: Any) -> bool:
         return False
 
 
-def _placeholders(channel: Any) -> Array:
+def _placeholders(channel: Any) -> dict[str, Any]:
     """What SurfaceTopography requires of files that state no size; the size of a pixel is not used then."""
     return {"physical_sizes": channel.nb_grid_pts} if channel.physical_sizes is None else {}

@@ -1,7 +1,7 @@
 """Media in YAML files: one mapping with the kind of medium and its parameters."""
 
 import contextlib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +21,7 @@ from viscorough.viscous.medium import Medium
 
 MODULUS, VISCOSITY, TIME, PLAIN = "Pa", "Pa s", "s", ""
 # Kinds of media, and their keys with the units that numbers in them may have. The keys are fields of the class.
-KINDS = {
+KINDS: dict[str, tuple[Callable[..., media.Medium], dict[str, Any]]] = {
     "newtonian": (media.Newtonian, {"viscosity": VISCOSITY}),
     "maxwell": (media.Maxwell, {"shear_modulus": MODULUS, "viscosity": VISCOSITY}),
     "kelvin_voigt": (media.KelvinVoigt, {"shear_modulus": MODULUS, "viscosity": VISCOSITY}),

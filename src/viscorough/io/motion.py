@@ -40,7 +40,7 @@ def _with_time_and_velocity(content: Content, time: Array, velocity: Array) -> C
     return Content(content.variables | added, content.attributes)
 
 
-def _over_levels(values: Array, long_name: str, unit: str) -> Variable:
+def _over_levels(values: Any, long_name: str, unit: str) -> Variable:
     return Variable(("level",), values, {"long_name": long_name, "units": unit})
 
 
@@ -78,7 +78,7 @@ def medium_motion_to_content(motion: MediumMotion) -> Content:
     variables = {"time": _time(motion.time), **_of_levels(unit, depth=motion.depth)}
     variables |= {"force": _force(motion.force, unit), **_of_levels(unit, contact_count=motion.contact_count)}
     title = "Penetration of a rigid indenter into a viscoelastic half-space, integrated directly in time"
-    attributes = {"title": title}
+    attributes: dict[str, Any] = {"title": title}
     if np.isfinite(motion.receding_from):
         text = "From the time receding_from on the contact recedes; no elastic contact corresponds to it."
         attributes |= {"receding_from": motion.receding_from, "comment": text}

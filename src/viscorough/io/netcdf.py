@@ -49,7 +49,7 @@ def compression(size: int) -> dict[str, Any]:
     return {"zlib": True, "complevel": 4, "shuffle": True} if size >= COMPRESSED_FROM else {}
 
 
-def check_attributes(path: FilePath, name: str, dtype: np.dtype[Any] | type, attributes: Mapping[str, Any]) -> None:
+def check_attributes(path: FilePath, name: str, dtype: np.dtype[Any], attributes: Mapping[str, Any]) -> None:
     """Raise ValueError unless a variable has `long_name` and, if it holds numbers, `units`."""
     needed = ("long_name", "units") if dtype.kind in "biufc" else ("long_name",)
     present = {attribute for attribute, value in attributes.items() if isinstance(value, str) and value}

@@ -9,7 +9,8 @@ from viscorough.indenter import Indenter, positive
 from viscorough.types import Array
 from viscorough.units import Quantity
 
-Spacing = tuple[float | units.Quantity, float | units.Quantity]  # between columns and between rows
+Distance = float | units.Quantity
+Spacing = tuple[Distance, Distance]  # between columns and between rows
 _AGREEMENT = 1e-3  # relative difference up to which a spacing that is given agrees with the file's
 _UNIFORMITY = 1e-2  # deviation from equal spacing that rounding of coordinates may cause, relative to the spacing
 
@@ -49,18 +50,19 @@ def to_indenter(scan: Scan, spacing: Spacing | None = None, unit: str | None = N
     stated = _stated_spacing(scan, length_unit, spacing)
     if spacing is not None and stated is None:
         _check_unit_of_spacing(scan, length_unit, spacing)
-    spacing = None if spacing is None else tuple(_number(distance, length_unit) for distance in spacing)
-    if spacing is None and (stated is None or not np.isfinite(stated).all()):
+    given = None if spacing is None else (_number(spacing[0], length_unit), _number(spacing[1], length_unit))
+    if given is None and (stated is None or not np.isfinite(stated).all()):
         which = "neighbouring points" if stated is None else "columns" if np.isnan(stated[0]) else "rows"
         raise ValueError(f"the distance between {which} is not stated; --spacing is needed")
-    if spacing is not None and stated is not None:
-        for name, given, in_file in zip(("columns", "rows"), spacing, stated, strict=True):
-            if abs(given - in_file) > _AGREEMENT * in_file:
+    if given is not None and stated is not None:
+        for name, own, in_file in zip(("columns", "rows"), given, stated, strict=True):
+            if abs(own - in_file) > _AGREEMENT * in_file:
                 unit = "" if length_unit == units.UNKNOWN else f" {length_unit}"
-                text = f"--spacing {given:g}{unit} contradicts the file, in which {name} are {in_file:g}{unit} apart"
+                text = f"--spacing {own:g}{unit} contradicts the file, in which {name} are {in_file:g}{unit} apart"
                 raise ValueError(f"{text}; leave it out")
-    dx, dy = spacing if stated is None or np.isnan(stated).any() else stated
-    return Indenter(heights, dx, dy, length_unit=length_unit)
+    known = stated if given is None or (stated is not None and np.isfinite(stated).all()) else given
+    assert known is not None
+    return Indenter(heights, *known, length_unit=length_unit)
 
 
 def _check_unit_of_spacing(scan: Scan, length_unit: str, spacing: Spacing) -> None:
@@ -110,10 +112,11 @@ def _stated_spacing(scan: Scan, length_unit: str, given: Spacing | None) -> tupl
     if length_unit == units.UNKNOWN:
         raise ValueError(f"coordinates are in {unit}, heights in no stated unit; --unit is needed")
     factor = units.factor(unit, length_unit)
-    return tuple(float(f"{factor * distance:.14g}") for distance in scan.spacing)
+    dx, dy = (float(f"{factor * distance:.14g}") for distance in scan.spacing)
+    return dx, dy
 
 
-def _check_ratio(stated: tuple[float, float], given: tuple[float, float]) -> None:
+def _check_ratio(stated: tuple[float, float], given: Spacing) -> None:
     """Raise ValueError unless a given spacing is one power of ten times that stated without a unit."""
     lengths = [each.number if isinstance(each, units.Quantity) else each for each in given]
     powers = np.log10([a / b for a, b in zip(lengths, stated, strict=True) if a > 0 and b > 0])

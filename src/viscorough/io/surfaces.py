@@ -8,7 +8,7 @@ from netCDF4 import Dataset
 from viscorough.indenter import Indenter
 from viscorough.io.heights import are_indices, npy_array, positions_along, unit_of
 from viscorough.io.netcdf import Content, Variable, opened
-from viscorough.io.scan import Scan, Spacing, to_indenter, uniform_spacing
+from viscorough.io.scan import Distance, Scan, to_indenter, uniform_spacing
 from viscorough.io.unpacking import unpacked
 from viscorough.types import FilePath
 
@@ -27,7 +27,7 @@ def surface_to_content(indenter: Indenter) -> Content:
     return Content(variables, {"title": "Heights of a rigid indenter; larger is higher and touches first"})
 
 
-def read_line(path: FilePath, spacing: Spacing | None = None, unit: str | None = None) -> Indenter:
+def read_line(path: FilePath, spacing: Distance | None = None, unit: str | None = None) -> Indenter:
     """Read the heights of a line as an Indenter, for the method of reduction of dimensionality (mdr.reduce).
 
     path : .npy of shape (points,), or .nc with a variable `heights` of one dimension, or only one such variable
@@ -42,7 +42,9 @@ def read_line(path: FilePath, spacing: Spacing | None = None, unit: str | None =
         kind = f"type {scan.heights.dtype} and shape {scan.heights.shape}"
         raise ValueError(f"{path}: heights are of {kind}; a line is needed")
     try:
-        row = to_indenter(scan._replace(heights=scan.heights[None]), spacing and (spacing, spacing), unit)
+        row = to_indenter(
+            scan._replace(heights=scan.heights[None]), None if spacing is None else (spacing, spacing), unit
+        )
         return Indenter(row.heights[0], row.spacing, length_unit=row.length_unit)
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from error
@@ -58,7 +60,7 @@ def dimensions_of_heights(path: FilePath) -> int:
         return 1 if _line_in(file) else 2
 
 
-def _line_in(file: Dataset) -> str:
+def _line_in(file: Dataset) -> str | None:
     """Name of the variable with the heights of a line in an open NetCDF file; None if there is none."""
     if "heights" in file.variables:
         return "heights" if file["heights"].ndim == 1 else None

@@ -332,7 +332,7 @@ def _scan_of_points(grid: tuple[Array, tuple[float, float]], header: Header) -> 
 
 def _esri(lines: Sequence[str]) -> dict[str, float]:
     """The keys of an ESRI grid in lines, and their numbers. Raises ValueError for no number, and for two of a key."""
-    found = {}
+    found: dict[str, float] = {}
     for number, line in enumerate(lines, 1):
         if match := _ESRI_KEY.match(line):
             key, text = match[1].lower(), match[2].lower().replace(",", ".").replace("d", "e")
@@ -360,5 +360,5 @@ def _esri_scan(table: Array, esri: dict[str, float]) -> Scan:
     # Marks such as -3.4e38 are printed with few digits.
     missing = np.isclose(table, mark, rtol=1e-5, atol=0) if abs(mark) > 1e30 else table == mark
     heights = np.where(missing, np.nan, table)
-    sides = esri.get("dx", esri.get("cellsize")), esri.get("dy", esri.get("cellsize"))
-    return Scan(heights, spacing=None if None in sides else sides)
+    dx, dy = (esri.get(key, esri.get("cellsize")) for key in ("dx", "dy"))
+    return Scan(heights, spacing=None if dx is None or dy is None else (dx, dy))

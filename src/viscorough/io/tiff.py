@@ -1,17 +1,21 @@
 """Maps of heights in TIFF files: of one channel, with the spacing that GeoTIFF or ImageJ tags state."""
 
+from __future__ import annotations
+
 import logging
 import xml.etree.ElementTree as ElementTree
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
-import tifffile
 from numpy.typing import NDArray
 
 from viscorough import units
 from viscorough.io.atomic import reason
 from viscorough.io.scan import Scan
 from viscorough.types import FilePath
+
+if TYPE_CHECKING:
+    import tifffile
 
 _PARK_SYSTEMS = 50432  # tag of the atomic force microscopes whose heights are not in the picture
 _LINEAR_UNITS = {9001: "m", 9002: "foot", 9003: "survey_foot", 9036: "km"}
@@ -21,7 +25,7 @@ _GDAL_METADATA = 42112
 logging.getLogger("tifffile").addHandler(logging.NullHandler())
 
 
-def read_tiff(path: FilePath, channel: str | int | None = None) -> Scan:
+def read_tiff(path: FilePath, channel: str | None = None) -> Scan:
     """The Scan in a TIFF file.
 
     channel : number of the page, from 0; needed if the file has several of the same size
@@ -53,9 +57,9 @@ def read_tiff(path: FilePath, channel: str | int | None = None) -> Scan:
     return Scan(heights, unit, spacing, spacing_unit)
 
 
-def _page(file: tifffile.TiffFile, channel: str | int | None) -> Any:
+def _page(file: tifffile.TiffFile, channel: str | None) -> Any:
     """The page that holds the heights."""
-    pages = [page for page in file.pages if page.imagewidth and not page.is_reduced]
+    pages: list[Any] = [page for page in cast(Any, file.pages) if page.imagewidth and not page.is_reduced]
     if not pages:
         raise ValueError("it has no picture")
     if channel is None and len(pages) > 1 and _PARK_SYSTEMS not in pages[0].tags:
@@ -97,7 +101,7 @@ def _stated(file: tifffile.TiffFile, page: Any) -> tuple[Any, ...]:
     return None, "1", "1"
 
 
-def _unit_of_imagej(text: str) -> str:
+def _unit_of_imagej(text: str | None) -> str:
     """A unit of ImageJ, in which µ is escaped; "1" for none, and for numbers of points."""
     unit = str(text or "").strip().strip("\x00").replace("\\u00B5", "µ").replace("\\u00b5", "µ")
     return "1" if not unit or units.counts_points(unit) else unit
@@ -115,8 +119,8 @@ def _scaling(file: tifffile.TiffFile, page: Any) -> tuple[float, float, str]:
     roles = {}
     if _GDAL_METADATA in page.tags:
         for item in ElementTree.fromstring(str(page.tags[_GDAL_METADATA].value).strip("\x00 ")).iter("Item"):
-            if item.get("role") and item.get("sample", "0") == "0":
-                roles[item.get("role").lower()] = (item.text or "").strip()
+            if (role := item.get("role")) and item.get("sample", "0") == "0":
+                roles[role.lower()] = (item.text or "").strip()
     return float(roles.get("scale", 1)), float(roles.get("offset", 0)), roles.get("unittype") or "1"
 
 

@@ -20,7 +20,7 @@ the sphere). Where Φ decreases the contact recedes, and the correspondence ends
 """
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -59,7 +59,9 @@ class Kinetics(ReadOnlyArrays, Summarised):
         known, unit = self.length_unit != units.UNKNOWN, self.length_unit
         spans = ("time t", self.time, "s" if known else unit), ("depth u", self.depth, unit)
         spans += (("velocity v", self.velocity, velocity_unit(unit) if known else unit),)
-        return f"Penetration at {self.time.size} times", *([(name, span(*values))] for name, *values in spans)
+        return f"Penetration at {self.time.size} times", *(
+            [(name, span(values, stated))] for name, values, stated in spans
+        )
 
 
 class ForceHistory(NamedTuple):
@@ -102,24 +104,24 @@ def kinetics(
     medium = medium_of(medium, curve.length_unit)
     if times is None and isinstance(force, ForceHistory):
         times = force.times
-    force = consistent_force(force, curve.length_unit)
-    constant = np.ndim(force) == 0
-    if constant and not (np.isfinite(force) and force > 0):
-        raise ValueError(f"constant force: {force}; allowed: a finite number above 0")
+    load: Any = consistent_force(force, curve.length_unit)
+    constant = np.ndim(load) == 0
+    if constant and not (np.isfinite(load) and load > 0):
+        raise ValueError(f"constant force: {load}; allowed: a finite number above 0")
     if times is None:
         if not constant:
             raise ValueError("times: missing; a force given as samples needs the time of each sample")
-        return _at_levels(curve, force, medium)
+        return _at_levels(curve, load, medium)
     if isinstance(medium, Newtonian):
-        return _newtonian_kinetics(curve, force, medium.viscosity, times)
-    times, creep, rate = _creep(force, medium, times)
+        return _newtonian_kinetics(curve, load, medium.viscosity, times)
+    times, creep, rate = _creep(load, medium, times)
     depth, stiffness = _at_elastic_force(curve, creep, times)
     with np.errstate(invalid="ignore"):
         velocity = np.where(creep == 0, 0.0, np.maximum(rate, 0) / stiffness)
     return Kinetics(times, depth, velocity, curve.length_unit)
 
 
-def consistent_force(force: ArrayLike | ForceHistory, length_unit: str) -> float | Array | ForceHistory:
+def consistent_force(force: Any, length_unit: str) -> Any:
     """A force in N as one that is consistent with moduli in Pa and the unit of length of an indenter.
 
     force : a number, a text with a unit, samples or a ForceHistory; it is returned unchanged if the unit is not known
@@ -130,9 +132,7 @@ def consistent_force(force: ArrayLike | ForceHistory, length_unit: str) -> float
     return units.number(force, "N", length_unit, "force") / area if np.ndim(force) == 0 else read_only(force) / area
 
 
-def _newtonian_kinetics(
-    curve: LoadingCurve, force: ArrayLike | ForceHistory, viscosity: float, times: ArrayLike
-) -> Kinetics:
+def _newtonian_kinetics(curve: LoadingCurve, force: ForceHistory | Any, viscosity: float, times: ArrayLike) -> Kinetics:
     """Kinetics in a Newtonian medium, of which the impulse is the state."""
     history, place = resampled(force, times)
     times, force, impulse = (values[place] for values in history)
@@ -168,19 +168,21 @@ def _at_levels(curve: LoadingCurve, force: float, medium: Medium) -> Kinetics:
     return Kinetics(time, depth, velocity, curve.length_unit)
 
 
-def _creep(force: ArrayLike | ForceHistory, medium: Medium, times: ArrayLike) -> tuple[Array, Array, Array]:
+def _creep(force: ForceHistory | Any, medium: Medium, times: ArrayLike) -> tuple[Array, Array, Array]:
     """Times, Φ and dΦ/dt there."""
     if np.ndim(force) > 0:
         history, place = resampled(force, times)
-        return history.times[place], *(values[place] for values in creep_response(medium, history))
-    times = impulses(force, times).times
+        creep, rate = creep_response(medium, history)
+        return history.times[place], creep[place], rate[place]
+    load: Any = force
+    times = impulses(load, times).times
     if times[-1] > medium.last_time:
         raise ValueError(f"times: up to {times[-1]:g}; allowed: up to the last time of the table, {medium.last_time:g}")
     with np.errstate(over="ignore"):
-        return times, force * medium.creep_compliance(times), force * medium.creep_rate(times)
+        return times, load * medium.creep_compliance(times), load * medium.creep_rate(times)
 
 
-def resampled(force: ArrayLike | ForceHistory, times: ArrayLike) -> tuple[ForceHistory, Integers]:
+def resampled(force: ForceHistory | Any, times: ArrayLike) -> tuple[ForceHistory, Integers]:
     """The ForceHistory with samples at `times` added, and the indices of those; after a step, where one is.
 
     force, times : as of `impulses`, or a ForceHistory and times within it
@@ -203,7 +205,7 @@ def resampled(force: ArrayLike | ForceHistory, times: ArrayLike) -> tuple[ForceH
     return history, np.searchsorted(history.times, times, side="right") - 1
 
 
-def impulses(force: ArrayLike, times: ArrayLike) -> ForceHistory:
+def impulses(force: Any, times: ArrayLike) -> ForceHistory:
     """The ForceHistory of a force F(t) ≥ 0 at the given times.
 
     force : a constant F > 0 from t = 0 on, or samples of shape (times,), linear in between, from times[0] on

@@ -13,7 +13,7 @@ import numpy as np
 
 from viscorough.compilation import njit
 from viscorough.types import Array, Integers
-from viscorough.viscous.medium import Medium
+from viscorough.viscous.medium import Medium, RetardationSpectrum
 
 if TYPE_CHECKING:
     from viscorough.viscous.correspondence import ForceHistory
@@ -37,7 +37,9 @@ def creep_response(medium: Medium, history: ForceHistory) -> tuple[Array, Array]
         raise ValueError(
             f"times: {duration:g} after the first; allowed: up to the last time of the table, {medium.last_time:g}"
         )
-    response = (_BySums if medium.retardation is None else _ByStates)(medium, history)
+    response = (
+        _BySums(medium, history) if medium.retardation is None else _ByStates(medium, medium.retardation, history)
+    )
     time = response.first_decrease()
     if np.isfinite(time):
         raise ValueError(
@@ -58,6 +60,10 @@ class _Intervals:
         self.slopes = np.divide(increments, self.lengths, out=np.zeros_like(increments), where=~step)
         self.jumps = np.append(self.force[0], np.where(step, increments, 0.0))  # just before each sample
         self.intervals = np.flatnonzero(~step)
+
+    def parts(self, interval: Integers, offset: Array, *, left: bool) -> tuple[Array, Array, Array]:
+        """Terms of dΦ/dt that rise and that fall with the time after the start of an interval, and their size."""
+        raise NotImplementedError
 
     def first_decrease(self) -> float:
         """The first time at which Φ decreases; infinite if it never does.
@@ -112,16 +118,15 @@ class _ByStates(_Intervals):
     θ y' + y = F, both exact for a force linear in time and computed without differences where the force is positive.
     """
 
-    def __init__(self, medium: Medium, history: ForceHistory) -> None:
+    def __init__(self, medium: Medium, retardation: RetardationSpectrum, history: ForceHistory) -> None:
         super().__init__(medium, history)
-        instantaneous, fluidity, self.compliances, self.retardation_times = medium.retardation
+        instantaneous, fluidity, self.compliances, self.retardation_times = retardation
         self.instantaneous, self.fluidity = instantaneous, fluidity
         delayed, self.left = branch_states(self.lengths, self.force, self.jumps, self.retardation_times)
         self.creep = instantaneous * self.force + fluidity * history.impulse + delayed @ self.compliances
         self.rate = self.rate_at_samples()
 
     def parts(self, interval: Integers, offset: Array, *, left: bool) -> tuple[Array, Array, Array]:
-        """Terms of dΦ/dt that rise and that fall with the time after the start of an interval, and their size."""
         own = self.instantaneous, self.fluidity, self.compliances, self.retardation_times
         return _parts(interval, offset, self.slopes, self.force, self.left, *own)
 

@@ -10,6 +10,7 @@ J₀ + Σ c_k min(t, τ_k) with J₀, c_k ≥ 0, and under the impulse I(t) = �
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -62,8 +63,9 @@ class IdentifiedMedium(ReadOnlyArrays, Summarised):
         units = ("s", "1/Pa") if self.length_unit != UNKNOWN else (UNKNOWN, UNKNOWN)
         title = f"{type(self.medium).__name__} identified from a record of depth"
         rows = ("time t", self.time, units[0]), ("compliance J", self.compliance, units[1])
-        scatter = "scatter of depth", with_unit(self.scatter, self.length_unit, 3)
-        return title, *([(name, span(values, unit))] for name, values, unit in rows), [scatter]
+        line = [("scatter of depth", with_unit(self.scatter, self.length_unit, 3))]
+        lines: list[list[tuple[str, str]]] = [[(name, span(values, unit))] for name, values, unit in rows]
+        return title, *lines, line
 
 
 def identify_medium(
@@ -113,7 +115,7 @@ def identify_medium(
         knots = np.geomspace(knots[0] / _EARLIER, knots[-1], _KNOTS)
     record = _Record(curve, depth, np.column_stack([history.force[place], _hinges(history, times, knots)]))
     coefficients = record.fit(record.responses)
-    freedom = max(depth.size - np.count_nonzero(coefficients), 1)
+    freedom = max(depth.size - int(np.count_nonzero(coefficients)), 1)
     scatter = np.sqrt(record.squares(coefficients) / freedom)
     time = np.append(0.0, knots)
     values = np.column_stack([np.ones(time.size), np.minimum(time[:, None], knots)])
@@ -205,6 +207,7 @@ class _Record:
 
     def __init__(self, curve: LoadingCurve, depth: Array, responses: Array) -> None:
         self.curve, self.depth, self.responses = curve, depth, responses
+        self.target: Array = depth  # of the last fit
 
     def fit(self, responses: Array) -> Array:
         """Amounts of compliances with these responses, shape (rows, amounts): Gauss-Newton, non-negative."""
@@ -261,10 +264,10 @@ def _ends(rows: Array, target: Array, distance: float) -> Array:
     """
     scale = np.linalg.norm(rows[: target.size], axis=0)
     rows = rows / np.where(scale > 0, scale, 1.0)
-    reduced = np.linalg.qr(np.column_stack([rows[: target.size], target]), mode="r")
+    reduced: Any = np.linalg.qr(np.column_stack([rows[: target.size], target]), mode="r")
     matrix, target, wanted = reduced[:, :-1], reduced[:, -1], rows[target.size :]
     start = _non_negative(matrix, target)
-    least = np.sum((matrix @ start - target) ** 2)
+    least = float(np.sum((matrix @ start - target) ** 2))
     ends = np.empty(len(wanted))
     for i, row in enumerate(wanted):
         weight, best = _FIXED / np.linalg.norm(row), row @ start
@@ -272,7 +275,7 @@ def _ends(rows: Array, target: Array, distance: float) -> Array:
         for _ in range(_TRIALS):
             value = max(value, 0.0)
             x = _non_negative(np.vstack([matrix, weight * row]), np.append(target, weight * value))
-            excess = np.sqrt(max(np.sum((matrix @ x - target) ** 2) - least, 0.0))
+            excess = np.sqrt(max(float(np.sum((matrix @ x - target) ** 2)) - least, 0.0))
             ratio = abs(distance) / max(excess, 1e-3 * abs(distance))
             if abs(ratio - 1) < _CLOSE or (value == 0 and ratio > 1):
                 break
@@ -285,7 +288,7 @@ def _non_negative(matrix: Array, target: Array) -> Array:
     from scipy.optimize import nnls  # takes long to import
 
     if matrix.shape[0] > matrix.shape[1] + 1:
-        reduced = np.linalg.qr(np.column_stack([matrix, target]), mode="r")
+        reduced: Any = np.linalg.qr(np.column_stack([matrix, target]), mode="r")
         matrix, target = reduced[:, :-1], reduced[:, -1]
     return nnls(matrix, target, maxiter=30 * matrix.shape[1])[0]
 

@@ -7,9 +7,11 @@ The half-space is incompressible at all times. Moduli are in one unit, times in 
 and compliances in the inverse of the modulus. All media are passive: J does not decrease and is concave.
 """
 
+from abc import abstractmethod
 from dataclasses import dataclass, fields
 from functools import cached_property
 from numbers import Real
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -28,6 +30,14 @@ _LAST_DIGITS = 1e-14  # relative; rounding of compliances, which their slopes sh
 
 class _Exponential(Medium):
     """A medium of springs and dashpots, which has discrete spectra: `relaxation` and `retardation`."""
+
+    @property
+    @abstractmethod
+    def relaxation(self) -> RelaxationSpectrum: ...
+
+    @property
+    @abstractmethod
+    def retardation(self) -> RetardationSpectrum: ...
 
     def __post_init__(self) -> None:
         _keep_positive(self)
@@ -70,7 +80,7 @@ class _Exponential(Medium):
     def _check_spectra(self) -> None:
         """Raise ValueError if spectra cannot be held in double precision."""
         with np.errstate(all="ignore"):
-            values = [*self.relaxation, *self.retardation, self.relaxation.instantaneous_modulus]
+            values: list[Any] = [*self.relaxation, *self.retardation, self.relaxation.instantaneous_modulus]
             finite = all(np.isfinite(value).all() for value in values)
             for spectrum in (self.relaxation, self.retardation):
                 finite = finite and (spectrum.times > 0).all() and np.isfinite(1 / spectrum.times).all()
@@ -208,7 +218,7 @@ class Prony(_Exponential):
         with np.errstate(over="ignore"):
             # Branches of one rate are one branch.
             _, first, branch = np.unique(1 / times, return_index=True, return_inverse=True)
-            moduli = np.bincount(branch, self.moduli)
+            moduli = np.bincount(branch, self.moduli).astype(float)
         return RelaxationSpectrum(0.0, self.relaxed_modulus, moduli, times[first])
 
     @cached_property
@@ -315,7 +325,7 @@ class CreepTable(ReadOnlyArrays, Medium):
 
     def creep_compliance(self, time: ArrayLike) -> Array:
         """J at times 0 ≤ t up to the last point, any shape; nan beyond it."""
-        return np.interp(time, self.times, self.compliances, right=np.nan)
+        return np.interp(np.asarray(time, dtype=float), self.times, self.compliances, right=np.nan)
 
     def creep_rate(self, time: ArrayLike, *, left: bool = False) -> Array:
         """dJ/dt at times 0 ≤ t up to the last point, any shape: that after each point, or with `left` before it."""
@@ -363,15 +373,15 @@ def _power_increment(start: ArrayLike, end: ArrayLike, power: float) -> Array:
     return np.where(start > 0, increment, end**power)
 
 
-def _keep_positive(medium: Medium) -> None:
+def _keep_positive(medium: Any) -> None:
     for field in fields(medium):
         object.__setattr__(medium, field.name, _number(medium, field.name, getattr(medium, field.name)))
 
 
-def _number(medium: Medium, name: str, value: object, *, zero: bool = False) -> float:
+def _number(medium: Medium, name: str, value: Any, *, zero: bool = False) -> float:
     """The value as a float. Raises ValueError unless it is a finite number above 0, or 0 where that is allowed."""
-    real = isinstance(value, Real) and not isinstance(value, bool) and abs(value) <= np.finfo(float).max
-    if not (real and (value > 0 or (zero and value == 0))):
+    real = isinstance(value, Real) and not isinstance(value, bool)
+    if not (real and abs(value) <= np.finfo(float).max and (value > 0 or (zero and value == 0))):
         allowed = "0 or a finite number above 0" if zero else "a finite number above 0"
         raise ValueError(f"{type(medium).__name__}: {name} {repr(value)[:60]}; allowed: {allowed}")
     return float(value)

@@ -102,8 +102,8 @@ def test_first_decrease_against_dense_sampling():
         times = np.append(0, np.cumsum(10 ** random.uniform(-1, 1, 4)))
         force = 1 + 0.05 * random.standard_normal(5) + np.array([0, 0.1, 0, 0, 0.1])
         dense = np.unique(np.concatenate([times, np.linspace(0, times[-1], 4001)]))
-        response = _ByStates(medium, impulses(np.interp(dense, times, force), dense))
-        coarse = _ByStates(medium, impulses(force, times))
+        response = _ByStates(medium, medium.retardation, impulses(np.interp(dense, times, force), dense))
+        coarse = _ByStates(medium, medium.retardation, impulses(force, times))
         found = coarse.first_decrease()
         down = np.flatnonzero(response.rate < -1e-9)
         expected = dense[down[0]] if down.size else np.inf

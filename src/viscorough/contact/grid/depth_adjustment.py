@@ -10,7 +10,7 @@ import numpy as np
 from viscorough.contact.grid.conjugate_gradients import ConjugateGradients
 from viscorough.contact.grid.loops import GridLoops
 from viscorough.contact.state import BoundedField
-from viscorough.types import Array
+from viscorough.types import Array, Integers
 
 # Largest ratio of depths in one iteration.
 _LARGEST_RATIO = 2.0
@@ -28,14 +28,16 @@ class PrescribedForce:
 
     def __init__(self, pressure_sum: float, largest_depth: float, loops: GridLoops) -> None:
         self._pressure_sum, self._largest_depth, self._loops = pressure_sum, largest_depth, loops
-        self._places, self._response, self._stiffness = np.empty(0, int), np.empty(0), _LEAST_STIFFNESS
+        self._places: Integers = np.empty(0, int)
+        self._response: Array = np.empty(0)
+        self._stiffness = _LEAST_STIFFNESS
 
-    def prepare(self, search: ConjugateGradients, places: Array) -> None:
+    def prepare(self, search: ConjugateGradients, places: Integers) -> None:
         """Prepare for another contact set, that of the ConjugateGradients, with elements at these places."""
         self._places, self._response = places, search.uniform_response()
         self._stiffness = float(self._response.sum(dtype=float))
 
-    def is_met(self, pressure: Array, places: Array, depth: float, limit: float) -> bool:
+    def is_met(self, pressure: Array, places: Integers, depth: float, limit: float) -> bool:
         """Whether the pressures at these places sum to the force, or would at a larger depth than allowed.
 
         limit : largest residual

@@ -100,7 +100,7 @@ class GridLoops:
         """
         top, left, rows, columns = box
         width, kept = columns + 2 * kernels.REACH, field[0]
-        place = np.empty(row.size, np.int32 if field.size < 2**31 else np.int64)
+        place: Integers = np.empty(row.size, np.int32 if field.size < 2**31 else np.int64)
 
         def store(i: int, j: int) -> None:
             in_rows, in_columns = row[i:j].astype(place.dtype) - top, column[i:j] - left
@@ -171,7 +171,7 @@ class GridLoops:
 
         run_blocks(subtract, rows, self._threads, -(-BLOCK // columns))
 
-    def update_gap(self, length: float, deflection: Array, gap: Array) -> None:
+    def update_gap(self, length: float | np.floating[Any], deflection: Array, gap: Array) -> None:
         """e − g, or e_q, += α K d everywhere, in place."""
         rows, columns = deflection.shape
         width = gap.size // (rows + 2 * kernels.REACH)

@@ -35,7 +35,7 @@ def require_for_contact(heights: Array, *, exact: bool, threads: int = 1) -> Non
     taken, by up to a factor of two (tests/viscorough/test_memory.py).
     """
     inside = np.isfinite(heights)
-    rows, columns = (np.ptp(np.flatnonzero(inside.any(axis=axis))) + 1 for axis in (1, 0))
+    rows, columns = (int(np.ptp(np.flatnonzero(inside.any(axis=axis)))) + 1 for axis in (1, 0))
     needed = _PER_HEIGHT * heights.size + _PER_ELEMENT * np.count_nonzero(inside)
     needed += _of_grid(rows, columns, exact=exact, threads=threads)
     memory.require(needed, f"contact of a map of {heights.shape} heights")

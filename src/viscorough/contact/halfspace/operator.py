@@ -103,8 +103,10 @@ class _RowTransforms:
                 ducc0.fft.c2c(out, axes=[2], out=out)
             return
 
+        buffers = self._buffers
+
         def transform(start: int, stop: int) -> None:
-            with self._buffers.one() as (padded, _):
+            with buffers.one() as (padded, _):
                 padded[: stop - start, : self._columns] = data[start:stop, : self._columns]
                 ducc0.fft.r2c(self._fold(padded[: stop - start]), axes=[1], out=out[start:stop])
 
@@ -119,8 +121,10 @@ class _RowTransforms:
             self._inverse(data, out)
             return
 
+        buffers = self._buffers
+
         def transform(start: int, stop: int) -> None:
-            with self._buffers.one() as (_, rows):
+            with buffers.one() as (_, rows):
                 self._inverse(data[start:stop], rows[: stop - start])
                 out[start:stop, : self._columns] = rows[: stop - start, : self._columns]
 

@@ -44,7 +44,7 @@ def factor_rows(aspect: float) -> Array:
 
 
 @lru_cache(maxsize=4)
-def factor_entries(aspect: float, precision: type[np.floating[Any]]) -> tuple[NDArray[Any], Any]:
+def factor_entries(aspect: float, precision: type[Any]) -> tuple[NDArray[Any], Any]:
     """Entries of G by neighbour and pattern, the last ones their sums, and the unit in which they are stored."""
     rows, unit = factor_rows(aspect), 1.0
     if precision == np.float32:

@@ -220,7 +220,7 @@ class SparseFactor:
         width: int,
         sides: tuple[int, int],
         aspect: float,
-        precision: type[np.floating[Any]],
+        precision: Any,
         threads: int = 1,
     ) -> None:
         self._height, self._sides = height - 2 * REACH, sides

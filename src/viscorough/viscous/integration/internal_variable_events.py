@@ -81,8 +81,7 @@ def march_medium_events(
     if depth is None and relaxation.viscosity:  # the dashpot carries a step of the force at the last time
         pressure = pressure + (load[-1] / elements.scale - pressure.sum()) * contact.punch_share
     moved = times, depths, forces * area, counts.astype(int), elements.count, elements.pressure_map(pressure)
-    events = {"event_time": event_time, "event_depth": event_depth}
-    return MediumEvents(*moved, indenter.length_unit, **events)
+    return MediumEvents(*moved, indenter.length_unit, event_time=event_time, event_depth=event_depth)
 
 
 def _advance(
@@ -109,7 +108,7 @@ class _ByForce:
 
     def __init__(self, relaxation: RelaxationSpectrum, scale: float) -> None:
         self._medium, self._scale = relaxation, scale
-        self._state = np.zeros(1 + relaxation.moduli.size)  # Y and the sums W_i of the internal variables
+        self._state: Array = np.zeros(1 + relaxation.moduli.size)  # Y and the sums W_i of the internal variables
 
     def begin(self, length: float, load: float, end_load: float) -> None:
         viscosity, relaxed, moduli, times = self._medium
@@ -167,7 +166,7 @@ class _ByForce:
             share = following
         return share
 
-    def internal(self, before: Array, punch_share: Array, first: float, last: float) -> Array:
+    def internal(self, before: Array, punch_share: Array, first: float, last: float) -> tuple[Array, Array, Array]:
         """Internal variables of elements with a share q/Σq of the motion, from one share of the step to another."""
         viscosity, _, _, times = self._medium
         start, end = self.state(first), self.state(last)
@@ -199,7 +198,7 @@ class _ByDepth:
     def reach(self, motion: float, passed: float) -> float:
         return (motion - self._begin) / (self.end_motion - self._begin)
 
-    def internal(self, before: Array, punch_share: Array, first: float, last: float) -> Array:
+    def internal(self, before: Array, punch_share: Array, first: float, last: float) -> tuple[Array, Array, Array]:
         """As of _ByForce, with q in place of q/Σq."""
         decay, mean = branch_factors((last - first) * self.length / self._medium.times, "second_order")
         change = self.motion(last) - self.motion(first)
@@ -216,13 +215,15 @@ class _GrowingContact:
         self._elements, self._medium, self._most = elements, relaxation, most
         self.gap, self._factor, self._members = elements.initial_gap.copy(), np.empty((most, most)), np.zeros(most, int)
         self._forward, self._tangent = np.zeros(most), np.zeros(most)
-        self.motion, self.pressure = np.zeros(elements.count), np.zeros(elements.count)
-        self._branches = np.zeros((relaxation.moduli.size, elements.count))
-        self.depth, self.count, self.events, self.punch = 0.0, 0, [], 0.0
+        self.motion: Array = np.zeros(elements.count)
+        self.pressure: Array = np.zeros(elements.count)
+        self._branches: Array = np.zeros((relaxation.moduli.size, elements.count))
+        self.depth, self.count, self.punch = 0.0, 0, 0.0
+        self.events: list[tuple[float, float]] = []  # times and depths
         self._next = int(np.argmin(self.gap))
         self.add_next(None)
 
-    def add_next(self, time: float) -> None:
+    def add_next(self, time: float | None) -> None:
         """Add the element that touches now; `time` is that of the event, None for the first element."""
         if self.count == self._most:
             raise ConvergenceError(

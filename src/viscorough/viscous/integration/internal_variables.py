@@ -11,6 +11,7 @@ the contact, and the surface behind them recovers.
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -126,7 +127,7 @@ def load_samples(
     """Times and load, a depth or a force per area, of shape (times,). Raises ValueError that starts with the caller."""
     if (force is None) == (depth is None):
         raise ValueError(f"{caller}: one of force and depth is needed")
-    name, load = ("force", force) if depth is None else ("depth", depth)
+    name, load = ("depth", depth) if force is None else ("force", force)
     times = increasing(f"{caller}: times", times, steps=f"the {name}")
     return times, samples(f"{caller}: {name}", load, times) / (area if depth is None else 1.0)
 
@@ -139,8 +140,10 @@ class _State:
 
     def __init__(self, elements: MapElements, relaxation: RelaxationSpectrum) -> None:
         self._elements, self._relaxation = elements, relaxation
-        self.depth, self.motion, self.pressure = 0.0, np.zeros(elements.count), np.zeros(elements.count)
-        self._branches = np.zeros((relaxation.moduli.size, elements.count))
+        self.depth = 0.0
+        self.motion: Array = np.zeros(elements.count)
+        self.pressure: Array = np.zeros(elements.count)
+        self._branches: Array = np.zeros((relaxation.moduli.size, elements.count))
 
     def advance(self, contact: "_ContactProblem", length: float, scheme: str, load: float, *, by_depth: bool) -> None:
         """One step, at whose end Q = `kept` + c (y − y₀): a contact problem in Q alone."""
@@ -203,7 +206,10 @@ class _ContactProblem:
     """
 
     def __init__(self, elements: MapElements) -> None:
-        self._elements, self.members, self._of_factor, self._factor = elements, np.array([], int), None, None
+        self._elements = elements
+        self.members: Integers = np.array([], int)
+        self._of_factor: Integers | None = None  # the members that the factor is of
+        self._factor: Any = None
 
     def solve(self, free: Array, wanted: float, *, by_depth: bool) -> tuple[Array, float]:
         """Q of all elements, and c u.

@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from viscorough.viscous.integration.events import Events
+
 if TYPE_CHECKING:
     from viscorough.viscous.correspondence import ForceHistory
-    from viscorough.viscous.integration.events import Events
     from viscorough.viscous.integration.stepping import Steps
 
 
@@ -35,7 +36,7 @@ def under_constant_force(integration: Events | Steps, force_per_viscosity: float
     force_per_viscosity : F/η
     """
     time, velocity = integration.impulse / force_per_viscosity, force_per_viscosity / integration.resistance
-    overlap = getattr(integration, "overlap", np.zeros_like(integration.depth))
+    overlap = np.zeros_like(integration.depth) if isinstance(integration, Events) else integration.overlap
     of_levels = time, integration.depth, velocity, integration.contact_count
     return ViscousMotion(*of_levels, None, overlap, integration.length_unit)
 
@@ -49,7 +50,7 @@ def under_force_history(integration: Events | Steps, history: ForceHistory, visc
     Raises ValueError for an impulse beyond the last event.
     """
     reached = history.impulse / viscosity
-    if hasattr(integration, "event_at"):
+    if isinstance(integration, Events):
         if reached[-1] > integration.impulse[-1] * (1 + 1e-10) and integration.contact_count[-1] < integration.elements:
             text = f"impulse: {history.impulse[-1]:.6g} is beyond the contact fraction at which events end"
             raise ValueError(f"{text}; allowed: up to {integration.impulse[-1] * viscosity:.6g}")

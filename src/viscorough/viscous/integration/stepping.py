@@ -89,7 +89,9 @@ def march_steps(
     impulses = increasing("march_steps: impulses", np.atleast_1d(impulses), above_zero=True)
     if not overlap > 0:
         raise ValueError(f"march_steps: overlap must be positive, not {overlap!r}")
-    integrator = {"explicit": _Explicit, "heun": _Heun, "implicit": _Implicit}[scheme](indenter, tolerance)
+    schemes: dict[str, type[_Explicit] | type[_Implicit]]
+    schemes = {"explicit": _Explicit, "heun": _Heun, "implicit": _Implicit}
+    integrator = schemes[scheme](indenter, tolerance)
     scale, rows = 4 * np.pi * indenter.element_side, []
     for remaining in np.diff(impulses / scale, prepend=0.0):
         while remaining > 0:
@@ -159,7 +161,7 @@ class _Explicit:
     @property
     def count(self) -> int:
         """Elements in contact."""
-        return np.count_nonzero(self._inside)
+        return int(np.count_nonzero(self._inside))
 
     @property
     def overlap(self) -> float:
@@ -211,7 +213,7 @@ class _Implicit:
     def __init__(self, indenter: Indenter, tolerance: float) -> None:
         self._gap, self._tolerance = indenter.initial_gap.astype(float), tolerance
         self._spacings = indenter.spacing, indenter.row_spacing
-        self.depth, self.resistance, self.count, self.overlap, self.steps = 0.0, None, 0, 0.0, 0
+        self.depth, self.resistance, self.count, self.overlap, self.steps = 0.0, 0.0, 0, 0.0, 0
 
     def longest_step(self, _overlap: float) -> float:
         """A step of any length is exact."""
@@ -219,7 +221,7 @@ class _Implicit:
 
     def step(self, impulse: float) -> None:
         """Advance by an impulse; the depth that belongs to it is found by Newton's method."""
-        solver = ContactSolver(Indenter(-self._gap, self._spacings), self._tolerance)
+        solver = ContactSolver(Indenter(-self._gap, *self._spacings), self._tolerance)
         depth_step = impulse / (self.resistance or 1.0)
         for _ in range(_MAX_NEWTON_ITERATIONS):
             contact = solver.advance(solver.unloaded_state(), depth_step)

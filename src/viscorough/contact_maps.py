@@ -1,7 +1,7 @@
 """One contact of an indenter: maps of pressure, gap and contact, and what follows from them."""
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 import numpy as np
 

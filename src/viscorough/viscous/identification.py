@@ -60,12 +60,13 @@ class IdentifiedMedium(ReadOnlyArrays, Summarised):
 
     def _summary(self) -> Summary:
         """What it is; J over time."""
-        units = ("s", "1/Pa") if self.length_unit != UNKNOWN else (UNKNOWN, UNKNOWN)
-        title = f"{type(self.medium).__name__} identified from a record of depth"
-        rows = ("time t", self.time, units[0]), ("compliance J", self.compliance, units[1])
-        line = [("scatter of depth", with_unit(self.scatter, self.length_unit, 3))]
-        lines: list[list[tuple[str, str]]] = [[(name, span(values, unit))] for name, values, unit in rows]
-        return title, *lines, line
+        time, compliance = ("s", "1/Pa") if self.length_unit != UNKNOWN else (UNKNOWN, UNKNOWN)
+        return (
+            f"{type(self.medium).__name__} identified from a record of depth",
+            [("time t", span(self.time, time))],
+            [("compliance J", span(self.compliance, compliance))],
+            [("scatter of depth", with_unit(self.scatter, self.length_unit, 3))],
+        )
 
 
 def identify_medium(

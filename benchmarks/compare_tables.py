@@ -21,12 +21,16 @@ TOLERANCE = 1e-12  # relative: rounding of another order of operations, far belo
 
 
 def content(path):
-    """{column or variable: values} of a table or a NetCDF file."""
+    """{column or variable: values} of a table or a NetCDF file, with the groups of the variables."""
     if path.suffix == ".csv":
         table = pd.read_csv(path)
         return {name: table[name].to_numpy() for name in table}
-    with xr.open_dataset(path, decode_times=False) as dataset:
-        return {name: variable.values for name, variable in dataset.variables.items()}
+    with xr.open_datatree(path, decode_times=False) as tree:
+        return {
+            f"{group.path}/{name}".lstrip("/"): variable.values
+            for group in tree.subtree
+            for name, variable in group.dataset.variables.items()
+        }
 
 
 def difference(old, new):

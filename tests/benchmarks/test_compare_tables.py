@@ -64,3 +64,10 @@ def test_missing_files_and_other_curves(runs):
     assert "claims.csv: only in OLD" in output
     assert "0000-0001.nc, force: shape (2, 3) in OLD, (2, 4) in NEW" in output
     assert compared(runs, "--allow", "tables/claims.csv", "--allow", "*, force")[0] == 0
+
+
+def test_values_in_groups_are_compared(runs):
+    for run, last in zip(runs, (2.0, 3.0), strict=True):
+        heights = xr.Dataset({"heights": ("x", [1.0, last])})
+        heights.to_netcdf(run / "surfaces.nc", group="ensemble_1")
+    assert "surfaces.nc, ensemble_1/heights: 1 of 2 differ" in compared(runs)[1]

@@ -174,11 +174,13 @@ def test_a_changed_line_of_the_column_convolution_reruns_what_uses_boundary_elem
     assert set(plan(editable, *TEST)) == BOUNDARY_ELEMENTS | FITS_AND_FIGURES | SIZES | after
 
 
-def test_a_changed_script_or_figure_reruns_its_rule_and_what_depends_on_it(editable):
-    script = editable / "workflow/scripts/compare_direct.py"
-    edit(script, lambda text: text.replace("Direct integration and", "Integration and"))
-    edit(editable / "src/viscorough_study/figures/exponent.py", with_another_statement)
-    assert set(plan(editable, *TEST)) == {"compare_direct", "plot_direct", "judge_claims", "plot_exponent", *LAST}
+def test_a_changed_script_table_or_figure_reruns_its_rule_and_what_depends_on_it(editable):
+    script = editable / "workflow/scripts/check_validation.py"
+    edit(script, lambda text: text.replace("validation failed, see", "failed, see"))
+    for module in ("comparisons/direct_integration", "figures/exponent"):
+        edit(editable / f"src/viscorough_study/{module}.py", with_another_statement)
+    of_table = {"compare_direct", "plot_direct", "judge_claims"}
+    assert set(plan(editable, *TEST)) == {"check_validation", *of_table, "plot_exponent", *LAST}
 
 
 def test_forcing_one_rule(finished_once):

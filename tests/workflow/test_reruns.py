@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 from support.workflow import TEST, copy_sources, jobs, plan, read_settings, settings_file, snakemake
-from viscorough_study.ensembles.surface_files import opened_surfaces
+from viscorough_study.ensembles.surface_files import Surfaces
 
 FITS_AND_FIGURES = {"match_lines", "fit_scaling", "judge_claims", "compare_prefactors", "compare_zeta_laws"}
 FITS_AND_FIGURES |= {"tabulate_calibration", "tabulate_literature", "plot_mdr_lambda", "plot_kinetics", "plot_exponent"}
@@ -130,7 +130,7 @@ def test_kept_surfaces_are_those_that_curves_are_made_from(finished):
     surfaces = "results/surfaces/discs/h04000/0000-0001.nc"
     assert not (finished / surfaces).exists()
     snakemake(finished, *TEST, "--", surfaces)
-    with opened_surfaces(finished / surfaces) as discs:
+    with Surfaces(finished / surfaces) as discs:
         number, kept = len(discs), [realization.rms["disc"] for realization, _ in discs]
     with xr.open_dataset(finished / "results/curves/discs/h04000/0000-0001.nc") as curves:
         assert curves["rms_disc"].values.tolist() == kept

@@ -6,7 +6,7 @@ import time
 from viscorough.io import netcdf
 from viscorough_study.ensembles.batches import batch_of_curves
 from viscorough_study.ensembles.indentation import end_of_curve, indent_surface
-from viscorough_study.ensembles.surface_files import opened_surfaces
+from viscorough_study.ensembles.surface_files import Surfaces
 from viscorough_study.run.job_log import log_to, progress
 
 
@@ -17,7 +17,7 @@ def main(surfaces, curves, *, indentation):
     """
     indented, realizations, until_x = [], [], []
     accuracy = {name: indentation[name] for name in ("tolerance", "until_fraction")}
-    with opened_surfaces(surfaces) as batch:
+    with Surfaces(surfaces) as batch:
         settings = {"indentation": indentation, "ensembles": batch.settings}
         for realization, indenter in progress(batch, len(batch), "indentations"):
             start, end = time.perf_counter(), end_of_curve(realization.number, indentation)

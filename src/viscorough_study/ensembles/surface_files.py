@@ -2,7 +2,6 @@
 
 import json
 from collections.abc import Sequence
-from contextlib import contextmanager
 
 import netCDF4
 import numpy as np
@@ -56,33 +55,37 @@ def _define(group, realization, indenter):
     variable("heights", ("realization", "y", "x"), "height", kind=indenter.heights.dtype, fill_value=np.nan)
 
 
-@contextmanager
-def opened_surfaces(path):
-    """Context that yields the Surfaces in a file; any fault of the file becomes a one-line ValueError."""
-    with netcdf.opened(path) as file:
-        file.set_auto_mask(False)
-        yield Surfaces(file)
-
-
 class Surfaces(Sequence):
-    """The surfaces in an open file as (Realization, Indenter), each read when it is asked for.
+    """The surfaces in a file as (Realization, Indenter), each read when it is asked for; closed by a `with` statement.
 
     settings : dict of each ensemble, of what it is made from
+    Raises a one-line ValueError, here and in reading, if the file is missing or damaged.
     """
 
-    def __init__(self, file):
-        groups = list(file.groups.values())
-        self.settings = [json.loads(group.settings) for group in groups]
-        self._places = [(group, i) for group in groups for i in range(len(group.dimensions["realization"]))]
+    def __init__(self, path):
+        self._path = path
+        with netcdf.faults_named(path):
+            self._file = netCDF4.Dataset(path)
+            self._file.set_auto_mask(False)
+            groups = list(self._file.groups.values())
+            self.settings = [json.loads(group.settings) for group in groups]
+            self._places = [(group, i) for group in groups for i in range(len(group.dimensions["realization"]))]
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self._file.close()
 
     def __len__(self):
         return len(self._places)
 
     def __getitem__(self, position):
         group, i = self._places[position]
-        spacing, row_spacing, hurst, diameter = (
-            group[name][...].item() for name in ("spacing_x", "spacing_y", "hurst", "diameter")
-        )
-        rms = {name: group[f"rms_{name}"][i].item() for name in RMS if f"rms_{name}" in group.variables}
-        realization = Realization(group.title, group["number"][i].item(), hurst, diameter, spacing, rms)
-        return realization, Indenter(group["heights"][i], spacing, row_spacing, length_unit="m")
+        with netcdf.faults_named(self._path):
+            spacing, row_spacing, hurst, diameter = (
+                group[name][...].item() for name in ("spacing_x", "spacing_y", "hurst", "diameter")
+            )
+            rms = {name: group[f"rms_{name}"][i].item() for name in RMS if f"rms_{name}" in group.variables}
+            realization = Realization(group.title, group["number"][i].item(), hurst, diameter, spacing, rms)
+            return realization, Indenter(group["heights"][i], spacing, row_spacing, length_unit="m")

@@ -3,12 +3,12 @@
 from viscorough.io.datasets import read_dataset
 from viscorough_study.ensembles.pool import ensembles as ensembles_by
 from viscorough_study.ensembles.pool import select
-from viscorough_study.ensembles.surface_files import opened_surfaces
+from viscorough_study.ensembles.surface_files import Surfaces
 
 
 def examples(files):
     """List of (Hurst exponent, heights, spacing) of the example discs."""
-    with opened_surfaces(files["examples"]) as surfaces:
+    with Surfaces(files["examples"]) as surfaces:
         return [(realization.hurst, indenter.heights, indenter.spacing) for realization, indenter in surfaces]
 
 

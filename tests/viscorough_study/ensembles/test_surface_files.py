@@ -8,7 +8,7 @@ from support.cf import violations
 from support.contract import refused
 from viscorough.indenter import Indenter
 from viscorough_study.ensembles.batches import Realization
-from viscorough_study.ensembles.surface_files import opened_surfaces, write_surfaces
+from viscorough_study.ensembles.surface_files import Surfaces, write_surfaces
 
 
 def surface(name, number, shape, dtype=float):
@@ -28,7 +28,7 @@ def test_surfaces_are_read_as_they_were_written(path):
     rough = [surface("rough", number, (4, 5)) for number in (7, 8, 9)]
     smooth = [surface("smooth", 0, (3, 2), np.float32)]
     write_surfaces([({"seed": 5, "hurst": 0.3}, 3, iter(rough)), ({"seed": 6}, 1, smooth)], path)
-    with opened_surfaces(path) as surfaces:
+    with Surfaces(path) as surfaces:
         assert surfaces.settings == [{"seed": 5, "hurst": 0.3}, {"seed": 6}]
         assert len(surfaces) == 4
         for (realization, indenter), (same, as_written) in zip(surfaces, [*rough, *smooth], strict=True):
@@ -69,7 +69,7 @@ def test_a_realization_is_read_alone(path, monkeypatch):
     write_surfaces([({}, 50, (surface("rough", number, (30, 30)) for number in range(50)))], path)
     sizes, created = [], Indenter.__post_init__
     monkeypatch.setattr(Indenter, "__post_init__", lambda self: (sizes.append(self.heights.size), created(self))[1])
-    with opened_surfaces(path) as surfaces:
+    with Surfaces(path) as surfaces:
         assert sizes == []
         assert surfaces[31][0].number == 31
     assert sizes == [900]
@@ -77,5 +77,11 @@ def test_a_realization_is_read_alone(path, monkeypatch):
 
 def test_a_damaged_file_is_named(path):
     path.write_bytes(b"no NetCDF")
-    with refused("surfaces.nc: not readable"), opened_surfaces(path):
+    with refused("surfaces.nc: not readable"), Surfaces(path):
         pass
+
+
+def test_an_error_of_who_reads_is_not_one_of_the_file(path):
+    write_surfaces([({}, 1, [surface("rough", 1, (4, 5))])], path)
+    with pytest.raises(RuntimeError, match=r"^the solver did not converge$"), Surfaces(path):
+        raise RuntimeError("the solver did not converge")

@@ -1,4 +1,4 @@
-"""The curves of all grids as one scaling law, and the exponents with which they are one."""
+"""Scaling collapse of the curves of all grids, and the exponents with which they collapse."""
 
 import numpy as np
 
@@ -6,12 +6,12 @@ from viscorough.reference import exponent_beta
 from viscorough_study.figures import style
 
 LIGHTEST = 0.35  # opacity of the coarsest grid
-SHIFT = 3.0  # factor between curves of different H
+SHIFT = 3.0  # factor by which curves of successive H are separated
 
 
 @style.in_style
 def plot_collapse(curves, collapse, infinite):
-    """vt/h (a) and that of the interface (b) of all grids over the law, (c) the exponents allowed.
+    """vt/h (a) and its interface part (b) on all grids over the law, and the exponents compatible with them (c).
 
     curves, collapse, infinite : of fits.infinite_grid.collapse_tables
 
@@ -34,30 +34,30 @@ def plot_collapse(curves, collapse, infinite):
 
 
 def _curves(axes, curves, looks):
-    """Every grid's curve over the law through it, (vt/h)/X^(H/(1+H)) up to a factor for each H, which are shifted."""
+    """Draw (vt/h)/X^(H/(1+H)) of every grid over the scaled force, shifted by a factor for each H."""
     for rank, (hurst, look) in enumerate(looks.items()):
-        of_grids = curves[curves["hurst"] == hurst].groupby("number")
-        for opacity, (number, curve) in zip(np.linspace(LIGHTEST, 1, len(of_grids)), of_grids, strict=True):
+        grid_curves = curves[curves["hurst"] == hurst].groupby("number")
+        for opacity, (number, curve) in zip(np.linspace(LIGHTEST, 1, len(grid_curves)), grid_curves, strict=True):
             over_law = curve["velocity"] / curve["x"] ** exponent_beta(hurst) * SHIFT**-rank
             axes.plot(curve["x"] * number ** (1 + hurst), over_law, color=look["color"], alpha=opacity)
     axes.set(xscale="log", yscale="log", xlabel="scaled force", ylabel="velocity over the law, shifted")
 
 
 def _exponents(axes, collapse, infinite):
-    """β − H/(1 + H) over H: intervals with which the curves collapse, and limits of infinitely fine grids."""
+    """Draw β − H/(1 + H) over H: intervals in which the curves collapse, and limits of infinitely fine grids."""
     axes.axhline(0, color=style.GREY, linestyle=":", linewidth=0.8)
     looks = {"whole": {"color": style.BLUE, "marker": "o"}, "interface": {"color": style.VERMILION, "marker": "s"}}
     discs = collapse[(collapse["source"] == "discs") & (collapse["x_high"] == collapse["x_high"].iloc[0])]
     for offset, (quantity, look) in zip((-0.012, 0.012), looks.items(), strict=True):
-        for row in _of_spectrum(discs[discs["quantity"] == quantity]).dropna(subset="beta_low").itertuples():
+        for row in _with_spectrum_height(discs[discs["quantity"] == quantity]).dropna(subset="beta_low").itertuples():
             ends = np.array([row.beta_low, row.beta_high]) - row.expected
             axes.plot([row.hurst + offset] * 2, ends, color=look["color"], linewidth=4, alpha=0.3)
         limits = infinite[(infinite["source"] == "discs") & (infinite["quantity"] == quantity)]
         for law, shift in (("power", 0.0), ("corrected", np.sign(offset) * 0.01)):
-            shown = look | ({"markerfacecolor": "none"} if law == "corrected" else {})
-            for row in _of_spectrum(limits[limits["law"] == law]).itertuples():
+            marker_look = look | ({"markerfacecolor": "none"} if law == "corrected" else {})
+            for row in _with_spectrum_height(limits[limits["law"] == law]).itertuples():
                 ends = np.array([row.beta_low, row.beta_high]) - row.expected
-                style.mark_with_interval(axes, row.hurst + offset + shift, row.beta - row.expected, ends, shown)
+                style.mark_with_interval(axes, row.hurst + offset + shift, row.beta - row.expected, ends, marker_look)
     axes.set(xlabel="Hurst exponent $H$", ylabel=r"$\beta$ less $H/(1+H)$", ylim=(-0.2, 0.5))
     axes.set_title("(c) exponents of all grids together")
     handles = []
@@ -69,6 +69,6 @@ def _exponents(axes, collapse, infinite):
     axes.legend(handles=handles, ncols=2, loc="upper right")
 
 
-def _of_spectrum(table):
-    """Rows with h over all waves of the spectrum, or, for H = 0, of the grid."""
+def _with_spectrum_height(table):
+    """Rows with h of all waves of the spectrum; for H = 0, where that diverges, with h of the grid."""
     return table[(table["height"] == "spectrum") | (table["hurst"] == 0)]

@@ -1,4 +1,4 @@
-"""How exponent and prefactor change with each convention that the paper leaves open."""
+"""Effect on exponent and prefactor of the conventions that the paper leaves open."""
 
 import numpy as np
 from matplotlib.ticker import MaxNLocator, NullLocator
@@ -22,10 +22,10 @@ VARIANTS = {
 
 @style.in_style
 def plot_conventions(scaling, conventions):
-    """β and ζ of the discs, with 95 % intervals, as one convention or the surfaces change; four exponents in a row.
+    """β and ζ of the discs, with 95 % intervals, as one convention or the surfaces change; four values of H per row.
 
-    scaling : scaling table; conventions : {column of it: value}, from which one is changed at a time
-    All β axes span the same length, all ζ axes the same ratio. Raises ValueError without discs.
+    scaling : scaling table; conventions : {column of it: value}, of which one is changed at a time
+    All β axes span the same length, all ζ axes the same ratio. Raises ValueError for a table without discs.
     """
     discs = scaling[scaling["source"] == "discs"]
     exponents = sorted(discs["hurst"].unique())
@@ -60,7 +60,7 @@ def plot_conventions(scaling, conventions):
 
 
 def _panels(exponents, changes):
-    """Panels of β and of ζ, one for each Hurst exponent, four in a row, and the figure."""
+    """Panels of β and of ζ, one for each Hurst exponent, four per row, and the figure."""
     columns = min(4, exponents)
     blocks = -(-exponents // columns)
     figure = style.new_figure(2 * blocks * (13 + 4.2 * changes) + 10)
@@ -72,11 +72,11 @@ def _panels(exponents, changes):
 
 
 def _changes(discs, conventions):
-    """Rows of the figure, (label, {column: value}): first the conventions of the figures, then one change in each."""
+    """Rows of the figure, (label, {column: value}): the conventions of the other figures, then one change per row."""
     base = conventions | {"case_group": "base"}
     rows = [("as in other figures", base)]
     for column, labels in CONVENTION_LABELS.items():
-        available = set(discs[column]) if column in discs else set(labels)  # readings of the law are derived from a fit
+        available = set(discs[column]) if column in discs else set(labels)  # readings of the law follow from a fit
         others = [value for value in labels if value != conventions[column] and value in available]
         rows += [(labels[value], base | {column: value}) for value in others]
     groups = [name for name in discs["case_group"].unique() if name != "base"]
@@ -84,7 +84,7 @@ def _changes(discs, conventions):
 
 
 def _draw_changes(axes, quantity, discs, changes, look):
-    """One quantity under each change, a row for each, on a band that is the interval of the first."""
+    """Draw one quantity under every change, one per row, over a band that is the interval of the first row."""
     for y, (_, wanted) in enumerate(changes):
         face = look["color"] if y == 0 else "white"
         rows = fits(discs, wanted)
@@ -98,7 +98,7 @@ def _draw_changes(axes, quantity, discs, changes, look):
 
 
 def _same_length(panels):
-    """Give the x axes of all panels the same length around their middles, with ticks that suit it."""
+    """Give the x axes of all panels the same length around their centres, and ticks for that length."""
     logarithmic = panels[0].get_xscale() == "log"
     limits = np.array([axes.get_xlim() for axes in panels])
     limits = np.log10(limits) if logarithmic else limits

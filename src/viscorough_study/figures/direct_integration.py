@@ -1,4 +1,4 @@
-"""Direct integration of the viscous problem in time, against the law with and without the factor 1/Γ(2 − α)."""
+"""Direct integration of the viscous problem in time, compared with the law with and without the factor 1/Γ(2 − α)."""
 
 import re
 
@@ -12,9 +12,9 @@ COLUMNS = 3
 
 @style.in_style
 def plot_direct_integration(table):
-    """Depth by direct integration over the elastic depth, and what Eq. 8 gives, against the elements in contact.
+    """Depth by direct integration over the elastic depth, and its value by Eq. 8, against the elements in contact.
 
-    table : of comparisons.direct_integration; a panel for each indenter, with the largest deviation of the ratio from 1
+    table : of comparisons.direct_integration; each indenter has a panel, with the largest deviation of the ratio from 1
     Raises ValueError for a table without rows.
     """
     style.require_rows("plot_direct_integration", table)
@@ -26,7 +26,7 @@ def plot_direct_integration(table):
     below, above = table["depth_ratio"].min(), table[["depth_ratio", "with_gamma"]].max(axis=None)
     panels[0].yaxis.set_major_locator(MultipleLocator(0.05))
     panels[0].set(xscale="log", ylim=(below - 0.15 * (above - below), above + 0.15 * (above - below)))
-    for axes in panels[-columns:]:  # the lowest of each column
+    for axes in panels[-columns:]:  # the bottom row
         axes.tick_params(labelbottom=True)
         axes.set_xlabel("elements in contact")
     figure.supylabel("viscous depth over elastic depth")
@@ -40,7 +40,7 @@ def plot_direct_integration(table):
 
 
 def _draw_case(axes, case, rows):
-    """One indenter: ratios, the two readings of the law, and in words the largest deviation from 1."""
+    """Draw one indenter: ratios, the two readings of the law, and the largest deviation from 1 as text."""
     rough = re.search(r"H = ([\d.]+)", case)
     look = style.hurst_looks([float(rough[1])]).popitem()[1] if rough else {"color": style.BLACK, "marker": "o"}
     factor = rows["with_gamma"].iloc[0]

@@ -1,4 +1,4 @@
-"""Failure map: error and verdict of every method in every stress-test case that concerns it."""
+"""Failure map: error and verdict of every method in every stress-test case that applies to it."""
 
 import numpy as np
 from matplotlib import colormaps
@@ -18,14 +18,14 @@ MEANINGS = {
     "unnoticed": "wrong without notice",
 }
 LETTERS = {verdict: verdict[0].upper() for verdict in MEANINGS}
-KINDS = {  # of methods, by the beginnings of their names
+KINDS = {  # {kind of method: prefixes of the methods' names}
     "elastic path": ("path",),
     "direct integration": ("events", "explicit", "heun", "implicit"),
     "media": ("media",),
     "models": ("MDR", "power law"),
 }
 OTHER_KIND = "other methods"
-# Difficulties that cannot matter to all methods: beginnings of the names of those to which they can.
+# {difficulty that affects only some methods: prefixes of their names}
 CONCERNED = {
     "step size": ("explicit steps",),
     "force in time": ("explicit steps",),
@@ -34,9 +34,9 @@ CONCERNED = {
     "medium": ("media",),
 }
 GROUP_NAMES = {"ties": "equal\nheights", "Hurst exponent": "Hurst\nexponent", "force in time": "force\nin time"}
-FLOOR = 1e-16  # smaller errors are drawn here
+FLOOR = 1e-16  # smaller errors are drawn at this value
 NORM = LogNorm(FLOOR, 10)
-HEADER = 68  # points above the cells, for the names of the methods, written upwards
+HEADER = 68  # height in points of the rotated names of the methods above the cells
 
 
 @style.in_style
@@ -44,8 +44,8 @@ def plot_failure_map(table):
     """Error, as colour and number, and verdict, as letter, of every method (columns) in every case (rows).
 
     table : of viscorough_study.robustness.failure_map
-    Methods stand side by side by their kind. A cell is blank where the difficulty cannot matter to the method, unless
-    the method refuses the case or fails unnoticed. Raises ValueError for a table without rows.
+    Methods are grouped by kind. A cell is blank where the difficulty does not apply to the method, unless the method
+    refuses the case or fails unnoticed. Raises ValueError for a table without rows.
     """
     style.require_rows("plot_failure_map", table)
     methods = sorted(dict.fromkeys(table["method"]), key=lambda name: [*KINDS, OTHER_KIND].index(_kind(name)))
@@ -85,13 +85,13 @@ def _kind(method):
 
 
 def _concerns(cell):
-    """Whether the difficulty of a case can matter to a method, or the method fails all the same."""
+    """Whether the difficulty of a case applies to the method, or the method refuses it or fails unnoticed."""
     names = CONCERNED.get(cell.group)
     return names is None or cell.method.startswith(names) or cell.verdict in ("refused", "unnoticed")
 
 
 def _cell_text(cell):
-    """Error in one digit and letter of the verdict; of a refusal just the letter."""
+    """Error to one digit and letter of the verdict; for a refusal only the letter."""
     if cell.verdict == "refused":
         return LETTERS["refused"]
     number = f"{cell.error:.0e}".replace("e-0", "e-").replace("e+00", "").replace("e+0", "e")
@@ -99,7 +99,7 @@ def _cell_text(cell):
 
 
 def _name_kinds(axes, kinds):
-    """Names of the kinds of methods above their columns, over a line, and white lines, thick between the kinds."""
+    """Label the kinds of methods above their columns and draw white lines between columns, thick between kinds."""
     upwards = ScaledTranslation(0, HEADER / 72, axes.get_figure().dpi_scale_trans)
     above = {"transform": axes.get_xaxis_transform() + upwards, "clip_on": False}
     for column in range(1, len(kinds)):
@@ -111,7 +111,7 @@ def _name_kinds(axes, kinds):
 
 
 def _name_groups(axes, groups, x):
-    """Names of the groups of rows at x, and white lines between the groups."""
+    """Label the groups of rows at x and draw white lines between them."""
     for group in dict.fromkeys(groups):
         first = groups.index(group)
         if first:

@@ -1,11 +1,11 @@
-"""Growth of the cost of each method with the number of elements."""
+"""Growth of the cost of the methods with the number of elements."""
 
 import numpy as np
 
 from viscorough_study.figures import style
 from viscorough_study.performance.costs import fit_cost, median_costs
 
-# Methods and values of their parameter whose cost is drawn.
+# {(method, value of its parameter): label} of the costs drawn
 METHODS = {
     ("path, automatic levels", 1e-3): "automatic levels, 1e-3",
     ("path, at the depths", 1e-6): "given depths, 1e-6",

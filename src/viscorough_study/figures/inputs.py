@@ -1,4 +1,4 @@
-"""Inputs of figures that are no tables; each function takes {argument of the figure: path} and is named like it."""
+"""Readers of figure inputs other than tables; a function has the name of the argument and takes {argument: path}."""
 
 from viscorough.io.datasets import read_dataset
 from viscorough_study.ensembles.pool import ensembles as ensembles_by
@@ -13,18 +13,18 @@ def examples(files):
 
 
 def ensembles(files):
-    """Base discs of a pool, an ensemble for each case."""
+    """Base discs of a pool, one ensemble per case."""
     return list(ensembles_by(select(read_dataset(files["ensembles"]), group="base"), "case").values())
 
 
 def discs(files):
-    """Base discs of a pool, an ensemble for each Hurst exponent."""
+    """Base discs of a pool, one ensemble per Hurst exponent."""
     by_hurst = ensembles_by(select(read_dataset(files["discs"]), group="base"), "hurst")
     return [by_hurst[hurst] for hurst in sorted(by_hurst)]
 
 
 def lines(files):
-    """Lines of a pool at the Hurst exponents of the discs, an ensemble for each."""
+    """Lines of a pool at the Hurst exponents of the discs, one ensemble per Hurst exponent."""
     by_hurst = ensembles_by(read_dataset(files["lines"]), "hurst")
     return [by_hurst[ensemble["hurst"].item()] for ensemble in discs(files)]
 

@@ -1,27 +1,26 @@
-"""The interface and the punch in series: g over X, the law over all X, and u₀/h over the Hurst exponent."""
+"""Interface and flat punch in series: g over X, the calibrated law over all X, and u₀/h over the Hurst exponent."""
 
 from viscorough.calibrated_law import LARGEST_DEVIATION
 from viscorough_study.comparisons.literature import cited
 from viscorough_study.figures import style
 
-SHIFT = 0.008  # in H, between grids and methods
+SHIFT = 0.008  # distance in H between markers of grids and methods
 X_SHOWN = (1e-4, 30.0)
 
 
 @style.in_style
 def plot_interface(table, curves, literature, conventions):
-    """g of discs (a) and lines (b), the law's vt/h over that of discs (c), and u₀/h of every grid and method (d).
+    """g of discs (a) and lines (b), vt/h by the law over vt/h of discs (c), and u₀/h of every grid and method (d).
 
     table, curves : of fits.interface; literature : of comparisons.literature, for u₀/h in (d)
     conventions : those of the figures, {column: value}
-    Where ensembles on grids from coarse to fine are in the tables, (a) to (c) show those of one more Hurst exponent
-    only on the grid of the base. Raises ValueError for a table without rows.
+    (a) to (c) show each Hurst exponent on the base grid only. Raises ValueError for a table without rows.
     """
     style.require_rows("plot_interface", table)
     table, curves = (part[part["average"] == conventions["average"]] for part in (table, curves))
     figure = style.new_figure(130)
     panels = figure.subplots(2, 2)
-    discs, lines = _of_base(table, "discs"), _of_base(table, "lines")
+    discs, lines = _on_base_grid(table, "discs"), _on_base_grid(table, "lines")
     looks = style.hurst_looks(table["hurst"])
     for axes, rows in zip(panels[0], (discs, lines), strict=True):
         for row in rows.itertuples():
@@ -41,8 +40,8 @@ def plot_interface(table, curves, literature, conventions):
     return figure
 
 
-def _of_base(table, source):
-    """Rows of the base ensembles of discs, or of lines, and of further Hurst exponents on the same grid."""
+def _on_base_grid(table, source):
+    """Rows of a source on the base grid: the base ensembles, and Hurst exponents that only the grid study has."""
     rows = table[table["source"] == source]
     base = rows[rows["case_group"] != "sizes"]
     further = rows[rows["across"].isin(base["across"]) & ~rows["hurst"].isin(base["hurst"])]
@@ -50,14 +49,14 @@ def _of_base(table, source):
 
 
 def _curve(curves, row):
-    """The curve of one row of the table."""
+    """Curve of one row of the table, within `X_SHOWN`."""
     for name in ("source", "case_group", "hurst", "across"):
         curves = curves[curves[name] == getattr(row, name)]
     return curves[(curves["x"] >= X_SHOWN[0]) & (curves["x"] <= X_SHOWN[1] * 1.01)]
 
 
 def _draw_interface(axes, row, curve, look):
-    """g with its interval, its law, and its plateau."""
+    """Draw g with its interval, law and plateau."""
     style.draw_band(axes, curve, "interface", look["color"], alpha=0.25)
     axes.plot(curve["x"], curve["interface"], **look | {"marker": ""})
     if row.source == "discs":
@@ -68,7 +67,7 @@ def _draw_interface(axes, row, curve, look):
 
 
 def _draw_literature(axes, literature):
-    """u₀/h of others with direct labels: a line for one that is the same for every H, a band for one that is not."""
+    """Draw u₀/h from the literature, labelled directly: as a line where it is independent of H, otherwise as a band."""
     stated = literature[literature["quantity"] == "u0"].dropna(subset=["hurst", "theirs_low"])
     for (source, year), rows in stated.groupby(["source", "year"], sort=False):
         name, hurst, low, high = cited(source, year), rows["hurst"], rows["theirs_low"], rows["theirs_high"]
@@ -82,13 +81,13 @@ def _draw_literature(axes, literature):
 
 
 def _draw_plateaus(axes, table, looks):
-    """u₀/h over H: discs by their grid, hollow except for the base, and lines as crosses."""
+    """Draw u₀/h over H: discs with a marker for each grid, filled on the base grid, and lines as crosses."""
     grids = sorted(table.loc[table["source"] == "discs", "across"].unique())
     markers = dict(zip(grids, style.SERIES_MARKERS, strict=False))
     for row in table.itertuples():
         discs = row.source == "discs"
         if not discs and row.case_group == "sizes":
-            continue  # lines depend on their number of points far less than on H
+            continue  # u₀ of lines varies far less with their number of points than with H
         face = looks[row.hurst]["color"] if row.case_group != "sizes" else "white"
         marker = markers[row.across] if discs else "x"
         look = {"color": looks[row.hurst]["color"], "marker": marker, "markerfacecolor": face}

@@ -25,10 +25,11 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
     ensembles : ensemble datasets, one for each case
     combinations : {case: force [N], viscosity [Pa s], diameter [m], rms [m]}
     scaling : scaling table, which has region (b); conventions : {column of it: value}
-    fraction_min : smallest share of the realizations defined, for a mean to be drawn
+    fraction_min : smallest fraction of defined realizations for which a mean is drawn
 
-    Grey where one element is in contact, region (a), of which one decade is drawn; bars at the bottom are the windows
-    of region (b). The rms height is that of the combination, which is exact if h is measured where it was prescribed.
+    Region (a), where one element is in contact, is grey, and its last decade is drawn; bars at the bottom are the
+    windows of region (b). The rms height is that of the combination, which is exact if h is taken over the points for
+    which it was prescribed.
     """
     looks = style.hurst_looks(ds["hurst"].item() for ds in ensembles)
     figure = style.new_figure(112)
@@ -41,9 +42,9 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
     for ds, curve in zip(ensembles, curves, strict=True):
         case, look = ds["case"].item(), looks[ds["hurst"].item()] | {"marker": "", "linewidth": 0.8}
         time, velocity, dimensionless = _in_units(curve, combinations[case], length_over_diameter)
-        single = (~curve.several | np.append(True, ~curve.several[:-1])) & (curve.x >= start)  # and the point after it
+        one_element = (~curve.several | np.append(True, ~curve.several[:-1])) & (curve.x >= start)  # and the next
         for axes, (x, y) in ((raw, (time, velocity)), (collapsed, dimensionless)):
-            axes.plot(x[single], y[single], color=style.PALE, zorder=1)
+            axes.plot(x[one_element], y[one_element], color=style.PALE, zorder=1)
             axes.plot(x[curve.several], y[curve.several], label=case, **look)
         for last in np.flatnonzero(np.isfinite(velocity))[-1:]:
             end, name = (time[last], velocity[last]), _combination(case)
@@ -57,13 +58,14 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
     handles = style.hurst_handles(looks, marker="")
     collapsed.legend(handles=handles, loc="upper left", title=realizations, alignment="left")
     style.logarithmic_ticks(raw, collapsed)
-    _tabulate(below.subplots(), {_combination(case): at for case, at in combinations.items() if _combination(case)})
+    named = {_combination(case): values for case, values in combinations.items()}
+    _tabulate(below.subplots(), {name: values for name, values in named.items() if name})
     place_labels(raw, [(name, *end, style.BLACK) for name, end in ends.items() if name])
     return figure
 
 
 def _combination(case):
-    """Name of the combination, of a case that is named by Hurst exponent and combination."""
+    """Name of the combination in the name of a case, <Hurst exponent>_<combination>."""
     return case.partition("_")[2]
 
 
@@ -84,7 +86,7 @@ def _tabulate(axes, combinations):
 
 
 def _in_units(curve, combination, length_over_diameter):
-    """Time [s], velocity [m/s], and (Ft/(hηL), vt/h) computed from these."""
+    """Time [s], velocity [m/s], and (Ft/(hηL), vt/h) computed from them."""
     force, viscosity, diameter, rms = (combination[name] for name in ("force", "viscosity", "diameter", "rms"))
     length = diameter * length_over_diameter
     time = 4 * curve.x * viscosity * rms * length / force

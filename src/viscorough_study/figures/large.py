@@ -1,4 +1,4 @@
-"""Time and memory of the loading curve of one disc on ever finer grids."""
+"""Time and memory of the loading curve of one disc on grids from coarse to fine."""
 
 from viscorough_study.figures import style
 from viscorough_study.performance.costs import fit_cost

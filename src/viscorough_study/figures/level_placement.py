@@ -1,4 +1,4 @@
-"""Levels that the package chooses for a scene, against levels chosen by hand and naive ones."""
+"""Levels placed automatically for a scene, compared with levels placed by hand and naively."""
 
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
@@ -7,12 +7,12 @@ from viscorough_study.figures import style
 
 CHOICES = {"automatic": style.BLUE, "best by hand": style.GREEN, "naive": style.VERMILION}
 HEIGHT = 0.8 / len(CHOICES)  # of a bar
-MISSED = "////"  # hatching of a choice that does not reach the accuracy
+MISSED = "////"  # hatching of bars that miss the accuracy
 
 
 @style.in_style
 def plot_level_placement(table):
-    """Time of each choice of levels over that of the automatic choice, as bars with number of levels and error.
+    """Wall time of every choice of levels over that of the automatic choice, as bars with number of levels and error.
 
     table : of viscorough_study.performance.level_placement
     A choice that does not reach the accuracy is hatched. Raises ValueError for a table without rows.
@@ -36,7 +36,7 @@ def plot_level_placement(table):
     longest = table["ratio"].max()
     ticks = MaxNLocator(6, steps=[1, 2, 5, 10]).tick_values(0, longest)
     axes.set_xticks(ticks[ticks <= longest])
-    # Room on the right for what is written beside the longest bar.
+    # Leaves space for the note beside the longest bar.
     axes.set(xlabel="wall time over that of the automatic choice", xlim=(0, 1.75 * longest))
     axes.set_ylim(len(scenes) - 0.45, -0.55)
     axes.tick_params(axis="y", which="both", length=0)

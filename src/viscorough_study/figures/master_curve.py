@@ -10,14 +10,14 @@ from viscorough_study.fits.conventions import fits
 
 @style.in_style
 def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
-    """vt/h over the right side of Eq. 12 with its Γ, and below the ratio of the two.
+    """vt/h over the right side of Eq. 12 with its Γ, and below it their ratio.
 
     discs, lines : ensemble datasets, one for each Hurst exponent; lines have the rms height of the discs (Eq. 13)
     scaling : scaling table, which has region (b); conventions : {column of it: value}
-    fraction_min : smallest share of the realizations defined, for a mean to be drawn
+    fraction_min : smallest fraction of defined realizations for which a mean is drawn
 
-    Symbols, about eight for each decade of X, are filled in region (b); bars are two standard errors to either side.
-    Region (a) is left out. The lower panel is cut to the range of region (b).
+    Symbols, about eight per decade of X, are filled in region (b); bars are two standard errors to either side.
+    Region (a) is omitted. The lower panel is cut to the range of the ratios in region (b).
     """
     looks = style.hurst_looks(ds["hurst"].item() for ds in discs)
     figure = style.new_figure(120, style.NARROW)
@@ -55,7 +55,7 @@ def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
 
 
 def _draw_discs(panels, curve, hurst, windows, look):
-    """Symbols of the discs of one Hurst exponent, filled in the windows; returns the ratios drawn there."""
+    """Draw the symbols of one Hurst exponent, filled in its windows; returns the ratios drawn in them."""
     look = look | {"linestyle": "", "markersize": 3, "capsize": 0, "elinewidth": 0.8}
     right_side = reference.rate_law(curve.x, hurst, gamma=True)
     step = max(1, np.searchsorted(curve.x, 10 * curve.x[0]) // 8)

@@ -10,7 +10,8 @@ NEAR_ONE = [0.2, 0.3, 0.5, 0.8, 1, 1.2, 1.5, 2, 3, 5]
 
 @style.in_style
 def plot_mdr_comparison(table):
-    """Lines over the discs with their spectra: κ (a, b), contact fraction (c), gap (d), correlation (e), force (f).
+    """Lines compared with the discs whose spectra they have: κ (a, b), contact fraction (c), gap (d), correlation of κ
+    (e), force (f).
 
     table : of viscorough_study.comparisons.mdr_comparison
     Bands are 95 % intervals of the means; in (e), 95 % of the correlations of unrelated pairs.

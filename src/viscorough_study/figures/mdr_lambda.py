@@ -1,4 +1,4 @@
-"""λ of the line that stands for a surface, and how well lines and discs then agree."""
+"""λ of the lines that represent discs, and the agreement of lines and discs with the best λ."""
 
 import numpy as np
 
@@ -6,23 +6,23 @@ from viscorough_study.comparisons.mdr_equivalence import WINDOWS
 from viscorough_study.figures import style
 
 _MARKERS = dict(zip(WINDOWS, "oDs", strict=True))
-_SHIFT = 0.02  # in H, between the marks of one Hurst exponent
-_RANGE = 4.0  # of the errors drawn: those of region (a), where lines have finer grids, grow without limit
-_LAMBDA_RANGE = (0.3, 30.0)  # drawn: λ grows without limit as contact becomes complete
+_SHIFT = 0.02  # distance in H between the markers of one Hurst exponent
+_RANGE = 4.0  # largest ratio drawn: in region (a), where lines have finer grids, the ratio grows without bound
+_LAMBDA_RANGE = (0.3, 30.0)  # limits of the axis: λ grows without bound as contact becomes complete
 
 
 @style.in_style
-def plot_mdr_lambda(of_lambda, exponents):
+def plot_mdr_lambda(lambdas, exponents):
     """λ over X (a), vt/h of lines with the best single λ over that of discs (b), and exponents in equal windows (c).
 
-    of_lambda, exponents : tables of viscorough_study.comparisons.mdr_equivalence
+    lambdas, exponents : tables of viscorough_study.comparisons.mdr_equivalence
     Raises ValueError for a table of λ without rows.
     """
-    style.require_rows("plot_mdr_lambda", of_lambda)
+    style.require_rows("plot_mdr_lambda", lambdas)
     figure = style.new_figure(75)
     values, ratios, differences = figure.subplots(1, 3)
     looks = style.hurst_looks(exponents["hurst"])
-    for hurst, rows in of_lambda.groupby("hurst"):
+    for hurst, rows in lambdas.groupby("hurst"):
         color, inside = looks[hurst]["color"], rows["in_region"] == 1
         for axes, name in ((values, "lambda"), (ratios, "velocity_ratio")):
             style.draw_band(axes, rows, name, color)

@@ -1,4 +1,4 @@
-"""Mean velocity of an ensemble under the conventions of the figures, as the kinetics and the master curve draw it."""
+"""Mean velocity of an ensemble under the conventions of the figures, for the kinetics and the master curve."""
 
 from dataclasses import dataclass
 
@@ -10,11 +10,11 @@ from viscorough_study.fits.conventions import LENGTH
 
 @dataclass(frozen=True)
 class MeanCurve:
-    """Mean over the realizations that are defined, arrays of shape (abscissae,).
+    """Mean over the defined realizations, arrays of shape (abscissae,).
 
-    x : X; velocity : vt/h, nan where so few realizations are defined that their mean would be biased
+    x : X; velocity : vt/h, nan where too few realizations are defined for an unbiased mean
     error : two standard errors of ln(vt/h)
-    several : whether the mean is drawn and more than one element is in contact, which is beyond region (a)
+    several : whether the mean is drawn and more than one element is in contact, so that it lies beyond region (a)
     """
 
     x: np.ndarray
@@ -27,9 +27,9 @@ def mean_curve(ensemble, conventions, fraction_min):
     """MeanCurve of an ensemble dataset.
 
     conventions : {column of the scaling table: value}
-    fraction_min : smallest share of the realizations defined, for a mean to be drawn
+    fraction_min : smallest fraction of defined realizations for which a mean is drawn
     """
-    available = ensemble["rms_convention"].values.tolist()  # lines have one, their own
+    available = ensemble["rms_convention"].values.tolist()  # lines have a single convention
     mean = ensemble.sel(rms_convention=conventions["rms_convention"] if len(available) > 1 else available[0])
     defined = mean["fraction_defined"].values >= fraction_min
     return MeanCurve(
@@ -41,7 +41,7 @@ def mean_curve(ensemble, conventions, fraction_min):
 
 
 def realizations_text(ensembles):
-    """Number of realizations behind the means of ensembles, as text; the least is that at the largest X."""
+    """Number of realizations averaged in the ensembles, as text; the smallest number is that at the largest X."""
     counts = []
     for ensemble in ensembles:
         until_x = np.broadcast_to(ensemble["until_x"].values, ensemble.sizes["realization"])

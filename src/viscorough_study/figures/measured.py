@@ -1,4 +1,4 @@
-"""Measured surfaces beside the generated ones."""
+"""Measured surfaces compared with generated discs."""
 
 import numpy as np
 
@@ -15,7 +15,8 @@ def plot_measured(groups, discs, scaling, kinetics, conventions, *, fraction_min
 
     groups : {name: ensemble dataset of its scans}; discs : ensemble datasets of discs, one for each Hurst exponent
     scaling : fits of the groups; kinetics : table of depth over time by scan, medium and force, which may be empty
-    conventions : {column of a scaling table: value}; fraction_min : share of the discs defined, for a mean to be drawn
+    conventions : {column of a scaling table: value}
+    fraction_min : smallest fraction of defined discs for which a mean is drawn
     """
     figure = style.new_figure(85)
     law, motion = figure.subplots(1, 2)

@@ -6,16 +6,16 @@ from viscorough.reference import exponent_beta
 from viscorough_study.figures import style
 from viscorough_study.run.cases import medium_label
 
-_DECADES = 1e-6  # of the largest velocity, down to which it is drawn: that of a solid falls exponentially
+_LOWEST = 1e-6  # lower end of the axis over the largest velocity: that of a solid decays exponentially
 HOLLOW = {"linestyle": "", "markersize": 3, "markerfacecolor": "none"}
 
 
 @style.in_style
 def plot_media(table):
-    """vt/h over time, a panel for each medium, and the depth u/h over X = F J(t)/(4hL) in all of them.
+    """vt/h over time, one panel for each medium, and the depth u/h over X = F J(t)/(4hL) for all of them.
 
     table : of viscorough_study.comparisons.media_kinetics
-    Dotted lines have slope 1, dashed ones the slope H/(1 + H) of Eq. 10 through X = 0.01 of the medium.
+    Dotted lines have slope 1; dashed lines have the slope H/(1 + H) of Eq. 10 and pass through X = 0.01.
     Raises ValueError for a table without rows.
     """
     style.require_rows("plot_media", table)
@@ -55,4 +55,4 @@ def _plot_velocity(axes, table, looks):
             span = time[middle] * 10.0 ** np.array([-1.5, 1.5])
             guide = velocity[middle] * (span / time[middle]) ** exponent_beta(hurst)
             axes.plot(span, guide, color=color, linestyle="--", linewidth=0.6)
-    axes.set_ylim(max(bottom, _DECADES * table["velocity"].max()), top)
+    axes.set_ylim(max(bottom, _LOWEST * table["velocity"].max()), top)

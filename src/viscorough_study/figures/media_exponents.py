@@ -1,16 +1,16 @@
-"""Local exponents of the velocity in time, in other media than the paper's."""
+"""Local exponents of the velocity in time, in media other than the paper's."""
 
 from matplotlib.ticker import LogLocator
 
 from viscorough_study.figures import style
 from viscorough_study.run.cases import medium_label
 
-_RANGE = (-0.6, 1.2)  # of the exponents drawn: that of a solid falls without limit
+_RANGE = (-0.6, 1.2)  # limits of the axis: the exponent of a solid falls without bound
 
 
 @style.in_style
 def plot_media_exponents(table):
-    """d ln(vt/h)/d ln t over time, one panel for each medium, with that by Eq. 10 and the creep compliance.
+    """d ln(vt/h)/d ln t over time, one panel for each medium, with its value by Eq. 10 and the creep compliance.
 
     table : of viscorough_study.comparisons.media_kinetics
     Raises ValueError for a table without rows.

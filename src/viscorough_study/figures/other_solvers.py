@@ -8,9 +8,9 @@ HOLLOW = {"markerfacecolor": "none"}
 
 @style.in_style
 def plot_other_solvers(table):
-    """Wall time over that of the elastic path, of every solver on every task; hollow markers are of two threads.
+    """Wall time of every solver on every task over that of the elastic path; hollow markers are of two threads.
 
-    Lines are from the least to the largest ratio of a pair. What does not meet the residual is left out.
+    Lines extend from the smallest to the largest ratio of a pair. Solutions that miss the residual are omitted.
     table : of viscorough_study.performance.solver_comparison. Raises ValueError for a table without rows.
     """
     style.require_rows("plot_other_solvers", table)

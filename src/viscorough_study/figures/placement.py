@@ -1,4 +1,4 @@
-"""Labels beside what they name, where they hide neither each other nor the curves."""
+"""Placement of labels beside points, clear of each other and of the curves."""
 
 from itertools import product
 
@@ -11,22 +11,22 @@ from matplotlib.transforms import Bbox
 DIRECTIONS = ((1, 0), (0, -1), (0, 1), (-1, 0), (1, -1), (1, 1), (-1, -1), (-1, 1))
 DISTANCES = (4, 9, 15, 22, 30)  # points
 HALO = {"path_effects": [withStroke(linewidth=2, foreground="white")]}
-DARKER = 0.75  # light colours of lines are hard to read as colours of text
-NEAR, MISLEADING = 5, 1000  # points from what another label names, and how bad that is, in points of curves
-POINTS_OF_CURVE = 400  # at which a curve is looked for under a label
-WEIGHT_OF_MARKER = 40  # of a marker on its own, in points of curves
+DARKER = 0.75  # factor on the colours of lines, which are too light for text
+NEAR, MISLEADING = 5, 1000  # distance in points to another labelled point, and its cost in covered points of curves
+POINTS_OF_CURVE = 400  # number of points at which a curve is sampled
+WEIGHT_OF_MARKER = 40  # cost of covering a single marker, in covered points of curves
 
 
 def place_labels(axes, labels):
-    """Write labels beside points of an axes whose limits and scales are final.
+    """Place labels beside points of axes whose limits and scales are final.
 
-    labels : list of (text, x, y, color), written in a little darker colours
-    Each label in turn takes the place, in eight directions and up to 30 points away, where it covers no other label
-    and as little as possible of the curves; a line leads to a label that is not next to its point.
+    labels : list of (text, x, y, color), drawn in slightly darker colours
+    Each label in turn takes the position, in eight directions and up to 30 points away, at which it covers no other
+    label and as little of the curves as possible; a leader line joins a distant label to its point.
     """
-    figure = axes.figure.figure  # not the subfigure
+    figure = axes.figure.figure  # also where axes.figure is a subfigure
     canvas = FigureCanvasAgg(figure)
-    figure.draw_without_rendering()  # the layout is that of the saved figure from here on
+    figure.draw_without_rendering()  # fixes the layout to that of the saved figure
     renderer, pixels = canvas.get_renderer(), figure.dpi / 72
     legend, frame, curves = axes.get_legend(), axes.get_window_extent(renderer), _points_of_curves(axes)
     taken = [legend.get_window_extent(renderer)] if legend else []

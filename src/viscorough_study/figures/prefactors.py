@@ -1,4 +1,4 @@
-"""The prefactor ζ over the paper's two laws for it: combinations of conventions, from the nearest to the law on."""
+"""Ratio of the prefactor ζ to the paper's two laws, for combinations of conventions ranked by their deviation."""
 
 from matplotlib.patches import Patch
 
@@ -24,7 +24,7 @@ SHORT = {
 
 @style.in_style
 def plot_prefactors(table, conventions):
-    """ζ over each of the paper's two laws: the nearest combinations of conventions, that of the figures, and all.
+    """ζ over each of the paper's two laws: the nearest combinations of conventions, that of the other figures, and all.
 
     table : of viscorough_study.fits.prefactors; conventions : those of the other figures, {column: value}
     Rows are ranked by the largest deviation over all Hurst exponents, among the combinations that the paper leaves
@@ -48,13 +48,13 @@ def plot_prefactors(table, conventions):
     return figure
 
 
-def _draw_law(axes, table, law, shown, looks):
-    """One law: a row for each of the nearest combinations, for that of the figures, and one for all of them."""
+def _draw_law(axes, table, law, figure_combination, looks):
+    """Panel of one law: rows of the nearest combinations, of that of the other figures, and of all combinations."""
     open_rows = left_open(table)
     ranking = prefactors.ranked(open_rows, law)
-    rows = [(f"{_words(table, one)}   {rank}", one) for rank, one in enumerate(ranking[:NEAREST], 1)]
-    own = f", rank {ranking.index(shown) + 1}" if shown in ranking else ""
-    rows.append((f"as in the other figures{own}:\n{_words(table, shown)}", shown))
+    rows = [(f"{_words(table, nearest)}   {rank}", nearest) for rank, nearest in enumerate(ranking[:NEAREST], 1)]
+    own = f", rank {ranking.index(figure_combination) + 1}" if figure_combination in ranking else ""
+    rows.append((f"as in the other figures{own}:\n{_words(table, figure_combination)}", figure_combination))
     if contradicting := prefactors.ranked(table.drop(open_rows.index), law):
         words = _words(table, contradicting[0])
         rows.append((f"$L$ the radius (contradicts the paper), nearest:\n{words}", contradicting[0]))
@@ -63,9 +63,9 @@ def _draw_law(axes, table, law, shown, looks):
     for y, (_, combination) in enumerate(rows):
         _draw_combination(axes, y, prefactors.rows_of(table, combination), law, looks)
     for rank, (hurst, look) in enumerate(looks.items()):
-        every = open_rows.loc[open_rows["hurst"] == hurst, law]
-        height = [len(rows) + _shift(rank, looks)] * len(every)
-        axes.plot(every, height, **look | {"linestyle": "", "marker": "|", "markersize": 4.5, "alpha": 0.6})
+        values = open_rows.loc[open_rows["hurst"] == hurst, law]
+        height = [len(rows) + _shift(rank, looks)] * len(values)
+        axes.plot(values, height, **look | {"linestyle": "", "marker": "|", "markersize": 4.5, "alpha": 0.6})
     for y in range(min(NEAREST, len(ranking)), len(rows) + 1):
         axes.axhline(y - 0.5, color=style.GREY, linewidth=0.5)
     labels = [label for label, _ in rows] + [f"all {len(prefactors.combinations(open_rows))} combinations left open"]
@@ -85,12 +85,12 @@ def _draw_combination(axes, y, rows, law, looks):
 
 
 def _shift(rank, looks):
-    """Height of a Hurst exponent within a row, so that intervals do not hide each other."""
+    """Vertical offset of a Hurst exponent within a row, which keeps intervals apart."""
     return 0.8 * ((rank + 0.5) / len(looks) - 0.5)
 
 
 def _words(table, combination):
-    """A combination in words; the surfaces only where they are not those of the base."""
+    """Label of a combination; it names the surfaces only where they differ from the base case."""
     words = [labels[combination[name]] for name, labels in SHORT.items()]
     surfaces = table.loc[table["case_group"] == combination["case_group"], ["period", "corners", "amplitudes"]].iloc[0]
     base = table.loc[table["case_group"] == "base", ["period", "corners", "amplitudes"]].iloc[0]

@@ -1,4 +1,4 @@
-"""The exponent β of ensembles on grids from coarse to fine."""
+"""Exponent β of ensembles on grids from coarse to fine."""
 
 from viscorough.reference import exponent_beta
 from viscorough_study.figures import style
@@ -13,8 +13,8 @@ def plot_sizes(table, conventions):
     """β over the number of elements, of discs (a) and lines (b) in region (b), and in a fixed window (c), (d).
 
     table : sizes, of fits.grid_trends; conventions : {column of it: value}
-    The fixed window is that at the largest X. One colour for each Hurst exponent; dotted lines are H/(1 + H), Eq. 10;
-    crosses are controls, discs whose spectrum rolls off.
+    The fixed window is the one at the largest X. Colours distinguish Hurst exponents; dotted lines are H/(1 + H),
+    Eq. 10; crosses are controls, discs whose spectrum has a roll-off.
     Raises ValueError for a table without rows.
     """
     style.require_rows("plot_sizes", table)
@@ -39,13 +39,13 @@ def plot_sizes(table, conventions):
 
 
 def _panel(axes, table, conventions, source, looks):
-    """β of discs or lines in one window."""
+    """Draw β of discs or lines in one window."""
     own_rms = {"rms_convention": "line"} if source == "lines" else {}
     for rank, (hurst, look) in enumerate(looks.items()):
         rows = fits(table, conventions | own_rms, source=source, case_group="sizes", hurst=hurst)
         axes.axhline(exponent_beta(hurst), color=look["color"], linestyle=":", linewidth=0.8)
         for row in rows.sort_values("elements").itertuples():
-            shifted = row.elements * 1.06 ** (rank - len(looks) / 2)  # so that intervals do not hide each other
+            shifted = row.elements * 1.06 ** (rank - len(looks) / 2)  # keeps intervals apart
             style.mark_with_interval(axes, shifted, row.beta, (row.beta_low, row.beta_high), look)
     if source == "discs":
         for row in fits(table, conventions, source="discs", case_group="controls").itertuples():

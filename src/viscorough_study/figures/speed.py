@@ -1,4 +1,4 @@
-"""Speed against accuracy of a few methods, each named at its line."""
+"""Speed against accuracy of the main methods, labelled directly."""
 
 import re
 
@@ -15,10 +15,10 @@ METHODS = {
     "explicit, logarithmic steps": "explicit\ntime steps",
     "MDR": "MDR (model)",
 }
-ELEMENTS_ACROSS = 257  # of the indenters drawn, or the most below that
-FLOOR = 1e-13  # smaller errors are drawn here
+ELEMENTS_ACROSS = 257  # largest grid drawn
+FLOOR = 1e-13  # smaller errors are drawn at this value
 HEADLINE = 0.01  # error at which the fastest methods are compared
-COMPARED = {"marching": "time steps", "other solver": "other solvers"}  # with the path
+COMPARED = {"marching": "time steps", "other solver": "other solvers"}  # groups compared with the path
 RING = {"color": style.BLACK, "marker": "o", "markersize": 9, "markerfacecolor": "none", "linestyle": ""}
 RING |= {"label": "fastest of its kind to an error of 1 %"}
 PARETO = {"color": style.GREY, "linewidth": 3, "alpha": 0.35, "drawstyle": "steps-post"}
@@ -27,12 +27,12 @@ PARETO |= {"label": "Pareto front of all methods"}
 
 @style.in_style
 def plot_speed(table):
-    """Wall time against the error of v: the elastic path, time steps, a model and the fastest of other solvers.
+    """Error of v against wall time: the elastic path, time steps, a model and the fastest of other solvers.
 
-    table : of viscorough_study.performance.measurement; its first rough disc (a) and the sphere (b) are drawn,
-        or what there is of them, or else its first problem
-    The staircase is the Pareto front of all methods of the table. Rings mark the fastest solutions with an error of at
-    most 1 %, of the path, of time steps and of other solvers, whose times are compared.
+    table : of viscorough_study.performance.measurement; drawn are its first rough disc (a) and the sphere (b), as far
+        as it has them, otherwise its first problem
+    The staircase is the Pareto front of all methods of the table. Rings mark the fastest solutions by the path, by time
+    steps and by other solvers with an error of at most 1 %; a box compares their times.
     Raises ValueError for a table without rows.
     """
     style.require_rows("plot_speed", table)
@@ -68,7 +68,7 @@ def _finest_grid(table, problem):
 
 
 def _draw_methods(axes, costs, looks):
-    """Lines of the methods; returns their labels, at the most accurate point of each."""
+    """Draw the lines of the methods; returns their labels, placed at the most accurate points."""
     others = costs[costs["group"] == "other solver"]
     drawn = [(looks[name], label, costs[costs["method"] == name]) for name, label in METHODS.items()]
     if len(others):
@@ -84,7 +84,7 @@ def _draw_methods(axes, costs, looks):
 
 
 def _draw_headline(axes, costs):
-    """Rings around the fastest of each kind to reach the error of the headline, and a box with their times."""
+    """Draw rings around the fastest solution of each group within the error `HEADLINE`, and a box with their times."""
     best = fastest(costs, HEADLINE)
     if "path" not in best:
         return

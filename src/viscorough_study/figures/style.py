@@ -1,7 +1,8 @@
-"""What the figures share: style and sizes of the printed page, colours, looks of series, ticks, saving.
+"""Shared style of the figures: page sizes, colours, markers and line styles of series, ticks, saving.
 
-The colour, marker and line style of a Hurst exponent depend on its value alone, so that all figures agree on them.
-Units stand in parentheses behind the symbol; dimensionless quantities have none. No text is smaller than `SMALL`.
+The colour, marker and line style of a Hurst exponent depend on its value alone, so that they agree in all figures.
+Axis labels give units in parentheses after the symbol, and none for dimensionless quantities. No text is smaller than
+`SMALL`.
 """
 
 from io import BytesIO
@@ -12,16 +13,16 @@ from matplotlib import colormaps, rc_context
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullFormatter
-from PIL import Image  # which matplotlib needs
+from PIL import Image  # a dependency of matplotlib
 
 from viscorough.io.atomic import atomic_write
 
 MM = 1 / 25.4
-WIDE, NARROW = 170 * MM, 85 * MM  # across two columns of a page, and one
+WIDE, NARROW = 170 * MM, 85 * MM  # widths of two columns of a page, and of one
 SMALL = 7  # points
-FEW_DECADES = 1.8  # on a logarithmic axis, over which ticks at decades alone would be too few
+FEW_DECADES = 1.8  # range of a logarithmic axis below which ticks at decades alone are too few
 GREY, PALE = "0.4", "0.8"
-# The colours of Okabe and Ito, which can be told apart with any colour vision.
+# The colours of Okabe and Ito, distinguishable with any colour vision.
 BLACK, BLUE, SKY_BLUE, GREEN = "#000000", "#0072b2", "#56b4e9", "#009e73"
 ORANGE, VERMILION, PURPLE = "#e69f00", "#d55e00", "#cc79a7"
 
@@ -58,18 +59,18 @@ STYLE = {
 }
 
 
-in_style = rc_context(STYLE)  # decorator of every function that draws
+in_style = rc_context(STYLE)  # decorator of every plotting function
 
 
 def new_figure(height, width=WIDE):
-    """Empty figure of a height in mm; width : `WIDE` or `NARROW`."""
+    """Empty figure; height in mm, width `WIDE` or `NARROW`."""
     return Figure(figsize=(width, height * MM))
 
 
 def new_panels(count, columns, height, rest, **sharing):
-    """Figure and its panels, so many in rows of `columns`.
+    """Figure and the list of its `count` panels, in rows of `columns`.
 
-    height : of a row of panels, rest : of what is above and below them [mm]; sharing : of axes, as in Figure.subplots
+    height : of a row of panels; rest : of titles, labels and legends in all [mm]; sharing : as in Figure.subplots
     """
     rows = -(-count // columns)
     figure = new_figure(height * rows + rest)
@@ -86,17 +87,17 @@ def save_figure(figure, *paths):
     The same figure gives the same bytes. Raises ValueError for a path that cannot be written.
     """
     for path in paths:
-        kind = Path(path).suffix[1:]
+        suffix = Path(path).suffix[1:]
         with atomic_write(path) as temporary:
-            if kind == "png":
+            if suffix == "png":
                 _save_picture(figure, temporary)
             else:
-                figure.savefig(temporary, format=kind, metadata={"CreationDate": None} if kind == "pdf" else None)
-        figure.set_layout_engine("none")  # the places of the first format, which take as long to find as the drawing
+                figure.savefig(temporary, format=suffix, metadata={"CreationDate": None} if suffix == "pdf" else None)
+        figure.set_layout_engine("none")  # keeps the layout of the first format, which takes as long as drawing
 
 
 def _save_picture(figure, path):
-    """Write a PNG file of at most 256 colours: all figures are part of one page, a third as large for that."""
+    """Write a PNG file of at most 256 colours, a third of the size: the page embeds all figures."""
     drawn = BytesIO()
     figure.savefig(drawn, format="png", pil_kwargs={"compress_level": 1})
     with Image.open(drawn) as picture:
@@ -105,7 +106,7 @@ def _save_picture(figure, path):
 
 
 def require_rows(function, table):
-    """Raise ValueError, which names the plotting function, for a table without rows."""
+    """Raise ValueError, naming the plotting function, for a table without rows."""
     if table.empty:
         raise ValueError(f"{function}: the table has no rows; at least one is needed")
 
@@ -114,20 +115,20 @@ def hurst_looks(exponents):
     """{Hurst exponent: color, marker, linestyle}, by ascending exponent."""
     looks = {}
     for hurst in sorted(set(exponents)):
-        # Other than those of all other multiples of 0.1, and than those of exponents close by.
+        # Distinct for all multiples of 0.1, and for neighbouring exponents.
         rank, color = round(20 * hurst) % len(HURST_MARKERS), colormaps["plasma"](0.8 * hurst)
         looks[hurst] = {"color": color, "marker": HURST_MARKERS[rank], "linestyle": HURST_LINES[rank]}
     return looks
 
 
 def series_looks(names):
-    """{name: color, marker}, by the order of the names; the first markers of a colour are filled, the next hollow."""
+    """{name: color, marker}, in the order of the names; markers are hollow where colours repeat."""
     looks = {}
     for rank, name in enumerate(dict.fromkeys(names)):
-        turn, place = divmod(rank, len(SERIES_COLORS))
-        color = SERIES_COLORS[place]
+        cycle, index = divmod(rank, len(SERIES_COLORS))
+        color = SERIES_COLORS[index]
         marker = SERIES_MARKERS[rank % len(SERIES_MARKERS)]
-        looks[name] = {"color": color, "marker": marker, "markerfacecolor": "none" if turn else color}
+        looks[name] = {"color": color, "marker": marker, "markerfacecolor": "none" if cycle else color}
     return looks
 
 
@@ -138,7 +139,7 @@ def count_text(counts):
 
 
 def handle(label, **look):
-    """Entry of a legend, for a line or marker of this look."""
+    """Legend entry of a line or marker of this look."""
     return Line2D([], [], label=label, **look)
 
 
@@ -148,7 +149,7 @@ def hurst_handles(looks, **changes):
 
 
 def number_text(value, digits=3):
-    """Number of so many digits, with a power of ten where it is very small or large; 0 for 0."""
+    """Number to `digits` significant digits, with a power of ten if very small or large; 0 for 0."""
     mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
     if value == 0 or -3 <= int(exponent) < 4:
         return f"{float(f'{mantissa}e{exponent}'):g}"
@@ -157,12 +158,12 @@ def number_text(value, digits=3):
 
 
 def draw_band(axes, rows, name, color, alpha=0.15):
-    """Band over x between the columns of the ends of an interval, `name`_low and `name`_high."""
+    """Draw a band over x between the columns `name`_low and `name`_high."""
     axes.fill_between(rows["x"], rows[f"{name}_low"], rows[f"{name}_high"], color=color, alpha=alpha, linewidth=0)
 
 
 def mark_with_interval(axes, x, y, interval, look, along="y"):
-    """Marker at (x, y) and its interval (low, high) along x or y, which need not contain it; returns the marker."""
+    """Draw a marker at (x, y) and its interval (low, high) along x or y, which need not contain it; return its line."""
     middle, half = np.mean(interval), np.diff(interval) / 2
     center = (x, middle) if along == "y" else (middle, y)
     axes.errorbar(*center, **{f"{along}err": half}, fmt="none", ecolor=look["color"])
@@ -170,9 +171,9 @@ def mark_with_interval(axes, x, y, interval, look, along="y"):
 
 
 def logarithmic_ticks(*panels):
-    """Ticks of logarithmic axes: at decades, over few decades also at their 2 and 5, over a part of one evenly.
+    """Set ticks of logarithmic axes: at decades, over few decades also at 2 and 5, over less than one evenly spaced.
 
-    Minor ticks stand at the decades where not every decade has a major tick, else between them.
+    Minor ticks are at the decades where not every decade has a major tick, otherwise between them.
     """
     for axis in (axis for axes in panels for axis in (axes.xaxis, axes.yaxis) if axis.get_scale() == "log"):
         low, high = np.log10(axis.get_view_interval())
@@ -187,13 +188,13 @@ def logarithmic_ticks(*panels):
 
 
 def plain_ticks(axis, ticks):
-    """Major ticks labelled with plain numbers on a logarithmic axis of few decades, and minor ticks between them."""
+    """Set major ticks with plain numbers on a logarithmic axis of few decades, and minor ticks between them."""
     axis.set(major_locator=FixedLocator(ticks), major_formatter="{x:g}")
     axis.set(minor_locator=LogLocator(subs=range(1, 10)), minor_formatter=NullFormatter())
 
 
 def add_legend_of_means(figure, handles, guides, table):
-    """Legend below a figure: these handles, grey lines {label: line style}, and the number of discs of the table."""
+    """Add a legend below a figure: `handles`, grey lines {label: line style}, and the number of discs of the table."""
     handles = handles + [handle(label, color=GREY, linestyle=line, linewidth=0.8) for label, line in guides.items()]
     title = f"each a mean over {count_text(table['realizations'])} discs"
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), title=title)

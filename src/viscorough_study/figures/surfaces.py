@@ -1,11 +1,11 @@
-"""Figure 1 of the paper: an indenter for each Hurst exponent."""
+"""Figure 1 of the paper: one indenter for each Hurst exponent."""
 
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
 from viscorough_study.figures import style
 
-COLORS = "cividis_r"  # from bright to dark, with any colour vision and in grey
+COLORS = "cividis_r"  # from bright to dark, for any colour vision and in greyscale
 
 
 @style.in_style

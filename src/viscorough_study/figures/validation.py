@@ -9,7 +9,7 @@ from viscorough_study.figures import style
 COLORS = (style.BLUE, style.VERMILION, style.GREEN, style.PURPLE, style.ORANGE)
 MARKERS = "osxD+"
 LIMIT = {"color": "black", "linewidth": 2}
-LABEL_HEIGHT = 0.085  # of an order, as a share of the height of its panel
+LABEL_HEIGHT = 0.085  # of the label of an order, as a fraction of the height of its panel
 
 
 @style.in_style
@@ -17,7 +17,7 @@ def plot_validation(table):
     """Relative errors against exact solutions over the elements across the body, one panel for each quantity.
 
     table : of viscorough_study.comparisons.validation
-    The observed orders stand at the ends of the lines; the black bar is the limit on the finest grid.
+    Labels at the ends of the lines give the observed orders; the black bar is the limit on the finest grid.
     """
     quantities, cases = table["quantity"].unique(), table["case"].unique()
     looks, grids = _case_looks(cases), sorted(table["elements"].unique())
@@ -27,7 +27,7 @@ def plot_validation(table):
         _draw_errors(axes, quantity, table[table["quantity"] == quantity], looks, grids)
     for axes in panels[::columns]:
         axes.set_ylabel("relative error")
-    for axes in panels[-columns:]:  # the lowest of each column
+    for axes in panels[-columns:]:  # the bottom row
         axes.set_xlabel("elements across, $n$")
     handles = [style.handle(case.replace("_", " "), **looks[case]) for case in cases]
     handles.append(style.handle("limit on the finest grid", **LIMIT))
@@ -36,7 +36,7 @@ def plot_validation(table):
 
 
 def _draw_errors(axes, quantity, errors, looks, grids):
-    """One quantity: errors of all cases, with their observed orders."""
+    """Draw the errors of one quantity for all cases, with their observed orders."""
     for case, rows in errors.groupby("case", sort=False):
         axes.plot(rows["elements"], rows["error"], **looks[case])
     limit = errors["limit"].iloc[0]
@@ -55,9 +55,9 @@ def _draw_errors(axes, quantity, errors, looks, grids):
 
 
 def _order_labels(finest):
-    """Decimal logarithms of the errors on the finest grid, ascending, and what is written there.
+    """Decimal logarithms of the errors on the finest grid, ascending, and their labels.
 
-    Equal labels of errors that differ by less than a tenth are written once.
+    Equal labels of errors that differ by less than 10 % are written once.
     """
     heights, texts = [], []
     for row in finest.sort_values("error").itertuples():
@@ -70,7 +70,7 @@ def _order_labels(finest):
 
 
 def _spread(heights, least):
-    """Heights in ascending order that are at least so far apart, close to those given, which are ascending."""
+    """Ascending heights moved as little as needed to be at least `least` apart."""
     heights = np.array(heights)
     for _ in range(20 * len(heights)):
         overlap = np.maximum(least - np.diff(heights), 0)
@@ -80,7 +80,7 @@ def _spread(heights, least):
 
 
 def _case_looks(cases):
-    """Looks of cases named by body and method: the body has a colour and line style, the method a marker."""
+    """Looks of cases named <body>_<method>: colour and line style of the body, marker of the method."""
     bodies, methods = (pd.factorize(np.array([case.partition("_")[part] for case in cases]))[0] for part in (0, 2))
     return {
         case: {

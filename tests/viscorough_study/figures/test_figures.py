@@ -245,11 +245,11 @@ def test_lines_are_compared_with_discs_by_means_scatter_and_correlations(drawn):
 
 
 def test_lambda_is_thick_in_its_region_and_unknown_differences_are_left_out(drawn):
-    of_lambda, _ = tables.FROM_TABLES["mdr_lambda"]
+    lambdas, _ = tables.FROM_TABLES["mdr_lambda"]
     values, ratios, differences = drawn["mdr_lambda"].axes
     for axes, name in ((values, "lambda"), (ratios, "velocity_ratio")):
         for hurst, whole, inside in zip((0.4, 0.9), axes.lines[0:4:2], axes.lines[1:4:2], strict=True):
-            rows = of_lambda[of_lambda["hurst"] == hurst]
+            rows = lambdas[of_lambda["hurst"] == hurst]
             np.testing.assert_array_equal(whole.get_xydata(), rows[["x", name]])
             np.testing.assert_array_equal(inside.get_xydata(), rows.loc[rows["in_region"] == 1, ["x", name]])
             assert inside.get_linewidth() == 2

@@ -13,7 +13,7 @@ from viscorough.calibrated_law import interface_velocity
 from viscorough_study.comparisons.literature import COLUMNS as LITERATURE
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.figures.failure_map import LETTERS
-from viscorough_study.fits.conventions import of_source
+from viscorough_study.fits.conventions import source_values
 from viscorough_study.fits.fit_table import COLUMNS as SCALING_COLUMNS
 from viscorough_study.fits.interface import COLUMNS as INTERFACE
 from viscorough_study.fits.scaling_collapse import QUANTITIES, Grid, curve_table
@@ -164,7 +164,7 @@ def sizes_table():
     fixed = {"window_rule": "X = 0.01 to 0.1"}
     rows = [
         fit_row(case_group="sizes", hurst=hurst, beta=beta, beta_low=0.2, beta_high=0.4, realizations=realizations)
-        | of_source(source)
+        | source_values(source)
         | {"elements": n}
         | window
         for source in ("discs", "lines")

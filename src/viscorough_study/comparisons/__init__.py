@@ -1,1 +1,1 @@
-"""The paper's method against others: MDR, direct integration, other media, measured surfaces, literature."""
+"""Comparisons: MDR, direct integration, exact solutions, other media, measured surfaces, literature."""

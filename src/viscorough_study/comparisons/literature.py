@@ -1,4 +1,4 @@
-"""What others found on rough contacts (resources/literature), with the numbers of this study beside it."""
+"""Published results on rough contacts (resources/literature), compared with those of this study."""
 
 import numpy as np
 import pandas as pd
@@ -14,11 +14,11 @@ COLUMNS = {
     "source": ("authors", ""),
     "place": ("journal, volume and page", ""),
     "when": ("before or after the paper", ""),
-    "statement": ("what was found, in our words", ""),
-    "sure": ("how it is known: abstract, the paper, quoted by others, or not verified", ""),
+    "statement": ("finding, in our words", ""),
+    "sure": ("basis of the statement: abstract, the paper, quoted by others, or not verified", ""),
     "read": ("where it was read", ""),
     "quantity": (
-        "ours beside it: alpha (1 − β of discs), u0 (u₀/h of the interface), gamma (u₀/h over that of Persson's law "
+        "quantity compared: alpha (1 − β of discs), u0 (u₀/h of the interface), gamma (u₀/h over that of Persson's law "
         "without a factor), area and gap (contact and mean gap of a line over those of its disc at X = 0.01), or none",
         "",
     ),
@@ -29,9 +29,9 @@ COLUMNS = {
     "high": ("upper end of its 95 % interval", "1"),
 }
 KNOWN = ("year", "source", "place", "when", "statement", "sure", "read")
-OURS = ["hurst", "value", "low", "high", "across"]  # across: elements across the discs, where the quantity needs it
+OURS = ["hurst", "value", "low", "high", "across"]  # across: elements across the discs, for quantities that need it
 NONE = pd.DataFrame([dict.fromkeys(OURS, np.nan)])
-X_COMPARED = 0.01  # at which lines are compared with their discs, in region (b)
+X_COMPARED = 0.01  # X in region (b) at which lines are compared with their discs
 
 
 def literature(scaling, interface, reduction, *, entries, conventions):
@@ -60,15 +60,15 @@ def literature(scaling, interface, reduction, *, entries, conventions):
 
 
 def cited(source, year):
-    """A source as cited in a text: up to three surnames, or the first and "et al.", and the year."""
+    """Citation of a source in running text: up to three surnames, or the first and "et al.", and the year."""
     names = source.replace(" and ", ", ").split(", ")
     return f"{source if len(names) < 4 else names[0] + ' et al.'} {year}"
 
 
 def persson_u0(hurst, band):
-    """u₀/h of p ∝ exp(−u/u₀) at small pressures, without the fitted factor γ by which others multiply it.
+    """u₀/h of p ∝ exp(−u/u₀) at small pressures, without the fitted factor γ of later work.
 
-    With the spectrum C ∝ q^(−2−2H) between q₀ and ζq₀ the theory has the elastic energy (π/2)E* ∫ q² C P dq for each
+    With the spectrum C ∝ q^(−2−2H) between q₀ and ζq₀ the theory gives the elastic energy (π/2)E* ∫ q² C P dq per unit
     area, where P = erf(w p/E*) and w(q) = (π ∫ q³ C dq)^(−1/2) up to q. From p du = −dU follows at small pressures
 
         u₀ = √π ∫ q² C w dq = h √(H/π) ∫₁^ζ x^(−2H) [(x^(2−2H) − 1)/(2 − 2H)]^(−1/2) dx / √(1 − ζ^(−2H)).
@@ -77,7 +77,7 @@ def persson_u0(hurst, band):
     Source: B. N. J. Persson, Phys. Rev. Lett. 99, 125502 (2007).
     """
 
-    def integrand(s):  # with x = exp(s²), which is regular at x = 1 and, unlike the one above, defined at H = 1
+    def integrand(s):  # substituting x = exp(s²): regular at x = 1, and defined at H = 1
         return 2 * np.exp((1 - 2 * hurst) * s**2) / np.sqrt(exprel((2 - 2 * hurst) * s**2))
 
     integral, _ = quad(integrand, 0, np.sqrt(np.log(band)))
@@ -85,7 +85,7 @@ def persson_u0(hurst, band):
 
 
 def _theirs(entry, row):
-    """Lower and upper end of what the source has for the Hurst exponent and the discs of a row of ours."""
+    """Lower and upper end of the source's value for the Hurst exponent and the grid of a row of this study."""
     theirs = entry.get("theirs") or entry.get("factor") or {"low": 1.0, "high": 1.0}
     if entry.get("law") == "exponent_alpha":
         scale = reference.exponent_alpha(row["hurst"])
@@ -113,7 +113,7 @@ def _u0(interface, average):
 
 
 def _gamma(u0):
-    """The factor with which Persson's law gives these u₀/h."""
+    """Factor γ with which Persson's law gives these u₀/h."""
     without = u0.apply(_persson, axis=1)
     return u0.assign(**{name: u0[name] / without for name in ("value", "low", "high")})
 
@@ -130,5 +130,5 @@ def _named_value(rows, name):
 
 
 def _or_none(rows):
-    """The columns of OURS by ascending H, one row of nan if there is none."""
+    """The columns of OURS by ascending H; one row of nan for an empty table."""
     return NONE if rows.empty else rows.reindex(columns=OURS).sort_values("hurst")

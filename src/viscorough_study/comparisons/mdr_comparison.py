@@ -1,12 +1,12 @@
-"""The reduction of dimensionality against boundary elements, surface by surface.
+"""The reduction of dimensionality compared with boundary elements, surface by surface.
 
-The line that stands for a surface has the spectrum C1D = π q C2D (Eq. 13): here that of the same realization of the
-surface, ring by ring of the wave vectors, with independent random phases, which the method does not specify.
+The line that represents a surface has the spectrum C1D = π q C2D (Eq. 13), here of the same realization of the surface,
+averaged over rings of wave vectors, with independent random phases, which the method leaves unspecified.
 
-Contact area and separation are where the literature finds the method to fail (Lyashenko, Pastewka & Persson, Tribology
+The literature finds that the method fails for contact area and separation (Lyashenko, Pastewka & Persson, Tribology
 Letters 52, 223 (2013)). The contact fraction of a line is its κ on every grid, whereas that of a disc falls as finer
-waves are resolved: the ratio of the two is that of the grid. The mean gap of a disc takes its deflections, so it is
-computed only at whole powers of ten.
+waves are resolved, so their ratio depends on the grid. The mean gap of a disc requires its deflections and is computed
+only at integer powers of ten.
 """
 
 import numpy as np
@@ -33,23 +33,23 @@ COLUMNS = {
         "geometric mean of X of a line over that of its disc, at equal u/h, where the disc has this X",
         "1",
     ),
-    "gap": ("mean gap of a disc over h, geometric mean; at whole powers of ten only", "1"),
+    "gap": ("mean gap of a disc over h, geometric mean; at integer powers of ten only", "1"),
     **described("gap_ratio", "geometric mean of the mean gap of the lines over that of the discs"),
     "correlation": ("correlation of ln κ of discs and their lines over the realizations", "1"),
-    "chance": ("correlations of as many unrelated pairs are within ± this in 95 % of all cases", "1"),
+    "chance": ("bound within which 95 % of the correlations of as many unrelated pairs lie, ±", "1"),
     "realizations": ("realizations", "1"),
 }
-FORCE_MARGIN = 1.01  # by which the curve of a disc reaches beyond the last force compared, so that it is defined there
+FORCE_MARGIN = 1.01  # ratio of the largest force of a disc's curve to the last force compared, where it is defined
 
 
 def compare_reduction(*, hursts, elements, realizations, tolerance, seed, x_low, x_high, per_decade):
-    """Lines against the discs whose spectra they have; a pandas.DataFrame with the columns of `COLUMNS`.
+    """Lines compared with the discs whose spectra they have; a pandas.DataFrame with the columns of `COLUMNS`.
 
     hursts : Hurst exponents; realizations : number of discs for each
     elements : across a disc of diameter and rms height 1, cut from a square of one period
     tolerance : of the loading curves of the discs; seed : root of the surfaces' seeds
     x_low, x_high, per_decade : of the abscissae X
-    Abscissae that some curve does not reach are left out.
+    Abscissae that some curve does not reach are omitted.
     """
     x, tables = abscissa(x_low, x_high, per_decade), []
     force = 4 * x  # F/G = 4hLX with h = L = 1
@@ -83,14 +83,14 @@ def _compare(disc, line, force):
     fractions = [
         np.interp(np.log(force), np.log(curve.force), np.log(curve.contact_fraction)) for curve in (disc, line)
     ]
-    # Before the first level the curve of the line is straight.
+    # The curve of the line is straight up to the first level.
     straight = np.minimum(np.log(depth / line.depth[0]), 0)
     line_force = straight + np.interp(np.log(depth), np.log(line.depth), np.log(line.force))
     return np.log([disc_stiffness / 4, line_stiffness / 4]), fractions, [np.log(force), line_force]
 
 
 def is_power_of_ten(x):
-    """Whether numbers are whole powers of ten, to rounding; of the shape of x."""
+    """Whether numbers are integer powers of ten, to rounding; of the shape of x."""
     exponent = np.log10(x)
     return np.abs(exponent - np.rint(exponent)) < 1e-9
 
@@ -99,8 +99,8 @@ def mean_gaps(indenter, curve, force, tolerance):
     """Mean over all elements of the gap between indenter and deformed surface, at F/G; shape (forces,) [length].
 
     curve : LoadingCurve of the indenter; tolerance : of the contacts of a map, which are solved at the curve's depths.
-    Springs of a line deflect by u − g where they touch, on average by F/(4GL): their mean gap is ⟨g⟩ − u + F/(4GL).
-    nan beyond the end of the curve.
+    Springs of a line deflect by u − g in contact, on average by F/(4GL), so the mean gap is ⟨g⟩ − u + F/(4GL).
+    Values are nan beyond the end of the curve.
     """
     depth, _ = curve.at_force(force)
     if indenter.heights.ndim == 1:
@@ -114,7 +114,7 @@ def mean_gaps(indenter, curve, force, tolerance):
 
 
 def _table(hurst, x, compared):
-    """Rows of one Hurst exponent at which all but the gaps are defined.
+    """Rows of one Hurst exponent where all quantities except the gaps are defined.
 
     compared : results of _compare and ln of the mean gaps, shape (realizations, 4, disc and line, abscissae)
     """

@@ -1,9 +1,9 @@
-"""Lines against discs of one Hurst exponent: λ over X, residual errors of a single λ, and exponents in equal windows.
+"""Lines compared with discs of one Hurst exponent: λ over X, residual errors of a single λ, exponents in equal windows.
 
-Both are means over ensembles. "A single λ" is the one whose largest error of vt/h over region (b) of the discs is the
-smallest, so that no other choice of λ(H) can do better there. The largest of many errors grows with the scatter of the
-surfaces, and so does the range of λ(X); what is judged are therefore straight lines through ln λ and ln(vt/h) over
-ln X, whose ends may lie on either side and whose intervals have no such bias.
+Both are means over ensembles. The "single λ" minimizes the largest error of vt/h over region (b) of the discs, so no
+other λ(H) does better there. The largest error and the range of λ(X) grow with the scatter of the surfaces; the claims
+are therefore judged by straight lines through ln λ and ln(vt/h) over ln X, whose ends have either sign and whose
+intervals are free of this bias.
 """
 
 import numpy as np
@@ -14,7 +14,7 @@ from viscorough_study.fits.intervals import described, described_ends, percentil
 from viscorough_study.fits.mdr_lambda import match_lines
 from viscorough_study.fits.power_law import find_region, fit_power_law, in_window, named_windows
 
-FRACTION_KEPT = 1 - 1e-9  # of the realizations, that must be defined at an X of the whole curve
+FRACTION_KEPT = 1 - 1e-9  # fraction of realizations that must be defined at an X of the whole curve
 
 LAMBDA_COLUMNS = {
     "hurst": ("Hurst exponent H", "1"),
@@ -27,7 +27,7 @@ SUMMARY_COLUMNS = {
     "hurst": ("Hurst exponent H", "1"),
     **described_ends("x", "of region (b) of the discs in X"),
     **described("drift", "λ at the upper over λ at the lower end of region (b), by a power law through λ(X)"),
-    **described("lambda_best", "λ with the smallest largest error of vt/h over region (b)"),
+    **described("lambda_best", "λ that minimizes the largest error of vt/h over region (b)"),
     "error_region": ("largest error of ln(vt/h) over region (b) with this λ", "1"),
     **described("error_trend", "error of ln(vt/h) at the upper end of region (b) with this λ, by a power law"),
     **described("error_whole", "largest error of ln(vt/h) from the start of region (b) to the end of the curve"),
@@ -59,7 +59,7 @@ def mdr_tables(discs, lines, *, seed, fit, conventions):
     discs = select(discs, group="base").sel(rms_convention=[conventions["rms_convention"]])
     lines = lines.isel(realization=np.flatnonzero(np.isin(lines["hurst"], discs["hurst"])))
     pair = (
-        {hurst: one.isel(rms_convention=0) for hurst, one in ensembles(pool, "hurst").items()}
+        {hurst: ensemble.isel(rms_convention=0) for hurst, ensemble in ensembles(pool, "hurst").items()}
         for pool in (discs, lines)
     )
     tables = compare_ensembles(*pair, average=conventions["average"], seed=seed, **fit)
@@ -69,46 +69,46 @@ def mdr_tables(discs, lines, *, seed, fit, conventions):
 def compare_ensembles(discs, lines, *, average, stiffness_range, resamples, seed, **limits):
     """The three tables of discs and lines, with `LAMBDA_COLUMNS`, `SUMMARY_COLUMNS` and `EXPONENT_COLUMNS`.
 
-    discs, lines : {H: ensemble (ensembles.averages) in one rms convention}, of equal abscissae. Only Hurst
-        exponents of both are compared
+    discs, lines : {H: ensemble (ensembles.averages) in one rms convention}, of equal abscissae; Hurst exponents that
+        both have are compared
     average, resamples, seed : of the bootstrap, as in viscorough_study.fits.power_law.fit_power_law
     stiffness_range, limits : arguments of viscorough_study.fits.power_law.named_windows
-    Without a region (b) there are no rows of λ, and those of the others have nan.
+    Without a region (b) there are no rows of λ, and the values of the other tables are nan.
     """
-    how, parts = {"average": average, "resamples": resamples}, ([], [], [])
+    bootstrap, parts = {"average": average, "resamples": resamples}, ([], [], [])
     for hurst in sorted(set(discs) & set(lines)):
         pair = discs[hurst], lines[hurst]
-        of_lambda, summary = _lambda_rows(*pair, limits, **how, seed=seed)
-        rows = [of_lambda, [summary], _exponent_rows(*pair, stiffness_range, limits, **how, seed=seed)]
+        lambda_rows, summary = _lambda_rows(*pair, limits, **bootstrap, seed=seed)
+        rows = [lambda_rows, [summary], _exponent_rows(*pair, stiffness_range, limits, **bootstrap, seed=seed)]
         for part, more in zip(parts, rows, strict=True):
             part += [{"hurst": hurst} | row for row in more]
     columns = LAMBDA_COLUMNS, SUMMARY_COLUMNS, EXPONENT_COLUMNS
     return [pd.DataFrame(part, columns=list(names)) for part, names in zip(parts, columns, strict=True)]
 
 
-def _lambda_rows(discs, lines, limits, **how):
+def _lambda_rows(discs, lines, limits, **bootstrap):
     """Rows of λ over X and the row of the summary, of one Hurst exponent."""
     x = discs["x"].values
     number = {"discs": discs.sizes["realization"], "lines": lines.sizes["realization"]}
     window = find_region(discs, **limits)
     if window is None:
         return [], number
-    match = match_lines(x, discs["velocity"].values, lines["velocity"].values, **how)
+    match = match_lines(x, discs["velocity"].values, lines["velocity"].values, **bootstrap)
     best = match.best_stretch(window)
     chosen = (x >= window[0] / 10) & (discs["fraction_defined"].values >= FRACTION_KEPT)
     ratio = np.exp(match.deviation(best, chosen))
     chosen[chosen] = np.isfinite(ratio[0])
-    return _of_abscissae(match, best, window, chosen), number | _summary(match, best, window, chosen)
+    return _abscissa_rows(match, best, window, chosen), number | _summary(match, best, window, chosen)
 
 
-def _of_abscissae(match, best, window, chosen):
+def _abscissa_rows(match, best, window, chosen):
     """Rows of the chosen abscissae."""
     x = match.x[chosen]
-    of_lambda, ratio = match.lambda_at(x), np.exp(match.deviation(best, chosen))
+    lambdas, ratio = match.lambda_at(x), np.exp(match.deviation(best, chosen))
     rows = []
-    for i, at in enumerate(x):
-        row = {"x": at, "in_region": int(in_window(at, window))}
-        row |= three_columns("lambda", match.with_interval(of_lambda[:, i]))
+    for i, abscissa in enumerate(x):
+        row = {"x": abscissa, "in_region": int(in_window(abscissa, window))}
+        row |= three_columns("lambda", match.with_interval(lambdas[:, i]))
         rows.append(row | three_columns("velocity_ratio", match.with_interval(ratio[:, i])))
     return rows
 
@@ -117,7 +117,7 @@ def _summary(match, best, window, chosen):
     """Columns of the summary."""
     region, whole = in_window(match.x, window), chosen & (match.x >= window[0])
     stretch = match.stretch_at(match.x[region])
-    error, of_whole = (match.deviation(best, part) for part in (region, whole))
+    error, whole_error = (match.deviation(best, part) for part in (region, whole))
     return {
         "x_low": window[0],
         "x_high": window[1],
@@ -125,33 +125,33 @@ def _summary(match, best, window, chosen):
         **three_columns("lambda_best", match.with_interval(np.pi * np.exp(2 * best))),
         "error_region": np.abs(error[0]).max(),
         **three_columns("error_trend", match.with_interval(_rise(match.x[region], error) / 2)),
-        **three_columns("error_whole", match.with_interval(np.abs(of_whole).max(axis=1))),
+        **three_columns("error_whole", match.with_interval(np.abs(whole_error).max(axis=1))),
     }
 
 
 def _rise(x, values):
-    """From the first to the last X, of the least-squares line of values in ln X; values : shape (samples, X)."""
+    """Rise of the least-squares line in ln X from the first to the last X; values : shape (samples, X)."""
     offset = np.log(x) - np.log(x).mean()
     return values @ offset / (offset @ offset) * np.ptp(offset)
 
 
-def _exponent_rows(discs, lines, stiffness_range, limits, *, seed, **how):
+def _exponent_rows(discs, lines, stiffness_range, limits, *, seed, **bootstrap):
     """Rows of the exponents of one Hurst exponent; those without a window have nan."""
-    windows = [named_windows(one, stiffness_range=stiffness_range, **limits) for one in (discs, lines)]
-    own, kappa = ([of_one[rule] for of_one in windows] for rule in ("default", "kappa"))
-    pairs = dict(zip(WINDOWS, (own, [own[0], own[0]], kappa), strict=True))
-    return [{"window": name} | _fits(discs, lines, pair, seed, how) for name, pair in pairs.items()]
+    windows = [named_windows(ensemble, stiffness_range=stiffness_range, **limits) for ensemble in (discs, lines)]
+    regions, kappa = ([rules[rule] for rules in windows] for rule in ("default", "kappa"))
+    pairs = dict(zip(WINDOWS, (regions, [regions[0], regions[0]], kappa), strict=True))
+    return [{"window": name} | _fits(discs, lines, pair, seed, bootstrap) for name, pair in pairs.items()]
 
 
-def _fits(discs, lines, windows, seed, how):
-    """Columns of the fits of discs and lines in their windows; {} where one of them has none."""
+def _fits(discs, lines, windows, seed, bootstrap):
+    """Columns of the fits of discs and lines in their windows; {} if one of them has none."""
     if None in windows:
         return {}
     fits, columns = [], {}
-    # Draws of their own for each, so that the samples of the two are independent.
+    # Separate seeds make the bootstrap samples of discs and lines independent.
     names = zip(("discs", "lines"), (discs, lines), windows, np.random.SeedSequence(seed).spawn(2), strict=True)
-    for name, one, window, own_seed in names:
-        fit = fit_power_law(one["x"].values, one["velocity"].values, window, **how, seed=own_seed)
+    for name, ensemble, window, sample_seed in names:
+        fit = fit_power_law(ensemble["x"].values, ensemble["velocity"].values, window, **bootstrap, seed=sample_seed)
         columns |= {f"x_low_{name}": window[0], f"x_high_{name}": window[1]}
         columns |= three_columns(f"beta_{name}", (fit.beta, *fit.beta_interval))
         fits.append(fit)

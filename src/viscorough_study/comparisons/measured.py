@@ -33,16 +33,16 @@ KINETICS = {
 }
 
 
-def measured_tables(pool, curves, *, media, times, fit, seed, **of_scans):
+def measured_tables(pool, curves, *, names, forces, media, times, fit, seed):
     """{"measured_scans", "measured_fits", "measured_kinetics": table} of measured surfaces.
 
     Their columns are `COLUMNS`, those of fit_table and `KINETICS`.
-    pool : of all scans; curves : Content of the curve of each; of_scans : names, and forces [N] of each scan
+    pool : of all scans; curves, names, forces : of each scan the Content of its curve, its name and its forces [N]
     media : mappings with a name and the keys of a medium; times : low, high [s], per_decade
     fit : settings in section `scaling`
     """
-    asked = {"media": named_media(media), "times": abscissa(**times)}
-    scans, motions = scans_and_kinetics(curves, **asked, **of_scans)
+    loading = {"forces": forces, "media": named_media(media), "times": abscissa(**times)}
+    scans, motions = scans_and_kinetics(curves, names=names, **loading)
     fits = group_fits(ensembles(pool, "group"), seed=seed, **fit)
     return {"measured_scans": scans, "measured_fits": fits, "measured_kinetics": motions}
 
@@ -54,18 +54,18 @@ def scans_and_kinetics(batches, *, names, forces, media, times):
     media : {name: medium} in Pa and s; times : t > 0, increasing [s]
     """
     scans, motions = [], [pd.DataFrame(columns=list(KINETICS))]
-    for name, batch, of_scan in zip(names, batches, forces, strict=True):
+    for name, batch, scan_forces in zip(names, batches, forces, strict=True):
         (curve,), (settings,) = unstack_curves(batch), json.loads(batch.attributes["settings"])["ensembles"]
-        same = {"scan": name, "group": settings["group"]}
-        scans.append(same | {"file": settings["file"]} | settings["lengths"])
-        motions += [part.assign(**same) for part in _motions(curve, media, of_scan, times)]
+        labels = {"scan": name, "group": settings["group"]}
+        scans.append(labels | {"file": settings["file"]} | settings["lengths"])
+        motions += [part.assign(**labels) for part in _motions(curve, media, scan_forces, times)]
     return pd.DataFrame(scans), pd.concat(motions[1:] or motions, ignore_index=True)[list(KINETICS)]
 
 
 def _motions(curve, media, forces, times):
     """Depth and velocity under every force in every medium; curve : LoadingCurve [m].
 
-    Times at which the curve ends before the depth is reached are left out.
+    Times at which the depth lies beyond the end of the curve are omitted.
     """
     for (name, medium), force in product(media.items(), forces):
         if motion := motion_on_curve(curve, force, medium, times):
@@ -73,10 +73,10 @@ def _motions(curve, media, forces, times):
             yield pd.DataFrame(columns).assign(medium=name, force=force)
 
 
-def group_fits(groups, **how):
+def group_fits(groups, **fit):
     """Table of the power laws of groups, with the columns of `fit_table`.
 
-    groups : {name: ensemble dataset of its scans}; how : resamples, seed and limits of fit_table.fit_rows
+    groups : {name: ensemble dataset of its scans}; fit : resamples, seed and limits of fit_table.fit_rows
     """
-    rows = [fit_rows(ensemble, source="measured", case_group=group, **how) for group, ensemble in groups.items()]
+    rows = [fit_rows(ensemble, source="measured", case_group=group, **fit) for group, ensemble in groups.items()]
     return pd.DataFrame([row for rows_of_group in rows for row in rows_of_group])

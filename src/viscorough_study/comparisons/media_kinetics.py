@@ -1,4 +1,4 @@
-"""Kinetics of ensembles in other media than the paper's, under a constant force applied at time 0.
+"""Kinetics of ensembles in media other than the paper's, under a constant force applied at time 0.
 
 In any linear viscoelastic medium of creep compliance J(t) the depth is that of the loading curve at F/G = F J(t), so
 that u/h is one function of X = F J(t)/(4hL) for all media, and vt/h = a X/κ(X), where a = d ln J/d ln t is the exponent
@@ -37,16 +37,16 @@ EXPONENT_COLUMNS = {
     "time_high": ("last time of the window", "s"),
     "decades": ("decades of time in the window, 0 where there is none", "1"),
     "creep_exponent": ("exponent of J(t) in the window", "1"),
-    "creep_least": ("least local exponent of J(t) in the window; J is a power of time if it is the largest, too", "1"),
+    "creep_least": ("least local exponent of J(t) in the window; equal to the largest if J is a power of time", "1"),
     "creep_largest": ("largest local exponent of J(t) in the window", "1"),
     "beta": ("exponent β of X/κ in X in the window", "1"),
     **described("exponent", "exponent of vt/h in time in the window"),
-    "expected": ("that of J and β, β times the exponent of J, plus that of d ln J/d ln t", "1"),
+    "expected": ("exponent of vt/h from β and J: β times the exponent of J, plus that of d ln J/d ln t", "1"),
     "realizations": ("realizations in the mean", "1"),
 }
 HALF_WIDTH = 0.25  # decades of time to either side over which local exponents are fitted
-_FITTED_MIN = 3  # times in a window
-_CREEPING = 0.05  # exponent of J, below which the medium hardly creeps and no power of time is looked for
+_FITTED_MIN = 3  # smallest number of times in a window
+_CREEPING = 0.05  # exponent of J below which the medium hardly creeps, and no power of time is fitted
 
 
 def named_media(cases):
@@ -54,13 +54,13 @@ def named_media(cases):
     return {case["name"]: medium_from_mapping({k: v for k, v in case.items() if k != "name"}) for case in cases}
 
 
-def media_of_batches(curves, *, discs, until_x, rms_convention, cases, times, **how):
+def media_of_batches(curves, *, discs, until_x, rms_convention, cases, times, **options):
     """{"media", "media_exponents": table} of `media_tables`, from batches of loading curves.
 
-    curves : Content of the batches, of which the curves of the ensembles `discs` are taken that were to reach
+    curves : Content of the batches; discs, until_x : select the curves of these ensembles that were computed up to
         X = until_x; rms_convention : of h
     cases : [name and further keys of a medium]; times : low, high [s] and per_decade
-    how : further arguments of `media_tables`
+    options : further arguments of `media_tables`
     """
     ensembles = {}
     for batch in curves:
@@ -70,7 +70,7 @@ def media_of_batches(curves, *, discs, until_x, rms_convention, cases, times, **
         for i in np.flatnonzero(np.isin(values["case"].astype(str), discs) & (values["until_x"] == until_x)):
             joined, rms, _ = ensembles.get(hurst, ([], [], None))
             ensembles[hurst] = [*joined, read[i]], [*rms, heights[i]], diameter[i]
-    tables = media_tables(ensembles, named_media(cases), times=abscissa(**times), **how)
+    tables = media_tables(ensembles, named_media(cases), times=abscissa(**times), **options)
     return dict(zip(("media", "media_exponents"), tables, strict=True))
 
 
@@ -79,10 +79,11 @@ def media_tables(ensembles, media, *, force, times, stiffness_range, resamples, 
 
     ensembles : {H: (loading curves, their rms heights, diameter)} [m]
     media : {name: medium of viscorough.viscous.media} in Pa and s; force : F [N]
-    times : t > 0, logarithmically uniform [s]; stiffness_range : of κ, where exponents are fitted: equal states of
-        contact in all media; resamples, seed : of the bootstrap, as in viscorough_study.fits.power_law.fit_power_law
+    times : t > 0, logarithmically uniform [s]; stiffness_range : range of κ in which exponents are fitted, the same
+        states of contact in all media
+    resamples, seed : of the bootstrap, as in viscorough_study.fits.power_law.fit_power_law
 
-    Times at which a curve ends before the depth is reached are left out. X is that of the mean rms height.
+    Times at which a depth lies beyond the end of its curve are omitted. X is that of the mean rms height.
     Returns two pandas.DataFrames, with `COLUMNS` and `EXPONENT_COLUMNS`.
     """
     parts, fits = [], []
@@ -91,12 +92,12 @@ def media_tables(ensembles, media, *, force, times, stiffness_range, resamples, 
         for hurst, (curves, rms, diameter) in ensembles.items():
             depth, velocity = _motions(curves, rms, medium, force, times)
             x = force * creep[0] / (4 * np.mean(rms) * diameter)
-            about = {"medium": name, "hurst": hurst}
+            labels = {"medium": name, "hurst": hurst}
             defined = np.isfinite(depth).all(axis=0) & (velocity > 0).all(axis=0)
             motion = [values[..., defined] for values in (times, x, creep[1], depth, velocity)]
-            parts.append(_means(*motion, exponent_beta(hurst)).assign(**about))
-            how = {"average": "geometric", "resamples": resamples, "seed": seed}
-            fits.append(about | _exponents(*motion[:3], motion[4], stiffness_range, how))
+            parts.append(_means(*motion, exponent_beta(hurst)).assign(**labels))
+            bootstrap = {"average": "geometric", "resamples": resamples, "seed": seed}
+            fits.append(labels | _exponents(*motion[:3], motion[4], stiffness_range, bootstrap))
     means = pd.concat(parts, ignore_index=True)[list(COLUMNS)]
     return means, pd.DataFrame(fits, columns=list(EXPONENT_COLUMNS))
 
@@ -106,20 +107,20 @@ def _motions(curves, rms, medium, force, times):
     depth, velocity = np.full((2, len(curves), times.size), np.nan)
     for i, (curve, height) in enumerate(zip(curves, rms, strict=True)):
         if motion := motion_on_curve(curve, force, medium, times):
-            end = motion.time.size  # the creep compliance grows with time
+            end = motion.time.size  # the first times, because the creep compliance grows with time
             depth[i, :end] = motion.depth / height
             velocity[i, :end] = motion.velocity * motion.time / height
     return depth, velocity
 
 
 def motion_on_curve(curve, force, medium, times):
-    """Kinetics under a constant force at the times at which the depth is on the loading curve; None without any."""
+    """Kinetics under a constant force at the times whose depth is on the loading curve; None if there are none."""
     reached = times[force * medium.creep_compliance(times) <= curve.force[-1]]
     return kinetics(curve, force, medium, reached) if reached.size else None
 
 
 def _means(time, x, creep_exponent, depth, velocity, beta):
-    """Geometric means; depth, velocity : shape (realizations, times), at times at which all are defined and move."""
+    """Table of geometric means; depth, velocity : shape (realizations, times), defined and with velocity > 0."""
     log_depth, log_velocity = np.log(depth), np.log(velocity)
     mean, number = log_velocity.mean(axis=0), len(velocity)
     log_time, half_width = np.log(time), HALF_WIDTH * np.log(10)
@@ -138,18 +139,18 @@ def _means(time, x, creep_exponent, depth, velocity, beta):
     )
 
 
-def _exponents(time, x, creep_exponent, velocity, stiffness_range, how):
-    """Columns of the exponents where κ = a X/(vt/h) lies in a range and the medium creeps, if it does anywhere."""
+def _exponents(time, x, creep_exponent, velocity, stiffness_range, bootstrap):
+    """Columns of the exponents fitted where κ = a X/(vt/h) lies in the range and the medium creeps."""
     stiffness = creep_exponent * x / np.exp(np.log(velocity).mean(axis=0))
     inside = (stiffness >= stiffness_range[0]) & (stiffness <= stiffness_range[1])
     inside = np.flatnonzero(inside & (creep_exponent >= _CREEPING))
     columns = {"decades": 0.0, "realizations": len(velocity)}
     if inside.size < _FITTED_MIN:
         return columns
-    at = slice(inside[0], inside[-1] + 1)  # κ grows with X, and X with time
-    time, x, a, velocity = time[at], x[at], creep_exponent[at], velocity[:, at]
-    beta = fit_power_law(x, velocity / a, (x[0], x[-1]), **how).beta
-    fit = fit_power_law(time, velocity, (time[0], time[-1]), **how)
+    window = slice(inside[0], inside[-1] + 1)  # κ grows with X, and X with time
+    time, x, a, velocity = time[window], x[window], creep_exponent[window], velocity[:, window]
+    beta = fit_power_law(x, velocity / a, (x[0], x[-1]), **bootstrap).beta
+    fit = fit_power_law(time, velocity, (time[0], time[-1]), **bootstrap)
     creep, change = (np.polyfit(np.log(time), np.log(values), 1)[0] for values in (x, a))
     columns |= {"time_low": time[0], "time_high": time[-1], "decades": np.log10(time[-1] / time[0])}
     columns |= {"creep_exponent": creep, "creep_least": a.min(), "creep_largest": a.max(), "beta": beta}

@@ -1,10 +1,10 @@
 """Validation: errors and observed orders of every method against exact solutions, on grids from coarse to fine.
 
-The bodies have exact solutions (viscorough.reference) and stand on grids of n elements across L = 1. The elements are
-squares, but for a sphere that also stands on twice as many columns. Errors are root mean squares, over a range of
-contact radii, of the relative deviation from the exact value: at a single radius they oscillate with how the circle of
-contact happens to cut the grid. For that reason flat ellipses are of several sizes. The observed order is the slope of
-ln(error) over ln(1/n). Boundary elements are solved to a tolerance so small that the error of the grid dominates.
+The bodies have exact solutions (viscorough.reference) and are discretized by n elements across L = 1. The elements are
+squares, except for a second sphere with twice as many columns. Errors are root mean squares, over a range of contact
+radii, of the relative deviation from the exact value: at a single radius the error oscillates with the position of the
+contact edge in the grid. For the same reason there are flat ellipses of several sizes. The observed order is the slope
+of ln(error) over ln(1/n). Boundary elements are solved to a tolerance so small that the error of the grid dominates.
 """
 
 import numpy as np
@@ -20,12 +20,12 @@ from viscorough.viscous.integration.events import march_events
 
 BODIES = {"sphere": reference.sphere(1.0), "cone": reference.cone(0.1)}
 RADII = np.linspace(0.2, 0.45, 26)  # contact radii at which solutions are compared [L]
-ELLIPSES = np.linspace(0.3, 0.5, 11)  # longer semi-axes of the flat ellipses [L]; the shorter ones are half of them
-FORCE, VISCOSITY = 10.0, 1e6  # of the viscous cases; F/η is far from 1, so that a missing F or η shows
+ELLIPSES = np.linspace(0.3, 0.5, 11)  # major semi-axes of the flat ellipses [L]; the minor ones are half as long
+FORCE, VISCOSITY = 10.0, 1e6  # of the viscous cases; F/η is far from 1, so that a missing F or η is noticed
 TOLERANCE = 1e-5  # of the contact problems on bodies and punches
 ROUGH = {"hurst": 0.7, "seed": 1}  # arguments of self_affine_disc
-EVENTS = 600  # contact events over which a rough disc is integrated directly; more only repeat the comparison
-EVENTS_APART = 20  # of these events every twentieth depth is compared
+EVENTS = 600  # contact events over which a rough disc is integrated directly; more would add no information
+EVENTS_APART = 20  # the depth at every twentieth of these events is compared
 CORRESPONDENCE_TOLERANCE = 1e-11  # of the elastic curve against direct integration
 
 # Uniform pressure on elements, collocated at their centres, has an error of second order in force on a smooth body,
@@ -34,7 +34,7 @@ CORRESPONDENCE_TOLERANCE = 1e-11  # of the elastic curve against direct integrat
 # grid.
 ORDERS = {"force": 2, "depth": 2, "stiffness": 1, "velocity": 1, "area": 1, "punch_stiffness": 1, "correspondence": 0}
 WITHOUT_ORDER = "rough_disc"
-GRIDS_FOR_ORDER = 3  # fewest grids on which an order can be told from scatter
+GRIDS_FOR_ORDER = 3  # smallest number of grids from which an order is determined
 
 COLUMNS = {
     "case": ("body and method", ""),
@@ -53,11 +53,11 @@ def validation_table(elements, limits, order_margin):
 
     elements : numbers of elements n across L, each at least 9
     limits : {quantity: largest relative error allowed on the finest grid}, one for each of `ORDERS`
-    order_margin : by which an observed order may be below the expected one
+    order_margin : largest amount by which an observed order may be below the expected one
 
-    Returns a pandas.DataFrame with the columns of `COLUMNS`: a row per case, quantity and grid, grids from coarse to
-    fine. `passed` is 1 if the case's error on the finest grid is within its limit and, on three grids or more, its
-    order within the margin.
+    Returns a pandas.DataFrame with the columns of `COLUMNS`: one row per case, quantity and grid, grids from coarse to
+    fine. `passed` is 1 if the error on the finest grid is within its limit and, for three grids or more, the order is
+    within the margin.
     """
     grids, errors = sorted(elements), {}
     for n in grids:
@@ -85,7 +85,7 @@ def judge_errors(grids, errors, limits, order_margin):
 
 
 def failures(table, order_margin):
-    """One line per case and quantity of a validation table that did not pass: its error and order, what is allowed."""
+    """One line per failed case and quantity of a validation table: its error and order, and the limits."""
     finest = table[(table["passed"] == 0) & (table["elements"] == table["elements"].max())]
     return [
         f"{row.case} {row.quantity}: error {row.error:.2g} on {row.elements} elements, order {row.order:.2g}; "
@@ -109,7 +109,7 @@ def _errors_on_grid(n):
 
 
 def _flat_punches(n):
-    """Errors of the stiffness of a flat disc, of the elements of which rough discs consist, and of flat ellipses."""
+    """Errors of the stiffness of a flat disc, with the elements of the rough discs, and of flat ellipses."""
     disc = Indenter(cut_disc(np.zeros((n, n)), n), 1 / n)
     x = (np.arange(n) - (n - 1) / 2) / n
     ellipses = [Indenter(np.where((2 * x[:, None]) ** 2 + x**2 <= major**2, 0.0, np.nan), 1 / n) for major in ELLIPSES]
@@ -121,7 +121,7 @@ def _flat_punches(n):
 
 
 def _correspondence(disc):
-    """Depths at which elements touch, integrated event by event, against the elastic depths under the same impulse."""
+    """Error of the elastic depths under the impulses of contact events, against direct integration of the events."""
     events = march_events(disc, until_fraction=min(1.0, EVENTS / disc.elements))
     depth = np.unique(events.depth[1:])[::EVENTS_APART]
     elastic = indent(disc, depths=depth, tolerance=CORRESPONDENCE_TOLERANCE)
@@ -129,7 +129,7 @@ def _correspondence(disc):
 
 
 def _indentation(indenter, body):
-    """Boundary elements at given depths against the elastic solution."""
+    """Errors of boundary elements at given depths against the elastic solution."""
     depth = body.mdr_profile(RADII)
     curve = indent(indenter, depths=depth, tolerance=TOLERANCE)
     return {
@@ -140,7 +140,7 @@ def _indentation(indenter, body):
 
 
 def _penetration(indenter, body):
-    """The correspondence, on a curve whose levels `indent` chooses, against the viscous solution.
+    """Errors of the correspondence, on a curve with automatic levels, against the viscous solution.
 
     Constant force: F = FORCE. Rising force: F(t) = 2 FORCE t/T until T, with the same impulse at T.
     """
@@ -167,7 +167,7 @@ def _penetration(indenter, body):
 
 
 def _reduction(line, body):
-    """The line of the reduction of dimensionality, at given forces, against the elastic solution."""
+    """Errors of the line of the reduction of dimensionality, at given forces, against the elastic solution."""
     depth = body.mdr_profile(RADII)
     reduced_depth, stiffness = reduce(line).at_force(body.force(depth))
     return {"depth": _error(reduced_depth, depth), "stiffness": _error(stiffness, body.stiffness(depth))}

@@ -61,7 +61,7 @@ def _draw_law(axes, table, law, figure_combination, looks):
     axes.axvspan(1 / AGREEMENT, AGREEMENT, color="0.92", linewidth=0, zorder=0)
     axes.axvline(1, color=style.BLACK, linestyle="--", linewidth=0.8, zorder=1)
     for y, (_, combination) in enumerate(rows):
-        _draw_combination(axes, y, prefactors.rows_of(table, combination), law, looks)
+        _draw_combination(axes, y, prefactors.combination_rows(table, combination), law, looks)
     for rank, (hurst, look) in enumerate(looks.items()):
         values = open_rows.loc[open_rows["hurst"] == hurst, law]
         height = [len(rows) + _shift(rank, looks)] * len(values)

@@ -1,1 +1,1 @@
-"""What is fitted to ensembles: power laws, constant slopes, laws of ζ, the interface, and trends with the grid."""
+"""Fits to ensembles: power laws, constant slopes, laws of ζ, the interface, and trends with the grid."""

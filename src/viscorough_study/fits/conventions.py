@@ -1,21 +1,22 @@
-"""The conventions that the paper leaves open, and how a fit changes from one reading of the law to another.
+"""The conventions that the paper leaves open, and the conversion of fits between readings of the law.
 
 The paper states neither where the rms height h is measured, nor how realizations are averaged, nor over which window
 its power laws are fitted, and it prints some laws with a factor 1/Γ(2 − α) that others lack. The first three
 conventions (`FITTED`) change the mean curve or the window: each combination needs a fit. The others (`READINGS`) only
-rescale a fit of vt/h = X^β/ζ. One of them is not open: the paper says that L is the diameter. With the radius the
-tables show what a misprint there would change, but no claim holds because of it (`left_open`).
+rescale a fit of vt/h = X^β/ζ. One of them is not open: the paper says that L is the diameter. The tables include the
+radius to show the effect of a misprint, but no claim is judged by it (`left_open`).
 
-- L the radius: X = F/(4GhL) and κ = k/(4GL) are doubled while vt/h is not. The window doubles, and ζ is 2^β times that
-  with the diameter.
-- The law with the factor (Eq. 9), vt/h = X^β/(ζ Γ(1 + β)), where 1 + β = 2 − α: ζ is 1/Γ(1 + β) times that without.
+- With L the radius, X = F/(4GhL) and κ = k/(4GL) are doubled while vt/h is not. The window doubles, and ζ is 2^β times
+  its value with the diameter.
+- In the law with the factor (Eq. 9), vt/h = X^β/(ζ Γ(1 + β)), where 1 + β = 2 − α, ζ is 1/Γ(1 + β) times its value
+  without.
 
 Twice the force, or half the modulus, has the same effect as the radius.
 
 β, λ, the residual and the decades of the window do not depend on the reading, and window and ζ follow from those of
-the plain reading (no factor, L the diameter), so the tables of fits contain them once. The 95 % interval of ζ does not
-follow: its ends are percentiles over bootstrap samples, each scaled with its own β, which are not the scaled
-percentiles. It is stored for every reading, in the columns that `interval_columns` names.
+the plain reading (no factor, L the diameter), so the tables of fits contain them once. The 95 % interval of ζ does not:
+its ends are percentiles of bootstrap samples, each scaled with its own β. It is stored for every reading, in the
+columns that `interval_columns` names.
 """
 
 from itertools import product
@@ -60,7 +61,7 @@ def interval_columns(*, gamma, diameter_convention):
 
 
 def in_reading(fits, *, gamma, diameter_convention):
-    """Fits in one reading of the law: ζ with its interval and the window as they are there.
+    """Fits converted to one reading of the law: ζ, its interval and the window.
 
     fits : pandas.DataFrame with the columns of viscorough_study.fits.fit_table
     Returns a DataFrame with columns for the reading, and without the intervals of the other readings.
@@ -78,27 +79,27 @@ def in_reading(fits, *, gamma, diameter_convention):
 
 
 def in_every_reading(fits):
-    """Fits in all readings of the law, with the readings of one fit in consecutive rows."""
+    """Fits in all readings of the law; the readings of one fit are in consecutive rows."""
     parts = [in_reading(fits, **reading) for reading in readings()]
     return pd.concat(parts).sort_index(kind="stable").reset_index(drop=True)
 
 
 def left_open(table):
-    """Rows of a table with columns of conventions in which none contradicts the paper."""
+    """Rows of a table whose conventions do not contradict the paper."""
     for name, values in CONTRADICTING.items():
         table = table[~table[name].isin(values)]
     return table
 
 
-def in_words(conventions):
-    """Conventions such as "rms_convention disc, average geometric"."""
+def conventions_text(conventions):
+    """Conventions as text, such as "rms_convention disc, average geometric"."""
     return ", ".join(f"{name} {value}" for name, value in conventions.items())
 
 
 def select(table, wanted):
-    """Rows of a table of fits with the wanted values, {column or convention: value}, in the reading of the law wanted.
+    """Rows of a table of fits with these values of columns, converted to the requested reading of the law.
 
-    wanted : must have both conventions of `READINGS`
+    wanted : {column or convention: value}, with both conventions of `READINGS`
     """
     for column, value in wanted.items():
         if column not in READINGS:
@@ -109,12 +110,12 @@ def select(table, wanted):
 def fits(table, conventions, **wanted):
     """Rows of a table of fits in these conventions and with these values, by ascending H.
 
-    conventions, wanted : {column or convention: value}; those wanted replace conventions of the same name
-    Rows without a region (b), which have no exponent, are left out.
+    conventions, wanted : {column or convention: value}; `wanted` replaces conventions of the same name
+    Rows without a region (b), and so without an exponent, are omitted.
     """
     return select(table, conventions | wanted).dropna(subset="beta")
 
 
-def of_source(source):
-    """Values of the columns that select discs or lines: lines have one rms height, that of the line."""
+def source_values(source):
+    """{column: value} that selects discs or lines; lines have a single rms convention."""
     return {"source": source} | ({"rms_convention": "line"} if source == "lines" else {})

@@ -13,7 +13,7 @@ import pandas as pd
 
 from viscorough.calibrated_law import COLUMNS as CALIBRATION
 from viscorough_study.ensembles.pool import elements_across, ensembles, select
-from viscorough_study.fits.conventions import FITTED, fits, interval_columns, of_source, readings
+from viscorough_study.fits.conventions import FITTED, fits, interval_columns, readings, source_values
 from viscorough_study.fits.intervals import described, described_ends, three_columns
 from viscorough_study.fits.mdr_lambda import match_lambda
 from viscorough_study.fits.power_law import fit_power_law, named_windows
@@ -24,8 +24,8 @@ def _interval_descriptions():
     columns = {}
     for reading in readings():
         law = "with the factor 1/Γ(1 + β) (Eq. 9)" if reading["gamma"] == "with" else "without Γ (Eq. 3)"
-        of = f"of the 95 % interval of ζ, {law}, L the {reading['diameter_convention']}"
-        columns |= dict(zip(interval_columns(**reading), described_ends("zeta", of).values(), strict=True))
+        ends = f"of the 95 % interval of ζ, {law}, L the {reading['diameter_convention']}"
+        columns |= dict(zip(interval_columns(**reading), described_ends("zeta", ends).values(), strict=True))
     return columns
 
 
@@ -40,18 +40,18 @@ COLUMNS = {
     **described_ends("x", "of the window in X = F/(4GhL) = Ft/(4ηhL), L the diameter"),
     "decades": ("decades of X in the window, 0 where there is none", "1"),
     "realizations": ("realizations in the ensemble", "1"),
-    **described("beta", "exponent β of vt/h in X (Eqs. 9 and 10)", of="of the 95 % interval of β"),
+    **described("beta", "exponent β of vt/h in X (Eqs. 9 and 10)", ends="of the 95 % interval of β"),
     "zeta": ("prefactor ζ without Γ (Eq. 3), L the diameter", "1"),
     **_interval_descriptions(),
     "residual": ("rms deviation of ln(vt/h) from the power law in the window", "1"),
     **described(
-        "lambda", "λ in C1D = λ q C2D that matches the line to the surface (Eq. 13)", of="of the 95 % interval of λ"
+        "lambda", "λ in C1D = λ q C2D that matches the line to the surface (Eq. 13)", ends="of the 95 % interval of λ"
     ),
 }
 
 
 def scaling_table(discs, lines, *, seed, **fit):
-    """Fits of discs, one ensemble for each group and Hurst exponent, and of lines; those of the same H give λ.
+    """Fits of discs, one ensemble for each group and Hurst exponent, and of lines; λ where both have the same H.
 
     discs, lines : pools (viscorough_study.ensembles.pool); seed, fit : further arguments of `fit_rows`
     Returns a pandas.DataFrame with the columns of `COLUMNS`.
@@ -60,8 +60,8 @@ def scaling_table(discs, lines, *, seed, **fit):
     for group in dict.fromkeys(discs["group"].values.tolist()):
         for hurst, ensemble in ensembles(select(discs, group=group), "hurst").items():
             logging.info("discs, %s, H = %g", group, hurst)
-            about = {"source": "discs", "case_group": group, "lines": lines[hurst] if group == "base" else None}
-            rows += fit_rows(ensemble, **about, seed=seed, **fit)
+            labels = {"source": "discs", "case_group": group, "lines": lines[hurst] if group == "base" else None}
+            rows += fit_rows(ensemble, **labels, seed=seed, **fit)
     for hurst, ensemble in lines.items():
         logging.info("lines, H = %g", hurst)
         rows += fit_rows(ensemble, source="lines", case_group="base", seed=seed, **fit)
@@ -69,33 +69,33 @@ def scaling_table(discs, lines, *, seed, **fit):
 
 
 def fit_rows(ensemble, *, source, case_group, lines=None, resamples, seed, **limits):
-    """Rows of the table (dicts with the keys of `COLUMNS`) of one ensemble; where there is no window they have nan.
+    """Rows of the table (dicts with the keys of `COLUMNS`) of one ensemble; nan where there is no window.
 
     ensemble, lines : ensemble datasets (ensembles.averages); lines of the same Hurst exponent and abscissae,
-        for λ. λ is nan without them, or where they do not reach the stiffness of the discs
+        for λ, which is nan without lines, or where they do not reach the stiffness of the discs
     resamples, seed : of the bootstrap; limits : arguments of viscorough_study.fits.power_law.named_windows
-    Raises ValueError for unlike abscissae, or such coarse ones that a window has fewer than three.
+    Raises ValueError if the abscissae differ, or if a window has fewer than three.
     """
     if lines is not None and not np.array_equal(ensemble["x"].values, lines["x"].values):
         raise ValueError("fit_rows: discs and lines must have the same abscissae")
     rows = []
     for rms_convention in ensemble["rms_convention"].values.tolist():
-        one = ensemble.sel(rms_convention=rms_convention)
+        selected = ensemble.sel(rms_convention=rms_convention)
         ensemble_columns = {"source": source, "case_group": case_group, "hurst": ensemble["hurst"].item()}
-        ensemble_columns |= {"rms_convention": rms_convention, "realizations": one.sizes["realization"]}
-        for average, (rule, window) in product(FITTED["average"], named_windows(one, **limits).items()):
+        ensemble_columns |= {"rms_convention": rms_convention, "realizations": selected.sizes["realization"]}
+        for average, (rule, window) in product(FITTED["average"], named_windows(selected, **limits).items()):
             fitted = {}
             if window is not None:
-                fitted = _fit(one, lines, window, average=average, resamples=resamples, seed=seed)
+                fitted = _fit(selected, lines, window, average=average, resamples=resamples, seed=seed)
             row = {"decades": 0.0, **ensemble_columns, "average": average, "window_rule": rule, **fitted}
             rows.append({name: row.get(name, np.nan) for name in COLUMNS})
     return rows
 
 
-def _fit(ensemble, lines, window, **how):
-    """Columns of the fit of one ensemble in one rms convention; how : average, resamples and seed."""
+def _fit(ensemble, lines, window, **options):
+    """Columns of the fit of an ensemble in one rms convention; options : average, resamples and seed."""
     x, velocity = ensemble["x"].values, ensemble["velocity"].values
-    fit = fit_power_law(x, velocity, window, **how)
+    fit = fit_power_law(x, velocity, window, **options)
     columns = {"x_low": window[0], "x_high": window[1], "decades": np.log10(window[1] / window[0])}
     columns |= three_columns("beta", (fit.beta, *fit.beta_interval))
     columns |= {"zeta": fit.zeta()[0], "residual": fit.residual}
@@ -103,7 +103,9 @@ def _fit(ensemble, lines, window, **how):
         columns |= dict(zip(interval_columns(**reading), fit.zeta(**reading)[1:], strict=True))
     if lines is not None:
         with suppress(ValueError):
-            columns |= three_columns("lambda", match_lambda(x, velocity, lines["velocity"].values[0], window, **how))
+            columns |= three_columns(
+                "lambda", match_lambda(x, velocity, lines["velocity"].values[0], window, **options)
+            )
     return columns
 
 
@@ -111,11 +113,11 @@ def calibrated(scaling, sizes, *, conventions, across):
     """Fits of base discs and of lines in these conventions, with the columns of viscorough.calibrated_law.
 
     scaling : of `scaling_table`, with discs of `across` elements across; conventions : {convention: value}
-    sizes : table of discs on grids from coarse to fine, with `elements`; those with as many elements across as the base
-        discs are taken for Hurst exponents that these do not have
+    sizes : table of discs on grids from coarse to fine, with `elements`; it supplies Hurst exponents that the base
+        discs lack, on the same grid
     """
-    rows = [fits(scaling, conventions | of_source(source), case_group="base") for source in ("discs", "lines")]
-    further = fits(sizes, conventions | of_source("discs"), case_group="sizes")
+    rows = [fits(scaling, conventions | source_values(source), case_group="base") for source in ("discs", "lines")]
+    further = fits(sizes, conventions | source_values("discs"), case_group="sizes")
     same_grid = further["elements"].map(elements_across) == across
     rows.append(further[same_grid & ~further["hurst"].isin(rows[0]["hurst"])])
     return pd.concat(rows)[list(CALIBRATION)].sort_values(["source", "hurst"], ignore_index=True)

@@ -1,8 +1,8 @@
-"""Exponents over the number of elements: does a departure from H/(1 + H) change with the grid, and where?
+"""Exponents over the number of elements: whether a deviation from H/(1 + H) is due to the grid or to the window.
 
-The window of region (b) moves with the grid: a finer one opens smaller X. In windows of fixed X the grid alone changes.
-A departure that becomes smaller in the moving window but not in the fixed ones is that of the X at which it was fitted,
-not of the grid.
+The window of region (b) moves with the grid: a finer grid resolves smaller X. In windows of fixed X only the grid
+changes. A deviation that becomes smaller in the moving window but not in the fixed ones depends on the X of the window,
+not on the grid.
 """
 
 from itertools import product
@@ -13,7 +13,7 @@ import pandas as pd
 from viscorough.reference import exponent_beta
 from viscorough_study.ensembles.pool import ensembles, select
 from viscorough_study.fits import fit_table
-from viscorough_study.fits.conventions import FITTED, fits, of_source
+from viscorough_study.fits.conventions import FITTED, fits, source_values
 from viscorough_study.fits.intervals import UNDEFINED, described, interval, three_columns
 from viscorough_study.fits.power_law import fit_power_law, in_window
 from viscorough_study.run.job_log import progress
@@ -36,13 +36,13 @@ COLUMNS = {
     "finding": ("one of: " + "; ".join(FINDINGS), ""),
 }
 SIZES = fit_table.COLUMNS | {"elements": ("elements of an indenter: of a disc, points of a line", "1")}
-ERROR_MIN = 1e-12  # of an exponent, so that equal curves have a finite weight
+ERROR_MIN = 1e-12  # lower limit of the error of an exponent, which keeps weights finite
 
 
 def sizes_tables(discs, lines, *, seed, fit, windows, conventions, tolerance):
     """{"sizes", "sizes_trends": table} of ensembles on grids from coarse to fine, with `SIZES` and `COLUMNS`.
 
-    Every ensemble is fitted by itself, in the windows of region (b) and in those of fixed X.
+    Every ensemble is fitted separately, in the windows of region (b) and in those of fixed X.
     discs, lines : pools; seed, fit : further arguments of fit_table.fit_rows; windows : [(X_low, X_high)]
     conventions : those of the figures; tolerance : of the exponents
     """
@@ -50,11 +50,11 @@ def sizes_tables(discs, lines, *, seed, fit, windows, conventions, tolerance):
     fixed |= {name: conventions[name] for name in ("average", "rms_convention")}
     rows = []
     for source, group, pool in (("discs", "sizes", discs), ("discs", "controls", discs), ("lines", "sizes", lines)):
-        about = {"source": source, "case_group": group}
+        labels = {"source": source, "case_group": group}
         grids = ensembles(select(pool, group=group), "hurst", "elements").values()
         for ensemble in progress(grids, len(grids), f"{source}, {group}"):
-            fitted = fit_table.fit_rows(ensemble, **about, seed=seed, **fit)
-            fitted += fixed_window_rows(ensemble, windows, about, **fixed)
+            fitted = fit_table.fit_rows(ensemble, **labels, seed=seed, **fit)
+            fitted += fixed_window_rows(ensemble, windows, labels, **fixed)
             rows += [row | {"elements": ensemble["elements"].item()} for row in fitted]
     table = pd.DataFrame(rows, columns=list(SIZES))
     return {"sizes": table, "sizes_trends": trends(table, conventions, tolerance)}
@@ -63,19 +63,19 @@ def sizes_tables(discs, lines, *, seed, fit, windows, conventions, tolerance):
 def trends(table, conventions, tolerance):
     """Trend of β over the logarithm of the number of elements, for every source and Hurst exponent.
 
-    table : sizes, of `sizes_tables`; conventions : {convention: value}; window_rule is that of the windows
-        that move with the grid, beside which are the fixed ones of the table
+    table : sizes, of `sizes_tables`; conventions : {convention: value}, with the window_rule of the windows that move
+        with the grid; the fixed windows of the table are added
     tolerance : of β, that of the claims on β in resources/paper/claims.yaml
 
-    The trend is a line by least squares, weighted by the intervals of β, and its own interval is widened where β
-    scatters more than its intervals allow. On the finest grid β agrees where its whole interval lies within the
-    tolerance of the expected exponent, departs where it lies outside, and is undetermined otherwise. A departure
-    becomes less on finer grids if the whole interval of the slope leads towards the expected exponent.
+    The trend is a least-squares line weighted by the intervals of β; its own interval is widened where β scatters more
+    than its intervals allow. On the finest grid β agrees if its whole interval lies within the tolerance of the
+    expected exponent, departs if it lies outside, and is undetermined otherwise. A departure is less on finer grids if
+    the whole interval of the slope points towards the expected exponent.
     Returns a pandas.DataFrame with the columns of `COLUMNS`.
     """
     rows = []
     for name, rule in product(("discs", "controls", "lines"), [conventions["window_rule"], *fixed_rules(table)]):
-        wanted = of_source("lines" if name == "lines" else "discs") | {"window_rule": rule}
+        wanted = source_values("lines" if name == "lines" else "discs") | {"window_rule": rule}
         wanted["case_group"] = "controls" if name == "controls" else "sizes"
         for hurst, grids in fits(table, conventions | wanted).groupby("hurst"):
             expected = 0.0 if name == "controls" else exponent_beta(hurst)
@@ -89,31 +89,31 @@ def fixed_rules(table):
     return list(dict.fromkeys(fixed.sort_values("x_low", kind="stable")["window_rule"]))
 
 
-def fixed_window_rows(ensemble, windows, about, *, average, rms_convention, elements_min, fraction_min, **bootstrap):
-    """Fits (dicts) of an ensemble in windows of fixed X, of those where they can be fitted; named by their ends.
+def fixed_window_rows(ensemble, windows, labels, *, average, rms_convention, elements_min, fraction_min, **bootstrap):
+    """Fits (dicts) of an ensemble in windows of fixed X, named by their ends.
 
-    windows : [(X_low, X_high)]; about : source and case_group; bootstrap : resamples and seed
-    A window is fitted where the median of the elements in contact is elements_min at least at its lower end, as in
-    region (b), and a share fraction_min of the realizations is defined throughout.
+    windows : [(X_low, X_high)]; labels : source and case_group; bootstrap : resamples and seed
+    A window is skipped unless the median number of elements in contact at its lower end is at least elements_min, as in
+    region (b), and at least the fraction fraction_min of the realizations is defined throughout.
     """
-    own = of_source(about["source"]).get("rms_convention", rms_convention)
-    one, x, rows = ensemble.sel(rms_convention=own), ensemble["x"].values, []
+    convention = source_values(labels["source"]).get("rms_convention", rms_convention)
+    selected, x, rows = ensemble.sel(rms_convention=convention), ensemble["x"].values, []
     for low, high in windows:
         inside = in_window(x, (low, high))
-        enough = one["contact_count_median"].values[inside][:1] >= elements_min
-        if not (enough.all() and (one["fraction_defined"].values[inside] >= fraction_min).all()):
+        enough = selected["contact_count_median"].values[inside][:1] >= elements_min
+        if not (enough.all() and (selected["fraction_defined"].values[inside] >= fraction_min).all()):
             continue
-        fit = fit_power_law(x, one["velocity"].values, (low, high), average=average, **bootstrap)
-        row = about | {"hurst": ensemble["hurst"].item(), "rms_convention": own, "average": average}
+        fit = fit_power_law(x, selected["velocity"].values, (low, high), average=average, **bootstrap)
+        row = labels | {"hurst": ensemble["hurst"].item(), "rms_convention": convention, "average": average}
         row |= {"window_rule": f"X = {low:g} to {high:g}", "x_low": low, "x_high": high}
-        row |= {"decades": np.log10(high / low), "realizations": one.sizes["realization"]}
+        row |= {"decades": np.log10(high / low), "realizations": selected.sizes["realization"]}
         row |= three_columns("beta", (fit.beta, *fit.beta_interval))
         rows.append(row | {"zeta": fit.zeta()[0], "residual": fit.residual})
     return rows
 
 
 def _trend(grids, expected, tolerance):
-    """Columns of one source and Hurst exponent, from the number of grids on; grids : fits from coarse to fine."""
+    """Columns from `grids` on, of one source and Hurst exponent; grids : fits from coarse to fine."""
     slope = _slope(*(grids[name].to_numpy() for name in ("elements", "beta", "beta_low", "beta_high")))
     finest = grids.iloc[-1]
     beta = interval(finest, "beta")

@@ -1,11 +1,11 @@
-"""The exponent of an infinitely fine grid: one power law with a correction to scaling, fitted to all grids at once.
+"""Exponent of an infinitely fine grid: one power law with a correction to scaling, fitted to all grids at once.
 
     vt/h = A X^β exp(B X^ω),    and the same for the interface, vt/h − X/κ_c
 
 To first order the correction is the factor 1 + B X^ω of the theory of corrections to scaling; as an exponential it
-leaves ln(vt/h) linear in ln A, β and B for a given ω, so that all resamples are fitted at once. What a fit depends on
-beside the realizations is the range: the elements in contact at which it begins and the X at which it ends. The range
-has a separate interval, from the lowest to the highest end of the intervals of all ranges.
+leaves ln(vt/h) linear in ln A, β and B for a given ω, so that all resamples are fitted at once. Besides the
+realizations, a fit depends on its range: the number of elements in contact at which it begins and the X at which it
+ends. This dependence has an interval of its own, from the lowest to the highest end of the intervals of all ranges.
 """
 
 from itertools import product
@@ -15,23 +15,23 @@ import pandas as pd
 
 from viscorough.reference import exponent_beta
 from viscorough_study.fits.intervals import described
-from viscorough_study.fits.scaling_collapse import COLUMNS as OF_COLLAPSE
+from viscorough_study.fits.scaling_collapse import COLUMNS as COLLAPSE_COLUMNS
 from viscorough_study.fits.scaling_collapse import HEIGHTS, QUANTITIES, collapse_table, curve_table, grids
 
-OMEGA = np.round(np.arange(0.2, 1.51, 0.1), 1)  # exponents of the correction that are tried
+OMEGA = np.round(np.arange(0.2, 1.51, 0.1), 1)  # trial exponents of the correction
 CURVES_END = 1.0  # X up to which curves are drawn
 FINDINGS = ("agrees", "departs", "undecided")
-PLACES = ("inside the range tried", "interval reaches an end", "at an end")  # of ω among those of OMEGA
+PLACES = ("inside the range tried", "interval reaches an end", "at an end")  # of ω in the range of OMEGA
 COLUMNS = {
     "source": ("discs by boundary elements, lines by the MDR", ""),
-    **{name: OF_COLLAPSE[name] for name in ("hurst", "quantity", "height")},
+    **{name: COLLAPSE_COLUMNS[name] for name in ("hurst", "quantity", "height")},
     "law": ("power: A X^β; corrected: A X^β exp(B X^ω)", ""),
     "grids": ("grids fitted together", "1"),
-    "finest": ("elements across discs, or points of lines, of the finest of them", "1"),
-    "elements_min": ("elements in contact from which the fit begins", "1"),
-    "x_high": ("X at which it ends", "1"),
+    "finest": ("elements across discs, or points of lines, on the finest grid", "1"),
+    "elements_min": ("elements in contact at which the fit begins", "1"),
+    "x_high": ("X at which the fit ends", "1"),
     "expected": ("H/(1 + H), Eq. 10", "1"),
-    **described("beta", "exponent of an infinitely fine grid", of="of its 95 % interval over realizations"),
+    **described("beta", "exponent of an infinitely fine grid", ends="of its 95 % interval over realizations"),
     "ranges": ("ranges fitted", "1"),
     "ranges_low": ("lowest end of the intervals in all ranges", "1"),
     "ranges_high": ("highest end of the intervals in all ranges", "1"),
@@ -41,75 +41,75 @@ COLUMNS = {
     "deviation": ("rms deviation of ln(vt/h) from the law, weighted", "1"),
     "finding": (
         "agrees: the intervals in all ranges lie within the tolerance of H/(1 + H), departs: outside, else undecided; "
-        "undecided, too, where ω is at an end of the range tried, so that the data do not tell the correction",
+        "also undecided where ω is at an end of the range tried, so that the correction is not determined by the data",
         "",
     ),
 }
 
 
-def place_of(omega, low, high):
-    """One of `PLACES`: where the exponent of the correction and its interval lie in the range that is tried."""
+def place_in_range(omega, low, high):
+    """One of `PLACES`: the position of ω and its interval in the range tried."""
     ends = OMEGA[[0, -1]]
     if np.isclose(omega, ends).any():
         return PLACES[2]
     return PLACES[1] if low <= ends[0] or high >= ends[1] else PLACES[0]
 
 
-def points(of_hurst, quantity, height, *, elements_min, x_high):
-    """(ln X, ln of the quantity of ensemble and resamples, weights) of all grids, one after the other; None if few."""
+def points(hurst_grids, quantity, height, *, elements_min, x_high):
+    """(ln X, ln of the quantity of ensemble and resamples, weights) of all grids in a row; None for fewer than two."""
     parts = []
-    for one in of_hurst:
-        curve = one.beginning_at(elements_min).curve(quantity, height, x_high)
+    for grid in hurst_grids:
+        curve = grid.beginning_at(elements_min).curve(quantity, height, x_high)
         if curve is not None:
             log_x, log_y = curve
-            # Means of n realizations scatter more than those of resamples of n.
+            # The variance of a mean is n/(n − 1) times that of bootstrap means.
             widened = log_y.copy()
-            widened[1:] = log_y[0] + (log_y[1:] - log_y[0]) * np.sqrt(one.realizations / (one.realizations - 1))
-            parts.append((log_x, widened, np.full(log_x.size, float(one.realizations))))
+            widened[1:] = log_y[0] + (log_y[1:] - log_y[0]) * np.sqrt(grid.realizations / (grid.realizations - 1))
+            parts.append((log_x, widened, np.full(log_x.size, float(grid.realizations))))
     if len(parts) < 2:
         return None
     return tuple(np.concatenate([part[i] for part in parts], axis=-1) for i in range(3))
 
 
 def fit(log_x, log_y, weights, *, corrected):
-    """(ln A, β, B, ω) of every row of log_y, shape (rows, 4), and the weighted rms deviation of the first; ω free."""
+    """(ln A, β, B, ω) of every row of log_y, shape (rows, 4), and the weighted rms deviation of the first row."""
     root = np.sqrt(weights)
-    aim = (log_y * root).T
+    target = (log_y * root).T
     best, explained = None, None
     for omega in OMEGA if corrected else OMEGA[:1]:
         columns = [root, log_x * root] + ([np.exp(omega * log_x) * root] if corrected else [])
         basis, triangle = np.linalg.qr(np.stack(columns, axis=1))
-        parts = basis.T @ aim
-        fitted = np.zeros((aim.shape[1], 4))
+        parts = basis.T @ target
+        fitted = np.zeros((target.shape[1], 4))
         fitted[:, : len(columns)] = np.linalg.solve(triangle, parts).T
         fitted[:, 3] = omega
         squares = np.sum(parts**2, axis=0)
         better = np.full(squares.size, True) if best is None else squares > explained
         best = fitted if best is None else np.where(better[:, None], fitted, best)
         explained = squares if explained is None else np.where(better, squares, explained)
-    left = max(np.sum(aim[:, 0] ** 2) - explained[0], 0.0)
-    return best, np.sqrt(left / weights.sum())
+    remainder = max(np.sum(target[:, 0] ** 2) - explained[0], 0.0)
+    return best, np.sqrt(remainder / weights.sum())
 
 
-def limit_table(found, source, *, elements_min, x_high, tolerance):
+def limit_table(grids_by_hurst, source, *, elements_min, x_high, tolerance):
     """Exponents of an infinitely fine grid: a table (pandas.DataFrame) with the columns of `COLUMNS`.
 
-    found : of fits.scaling_collapse.grids; elements_min, x_high : of the ranges, of which the first are
+    grids_by_hurst : of fits.scaling_collapse.grids; elements_min, x_high : of the ranges, of which the first are
         those of the fit itself; tolerance : of β
     """
     limits = []
-    for hurst, of_hurst in found.items():
+    for hurst, hurst_grids in grids_by_hurst.items():
         heights = list(HEIGHTS) if hurst > 0 else ["resolved"]
         for quantity, height, law in product(QUANTITIES, heights, ("power", "corrected")):
-            about = {"source": source, "hurst": hurst, "quantity": quantity, "height": height, "law": law}
+            labels = {"source": source, "hurst": hurst, "quantity": quantity, "height": height, "law": law}
             fits = [
                 (start, end, values, fit(*values, corrected=law == "corrected"))
                 for start, end in product(elements_min, x_high[law])
-                if (values := points(of_hurst, quantity, height, elements_min=start, x_high=end)) is not None
+                if (values := points(hurst_grids, quantity, height, elements_min=start, x_high=end)) is not None
             ]
             if not fits:
                 continue
-            limits.append(about | _columns(fits, of_hurst, hurst, tolerance))
+            limits.append(labels | _columns(fits, hurst_grids, hurst, tolerance))
     return pd.DataFrame(limits, columns=list(COLUMNS))
 
 
@@ -117,21 +117,21 @@ def _interval(samples):
     return np.nanquantile(samples, [0.025, 0.975])
 
 
-def _columns(fits, of_hurst, hurst, tolerance):
-    """Columns of one quantity, height and law; fits : of every range, that of the table first."""
-    start, end, _, (found, deviation) = fits[0]
-    lows, highs = zip(*(_interval(one[3][0][1:, 1]) for one in fits), strict=True)
+def _columns(fits, hurst_grids, hurst, tolerance):
+    """Columns of one quantity, height and law; fits : of every range, the first being that of the table."""
+    start, end, _, (coefficients, deviation) = fits[0]
+    lows, highs = zip(*(_interval(fitted[3][0][1:, 1]) for fitted in fits), strict=True)
     expected = exponent_beta(hurst)
-    row = {"grids": len(of_hurst), "finest": of_hurst[-1].number, "elements_min": start, "x_high": end}
-    row |= {"expected": expected, "beta": found[0, 1], "beta_low": lows[0], "beta_high": highs[0]}
+    row = {"grids": len(hurst_grids), "finest": hurst_grids[-1].number, "elements_min": start, "x_high": end}
+    row |= {"expected": expected, "beta": coefficients[0, 1], "beta_low": lows[0], "beta_high": highs[0]}
     row |= {"ranges": len(fits), "ranges_low": min(lows), "ranges_high": max(highs), "deviation": deviation}
-    row |= {"amplitude": np.exp(found[0, 0])}
-    if found[0, 2]:
-        row |= {"correction": found[0, 2], "omega": found[0, 3]}
-        row["omega_low"], row["omega_high"] = _interval(found[1:, 3])
+    row |= {"amplitude": np.exp(coefficients[0, 0])}
+    if coefficients[0, 2]:
+        row |= {"correction": coefficients[0, 2], "omega": coefficients[0, 3]}
+        row["omega_low"], row["omega_high"] = _interval(coefficients[1:, 3])
     low, high = min(lows) - expected, max(highs) - expected
     row["finding"] = FINDINGS[2]
-    if found[0, 2] and place_of(row["omega"], row["omega_low"], row["omega_high"]) == PLACES[2]:
+    if coefficients[0, 2] and place_in_range(row["omega"], row["omega_low"], row["omega_high"]) == PLACES[2]:
         return row
     if max(abs(low), abs(high)) <= tolerance:
         row["finding"] = FINDINGS[0]
@@ -140,24 +140,24 @@ def _columns(fits, of_hurst, hurst, tolerance):
     return row
 
 
-def collapse_tables(discs, lines, *, ranges, conventions, tolerance, **how):
+def collapse_tables(discs, lines, *, ranges, conventions, tolerance, **options):
     """{"collapse", "infinite_grid", "collapse_curves": table} of discs, of their control and of lines.
 
     Their columns are scaling_collapse.COLUMNS, `COLUMNS` and scaling_collapse.CURVES.
 
     discs, lines : pools of grids from coarse to fine; ranges : setting `collapse`; tolerance : of exponents
-    conventions : those of the figures; how : fraction_min and seed, as in viscorough_study.fits.scaling_collapse.grids
+    conventions : those of the figures; options : fraction_min and seed, as in scaling_collapse.grids
     """
-    how |= {name: conventions[name] for name in ("average", "rms_convention")}
-    how |= {"elements_min": min(ranges["elements_min"]), "resamples": ranges["resamples"]}
+    options |= {name: conventions[name] for name in ("average", "rms_convention")}
+    options |= {"elements_min": min(ranges["elements_min"]), "resamples": ranges["resamples"]}
     ends = {"power": ranges["x_high"], "corrected": ranges["corrected_x_high"]}
     parts = {"collapse": [], "infinite_grid": []}
     for source, pool in (("discs", discs), ("controls", discs), ("lines", lines)):
-        found = grids(pool, source, **how)
-        parts["collapse"].append(collapse_table(found, source, x_high=ranges["x_high"], tolerance=tolerance))
+        grids_by_hurst = grids(pool, source, **options)
+        parts["collapse"].append(collapse_table(grids_by_hurst, source, x_high=ranges["x_high"], tolerance=tolerance))
         if source == "discs":
-            curves = curve_table(found, CURVES_END)
+            curves = curve_table(grids_by_hurst, CURVES_END)
         if source != "controls":
-            about = {"elements_min": ranges["elements_min"], "x_high": ends, "tolerance": tolerance}
-            parts["infinite_grid"].append(limit_table(found, source, **about))
+            limits = {"elements_min": ranges["elements_min"], "x_high": ends, "tolerance": tolerance}
+            parts["infinite_grid"].append(limit_table(grids_by_hurst, source, **limits))
     return {name: pd.concat(tables, ignore_index=True) for name, tables in parts.items()} | {"collapse_curves": curves}

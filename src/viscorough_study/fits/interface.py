@@ -1,11 +1,11 @@
-"""Two springs in series: the rough interface and the flat punch behind it.
+"""Rough interface and flat punch as two springs in series.
 
-At large loads a rough disc is a flat punch with a compliant interface before it. Compliances add, and with them
-velocities: vt/h = X/κ_c + g(X), where κ_c is the stiffness κ of the punch, of the grid that was used, and g is the
-interface alone. Where F is exponential in the mean separation, F ∝ exp(−s/u₀), the stiffness of the interface is F/u₀
-(Persson, Physical Review Letters 99, 125502 (2007)), and g = u₀/h is constant. So u₀/h is read off where g is flat: the
-**plateau** is the range of X around the largest g in which g is at most a given share below it, and u₀/h the mean of g
-there over ln X. Lines of the reduction of dimensionality have κ_c = 1.
+At large loads a rough disc acts as a flat punch in series with a compliant interface. Their compliances add, and so do
+velocities: vt/h = X/κ_c + g(X), where κ_c is the stiffness κ of the punch on the same grid, and g is the contribution
+of the interface. Where F is exponential in the mean separation, F ∝ exp(−s/u₀), the stiffness of the interface is F/u₀
+(Persson, Physical Review Letters 99, 125502 (2007)), and g = u₀/h is constant. u₀/h is therefore taken where g is flat:
+the **plateau** is the range of X around the largest g in which g is at most a given fraction below it, and u₀/h is the
+mean of g over ln X on it. Lines of the reduction of dimensionality have κ_c = 1.
 """
 
 import numpy as np
@@ -20,7 +20,7 @@ from viscorough_study.fits.conventions import FITTED
 from viscorough_study.fits.intervals import described, described_ends, percentile_interval, three_columns, with_interval
 from viscorough_study.fits.power_law import log_means
 
-LAW_ELEMENTS_MIN = 5  # median of the elements in contact from which on the law is fitted; with one, the slope is 1
+LAW_ELEMENTS_MIN = 5  # smallest median number of elements in contact at which the law is fitted
 ENSEMBLE = {
     "source": ("discs (boundary elements) or lines (reduction of dimensionality)", ""),
     "case_group": ("base, sizes: grids from coarse to fine, or lines", ""),
@@ -41,7 +41,7 @@ COLUMNS = {
     "law_high": ("upper end of this range", "1"),
     "deviation": ("largest relative deviation of the law from the mean vt/h in this range", "1"),
     "error": ("largest relative distance of the law from an end of the 95 % interval of the mean vt/h", "1"),
-    "depth_offset": ("mean u/h less the integral of the law from X = 0 on, at law_low", "1"),
+    "depth_offset": ("mean u/h less the integral of the law from X = 0, at law_low", "1"),
     **described_ends("depth", "of the 95 % interval of the offset"),
     "depth_deviation": ("largest relative deviation of the law's depth from the mean u/h in the range of the law", "1"),
 }
@@ -54,46 +54,46 @@ CURVES = {
 }
 
 
-def ensembles_of(pool, source, case_group, hursts=None):
-    """List of (columns of `ENSEMBLE` but the average, ensemble, κ_c), one for each Hurst exponent and grid of a group.
+def group_ensembles(pool, source, case_group, hursts=None):
+    """List of (columns of `ENSEMBLE` except the average, ensemble, κ_c) for every Hurst exponent and grid of a group.
 
-    pool : of viscorough_study.ensembles.pool; hursts : only these Hurst exponents
+    pool : of viscorough_study.ensembles.pool; hursts : Hurst exponents to select, None for all
     """
-    found, pool = [], select(pool, group=case_group)
+    result, pool = [], select(pool, group=case_group)
     if hursts is not None:
         pool = pool.isel(realization=np.flatnonzero(np.isin(pool["hurst"], list(hursts))))
     for (hurst, elements), ensemble in ensembles(pool, "hurst", "elements").items():
         number = elements if source == "lines" else elements_across(elements)
         punch = COMPLETE_CONTACT_STIFFNESS if source == "lines" else punch_stiffness(number)
-        about = {"source": source, "case_group": case_group, "hurst": hurst, "across": number}
-        found.append((about, ensemble, punch))
-    return found
+        labels = {"source": source, "case_group": case_group, "hurst": hurst, "across": number}
+        result.append((labels, ensemble, punch))
+    return result
 
 
 def interface_tables(discs, lines, size_discs, size_lines, *, fit, rms_convention):
     """{"interface", "interface_curves": table} of discs and lines, lines at the Hurst exponents of the discs.
 
     discs, lines, size_discs, size_lines : pools, the last two of grids from coarse to fine
-    fit : further arguments of `examine`; rms_convention : of the discs
+    fit : further arguments of `fit_interface`; rms_convention : of the discs
     """
     discs, size_discs = (pool.sel(rms_convention=[rms_convention]) for pool in (discs, size_discs))
-    cases = ensembles_of(discs, "discs", "base") + ensembles_of(size_discs, "discs", "sizes")
-    hursts = {about["hurst"] for about, _, _ in cases}
-    cases += ensembles_of(lines, "lines", "lines", hursts) + ensembles_of(size_lines, "lines", "sizes")
-    return dict(zip(("interface", "interface_curves"), examine_all(cases, rms_convention, **fit), strict=True))
+    cases = group_ensembles(discs, "discs", "base") + group_ensembles(size_discs, "discs", "sizes")
+    hursts = {labels["hurst"] for labels, _, _ in cases}
+    cases += group_ensembles(lines, "lines", "lines", hursts) + group_ensembles(size_lines, "lines", "sizes")
+    return dict(zip(("interface", "interface_curves"), fit_interfaces(cases, rms_convention, **fit), strict=True))
 
 
-def examine_all(cases, rms_convention, **how):
+def fit_interfaces(cases, rms_convention, **options):
     """Tables with the columns of `COLUMNS` and `CURVES` (pandas.DataFrame), of every ensemble and average.
 
-    cases : as of `ensembles_of`; rms_convention : of discs; how : further arguments of `examine`
+    cases : as of `group_ensembles`; rms_convention : of discs; options : further arguments of `fit_interface`
     """
     rows, curves = [], []
-    for about, ensemble, punch in cases:
-        one = ensemble.sel(rms_convention="line" if about["source"] == "lines" else rms_convention)
+    for labels, ensemble, punch in cases:
+        selected = ensemble.sel(rms_convention="line" if labels["source"] == "lines" else rms_convention)
         for average in FITTED["average"]:
-            row, curve = examine(one, punch, average=average, **how)
-            named = about | {"average": average}
+            row, curve = fit_interface(selected, punch, average=average, **options)
+            named = labels | {"average": average}
             rows.append(named | row)
             curves.append(curve.assign(**named))
     return (
@@ -102,23 +102,23 @@ def examine_all(cases, rms_convention, **how):
     )
 
 
-def examine(ensemble, punch, *, plateau, fraction_min, average, resamples, seed):
-    """The interface of one ensemble of one rms convention: columns of `COLUMNS`, table of `CURVES`.
+def fit_interface(ensemble, punch, *, plateau, fraction_min, average, resamples, seed):
+    """Interface of one ensemble in one rms convention: columns of `COLUMNS`, table of `CURVES`.
 
-    punch : κ_c; plateau : share by which g is below its maximum at the ends of the plateau
-    fraction_min : share of the realizations that must be defined for a mean
+    punch : κ_c; plateau : fraction by which g is below its maximum at the ends of the plateau
+    fraction_min : smallest fraction of defined realizations for which a mean is taken
     average, resamples, seed : of the mean and its bootstrap, as in viscorough_study.fits.power_law.fit_power_law
-    Abscissae at which one element touches, region (a), are left out. The law describes these curves, the onset of
-    contact on their grid included: it is fitted from X_LOW on, where `LAW_ELEMENTS_MIN` elements touch at least.
+    Abscissae at which one element is in contact, region (a), are omitted. The law describes curves on this grid,
+    including the onset of contact: it is fitted at X >= X_LOW with at least `LAW_ELEMENTS_MIN` elements in contact.
     """
     x, count = ensemble["x"].values, ensemble["contact_count_median"].values
-    shown = (ensemble["fraction_defined"].values >= fraction_min) & (count > 1)
+    kept = (ensemble["fraction_defined"].values >= fraction_min) & (count > 1)
     velocity = ensemble["velocity"].values
     samples, depths = (
-        np.exp(log_means(values, average, resamples, np.random.default_rng(seed)))[:, shown]
+        np.exp(log_means(values, average, resamples, np.random.default_rng(seed)))[:, kept]
         for values in (velocity, _depths(x, velocity))
     )
-    x, count, size = x[shown], count[shown], len(velocity)
+    x, count, size = x[kept], count[kept], len(velocity)
     interface, interval = samples - x / punch, percentile_interval(samples[1:], size)
     row = {"realizations": size, "kappa_c": punch} | _plateau(x, interface, plateau, size)
     law = fit_law(x, samples[0], punch, (count >= LAW_ELEMENTS_MIN) & (x >= X_LOW))
@@ -159,27 +159,27 @@ def fit_law(x, velocity, punch, allowed):
 
 
 def _law_columns(x, velocity, interval, punch, law, *, depths, size):
-    """Columns of the law: its constants, its range and its deviations in it, and the offset of its depth."""
+    """Columns of the law: its constants, its range, its deviations within it, and the offset of its depth."""
     columns = dict(zip(("exponent", "peak", "peak_x"), law, strict=True))
-    of_law = x / punch + interface_velocity(x, *law)
-    deviation = np.abs(of_law / velocity - 1)
+    law_velocity = x / punch + interface_velocity(x, *law)
+    deviation = np.abs(law_velocity / velocity - 1)
     holds = (deviation <= LARGEST_DEVIATION) & (x >= X_LOW)
     place = int(np.argmin(np.abs(np.log(x / law[2])))) if np.isfinite(law[0]) else 0
     if not holds[place]:
         return columns
     holds = _run(holds, place)
     offsets = (depths - x / punch - interface_depth(x, *law))[:, holds][:, 0]
-    of_depth = x / punch + interface_depth(x, *law) + offsets[0]
+    law_depth = x / punch + interface_depth(x, *law) + offsets[0]
     low, high = percentile_interval(offsets[1:], size)
-    ends = [np.abs(of_law / end - 1)[holds].max() for end in interval]
+    ends = [np.abs(law_velocity / end - 1)[holds].max() for end in interval]
     columns |= {"law_low": x[holds][0], "law_high": x[holds][-1]}
     columns |= {"deviation": deviation[holds].max(), "error": max(ends)}
     columns |= {"depth_offset": offsets[0], "depth_low": low, "depth_high": high}
-    return columns | {"depth_deviation": np.abs(of_depth / depths[0] - 1)[holds].max()}
+    return columns | {"depth_deviation": np.abs(law_depth / depths[0] - 1)[holds].max()}
 
 
 def _run(allowed, place):
-    """The run of allowed abscissae around a place that is allowed."""
+    """Indices of the run of allowed abscissae that contains `place`, which is allowed."""
     outside = np.flatnonzero(~allowed)
     first = outside[outside < place].max(initial=-1) + 1
     last = outside[outside > place].min(initial=len(allowed))

@@ -1,7 +1,7 @@
-"""Intervals of 95 %: of bootstrap samples and of independent samples, and how tables of results hold them.
+"""95 % intervals of bootstrap samples and of independent samples, and their columns in tables.
 
-In a table a quantity has three columns: its value, under its name, and the ends of its interval, under its name with
-_low and _high.
+A quantity has three columns in a table: its value, under its name, and the ends of its interval, under its name with
+the suffixes _low and _high.
 """
 
 import numpy as np
@@ -11,14 +11,14 @@ UNDEFINED = (np.nan, np.nan, np.nan)  # value and interval of a quantity that ca
 NO_INTERVAL = (np.nan, np.nan)  # of a quantity without statistical scatter
 
 
-def described(name, text, units="1", of="of its 95 % interval"):
+def described(name, text, units="1", ends="of its 95 % interval"):
     """Descriptions of the columns of a quantity and its interval, {column: (long_name, units)}."""
-    return {name: (text, units)} | described_ends(name, of, units)
+    return {name: (text, units)} | described_ends(name, ends, units)
 
 
-def described_ends(name, of, units="1"):
-    """Descriptions of the columns of the two ends of a range alone."""
-    return {f"{name}_{end}": (f"{side} end {of}", units) for end, side in (("low", "lower"), ("high", "upper"))}
+def described_ends(name, ends, units="1"):
+    """Descriptions of the columns of the two ends of a range; ends : completes "lower end ..." and "upper end ..."."""
+    return {f"{name}_{end}": (f"{side} end {ends}", units) for end, side in (("low", "lower"), ("high", "upper"))}
 
 
 def three_columns(name, values):
@@ -32,9 +32,10 @@ def interval(row, name):
 
 
 def resampled_means(values, resamples, random):
-    """Mean over the realizations, then of each of its bootstrap resamples, shape (resamples + 1, abscissae).
+    """Mean over the realizations in the first row, means of bootstrap resamples in the others.
 
     values : shape (realizations, abscissae), without nan; random : numpy.random.Generator
+    Returns an array of shape (resamples + 1, abscissae).
     """
     number = len(values)
     weights = random.multinomial(number, np.full(number, 1 / number), size=resamples) / number
@@ -42,15 +43,15 @@ def resampled_means(values, resamples, random):
 
 
 def with_interval(samples, realizations):
-    """Value of an ensemble and its `percentile_interval`, (value, low, high); samples : its own, then of resamples."""
+    """(value, low, high): the first sample, that of the ensemble, and the `percentile_interval` of the resamples."""
     return samples[0], *percentile_interval(samples[1:], realizations)
 
 
 def percentile_interval(samples, realizations):
     """95 % interval (low, high) of bootstrap samples: percentiles, widened for few realizations.
 
-    samples : shape (resamples,), or (resamples, quantities) for an interval of each; resamples with undefined (nan)
-        values are left out
+    samples : shape (resamples,), or (resamples, quantities) for one interval per quantity; resamples with undefined
+        (nan) values are omitted
 
     Plain percentiles are too narrow for small n. The levels Φ(∓√(n/(n−1)) t), t the 97.5 % point of Student's
     t with n − 1 degrees of freedom, make them the t interval for a mean (Hesterberg, The American
@@ -75,13 +76,13 @@ def mean_with_interval(samples):
 
 
 def deviation_interval(deviation, freedom):
-    """A standard deviation of normal samples and its interval by the distribution of χ²: (value, low, high)."""
+    """Standard deviation of normal samples and its interval by the χ² distribution: (value, low, high)."""
     ends = deviation * np.sqrt(freedom / (2 * gammaincinv(freedom / 2, [0.975, 0.025]))) if freedom else NO_INTERVAL
     return deviation, *ends
 
 
 def difference(first, second):
-    """The second of two independent quantities less the first, (value, low, high), from the intervals of both."""
+    """Difference second − first of two independent quantities, (value, low, high), from their intervals."""
     value = second[0] - first[0]
     below = np.hypot(second[0] - second[1], first[2] - first[0])
     above = np.hypot(second[2] - second[0], first[0] - first[1])

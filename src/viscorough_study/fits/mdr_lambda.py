@@ -1,9 +1,9 @@
-"""The line that stands for a surface: λ in C1D = λ q C2D (paper, Eq. 13 and below), and its residual error.
+"""λ in C1D = λ q C2D of the line that represents a surface (paper, Eq. 13 and below), and its residual error.
 
 A line of the same L and s times the rms height, h1D = s h2D, has X1 = X/s and vt/h2D = s vt/h1D. The mean curves y3 of
 discs and y1 of lines match at X where y3(X) = s y1(X/s), that is y3(X)/X = y1(X1)/X1, the mean of 1/κ. C1D = π q C2D
-has equal rms heights, C1D = λ q C2D has (h1D/h2D)² = λ/π, so λ = π s². s differs from X to X: the correspondence
-by a λ of the Hurst exponent alone is exact only if they are all equal.
+gives equal rms heights, C1D = λ q C2D gives (h1D/h2D)² = λ/π, so λ = π s². In general s depends on X; a λ that depends
+on the Hurst exponent alone is exact only if s is the same for all X.
 """
 
 from dataclasses import dataclass
@@ -13,12 +13,12 @@ import numpy as np
 from viscorough_study.fits.intervals import with_interval
 from viscorough_study.fits.power_law import in_window, log_means
 
-_BISECTIONS = 40  # of ln s, which end far below the rounding of λ in the tables
+_BISECTIONS = 40  # of ln s; their error is far below the rounding of λ in the tables
 
 
 @dataclass(frozen=True)
 class LineMatch:
-    """Mean curves of discs and lines: of the ensembles in the first row, of their resamples in the others.
+    """Mean curves of discs and lines: those of the ensembles in the first row, of their resamples in the others.
 
     x : X, shape (abscissae,), logarithmically uniform; realizations : the smaller number of the two ensembles
     discs, lines : ln of the mean of vt/h over X, shape (1 + resamples, abscissae), nan where a line is undefined
@@ -38,7 +38,7 @@ class LineMatch:
             return stretch
         for row, discs, lines in zip(stretch, self.discs, self.lines, strict=True):
             target = np.interp(wanted, log_x, discs)
-            # 1/κ falls as X grows; it is constant only where each line has one point in contact, left of every window.
+            # 1/κ falls with X; it is constant only where every line has one point in contact, below every window.
             falling = lines[complete][::-1]
             row[:] = wanted - np.interp(target, falling, log_x[complete][::-1], left=np.nan, right=np.nan)
         return stretch
@@ -50,7 +50,7 @@ class LineMatch:
     def deviation(self, stretch, chosen):
         """ln of vt/h of the lines of stretch s over that of the discs, shape (1 + resamples, chosen abscissae).
 
-        stretch : ln s, shape (1 + resamples,); chosen : which abscissae, shape (abscissae,); nan beyond the lines
+        stretch : ln s, shape (1 + resamples,); chosen : mask of abscissae; nan beyond the range of the lines
         """
         log_x, last = np.log(self.x), self.x.size - 1
         place = (log_x[chosen] - stretch[:, None] - log_x[0]) / (log_x[-1] - log_x[0]) * last
@@ -62,9 +62,9 @@ class LineMatch:
         return np.where(inside, lines, np.nan) - self.discs[:, chosen]
 
     def best_stretch(self, window):
-        """ln s with the smallest largest deviation over a window of X, shape (1 + resamples,); nan without any.
+        """ln s that minimizes the largest deviation over a window of X, shape (1 + resamples,); nan if there is none.
 
-        At every X the deviation grows with s, so the largest one is smallest where it occurs with both signs.
+        At every X the deviation grows with s, so at the minimum the largest deviation occurs with both signs.
         """
         chosen = in_window(self.x, window)
         ends = self.stretch_at(self.x[chosen])
@@ -77,31 +77,31 @@ class LineMatch:
         return (low + high) / 2
 
     def with_interval(self, samples):
-        """Value of the ensembles and the ends of its 95 % interval, from samples of shape (1 + resamples,)."""
+        """(value, low, high): the value of the ensembles and its 95 % interval; samples : shape (1 + resamples,)."""
         return with_interval(samples, self.realizations)
 
 
 def match_lines(x, discs, lines, *, average, resamples, seed):
-    """The LineMatch of two ensembles, both of which are resampled.
+    """LineMatch of an ensemble of discs and one of lines; both are resampled.
 
     x : X of both, shape (abscissae,); discs, lines : vt/h, (realizations, abscissae), nan where undefined
     average, resamples, seed : as in viscorough_study.fits.power_law.fit_power_law
     """
     generator, log_x = np.random.default_rng(seed), np.log(x)
-    of_discs = log_means(discs, average, resamples, generator) - log_x
-    of_lines = log_means(lines, average, resamples, generator) - log_x
-    of_lines = np.where(np.isfinite(lines).all(axis=0), of_lines, np.nan)
-    return LineMatch(x, of_discs, of_lines, min(len(discs), len(lines)))
+    disc_curves = log_means(discs, average, resamples, generator) - log_x
+    line_curves = log_means(lines, average, resamples, generator) - log_x
+    line_curves = np.where(np.isfinite(lines).all(axis=0), line_curves, np.nan)
+    return LineMatch(x, disc_curves, line_curves, min(len(discs), len(lines)))
 
 
-def match_lambda(x, discs, lines, window, **how):
+def match_lambda(x, discs, lines, window, **options):
     """λ at the geometric centre of a window of X, and its 95 % interval: (value, low, high).
 
-    x, discs, lines, how : as in `match_lines`
+    x, discs, lines, options : as in `match_lines`
     Raises ValueError if the lines, where all of them are defined, do not reach the stiffness of the discs.
     """
-    match = match_lines(x, discs, lines, **how)
+    match = match_lines(x, discs, lines, **options)
     values = match.with_interval(match.lambda_at(np.sqrt(window[0] * window[1]))[:, 0])
     if np.isnan(values[0]):
-        raise ValueError("match_lambda: the lines do not reach the stiffness of the discs, all of them must")
+        raise ValueError("match_lambda: the lines do not reach the stiffness of the discs; every line must")
     return values

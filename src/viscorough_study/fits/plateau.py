@@ -1,11 +1,12 @@
-"""Plateaus of the local slope: over how many decades of X a curve is a power law, and with which certainty.
+"""Plateaus of the local slope: the number of decades of X over which a curve is a power law, and its uncertainty.
 
-A power law has one slope d ln y/d ln X. Every curve that bends upwards at both ends has a flat piece in between, so
-what counts is its length: the decades of X over which all local slopes lie within ± the tolerance of their middle.
-Slopes are those of straight lines through fixed abscissae, so that no window is chosen by what is tested.
+A power law has a constant slope d ln y/d ln X. Every curve whose slope increases at both ends has a flat piece in
+between, so the test is of its length: the decades of X over which all local slopes lie within ± the tolerance of their
+mid-range. Slopes are those of straight lines over fixed widths: the tested property does not choose the window.
 
-The control has a spectrum without long waves, hence no power law. The test is as good as it fails curves like that and
-passes power laws, both with the scatter of the real realizations: shares of synthetic ensembles say how often it does.
+The control has a spectrum without long waves, hence no power law. The error rates of the test, the fractions of power
+laws that fail it and of curves like the control that pass it, are estimated from synthetic ensembles with the scatter
+of the real realizations.
 """
 
 import logging
@@ -18,7 +19,7 @@ from viscorough_study.fits.intervals import described, described_ends, resampled
 from viscorough_study.fits.power_law import local_slopes
 from viscorough_study.run.seeds import plateau_key, realization_seed
 
-ROUNDING = 1e-9  # relative difference up to which distances on the logarithmic axis count as equal
+ROUNDING = 1e-9  # relative difference below which distances on the logarithmic axis count as equal
 COLUMNS = {
     "case_group": ("base or name of the control, which has no power law", None),
     "hurst": ("Hurst exponent H", "1"),
@@ -30,16 +31,16 @@ COLUMNS = {
     "power_law_passes": ("share of synthetic power laws with the scatter of this ensemble that pass the test", "1"),
     "power_law_fails": ("share of them that fail it", "1"),
     "bent_passes": (
-        "the same of power laws whose slope changes by twice the range allowed over the decades needed",
+        "share that pass of power laws whose slope changes by twice the range allowed over the decades needed",
         "1",
     ),
-    "control_passes": ("the same of ensembles with the mean curve of the control", "1"),
+    "control_passes": ("share that pass of ensembles with the mean curve of the control", "1"),
 }
 RESAMPLES_OF_DRAWS = 100  # bootstrap samples of each synthetic ensemble
 
 
 def inner_slopes(log_x, log_y, half_width):
-    """Abscissae that have points over the whole width of `local_slopes`, and the slopes there.
+    """Abscissae with points over the whole width of `local_slopes`, and the slopes there.
 
     log_x : ln X, equally spaced, shape (abscissae,); log_y : ln y, shape (curves, abscissae), without nan
     Returns arrays of shapes (inner,) and (curves, inner). Raises ValueError if there is no such abscissa.
@@ -51,9 +52,9 @@ def inner_slopes(log_x, log_y, half_width):
 
 
 def longest_plateau(slopes, tolerance):
-    """Number of steps of the longest run of slopes within ± tolerance of their middle, of each curve, and its start.
+    """Number of steps of the longest run of slopes within ± tolerance of their mid-range, and its start, by curve.
 
-    slopes : shape (curves, abscissae); returns two arrays of shape (curves,), a run of n + 1 slopes has n steps
+    slopes : shape (curves, abscissae); returns two arrays of shape (curves,); a run of n + 1 slopes has n steps
     """
     steps, start = np.zeros(len(slopes), dtype=int), np.zeros(len(slopes), dtype=int)
     least, largest = slopes, slopes
@@ -61,56 +62,56 @@ def longest_plateau(slopes, tolerance):
         least = np.minimum(least[:, :-1], slopes[:, length:])
         largest = np.maximum(largest[:, :-1], slopes[:, length:])
         flat = largest - least <= 2 * tolerance
-        found = flat.any(axis=1)
-        if not found.any():
+        reached = flat.any(axis=1)
+        if not reached.any():
             break
-        steps[found], start[found] = length, flat.argmax(axis=1)[found]
+        steps[reached], start[reached] = length, flat.argmax(axis=1)[reached]
     return steps, start
 
 
 def plateau(log_x, log_y, *, half_width, tolerance, resamples, random):
-    """The plateau of the mean of realizations, with 95 % bootstrap intervals over them.
+    """Plateau of the mean over realizations, with 95 % bootstrap intervals.
 
     log_x, log_y, half_width : as in `inner_slopes`, log_y of the realizations; random : numpy.random.Generator
     Returns a dict: decades, decades_low, decades_high; slope, slope_low, slope_high, the mean slope over the plateau;
     x_low, x_high, its ends in X.
 
-    A resample has twice the variance of the mean, and scatter shortens plateaus: the interval lies rather low. Few
-    curves pass that have no power law, but of power laws that scatter much some fail, as `shares` tells.
+    A resample has twice the variance of the mean, and scatter shortens plateaus, so the interval is biased to low
+    values. Few curves without a power law pass, but some power laws with large scatter fail; `shares` gives the rates.
     """
     number = len(log_y)
     inner, slopes = inner_slopes(log_x, resampled_means(log_y, resamples, random), half_width)
     step = (inner[1] - inner[0]) / np.log(10)
     steps, start = longest_plateau(slopes, tolerance)
     run = slice(start[0], start[0] + steps[0] + 1)
-    found = three_columns("decades", with_interval(steps * step, number))
-    found |= three_columns("slope", with_interval(slopes[:, run].mean(axis=1), number))
-    return found | {"x_low": np.exp(inner[run][0]), "x_high": np.exp(inner[run][-1])}
+    columns = three_columns("decades", with_interval(steps * step, number))
+    columns |= three_columns("slope", with_interval(slopes[:, run].mean(axis=1), number))
+    return columns | {"x_low": np.exp(inner[run][0]), "x_high": np.exp(inner[run][-1])}
 
 
-def shares(log_x, mean, residuals, *, draws, decades_min, random, **how):
-    """Shares of synthetic ensembles that pass and that fail: (passed, failed).
+def shares(log_x, mean, residuals, *, draws, decades_min, random, **options):
+    """Fractions of synthetic ensembles that pass and that fail: (passed, failed).
 
-    Of those that pass the whole interval of the decades is decades_min or more, of those that fail it is less.
-    mean : ln y of the curve that all ensembles have, shape (abscissae,)
-    residuals : ln y of realizations less their mean, shape (realizations, abscissae): every ensemble is as many draws
-        of them with replacement, so that it scatters, and is correlated along X, as the real one is
-    draws : number of ensembles; how : further arguments of `plateau`
+    An ensemble passes if the whole interval of the decades is at least decades_min, and fails if it is below.
+    mean : ln y of the curve common to all ensembles, shape (abscissae,)
+    residuals : ln y of realizations less their mean, shape (realizations, abscissae); every ensemble has as many, drawn
+        with replacement, so that it has the scatter and the correlation along X of the real one
+    draws : number of ensembles; options : further arguments of `plateau`
     """
     passed, failed, needed = 0, 0, decades_min * (1 - ROUNDING)
     for _ in range(draws):
         drawn = residuals[random.integers(len(residuals), size=len(residuals))]
-        found = plateau(log_x, mean + drawn, random=random, **how)
-        passed += found["decades_low"] >= needed
-        failed += found["decades_high"] < needed
+        columns = plateau(log_x, mean + drawn, random=random, **options)
+        passed += columns["decades_low"] >= needed
+        failed += columns["decades_high"] < needed
     return passed / draws, failed / draws
 
 
-def plateau_table(discs, *, control, rms_convention, seed, **how):
+def plateau_table(discs, *, control, rms_convention, seed, **options):
     """Plateaus of every Hurst exponent, of base discs and of a control; a pandas.DataFrame with `COLUMNS`.
 
-    discs : pool (viscorough_study.ensembles.pool); control : group without a power law, None without one
-    how : further arguments of `plateau_row`
+    discs : pool (viscorough_study.ensembles.pool); control : group without a power law, or None
+    options : further arguments of `plateau_row`
     """
     discs, rows = discs.sel(rms_convention=[rms_convention]), []
     groups = {name: ensembles(select(discs, group=name), "hurst") for name in ("base", control) if name}
@@ -119,40 +120,40 @@ def plateau_table(discs, *, control, rms_convention, seed, **how):
             logging.info("%s, H = %g", group, hurst)
             random = np.random.default_rng(realization_seed(seed, *plateau_key(hurst, group)))
             compared = groups[control][hurst].isel(rms_convention=0) if control else None
-            row = plateau_row(ensemble.isel(rms_convention=0), compared, random=random, **how)
+            row = plateau_row(ensemble.isel(rms_convention=0), compared, random=random, **options)
             rows.append({"case_group": group, **row})
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
 def plateau_row(ensemble, control, *, x_range, half_width, tolerance, decades_min, resamples, draws, random):
-    """Row of one ensemble, with the keys of `COLUMNS` but for case_group.
+    """Row of one ensemble, with the keys of `COLUMNS` except case_group.
 
     ensemble : ensemble dataset (viscorough_study.ensembles.averages) of one rms convention
-    control : that of the control of the same Hurst exponent, None without one
-    x_range : X between which the plateau may lie; half_width : of local slopes, in decades, also used beyond x_range
-    tolerance : of the local slope; decades_min : length with which an ensemble passes; random : numpy.random.Generator
-    Where a realization does not reach all of the abscissae, the results are nan.
+    control : dataset of the control of the same Hurst exponent, or None
+    x_range : range of X of the plateau; half_width : of local slopes, in decades, which extend beyond x_range
+    tolerance : of the local slope; decades_min : length for which an ensemble passes; random : numpy.random.Generator
+    The results are nan if a realization does not reach all abscissae.
     """
     chosen = _near(ensemble["x"].values, x_range, half_width)
     log_x, log_y = np.log(ensemble["x"].values[chosen]), _log_velocity(ensemble, chosen)
     row = {"hurst": ensemble["hurst"].item(), "realizations": len(log_y), "draws": draws}
     if not np.isfinite(log_y).all():
         return dict.fromkeys((name for name in COLUMNS if name != "case_group"), np.nan) | row
-    how = {"half_width": half_width * np.log(10), "tolerance": tolerance, "random": random}
-    row |= plateau(log_x, log_y, resamples=resamples, **how)
+    options = {"half_width": half_width * np.log(10), "tolerance": tolerance, "random": random}
+    row |= plateau(log_x, log_y, resamples=resamples, **options)
     residuals = log_y - log_y.mean(axis=0)
     bend = 4 * tolerance / (decades_min * np.log(10))  # slope per unit of ln X
-    means = {"power_law": 0 * log_x, "bent": bend * (log_x - log_x.mean()) ** 2 / 2}  # a common slope changes nothing
+    means = {"power_law": 0 * log_x, "bent": bend * (log_x - log_x.mean()) ** 2 / 2}  # a common slope has no effect
     if control is not None:
         means["control"] = _log_velocity(control, chosen).mean(axis=0)
-    of_draws = {"draws": draws, "decades_min": decades_min, "resamples": RESAMPLES_OF_DRAWS}
-    found = {name: shares(log_x, mean, residuals, **of_draws, **how) for name, mean in means.items()}
-    row |= {f"{name}_passes": found.get(name, (np.nan,))[0] for name in ("power_law", "bent", "control")}
-    return row | {"power_law_fails": found["power_law"][1]}
+    draw_options = {"draws": draws, "decades_min": decades_min, "resamples": RESAMPLES_OF_DRAWS}
+    passing = {name: shares(log_x, mean, residuals, **draw_options, **options) for name, mean in means.items()}
+    row |= {f"{name}_passes": passing.get(name, (np.nan,))[0] for name in ("power_law", "bent", "control")}
+    return row | {"power_law_fails": passing["power_law"][1]}
 
 
 def _near(x, x_range, half_width):
-    """Abscissae in the range, and those beside it that local slopes need."""
+    """Mask of the abscissae in the range and of those within half_width beyond it, for local slopes."""
     margin = 10 ** (half_width * (1 + 1e-9))
     return (x >= x_range[0] / margin) & (x <= x_range[1] * margin)
 

@@ -3,8 +3,8 @@
 In region (b) κ = ζ X^α (paper, Eq. 3), hence vt/h = X/κ = X^β/ζ with β = 1 − α. Fits are made in this plain reading of
 the law; viscorough_study.fits.conventions has the others.
 
-Intervals are 95 % bootstrap intervals over realizations: whole curves are drawn with replacement, the window stays.
-They contain the scatter between surfaces, but not the choice of the window, which fits in other windows show.
+Intervals are 95 % bootstrap intervals over realizations: whole curves are drawn with replacement in a fixed window.
+They include the scatter between surfaces, but not the choice of the window, which fits in other windows show.
 """
 
 from dataclasses import dataclass
@@ -21,10 +21,10 @@ ROUNDING = 1e-9  # relative difference up to which abscissae and numbers of deca
 
 
 def local_slopes(log_x, log_y, half_width):
-    """d ln y/d ln X of least-squares lines through the abscissae within half_width to either side; of log_y's shape.
+    """d ln y/d ln X of least-squares lines over the abscissae within ± half_width; of the shape of log_y.
 
     log_x : ln X, shape (abscissae,); log_y : ln y, shape (abscissae,) or (curves, abscissae)
-    Abscissae at which a curve is undefined (nan) are left out; nan where fewer than two remain.
+    Abscissae at which a curve is undefined (nan) are omitted; nan where fewer than two remain.
     """
     defined = np.atleast_2d(np.isfinite(log_y)).all(axis=0)
     near = (np.abs(log_x[:, None] - log_x) <= half_width * (1 + ROUNDING)) & defined
@@ -38,16 +38,16 @@ def local_slopes(log_x, log_y, half_width):
 def find_region(mean, *, elements_min, stiffness_max, slope_max, slope_half_width, fraction_min, decades_min):
     """Window (X_low, X_high) of region (b), None without one: the longest run of abscissae, in ln X, at which
 
-    - the median of the elements in contact is at least elements_min: with fewer, the curve depends on the grid;
-    - the geometric mean κ is at most stiffness_max: above, the contact feels the finite size of the indenter, on the
-      way to region (c);
+    - the median number of elements in contact is at least elements_min: with fewer, the curve depends on the grid;
+    - the geometric mean κ is at most stiffness_max: above, the finite size of the indenter matters, in the transition
+      to region (c);
     - the local slope of the geometric mean vt/h, over slope_half_width decades to either side, is at most slope_max:
       it is 1 in regions (a) and (c). A self-affine surface meets this wherever it meets the other conditions;
-    - the share of the realizations defined is at least fraction_min: a mean over the few curves that reach further
+    - the fraction of defined realizations is at least fraction_min: a mean over the few curves that reach further
       is biased.
 
     mean : ensemble dataset (ensembles.averages) of one rms convention. No Hurst exponent enters the rule.
-    The limits and the values advised for them are in config/README.md, section Scaling.
+    config/README.md, section Scaling, describes the limits and recommends values.
     There is no region (b) if no such run spans decades_min decades.
     """
     log_x, log_velocity = np.log(mean["x"].values), np.log(mean["velocity_geometric"].values)
@@ -60,9 +60,9 @@ def named_windows(mean, *, stiffness_range, fraction_min, decades_min, **limits)
     """The windows to be compared, {name: (X_low, X_high), or None where there is none}.
 
     - default: find_region with the limits;
-    - lower_half, upper_half: its halves in ln X, between whose β the curvature shows that a single fit hides;
-    - kappa: stiffness_range[0] <= κ <= stiffness_range[1], the same state of contact on any grid, where default
-      begins much earlier for lines than for discs.
+    - lower_half, upper_half: its halves in ln X; the difference of their β reveals curvature that a single fit hides;
+    - kappa: stiffness_range[0] <= κ <= stiffness_range[1], the same state of contact on any grid, whereas default
+      begins at much smaller X for lines than for discs.
 
     All windows are found on the geometric mean, whichever average is fitted in them.
     """
@@ -133,7 +133,7 @@ def fit_power_law(x, velocity, window, *, average, resamples, seed):
     velocity : vt/h, shape (realizations, abscissae), nan where undefined
     window : (X_low, X_high), ends included; average : "arithmetic" or "geometric" mean over the realizations
     resamples : number of bootstrap samples; seed : int or SeedSequence. The same seed draws the same realizations
-        for every window and average, so that the bootstrap does not blur differences between conventions.
+        for every window and average, so that the bootstrap adds no noise to differences between conventions.
 
     Raises ValueError if fewer than three abscissae lie in the window, or one of them has no realization.
     """
@@ -142,7 +142,7 @@ def fit_power_law(x, velocity, window, *, average, resamples, seed):
         raise ValueError(f"fit_power_law: {chosen.sum()} abscissae in the window, at least 3 are needed")
     log_x, velocity = np.log(x[chosen]), velocity[:, chosen]
     if not np.isfinite(velocity).any(axis=0).all():
-        raise ValueError("fit_power_law: an abscissa of the window has no realization, 1 at least is needed")
+        raise ValueError("fit_power_law: an abscissa of the window has no realization, at least 1 is needed")
     mean = log_means(velocity, average, resamples, np.random.default_rng(seed))
 
     offset = log_x - log_x.mean()
@@ -153,7 +153,7 @@ def fit_power_law(x, velocity, window, *, average, resamples, seed):
 
 
 def log_means(velocity, average, resamples, generator):
-    """ln of the mean of vt/h over the realizations defined: of the ensemble, then of each of its bootstrap resamples.
+    """ln of the mean of vt/h over the defined realizations: of the ensemble, then of its bootstrap resamples.
 
     velocity : shape (realizations, abscissae), nan where undefined; average : "arithmetic" or "geometric"
     Returns an array of shape (resamples + 1, abscissae). Raises ValueError for another average.
@@ -161,7 +161,7 @@ def log_means(velocity, average, resamples, generator):
     if average not in FITTED["average"]:
         raise ValueError(f"average: must be one of {', '.join(FITTED['average'])}, not {average!r}")
     n = len(velocity)
-    # How often each realization is drawn: multinomial numbers, which take longer to draw as such.
+    # Multinomial counts of each realization, generated faster than by Generator.multinomial.
     drawn = generator.integers(n, size=(resamples, n)) + n * np.arange(resamples)[:, None]
     weights = np.bincount(drawn.ravel(), minlength=resamples * n).reshape(resamples, n)
     weights = np.vstack([np.ones(n), weights])

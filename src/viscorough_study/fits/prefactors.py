@@ -1,4 +1,4 @@
-"""The prefactor ζ in every combination of the conventions that the paper leaves open, against Eqs. (4) and (11).
+"""Prefactor ζ in every combination of the conventions that the paper leaves open, compared with Eqs. (4) and (11).
 
 A combination names the surfaces (the disc's cut, corners of the spectrum, kind of amplitudes) and the conventions of
 viscorough_study.fits.conventions. Over the Hurst exponents of a combination, the ratios of ζ to a law have
@@ -6,7 +6,7 @@ viscorough_study.fits.conventions. Over the Hurst exponents of a combination, th
 - a largest deviation, max |ln ratio|, by which combinations are ranked;
 - an rms deviation √(mean ln² ratio);
 - a common factor c = exp(mean ln ratio), the same for all H;
-- an rms deviation from c times the law: what is wrong with the law's shape in H, whatever its absolute value.
+- an rms deviation from c times the law: the error of the law's shape in H, irrespective of its absolute value.
 """
 
 import numpy as np
@@ -41,10 +41,10 @@ COLUMNS = {
     "average": ("mean over the realizations at fixed X", ""),
     "window_rule": ("rule of the window of the fit", ""),
     "gamma": ("law with or without the factor 1/Γ(2−α)", ""),
-    "diameter_convention": ("L in X and κ is the diameter or, which contradicts the paper, the radius", ""),
+    "diameter_convention": ("L in X and κ: the diameter or, contradicting the paper, the radius", ""),
     "status": ("left open by the paper, or contradicts the paper", ""),
     "hurst": ("Hurst exponent H", "1"),
-    **described("zeta", "prefactor ζ", of="of the 95 % interval of ζ"),
+    **described("zeta", "prefactor ζ", ends="of the 95 % interval of ζ"),
     **_law_columns(),
 }
 
@@ -74,23 +74,23 @@ def prefactors(scaling, surfaces):
     return table[list(COLUMNS)]
 
 
-def _over_hursts(table, values, how="mean"):
-    """Mean or maximum of values over the Hurst exponents of each combination, nan where one is missing."""
+def _over_hursts(table, values, statistic="mean"):
+    """Mean or maximum of values over the Hurst exponents of each combination, nan if one is missing."""
     combination = [table[name] for name in COMBINED]
     complete = values.notna().groupby(combination).transform("all")
-    return values.groupby(combination).transform(how).where(complete)
+    return values.groupby(combination).transform(statistic).where(complete)
 
 
 def ranked(table, law):
-    """Combinations of conventions, as dicts, from the nearest to a law ("eq4" or "eq11") to the farthest.
+    """Combinations of conventions, as dicts, by ascending deviation from a law ("eq4" or "eq11").
 
-    Those in which not every Hurst exponent has a window are left out.
+    Combinations in which a Hurst exponent has no window are omitted.
     """
     complete = table[table[f"worst_{law}"].notna()].sort_values(f"worst_{law}", kind="stable")
     return complete[COMBINED].drop_duplicates().to_dict("records")
 
 
-def rows_of(table, combination):
+def combination_rows(table, combination):
     """Rows of one combination of conventions, by ascending Hurst exponent."""
     for name, value in combination.items():
         table = table[table[name] == value]

@@ -1,16 +1,16 @@
-"""Does one scaling law hold on all grids? A collapse of curves with no fit and no window, and with which exponents.
+"""Scaling collapse: a test, without fit or window, of one scaling law on all grids, and the exponents it admits.
 
-With N elements across, the first touch of one element has vt/h ∝ XN, whatever the surface. The law vt/h ∝ X^(H/(1+H))
-can begin there on every grid only if (vt/h) N^H is one function of X N^(1+H) below the crossover to the punch. The same
-holds of any exponent β with H' = β/(1 − β) for H: the exponents with which the curves collapse are an interval of β.
+With N elements across, contact of a single element gives vt/h ∝ XN for every surface. The law vt/h ∝ X^(H/(1+H)) can
+begin there on every grid only if (vt/h) N^H is one function of X N^(1+H) below the crossover to the punch. The same is
+true of any exponent β, with H' = β/(1 − β) in place of H: the exponents with which the curves collapse are an interval.
 
-The spread of the curves of all grids is compared with what independent realizations of one curve would give: the means
-of bootstrap samples of every grid, moved to the common curve (a test with the null hypothesis imposed). A grid weighs
-as much as it has realizations: weights from the scatter of few realizations would be too uncertain.
+The spread of the curves of all grids is compared with that of independent realizations of one curve: the means of
+bootstrap samples of every grid, shifted to the common curve (a test with the null hypothesis imposed). A grid has the
+weight of its number of realizations: weights from the scatter of few realizations would be too uncertain.
 
-Two quantities are tested: vt/h itself, and that of the interface alone, vt/h − X/κ_c with κ_c of the punch, which is in
-series with it. And two heights: h over the waves that the grid has, as in the paper, or over all waves of the spectrum,
-which the former approaches for N → ∞.
+Two quantities are tested: vt/h itself, and the part of the interface, vt/h − X/κ_c with κ_c of the punch in series with
+it. Each is tested with two heights: h over the waves that the grid resolves, as in the paper, and h over all waves of
+the spectrum, its limit for N → ∞.
 """
 
 from dataclasses import dataclass, replace
@@ -28,11 +28,11 @@ from viscorough_study.fits.power_law import log_means
 QUANTITIES = {"whole": "vt/h", "interface": "vt/h less X/κ_c of the punch"}
 HEIGHTS = {"resolved": "h over the waves of the grid", "spectrum": "h over all waves of the spectrum"}
 FINDINGS = ("collapses", "does not collapse", "undecided")
-STEP = 0.01  # of the exponents with which a collapse is tried
-LATTICE = 256  # wave number up to which the waves of a disc are summed; beyond, the sum is an integral
-TRIED = 0.15  # by how much they differ from H/(1 + H) at most
-THINNED = 2  # every second abscissa is enough
-FEWEST = {"abscissae": 5, "realizations": 3}  # of a grid
+STEP = 0.01  # of the trial exponents
+LATTICE = 256  # wave number up to which the waves of a disc are summed; beyond it the sum is an integral
+TRIED = 0.15  # largest distance of the trial exponents from H/(1 + H)
+THINNED = 2  # every second abscissa is used
+FEWEST = {"abscissae": 5, "realizations": 3}  # smallest numbers for a grid to be used
 COLUMNS = {
     "source": ("discs by boundary elements, lines by the MDR, controls: discs whose spectrum has a roll-off", ""),
     "hurst": ("Hurst exponent", "1"),
@@ -40,14 +40,14 @@ COLUMNS = {
     "height": ("; ".join(f"{name}: {text}" for name, text in HEIGHTS.items()), ""),
     "x_high": ("X up to which curves are compared, from elements_min elements in contact on", "1"),
     "grids": ("grids compared", "1"),
-    "coarsest": ("elements across discs, or points of lines, of the coarsest of them", "1"),
-    "finest": ("elements across discs, or points of lines, of the finest of them", "1"),
+    "coarsest": ("elements across discs, or points of lines, on the coarsest grid", "1"),
+    "finest": ("elements across discs, or points of lines, on the finest grid", "1"),
     "expected": ("H/(1 + H), Eq. 10", "1"),
     "spread": ("rms deviation of ln(vt/h) from the common curve with H/(1 + H), weighted", "1"),
     "spread_null": ("95 % quantile of the spread of independent realizations of one curve", "1"),
     "p_value": ("share of such realizations with a larger spread", "1"),
-    "beta_low": ("lowest exponent with which the curves collapse at 5 %; empty if there is none", "1"),
-    "beta_high": ("highest exponent with which the curves collapse at 5 %", "1"),
+    "beta_low": ("lowest exponent with which the curves collapse at the 5 % level; empty if there is none", "1"),
+    "beta_high": ("highest exponent with which the curves collapse at the 5 % level", "1"),
     "finding": ("one of: " + "; ".join(FINDINGS), ""),
 }
 
@@ -79,13 +79,13 @@ class Grid:
     share: float
 
     def beginning_at(self, elements_min):
-        """The grid without abscissae before so many elements are in contact."""
+        """The grid from the first abscissa on at which elements_min elements are in contact."""
         kept = np.logical_or.accumulate(self.count >= elements_min)
         parts = {"log_x": self.log_x[kept], "count": self.count[kept], "log_velocity": self.log_velocity[:, kept]}
         return replace(self, **parts)
 
     def curve(self, quantity, height, x_high):
-        """(ln X, ln of the quantity of ensemble and resamples) up to x_high; None for few abscissae."""
+        """(ln X, ln of the quantity of ensemble and resamples) up to x_high; None for too few abscissae."""
         log_x, values = self.log_x, self.log_velocity
         if quantity == "interface":
             values = np.exp(values) - np.exp(log_x) / self.punch
@@ -97,19 +97,19 @@ class Grid:
         return log_x[kept] + shift, values[:, kept] + shift
 
 
-def curve_table(found, x_high):
-    """Curves of all grids up to x_high, with the columns of `CURVES`; found : as of `grids`."""
+def curve_table(grids_by_hurst, x_high):
+    """Curves of all grids up to x_high, with the columns of `CURVES`; grids_by_hurst : as of `grids`."""
     parts = [pd.DataFrame(columns=list(CURVES))]
-    for hurst, of_hurst in found.items():
-        for one, quantity in product(of_hurst, QUANTITIES):
-            if curve := one.curve(quantity, "spectrum" if hurst > 0 else "resolved", x_high):
+    for hurst, hurst_grids in grids_by_hurst.items():
+        for grid, quantity in product(hurst_grids, QUANTITIES):
+            if curve := grid.curve(quantity, "spectrum" if hurst > 0 else "resolved", x_high):
                 values = {"x": np.exp(curve[0]), "velocity": np.exp(curve[1][0])}
-                parts.append(pd.DataFrame({"hurst": hurst, "number": one.number, "quantity": quantity, **values}))
+                parts.append(pd.DataFrame({"hurst": hurst, "number": grid.number, "quantity": quantity, **values}))
     return pd.concat(parts[1:] or parts, ignore_index=True)
 
 
 def variance_share(hurst, number, source):
-    """Mean square of heights over the waves of a grid, over that of all waves of a self-affine spectrum; 0 for H = 0.
+    """Fraction of the mean square height of a self-affine spectrum that the waves of a grid have; 0 for H = 0.
 
     Waves of a disc have wave vectors k with 1 <= |k| <= N/2 in the plane and weight |k|^(−2−2H), those of a line
     1 <= k <= N/2 and k^(−1−2H).
@@ -123,17 +123,17 @@ def variance_share(hurst, number, source):
     weight = square ** (-1.0 - hurst)
     end = np.array([number / 2, np.inf])
     beyond = np.pi / hurst * (LATTICE ** (-2 * hurst) - np.maximum(end, LATTICE) ** (-2 * hurst))
-    of_grid, of_all = np.array([weight[square <= end[0] ** 2].sum(), weight.sum()]) + beyond
-    return of_grid / of_all
+    grid_sum, total = np.array([weight[square <= end[0] ** 2].sum(), weight.sum()]) + beyond
+    return grid_sum / total
 
 
 def grids(pool, source, *, average, rms_convention, elements_min, fraction_min, resamples, seed):
     """{H: grids from coarse to fine} of a pool; source : discs, controls or lines.
 
-    Abscissae are those where the median of the elements in contact is elements_min at least, from the first on, and a
-    share fraction_min of the curves is defined. Grids of fewer than three realizations are left out.
+    Abscissae begin where the median number of elements in contact first reaches elements_min, and have at least the
+    fraction fraction_min of the curves defined. Grids of fewer than three realizations are omitted.
     """
-    group, found = "controls" if source == "controls" else "sizes", {}
+    group, grids_by_hurst = "controls" if source == "controls" else "sizes", {}
     generator = np.random.default_rng(seed)
     convention = "line" if source == "lines" else rms_convention
     part = select(pool, group=group).sel(rms_convention=convention)
@@ -151,27 +151,27 @@ def grids(pool, source, *, average, rms_convention, elements_min, fraction_min, 
         means = log_means(velocity, average, resamples, generator)
         share = 1.0 if source == "controls" else variance_share(hurst, number, source)
         x, count = (ensemble[name].values[kept] for name in ("x", "contact_count_median"))
-        found.setdefault(hurst, []).append(Grid(number, len(velocity), np.log(x), means, count, punch, share))
-    return found
+        grids_by_hurst.setdefault(hurst, []).append(Grid(number, len(velocity), np.log(x), means, count, punch, share))
+    return grids_by_hurst
 
 
-def collapse_table(found, source, *, x_high, tolerance):
+def collapse_table(grids_by_hurst, source, *, x_high, tolerance):
     """Rows of `COLUMNS` for every Hurst exponent, quantity, height and end of the range.
 
-    found : of `grids`; x_high : ends of the range, X; tolerance : of β
+    grids_by_hurst : of `grids`; x_high : ends of the range, X; tolerance : of β
     """
     rows = []
-    for (hurst, of_hurst), quantity, height, end in product(found.items(), QUANTITIES, HEIGHTS, x_high):
+    for (hurst, hurst_grids), quantity, height, end in product(grids_by_hurst.items(), QUANTITIES, HEIGHTS, x_high):
         if height == "resolved" or (hurst > 0 and source != "controls"):
-            about = {"source": source, "hurst": hurst, "quantity": quantity, "height": height, "x_high": end}
-            rows.append(about | collapse(of_hurst, hurst, quantity, height, end, tolerance=tolerance))
+            labels = {"source": source, "hurst": hurst, "quantity": quantity, "height": height, "x_high": end}
+            rows.append(labels | collapse(hurst_grids, hurst, quantity, height, end, tolerance=tolerance))
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
-def collapse(of_hurst, hurst, quantity, height, x_high, *, tolerance):
-    """Columns of one collapse: of_hurst : grids of one Hurst exponent."""
-    curves = [(one, one.curve(quantity, height, x_high)) for one in of_hurst]
-    curves = [(one, tuple(values[..., ::THINNED] for values in curve)) for one, curve in curves if curve is not None]
+def collapse(hurst_grids, hurst, quantity, height, x_high, *, tolerance):
+    """Columns of one collapse; hurst_grids : grids of one Hurst exponent."""
+    curves = [(grid, grid.curve(quantity, height, x_high)) for grid in hurst_grids]
+    curves = [(grid, tuple(values[..., ::THINNED] for values in curve)) for grid, curve in curves if curve is not None]
     expected = exponent_beta(hurst)
     row = {"grids": len(curves), "expected": expected, "finding": FINDINGS[2]}
     if len(curves) < 2:
@@ -196,18 +196,18 @@ def spread(curves, beta):
     """
     power = beta / (1 - beta)  # H'
     step = np.diff(curves[0][1][0][:2]).item()
-    starts = [log_x[0] + (1 + power) * np.log(one.number) for one, (log_x, _) in curves]
+    starts = [log_x[0] + (1 + power) * np.log(grid.number) for grid, (log_x, _) in curves]
     first = min(starts)
     last = max(start + step * (curve[0].size - 1) for start, (_, curve) in zip(starts, curves, strict=True))
     size = int((last - first) / step) + 2
     total, weights, parts = np.zeros((curves[0][1][1].shape[0], size)), np.zeros((2, size)), []
-    for (one, (log_x, log_y)), start in zip(curves, starts, strict=True):
+    for (grid, (log_x, log_y)), start in zip(curves, starts, strict=True):
         before = int(np.ceil((start - first) / step - 1e-9))
-        part = before - (start - first) / step  # of a step, from abscissae of the grid to common ones
-        moved = (1 - part) * log_y[:, :-1] + part * log_y[:, 1:] + power * np.log(one.number)
-        # Resamples of one and the same curve; means of n realizations scatter more than those of resamples of n.
-        moved[1:] = (moved[1:] - moved[0]) * np.sqrt(one.realizations / (one.realizations - 1))
-        weight = np.full(moved.shape[1], float(one.realizations))
+        part = before - (start - first) / step  # fraction of a step between abscissae of the grid and common ones
+        moved = (1 - part) * log_y[:, :-1] + part * log_y[:, 1:] + power * np.log(grid.number)
+        # Resamples of one common curve; the variance of a mean is n/(n − 1) times that of bootstrap means.
+        moved[1:] = (moved[1:] - moved[0]) * np.sqrt(grid.realizations / (grid.realizations - 1))
+        weight = np.full(moved.shape[1], float(grid.realizations))
         place = slice(before, before + log_x.size - 1)
         parts.append((moved, weight, place))
         total[:, place] += weight * moved

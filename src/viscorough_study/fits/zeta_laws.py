@@ -1,4 +1,4 @@
-"""The paper's laws of the prefactor by one measure, absolute and up to a factor common to all Hurst exponents.
+"""The paper's laws of the prefactor compared by common measures, absolute and up to a factor common to all H.
 
 Each law is compared in two ways, with the logarithm r of a ratio for each Hurst exponent:
 
@@ -7,11 +7,11 @@ Each law is compared in two ways, with the logarithm r of a ratio for each Hurst
   exponents. With Eq. 11 and the factor 1/Γ(2 − α) this is the ratio of both sides of Eq. 12, as in Fig. 3.
 
 The measures are √⟨r²⟩, the deviation; exp⟨r⟩, the common factor; and √⟨(r − ⟨r⟩_H)²⟩, the spread between Hurst
-exponents: of ζ, how far the law has another shape in H; of curves, at each X, how far they are from collapsing onto one
-curve, whichever that is. Intervals are those of bootstrap samples of the realizations. As scatter adds to deviation and
-spread, both are rather too large than too small.
+exponents: for ζ, the error of the law's shape in H; for curves, at each X, their distance from collapsing onto any one
+curve. Intervals are from bootstrap samples of the realizations. Scatter adds to deviation and spread, so both are
+biased to large values.
 
-Eq. 4 is a law of the elastic contact, without the factor; with it, it is what the paper compares with Eq. 11.
+Eq. 4 is a law of the elastic contact, without the factor; the paper compares it with Eq. 11 with the factor.
 """
 
 import numpy as np
@@ -28,7 +28,7 @@ LAWS = {  # {name: (ζ as a function of H, whether the law has the factor 1/Γ(2
     "Eq. 4, with Γ": (reference.zeta_elastic, True),
     "Eq. 11, with Γ": (reference.zeta_viscous, True),
 }
-LAST = list(LAWS)[-1]  # from which the others are told apart
+LAST = list(LAWS)[-1]  # the law with which the others are compared
 COLUMNS = {
     "hurst_min": ("lowest Hurst exponent allowed", "1"),
     "quantity": ("what is compared with the law: zeta, or curve", ""),
@@ -50,8 +50,8 @@ def zeta_laws_of_pool(discs, *, conventions, hurst_mins, fit, resamples, seed):
     conventions : average and rms convention, as in the figures; fit : arguments of power_law.named_windows
     """
     base = select(discs, group="base").sel(rms_convention=[conventions["rms_convention"]])
-    pooled = {hurst: one.isel(rms_convention=0) for hurst, one in sorted(ensembles(base, "hurst").items())}
-    windows = {hurst: named_windows(one, **fit)["default"] for hurst, one in pooled.items()}
+    pooled = {hurst: members.isel(rms_convention=0) for hurst, members in sorted(ensembles(base, "hurst").items())}
+    windows = {hurst: named_windows(members, **fit)["default"] for hurst, members in pooled.items()}
     return zeta_laws(pooled, windows, hurst_mins, average=conventions["average"], resamples=resamples, seed=seed)
 
 
@@ -60,38 +60,38 @@ def zeta_laws(ensembles, windows, hurst_mins=(0.0,), *, average, resamples, seed
 
     ensembles : {H: ensemble dataset of one rms convention} (viscorough_study.ensembles.averages)
     windows : {H: window of region (b), or None}; average : "arithmetic" or "geometric"
-    hurst_mins : lowest Hurst exponents, for each of which the exponents from it on are compared
+    hurst_mins : lowest Hurst exponents; the exponents from each of them upwards are compared
     resamples, seed : of the bootstrap, which draws the realizations of each Hurst exponent independently
     Values are nan where a Hurst exponent has no region (b) or, of curves, where the regions have no X in common.
     """
-    how, rows = {"average": average, "resamples": resamples, "seed": seed}, []
-    for least in hurst_mins:
-        chosen = {hurst: ensemble for hurst, ensemble in ensembles.items() if hurst >= least}
-        of_chosen = {hurst: windows[hurst] for hurst in chosen}
-        rows += [(least, *row) for row in _rows(chosen, of_chosen, **how)]
+    bootstrap, rows = {"average": average, "resamples": resamples, "seed": seed}, []
+    for hurst_min in hurst_mins:
+        chosen = {hurst: ensemble for hurst, ensemble in ensembles.items() if hurst >= hurst_min}
+        chosen_windows = {hurst: windows[hurst] for hurst in chosen}
+        rows += [(hurst_min, *row) for row in _rows(chosen, chosen_windows, **bootstrap)]
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
-def _rows(ensembles, windows, **how):
+def _rows(ensembles, windows, **bootstrap):
     """Rows of the table for these Hurst exponents."""
     number = min((ensemble.sizes["realization"] for ensemble in ensembles.values()), default=0)
     common, rows = _common_window(windows), []
     for quantity, ratios in (("zeta", _zeta_ratios), ("curve", _curve_ratios)):
-        samples = ratios(ensembles, windows, **how) or dict.fromkeys(LAWS, np.full((2, 1, 1), np.nan))
+        samples = ratios(ensembles, windows, **bootstrap) or dict.fromkeys(LAWS, np.full((2, 1, 1), np.nan))
         ends = common if quantity == "curve" and common is not None else (np.nan, np.nan)
         measures = {law: _measures(samples[law]) for law in LAWS}
         for law in list(LAWS)[:-1]:
             less = {name: measures[law][name] - measures[LAST][name] for name in ("deviation", "spread")}
             measures[difference(law)] = less
-        for law, of_law in measures.items():
-            for measure, values in of_law.items():
+        for law, law_measures in measures.items():
+            for measure, values in law_measures.items():
                 value = with_interval(values, number)
                 rows.append((quantity, law, measure, *value, *ends, len(ensembles), number))
     return rows
 
 
-def value_of(table, quantity, law, measure, hurst_min=0.0):
-    """Value and 95 % interval, (value, low, high), of one row of the table; nan if it is not there."""
+def measure_value(table, quantity, law, measure, hurst_min=0.0):
+    """Value and 95 % interval, (value, low, high), of one row of the table; nan without such a row."""
     wanted = {"quantity": quantity, "law": law, "measure": measure, "hurst_min": hurst_min}
     rows = table[np.logical_and.reduce([table[name] == value for name, value in wanted.items()])]
     return tuple(rows[["value", "low", "high"]].iloc[0].tolist()) if len(rows) else UNDEFINED
@@ -103,7 +103,7 @@ def difference(law):
 
 
 def _measures(logarithms):
-    """{measure: of the ensemble, then of each resample}; logarithms : shape (resamples + 1, Hurst exponents, X)."""
+    """{measure: values of ensemble and resamples}; logarithms : shape (resamples + 1, Hurst exponents, X)."""
     mean_over_hursts = logarithms.mean(axis=1, keepdims=True)
     return {
         "deviation": np.sqrt(np.mean(logarithms**2, axis=(1, 2))),
@@ -145,7 +145,7 @@ def _curve_ratios(ensembles, windows, *, average, resamples, seed):
 
 
 def _common_window(windows):
-    """Window that lies in all windows, None if there is none."""
+    """Intersection of all windows, None if it is empty."""
     if not windows or any(window is None for window in windows.values()):
         return None
     low, high = (edge(ends) for edge, ends in zip((max, min), zip(*windows.values(), strict=True), strict=True))

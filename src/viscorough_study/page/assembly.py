@@ -6,7 +6,7 @@ from viscorough_study.page.discussion import QUANTITIES, discussion
 from viscorough_study.page.render import embedded_png, render
 from viscorough_study.page.results import netcdf_of, read_results, read_table, readable
 from viscorough_study.robustness.failure_map import VERDICTS as OUTCOMES
-from viscorough_study.run.rule_costs import in_words
+from viscorough_study.run.rule_costs import conventions_text
 from viscorough_study.run.tables import read_recorded
 
 
@@ -78,6 +78,6 @@ def page(
         machine=results.machine["rule_costs"],
         versions=read_recorded(costs_nc, "versions"),
         made=read_recorded(costs_nc, "made"),
-        time=in_words(results.tables["rule_costs"]["share_s"].sum()),
+        time=conventions_text(results.tables["rule_costs"]["share_s"].sum()),
         paper_time=numbers["boundary_elements"]["computing_time"]["value"],
     )

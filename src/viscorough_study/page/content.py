@@ -39,8 +39,8 @@ def verdicts(results, statements, published):
         full_scale = None
         if at_full_scale.get(name, verdict) != verdict:
             of_claim = published[published["claim"] == name]
-            in_words = case_in_words(of_claim.loc[deciding_case(of_claim)])
-            full_scale = {"verdict": at_full_scale[name], "case": in_words}
+            conventions_text = case_in_words(of_claim.loc[deciding_case(of_claim)])
+            full_scale = {"verdict": at_full_scale[name], "case": conventions_text}
         claims[KINDS[first["kind"]]].append(
             {
                 "name": name,

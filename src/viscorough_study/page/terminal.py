@@ -16,7 +16,7 @@ import pandas as pd
 
 from viscorough.io.netcdf import opened
 from viscorough_study.run.paper_data import read_paper
-from viscorough_study.run.rule_costs import in_words
+from viscorough_study.run.rule_costs import conventions_text
 from viscorough_study.run.stale_locks import REMOVED
 from viscorough_study.verdicts.claims import counted_verdicts
 
@@ -64,7 +64,7 @@ class Progress:
         pace = (self.changed - self.began + OWN_SPEED) / (self.ended + OWN_SPEED)
         left = max(0.0, pace * (self.planned - self.ended) - (now - self.changed))
         what = next(reversed(self.running.values()), "")
-        return f"{self.done} of {self.total}, {in_words(left) if left >= 5 else 'seconds'} left: {what}"
+        return f"{self.done} of {self.total}, {conventions_text(left) if left >= 5 else 'seconds'} left: {what}"
 
     def _seconds_of(self, rule):
         return self.seconds.get(rule, 0.0 if rule == "all" else self.mean)
@@ -156,7 +156,7 @@ def summary(results=Path("results"), paper=Path("resources/paper")):
     verdicts = ", ".join(f"{number} {verdict}" for verdict, number in claims)
     return [
         f"{sum(number for _, number in claims)} claims of the paper: {verdicts}{trial}",
-        f"It took {in_words(seconds)}; the paper: {theirs}",
+        f"It took {conventions_text(seconds)}; the paper: {theirs}",
         f"Open {results / 'index.html'} in a browser",
     ]
 

@@ -9,7 +9,7 @@ import xarray as xr
 from scipy.special import ndtri
 
 from viscorough_study.ensembles import pool
-from viscorough_study.fits.conventions import of_source, select
+from viscorough_study.fits.conventions import select, source_values
 from viscorough_study.fits.intervals import NO_INTERVAL
 from viscorough_study.fits.power_law import find_region
 from viscorough_study.run.paper_data import number
@@ -75,7 +75,7 @@ class Evidence:
 
         wanted : conventions in place of those of the figures
         """
-        wanted = self.conventions | wanted | of_source(source) | {"case_group": "base"}
+        wanted = self.conventions | wanted | source_values(source) | {"case_group": "base"}
         return select(self.tables["scaling"], wanted).set_index("hurst")
 
     def said(self, section, name):

@@ -10,7 +10,15 @@ import numpy as np
 import pandas as pd
 
 from viscorough import reference
-from viscorough_study.fits.conventions import FITTED, NAMES, in_every_reading, in_words, left_open, of_source, select
+from viscorough_study.fits.conventions import (
+    FITTED,
+    NAMES,
+    conventions_text,
+    in_every_reading,
+    left_open,
+    select,
+    source_values,
+)
 from viscorough_study.fits.intervals import UNDEFINED, deviation_interval, difference, interval, percentile_interval
 from viscorough_study.fits.power_law import fit_power_law, in_window, log_means
 from viscorough_study.verdicts.evidence import hurst_name, judged
@@ -49,7 +57,7 @@ def _nearest_convention(scaling, source, hursts, tolerance):
         ends = group.set_index("hurst").reindex(hursts)[["beta_low", "beta_high"]].to_numpy()
         deviations = np.abs(ends - reference.exponent_beta(hursts.to_numpy())[:, None])
         if np.isfinite(deviations).all() and deviations.max() <= smallest:
-            nearest, smallest = in_words(dict(zip(NAMES, values, strict=True))), deviations.max()
+            nearest, smallest = conventions_text(dict(zip(NAMES, values, strict=True))), deviations.max()
     return nearest
 
 
@@ -60,7 +68,7 @@ def coincide(evidence, tolerance):
         conventions = dict(zip(FITTED, values, strict=True))
         ends = np.abs(_differences(evidence, conventions)[["low", "high"]].to_numpy())
         if ends.size and np.isfinite(ends).all() and ends.max() <= smallest:
-            nearest, smallest = in_words(conventions), ends.max()
+            nearest, smallest = conventions_text(conventions), ends.max()
     differences = _differences(evidence, {})
     for hurst, row in differences.iterrows():
         *values, number = row.tolist()
@@ -138,7 +146,7 @@ def _slopes(ensemble, window):
 
 def alpha_limit(evidence, tolerance):
     """β at H = 1, where the paper calls the exponent exact: of lines, and of discs on the paper's grid."""
-    wanted = evidence.conventions | of_source("discs") | {"case_group": "sizes"}
+    wanted = evidence.conventions | source_values("discs") | {"case_group": "sizes"}
     discs = select(evidence.tables["sizes"], wanted).set_index("hurst")
     discs = discs[discs["elements"] >= SHARE_OF_SQUARE * evidence.across**2].sort_values("elements", kind="stable")
     for source, fits in (("lines", evidence.fits("lines")), ("discs", discs)):

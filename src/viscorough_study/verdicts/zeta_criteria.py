@@ -7,10 +7,10 @@ surfaces included, the verdict names those with the smallest deviation.
 
 import numpy as np
 
-from viscorough_study.fits.conventions import NAMES, in_words, left_open
+from viscorough_study.fits.conventions import NAMES, conventions_text, left_open
 from viscorough_study.fits.intervals import interval
 from viscorough_study.fits.prefactors import COMBINED, LAWS
-from viscorough_study.fits.zeta_laws import difference, value_of
+from viscorough_study.fits.zeta_laws import difference, measure_value
 from viscorough_study.verdicts.evidence import hurst_name
 
 
@@ -43,7 +43,7 @@ def _nearest_convention(table, name, gamma, tolerance):
     if largest.empty or largest.min() > tolerance:
         return ""
     nearest = dict(zip(COMBINED, largest.idxmin(), strict=True))
-    return in_words({name: nearest[name] for name in NAMES} | {"surfaces": nearest["case_group"]})
+    return conventions_text({name: nearest[name] for name in NAMES} | {"surfaces": nearest["case_group"]})
 
 
 def zeta_elastic_shape(evidence, tolerance):
@@ -67,7 +67,7 @@ def _spreads(evidence, tolerance, quantity, law):
     of_all = {"realizations": table["realizations"].min(), "cases": table["hurst_min"].nunique()}
     for least in table["hurst_min"].unique():
         name = f"H from {least:g} on" if least > 0 else "all H"
-        values = value_of(table, quantity, law, "spread", least)
+        values = measure_value(table, quantity, law, "spread", least)
         yield evidence.case(name, values, 0.0, (-np.inf, tolerance), **of_all)
 
 
@@ -80,5 +80,5 @@ def zeta_better(evidence, tolerance):
     readings = {"Eq. 4, with Γ": "both with Γ", "Eq. 4, without Γ": "Eq. 4 without Γ"}
     of_all = {"realizations": table["realizations"].min(), "cases": len(readings)}
     for law, reading in readings.items():
-        values = value_of(table, "curve", difference(law), "deviation")
+        values = measure_value(table, "curve", difference(law), "deviation")
         yield evidence.case(f"all H, {reading}", values, np.nan, (tolerance, np.inf), **of_all)

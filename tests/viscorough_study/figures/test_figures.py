@@ -13,7 +13,7 @@ from viscorough.surfaces import self_affine_disc
 from viscorough_study.figures.collapse import SHIFT
 from viscorough_study.figures.prefactors import NEAREST
 from viscorough_study.fits.conventions import fits, left_open, select
-from viscorough_study.fits.prefactors import prefactors, ranked, rows_of
+from viscorough_study.fits.prefactors import combination_rows, prefactors, ranked
 
 pytestmark = pytest.mark.filterwarnings("error")
 
@@ -144,7 +144,7 @@ def test_prefactors_are_ranked_and_all_combinations_are_ticks(scaling):
         assert len(labels) == NEAREST + 3
         rank = ranked(open_rows, law).index({"case_group": "base"} | SHOWN) + 1
         assert labels[-3].startswith(f"as in the other figures, rank {rank}:")
-        best = rows_of(table, ranked(open_rows, law)[0])
+        best = combination_rows(table, ranked(open_rows, law)[0])
         first = [line.get_xdata()[0] for line in markers(axes) if line.get_ydata()[0] < 0.5]
         assert sorted(first) == pytest.approx(sorted(best[law]))
         ticks = [line for line in axes.lines if line.get_marker() == "|" and len(line.get_xdata()) > 1]
@@ -249,7 +249,7 @@ def test_lambda_is_thick_in_its_region_and_unknown_differences_are_left_out(draw
     values, ratios, differences = drawn["mdr_lambda"].axes
     for axes, name in ((values, "lambda"), (ratios, "velocity_ratio")):
         for hurst, whole, inside in zip((0.4, 0.9), axes.lines[0:4:2], axes.lines[1:4:2], strict=True):
-            rows = lambdas[of_lambda["hurst"] == hurst]
+            rows = lambdas[lambdas["hurst"] == hurst]
             np.testing.assert_array_equal(whole.get_xydata(), rows[["x", name]])
             np.testing.assert_array_equal(inside.get_xydata(), rows.loc[rows["in_region"] == 1, ["x", name]])
             assert inside.get_linewidth() == 2

@@ -9,7 +9,7 @@ from support.study import pool_of
 from viscorough.calibrated_law import X_LOW, interface_depth, interface_velocity
 from viscorough_study.ensembles.averages import abscissa, ensemble_dataset
 from viscorough_study.ensembles.indentation import punch_stiffness
-from viscorough_study.fits.interface import COLUMNS, CURVES, ensembles_of, examine, examine_all
+from viscorough_study.fits.interface import COLUMNS, CURVES, fit_interface, fit_interfaces, group_ensembles
 
 X = abscissa(1e-9, 30, 20)
 PUNCH = 0.98
@@ -31,7 +31,7 @@ def ensemble(interface, *, scatter=0.05, realizations=40, punch=PUNCH, elements=
 
 def examined(interface, average="arithmetic", **changes):
     how = HOW | {"average": average}
-    return examine(ensemble(interface, **changes).sel(rms_convention="disc"), PUNCH, **how)
+    return fit_interface(ensemble(interface, **changes).sel(rms_convention="disc"), PUNCH, **how)
 
 
 def test_plateau_is_given_back():
@@ -68,7 +68,7 @@ def test_law_is_fitted_from_five_elements_in_contact_on():
     for touching in (4, 5):
         count = xr.DataArray(np.where(X < 1e-5, 1, np.where(X < 3e-3, touching, 20)), dims="abscissa")
         changed = known.assign(velocity=halved, contact_count_median=count)
-        laws[touching] = examine(changed, PUNCH, **HOW, average="geometric")[0]
+        laws[touching] = fit_interface(changed, PUNCH, **HOW, average="geometric")[0]
     assert [laws[4][name] for name in ("exponent", "peak", "peak_x")] == pytest.approx(LAW, rel=1e-4)
     assert laws[4]["law_low"] == pytest.approx(X[X >= 3e-3 * (1 - 1e-9)][0])
     assert laws[5]["exponent"] > 1.1 * LAW[0]
@@ -86,10 +86,10 @@ def test_tables_of_every_grid_and_average():
         for n, elements, h in ((33, 797, 0.5), (33, 797, 0.7), (65, 3209, 0.5))
     ]
     pool = pool_of(members)
-    cases = ensembles_of(pool, "discs", "base")
+    cases = group_ensembles(pool, "discs", "base")
     assert [(about["across"], about["hurst"]) for about, _, _ in cases] == [(33, 0.5), (33, 0.7), (65, 0.5)]
-    assert len(ensembles_of(pool, "discs", "base", {0.7})) == 1
-    table, curves = examine_all(cases, "disc", **HOW)
+    assert len(group_ensembles(pool, "discs", "base", {0.7})) == 1
+    table, curves = fit_interfaces(cases, "disc", **HOW)
     assert (list(table), list(curves)) == (list(COLUMNS), list(CURVES))
     assert table["average"].tolist() == ["arithmetic", "geometric"] * 3
     assert np.ptp(table["u0"]) < 0.01

@@ -6,7 +6,7 @@ import pytest
 
 from support.study import BASE_SURFACES, SHOWN, evidence
 from viscorough.reference import zeta_elastic, zeta_viscous
-from viscorough_study.fits.prefactors import COLUMNS, combinations, prefactors, ranked, rows_of
+from viscorough_study.fits.prefactors import COLUMNS, combination_rows, combinations, prefactors, ranked
 
 OWN = {"case_group": "base"} | SHOWN
 
@@ -25,7 +25,7 @@ def table(scaling):
 def test_deviations_from_a_law_with_and_without_a_common_factor(table):
     assert list(table) == list(COLUMNS)
     assert len(combinations(table)) == 2 * 2 * 4 * 2 * 2
-    own = rows_of(table, OWN)
+    own = combination_rows(table, OWN)
     np.testing.assert_allclose(own["eq4"], 2, rtol=0.05)
     for name in ("worst", "deviation"):
         np.testing.assert_allclose(own[f"{name}_eq4"], np.log(2), atol=0.05)
@@ -41,7 +41,7 @@ def test_combinations_are_ranked_by_their_largest_deviation(table):
     ranking = ranked(table, "eq4")
     assert ranking[0]["rms_convention"] == "square"
     assert (ranking[0]["gamma"], ranking[0]["diameter_convention"]) == ("without", "diameter")
-    deviations = [rows_of(table, combination)["worst_eq4"].iloc[0] for combination in ranking]
+    deviations = [combination_rows(table, combination)["worst_eq4"].iloc[0] for combination in ranking]
     assert deviations == sorted(deviations)
     assert deviations[0] < 0.05
     assert len(ranking) == len(combinations(table))
@@ -55,7 +55,7 @@ def test_surfaces_are_crossed_with_the_other_conventions(scaling):
     groups[1]["zeta"] *= 1.5
     table = prefactors(pd.concat(groups, ignore_index=True), BASE_SURFACES | {"both": both})
     assert set(table["case_group"]) == {"base", "both"}
-    base, crossed = (rows_of(table, OWN | {"case_group": name}) for name in ("base", "both"))
+    base, crossed = (combination_rows(table, OWN | {"case_group": name}) for name in ("base", "both"))
     assert crossed[["period", "corners", "amplitudes"]].iloc[0].tolist() == [2, "yes", "random"]
     assert crossed["common_eq4"].iloc[0] == pytest.approx(1.5 * base["common_eq4"].iloc[0])
     assert crossed["shape_eq4"].iloc[0] == pytest.approx(base["shape_eq4"].iloc[0])

@@ -10,7 +10,7 @@ from scipy.special import gamma as gamma_function
 
 from support.study import BOOTSTRAP, HURST, LIMITS, evidence, evidence_with_factors
 from viscorough import reference
-from viscorough_study.fits.zeta_laws import COLUMNS, LAWS, difference, value_of, zeta_laws
+from viscorough_study.fits.zeta_laws import COLUMNS, LAWS, difference, measure_value, zeta_laws
 
 MEASURES = "deviation", "common factor", "spread"
 FOUR, VISCOUS, ELEVEN = LAWS  # Eq. 4 without and with Γ, Eq. 11 with Γ
@@ -22,7 +22,7 @@ def compared(found, *hurst_mins):
 
 def measures(table, quantity, law, hurst_min=0.0):
     """Values of the three measures."""
-    return [value_of(table, quantity, law, measure, hurst_min)[0] for measure in MEASURES]
+    return [measure_value(table, quantity, law, measure, hurst_min)[0] for measure in MEASURES]
 
 
 def test_a_common_factor_is_told_from_the_shape():
@@ -42,11 +42,11 @@ def test_a_common_factor_is_told_from_the_shape():
 def test_differences_are_those_of_the_same_samples():
     table = compared(evidence())
     for quantity, law, measure in product(("zeta", "curve"), (FOUR, VISCOUS), ("deviation", "spread")):
-        value, low, high = value_of(table, quantity, difference(law), measure)
-        first, second = (value_of(table, quantity, one, measure)[0] for one in (law, ELEVEN))
+        value, low, high = measure_value(table, quantity, difference(law), measure)
+        first, second = (measure_value(table, quantity, one, measure)[0] for one in (law, ELEVEN))
         assert value == pytest.approx(first - second, rel=1e-12)
         assert low <= value <= high
-    value, _, high = value_of(table, "curve", difference(FOUR), "deviation")
+    value, _, high = measure_value(table, "curve", difference(FOUR), "deviation")
     assert value < high < 0, "surfaces that obey Eq. 4 are nearer to it"
 
 
@@ -56,7 +56,7 @@ def test_realizations_of_each_hurst_exponent_are_drawn_independently():
     table = zeta_laws(found.pooled, found.regions, average="geometric", resamples=1000, seed=1)
     error = stats.t.ppf(0.975, 79) * 0.2 / np.sqrt(80) / np.sqrt(len(HURST))
     for quantity in ("zeta", "curve"):
-        _, low, high = value_of(table, quantity, FOUR, "common factor")
+        _, low, high = measure_value(table, quantity, FOUR, "common factor")
         assert np.log(high / low) / 2 == pytest.approx(error, rel=0.1)
 
 

@@ -24,7 +24,7 @@ from PIL import Image  # which matplotlib needs
 from viscorough_study.fits.infinite_grid import OMEGA, PLACES, place_in_range
 from viscorough_study.performance import timing
 from viscorough_study.run.paper_data import read_paper
-from viscorough_study.run.rule_costs import conventions_text
+from viscorough_study.run.rule_costs import duration_text
 from viscorough_study.run.tables import write_json
 from viscorough_study.verdicts.claims import markdown, overall
 from viscorough_study.verdicts.evidence import VERDICTS
@@ -107,7 +107,7 @@ def time_sentence():
     """Weeks in the paper, minutes here: of the default run, with its machine and date."""
     costs = pd.read_csv(ROOT / DEFAULT_COSTS)
     weeks = read_paper(ROOT / "resources/paper", "numbers")["boundary_elements"]["computing_time"]["value"]
-    text = f"**{weeks.capitalize()} in the paper, {conventions_text(costs['share_s'].sum())} here**: "
+    text = f"**{weeks.capitalize()} in the paper, {duration_text(costs['share_s'].sum())} here**: "
     where = f"{costs['machine'].iloc[0]} ({costs['measured'].iloc[0]})"
     return paragraph(f"{text}`make reproduce` on {where}.")
 

@@ -239,7 +239,7 @@ def fits_of_a_group(pooled, scaling):
 
 
 def literature_table():
-    """Table of what others found on u₀/h: a law in H, one value for all H, and no value."""
+    """Table of published values of u₀/h: a law in H, one value for all H, and no value."""
     rows = [("One", 2007, 0.4, 0.5, 0.56), ("One", 2007, 0.9, 0.41, 0.46)]
     rows += [("One, Two, Three and Four", 2013, hurst, 0.4, 0.4) for hurst in (0.4, 0.9)]
     rows += [("Five", 2011, hurst, np.nan, np.nan) for hurst in (0.4, 0.9)]

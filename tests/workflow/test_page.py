@@ -10,7 +10,7 @@ import pytest
 
 from support.page import BROWSER, Page, number_in
 from support.workflow import HANGS, ROOT
-from viscorough_study.run.rule_costs import in_words
+from viscorough_study.run.rule_costs import duration_text
 from viscorough_study.verdicts.claims import overall
 
 IMAGES = 19
@@ -95,7 +95,7 @@ def test_settings_are_no_dumps_and_a_trial_run_says_that_it_is_one(page):
 def test_the_time_is_that_in_which_jobs_ran_beside_the_papers(folder, page):
     costs = pd.read_csv(folder / "results/tables/rule_costs.csv")
     assert costs["longest_s"].max() < costs["share_s"].sum() < costs["seconds"].sum()
-    assert f"The paper: several weeks. Here: {in_words(costs['share_s'].sum())} on this machine" in page.text
+    assert f"The paper: several weeks. Here: {duration_text(costs['share_s'].sum())} on this machine" in page.text
 
 
 def test_every_claim_unfolds_and_shows_a_verdict_that_the_full_scale_does_not_share(page, tables):

@@ -2,7 +2,7 @@
 /* The calculator of the page: the calibrated penetration law, as viscorough.estimates computes it for a Newtonian medium.
    Its numbers are in the element #law. Without a page, as in tests, it only defines functions. */
 
-/** Every number of the law for a Hurst exponent: linear in it, places in X in their logarithm. */
+/** Numbers of the law for a Hurst exponent, interpolated linearly, abscissae X logarithmically. */
 function penetrationLaw(table, hurst) {
   let place = 0;
   while (place < table.hurst.length - 2 && hurst >= table.hurst[place + 1]) place += 1;
@@ -46,7 +46,7 @@ function estimate(law, { rms, diameter, force, viscosity, time }) {
   };
 }
 
-/** A number of three digits, as text. */
+/** A number to three significant digits, as text. */
 function readable(value) {
   const size = Math.abs(value);
   if (size >= 1e-3 && size < 1e5) return Number(value.toPrecision(3)).toString();
@@ -57,7 +57,7 @@ function readable(value) {
 
 const UNITS = { rms: 1e-6, diameter: 1e-3, force: 1, viscosity: 1, time: 1, hurst: 1 };
 
-/** What the form says, in SI units; a text that says what is wrong instead, if something is. */
+/** Values of the form in SI units, or an error message. */
 function entered(form, table) {
   const values = {};
   for (const [name, unit] of Object.entries(UNITS)) {
@@ -71,7 +71,7 @@ function entered(form, table) {
   return values;
 }
 
-/** Write the estimate for what the form says into the page. */
+/** Write the estimate for the values of the form into the page. */
 function update(form, table, output) {
   const values = entered(form, table);
   if (typeof values === "string") {
@@ -79,16 +79,16 @@ function update(form, table, output) {
     return;
   }
   const law = penetrationLaw(table, values.hurst);
-  const found = estimate(law, values);
+  const result = estimate(law, values);
   const per = (4 * values.rms * values.diameter * values.viscosity) / values.force;
   const range = `The law holds from ${readable(law.x_low * per)} s to ${readable(law.x_high * per)} s`;
-  if (found.where) {
-    output.textContent = `X = ${readable(found.x)} is ${found.where} its range: no estimate. ${range}.`;
+  if (result.where) {
+    output.textContent = `X = ${readable(result.x)} is ${result.where} its range: no estimate. ${range}.`;
     return;
   }
   const text = ([value, low, high]) => `${readable(1e6 * value)} [${readable(1e6 * low)}, ${readable(1e6 * high)}]`;
   output.textContent =
-    `Depth ${text(found.depth)} µm, velocity ${text(found.velocity)} µm/s, at X = ${readable(found.x)}. ${range}.`;
+    `Depth ${text(result.depth)} µm, velocity ${text(result.velocity)} µm/s, at X = ${readable(result.x)}. ${range}.`;
 }
 
 if (typeof document !== "undefined") {

@@ -22,7 +22,7 @@ rule make_page:
             "results/index.html",
             caption="../report/page.rst",
             category=chapter("summary"),
-            labels={"result": "what was found", "kind": "page"},
+            labels={"result": "questions and answers", "kind": "page"},
         ),
     log:
         "results/logs/make_page.log",

@@ -7,7 +7,7 @@ from viscorough.io.datasets import read_dataset
 from viscorough_study.ensembles.pool import select
 from viscorough_study.run.job_log import log_to
 from viscorough_study.run.tables import recorded, write_table
-from viscorough_study.verdicts.claims import COLUMNS, attributes_of_scale, judge, markdown
+from viscorough_study.verdicts.claims import COLUMNS, scale_attributes, judge, markdown
 from viscorough_study.verdicts.evidence import Evidence
 
 
@@ -19,10 +19,10 @@ def main(discs, tables, csv, nc, verdicts, *, claims, **settings):
         **settings,
     )
     table = judge(claims, evidence)
-    about = attributes_of_scale(evidence)
-    title = "Verdicts on the paper's claims" + f" ({about['scale']})" * about["trial"]
-    about |= recorded(settings={name: settings[name] for name in ("seed", "resamples", "conventions", "rules")})
-    write_table(table, csv, nc, columns=COLUMNS, dimension="case_of_claim", title=title, attributes=about)
+    attributes = scale_attributes(evidence)
+    title = "Verdicts on the paper's claims" + f" ({attributes['scale']})" * attributes["trial"]
+    attributes |= recorded(settings={name: settings[name] for name in ("seed", "resamples", "conventions", "rules")})
+    write_table(table, csv, nc, columns=COLUMNS, dimension="case_of_claim", title=title, attributes=attributes)
     with atomic_write(verdicts) as temporary:
         temporary.write_text(markdown(table, claims), encoding="utf-8")
 

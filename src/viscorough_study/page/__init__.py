@@ -1,1 +1,1 @@
-"""The page results/index.html, which shows what a run has found: made from results, without computing again."""
+"""The page results/index.html, which presents the results of a run without recomputing anything."""

@@ -1,4 +1,4 @@
-"""What was found: the numbers behind the answers at the top of the page, and behind the advice on methods."""
+"""Numbers of the answers at the top of the page, of the advice on methods, and of their failures."""
 
 import numpy as np
 
@@ -7,8 +7,8 @@ from viscorough_study.performance.costs import fastest
 from viscorough_study.verdicts.claims import counted_verdicts
 
 GROUPS = {"path": "elastic path", "marching": "direct integration in time", "model": "model"}
-ERRORS = (0.1, 1e-2, 1e-3, 1e-6)  # of the velocity, for which the fastest method is named
-ADVISED = 1e-2  # the one in the answers
+ERRORS = (0.1, 1e-2, 1e-3, 1e-6)  # allowed errors of the velocity for which the fastest method is given
+ADVISED = 1e-2  # allowed error of the advice at the top of the page
 MODELS = ("MDR", "power law", "power law with Γ")
 CASE = ("value", "low", "high", "expected")
 
@@ -20,7 +20,7 @@ def verdict_counts(results):
 
 
 def answers(results):
-    """{name: numbers} of the sentences in the section "What was found"."""
+    """{name: numbers} of the sentences that answer the questions at the top of the page."""
 
     def cases(claim):
         return [_case(results, row) for row in results.rows("claims", claim=claim).index]
@@ -62,7 +62,7 @@ def rough_disc(results):
 
 
 def fastest_methods(results):
-    """For every error allowed, {group: the fastest method of the group that reaches it, None if no method does}."""
+    """For every allowed error, {group: fastest method of the group that reaches it, or None}."""
     rough, advice = rough_disc(results), []
     for error in ERRORS:
         rows = fastest(rough, error)
@@ -89,20 +89,20 @@ def best_model(results):
 
 
 def failures(results):
-    """Counts of the failure map, and for every method how often it ends in which way and what users are told."""
+    """Counts of the failure map, and for every method the number of cases by outcome and the messages to users."""
     table = results.tables["failure_map"]
     methods = []
     for name in dict.fromkeys(table["method"]):
         rows = table[table["method"] == name]
-        told = rows[rows["verdict"].isin(["warned", "refused", "unnoticed"])] if name not in MODELS else rows.iloc[:0]
+        failed = rows[rows["verdict"].isin(["warned", "refused", "unnoticed"])] if name not in MODELS else rows.iloc[:0]
         messages = {}
-        for row in told.itertuples():
+        for row in failed.itertuples():
             case = f"{row.group}: {row.case}"
             messages.setdefault((row.verdict, row.reason.split("; ")[0]), []).append(case)
         methods.append({"method": name, "verdicts": rows["verdict"].value_counts().to_dict(), "messages": messages})
     outside = table[table["method"].isin(MODELS) & table["verdict"].isin(["stated", "warned"])]
     return {
-        "cases": results.count("failure_map", "method", table["method"].iloc[0]),  # a row of each case
+        "cases": results.count("failure_map", "method", table["method"].iloc[0]),  # one row per case
         **{name: results.count("failure_map", "verdict", name) for name in ("unnoticed", "warned")},
         "worst_model": results.largest(outside[np.isfinite(outside["error"])], "failure_map", "error"),
         "methods": methods,

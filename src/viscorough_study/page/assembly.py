@@ -1,4 +1,4 @@
-"""The page put together: what its template shows, from tables, ensembles and figures."""
+"""Assembly of the page: the content of its template, from tables, ensembles and figures."""
 
 from viscorough_study.page import answers, content
 from viscorough_study.page.calculator import calculator as with_law
@@ -6,7 +6,7 @@ from viscorough_study.page.discussion import QUANTITIES, discussion
 from viscorough_study.page.render import embedded_png, render
 from viscorough_study.page.results import netcdf_of, read_results, read_table, readable
 from viscorough_study.robustness.failure_map import VERDICTS as OUTCOMES
-from viscorough_study.run.rule_costs import conventions_text
+from viscorough_study.run.rule_costs import duration_text
 from viscorough_study.run.tables import read_recorded
 
 
@@ -33,9 +33,9 @@ def page(
     calculator : (section, script), its texts of HTML and JavaScript
     discs, lines : paths of the pools; other_solvers : path of a table of the workflow or of published numbers
     tables, figures, captions : {name: path}, of CSV, PNG and reStructuredText
-    claims, numbers : what the paper says, the contents of resources/paper/claims.yaml and numbers.yaml
+    claims, numbers : contents of resources/paper/claims.yaml and numbers.yaml
     published : path of the table of verdicts of the full scale; rules : of a picture of the workflow
-    alternative : {figure: what it shows, for those who cannot see it}
+    alternative : {figure: alternative text}
     """
     results = read_results(tables)
     conventions = results.settings["claims"]["conventions"]
@@ -73,11 +73,11 @@ def page(
         quantities=QUANTITIES,
         measured=content.measured(results, conventions),
         choices=("automatic", "best by hand", "naive"),
-        settings=content.settings_in_words(results, scale),
+        settings=content.settings_list(results, scale),
         costs=content.costs(results),
         machine=results.machine["rule_costs"],
         versions=read_recorded(costs_nc, "versions"),
         made=read_recorded(costs_nc, "made"),
-        time=conventions_text(results.tables["rule_costs"]["share_s"].sum()),
+        time=duration_text(results.tables["rule_costs"]["share_s"].sum()),
         paper_time=numbers["boundary_elements"]["computing_time"]["value"],
     )

@@ -1,4 +1,4 @@
-"""The calculator of the page: the numbers of the calibrated law for a script that computes as viscorough.estimates."""
+"""Calculator of the page: the calibrated law as numbers for a script that mirrors viscorough.estimates."""
 
 import json
 
@@ -14,7 +14,7 @@ _COLUMNS = {
 
 
 def calculator(section, script):
-    """The section of the page with the numbers of the law and the script.
+    """Section of the page, with the numbers of the law and the script.
 
     section, script : texts of HTML and JavaScript
     """

@@ -1,4 +1,4 @@
-"""What stands on the page below the answers: verdicts, tables, scale and settings of the run."""
+"""Contents of the page below the answers: verdicts, tables, scale and settings of the run."""
 
 import json
 
@@ -9,7 +9,7 @@ from viscorough.io.netcdf import opened
 from viscorough_study.run.cases import medium_label
 from viscorough_study.verdicts.claims import (
     KINDS,
-    case_in_words,
+    case_text,
     cases_shown,
     deciding_case,
     is_trial,
@@ -26,21 +26,21 @@ VERDICT_SHORT = {
 
 
 def verdicts(results, statements, published):
-    """Every claim with its statement, its verdict and the cases that are shown, with their numbers: {kind: claims}.
+    """{kind: claims}, each claim with its statement, its verdict, and the numbers of the cases displayed.
 
     statements : content of resources/paper/claims.yaml
-    published : table of the verdicts of the full scale; a claim with another verdict there has it as `full_scale`
+    published : table of the verdicts of the full scale; `full_scale` is the verdict there if it differs
     """
     table, claims = results.tables["claims"], {heading: [] for heading in KINDS.values()}
     at_full_scale = overall(published)
     for name, verdict in overall(table).items():
         rows = table[table["claim"] == name]
-        first, shown = rows.iloc[0], cases_shown(rows)
+        first, displayed = rows.iloc[0], cases_shown(rows)
         full_scale = None
         if at_full_scale.get(name, verdict) != verdict:
-            of_claim = published[published["claim"] == name]
-            conventions_text = case_in_words(of_claim.loc[deciding_case(of_claim)])
-            full_scale = {"verdict": at_full_scale[name], "case": conventions_text}
+            claim_cases = published[published["claim"] == name]
+            case = case_text(claim_cases.loc[deciding_case(claim_cases)])
+            full_scale = {"verdict": at_full_scale[name], "case": case}
         claims[KINDS[first["kind"]]].append(
             {
                 "name": name,
@@ -51,11 +51,11 @@ def verdicts(results, statements, published):
                 "full_scale": full_scale,
                 "undecided": undecided_cases(rows),
                 "deciding": _case(results, deciding_case(rows)),
-                "cases": [_case(results, i) for i in shown.index],
-                "left_out": len(rows) - len(shown),
+                "cases": [_case(results, i) for i in displayed.index],
+                "left_out": len(rows) - len(displayed),
             }
         )
-    return {heading: of_kind for heading, of_kind in claims.items() if of_kind}
+    return {heading: members for heading, members in claims.items() if members}
 
 
 def _case(results, row):
@@ -65,9 +65,9 @@ def _case(results, row):
 
 
 def other_solvers(path):
-    """Time of other solvers over that of the elastic path: solvers, rows and where the ratios come from.
+    """Time of other solvers over that of the elastic path: solvers, versions, rows, and the origin of published ratios.
 
-    path : table of the workflow, or of published numbers, which says when and on which machine they were measured
+    path : table of the workflow, or of published numbers, which states date and machine of the measurement
     """
     table = pd.read_csv(path)
     table = table[(table["solver"] != "viscorough") & (table["threads"] == 1)].dropna(subset="ratio")
@@ -84,7 +84,7 @@ def other_solvers(path):
 
 
 def scenes(results):
-    """For every scene the accuracy asked for, and levels, time and error of every choice of levels."""
+    """For every scene the required accuracy, and levels, time and error of every choice of levels."""
     table, scenes = results.tables["level_placement"], []
     for name in dict.fromkeys(table["scene"]):
         rows = table[table["scene"] == name]
@@ -99,7 +99,7 @@ def scenes(results):
 
 
 def media(results):
-    """For every medium and Hurst exponent the exponent of vt/h in time: at first, at X nearest to 0.01, in the end."""
+    """Exponent of vt/h in time for every medium and Hurst exponent: at the first time, near X = 0.01, at the last."""
     table, rows = results.tables["media"], []
     for (name, hurst), part in table.groupby(["medium", "hurst"], sort=False):
         middle = np.log(part["x"] / 0.01).abs().idxmin()
@@ -137,10 +137,10 @@ def costs(results):
 
 
 def scale(discs, lines, numbers):
-    """The scale at which a run was made, from its ensembles, beside that of the paper.
+    """Scale of a run, from its ensembles, and of the paper.
 
-    Its name is paper with as many discs and lines as there, whatever the points of the lines, else trial, and coarse
-    where the discs are too coarse for a power law.
+    Its name is "coarse" if the discs are too coarse for a power law, "paper" if discs and lines are at least as many as
+    the paper's and the discs as fine, otherwise "trial".
     discs, lines : paths of the pools; numbers : content of resources/paper/numbers.yaml
     """
     pools = {"discs": _pool(discs), "lines": _pool(lines)}
@@ -163,7 +163,7 @@ def scale(discs, lines, numbers):
 
 
 def _pool(path):
-    """Number of realizations of the first case of a pool, Hurst exponents, groups and the first case's settings."""
+    """Realizations and settings of the first case of a pool, and its Hurst exponents and groups."""
     with opened(path) as file:
         settings = json.loads(file.getncattr("settings"))
         case, hurst, group = (np.ma.getdata(file[name][...]) for name in ("case", "hurst", "group"))
@@ -179,14 +179,14 @@ def _pool(path):
     }
 
 
-def settings_in_words(results, scale):
-    """[(what, its value)] of the settings that a reader needs to judge the results."""
+def settings_list(results, scale):
+    """[(name, value)] of the settings that a reader needs to judge the results."""
     discs, lines = scale["discs"], scale["lines"]
     surface, indentation = discs["description"]["surface"], discs["description"]["indentation"]
     conventions, fit = results.settings["claims"]["conventions"], results.settings["scaling"]
     listed = ", ".join
     hursts = {name: [f"{value:g}" for value in scale[name]["hurst"]] for name in ("discs", "lines")}
-    of_lines = f"{len(hursts['lines'])} from {hursts['lines'][0]} to {hursts['lines'][-1]}"
+    line_exponents = f"{len(hursts['lines'])} from {hursts['lines'][0]} to {hursts['lines'][-1]}"
     methods, failure, scenes = (results.settings[name] for name in ("methods", "failure_map", "level_placement"))
     return [
         ("root seed of every random surface", discs["description"]["seed"]),
@@ -200,7 +200,7 @@ def settings_in_words(results, scale):
         ("surfaces, amplitudes of the waves", surface["amplitudes"]),
         ("surfaces, rms height over", surface["rms_over"]),
         ("lines, points", lines["description"]["points"]),
-        ("lines, Hurst exponents", of_lines if len(hursts["lines"]) > 1 else hursts["lines"][0]),
+        ("lines, Hurst exponents", line_exponents if len(hursts["lines"]) > 1 else hursts["lines"][0]),
         ("lines, realizations of each", lines["realizations"]),
         ("fits, bootstrap samples", fit["resamples"]),
         ("fits, fewest elements in contact", fit["elements_min"]),

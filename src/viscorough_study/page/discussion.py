@@ -1,12 +1,12 @@
-"""What others found, with the numbers of this run beside it, as the page shows the table `literature`."""
+"""Published results and those of this run, as the page presents the table `literature`."""
 
 from viscorough_study.comparisons.literature import cited
 
-# {quantity of the table: what it is called on the page}
+# {quantity of the table: its name on the page}
 QUANTITIES = {
     "alpha": "α, exponent of the stiffness in the force; here 1 − β of discs",
-    "u0": "u₀/h, with which the pressure falls off with the separation; here the plateau of the interface",
-    "gamma": "γ, the factor on Persson's law for u₀; here the one that gives our u₀/h",
+    "u0": "u₀/h, decay length of the pressure with the separation; here the plateau of the interface",
+    "gamma": "γ, factor on Persson's law for u₀; here the one that gives our u₀/h",
     "area": "contact of a line (MDR) over that of its disc, at X = 0.01",
     "gap": "mean gap of a line (MDR) over that of its disc, at X = 0.01",
 }
@@ -19,7 +19,7 @@ KNOWN = {
 
 
 def discussion(results):
-    """Sources by year, and for each quantity a row for every Hurst exponent: ours, and theirs where they have one."""
+    """Sources by year, and for each quantity the values of this study and of the literature by Hurst exponent."""
     table = results.tables["literature"]
     return {
         "sources": [_source(row) for _, row in table.drop_duplicates(["source", "year"]).iterrows()],
@@ -28,25 +28,25 @@ def discussion(results):
 
 
 def _source(row):
-    """Citation, place, statement, and how it is known."""
-    known = {name: row[name] for name in ("source", "place", "year", "when", "statement")}
-    return known | {"cited": cited(row["source"], row["year"]), "known": KNOWN[row["sure"]]}
+    """Citation, place, statement, and the basis of the statement."""
+    source = {name: row[name] for name in ("source", "place", "year", "when", "statement")}
+    return source | {"cited": cited(row["source"], row["year"]), "known": KNOWN[row["sure"]]}
 
 
 def _credit(row):
-    """The source of a number, and whether it was not read there."""
+    """Citation of a number, marked if it is quoted from later work."""
     return cited(row["source"], row["year"]) + (", as quoted" if row["sure"] == "quoted" else "")
 
 
 def _rows(results, quantity):
     """[{hurst, value, low, high, theirs: [(citation, low, high)]}] by ascending H."""
     rows = results.rows("literature", quantity=quantity).dropna(subset="hurst")
-    shown = []
-    for hurst, same in rows.groupby("hurst"):
+    comparison = []
+    for hurst, sources in rows.groupby("hurst"):
         theirs = [
             (_credit(row), *results.numbers("literature", i, "theirs_low", "theirs_high").values())
-            for i, row in same.dropna(subset="theirs_low").iterrows()
+            for i, row in sources.dropna(subset="theirs_low").iterrows()
         ]
-        ours = results.numbers("literature", same.index[0], "value", "low", "high")
-        shown.append({"hurst": hurst, "theirs": theirs} | ours)
-    return shown
+        ours = results.numbers("literature", sources.index[0], "value", "low", "high")
+        comparison.append({"hurst": hurst, "theirs": theirs} | ours)
+    return comparison

@@ -1,4 +1,4 @@
-"""Tables as pages of HTML, which open in a browser and in Snakemake's report."""
+"""Tables as HTML pages, for a browser and for Snakemake's report."""
 
 from pathlib import Path
 
@@ -9,7 +9,7 @@ from viscorough.io.datasets import read_dataset
 
 
 def html_table(template, csv_path, nc_path):
-    """A page with all rows of a table and the meaning of its columns.
+    """HTML page with all rows of a table and the descriptions of its columns.
 
     template : text of the template; csv_path, nc_path : the table, as `run.tables.write_table` writes it
     """

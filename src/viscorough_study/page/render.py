@@ -1,4 +1,4 @@
-"""The page as one HTML file: figures embedded, captions of the report, numbers with their place in a table."""
+"""The page as one HTML file, with embedded figures, captions, and numbers linked to their place in a table."""
 
 import base64
 import re
@@ -11,7 +11,7 @@ from markupsafe import Markup
 
 from viscorough_study.page.results import readable
 
-SCALE = 0.675  # pixels of the page for a pixel of a figure
+SCALE = 0.675  # pixels of the page per pixel of a figure
 
 
 def render(template, style, figures, captions, conventions, **content):
@@ -19,8 +19,8 @@ def render(template, style, figures, captions, conventions, **content):
 
     template, style : text of the template and of the style sheet
     figures : {name: path of its PNG}; captions : {name: path of its caption for Snakemake's report}
-    conventions : of the figures, which captions name
-    content : what the template shows
+    conventions : of the figures, named in captions
+    content : variables of the template
     """
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, lstrip_blocks=True)
     environment.filters |= {"number": number, "percent": percent, "readable": readable}
@@ -48,7 +48,7 @@ def percent(value):
 
 
 def embedded_png(content):
-    """src, width and height of an image of the page: 7 points, the smallest text of the figures, are 13 pixels high."""
+    """src, width and height of an image; the smallest text of the figures, 7 points, becomes 13 pixels high."""
     width, height = struct.unpack(">II", content[16:24])
     source = "data:image/png;base64," + base64.b64encode(content).decode("ascii")
     return {"src": Markup(source), "width": round(width * SCALE), "height": round(height * SCALE)}

@@ -1,7 +1,7 @@
-"""Tables of results as the page reads them, and numbers that know where they stand in a table.
+"""Tables of results for the page, and numbers with their place in a table.
 
-Every number that the page states in a sentence is a `Number` or a `Count`: its place in a table becomes part of the
-page, so that a reader, or a test, can look it up.
+Every number that the page states in a sentence is a `Number` or a `Count`; its place in a table becomes part of the
+page, so that a reader or a test can look it up.
 """
 
 from dataclasses import dataclass
@@ -30,13 +30,13 @@ class Number:
 
     @property
     def title(self):
-        """What a reader who points at the number sees."""
+        """Tooltip of the number."""
         return f"results/tables/{self.table}.csv, row {self.row}, {self.column}"
 
 
 @dataclass(frozen=True)
 class Count:
-    """How many rows of a table have a value in a column, or how many different values the column has (value None)."""
+    """Number of rows with a value in a column of a table, or of different values in the column (counted None)."""
 
     value: int
     table: str
@@ -50,15 +50,15 @@ class Count:
 
     @property
     def title(self):
-        """What a reader who points at the number sees."""
+        """Tooltip of the number."""
         return f"results/tables/{self.table}.csv, {self.column}: number of {self.place['counted']}"
 
 
 @dataclass(frozen=True)
 class Results:
-    """Tables by name, as pandas.DataFrames whose index is the row of the CSV, and what they were made with.
+    """Tables by name, as pandas.DataFrames indexed by the row of the CSV, and their recorded settings and machines.
 
-    settings, machine : {table: mapping}, of the tables that have recorded it
+    settings, machine : {table: mapping}, empty for tables that record none
     """
 
     tables: dict
@@ -89,13 +89,13 @@ class Results:
         return self.number(table, rows[column].idxmax(), column) if rows[column].notna().any() else None
 
     def count(self, table, column, counted=None):
-        """How many rows have the value `counted` in a column, or without it how many different values there are."""
+        """Number of rows with the value `counted` in a column; number of different values if it is None."""
         values = self.tables[table][column]
         return Count(int((values == counted).sum() if counted else values.nunique()), table, column, counted)
 
 
 def read_results(tables):
-    """Results of the tables at {name: path of the CSV}, beside which stand the NetCDF files of the same names."""
+    """Results of the tables at {name: path of the CSV}; the NetCDF files have the same names in the same folder."""
     frames = {name: read_table(path) for name, path in tables.items()}
     settings, machine = (
         {name: read_recorded(netcdf_of(path), attribute, missing={}) for name, path in tables.items()}
@@ -105,7 +105,7 @@ def read_results(tables):
 
 
 def read_table(path):
-    """A table of a CSV file, with empty texts where pandas, which cannot know that a column holds texts, reads nan."""
+    """Table of a CSV file; empty texts, which pandas reads as nan, become ""."""
     table = pd.read_csv(path, keep_default_na=False, na_values=[""])
     return table.assign(**{name: table[name].astype(object).fillna("") for name in MAY_BE_EMPTY if name in table})
 

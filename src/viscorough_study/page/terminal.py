@@ -1,4 +1,4 @@
-"""Run Snakemake with one line of progress on the terminal; all that it and its jobs print goes to a file.
+"""Run Snakemake with one line of progress on the terminal; its output and that of its jobs goes to a file.
 
 python -m viscorough_study.page.terminal -- snakemake --cores 2 -- all
 """
@@ -16,22 +16,22 @@ import pandas as pd
 
 from viscorough.io.netcdf import opened
 from viscorough_study.run.paper_data import read_paper
-from viscorough_study.run.rule_costs import conventions_text
+from viscorough_study.run.rule_costs import duration_text
 from viscorough_study.run.stale_locks import REMOVED
 from viscorough_study.verdicts.claims import counted_verdicts
 
 OUTPUT = Path("results/run.log")
 PUBLISHED_COSTS = Path("resources/published/default_costs.csv")
-OWN_SPEED = 20  # seconds of the published run after which this run's own speed counts as much as the published one
-SPARSE = 10  # lines of progress where there is no terminal
+OWN_SPEED = 20  # seconds of the published run after which measured and published speed have equal weight
+SPARSE = 10  # lines of progress without a terminal
 PASSED_ON = (REMOVED, "Compiling ")
-CLEAR = "\r\x1b[K"  # the line of a terminal
+CLEAR = "\r\x1b[K"  # clears the line of a terminal
 
 
 class Progress:
-    """How far a run is, from the lines that Snakemake prints.
+    """Progress of a run, from the lines that Snakemake prints.
 
-    seconds : {rule: seconds of the run that each of its jobs takes}, of an earlier run; other rules take the mean
+    seconds : {rule: share of the run time per job [s]}, of an earlier run; other rules are assigned the mean
     """
 
     def __init__(self, seconds):
@@ -40,7 +40,7 @@ class Progress:
         self.running, self.failed_logs, self.began, self.changed = {}, [], None, None
 
     def read(self, line, now):
-        """Take in a line that was printed at a time [s]."""
+        """Update the progress by a line that was printed at time `now` [s]."""
         if match := re.fullmatch(r"(\w+) +(\d+)", line):
             if match[1] != "total" and self.began is None:
                 self.planned += int(match[2]) * self._seconds_of(match[1])
@@ -64,17 +64,17 @@ class Progress:
         pace = (self.changed - self.began + OWN_SPEED) / (self.ended + OWN_SPEED)
         left = max(0.0, pace * (self.planned - self.ended) - (now - self.changed))
         what = next(reversed(self.running.values()), "")
-        return f"{self.done} of {self.total}, {conventions_text(left) if left >= 5 else 'seconds'} left: {what}"
+        return f"{self.done} of {self.total}, {duration_text(left) if left >= 5 else 'seconds'} left: {what}"
 
     def _seconds_of(self, rule):
         return self.seconds.get(rule, 0.0 if rule == "all" else self.mean)
 
 
 def run(command, output=OUTPUT):
-    """Run a command of Snakemake and return its exit code; show its progress, and in the end what went wrong.
+    """Run a command of Snakemake with its progress on the terminal, report errors at the end; returns its exit code.
 
-    Ctrl-C reaches the command by itself; it has the time to end its jobs and to unlock its folder. SIGTERM, which
-    reaches only this process, is passed on.
+    Ctrl-C reaches the command itself, which then ends its jobs and unlocks its folder. SIGTERM, which reaches only this
+    process, is passed on.
     """
     progress, drawn, pending = Progress(_published_seconds()), "", ""
     on_terminal = bool(sys.stderr) and sys.stderr.isatty()
@@ -102,13 +102,13 @@ def run(command, output=OUTPUT):
 
 
 def _show(text):
-    """Write to standard error; the run goes on where that is closed."""
+    """Write to standard error; the run continues if that is closed."""
     with contextlib.suppress(OSError):
         print(text, end="", file=sys.stderr, flush=True)
 
 
 def _draw(progress, drawn, on_terminal):
-    """Show the progress if it is new: on a terminal over the last line, elsewhere in a few lines in all."""
+    """Show new progress: on a terminal over the last line, otherwise in `SPARSE` lines in all."""
     if on_terminal:
         text = progress.text(time.monotonic())[: shutil.get_terminal_size().columns - 1]
         if text != drawn:
@@ -121,8 +121,8 @@ def _draw(progress, drawn, on_terminal):
 
 
 def _errors(logs, output):
-    """Lines about what ended a run: of every job that failed its error and its log, else what Snakemake says."""
-    everything = f"All that was printed: {output}"
+    """Error messages of a run: error and log of every failed job, otherwise the message of Snakemake."""
+    everything = f"Full output: {output}"
     if logs:
         return [*(f"Error: {_error_in(Path(log))} (log: {log})" for log in logs), everything]
     lines = output.read_text(encoding="utf-8", errors="replace").rstrip().splitlines()
@@ -147,7 +147,7 @@ def _published_seconds():
 
 
 def summary(results=Path("results"), paper=Path("resources/paper")):
-    """The lines that a run ends with: the count of verdicts, the time beside the paper's, the page to open."""
+    """Last lines of a run: number of claims by verdict, run time and the paper's, and the page to open."""
     claims = counted_verdicts(pd.read_csv(results / "tables/claims.csv"))
     with opened(results / "tables/claims.nc") as file:
         trial = "; trial scale, on which verdicts mean nothing" * int(file.getncattr("trial"))
@@ -156,7 +156,7 @@ def summary(results=Path("results"), paper=Path("resources/paper")):
     verdicts = ", ".join(f"{number} {verdict}" for verdict, number in claims)
     return [
         f"{sum(number for _, number in claims)} claims of the paper: {verdicts}{trial}",
-        f"It took {conventions_text(seconds)}; the paper: {theirs}",
+        f"It took {duration_text(seconds)}; the paper: {theirs}",
         f"Open {results / 'index.html'} in a browser",
     ]
 

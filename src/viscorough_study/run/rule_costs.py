@@ -57,7 +57,7 @@ def _shares(ends, seconds):
     return shares * max(1.0, seconds.sum() / os.cpu_count() / max(shares.sum(), 1e-9))
 
 
-def conventions_text(seconds):
+def duration_text(seconds):
     """A time such as "50 seconds", "5.5 minutes", "3.1 hours"."""
     if seconds < 100:
         return f"{seconds:.0f} seconds"

@@ -1,1 +1,1 @@
-"""The verdict on each claim of the paper: the evidence, a criterion for each claim, and the words for both."""
+"""Verdicts on the claims of the paper: the evidence, a criterion for each claim, and summaries."""

@@ -1,14 +1,13 @@
 """Verdicts on the paper's claims: a table of all cases, the verdict on each claim, and a summary in Markdown.
 
-What a claim says, of which kind it is, by which criterion it is judged and why its tolerance is what it is stands in
-resources/paper/claims.yaml. The function of each criterion has the name of the claim and is in one of the modules of
-criteria (`JUDGES`). It yields the cases of the claim from the evidence (verdicts.evidence.Evidence) and the
-tolerance of the claim.
+resources/paper/claims.yaml gives the statement, kind, criterion and tolerance of every claim, and the reason of the
+tolerance. The function of a criterion has the name of the claim and is in one of the modules of criteria (`JUDGES`). It
+yields the cases of the claim from the evidence (verdicts.evidence.Evidence) and the tolerance.
 
-With other random surfaces the numbers differ, and a verdict must not depend on them: where a quantity has a 95 %
-interval, the claim is reproduced only if the whole interval lies within what the tolerance allows, and not reproduced
-only if it lies wholly outside; otherwise it is undecided. How the number of cases and that of realizations enter is
-said at viscorough_study.verdicts.evidence.Evidence.within.
+Other random surfaces give other numbers, on which a verdict must not depend: where a quantity has a 95 % interval, the
+claim is reproduced only if the whole interval lies within the tolerance, and not reproduced only if it lies wholly
+outside; otherwise it is undecided. viscorough_study.verdicts.evidence.Evidence.within describes how the numbers of
+cases and of realizations enter.
 """
 
 from collections import Counter
@@ -34,7 +33,7 @@ MODULES = form_criteria, region_criteria, law_criteria, zeta_criteria, method_cr
 def _criteria(module):
     """{claim: criterion} of a module: its public functions of evidence and tolerance."""
     public = {name: function for name, function in getmembers(module, isfunction) if not name.startswith("_")}
-    return {name: one for name, one in public.items() if [*signature(one).parameters][:2] == ["evidence", "tolerance"]}
+    return {name: f for name, f in public.items() if [*signature(f).parameters][:2] == ["evidence", "tolerance"]}
 
 
 JUDGES = {claim: criterion for module in MODULES for claim, criterion in _criteria(module).items()}
@@ -47,26 +46,26 @@ COLUMNS = {
     "claim": ("name of the claim, as in resources/paper/claims.yaml", ""),
     "kind": ("one of: " + "; ".join(KINDS), ""),
     "where": ("equation, section or figure of the paper", ""),
-    "case": ("Hurst exponent or part that the row is about", ""),
+    "case": ("Hurst exponent or part of the claim", ""),
     "value": ("quantity by which the claim is judged", "1"),
     "low": ("lower end of its 95 % interval, missing where it has no statistical scatter", "1"),
     "high": ("upper end of its 95 % interval", "1"),
     "least": ("smallest value over grids, windows, times or realizations, missing where there is one value", "1"),
     "largest": ("largest value over them", "1"),
-    "expected": ("what the paper says", "1"),
+    "expected": ("value stated by the paper", "1"),
     "tolerance": ("tolerance of the criterion", "1"),
     "verdict": ("one of: " + "; ".join(VERDICTS), ""),
     "convention": ("convention in which the claim holds, where it does not in those of the figures", ""),
-    "criterion": ("when the claim counts as reproduced", ""),
-    "reason": ("why the tolerance is what it is", ""),
+    "criterion": ("condition under which the claim counts as reproduced", ""),
+    "reason": ("reason for the tolerance", ""),
     "figure": ("figure that shows it", ""),
 }
-SMALLEST_SHARE = 0.5  # of the paper's elements across; below, region (b) is hardly as long as a fit needs
-CASES_SHOWN_MAX = 10  # cases of a claim, beyond which the summary shows three of them
+SMALLEST_SHARE = 0.5  # of the paper's elements across; on coarser grids region (b) is hardly long enough for a fit
+CASES_SHOWN_MAX = 10  # number of cases of a claim above which the summary shows three
 
 
 def judge(claims, evidence):
-    """Verdicts on the claims; a pandas.DataFrame with the columns of `COLUMNS`, a row for every case of a claim.
+    """Verdicts on the claims; a pandas.DataFrame with the columns of `COLUMNS`, one row per case of a claim.
 
     claims : {name: title, kind, where, statement, criterion, tolerance, reason, figure}
     A case whose quantity cannot be computed from the evidence, such as an exponent where there is no region (b), is
@@ -83,19 +82,19 @@ def judge(claims, evidence):
 
 
 def is_trial(elements_across, paper_elements_across):
-    """Whether discs are so coarse that no power law can be found on them, and verdicts mean nothing."""
+    """Whether discs are too coarse for a power law, so that verdicts mean nothing."""
     return elements_across < SMALLEST_SHARE * paper_elements_across
 
 
-def attributes_of_scale(evidence):
-    """Attributes of the table of verdicts: what was computed, taken from the results and not from the settings.
+def scale_attributes(evidence):
+    """Attributes of the table of verdicts on the scale of the study, taken from the results, not from the settings.
 
-    elements_across : of the discs; paper_elements_across : of those of the paper
-    realizations : discs of the Hurst exponent with the fewest of them
+    elements_across : of the discs; paper_elements_across : of the paper's discs
+    realizations : smallest number of discs of a Hurst exponent
     trial : 1 for a trial, whose verdicts mean nothing, else 0
-    scale : the same in words
+    scale : a sentence with these numbers
     """
-    across, paper = evidence.across, evidence.said("boundary_elements", "elements_across")
+    across, paper = evidence.across, evidence.paper_value("boundary_elements", "elements_across")
     realizations = min(ensemble.sizes["realization"] for ensemble in evidence.pooled.values())
     trial = is_trial(across, paper)
     words = f"at least {realizations} discs of {across} elements across for every Hurst exponent"
@@ -105,7 +104,7 @@ def attributes_of_scale(evidence):
 
 
 def overall(table):
-    """{claim: verdict} over all cases of a claim: the worst of them, in the order of `VERDICTS`."""
+    """{claim: verdict}: the worst verdict of its cases, in the order of `VERDICTS`."""
     ranks = table["verdict"].map(VERDICTS.index).groupby(table["claim"], sort=False).max()
     return {claim: VERDICTS[rank] for claim, rank in ranks.items()}
 
@@ -116,9 +115,9 @@ def counted_verdicts(table):
 
 
 def deciding_case(rows):
-    """Index of the case that a claim's verdict rests on: of those with it, the farthest from what the paper says.
+    """Index of the case that decides a claim: the one farthest from the paper's value among those with its verdict.
 
-    rows : the cases of one claim; without a value to compare with, the first of them
+    rows : the cases of one claim; the first such case if none can be compared with a value of the paper
     """
     (verdict,) = overall(rows).values()
     rows = rows[rows["verdict"] == verdict]
@@ -127,16 +126,16 @@ def deciding_case(rows):
 
 
 def undecided_cases(rows):
-    """How many cases are undecided, in words, such as "2 of 4 cases undecided"; "" if none."""
+    """Number of undecided cases as text, such as "2 of 4 cases undecided"; "" if there are none."""
     number = int((rows["verdict"] == "undecided").sum())
     return f"{number} of {len(rows)} cases undecided" if number else ""
 
 
 def markdown(table, claims):
-    """The verdicts as tables in Markdown, one for each kind, a row for each claim.
+    """The verdicts as tables in Markdown, one for each kind, with one row per claim.
 
-    Of more than `CASES_SHOWN_MAX` cases it shows the first, the last, and the one that is farthest from what the paper
-    says. Behind a verdict stands how many of the cases are undecided.
+    Of more than `CASES_SHOWN_MAX` cases it shows the first, the last, and the one farthest from the paper's value. The
+    number of undecided cases follows the verdict in parentheses.
     """
     parts, verdicts = [], overall(table)
     for kind, heading in KINDS.items():
@@ -148,27 +147,27 @@ def markdown(table, claims):
             rows = table[table["claim"] == name]
             undecided = undecided_cases(rows)
             verdict = verdicts[name] + (f" ({undecided})" if undecided else "")
-            lines.append(f"| {claims[name]['statement']} | {claims[name]['where']} | {_in_words(rows)} | {verdict} |")
+            lines.append(f"| {claims[name]['statement']} | {claims[name]['where']} | {_cases_text(rows)} | {verdict} |")
         parts.append("\n".join(lines) + "\n")
     return "\n".join(parts)
 
 
 def cases_shown(rows):
-    """The cases of a claim that a summary shows: all, or of more than `CASES_SHOWN_MAX` three."""
+    """The cases of a claim that a summary shows: all, or three if they are more than `CASES_SHOWN_MAX`."""
     if len(rows) <= CASES_SHOWN_MAX:
         return rows
     farthest = np.abs(rows["value"] - rows["expected"]).idxmax()
     return rows.loc[sorted({rows.index[0], farthest, rows.index[-1]})]
 
 
-def _in_words(rows):
+def _cases_text(rows):
     shown = cases_shown(rows)
     number = f"{len(rows)} cases, of which " if len(shown) < len(rows) else ""
-    return number + "; ".join(case_in_words(row) for _, row in shown.iterrows())
+    return number + "; ".join(case_text(row) for _, row in shown.iterrows())
 
 
-def case_in_words(row):
-    """Name and value of a case, its interval in brackets, its range in words, and what the paper says."""
+def case_text(row):
+    """Name and value of a case, its interval in brackets, its range, and the paper's value, as text."""
     if not np.isfinite(row["value"]):
         return f"{row['case']}: –"
     text = f"{row['case']}: {_digits(row['value'])}"

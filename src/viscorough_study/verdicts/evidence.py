@@ -14,15 +14,15 @@ from viscorough_study.fits.intervals import NO_INTERVAL
 from viscorough_study.fits.power_law import find_region
 from viscorough_study.run.paper_data import number
 
-# From the best to the worst: the verdict on a claim is the worst of its cases.
+# From best to worst: the verdict on a claim is the worst of its cases.
 VERDICTS = ("reproduced", "reproduced under a stated convention", "undecided", "not reproduced")
-CONFIDENCE_TAIL = 0.025  # on either side of an interval
-FEW_WIDENED = 20.0  # by what factor intervals of few realizations must be able to widen without deciding otherwise
+CONFIDENCE_TAIL = 0.025  # probability beyond either end of an interval
+FEW_WIDENED = 20.0  # widening factor that verdicts from few realizations must survive
 
 
 @dataclass(frozen=True)
 class Evidence:
-    """What claims are judged by.
+    """Data, settings and numbers of the paper by which claims are judged.
 
     discs : pool of the base discs (viscorough_study.ensembles.pool)
     tables : {name: pandas.DataFrame} of the tables of the workflow that some criterion reads
@@ -50,16 +50,16 @@ class Evidence:
 
     @cached_property
     def whole(self):
-        """{H: the discs of `pooled` whose curves go on to region (c)}, those of the largest X."""
+        """{H: the discs of `pooled` whose curves extend to region (c)}, those of the largest X."""
         until_x = self.discs["until_x"].values
         discs = self._discs.isel(realization=np.flatnonzero(until_x == until_x.max()))
         return {hurst: pool.ensembles(discs, "hurst")[hurst].isel(rms_convention=0) for hurst in self.pooled}
 
     @cached_property
     def combinations(self):
-        """{H: ensemble of every combination of force, viscosity, size and rms height}, otherwise as `pooled`."""
+        """{H: list of the ensembles of all combinations of force, viscosity, size and rms height}, as in `pooled`."""
         by_case = {hurst: pool.ensembles(pool.select(self._discs, hurst=hurst), "case") for hurst in self.pooled}
-        return {hurst: [one.isel(rms_convention=0) for one in cases.values()] for hurst, cases in by_case.items()}
+        return {hurst: [case.isel(rms_convention=0) for case in cases.values()] for hurst, cases in by_case.items()}
 
     @property
     def _discs(self):
@@ -71,33 +71,33 @@ class Evidence:
         return {hurst: find_region(ensemble, **self.limits) for hurst, ensemble in self.pooled.items()}
 
     def fits(self, source, **wanted):
-        """Base fits of "discs" or "lines", a row for each Hurst exponent, in the conventions of the figures.
+        """Base fits of "discs" or "lines", one row per Hurst exponent, in the conventions of the figures.
 
         wanted : conventions in place of those of the figures
         """
         wanted = self.conventions | wanted | source_values(source) | {"case_group": "base"}
         return select(self.tables["scaling"], wanted).set_index("hurst")
 
-    def said(self, section, name):
+    def paper_value(self, section, name):
         """A number that the paper states (resources/paper/numbers.yaml)."""
         return number(self.numbers, section, name)
 
     def are_few(self, realizations):
         """Whether these are fewer realizations than the paper averages for a curve."""
-        return realizations < self.said("boundary_elements", "realizations_min")
+        return realizations < self.paper_value("boundary_elements", "realizations_min")
 
     def within(self, values, low, high, *, realizations, cases=1):
-        """Whether a quantity lies in the range from low to high, as far as so many realizations tell (`equivalence`).
+        """Whether a quantity lies in the range from low to high; None if the data do not decide (`equivalence`).
 
-        values : value and 95 % interval; realizations : behind them; cases : of the claim, which decide together
+        values : value and 95 % interval; realizations : their number; cases : number of cases of the claim
 
-        All cases of a claim must lie within, for which their own intervals are right (intersection-union test: Berger,
-        Technometrics 24, 295 (1982)). One case outside refutes it, and the more cases, the likelier one is so by
-        chance: to be outside, intervals are widened to 95 % for all cases together, by Bonferroni.
-        Fewer realizations than the paper averages decide only what intervals `FEW_WIDENED` times as wide decide: by
-        Chebyshev's inequality a quantity lies beyond those in less than 0.07 % of all draws, whatever its distribution,
-        so that of all cases of all claims none does in 19 of 20 draws. A reduced scale then decides only what any
-        surfaces would, and leaves the rest undecided.
+        All cases of a claim must lie within the range, for which their separate intervals are valid (intersection-union
+        test: Berger, Technometrics 24, 295 (1982)). A single case outside refutes the claim, and of many cases one may
+        be outside by chance: for this test intervals are widened to 95 % for all cases together (Bonferroni).
+        Verdicts from fewer realizations than the paper averages must hold with intervals `FEW_WIDENED` times as wide:
+        by Chebyshev's inequality a quantity lies beyond those in less than 0.07 % of all draws, for any distribution;
+        in 19 of 20 draws no case of any claim does. A reduced scale then decides only what other surfaces would
+        confirm, and leaves the rest undecided.
         """
         factor = FEW_WIDENED if self.are_few(realizations) else 1.0
         if equivalence(widened(values, factor), low, high):
@@ -106,9 +106,9 @@ class Evidence:
         return False if equivalence(widened(values, factor * together), low, high) is False else None
 
     def case(self, name, values, expected, allowed, *, realizations, cases=1, convention="", extremes=NO_INTERVAL):
-        """Case of a quantity that must lie in the range allowed, (low, high): `judged` by `within`.
+        """Case of a quantity that must lie in the allowed range (low, high), `judged` by `within`.
 
-        convention : in which the claim holds, which few realizations do not tell
+        convention : in which the claim holds; ignored for few realizations, which do not determine it
         """
         met = self.within(values, *allowed, realizations=realizations, cases=cases)
         other = "" if self.are_few(realizations) else convention
@@ -118,9 +118,9 @@ class Evidence:
 def equivalence(interval, low, high):
     """Whether a quantity with this 95 % interval lies in the range from low to high.
 
-    True if the whole interval lies in the range, False if it lies wholly outside, None if it reaches over an end of the
-    range or is not defined: then the data do not decide. Two one-sided tests at 2.5 % each make of it a test of
-    equivalence (Schuirmann, J. Pharmacokinet. Biopharm. 15, 657 (1987)).
+    True if the whole interval lies in the range, False if it lies wholly outside, None if it contains an end of the
+    range or is undefined: then the data do not decide. This is a test of equivalence by two one-sided tests at 2.5 %
+    each (Schuirmann, J. Pharmacokinet. Biopharm. 15, 657 (1987)).
     """
     if not np.all(np.isfinite(interval)):
         return None
@@ -130,7 +130,7 @@ def equivalence(interval, low, high):
 
 
 def widened(values, factor):
-    """Ends of an interval whose distances from the value are multiplied by a factor; values : value, low, high."""
+    """Ends of an interval with their distances from the value multiplied by a factor; values : value, low, high."""
     value, low, high = values
     return value - factor * (value - low), value + factor * (high - value)
 
@@ -141,7 +141,7 @@ def hurst_name(hurst):
 
 
 def opposite(met):
-    """The outcome for the contrary of what was tested; None stays None."""
+    """Outcome of the opposite claim; None stays None."""
     return None if met is None else not met
 
 
@@ -149,7 +149,7 @@ def opposite(met):
 class Case:
     """Outcome of one case of a claim.
 
-    case : Hurst exponent or part that the case is about; expected : what the paper says, nan if it is not a number
+    case : Hurst exponent or part of the claim; expected : value stated by the paper, nan if it states none
     value, low, high : the quantity and its 95 % interval, nan where it has no statistical scatter
     least, largest : smallest and largest value over grids, windows, times or realizations, nan where there is one value
     convention : in which the claim holds where it does not in those of the figures
@@ -170,9 +170,9 @@ def judged(name, values, expected, met, convention="", *, extremes=NO_INTERVAL):
     """Case with its verdict.
 
     values : value, low, high; extremes : least, largest
-    met : whether the criterion is met, None where the data do not decide (`Evidence.within`); a value that could not be
-        computed is never decided
-    convention : in which it is met where it is not in those of the figures, if any
+    met : whether the criterion is met, None where the data do not decide (`Evidence.within`); a case whose value could
+        not be computed is undecided
+    convention : in which the criterion is met although it is not in those of the figures, if any
     """
     verdict = "not reproduced"
     if not np.isfinite(values[0]):

@@ -1,7 +1,7 @@
-"""Criteria of claims on what the contact depends on, by contacts of one small rough disc.
+"""Criteria of claims on the variables that determine the contact, tested on one small rough disc.
 
-They hold for every surface, by the equations of the contact, so a small disc shows them exactly. The integration in
-time solves a contact problem in every step and never uses the correspondence with the elastic problem.
+The claims follow from the equations of the contact for every surface, so a small disc shows them exactly. The
+integration in time solves a contact problem in every step and never uses the correspondence with the elastic problem.
 """
 
 from itertools import pairwise
@@ -19,9 +19,9 @@ from viscorough_study.run.seeds import gamma_factor_key, realization_seed
 from viscorough_study.verdicts.evidence import hurst_name, judged
 
 ACROSS = 33  # elements across the disc
-DEPTH = 1.5  # in rms heights, at which some tens of the elements touch
+DEPTH = 1.5  # in rms heights; some tens of elements are in contact
 IMPULSE = 2.0  # ∫F dt/η over hL at which force histories end
-HISTORIES = {  # times and forces over IMPULSE; linear between, and a time given twice is a step
+HISTORIES = {  # times, and forces over IMPULSE, linear between times; a repeated time marks a step
     "constant": ([0.0, 1.0], [1.0, 1.0]),
     "growing": ([0.0, 0.25, 0.5, 0.75, 1.0], [0.0, 0.5, 1.0, 1.5, 2.0]),
     "with rests": (
@@ -33,7 +33,7 @@ SCALES = (1e-3, 0.2, 7.0)  # factors of heights and depth
 UNITS = ((7.0, 1.0), (1e-3, 3.0), (0.2, 1e-2))  # factors of heights and of lengths in the plane
 FORCES = np.geomspace(1e-3, 1, 31)  # X at which curves are compared
 DRIVES = ((1.0, 1.0), (1.0, 5.0), (1e-2, 1.0), (30.0, 0.2))  # forces over hL and viscosities of one indentation
-STEPS = 10  # of equal impulse, in which it is integrated
+STEPS = 10  # of equal impulse, in each direct integration
 
 
 def _disc(evidence, hurst):
@@ -42,17 +42,16 @@ def _disc(evidence, hurst):
 
 
 def _case(name, deviations, tolerance):
-    """Case of the largest of several deviations, which should be none."""
+    """Case of the largest of several deviations, which should vanish."""
     worst = max(deviations)
     extremes = min(deviations), worst
     return judged(name, (float(worst), *NO_INTERVAL), 0.0, bool(worst <= tolerance), extremes=extremes)
 
 
 def history(evidence, tolerance):
-    """Elements that touch at the end of one force history and not of another with the same impulse, and the depths.
+    """Differences at the end of force histories of equal impulse: elements in contact, and relative depths.
 
-    The impulse of all histories is the same, so is the depth (relative difference, in the second case), and so should
-    be the contact.
+    Histories of equal impulse reach equal depths, and should have equal contact.
     """
     disc = _disc(evidence, min(evidence.pooled))
     motions = []
@@ -68,12 +67,12 @@ def history(evidence, tolerance):
 
 
 def depth_over_rms(evidence, tolerance):
-    """Elements that touch at u/h and differ when u and h are multiplied by the same factor."""
+    """Number of elements whose contact at u/h changes when u and h are multiplied by the same factor."""
     for hurst in evidence.pooled:
         disc = _disc(evidence, hurst)
         touching = contact_at(disc, depth=DEPTH).contact
         scaled = {factor: Indenter(factor * disc.heights, disc.spacing) for factor in SCALES}
-        contacts = [contact_at(one, depth=factor * DEPTH).contact for factor, one in scaled.items()]
+        contacts = [contact_at(indenter, depth=factor * DEPTH).contact for factor, indenter in scaled.items()]
         differing = [int((contact != touching).sum()) for contact in contacts]
         number = int((touching == 1).sum())
         yield _case(f"{hurst_name(hurst)}, elements that differ, of {number}", differing, tolerance)
@@ -82,17 +81,17 @@ def depth_over_rms(evidence, tolerance):
 def one_surface(evidence, tolerance):
     """Relative differences between one surface and the same surface in other units.
 
-    κ(X) with other heights and another diameter, for every Hurst exponent, and F/(ηvL) of direct integrations with
-    other forces and viscosities, at the same Ft/η and so the same contact, for the smallest.
+    κ(X) with other heights and another diameter, for every Hurst exponent, and, for the smallest one, F/(ηvL) of direct
+    integrations with other forces and viscosities at the same Ft/η, hence in the same contact.
     """
     for hurst in evidence.pooled:
         disc = _disc(evidence, hurst)
         curve = _stiffness(disc, 1.0, 1.0)
         scaled = [_stiffness(Indenter(h * disc.heights, length * disc.spacing), h, length) for h, length in UNITS]
-        yield _case(hurst_name(hurst), [np.max(np.abs(one / curve - 1)) for one in scaled], tolerance)
+        yield _case(hurst_name(hurst), [np.max(np.abs(values / curve - 1)) for values in scaled], tolerance)
     disc = _disc(evidence, min(evidence.pooled))
     first, *others = (_resistance(disc, *drive) for drive in DRIVES)
-    yield _case("other forces and viscosities", [np.max(np.abs(one / first - 1)) for one in others], tolerance)
+    yield _case("other forces and viscosities", [np.max(np.abs(values / first - 1)) for values in others], tolerance)
 
 
 def _resistance(disc, force, viscosity):
@@ -103,6 +102,6 @@ def _resistance(disc, force, viscosity):
 
 
 def _stiffness(indenter, rms, diameter):
-    """κ at the dimensionless forces, for a surface of these lengths."""
+    """κ at the dimensionless forces `FORCES`, for a surface of these lengths."""
     force = 4 * rms * diameter * FORCES
     return indent(indenter, until_force=force[-1]).at_force(force)[1] / diameter

@@ -1,7 +1,7 @@
 """Criteria of claims that fitted exponents and curves follow a law of the paper.
 
-Where a claim fails in the conventions of the figures but holds in others that the paper leaves open, the verdict says
-so, and names the conventions with the smallest deviation.
+Where a claim fails in the conventions of the figures but holds in others that the paper leaves open, the verdict names
+the conventions with the smallest deviation.
 """
 
 from itertools import product
@@ -24,21 +24,21 @@ from viscorough_study.fits.power_law import fit_power_law, in_window, log_means
 from viscorough_study.verdicts.evidence import hurst_name, judged
 from viscorough_study.verdicts.region_criteria import combinations_case
 
-SHARE_OF_SQUARE = 0.75  # of its square, that a disc has at least on every grid
+SHARE_OF_SQUARE = 0.75  # lower bound of the fraction of a square's elements that its disc has
 
 
 # ---- exponents
 
 
 def beta(evidence, tolerance, source="discs"):
-    """β against H/(1 + H), at the Hurst exponents above which the paper says that it holds."""
+    """β against H/(1 + H), for the Hurst exponents for which the paper says that it holds."""
     fits = evidence.fits(source)
-    fits = fits[fits.index > evidence.said("agreement", "beta_hurst_min")]
+    fits = fits[fits.index > evidence.paper_value("agreement", "beta_hurst_min")]
     convention = _nearest_convention(evidence.tables["scaling"], source, fits.index, tolerance)
     for hurst, fit in fits.iterrows():
-        law, about = reference.exponent_beta(hurst), {"cases": len(fits), "convention": convention}
+        law, claim = reference.exponent_beta(hurst), {"cases": len(fits), "convention": convention}
         ends = law - tolerance, law + tolerance
-        yield evidence.case(hurst_name(hurst), interval(fit, "beta"), law, ends, **about, realizations=fit.realizations)
+        yield evidence.case(hurst_name(hurst), interval(fit, "beta"), law, ends, **claim, realizations=fit.realizations)
 
 
 def beta_lines(evidence, tolerance):
@@ -47,9 +47,9 @@ def beta_lines(evidence, tolerance):
 
 
 def _nearest_convention(scaling, source, hursts, tolerance):
-    """Conventions in words in which the interval of β of every Hurst exponent lies within the tolerance; "" if none.
+    """Conventions, as text, with the smallest deviation among those with every interval of β within the tolerance.
 
-    Of several, those with the smallest deviation.
+    "" if there are none.
     """
     fits = left_open(in_every_reading(scaling[(scaling["source"] == source) & (scaling["case_group"] == "base")]))
     nearest, smallest = "", tolerance
@@ -72,8 +72,8 @@ def coincide(evidence, tolerance):
     differences = _differences(evidence, {})
     for hurst, row in differences.iterrows():
         *values, number = row.tolist()
-        about = {"realizations": number, "cases": len(differences), "convention": nearest}
-        yield evidence.case(hurst_name(hurst), values, 0.0, (-tolerance, tolerance), **about)
+        options = {"realizations": number, "cases": len(differences), "convention": nearest}
+        yield evidence.case(hurst_name(hurst), values, 0.0, (-tolerance, tolerance), **options)
 
 
 def _differences(evidence, conventions):
@@ -91,14 +91,14 @@ def hurst_only(evidence, tolerance):
         yield judged("all H", UNDEFINED, 0.0, None)
         return
     windows, combinations = evidence.regions, evidence.combinations.items()
-    slopes = [[_slopes(one, windows[hurst]) for one in ensembles] for hurst, ensembles in combinations]
+    slopes = [[_slopes(ensemble, windows[hurst]) for ensemble in ensembles] for hurst, ensembles in combinations]
     yield combinations_case(evidence, slopes, 0.0, tolerance)
 
 
 def no_grid(evidence, tolerance):
     """Change of β in windows of fixed X for a tenfold number of elements, from grids from coarse to fine.
 
-    How many realizations a grid has enters by the interval of the trend, which is over grids.
+    The number of realizations enters through the interval of the trend over grids.
     """
     trends = evidence.tables["sizes_trends"]
     trends = trends[(trends["source"] == "discs") & ~trends["window_rule"].isin(FITTED["window_rule"])]
@@ -111,11 +111,11 @@ def no_grid(evidence, tolerance):
 
 
 def realizations(evidence, tolerance):
-    """Half the width of the 95 % interval of β that as many indentations give as the paper averages in Fig. 4.
+    """Half the width of the 95 % interval of β from as many indentations as the paper averages in Fig. 4.
 
-    The interval is that of the standard deviation of a normal distribution, by the distribution of χ².
+    Its interval is that of the standard deviation of a normal distribution, by the χ² distribution.
     """
-    number = evidence.said("boundary_elements", "realizations_fig4")
+    number = evidence.paper_value("boundary_elements", "realizations_fig4")
 
     def half_width(_, ensemble, window):
         slopes = _slopes(ensemble, window)
@@ -124,20 +124,20 @@ def realizations(evidence, tolerance):
     return _cases_in_regions(evidence, half_width, np.nan, (-np.inf, tolerance))
 
 
-def _cases_in_regions(evidence, values_of, expected, allowed):
+def _cases_in_regions(evidence, evaluate, expected, allowed):
     """Cases of a quantity in region (b) of the pooled discs, one for each Hurst exponent; undecided without a region.
 
-    values_of : function of H, ensemble and window; returns value and interval, and the realizations behind them
+    evaluate : function of H, ensemble and window; returns value and interval, and the number of realizations
     """
     for hurst, ensemble in evidence.pooled.items():
         window = evidence.regions[hurst]
-        values, number = (UNDEFINED, 0) if window is None else values_of(hurst, ensemble, window)
-        about = {"realizations": number, "cases": len(evidence.pooled)}
-        yield evidence.case(hurst_name(hurst), values, expected, allowed, **about)
+        values, number = (UNDEFINED, 0) if window is None else evaluate(hurst, ensemble, window)
+        counts = {"realizations": number, "cases": len(evidence.pooled)}
+        yield evidence.case(hurst_name(hurst), values, expected, allowed, **counts)
 
 
 def _slopes(ensemble, window):
-    """Slope of ln(vt/h) over ln X in a window, of each realization that is defined there."""
+    """Slope of ln(vt/h) over ln X in a window, for every realization defined there."""
     inside = in_window(ensemble["x"].values, window)
     log_x, log_velocity = np.log(ensemble["x"].values[inside]), np.log(ensemble["velocity"].values[:, inside])
     log_velocity = log_velocity[np.isfinite(log_velocity).all(axis=1)]
@@ -167,7 +167,7 @@ def depth(evidence, tolerance):
         end = int(np.argmin(np.abs(np.log(x / centre)))) + 1
         depths = x[0] * softness[:, 0] + np.trapezoid(softness[:, :end], x[:end], axis=1)
         ratios = (depths / (x[end - 1] * softness[:, end - 1]))[:, None]
-        # The seed of the fit draws the same realizations, so the interval contains the scatter of both factors.
+        # The seed of the fit draws the same realizations, so the interval includes the scatter of both factors.
         random = np.random.default_rng(bootstrap["seed"])
         means = np.exp(log_means(ratios, "arithmetic", bootstrap["resamples"], random))[:, 0]
         return fit.beta * means[0], fit.beta_samples * means[1:]
@@ -192,9 +192,9 @@ def _cases_at_centre(evidence, tolerance, ratio):
     """
     bootstrap = {"average": evidence.conventions["average"], "resamples": evidence.resamples, "seed": evidence.seed}
 
-    def values_of(hurst, ensemble, window):
+    def evaluate(hurst, ensemble, window):
         fit = fit_power_law(ensemble["x"].values, ensemble["velocity"].values, window, **bootstrap)
         value, samples = ratio(hurst, ensemble, fit, np.sqrt(np.prod(window)), bootstrap)
         return (value, *percentile_interval(samples, fit.realizations)), fit.realizations
 
-    return _cases_in_regions(evidence, values_of, 1.0, (1 - tolerance, 1 + tolerance))
+    return _cases_in_regions(evidence, evaluate, 1.0, (1 - tolerance, 1 + tolerance))

@@ -1,8 +1,8 @@
-"""Criteria of claims on the line that stands for a surface: λ, exponents, contact area, separation, single surfaces.
+"""Criteria of claims on lines that represent surfaces: λ, exponents, contact area, separation, single surfaces.
 
-The paper calls the applicability of the method of reduction of dimensionality proven, and compares exponents. What else
-a line would have to reproduce to stand for a surface is judged here, too: Lyashenko, Pastewka & Persson (Tribology
-Letters 52, 223 (2013)) find that it reproduces neither contact area nor separation.
+The paper calls the applicability of the method of reduction of dimensionality proven, and compares exponents. The other
+quantities that a line would have to reproduce are judged here as well: Lyashenko, Pastewka & Persson (Tribology Letters
+52, 223 (2013)) find that it reproduces neither contact area nor separation.
 """
 
 from itertools import product
@@ -17,21 +17,21 @@ EQUAL_WINDOWS = ("same X", "same κ")
 
 def lambda_constant(evidence, tolerance):
     """λ at the upper end of region (b) over λ at the lower end."""
-    return _of_summary(evidence, {"drift": ""}, 1.0, (1 / (1 + tolerance), 1 + tolerance))
+    return _summary_cases(evidence, {"drift": ""}, 1.0, (1 / (1 + tolerance), 1 + tolerance))
 
 
 def exact_correspondence(evidence, tolerance):
     """Error of ln(vt/h) with the best single λ: at the upper end of region (b), and the largest of the whole curve."""
     parts = {"error_trend": ", region (b)", "error_whole": ", to complete contact"}
-    return _of_summary(evidence, parts, 0.0, (-tolerance, tolerance))
+    return _summary_cases(evidence, parts, 0.0, (-tolerance, tolerance))
 
 
-def _of_summary(evidence, parts, expected, allowed):
-    """Cases of columns of the summary; parts : {column: what it adds to the name of the case}."""
+def _summary_cases(evidence, parts, expected, allowed):
+    """Cases of columns of the summary; parts : {column: suffix of the name of the case}."""
     table = evidence.tables["mdr_summary"]
     for row, (column, part) in product(table.to_dict("records"), parts.items()):
-        about = {"realizations": _fewest(row), "cases": len(table) * len(parts)}
-        yield evidence.case(hurst_name(row["hurst"]) + part, interval(row, column), expected, allowed, **about)
+        counts = {"realizations": _fewest(row), "cases": len(table) * len(parts)}
+        yield evidence.case(hurst_name(row["hurst"]) + part, interval(row, column), expected, allowed, **counts)
 
 
 def coincide_equal_windows(evidence, tolerance):
@@ -41,8 +41,8 @@ def coincide_equal_windows(evidence, tolerance):
     number = {row["hurst"]: _fewest(row) for row in evidence.tables["mdr_summary"].to_dict("records")}
     for row in table.to_dict("records"):
         name = f"{hurst_name(row['hurst'])}, {row['window']}"
-        about = {"realizations": number[row["hurst"]], "cases": len(table)}
-        yield evidence.case(name, interval(row, "difference"), 0.0, (-tolerance, tolerance), **about)
+        counts = {"realizations": number[row["hurst"]], "cases": len(table)}
+        yield evidence.case(name, interval(row, "difference"), 0.0, (-tolerance, tolerance), **counts)
 
 
 def line_area(evidence, tolerance):
@@ -58,7 +58,7 @@ def line_gap(evidence, tolerance):
 def single_surface(evidence, tolerance):
     """Factor between κ of a disc and its line: one standard deviation of the logarithm of their ratio.
 
-    The interval is that of the standard deviation of a normal distribution, by the distribution of χ².
+    The interval is that of the standard deviation of a normal distribution, by the χ² distribution.
     """
 
     def values(row):
@@ -75,7 +75,7 @@ def _ratios(evidence, column, tolerance):
 def _at_centres(evidence, column, values, allowed):
     """Cases of the comparison surface by surface at the centre of region (b), with the extremes over the region.
 
-    column : that must be defined; values : function of a row of the comparison, its value and interval
+    column : must be defined; values : function of a row of the comparison, returns value and interval
     """
     table = evidence.tables["reduction"].dropna(subset=column)
     for hurst, window in evidence.regions.items():
@@ -83,9 +83,9 @@ def _at_centres(evidence, column, values, allowed):
         if rows.empty:
             yield judged(hurst_name(hurst), UNDEFINED, 1.0, None)
             continue
-        row, every = _at_centre(rows), [values(row)[0] for row in rows.to_dict("records")]
-        about = {"realizations": row["realizations"], "cases": len(evidence.regions)}
-        yield evidence.case(hurst_name(hurst), values(row), 1.0, allowed, **about, extremes=(min(every), max(every)))
+        row, region_values = _at_centre(rows), [values(row)[0] for row in rows.to_dict("records")]
+        more = {"realizations": row["realizations"], "extremes": (min(region_values), max(region_values))}
+        yield evidence.case(hurst_name(hurst), values(row), 1.0, allowed, cases=len(evidence.regions), **more)
 
 
 def _at_centre(rows):

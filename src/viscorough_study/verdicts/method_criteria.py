@@ -6,8 +6,8 @@ from viscorough.surfaces import cut_disc
 from viscorough_study.fits.intervals import NO_INTERVAL, UNDEFINED, difference
 from viscorough_study.verdicts.evidence import judged, opposite
 
-WEEKS_IN_MINUTES = 7 * 24 * 60  # the unit of several weeks in that of a few minutes
-SMALL_ERROR = 0.01  # of the velocity, with which a contact problem for every change of the contact is compared
+WEEKS_IN_MINUTES = 7 * 24 * 60  # ratio of "several weeks" to "a few minutes"
+SMALL_ERROR = 0.01  # of the velocity, at which contact problems are counted
 
 
 def gamma(evidence, tolerance):
@@ -21,8 +21,8 @@ def gamma(evidence, tolerance):
 def line_spectrum(evidence, tolerance):
     """λ at the largest Hurst exponent over λ at the smallest, with the smallest and the largest λ/π of all.
 
-    Where λ depends on H by more than the tolerance, no constant serves, and π neither. The two λ are independent, and
-    the logarithm of each has its interval; that of the difference is their root of the sum of squares.
+    Where λ varies with H by more than the tolerance, it is no constant, and so not π. The two λ are independent, so the
+    half-widths of the intervals of their logarithms add in quadrature.
     """
     fits = evidence.fits("discs")[["lambda", "lambda_low", "lambda_high", "realizations"]].dropna()
     if len(fits) < 2:
@@ -38,7 +38,7 @@ def line_spectrum(evidence, tolerance):
 
 
 def bodies_of_revolution(evidence, tolerance):
-    """Error of the reduction on the finest grid, with the least and the largest of all grids."""
+    """Error of the reduction on the finest grid, with the smallest and largest error over all grids."""
     validation = evidence.tables["validation"]
     rows = validation[validation["case"].str.endswith("_reduction")]
     for (case, quantity), grids in rows.groupby(["case", "quantity"], sort=False):
@@ -49,23 +49,23 @@ def bodies_of_revolution(evidence, tolerance):
 
 
 def elements(evidence, tolerance):
-    """Elements of a disc as large as the paper's; least and largest: without and with those exactly on the rim."""
-    across, said = (evidence.said("boundary_elements", name) for name in ("elements_across", "elements"))
+    """Number of elements of a disc as large as the paper's; least and largest: without and with those on the rim."""
+    across, paper_count = (evidence.paper_value("boundary_elements", name) for name in ("elements_across", "elements"))
     count = np.isfinite(cut_disc(np.zeros((across, across)), across)).sum()
     x = np.arange(across) - (across - 1) / 2
     on_rim = (x[:, None] ** 2 + x**2 == ((across - 1) / 2) ** 2).sum()
-    met, extremes = bool(abs(count - said) <= tolerance), (count - on_rim, count)
-    yield judged(f"{across} across", (count, *NO_INTERVAL), said, met, extremes=extremes)
+    met, extremes = bool(abs(count - paper_count) <= tolerance), (count - on_rim, count)
+    yield judged(f"{across} across", (count, *NO_INTERVAL), paper_count, met, extremes=extremes)
 
 
 def contact_problems(evidence, tolerance):
-    """Contact problems that give the velocity with a small error, over the elements, each of which is a change.
+    """Number of contact problems needed for the velocity, over the number of elements, each a change of the contact.
 
-    The problems are the levels of the elastic loading path, for the loosest tolerance with which its error is below
-    `SMALL_ERROR`, on a disc as large as the paper's; of several Hurst exponents the most.
+    The problems are the levels of the elastic loading path, at the loosest tolerance with an error below `SMALL_ERROR`,
+    on a disc as large as the paper's; the value is the largest over Hurst exponents.
     """
     levels = _rough_discs(evidence).query("method == 'path, automatic levels' and error <= @SMALL_ERROR")
-    ratios = levels.groupby("hurst")["steps"].min().to_numpy() / evidence.said("boundary_elements", "elements")
+    ratios = levels.groupby("hurst")["steps"].min().to_numpy() / evidence.paper_value("boundary_elements", "elements")
     if not ratios.size:
         yield judged("of a disc", UNDEFINED, 1.0, None)
         return
@@ -76,18 +76,18 @@ def contact_problems(evidence, tolerance):
 def computing_time(evidence, tolerance):
     """Time of boundary elements over that of lines, at the numbers that the paper states.
 
-    Boundary elements: a contact problem for every contact event of every indentation, as explicit steps take them; the
-    reduction: every point of every line. The time of each is that of the table of methods, on a disc as large as the
-    paper's. The ratio depends on the machine and on what else runs there; rounded to a power of ten it would jump from
-    one run to the next.
+    Boundary elements solve a contact problem for every contact event of every indentation, as explicit steps do; the
+    reduction treats every point of every line. The time of each is from the table of methods, for a disc as large as
+    the paper's. The ratio varies with the machine and its load, and would jump between runs if rounded to a power of
+    ten.
     """
-    numbers = {name: evidence.said("boundary_elements", name) for name in ("combinations", "realizations_min")}
+    numbers = {name: evidence.paper_value("boundary_elements", name) for name in ("combinations", "realizations_min")}
     counts = [ensemble["contact_count"].max("abscissa").values for ensemble in evidence.whole.values()]
     problems = np.prod(list(numbers.values())) * np.median(np.concatenate(counts))
     names = "hurst_count", "realizations", "points"
-    points = np.prod([float(evidence.said("reduction", name)) for name in names])
+    points = np.prod([float(evidence.paper_value("reduction", name)) for name in names])
     methods = _rough_discs(evidence)
-    times = [_time_of_one(methods, name) for name in ("explicit, logarithmic steps", "MDR")]
+    times = [_time_per_step(methods, name) for name in ("explicit, logarithmic steps", "MDR")]
     ratio = problems * times[0] / (points * times[1])
     met = bool(1 / tolerance <= ratio / WEEKS_IN_MINUTES <= tolerance)
     yield judged("ratio of the times", (ratio, *NO_INTERVAL), WEEKS_IN_MINUTES, met)
@@ -95,12 +95,12 @@ def computing_time(evidence, tolerance):
 
 def _rough_discs(evidence):
     """Rows of the table of methods on rough discs as large as the paper's."""
-    methods, across = evidence.tables["methods"], evidence.said("boundary_elements", "elements_across")
+    methods, across = evidence.tables["methods"], evidence.paper_value("boundary_elements", "elements_across")
     return methods[methods["hurst"].notna() & (methods["elements"] == across)]
 
 
-def _time_of_one(methods, name):
-    """Time of one step or point of a method [s], where it took most of them; nan if it was not measured."""
+def _time_per_step(methods, name):
+    """Time per step or point of a method [s], from the run with the most of them; nan if it was not measured."""
     rows = methods[methods["method"] == name]
     if rows.empty:
         return np.nan

@@ -17,28 +17,28 @@ from viscorough_study.fits.intervals import (
 from viscorough_study.fits.plateau import inner_slopes
 from viscorough_study.verdicts.evidence import hurst_name, judged
 
-ROUNDING = 1e-9  # relative difference up to which numbers of decades count as equal
-LEFT_REGION = 2.0  # κ over that of one element, at which a curve has left region (a)
-SLOPE_OF_LINE = 0.05  # deviation of a slope from 1 that no eye sees in Fig. 2
-POWER_LAWS_LOST_MAX = 0.05  # share of synthetic power laws that may fail the test for one
-ONE_ELEMENT = 1 + 1e-9  # elements in contact, interpolated in the logarithm, up to which a single one touches
+ROUNDING = 1e-9  # relative difference below which numbers of decades count as equal
+LEFT_REGION = 2.0  # ratio of κ to that of one element at which a curve leaves region (a)
+SLOPE_OF_LINE = 0.05  # deviation of a slope from 1 that is invisible in Fig. 2
+POWER_LAWS_LOST_MAX = 0.05  # largest fraction of synthetic power laws that may fail the test
+ONE_ELEMENT = 1 + 1e-9  # largest contact count, interpolated logarithmically, that is a single element
 
 
 def collapse(evidence, tolerance):
-    """Scatter of ln(vt/h) over combinations, over that between Hurst exponents, at one X in all regions (b).
+    """Scatter of ln(vt/h) between combinations, over that between Hurst exponents, at one X in all regions (b).
 
-    The scatter of combinations is the component of variance between them (`excess_variance`), without the scatter that
-    the means of their few realizations would have anyway, over all Hurst exponents: nine combinations of one alone
-    leave its upper end at twice the value that 36 of four do.
+    The scatter of combinations is the component of variance between them (`excess_variance`), without the sampling
+    scatter of their means, pooled over all Hurst exponents: the upper end of the interval from the nine combinations of
+    a single one would be twice that from the 36 of four.
     """
     windows = [window for window in evidence.regions.values() if window is not None]
     if len(windows) < 2 or len(windows) < len(evidence.regions):
         yield judged("all H", UNDEFINED, np.nan, None)
         return
     x = next(iter(evidence.pooled.values()))["x"].values
-    at = int(np.argmin(np.abs(np.log(x) - np.mean(np.log(windows)))))
+    nearest = int(np.argmin(np.abs(np.log(x) - np.mean(np.log(windows)))))
     logarithms = [
-        [np.log(ensemble["velocity"].values[:, at]) for ensemble in ensembles]
+        [np.log(ensemble["velocity"].values[:, nearest]) for ensemble in ensembles]
         for ensembles in evidence.combinations.values()
     ]
     between_hursts = np.std([np.mean(np.concatenate(groups)) for groups in logarithms], ddof=1)
@@ -48,8 +48,8 @@ def collapse(evidence, tolerance):
 def combinations_case(evidence, sets, expected, tolerance, unit=1.0):
     """Case of the standard deviation between the combinations of one Hurst exponent, over all Hurst exponents.
 
-    sets : of every Hurst exponent the samples of its combinations, as in `excess_variance`; unit : of the result
-    Least and largest are those of single Hurst exponents, whose few combinations tell little each.
+    sets : for every Hurst exponent the samples of its combinations, as in `excess_variance`; unit : of the result
+    Least and largest are those of single Hurst exponents, whose few combinations determine them poorly.
     """
     *values, _ = np.sqrt(excess_variance(sets)) / unit
     single = [np.sqrt(excess_variance([groups])[0]) / unit for groups in sets]
@@ -61,25 +61,24 @@ def combinations_case(evidence, sets, expected, tolerance, unit=1.0):
 def excess_variance(sets):
     """Component of variance between groups, from a one-way analysis of variance with random effects.
 
-    sets : of each set of groups the samples of its groups, shape (realizations,), nan where undefined. Variances are
-        those within sets, whose means may differ
+    sets : for each set of groups the samples of its groups, shape (realizations,), nan where undefined; variances are
+        taken within sets, whose means may differ
 
     With n realizations per group, MS_between/MS_within over 1 + n σ_b²/σ_w² has the F distribution, so that
     σ_b² = (MS_between/MS_within/F_p − 1) σ_w²/n at its quantiles F_p, or 0 where that is negative. With MS_within for
-    σ_w² the interval is exact for the ratio of the two variances. Its upper end is never below that of groups which
-    scatter just as much as their samples make them, MS_between = MS_within: means that happen to lie closer together
-    than so few realizations allow are no evidence of a smaller component (power-constrained limit: Cowan, Cranmer,
-    Gross & Vitells, arXiv:1105.3166).
-    Returns the median, the two ends of the 95 % interval, and σ_w²/n, the variance that the means of the groups have by
-    the scatter within them; nan for too few groups or realizations.
+    σ_w² the interval is exact for the ratio of the two variances. Its upper end is never below that of groups with the
+    sampling scatter alone, MS_between = MS_within: means closer together than expected by chance are no evidence of a
+    smaller component (power-constrained limit: Cowan, Cranmer, Gross & Vitells, arXiv:1105.3166).
+    Returns the median, the two ends of the 95 % interval, and σ_w²/n, the sampling variance of the means of groups; nan
+    for too few groups or realizations.
     """
     sets = [[group[np.isfinite(group)] for group in groups] for groups in sets]
-    every = [group for groups in sets for group in groups]
-    size = np.mean([group.size for group in every])
-    freedom = len(every) - len(sets), sum(group.size - 1 for group in every)
+    groups_of_all = [group for groups in sets for group in groups]
+    size = np.mean([group.size for group in groups_of_all])
+    freedom = len(groups_of_all) - len(sets), sum(group.size - 1 for group in groups_of_all)
     if min(freedom) < 1:
         return np.full(4, np.nan)
-    within = sum(group.size * group.var() for group in every) / freedom[1]
+    within = sum(group.size * group.var() for group in groups_of_all) / freedom[1]
     between = sum(len(groups) * np.var([group.mean() for group in groups]) for groups in sets) / freedom[0]
     ratio = size * between / within
     ratios = np.array([ratio, ratio, max(ratio, 1.0)])
@@ -88,7 +87,7 @@ def excess_variance(sets):
 
 
 def first_region(evidence, tolerance):
-    """κ while one element touches, over π/(K₀₀ n)."""
+    """κ while one element is in contact, over π/(K₀₀ n)."""
     for hurst, ensemble in evidence.pooled.items():
         alone = ensemble["contact_count"].values <= ONE_ELEMENT
         ratio = ensemble["stiffness"].values[alone] / reference.one_element_stiffness(evidence.across)
@@ -101,7 +100,7 @@ def first_region(evidence, tolerance):
 
 def last_region(evidence, tolerance):
     """Xh/(vt), which is κ, and the slope of ln(vt/h) over ln X, where curves end."""
-    slope_said = evidence.said("regions", "slope_last")
+    paper_slope = evidence.paper_value("regions", "slope_last")
     for hurst, ensemble in evidence.whole.items():
         x, stiffness = ensemble["x"].values, ensemble["stiffness"].values
         last = np.flatnonzero(ensemble["fraction_defined"].values == 1)[-1]
@@ -109,21 +108,21 @@ def last_region(evidence, tolerance):
         velocity = ensemble["velocity"].values[:, end : last + 1]
         slopes = np.polyfit(np.log(x[end : last + 1]), np.log(velocity).T, 1)[0]
         complete = reference.COMPLETE_CONTACT_STIFFNESS
-        for name, samples, said in (("prefactor", stiffness[:, last], complete), ("slope", slopes, slope_said)):
-            ends, about = (said - tolerance, said + tolerance), {"cases": 2 * len(evidence.pooled)}
-            yield _mean_case(evidence, f"{hurst_name(hurst)}, {name}", samples, said, ends, **about)
+        for name, samples, expected in (("prefactor", stiffness[:, last], complete), ("slope", slopes, paper_slope)):
+            ends, counts = (expected - tolerance, expected + tolerance), {"cases": 2 * len(evidence.pooled)}
+            yield _mean_case(evidence, f"{hurst_name(hurst)}, {name}", samples, expected, ends, **counts)
 
 
-def _mean_case(evidence, name, samples, expected, allowed, **about):
-    """Case of the mean of a quantity over realizations; about : cases."""
-    about |= {"realizations": samples.size, "extremes": (samples.min(), samples.max())}
-    return evidence.case(name, mean_with_interval(samples), expected, allowed, **about)
+def _mean_case(evidence, name, samples, expected, allowed, **counts):
+    """Case of the mean of a quantity over realizations; counts : number of cases."""
+    counts |= {"realizations": samples.size, "extremes": (samples.min(), samples.max())}
+    return evidence.case(name, mean_with_interval(samples), expected, allowed, **counts)
 
 
 def power_law(evidence, tolerance):
     """Decades over which the local slope is constant within the tolerance (viscorough_study.fits.plateau).
 
-    Scatter shortens plateaus, so a curve fails only where power laws with that scatter do not.
+    Scatter shortens plateaus, so a curve fails only if power laws with the same scatter pass.
     """
     plateaus, needed = evidence.tables["plateaus"], evidence.rules["decades_min"] * (1 - ROUNDING)
     plateaus = plateaus[plateaus["case_group"] == "base"]
@@ -137,7 +136,7 @@ def power_law(evidence, tolerance):
 def separation(evidence, tolerance):
     """X at which curves leave region (a) for one Hurst exponent over that of the next larger one; above 1 if later.
 
-    They have left it where the geometric mean of κ is `LEFT_REGION` times that of one element.
+    Region (a) ends where the geometric mean of κ is `LEFT_REGION` times that of one element.
     """
     ends = {
         hurst: _end_of_first_region(evidence, ensemble, [evidence.seed, i])
@@ -146,14 +145,14 @@ def separation(evidence, tolerance):
     for lower, higher in pairwise(ends):
         ratios = np.exp(ends[lower] - ends[higher])
         realizations = min(evidence.pooled[hurst].sizes["realization"] for hurst in (lower, higher))
-        values, about = with_interval(ratios, realizations), {"realizations": realizations, "cases": len(ends) - 1}
-        yield evidence.case(f"H = {lower:g} over H = {higher:g}", values, np.nan, (1, np.inf), **about)
+        values, counts = with_interval(ratios, realizations), {"realizations": realizations, "cases": len(ends) - 1}
+        yield evidence.case(f"H = {lower:g} over H = {higher:g}", values, np.nan, (1, np.inf), **counts)
 
 
 def _end_of_first_region(evidence, ensemble, seed):
-    """ln X at the end of region (a): of the ensemble, then of each bootstrap sample; nan where it is not reached.
+    """ln X at the end of region (a): of the ensemble, then of the bootstrap samples; nan where it is not reached.
 
-    seed : of the bootstrap, another one for each ensemble, so that the samples are independent
+    seed : of the bootstrap; different seeds make the samples of ensembles independent
     """
     x, stiffness = ensemble["x"].values, np.log(ensemble["stiffness"].values)
     stiffness = stiffness[:, np.isfinite(stiffness).all(axis=0)]
@@ -164,7 +163,7 @@ def _end_of_first_region(evidence, ensemble, seed):
 
 
 def complete_contact(evidence, tolerance):
-    """Share of the elements in contact at the X from which on the local slope is 1 within `SLOPE_OF_LINE`."""
+    """Contact fraction at the X from which on the local slope is 1 within `SLOPE_OF_LINE`."""
     for hurst, ensemble in evidence.whole.items():
         defined = ensemble["fraction_defined"].values == 1
         log_x, mean = np.log(ensemble["x"].values[defined]), np.log(ensemble["velocity_geometric"].values[defined])

@@ -1,8 +1,8 @@
-"""Criteria of claims about the prefactor ζ: absolute, up to a factor common to all H, and law against law.
+"""Criteria of claims on the prefactor ζ: absolute, up to a factor common to all H, and comparison of laws.
 
-The tables `prefactors` and `zeta_laws` (fits.prefactors and fits.zeta_laws) have the numbers.
-Where an absolute claim fails in the conventions of the figures but holds in others that the paper leaves open, the
-surfaces included, the verdict names those with the smallest deviation.
+They use the tables `prefactors` and `zeta_laws` (fits.prefactors and fits.zeta_laws). Where an absolute claim fails in
+the conventions of the figures but holds in others that the paper leaves open, including those of the surfaces, the
+verdict names the conventions with the smallest deviation.
 """
 
 import numpy as np
@@ -29,13 +29,13 @@ def _absolute(evidence, tolerance, name, gamma):
     convention = _nearest_convention(evidence.tables["prefactors"], name, gamma, tolerance)
     fits = evidence.fits("discs", gamma=gamma)
     for hurst, fit in fits.iterrows():
-        law, about = LAWS[name][1](hurst), {"cases": len(fits), "convention": convention}
+        law, claim = LAWS[name][1](hurst), {"cases": len(fits), "convention": convention}
         ends = law * (1 - tolerance), law * (1 + tolerance)
-        yield evidence.case(hurst_name(hurst), interval(fit, "zeta"), law, ends, **about, realizations=fit.realizations)
+        yield evidence.case(hurst_name(hurst), interval(fit, "zeta"), law, ends, **claim, realizations=fit.realizations)
 
 
 def _nearest_convention(table, name, gamma, tolerance):
-    """Conventions in words, left open by the paper, in which every interval lies within the tolerance; "" if none."""
+    """Conventions, as text, with the smallest deviation among those with every interval within the tolerance; or ""."""
     table = left_open(table[table["gamma"] == gamma])
     law = LAWS[name][1](table["hurst"])
     ends = np.maximum(np.abs(table["zeta_low"] / law - 1), np.abs(table["zeta_high"] / law - 1))
@@ -47,12 +47,12 @@ def _nearest_convention(table, name, gamma, tolerance):
 
 
 def zeta_elastic_shape(evidence, tolerance):
-    """Spread between Hurst exponents of ζ over Eq. 4, without the factor, once a common factor is taken out."""
+    """Spread between Hurst exponents of ζ over Eq. 4, without the factor 1/Γ(2 − α), up to a common factor."""
     return _spreads(evidence, tolerance, "zeta", "Eq. 4, without Γ")
 
 
 def zeta_viscous_shape(evidence, tolerance):
-    """The same for Eq. 11, with the factor."""
+    """Spread between Hurst exponents of ζ over Eq. 11, with the factor 1/Γ(2 − α), up to a common factor."""
     return _spreads(evidence, tolerance, "zeta", "Eq. 11, with Γ")
 
 
@@ -64,21 +64,21 @@ def master_curve_shape(evidence, tolerance):
 def _spreads(evidence, tolerance, quantity, law):
     """Cases of the spread, which is 0 where a law holds up to a factor: for all Hurst exponents and from 0.4 on."""
     table = evidence.tables["zeta_laws"]
-    of_all = {"realizations": table["realizations"].min(), "cases": table["hurst_min"].nunique()}
-    for least in table["hurst_min"].unique():
-        name = f"H from {least:g} on" if least > 0 else "all H"
-        values = measure_value(table, quantity, law, "spread", least)
-        yield evidence.case(name, values, 0.0, (-np.inf, tolerance), **of_all)
+    counts = {"realizations": table["realizations"].min(), "cases": table["hurst_min"].nunique()}
+    for hurst_min in table["hurst_min"].unique():
+        name = f"H from {hurst_min:g} on" if hurst_min > 0 else "all H"
+        values = measure_value(table, quantity, law, "spread", hurst_min)
+        yield evidence.case(name, values, 0.0, (-np.inf, tolerance), **counts)
 
 
 def zeta_better(evidence, tolerance):
     """Deviation from Eq. 4 less that from Eq. 11 of vt/h with the exponent H/(1 + H); positive if Eq. 11 is better.
 
-    Both with the factor 1/Γ(2 − α), as in the paper, and each in its own reading, Eq. 4 without the factor.
+    Compared with the factor 1/Γ(2 − α) in both, as in the paper, and with Eq. 4 in its own reading, without the factor.
     """
     table = evidence.tables["zeta_laws"]
     readings = {"Eq. 4, with Γ": "both with Γ", "Eq. 4, without Γ": "Eq. 4 without Γ"}
-    of_all = {"realizations": table["realizations"].min(), "cases": len(readings)}
+    counts = {"realizations": table["realizations"].min(), "cases": len(readings)}
     for law, reading in readings.items():
         values = measure_value(table, "curve", difference(law), "deviation")
-        yield evidence.case(f"all H, {reading}", values, np.nan, (tolerance, np.inf), **of_all)
+        yield evidence.case(f"all H, {reading}", values, np.nan, (tolerance, np.inf), **counts)

@@ -1,4 +1,4 @@
-"""What others found, with the numbers of this study beside it."""
+"""Published results, compared with those of this study."""
 
 import numpy as np
 import pandas as pd

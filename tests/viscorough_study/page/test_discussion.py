@@ -1,4 +1,4 @@
-"""What others found, as the page shows it."""
+"""Published results, as the page presents them."""
 
 from support.figures import literature_table
 from viscorough_study.page.discussion import KNOWN, discussion

@@ -116,7 +116,7 @@ def test_the_error_of_a_job_is_shown_with_its_log_and_the_code_kept(tmp_path):
     (tmp_path / "indent.log").write_text("".join(f"2026-01-01 10:00:00 {line}\n" for line in lines))
     done = run(tmp_path, f"print({STARTED + FAILED + FAILED!r}); raise SystemExit(3)")
     assert done.returncode == 3
-    last = ["Error: ValueError: no contact (log: indent.log)", "All that was printed: results/run.log"]
+    last = ["Error: ValueError: no contact (log: indent.log)", "Full output: results/run.log"]
     assert done.stderr.splitlines()[-2:] == last
     (tmp_path / "indent.log").unlink()
     assert "before it wrote its log (log: indent.log)" in run(tmp_path, f"exit({FAILED!r})").stderr
@@ -128,7 +128,7 @@ def test_what_ends_snakemake_itself_is_shown(tmp_path):
     assert done.stderr == "Error in the settings: lines: 3\n"
     killed = run(tmp_path, r"import os; print('one\ntwo', flush=True); os.kill(os.getpid(), 9)")
     assert killed.returncode == 128 + 9
-    assert killed.stderr.splitlines() == ["one", "two", "All that was printed: results/run.log"]
+    assert killed.stderr.splitlines() == ["one", "two", "Full output: results/run.log"]
 
 
 def test_the_end_is_three_lines(tmp_path):

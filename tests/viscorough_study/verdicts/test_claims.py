@@ -17,10 +17,10 @@ from viscorough_study.run.paper_data import number
 from viscorough_study.verdicts.claims import (
     JUDGES,
     KINDS,
-    attributes_of_scale,
     judge,
     markdown,
     overall,
+    scale_attributes,
     undecided_cases,
 )
 from viscorough_study.verdicts.evidence import VERDICTS
@@ -169,13 +169,17 @@ def test_unknown_claim_is_named():
 
 
 @pytest.mark.parametrize(("across", "trial"), [(129, 0), (127, 1)])
-def test_attributes_of_scale(across, trial):
+def test_scale_attributes(across, trial):
     evidence = SimpleNamespace(
         across=across,
         pooled={hurst: xr.Dataset(coords={"realization": range(count)}) for hurst, count in {0.1: 60, 0.9: 54}.items()},
-        said=lambda section, name: number(NUMBERS, section, name),
+        paper_value=lambda section, name: number(NUMBERS, section, name),
     )
-    about = attributes_of_scale(evidence)
-    assert (about["elements_across"], about["paper_elements_across"], about["realizations"]) == (across, 257, 54)
-    assert about["trial"] == trial
-    assert ("mean nothing" in about["scale"]) == trial
+    attributes = scale_attributes(evidence)
+    assert (attributes["elements_across"], attributes["paper_elements_across"], attributes["realizations"]) == (
+        across,
+        257,
+        54,
+    )
+    assert attributes["trial"] == trial
+    assert ("mean nothing" in attributes["scale"]) == trial

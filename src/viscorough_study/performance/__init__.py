@@ -1,1 +1,1 @@
-"""What every method costs, and how accurate it is."""
+"""Cost and accuracy of every method."""

@@ -1,6 +1,6 @@
-"""Ablations of the contact solver: options without one of its parts, or with another one in its place.
+"""Ablations of the contact solver: options that leave out or replace one of its parts.
 
-What a part contributes is measured by a solution without it, and where a part fails by a solution with nothing else.
+A solution without a part measures its contribution; a solution by one part alone shows where it fails.
 """
 
 from dataclasses import replace
@@ -8,7 +8,7 @@ from dataclasses import replace
 from viscorough.contact.options import SolverOptions
 
 DOUBLE_PRECISION = SolverOptions(precision="double", exact_gap_below=0.0)
-# The gap is never recomputed, as if rounding to single precision did not matter.
+# The gap is never recomputed in double precision.
 SINGLE_PRECISION_ONLY = SolverOptions(exact_gap_below=0.0, operator_rounding=0.0)
 # Weaker preconditioners have no natural length of a step.
 NO_PRECONDITIONER = SolverOptions(preconditioner="none", release_step=0.0)

@@ -1,4 +1,4 @@
-"""What tables of costs tell: the Pareto front, the fastest methods, and the growth of the cost with the size."""
+"""Evaluation of tables of costs: Pareto front, fastest methods, and growth of the cost with the size."""
 
 import numpy as np
 
@@ -10,7 +10,7 @@ def pareto_front(table):
 
 
 def fastest(table, error):
-    """{group of methods: its fastest row with an error up to the given one}, without groups that do not reach it."""
+    """{group of methods: its fastest row within an error}, without groups that do not reach it."""
     reached = table[table["error"] <= error]
     return {group: rows.loc[rows["wall_s"].idxmin()] for group, rows in reached.groupby("group", sort=False)}
 
@@ -19,8 +19,8 @@ def median_costs(table, method, value):
     """Cost of a method over the elements of rough discs: a pandas.DataFrame with number, wall_s, operator_applications.
 
     table : of viscorough_study.performance.measurement; value : of the method's parameter
-    number is that of the elements of the disc. Medians over the discs of one size, on grids that differ by up to a
-    factor of eight across. A disc that the method did not solve in time has an error of 1 and is left out.
+    number is that of the elements of the disc. Medians are over the discs of one size, on grids down to one eighth of
+    the finest in elements across. Discs that the method did not solve in time, which have an error of 1, are omitted.
     """
     rows = table[table["hurst"].notna() & (table["error"] < 1) & (table["method"] == method)]
     rows = rows[np.isclose(rows["value"], value, rtol=1e-9, atol=0)]

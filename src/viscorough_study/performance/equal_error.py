@@ -1,20 +1,20 @@
-"""What lines and boundary elements cost where both have the same error.
+"""Cost of lines and of boundary elements at equal error.
 
-The error of a line is not reached by more points: that of a rough disc is that of the reduction itself. So the line has
-the fewest points with which its error is about the least that it can have, and boundary elements the largest tolerance
-with which theirs is no larger.
+More points do not reduce the error of a line for a rough disc below that of the reduction itself. The line therefore
+has the fewest points with nearly its smallest error, and boundary elements have the largest tolerance with an error no
+larger than that.
 """
 
 import pandas as pd
 
-EQUAL = 1.1  # errors are about equal within this factor
+EQUAL = 1.1  # factor within which errors count as equal
 COLUMNS = {
     "problem": ("indenter", ""),
     "hurst": ("Hurst exponent of the indenter", "1"),
     "elements": ("elements across the indenter", "1"),
     "line_error": ("rms relative error of the velocity by the reduction", "1"),
-    "points": ("fewest points of the line with which it is within a factor of 1.1 of the least", "1"),
-    "line_wall_s": ("wall time of the line, its generation included", "s"),
+    "points": ("fewest points of the line with an error within a factor of 1.1 of the least", "1"),
+    "line_wall_s": ("wall time of the line, including its generation", "s"),
     "tolerance": ("tolerance of the fastest loading path with an error no larger", "1"),
     "error": ("its rms relative error of the velocity", "1"),
     "wall_s": ("its wall time", "s"),
@@ -23,16 +23,16 @@ COLUMNS = {
 
 
 def methods_tables(tables, **settings):
-    """{"methods", "equal_error": table} of the tables of all indenters; settings : with which methods were measured."""
+    """{"methods", "equal_error": table} of the tables of all indenters; settings : of the measurements."""
     methods = pd.concat(tables, ignore_index=True)
     return {"methods": methods, "equal_error": equal_error(methods)}
 
 
 def equal_error(methods):
-    """A row for each indenter; a pandas.DataFrame with the columns of `COLUMNS`.
+    """One row per indenter; a pandas.DataFrame with the columns of `COLUMNS`.
 
-    methods : table of viscorough_study.performance.measurement. Indenters without lines, or on which no loading path is
-    as accurate, are left out.
+    methods : table of viscorough_study.performance.measurement
+    Indenters without lines, or for which no loading path is as accurate, are omitted.
     """
     rows = []
     for (problem, elements), table in methods.groupby(["problem", "elements"], sort=False):

@@ -1,4 +1,4 @@
-"""Cost of the loading curve of one disc on ever finer grids."""
+"""Cost of the loading curve of one disc on grids from coarse to fine."""
 
 import resource
 from functools import partial
@@ -10,7 +10,7 @@ from viscorough.contact.loading_path import indent
 from viscorough.surfaces import self_affine_disc
 from viscorough_study.performance import timing
 
-ROUNDS, MAX_REPEATED = 3, 20.0  # rounds of one run on one thread and one on several; seconds of what runs only once
+ROUNDS, MAX_REPEATED = 3, 20.0  # rounds of a run on one thread and one on several; longest run that is repeated [s]
 COLUMNS = {
     "across": ("elements across the disc", "1"),
     "elements": ("elements of the disc", "1"),
@@ -31,11 +31,11 @@ def costs_table(costs):
 
 
 def measure_disc(hurst, elements, seed, *, tolerance, until_fraction, warm_up, threads):
-    """LoadingCurve of a disc of diameter and rms height 1, and what it cost, {column of `COLUMNS`: value}.
+    """LoadingCurve of a disc of diameter and rms height 1, and its cost, {column of `COLUMNS`: value}.
 
-    elements, warm_up : across the disc, and across one that is indented before to load the compiled functions
-    threads : of a second run, which alternates with the first in ROUNDS rounds, or in one where runs take long
-    Memory is the largest that this process had at any time.
+    elements, warm_up : across the disc, and across one that is indented first to load the compiled functions
+    threads : of a second run, which alternates with the first in ROUNDS rounds, or in one round if runs take long
+    Memory is the peak memory of this process.
     """
     indent(self_affine_disc(hurst, warm_up, seed=0), tolerance=tolerance)
     disc = self_affine_disc(hurst, elements, seed=seed)

@@ -1,9 +1,9 @@
 """Placement of the levels of a loading curve: by `indent`, by hand, and naively, on the same scenes.
 
-A scene is an indenter, a range of force, and the accuracy required of the depth at any force in it. Levels by hand
-stand in equal ratios of depth over exactly that range, which has to be known beforehand; their number is the smallest
-that reaches the accuracy. Naive levels stand in equal steps of depth; their number is the smallest that makes the error
-no larger than that of the levels chosen automatically. The tolerance of every level is the accuracy required.
+A scene is an indenter, a range of force, and the accuracy required of the depth at any force in it. Levels by hand are
+in equal ratios of depth over exactly that range, which must be known beforehand; their number is the smallest that
+reaches the accuracy. Naive levels are in equal steps of depth; their number is the smallest with an error no larger
+than that of the automatic levels. The tolerance of every level is the required accuracy.
 """
 
 import logging
@@ -20,19 +20,19 @@ from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
 from viscorough_study.performance import timing
 
-HAND_PICKED = (3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512)  # numbers of levels that are tried
+HAND_PICKED = (3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512)  # numbers of levels tried
 NAIVE = tuple(2**n for n in range(2, 13))
-# Beyond so many times the automatic choice's levels, hand-picked ones are not pursued; naive ones, beyond its cost.
+# The search ends at these multiples of the automatic choice's number of levels (hand-picked) and time (naive).
 MAX_RATIO_HAND_PICKED, MAX_RATIO_NAIVE = 4, 20
-MARGIN = 0.01  # by which levels reach beyond the range of depth, whose ends are known to the tolerance only
+MARGIN = 0.01  # by which levels extend beyond the range of depth, whose ends are known only to the tolerance
 PROBES = 60  # forces at which the depth is compared
-REFERENCE_TOLERANCE = 1e-9  # of the depths that are compared with
+REFERENCE_TOLERANCE = 1e-9  # of the reference depths
 COLUMNS = {
     "scene": ("scene", ""),
-    "choice": ("how the levels are chosen", ""),
+    "choice": ("placement of the levels", ""),
     "accuracy": ("relative accuracy required of the depth", "1"),
     "error": ("largest relative error of the depth at any force of the range", "1"),
-    "reached": ("1 if that is within the accuracy", "1"),
+    "reached": ("1 if the error is within the accuracy", "1"),
     "levels": ("levels", "1"),
     "tolerance": ("tolerance of each level", "1"),
     "operator_applications": ("applications of the half-space operator on the grid", "1"),
@@ -53,7 +53,7 @@ class Scene:
 
 
 def scenes(elements, hurst, seed):
-    """The scenes: one asperity, and a rough disc in region (b) alone and over a full curve to three accuracies."""
+    """The scenes: one asperity, and a rough disc in region (b) alone and over a full curve with three accuracies."""
     asperity = reference.sphere(1.0).indenter(elements)
     disc = self_affine_disc(hurst, elements, seed=seed)
     few = 10 / disc.elements
@@ -77,16 +77,16 @@ def compare(scene, repeats, report=lambda text: None, *, hand_picked=HAND_PICKED
 
     repeats : number of interleaved repeats, of which the times are medians
     report : called with a line of text before the levels of each choice
-    hand_picked, naive : numbers of levels that are tried, increasing
+    hand_picked, naive : numbers of levels to try, increasing
 
-    Returns a pandas.DataFrame with the columns of `COLUMNS`: a row per choice, "automatic", "best by hand" (absent if
+    Returns a pandas.DataFrame with the columns of `COLUMNS`: one row per choice, "automatic", "best by hand" (absent if
     no number reaches the accuracy) and "naive".
     """
     coarse = indent(scene.indenter, tolerance=1e-2, until_fraction=scene.last)
     ends = np.interp([scene.first, scene.last], coarse.contact_fraction, coarse.depth)
     exact = indent(scene.indenter, tolerance=REFERENCE_TOLERANCE, depths=np.geomspace(*ends, PROBES))
     path = partial(indent, scene.indenter, tolerance=scene.accuracy)
-    # As levels by hand: a contact fraction that is just reached at the first force may have its level beyond it.
+    # With the margin of levels by hand: the level of a contact fraction first reached at a force may lie beyond it.
     range_of_force = {"start_fraction": scene.first * (1 - MARGIN), "until_fraction": 1, "until_force": exact.force[-1]}
     automatic = _row(scene, "automatic", partial(path, **range_of_force), exact)
     first, last = ends * [1 - MARGIN, 1 + MARGIN]
@@ -97,7 +97,7 @@ def compare(scene, repeats, report=lambda text: None, *, hand_picked=HAND_PICKED
         row = _row(scene, "best by hand", partial(path, depths=np.geomspace(first, last, number)), exact)
         if row["reached"]:
             by_hand.append(row)
-        if row["reached"] or number > MAX_RATIO_HAND_PICKED * automatic["levels"]:  # more levels only cost more
+        if row["reached"] or number > MAX_RATIO_HAND_PICKED * automatic["levels"]:  # more levels would cost more
             break
     report(f"{scene.name}: naive levels")
     for number in naive:

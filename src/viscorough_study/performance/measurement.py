@@ -13,8 +13,8 @@ import pandas as pd
 from viscorough_study.performance import timing
 from viscorough_study.performance.methods import METHODS
 
-LARGEST_COMPARED = 513  # elements across the indenter, beyond which only the growth of the cost is measured
-MAX_REPEATED = 10.0  # seconds; what takes longer is not repeated
+LARGEST_COMPARED = 513  # elements across the indenter above which only the growth of the cost is measured
+MAX_REPEATED = 10.0  # longest run that is repeated [s]
 TIMES = ("wall_s", "processor_s")
 COLUMNS = {
     "problem": ("indenter", ""),
@@ -27,7 +27,7 @@ COLUMNS = {
     "wall_s": ("wall time, median of interleaved repeats", "s"),
     "processor_s": ("processor time, median of interleaved repeats", "s"),
     "error": ("relative error of the velocity, root mean square over all depths", "1"),
-    "error_b": ("the same in region (b)", "1"),
+    "error_b": ("relative error of the velocity in region (b), root mean square", "1"),
     "largest_error": ("largest relative error of the velocity", "1"),
     "operator_applications": ("applications of the half-space operator on the grid", "1"),
     "steps": ("levels, events, time steps, points of a line, or iterations of another solver", "1"),
@@ -38,12 +38,12 @@ COLUMNS = {
 def measure(problem, repeats, methods=METHODS, report=lambda text: None, *, longest=math.inf):
     """Cost and error of every method that can solve a problem, at every value of its parameter.
 
-    repeats : number of interleaved repeats after the first run, which gives errors and memory, and the time of whatever
-        takes longer than MAX_REPEATED
-    longest : seconds; a method that has taken as long is not repeated either, and not tried at finer values
+    repeats : number of interleaved repeats after the first run, which gives errors and memory, and the time of runs
+        longer than MAX_REPEATED
+    longest : seconds after which a method is neither repeated nor tried at finer values
     report : called with a line of text before each first run
 
-    Returns a pandas.DataFrame with the columns of `COLUMNS`, a row per method and value.
+    Returns a pandas.DataFrame with the columns of `COLUMNS`, one row per method and value.
     """
     rows, functions = {}, {}
     for method in methods:
@@ -59,7 +59,7 @@ def measure(problem, repeats, methods=METHODS, report=lambda text: None, *, long
             rows[key] |= dict(zip(TIMES, seconds, strict=True))
             if seconds[0] < min(longest, MAX_REPEATED):
                 functions[key] = function
-            if seconds[0] >= longest:  # what was stopped took just as long
+            if seconds[0] >= longest:  # including runs that were stopped
                 break
     report(f"{problem.name}: {repeats} repeats")
     for key, seconds in timing.interleaved(functions, repeats).items():

@@ -1,7 +1,7 @@
-"""Every method for the velocity of penetration.
+"""All methods for the velocity of penetration.
 
-A method solves a Problem: it gives the velocities vt = (F/G)/(k/G) at the problem's levels. Each has a parameter that
-trades accuracy for cost; `measurement` measures both.
+A method solves a Problem: it gives the velocities vt = (F/G)/(k/G) at the problem's levels. Each method has a parameter
+that trades accuracy for cost; `measurement` measures both.
 """
 
 from collections.abc import Callable
@@ -22,10 +22,10 @@ from viscorough_study.performance import ablations, other_solvers
 
 @dataclass(frozen=True)
 class Answer:
-    """Velocities vt at a problem's levels (nan where unknown), and what they took.
+    """Velocities vt at a problem's levels (nan where unknown), and their cost.
 
     operator_applications : of the half-space operator on the grid; steps : levels, events, time steps or points
-    seconds : wall and processor time, of a method that runs in another process and reports its own timing
+    seconds : wall and processor time reported by a method that runs in another process
     """
 
     velocity: np.ndarray
@@ -36,11 +36,11 @@ class Answer:
 
 @dataclass(frozen=True)
 class Method:
-    """`run(problem, value)` returns an Answer; `values` are those of its parameter, from coarse to fine.
+    """A method; `run(problem, value)` returns an Answer, `values` are those of its parameter, from coarse to fine.
 
-    group : methods drawn alike in the figures; largest : elements across the indenter up to which it is measured
+    group : of methods in tables and figures; largest : elements across the indenter up to which it is measured
     rough_only : whether it applies to rough discs only
-    growth : values of the parameter for indenters too large to compare errors on
+    growth : values of the parameter for indenters too large for a comparison of errors
     """
 
     name: str
@@ -69,7 +69,7 @@ def _at_levels(problem, tolerance, options=DEFAULT):
 
 
 def _each_alone(problem, tolerance):
-    """The problem's depths one by one, each without a previous level to start from."""
+    """The problem's depths one by one, each solved without a previous level."""
     curves = [indent(problem.indenter, tolerance=tolerance, depths=[depth]) for depth in problem.depth]
     velocity = np.array([curve.force[0] / curve.stiffness[0] for curve in curves])
     return Answer(velocity, sum(curve.operator_applications for curve in curves), len(curves))
@@ -109,7 +109,7 @@ def _steps(scheme, spacing, problem, number):
 
 
 def _adaptive_steps(scheme, problem, overlap):
-    """The longest steps in which no element overlaps the half-space by more than a share of the depth."""
+    """The longest steps in which no element overlaps the half-space by more than a fraction of the depth."""
     steps = march_steps(problem.indenter, problem.force, scheme=scheme, overlap=overlap)
     return Answer(problem.force / steps.resistance, steps=steps.steps)
 
@@ -124,7 +124,7 @@ def _implicit(problem, tolerance):
 
 
 def other_solver_method(solver, time_limit):
-    """Another solver as a method: pairs of levels, and the stiffness by differences, since it reports none itself."""
+    """Another solver as a method: pairs of levels, whose differences give the stiffness that it does not report."""
     run = partial(_other_solver, solver, time_limit)
     return Method(solver.name, "other solver", "tolerance", OTHER_SOLVER_TOLERANCES, run, largest=257, rough_only=True)
 

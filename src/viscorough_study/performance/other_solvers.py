@@ -1,14 +1,13 @@
 """Other public contact solvers, run on the same levels as the elastic loading path, in separate environments.
 
-Each is driven by an adapter (workflow/peers), a script that runs under the Python of the other solver's environment,
-which does not have this package. Request and answer are .npz files, named on the adapter's command line. Lengths are in
-element sides and pressures in shear moduli G; the half-space is incompressible, so that E = 3, ν = 1/2 and
-E* = E/(1 − ν²) = 4.
+Each solver is driven by an adapter (workflow/peers), a script for the Python of the solver's environment, which lacks
+this package. Request and answer are .npz files, whose names are arguments of the adapter. Lengths are in element sides
+and pressures in shear moduli G; the half-space is incompressible, so that E = 3, ν = 1/2 and E* = E/(1 − ν²) = 4.
 
 The request holds
     gap : initial gap of the indenter's elements to its highest point, nan outside it, shape (rows, columns)
-    depths, forces : u and F/G of the levels, increasing, shape (levels,); a solver takes one or the other
-    tolerances : the solver's own tolerances, shape (tolerances,); for each of them all levels are solved
+    depths, forces : u and F/G of the levels, increasing, shape (levels,); a solver uses one or the other
+    tolerances : the solver's own tolerances, shape (tolerances,); all levels are solved with each of them
     padding : side of the square grid to solve on (see padded_size)
     threads, repeats, maximum_seconds : threads; runs per tolerance; time limit of a run
 
@@ -20,7 +19,7 @@ The answer holds
     wall, cpu : seconds of a run without set-up, nan where it exceeded the time limit, shape (tolerances, repeats)
     memory_mb : peak memory of the process in MB
 
-Whether a solver has converged is judged here, by the residual of its pressures, in the same way for every solver.
+Convergence is judged here, by the residual of the pressures, in the same way for every solver.
 """
 
 import subprocess
@@ -78,11 +77,11 @@ class Solution:
 def solve(solver, indenter, depths, forces, tolerances, *, threads=1, time_limit=60.0):
     """Solutions by another solver at the given levels, each started from the level before.
 
-    depths, forces : u and F/G of the levels, in the indenter's unit of length; a solver takes one or the other
+    depths, forces : u and F/G of the levels, in the indenter's unit of length; a solver uses one or the other
     tolerances : the solver's own; time_limit : seconds after which the run of one tolerance is abandoned
 
-    Returns a Solution per tolerance, None where there is none. Warns, with the last line that the solver's process
-    wrote to standard error, if the process fails.
+    Returns a Solution per tolerance, None where there is none. If the solver's process fails, warns with the last line
+    of its standard error.
     """
     gap = indenter.initial_gap / indenter.spacing
     request = {
@@ -124,9 +123,9 @@ def _solution(answer, i, gap, spacing):
     """Solution with the tolerance of index i, in the unit of the spacing; None if it exceeded the time limit."""
     if not np.isfinite(answer["wall"][i]).all():
         return None
-    # Solvers at given force determine the depth, those at given depth keep it: either way it is in the answer.
+    # The answer holds the depth, which solvers at given force determine and solvers at given depth keep.
     pressures, depths = answer["pressures"][i], answer["depth"][i]
-    residual = [residual_of(gap, pressure, depth) for pressure, depth in zip(pressures, depths, strict=True)]
+    residual = [contact_residual(gap, pressure, depth) for pressure, depth in zip(pressures, depths, strict=True)]
     return Solution(
         version=str(answer["version"]),
         depth=depths * spacing,
@@ -139,12 +138,12 @@ def _solution(answer, i, gap, spacing):
     )
 
 
-def residual_of(gap, pressure, depth):
-    """Largest |gap of the deformed surfaces| where there is pressure, or overlap where there is none, over the depth.
+def contact_residual(gap, pressure, depth):
+    """Largest |gap of the deformed surfaces| under pressure, or overlap elsewhere, over the depth.
 
     gap : initial gap to the highest point, nan outside the indenter; pressure : p/G; lengths in element sides
 
-    Returns infinity for pressure outside the indenter, and for no pressure at all.
+    Returns infinity for pressure outside the indenter, and if there is no pressure.
     """
     rows, columns = gap.shape
     halfspace = Halfspace(rows, columns)
@@ -159,5 +158,5 @@ def residual_of(gap, pressure, depth):
 
 
 def padded_size(elements):
-    """Smallest size of a grid with a factor of 8 and no prime factor above 11: a good length of transforms."""
+    """Smallest size of a grid with a factor of 8 and no prime factor above 11, for fast transforms."""
     return 8 * next_fast_len(-(-elements // 8))

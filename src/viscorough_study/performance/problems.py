@@ -1,4 +1,4 @@
-"""Indenters on which methods are compared, with the velocities of penetration that are compared with.
+"""Indenters for the comparison of methods, with reference velocities of penetration.
 
 The velocity v under constant force is given as vt = (F/G)/(k/G), a length (paper, Eqs. 1-3: vt/h = X/κ).
 """
@@ -14,8 +14,8 @@ from viscorough.surfaces import self_affine_disc
 from viscorough_study.run.seeds import method_problem_key, realization_seed
 
 BODIES = {"sphere": reference.sphere(1.0), "cone": reference.cone(0.1)}
-FINAL_X, FINAL_FRACTION = 30.0, 0.9  # where a rough disc's curve ends
-REFERENCE_TOLERANCE = 1e-11  # of the velocities that rough discs are compared with
+FINAL_X, FINAL_FRACTION = 30.0, 0.9  # X and contact fraction at which a rough disc's curve ends
+REFERENCE_TOLERANCE = 1e-11  # of the reference velocities of rough discs
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class Problem:
 
 
 def rough_problem(hurst, elements, levels, root, region):
-    """A self-affine disc, at depths in equal ratios from just beyond the second contact to FINAL_X or FINAL_FRACTION.
+    """A self-affine disc, at depths in equal ratios from just above the second contact to FINAL_X or FINAL_FRACTION.
 
     hurst : Hurst exponent; elements : across the disc; levels : number of depths; root : root seed
     region : elements_min in contact and stiffness_max κ of region (b)

@@ -1,7 +1,7 @@
-"""The elastic loading path against other solvers: the same levels of one indenter, to the same residual.
+"""The elastic loading path compared with other solvers: the same levels of one indenter, to the same residual.
 
-The path's time is for everything, exact stiffness at every level included; that of another solver is without its set-up
-and without stiffness. Other solvers start every level from the one before, if they can.
+The time of the path includes its set-up and the exact stiffness at every level; that of another solver includes
+neither. Other solvers start every level from the previous one, if they can.
 """
 
 import logging
@@ -20,14 +20,14 @@ from viscorough.surfaces import self_affine_disc
 from viscorough_study.performance import other_solvers, timing
 from viscorough_study.run.seeds import realization_seed, solver_race_key
 
-# Tolerances of other solvers, over the residual required, from loose to tight: each solver defines its tolerance in its
-# own way. The search for the loosest that will do begins in the middle of them.
+# Tolerances of other solvers, over the residual required, from loose to tight: each solver defines its own measure of
+# the tolerance. The search for the loosest one that meets the residual begins at FIRST_RATIO.
 TOLERANCE_RATIOS = (30, 10, 3, 1, 1 / 3, 1 / 10, 1 / 30, 1 / 100)
 FIRST_RATIO = 3
-# Times as long as the fastest other solver: more than a looser tolerance can gain, and more than machines are noisy.
+# Ratio to the time of the fastest other solver that neither a looser tolerance nor noise of the machine can make up.
 HOPELESS = 4
-MAX_REPEATED = 20.0  # seconds; what takes longer is not repeated
-REFERENCE_TOLERANCE = 1e-10  # of the forces that all are compared with
+MAX_REPEATED = 20.0  # longest run that is repeated [s]
+REFERENCE_TOLERANCE = 1e-10  # of the reference forces
 COLUMNS = {
     "task": ("what is computed", ""),
     "hurst": ("Hurst exponent of the disc", "1"),
@@ -36,9 +36,9 @@ COLUMNS = {
     "solver": ("solver", ""),
     "version": ("version of the solver", ""),
     "threads": ("threads", "1"),
-    "tolerance": ("its loosest tolerance that meets the residual required, otherwise its best", "1"),
+    "tolerance": ("its loosest tolerance that meets the required residual, otherwise its best", "1"),
     "residual": ("largest residual of any level, from the pressures", "1"),
-    "met": ("1 if that is within the residual required", "1"),
+    "met": ("1 if the residual is within the one required", "1"),
     "force_error": ("largest relative error of the force at any level", "1"),
     "wall_s": ("wall time, median; empty if the residual is not met", "s"),
     "processor_s": ("processor time, median; empty if the residual is not met", "s"),
@@ -66,7 +66,7 @@ class Task:
 
 
 def time_other_solvers(*, seed, hursts, pairs, longest, tasks, peers):
-    """`compare_solvers` on every task for every Hurst exponent; solvers that are not installed are left out.
+    """`compare_solvers` on every task for every Hurst exponent, with the installed solvers.
 
     tasks : setting of that name; peers : {solver: [Python of its environment, its adapter]}
     longest : seconds after which a run of another solver is abandoned
@@ -74,15 +74,15 @@ def time_other_solvers(*, seed, hursts, pairs, longest, tasks, peers):
     solvers = [other_solvers.OtherSolver(name, *map(Path, paths)) for name, paths in peers.items()]
     for solver in solvers:
         if not solver.installed:
-            logging.warning("%s is not installed: left out (make peers installs it)", solver.name)
+            logging.warning("%s is not installed and is omitted (make peers installs it)", solver.name)
     common = {"pairs": pairs, "time_limit": longest, "report": logging.info}
     tables, installed = [], [solver for solver in solvers if solver.installed]
     threadpool_limits(1)  # of linear algebra, for good; Snakemake gives the job all cores: nothing runs beside it
     for number, task in enumerate(tasks):
         fractions = np.geomspace(*task["fractions"], task["levels"]) if task["levels"] > 1 else task["fractions"][:1]
         for hurst in hursts:
-            of_disc = {"seed": realization_seed(seed, *solver_race_key(number, hurst)), "threads": task["threads"]}
-            levels = disc_task(task["name"], hurst, task["elements"], fractions, task["residual"], **of_disc)
+            disc = {"seed": realization_seed(seed, *solver_race_key(number, hurst)), "threads": task["threads"]}
+            levels = disc_task(task["name"], hurst, task["elements"], fractions, task["residual"], **disc)
             tables.append(compare_solvers(levels, installed, **common))
     return pd.concat(tables)
 
@@ -96,15 +96,15 @@ def disc_task(name, hurst, elements, fractions, residual, *, seed, threads=(1,))
 
 
 def compare_solvers(task, solvers, *, pairs, time_limit, report=lambda text: None):
-    """Time and residual of the path and of other solvers on one task, each with the loosest tolerance that will do.
+    """Time and residual of the path and of other solvers on one task, each with its loosest sufficient tolerance.
 
     pairs : number of pairs of runs, of the path and of another solver on as many threads, in alternating order; a
         solver that takes longer than MAX_REPEATED, or HOPELESS times as long as the fastest, runs in one pair only
     time_limit : seconds after which a run of another solver is abandoned
     report : called with a line of text before each solver and round of pairs
 
-    What does not meet the residual is not timed. Returns a pandas.DataFrame with the columns of `COLUMNS`: the path on
-    each number of threads, then a row per solver and number of threads.
+    Solutions that miss the residual are not timed. Returns a pandas.DataFrame with the columns of `COLUMNS`: the path
+    on each number of threads, then one row per solver and number of threads.
     """
     exact = indent(task.indenter, tolerance=REFERENCE_TOLERANCE, depths=task.depths)
     paths = {
@@ -126,8 +126,8 @@ def compare_solvers(task, solvers, *, pairs, time_limit, report=lambda text: Non
             cost = {"iterations": solution.total_iterations, "memory": solution.memory}
             rows.append(_row(task, exact, solution) | named | cost)
             if met:
-                known = (solution.wall_s, solution.processor_s) if threads == 1 else None
-                races.append(_Race(path, partial(ask, [tolerance], threads=threads), known, rows[-1]))
+                own_times = (solution.wall_s, solution.processor_s) if threads == 1 else None
+                races.append(_Race(path, partial(ask, [tolerance], threads=threads), own_times, rows[-1]))
     longest = min(MAX_REPEATED, HOPELESS * fastest)
     for number in range(pairs):
         report(f"{task.name}, H = {task.hurst:g}: pair {number + 1} of {pairs}")
@@ -146,7 +146,7 @@ def compare_solvers(task, solvers, *, pairs, time_limit, report=lambda text: Non
 class _Race:
     """Pairs of runs of the path and of another solver, and the row that records them.
 
-    known : (wall, processor) seconds of the other solver if it has run with its tolerance before
+    known : (wall, processor) seconds of an earlier run of the other solver with this tolerance, or None
     """
 
     path: partial
@@ -156,7 +156,7 @@ class _Race:
     seconds: list = field(default_factory=list)
 
     def run_pair(self, *, path_first, longest):
-        """One more pair; only one where a run of the other solver takes longer than `longest` seconds."""
+        """Run one more pair; a solver that takes longer than `longest` seconds gets a single pair."""
         if self.seconds and not self.known[0] < longest:
             return
         own = timing.timed(self.path)[1:] if path_first else None
@@ -166,7 +166,7 @@ class _Race:
         self.seconds.append((own or timing.timed(self.path)[1:], self.known))
 
     def record(self):
-        """Median times and ratios; the median ratio lies between the least and the largest with 1 − 2^(1−n)."""
+        """Record median times and ratios; least and largest of n ratios enclose the median with 1 − 2^(1−n)."""
         own, other = np.moveaxis(np.array(self.seconds), 1, 0)
         ratios = other[:, 0] / own[:, 0]
         self.row["wall_s"], self.row["processor_s"] = np.median(other, axis=0)
@@ -182,7 +182,7 @@ def _row_of_path(task, path, threads, exact):
 
 
 def _row(task, exact, solution):
-    """What is computed, and how well; solution : LoadingCurve of the path, or Solution of another solver."""
+    """Task and accuracy of a solution; solution : LoadingCurve of the path, or Solution of another solver."""
     residual = solution.residual.max()
     return {
         "task": task.name,
@@ -196,11 +196,11 @@ def _row(task, exact, solution):
 
 
 def _loosest_tolerance(ask, required, fastest):
-    """The loosest tolerance with which a solver meets the required residual, otherwise the best one, and its Solution.
+    """Loosest tolerance with which a solver meets the required residual, otherwise its best one, and the Solution.
 
     ask : returns the solver's Solutions for a list of tolerances, None where it has none
-    fastest : seconds of the fastest solver so far; one that takes HOPELESS times as long is not tried at looser ones
-    The Solution is None if no tolerance gave any.
+    fastest : seconds of the fastest solver so far; one that takes HOPELESS times as long is not tried with looser ones
+    Tolerance and Solution are None if no tolerance gave a solution.
     """
     solutions = {}
 

@@ -1,4 +1,4 @@
-"""Time and memory of computations, with interleaved repeats: a change of the machine's speed then affects all alike."""
+"""Time and memory of computations; repeats are interleaved, so that changes of the machine's speed affect all alike."""
 
 import gc
 import os
@@ -11,9 +11,9 @@ import numpy as np
 
 
 def interleaved(functions, repeats):
-    """{name: (wall, processor) seconds} of functions, medians over interleaved repeats; each should have run before.
+    """{name: (wall, processor) seconds} of functions that have run before, medians over interleaved repeats.
 
-    Where a result has an attribute `seconds` (computed in another process, say), its own timing is used.
+    If a result has an attribute `seconds`, for example of another process, its own timing is used.
     """
     times = {name: [] for name in functions}
     for _ in range(repeats):
@@ -40,7 +40,7 @@ def with_memory(function):
 
 
 def machine():
-    """Name, processor and cores of this machine, to be written beside the times measured on it."""
+    """Name, processor and cores of this machine, to be recorded with the times measured on it."""
     info = Path("/proc/cpuinfo")
     lines = info.read_text().splitlines() if info.is_file() else []
     names = [line.split(":")[1].strip() for line in lines if line.startswith("model name")]

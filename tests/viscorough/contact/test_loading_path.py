@@ -14,7 +14,7 @@ from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
 from viscorough.viscous.integration.events import march_events
-from viscorough_study.performance.other_solvers import residual_of
+from viscorough_study.performance.other_solvers import contact_residual
 
 
 def observed_order(elements, errors):
@@ -103,7 +103,7 @@ def test_residual_is_bounded_and_stiffness_accurate_from_level_to_level(toleranc
         pressure = np.zeros(disc.initial_gap.shape)
         pressure[row, column] = contact.pressure
         # Levels of a dense solution are exact: their residual is given as zero.
-        left = residual_of(disc.initial_gap / disc.spacing, pressure, contact.depth / disc.spacing)
+        left = contact_residual(disc.initial_gap / disc.spacing, pressure, contact.depth / disc.spacing)
         assert left <= max(contact.residual, 1e-12)
         exact = np.linalg.solve(influence_matrix(row, column), np.ones(row.size)).sum()
         assert contact.tangent_sum == pytest.approx(exact, rel=max(tolerance, 1e-11))

@@ -84,7 +84,7 @@ def test_residual_and_force_are_computed_from_the_pressures(disc, exact, stand_i
 def test_pressure_outside_the_indenter_is_no_solution(disc):
     pressure = np.zeros(disc.heights.shape)
     pressure[0, 0] = 1.0
-    assert other_solvers.residual_of(disc.initial_gap / disc.spacing, pressure, 1.0) == np.inf
+    assert other_solvers.contact_residual(disc.initial_gap / disc.spacing, pressure, 1.0) == np.inf
 
 
 def test_a_solver_that_fails_is_reported_and_left_out(disc, exact, tmp_path):

@@ -7,7 +7,7 @@ from viscorough.io.datasets import read_dataset
 from viscorough_study.ensembles.pool import select
 from viscorough_study.run.job_log import log_to
 from viscorough_study.run.tables import recorded, write_table
-from viscorough_study.verdicts.claims import COLUMNS, scale_attributes, judge, markdown
+from viscorough_study.verdicts.claims import COLUMNS, judge, markdown, scale_attributes
 from viscorough_study.verdicts.evidence import Evidence
 
 

@@ -46,4 +46,4 @@ def test_targets_beside_the_default_one(finished):
     with xr.open_dataset(finished / "results/tables/other_solvers.nc") as table:
         assert json.loads(table.attrs["machine"])["cores"] >= 1
         assert table["solver"].values.tolist() == ["viscorough"]
-    assert "is not installed: left out" in (finished / "results/logs/time_other_solvers.log").read_text()
+    assert "is not installed and is omitted" in (finished / "results/logs/time_other_solvers.log").read_text()

@@ -1,1 +1,1 @@
-"""Where methods fail, and whether users are told."""
+"""Failures of the methods, and whether they are reported."""

@@ -1,7 +1,7 @@
-"""Where each method fails: every method on every stress-test case, with its error and whether users are warned.
+"""Failure map: every method on every stress-test case, with its error and whether failures are reported.
 
-A method holds if its error is within its limit. If not, it must have refused with a reason, or warned, or, for a model,
-be outside the range that its documentation states. A failure that is none of these goes unnoticed, and is a defect.
+A method holds if its error is within its limit. Otherwise it must have refused with a reason, or warned, or, if it is a
+model, be outside its documented range. Any other failure goes unnoticed, and is a defect.
 """
 
 import logging
@@ -16,22 +16,22 @@ from viscorough_study.robustness.stress_cases import stress_cases
 from viscorough_study.robustness.stress_solutions import METHODS, reference_solution
 from viscorough_study.run.seeds import failure_map_key, realization_seed
 
-MIN_ELEMENTS = 10  # in contact, below which the grid determines the result: region (a)
+MIN_ELEMENTS = 10  # elements in contact below which the grid determines the result, region (a)
 FEW_ELEMENTS = "fewer than ten elements touch: region (a), which belongs to the grid"
 COLUMNS = {
     "group": ("kind of stress-test case", ""),
     "case": ("stress-test case", ""),
     "method": ("method", ""),
     "error": ("largest relative error of depth, or of force at given depth; 1 where there is no answer", "1"),
-    "limit": ("error up to which the method counts as holding", "1"),
+    "limit": ("largest error for which the method holds", "1"),
     "verdict": ("holds, model, stated, warned, refused, not offered or unnoticed", ""),
-    "reason": ("what users are told", ""),
+    "reason": ("messages to users", ""),
 }
 VERDICTS = ("holds", "model", "stated", "warned", "refused", "not offered", "unnoticed")
 
 
 def map_failures(*, seed, across, grids, hurst_min):
-    """`failure_map` of all stress-test cases, with a warning in the log for every failure that is unnoticed."""
+    """`failure_map` of all stress-test cases, with a warning in the log for every unnoticed failure."""
     cases = stress_cases(realization_seed(seed, *failure_map_key()), across, grids, hurst_min)
     table = failure_map(cases, report=logging.info)
     for row in unnoticed(table).itertuples():
@@ -44,7 +44,7 @@ def failure_map(cases, methods=METHODS, report=lambda text: None):
     rows, solutions = [], {}
     for case in cases:
         report(f"{case.group}: {case.name}")
-        question = (case.indenter.heights.tobytes(), case.indenter.spacing, case.fractions)  # many cases share it
+        question = (case.indenter.heights.tobytes(), case.indenter.spacing, case.fractions)  # shared by many cases
         if question not in solutions:
             solutions[question] = reference_solution(case)
         rows += [_cell(case, solutions[question], method) for method in methods]
@@ -52,17 +52,17 @@ def failure_map(cases, methods=METHODS, report=lambda text: None):
 
 
 def unnoticed(table):
-    """The rows of a failure map in which a method fails and users are not told."""
+    """Rows of a failure map in which a method fails without a message to users."""
     return table[table["verdict"] == "unnoticed"]
 
 
 def _cell(case, solution, method):
-    """The row of one method on one case."""
+    """Row of one method on one case."""
     messages, error, refused = [], 1.0, False
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", AccuracyWarning)
         try:
-            impulses(np.array(case.force), np.arange(len(case.force), dtype=float))  # refuses forces that pull
+            impulses(np.array(case.force), np.arange(len(case.force), dtype=float))  # refuses tensile forces
             ratios = method.ratios(case, solution)
             error = float(np.abs(np.nan_to_num(ratios, nan=0.0) - 1).max())
         except (ValueError, ConvergenceError, MemoryError) as reason:
@@ -84,6 +84,6 @@ def _cell(case, solution, method):
 
 
 def _stated_limits(case, solution):
-    """What the documentation of models says about a case."""
+    """Documented limits of models that apply to a case."""
     limits = [case.stated] if case.stated else []
     return limits + ([FEW_ELEMENTS] if solution.count[0] < MIN_ELEMENTS else [])

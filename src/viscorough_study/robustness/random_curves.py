@@ -18,7 +18,7 @@ from viscorough.viscous.integration.events import march_events
 from viscorough_study.robustness.random_heights import random_heights, with_random_aspect
 
 _LARGEST = 32  # elements across
-# Depths smaller than this share of the height differences have lost their digits to the rounding of the heights.
+# Fraction of the height differences below which the rounding of the heights dominates depths.
 _HEIGHT_ROUNDING = 1e-13
 # Solver options from which a case draws: the dense solver up to different sizes, the grid from the first level on.
 _OPTIONS = (DEFAULT, SolverOptions(dense_contacts=30, dense_interactions=300), SolverOptions(dense_interactions=0))
@@ -35,8 +35,8 @@ class RandomCurve:
 def random_curve(generator, with_start=None, at_forces=False):
     """A RandomCurve from a numpy Generator.
 
-    with_start : whether `start_fraction` is given; by chance by default
-    at_forces : whether levels are given by forces, and nothing else is
+    with_start : whether `start_fraction` is given; random by default
+    at_forces : whether levels are given by forces alone
     """
     heights = random_heights(generator, int(generator.integers(2, _LARGEST + 1)))
     height, length = 10.0 ** generator.uniform(-9, 9, 2) if generator.random() < 0.2 else (1.0, 1.0)
@@ -91,7 +91,7 @@ def curve_failure(case, compute=indent):
 
 
 def _error(name, places, depth, exact, tolerance, rounding):
-    """Where depths differ most from exact ones, in words, if by more than the tolerance; name : of a place."""
+    """Message on the largest error of depths if it exceeds the tolerance, otherwise ""; name : template of a place."""
     error = np.nan_to_num(np.abs(depth / exact - 1) - rounding / exact, nan=np.inf)
     worst = error.argmax()
     if error[worst] <= tolerance:

@@ -1,4 +1,4 @@
-"""Random height maps of the kinds that are most likely to break a contact solver."""
+"""Random height maps of kinds that are difficult for contact solvers."""
 
 from dataclasses import replace
 
@@ -24,14 +24,14 @@ def random_heights(generator, largest=12):
 
 
 def with_random_aspect(indenter, generator):
-    """The indenter with elements of any aspect dy/dx from 1/5 to 5 in a third of the cases, else unchanged."""
+    """The indenter with elements of a random aspect dy/dx from 1/5 to 5 in a third of the cases, else unchanged."""
     if generator.random() > 1 / 3:
         return indenter
     return replace(indenter, row_spacing=indenter.spacing * 5 ** generator.uniform(-1, 1))
 
 
 def _mask(generator, shape):
-    """Elements to be left out: scattered ones, or all beyond a circle, or a hole in the middle."""
+    """Mask of missing elements: scattered ones, all beyond a circle, or a hole in the middle."""
     row, column = _positions(generator, *shape)
     distance = np.hypot(row / shape[0], column / shape[1])
     choice, share = generator.integers(3), 0.8 * generator.random()
@@ -41,12 +41,12 @@ def _mask(generator, shape):
 
 
 def _positions(generator, rows, columns):
-    """Rows and columns, counted from a random place on the map."""
+    """Rows and columns relative to a random position on the map."""
     return np.mgrid[:rows, :columns] - np.array([rows, columns])[:, None, None] * generator.random((2, 1, 1))
 
 
 def _rough(generator, rows, columns):
-    """Heights of a self-affine disc and, in its corners, of its highest point times -1; of the given shape."""
+    """Heights of a self-affine disc, of the given shape; corners are as deep as the highest point is high."""
     heights = _rough_disc(generator, rows, columns)
     return np.nan_to_num(heights, nan=-np.nanmax(heights))[:rows, :columns]
 
@@ -77,14 +77,14 @@ def _one_spike(generator, rows, columns):
 
 
 def _terraces(generator, rows, columns):
-    """A rough surface on a few heights, in half of the cases with a little noise."""
+    """A rough surface rounded to a few heights, in half of the cases with some noise."""
     heights = _rough(generator, rows, columns)
     step = np.ptp(heights) / generator.integers(1, 7) or 1.0
     return np.floor(heights / step) * step + _noise(generator, heights.shape) * step
 
 
 def _bosses(generator, rows, columns):
-    """One to three round bosses on a plate, of equal or different heights, in half of the cases with a little noise."""
+    """One to three round bosses on a plate, of equal or different heights, in half of the cases with some noise."""
     heights = np.zeros((rows, columns))
     for _ in range(generator.integers(1, 4)):
         radius = generator.uniform(0.1, 0.5) * max(rows, columns)
@@ -94,7 +94,7 @@ def _bosses(generator, rows, columns):
 
 
 def _plateau(generator, rows, columns):
-    """A hill cut off at a height, so that many elements touch first."""
+    """A truncated hill, whose highest elements touch simultaneously."""
     hill = _hill(generator, rows, columns)
     return np.minimum(hill, np.quantile(hill, generator.random())) + _noise(generator, hill.shape) * np.ptp(hill)
 
@@ -108,14 +108,14 @@ def _comb(generator, rows, columns):
 
 
 def _quantized(generator, rows, columns):
-    """A rough surface in the steps of an instrument with few bits."""
+    """A rough surface quantized as by an instrument of low resolution."""
     heights = _rough(generator, rows, columns)
     step = np.ptp(heights) / 2.0 ** generator.integers(2, 11) or 1.0
     return np.round(heights / step) * step
 
 
 def _measured_like(generator, rows, columns):
-    """A rough surface with a tilt, noise, steps of an instrument and a few spikes."""
+    """A rough surface with tilt, noise, quantization and a few spikes."""
     heights = _rough(generator, rows, columns)
     span = np.ptp(heights) or 1.0
     row, column = _positions(generator, rows, columns)

@@ -1,4 +1,4 @@
-"""Random small indenters for detecting silent failures: solutions that claim to have converged but are wrong."""
+"""Random small indenters for detecting silent failures: solutions reported as converged that are wrong."""
 
 from dataclasses import dataclass
 
@@ -24,7 +24,7 @@ class RandomCase:
 
 
 def random_case(generator):
-    """A RandomCase: a small indenter of a random kind and scale, and random questions; from a numpy Generator."""
+    """A RandomCase from a numpy Generator: a small indenter of random kind and scale, random depths and tolerance."""
     heights = random_heights(generator)
     height, length = 10.0 ** generator.uniform(-12, 12, 2) if generator.random() < 0.3 else (1.0, 1.0)
     indenter = Indenter(height * heights, length)

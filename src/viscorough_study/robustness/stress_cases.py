@@ -1,4 +1,4 @@
-"""Stress-test cases: indenters, and what is asked of the methods that press them."""
+"""Stress-test cases: indenters and loads for every method."""
 
 from dataclasses import dataclass
 
@@ -15,17 +15,17 @@ ROLL_OFF = "the spectrum rolls off: there is no power law"
 
 @dataclass(frozen=True)
 class StressCase:
-    """An indenter, and what is asked of the methods.
+    """An indenter, its load, and the parameters of the methods.
 
-    hurst : Hurst exponent that a user would assume for the power law, and for a line with the same spectrum
+    hurst : Hurst exponent assumed for the power law, and for a line with the same spectrum
     fractions : contact fractions between which the solutions are compared
-    body : the body of revolution with a power-law profile that the indenter is, whose line is exact; or None
+    body : the indenter as a body of revolution with a power-law profile, whose line is exact; or None
     tolerance : of the elastic path; steps : number of steps of explicit marching
     force : F at equal intervals of time; constant by default
-    stated : why, according to their documentation, models do not hold for this case
-    periodic : whether the grid of the elastic path has no padding, so that periodic images of the indenter press, too
-    medium : a viscoelastic medium; None: a Newtonian one
-    medium_load : (time, force) in it, up to a factor of the force; recedes : whether contact is lost under it
+    stated : reason, in their documentation, why models do not apply to this case
+    periodic : whether the grid of the elastic path has no padding, so that periodic images of the indenter contribute
+    medium : a viscoelastic medium; None for a Newtonian one
+    medium_load : (time, force) in it, up to a factor of the force; recedes : whether the contact recedes under it
     """
 
     group: str
@@ -45,7 +45,7 @@ class StressCase:
 
 
 def stress_cases(seed, across, grids, hurst_min):
-    """Every stress-test case of the failure map, group by group.
+    """All stress-test cases of the failure map, group by group.
 
     seed : SeedSequence of the rough discs; across : elements across the maps
     grids : elements across the discs of the group that varies the grid
@@ -71,7 +71,7 @@ class _Maps:
 
     @property
     def usual(self):
-        """The disc that most cases share, and its Hurst exponent."""
+        """The disc of most cases, and its Hurst exponent."""
         return {"indenter": self.disc(0.7), "hurst": 0.7}
 
     def shape(self, function):
@@ -101,7 +101,7 @@ def _disc_cases(maps, grids, hurst_min):
 
 
 def _tied_cases(maps):
-    """Elements of exactly the same height."""
+    """Maps with many elements of exactly the same height."""
 
     def tied(name, heights, **options):
         indenter = Indenter(np.asarray(heights, dtype=float), 1.0)
@@ -138,7 +138,7 @@ def _shape_cases(maps):
 
 
 def _question_cases(maps):
-    """One rough disc: without padding, in other units, under other forces in time, and to other tolerances."""
+    """One rough disc: without padding, in extreme units, under varying forces, and with other tolerances."""
     usual, rough = maps.usual, maps.usual["indenter"]
     low = (2 / rough.elements, 20 / rough.elements)
     yield StressCase("no padding", "2 to 20 elements", **usual, fractions=low, periodic=True)
@@ -164,7 +164,7 @@ def _question_cases(maps):
 
 
 def _medium_cases(maps):
-    """Media and loads in them; times are from 0 to 1, and a time given twice is a step."""
+    """Media and loads in them; times are from 0 to 1, and a repeated time marks a step."""
     step, ramp = ((0, 1), (1, 1)), ((0, 0), (0.5, 0.4), (1, 1))
     hold, unloading = ((0, 0), (0.1, 1), (1, 1)), ((0, 0), (0.4, 1), (0.5, 0.3), (1, 0.3))
     solid = StandardLinearSolid(3.0, 1.0, 0.3)

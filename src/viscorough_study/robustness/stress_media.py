@@ -1,7 +1,7 @@
 """Solutions of a stress-test case in a viscoelastic medium: by the correspondence, and by direct integration in steps.
 
-The reference is the direct integration from contact event to contact event, exact while the contact grows; where it
-recedes, it is one in many steps. Cases without a medium are those of a Newtonian one under a constant force.
+The reference is the direct integration from contact event to contact event, exact while the contact grows; for receding
+contact it is one in many steps. Cases without a medium are those of a Newtonian one under a constant force.
 """
 
 from itertools import pairwise
@@ -38,7 +38,7 @@ def by_steps(case, solution):
 
 
 def _history(case, solution):
-    """Times from 0 to 1, with steps, and a force under which no creep exceeds the last force of the solution."""
+    """Times from 0 to 1, with steps, and a force whose elastic equivalent stays below the solution's last force."""
     times, shape = np.array(case.medium_load).T
     largest = solution.force[-1] / case.medium.creep_compliance(times[-1]) / shape.max()
     return times, 0.999 * largest * shape
@@ -53,7 +53,7 @@ def _reference(case, solution):
 
 
 def _stepped(case, solution, number):
-    """Depths at the samples of the force, with a number of steps between them, shorter ones at their start."""
+    """Depths at the samples of the force, with `number` steps between them, shorter ones first."""
     times, force = _history(case, solution)
     fine, place = [times[:1]], [0]
     for start, end in pairwise(times):
@@ -63,7 +63,7 @@ def _stepped(case, solution, number):
     fine = np.concatenate(fine)
     step = np.flatnonzero(np.diff(times) == 0)
     loads = np.interp(fine, times, force)
-    for k in step:  # interpolation takes the force after a step at its time
+    for k in step:  # np.interp returns the force after the step at both
         loads[place[k]], loads[place[k + 1]] = force[k], force[k + 1]
     return march_medium(case.indenter, case.medium, fine, force=loads).depth[place]
 

@@ -1,8 +1,8 @@
-"""Solutions of a stress-test case by every method, over the reference solution.
+"""Solutions of a stress-test case by every method, relative to the reference solution.
 
-The reference is the dense solution on the same elements, exact to rounding: forces at given depths. By the principle of
-correspondence they are also the impulses ∫F dt/η that bring an indenter to these depths in a viscous half-space.
-Elastic methods give the forces at the depths, the others the depths at the forces or impulses.
+The reference is the dense solution on the same elements, exact to rounding: forces at given depths. By the
+correspondence principle they are also the impulses ∫F dt/η at which the indenter reaches these depths in a viscous
+half-space. Elastic methods give the forces at the depths, the others the depths at the forces or impulses.
 """
 
 import warnings
@@ -25,13 +25,13 @@ from viscorough.viscous.integration.stepping import march_steps
 from viscorough_study.performance.ablations import DENSE_ONLY, GRID_ONLY, NO_PADDING
 from viscorough_study.robustness.stress_media import TOLERANCE, by_correspondence, by_steps
 
-DEPTHS = 6  # at which solutions are compared
-INTERPOLATED_FORCES = 20  # between two of them, at which interpolation between levels is compared
+DEPTHS = 6  # number of depths at which solutions are compared
+INTERPOLATED_FORCES = 20  # forces between two of these depths at which interpolated depths are compared
 REFERENCE_TOLERANCE = 1e-11
 BISECTIONS = 12  # in the search for the depth of a contact fraction
-BEYOND_FULL_CONTACT = 3.0  # times the depth of full contact
-LINE_POINTS = 2**14  # of the line that stands for a surface in the reduction of dimensionality
-LIMIT_EVENTS, LIMIT_STEPS, LIMIT_MODEL = 1e-9, 0.02, 1.0  # for one realization, a model may be off by a factor of 2
+BEYOND_FULL_CONTACT = 3.0  # factor on the depth of full contact
+LINE_POINTS = 2**14  # of lines of the reduction of dimensionality
+LIMIT_EVENTS, LIMIT_STEPS, LIMIT_MODEL = 1e-9, 0.02, 1.0  # a model may be off by a factor of 2 for one realization
 
 
 @dataclass(frozen=True)
@@ -50,8 +50,8 @@ class Solution:
 class StressedMethod:
     """A method; `ratios(case, solution)` are its depths or forces over those of the reference solution.
 
-    limit : largest error with which the method counts as holding, a function of the case
-    model : whether it is a model, which is not meant to be exact
+    limit : largest error for which the method holds, as a function of the case
+    model : whether the method is a model, which is not exact
     """
 
     name: str
@@ -76,7 +76,7 @@ def reference_solution(case):
 
 
 def _depth_of_fraction(solver, fraction, low):
-    """Reduced depth above `low` at which a contact fraction is reached: doubled until it is, then by bisection."""
+    """Reduced depth above `low` at which a contact fraction is reached, by doubling and bisection."""
     contact, gap = solver.unloaded_state(), solver.elements.initial_gap
     high = max(2 * low, gap[gap > 0][0] if gap[-1] > 0 else 1.0)
     while (deeper := solver.advance_reduced(contact, high)).count < fraction * solver.elements.count:
@@ -106,9 +106,9 @@ def _path_on_grid(precision, case, solution):
 
 
 def _interpolated(case, solution):
-    """Depths interpolated between levels that the path places itself: for every depth, the worst up to there."""
+    """Depths interpolated between automatic levels: for every depth, the largest error since the previous one."""
     curve = indent(case.indenter, tolerance=case.tolerance, until_fraction=1.0, until_force=solution.force[-1])
-    kinetics(curve, 1.0, 1.0, solution.force[:1])  # refuses what lies beyond the last level
+    kinetics(curve, 1.0, 1.0, solution.force[:1])  # refuses forces beyond the last level
     ends = np.minimum(solution.force, curve.force[-1])
     starts = np.append(ends[0], ends[:-1])
     force = starts[:, None] * (ends / starts)[:, None] ** np.linspace(0, 1, INTERPOLATED_FORCES)
@@ -128,7 +128,7 @@ def _events(case, solution):
 
 
 def _steps(case, solution):
-    """Depths by explicit steps: as many as the case says, in time, or for a constant force in equal ratios."""
+    """Depths by the case's number of explicit steps: uniform in time, or in equal ratios for a constant force."""
     ends = []
     if case.steps > 1 and min(case.force) == max(case.force):
         ends = np.geomspace(solution.force[0] / case.steps, solution.force[-1], case.steps)
@@ -170,14 +170,14 @@ def _power_law(gamma, case, solution):
     return rms * reference.depth_law(x, zeta, alpha, gamma=gamma) / solution.depth
 
 
-def _limit_of_path(case):
+def _path_limit(case):
     return 10 * case.tolerance
 
 
 METHODS = (
-    StressedMethod("path, dense", partial(_path, DENSE_ONLY), _limit_of_path),
-    StressedMethod("path, grid, double", partial(_path_on_grid, "double"), _limit_of_path),
-    StressedMethod("path, grid, single", partial(_path_on_grid, "single"), _limit_of_path),
+    StressedMethod("path, dense", partial(_path, DENSE_ONLY), _path_limit),
+    StressedMethod("path, grid, double", partial(_path_on_grid, "double"), _path_limit),
+    StressedMethod("path, grid, single", partial(_path_on_grid, "single"), _path_limit),
     StressedMethod("path, interpolated", _interpolated, lambda case: max(case.tolerance, FINEST_ACCURACY)),
     StressedMethod("events", _events, lambda case: LIMIT_EVENTS),
     StressedMethod("explicit steps", _steps, lambda case: LIMIT_STEPS),

@@ -1,4 +1,4 @@
-"""What scripts that serve many rules are told by name: functions, and the files that these take."""
+"""Functions by name, and their input files, for scripts that serve many rules."""
 
 from importlib import import_module
 
@@ -17,8 +17,8 @@ def named(name):
 def read_input(path):
     """The table of a CSV file, or the dataset of a NetCDF file.
 
-    path : or a list of them, of which the tables or the Contents (viscorough.io.netcdf) are read one after the other
+    path : or a list of paths, for an iterator over their tables or Contents (viscorough.io.netcdf)
     """
     if isinstance(path, str):
         return pd.read_csv(path) if path.endswith(".csv") else read_dataset(path)
-    return (pd.read_csv(one) if one.endswith(".csv") else netcdf.read(one) for one in path)
+    return (pd.read_csv(file) if file.endswith(".csv") else netcdf.read(file) for file in path)

@@ -8,16 +8,16 @@ from viscorough.errors import ConvergenceError
 
 
 def log_to(path):
-    """Log to a file, replacing it, and to stderr: messages, warnings and whatever ends the script early.
+    """Log messages, warnings and uncaught exceptions to a file, which is replaced, and to stderr.
 
-    The traceback of an uncaught exception goes to both; that of a ValueError or ConvergenceError, whose
-    message says what is wrong, only to the file: stderr gets the message. An interrupt has none.
+    The traceback of an uncaught exception goes to both, except that of a ValueError or ConvergenceError, whose message
+    suffices on stderr, and goes only to the file. An interrupt has none.
     """
     in_file, on_stderr = logging.FileHandler(path, mode="w", encoding="utf-8"), logging.StreamHandler()
     form = {"format": "%(asctime)s %(levelname)s %(message)s", "datefmt": "%Y-%m-%d %H:%M:%S"}
     logging.basicConfig(level=logging.INFO, handlers=[in_file, on_stderr], force=True, **form)
     logging.captureWarnings(True)
-    logging.getLogger("fontTools").setLevel(logging.WARNING)  # else a figure's fonts fill pages
+    logging.getLogger("fontTools").setLevel(logging.WARNING)  # it logs every font of a figure
 
     def report(kind, error, trace):
         if issubclass(kind, KeyboardInterrupt):
@@ -34,7 +34,7 @@ def log_to(path):
 
 
 class _LogStream:
-    """What tqdm writes, as lines of the log."""
+    """Stream that turns the output of tqdm into lines of the log."""
 
     def write(self, text):
         if line := text.strip():
@@ -45,7 +45,7 @@ class _LogStream:
 
 
 def progress(iterable, total, description):
-    """The iterable; every 5 s of going through it, how far it is and how long it will take is logged."""
+    """The iterable; its progress and remaining time are logged every 5 s of the iteration."""
     from tqdm import tqdm
 
     return tqdm(

@@ -1,13 +1,13 @@
-"""Compile the functions that numba compiles, once, before many processes need them.
+"""Compile all numba functions once, before many processes need them.
 
     python -m viscorough_study.run.kernels
 
-Processes that compile into numba's cache at the same time do the same work several times, and can crash.
+Processes that compile into numba's cache at the same time repeat the work, and can crash.
 """
 
 
 def compile_kernels():
-    """Run what compiles all functions of the loading path, of the lines and of the direct integration.
+    """Compile all functions of the loading path, of the lines and of the direct integration, by running them.
 
     The disc is large enough for the preconditioner to use coarse grids.
     """

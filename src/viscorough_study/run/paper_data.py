@@ -1,4 +1,4 @@
-"""What the paper says, as data: the laws, numbers and claims in resources/paper of the project."""
+"""Laws, numbers and claims of the paper, as data in resources/paper of the project."""
 
 from pathlib import Path
 

@@ -24,9 +24,9 @@ PACKAGES = ("viscorough", "numpy", "scipy", "numba", "ducc0", "xarray", "netCDF4
 def rule_costs(folder):
     """Time and memory of every rule, most expensive first; a pandas.DataFrame with the columns of `COLUMNS`.
 
-    folder : of benchmark files, <rule>.tsv or <rule>/<job>.tsv, each written when its job ended; without any, the table
-        has no rows
-    Raises ValueError for a file that is damaged.
+    folder : of benchmark files, <rule>.tsv or <rule>/<job>.tsv, each written at the end of its job; without files the
+        table has no rows
+    Raises ValueError for a damaged file.
     """
     paths = sorted(Path(folder).rglob("*.tsv"))
     jobs = pd.DataFrame([_time_and_memory(path) for path in paths], columns=["s", "memory"])
@@ -44,10 +44,10 @@ def rule_costs(folder):
 
 
 def _shares(ends, seconds):
-    """Share of each job in the time during which any job ran [s]: at every moment, those that run share equally.
+    """Share of each job in the time during which any job ran [s], divided equally among simultaneous jobs.
 
-    Where files were copied without their times, the jobs seem to have run all at once; then the shares sum up to the
-    time of all jobs over the number of cores, as they always do at least.
+    The shares add up to at least the time of all jobs over the number of cores, also where files were copied without
+    their times, so that the jobs appear to have run at the same time.
     """
     starts, shares = ends - seconds, np.zeros(len(ends))
     moments = np.unique([*starts, *ends])
@@ -58,14 +58,14 @@ def _shares(ends, seconds):
 
 
 def duration_text(seconds):
-    """A time such as "50 seconds", "5.5 minutes", "3.1 hours"."""
+    """A duration as text, such as "50 seconds", "5.5 minutes", "3.1 hours"."""
     if seconds < 100:
         return f"{seconds:.0f} seconds"
     return f"{seconds / 60:.1f} minutes" if seconds < 6000 else f"{seconds / 3600:.1f} hours"
 
 
 def versions():
-    """{package: version} of Python and of what computes, stores and draws."""
+    """{package: version} of Python and of the packages that compute, store and draw."""
     return {"Python": platform.python_version()} | {name: version(name) for name in PACKAGES}
 
 

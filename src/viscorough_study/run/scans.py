@@ -14,7 +14,7 @@ def scans(entries):
     entries : the setting `measured`; its patterns are relative to the working directory
     A scan is named after its group and file. Raises SettingsError if a pattern matches no file, or two names agree.
     """
-    found = {}
+    result = {}
     for entry in entries:
         for pattern in entry["files"]:
             matching = map(Path, glob(pattern, recursive=True, include_hidden=True))
@@ -25,17 +25,17 @@ def scans(entries):
                 )
             for file in files:
                 name = f"{entry['name']}_{re.sub('[^A-Za-z0-9]+', '_', Path(file).stem).strip('_')}"
-                if name in found and found[name]["file"] != file:
-                    both = f"{found[name]['file']} and {file}"
+                if name in result and result[name]["file"] != file:
+                    both = f"{result[name]['file']} and {file}"
                     raise SettingsError(f"measured: {both} have the same name {name}; allowed: different names")
                 shared = {"spacing": entry.get("spacing", []), "unit": entry.get("unit")}
                 shared |= {"preparation": entry.get("preparation", {}), "forces": entry.get("forces", [])}
-                found[name] = shared | _content(file) | {"group": entry["name"], "file": file}
-    return found
+                result[name] = shared | _content(file) | {"group": entry["name"], "file": file}
+    return result
 
 
 def _content(file):
-    """Size and digest of a file, so that a scan is indented again only if its content changes."""
+    """Size and digest of a file, so that a scan is recomputed only if its content changes."""
     with open(file, "rb") as opened:
         digest = hashlib.file_digest(opened, "sha256").hexdigest()[:16]
     return {"digest": digest, "bytes": Path(file).stat().st_size}

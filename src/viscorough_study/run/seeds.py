@@ -1,13 +1,13 @@
-"""The registry of random streams: which key of `numpy.random.SeedSequence` belongs to which part of the study.
+"""Registry of random streams: the keys of `numpy.random.SeedSequence` for all parts of the study.
 
-A seed is a root, the setting `seed`, and a spawn key that begins with the number of its stream. Keys are built from
-what a realization is (Hurst exponent, grid, combination), never from its position in a list, so that its random
-numbers do not depend on which others are computed, in which order, or on how many cores. The numbers of the streams
-are part of every published result: do not change them, and give a new stream a new one.
+A seed consists of a root, the setting `seed`, and a spawn key that begins with the number of its stream. Keys are built
+from properties of a realization (Hurst exponent, grid, combination), never from its position in a list, so that its
+random numbers do not depend on which others are computed, in which order, or on how many cores. The numbers of the
+streams are part of every published result: do not change them, and give a new stream a new number.
 
-Three things draw from a root without a stream. The bootstrap of the fits and the disc of the level-placement scenes
-use the root itself (`ROOT_KEY`); the random indenters of the stability campaign have keys that are the number of the
-case alone (`random_indenter_key`), under a root of that campaign.
+Three parts use a root without a stream. The bootstrap of the fits and the disc of the level-placement scenes use the
+root itself (`ROOT_KEY`); the keys of random indenters of the stability campaign are the number of the case alone
+(`random_indenter_key`), under a root of that campaign.
 """
 
 import zlib
@@ -52,7 +52,7 @@ def failure_map_key():
     return _key(6)
 
 
-# 7 was the stream of a table which is no longer made; no other one may have it.
+# Stream 7 belonged to a table that no longer exists; it must not be reused.
 
 
 def size_disc_key(hurst, elements):
@@ -66,7 +66,7 @@ def size_line_key(hurst, points):
 
 
 def large_disc_key(elements):
-    """The disc on which cost is measured up to the finest grids; elements : across it."""
+    """Disc for the cost on grids up to the finest; elements : across it."""
     return _key(10, elements)
 
 
@@ -100,5 +100,5 @@ def _millionths(hurst):
 
 
 def _key(*numbers):
-    """Plain integers, which settings, file attributes and Snakemake's parameters can hold."""
+    """Plain integers, suitable for settings, file attributes and Snakemake's parameters."""
     return tuple(int(number) for number in numbers)

@@ -1,7 +1,7 @@
-"""The check of the settings, by their schema and against each other: one line for the first error.
+"""Validation of the settings, by their schema and against each other: one line for the first error.
 
-Beside the keywords of JSON schemas, the schema has `eachOnce`, of a list whose entries differ, or, with the name of a
-key, whose mappings differ in that key; and `decimals`, the most that a number may have, so that different Hurst
+In addition to the keywords of JSON schemas, the schema has `eachOnce` for lists of distinct entries, or, with the name
+of a key, of mappings distinct in that key; and `decimals`, the largest number of decimals, so that different Hurst
 exponents have different file names.
 """
 
@@ -32,7 +32,7 @@ _BOUNDS = {
 
 
 class SettingsError(ValueError):
-    """A setting that is not allowed; the message is one line that names key, value and what is allowed."""
+    """An invalid setting; the message is one line with key, value and allowed values."""
 
 
 def check_settings(settings, schema):
@@ -98,7 +98,7 @@ def _schema_complaint(error):
 
 
 def _allowed(rule):
-    """What a schema allows, in words."""
+    """Values that a schema allows, as text."""
     types = rule.get("type", [])
     words = " or ".join(_KINDS[kind] for kind in ([types] if isinstance(types, str) else types))
     words += f"one of {', '.join(rule['enum'])}" if "enum" in rule else ""
@@ -107,7 +107,7 @@ def _allowed(rule):
     return f"{words} ({rule['description']})"
 
 
-# ---- against each other: one line on settings that are allowed one by one but not together
+# ---- against each other: one line on settings that are valid separately but not together
 
 
 def _disc_without_line(settings):
@@ -117,10 +117,10 @@ def _disc_without_line(settings):
 
 
 def _unlike_lengths(settings):
-    for one in settings["discs"]["combinations"]:
-        if not one["diameter"] * 1e-12 <= one["rms"] < one["diameter"] / 100:
-            where = f"combination {one['number']} of discs.combinations"
-            yield f"rms {one['rms']} in {where} is out of range; allowed: below diameter/100, from 1e-12 of it"
+    for combination in settings["discs"]["combinations"]:
+        if not combination["diameter"] * 1e-12 <= combination["rms"] < combination["diameter"] / 100:
+            where = f"combination {combination['number']} of discs.combinations"
+            yield f"rms {combination['rms']} in {where} is out of range; allowed: below diameter/100, from 1e-12 of it"
 
 
 def _decreasing_task(settings):

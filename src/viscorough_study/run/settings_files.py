@@ -1,9 +1,9 @@
-"""Files of settings: one line with file and line for what cannot be read.
+"""Reading of settings files, with errors in one line that name file and line.
 
     python -m viscorough_study.run.settings_files mine.yaml
 
-tells whether files can be read. Snakemake itself reads the files given with --configfile before it reads the
-Snakefile, and names neither file nor line.
+checks that files can be read. Snakemake itself reads the files given with --configfile before it reads the Snakefile,
+and its errors name neither file nor line.
 """
 
 import sys
@@ -17,7 +17,7 @@ from viscorough_study.run.settings import SettingsError
 
 
 def read_settings_file(path):
-    """The mapping in a file; raises SettingsError with one line, which names the file and, if it can, the line."""
+    """The mapping in a file. Raises SettingsError with one line that names the file and, where possible, the line."""
     try:
         check_readable(path)
     except ValueError as error:
@@ -37,7 +37,7 @@ def read_settings_file(path):
 
 
 def _place(error):
-    """Where the YAML is broken, and why."""
+    """Position and reason of an error in YAML, as text."""
     mark = getattr(error, "problem_mark", None)
     why = " ".join(str(getattr(error, "problem", None) or getattr(error, "reason", "")).split())
     return (f", line {mark.line + 1}, column {mark.column + 1}" if mark else "") + (f": {why}" if why else "")

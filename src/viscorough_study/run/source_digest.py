@@ -1,13 +1,13 @@
-"""Digests of the source code that a rule runs, so that an edit reruns exactly the rules that use what was edited.
+"""Digests of the source code of rules, so that an edit reruns exactly the rules that use the edited code.
 
-Snakemake compares the parameters of a rule with those of its last run, but does not look into the modules that a script
+Snakemake compares the parameters of a rule with those of its last run, but ignores changes of the modules that a script
 imports. A digest of them as a parameter closes this gap. It covers the script and all modules of our packages that it
-imports, directly or through other modules, inside functions as well. It is computed from syntax trees without
+imports, directly or through other modules, including imports inside functions. It is computed from syntax trees without
 docstrings, so that wording, comments and layout change no digest. The syntax tree, and with it the digest, may differ
 between versions of Python.
 
-What is imported only through names computed at run time is not seen. So of a name that is imported from a package
-itself, which may look it up when it is first used, all modules of the package count.
+Imports by names computed at run time are not followed. A name imported from a package itself, which may be looked up
+lazily, therefore counts as an import of all modules of the package.
 """
 
 import ast
@@ -19,9 +19,9 @@ _WITH_DOCSTRING = (ast.Module, ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassD
 
 
 class SourceDigests:
-    """Digests of scripts; each module is read once.
+    """Digests of scripts; modules are read once.
 
-    folder : that of the packages
+    folder : of the packages
     """
 
     def __init__(self, folder):
@@ -29,9 +29,9 @@ class SourceDigests:
         self._modules = {}
 
     def digest(self, script, *functions):
-        """Sixteen hexadecimal digits for a script and for the modules that it uses.
+        """Sixteen hexadecimal digits for a script and the modules that it uses.
 
-        functions : dotted names of those that it imports by a name that is only known when it runs
+        functions : dotted names of functions that the script imports by name at run time
         """
         lines = []
         for path in self.used_files(script, *functions):

@@ -1,8 +1,8 @@
-"""Locks of Snakemake that killed runs left behind, which would stop the next run.
+"""Removal of stale locks of Snakemake, which killed runs leave behind and which would block the next run.
 
-Snakemake writes no process number into its locks. So every Snakemake in a folder also holds a shared lock of the
-operating system, which ends with its process however that ends. A process that gets that lock exclusively is
-alone, and all locks of Snakemake that it finds belong to runs that were killed.
+Snakemake writes no process number into its locks. Every Snakemake in a folder therefore also holds a shared lock of the
+operating system, which is released whenever its process ends. A process that obtains this lock exclusively is alone,
+and all locks of Snakemake that it finds belong to killed runs.
 """
 
 import fcntl
@@ -14,10 +14,10 @@ REMOVED = "The last run in this folder was killed: its lock is removed, its resu
 
 
 def remove_stale_locks(folder=".snakemake"):
-    """Remove Snakemake's locks from its folder unless another Snakemake is alive in it.
+    """Remove Snakemake's locks from its folder unless another Snakemake is running in it.
 
-    Returns the descriptor of an open file, which marks this process as alive until it ends. Returns None where the
-    folder cannot be written or its file system knows no such locks: there, Snakemake says what to do about its locks.
+    Returns the descriptor of an open file, which marks this process as running until it ends, or None if the folder
+    cannot be written or its file system has no such locks; Snakemake's own message on its locks then applies.
     """
     folder = Path(folder)
     try:
@@ -26,7 +26,7 @@ def remove_stale_locks(folder=".snakemake"):
         try:
             fcntl.flock(alive, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            pass  # another Snakemake is alive
+            pass  # another Snakemake is running
         else:
             _remove(folder / "locks")
         fcntl.flock(alive, fcntl.LOCK_SH)

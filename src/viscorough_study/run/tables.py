@@ -16,7 +16,7 @@ def write_table(table, csv_path, nc_path, *, columns, dimension, title, attribut
     columns : {column: (long_name, units)} for exactly the columns of the table; text has no units
     dimension : name of the rows in the NetCDF file; attributes : its further global attributes
 
-    Floats in the CSV have as many digits as reading them back exactly takes; missing values are empty there.
+    Floats in the CSV have as many digits as needed to read them back exactly; missing values are empty.
     Raises ValueError if columns and table differ.
     """
     if differing := sorted(set(columns) ^ set(table.columns)):
@@ -24,7 +24,7 @@ def write_table(table, csv_path, nc_path, *, columns, dimension, title, attribut
     ds = xr.Dataset(attrs={"title": title} | (attributes or {}))
     for name, (long_name, units) in columns.items():
         values, attributes = table[name].to_numpy(), {"long_name": long_name, "units": units}
-        if not values.size:  # a table without rows does not tell what its columns hold
+        if not values.size:  # the types of empty columns are unspecified
             values = values.astype(float if units else str)
         if values.dtype.kind not in "biuf":
             values, attributes = values.astype(str), {"long_name": long_name}
@@ -44,14 +44,14 @@ def write_json(content, path):
 
 
 def recorded(**mappings):
-    """Attributes for write_table that record mappings as JSON, such as settings, machine; see `read_recorded`."""
+    """Attributes for write_table that record mappings as JSON, such as settings and machine; see `read_recorded`."""
     return {name: json.dumps(mapping) for name, mapping in mappings.items()}
 
 
 def read_recorded(nc_path, name, missing=None):
-    """A mapping that is recorded as an attribute of a NetCDF file, of a table or of an ensemble.
+    """Mapping recorded as an attribute of a NetCDF file, of a table or of an ensemble.
 
-    missing : returned if the file has no such attribute; without it, that raises a ValueError
+    missing : returned if the file has no such attribute; if it is None, that raises a ValueError
     """
     with opened(nc_path) as file:
         if name in file.ncattrs():

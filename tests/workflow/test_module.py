@@ -1,4 +1,8 @@
-"""The workflow as a module of another one."""
+"""The workflow as a module of another one, and beside a library that was installed without the study."""
+
+import os
+import subprocess
+import sys
 
 from support.workflow import ROOT, jobs, snakemake
 
@@ -18,3 +22,27 @@ def test_another_workflow_makes_a_figure_with_settings_of_its_own(tmp_path):
     assert planned["rough_indent_surfaces"] == 2 * 2 + 2
     snakemake(tmp_path, "--", "rough_figure_1")
     assert (tmp_path / "results/figures/fig1_surfaces.png").stat().st_size > 5000
+
+
+def test_the_study_comes_from_the_checkout_of_the_workflow(tmp_path):
+    """In a process that finds the library elsewhere, and no study, rules and jobs take both from the checkout."""
+    (tmp_path / "site").mkdir()
+    (tmp_path / "site/viscorough").symlink_to(ROOT / "src/viscorough")
+    (tmp_path / "Snakefile").write_text(
+        f'include: "{ROOT}/workflow/rules/common.smk"\nimport viscorough\n'
+        'print(os.environ["PYTHONPATH"], viscorough.__file__, cases.__file__, sep="\\n")\n'
+        "rule all:\n    shell: 'true'\n"
+    )
+    script = """
+import os, sys
+sys.path[:] = [path for path in sys.path if not os.path.isdir(os.path.join(path, "viscorough_study"))]
+from snakemake.cli import main
+main(["--dry-run", "--quiet"])
+"""
+    environment = os.environ | {"PYTHONPATH": str(tmp_path / "site")}
+    done = subprocess.run(
+        [sys.executable, "-c", script], cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
+    )
+    source = ROOT / "src"
+    expected = [f"{source}{os.pathsep}{tmp_path / 'site'}", f"{source}/viscorough/__init__.py"]
+    assert done.stdout.splitlines()[:3] == [*expected, f"{source}/viscorough_study/run/cases.py"], done.stderr

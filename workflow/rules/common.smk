@@ -13,6 +13,19 @@ from pathlib import Path
 import yaml
 from snakemake.utils import update_config
 
+
+def path_of(source):
+    """Path of a file or folder as Snakemake knows it."""
+    return Path(str(source.get_path_or_uri(secret_free=False)))
+
+
+# Of this file, not of a workflow that uses this one as a module.
+WORKFLOW = path_of(workflow.current_basedir).parent
+PROJECT = WORKFLOW.parent
+if importlib.util.find_spec("viscorough_study") is None:  # an installed library comes without the study
+    sys.path.insert(0, str(PROJECT / "src"))
+    os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [sys.path[0], os.environ.get("PYTHONPATH")]))  # of jobs
+
 from viscorough.io.atomic import atomic_write
 from viscorough_study.run import cases
 from viscorough_study.run.paper_data import number, read_paper
@@ -37,14 +50,6 @@ if workflow.is_main_process:  # not one of its jobs
     remove_stale_locks()
 
 
-def path_of(source):
-    """Path of a file or folder as Snakemake knows it."""
-    return Path(str(source.get_path_or_uri(secret_free=False)))
-
-
-# Of this file, not of a workflow that uses this one as a module.
-WORKFLOW = path_of(workflow.current_basedir).parent
-PROJECT = WORKFLOW.parent
 SOURCES = SourceDigests(Path(importlib.util.find_spec("viscorough").origin).parents[1])
 
 

@@ -23,12 +23,15 @@ def test_codemeta_agrees_with_citation_and_package():
     assert len(codemeta["referencePublication"]) == len(citation["references"])
     for article, cited in zip(codemeta["referencePublication"], citation["references"], strict=True):
         assert article["name"] == cited["title"]
+        assert article["@id"] == f"https://doi.org/{cited['doi']}"
         names = [(author["familyName"], author["givenName"]) for author in article["author"]]
         assert names == [(author["family-names"], author["given-names"]) for author in cited["authors"]]
 
 
 def test_workflow_catalog():
-    """The catalog asks for config/README.md, and shows what the workflow supports."""
+    """It lists what has the two words in its README, and shows how to deploy what has these places and this file."""
+    assert {"snakemake", "workflow"} <= set((ROOT / "README.md").read_text().lower().split())
+    assert (ROOT / "workflow/Snakefile").exists()
     usage = yaml.safe_load((ROOT / ".snakemake-workflow-catalog.yml").read_text())["usage"]
     assert (ROOT / "config/README.md").exists()
     rules = "".join(path.read_text() for path in (ROOT / "workflow/rules").glob("*.smk"))

@@ -41,6 +41,7 @@ _MODULE_OF = {
     "march_medium_events": "viscous.integration.internal_variable_events",
     "march_steps": "viscous.integration.stepping",
     "penetration_law": "calibrated_law",
+    "plot": "plotting",
     "prepare": "preparation",
     "pressure_at": "viscous.pressures",
     "read_force_history": "io.motion",

@@ -22,6 +22,7 @@ from viscorough.loading_curve import LoadingCurve as LoadingCurve
 from viscorough.mdr import line_of_map as line_of_map
 from viscorough.mdr import line_of_surface as line_of_surface
 from viscorough.mdr import reduce as reduce
+from viscorough.plotting import plot as plot
 from viscorough.preparation import prepare as prepare
 from viscorough.sum_rules import audit as audit
 from viscorough.sum_rules import complete_contact as complete_contact

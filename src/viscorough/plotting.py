@@ -4,6 +4,7 @@ The only module of the library that imports matplotlib, which is not needed for 
 """
 
 import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -15,16 +16,24 @@ from matplotlib.ticker import LogLocator, NullFormatter
 from numpy.typing import NDArray
 
 from viscorough import units
+from viscorough.contact_maps import Contact
+from viscorough.indenter import Indenter
 from viscorough.io.atomic import atomic_write
-from viscorough.io.curves import STORED, curve_from_content, unstack_curves
+from viscorough.io.contacts import contacts_to_content
+from viscorough.io.curves import STORED, curve_from_content, curve_to_content, unstack_curves
+from viscorough.io.motion import kinetics_to_content
 from viscorough.io.netcdf import Content, Variable
+from viscorough.io.surfaces import surface_to_content
+from viscorough.loading_curve import LoadingCurve
 from viscorough.types import Array, FilePath
+from viscorough.viscous.correspondence import Kinetics
 
 Variables = dict[str, Variable]
 FORMATS = (".png", ".pdf", ".svg")
 _BLUE, _VERMILION = "#0072b2", "#d55e00"  # of Okabe and Ito, which can be told apart with any colour vision
 _FEW = 40  # points below which a curve has markers
 _FEW_DECADES = 80  # ratio of the ends of a logarithmic axis
+_PERCENTILE = 99  # of the pressures in contact, at which their colours end: a single element may have far more
 _MOST_MAPS = 4  # contacts of one file that are drawn
 _STYLE: dict[Any, Any] = {
     "font.size": 8,
@@ -47,31 +56,59 @@ _STATE = {"depth": "$u$", "force": "$F/G$", "normal_force": "$F$", "largest_norm
 _STATE |= {"contact_fraction": "contact fraction", "patches": "patches"}
 
 
-def plot(content: Content, path: FilePath) -> None:
-    """Draw what an io.netcdf.Content holds and write it, atomically, in the format of the suffix: .png, .pdf or .svg.
+def plot(result: Content | LoadingCurve | Kinetics | Contact | Indenter, path: FilePath | None = None) -> Figure:
+    """Draw a result: the heights of an Indenter, the fields of a Contact, a LoadingCurve, or Kinetics.
 
-    The same content gives the same bytes. Raises ValueError for another suffix, and for a content that is no surface,
-    no fields of a contact, no loading curve and no motion.
+    result : one of these, or the io.netcdf.Content of a file
+    path : .png, .pdf or .svg to write, atomically; the same result gives the same bytes. By default nothing is written
+
+    Returns the matplotlib Figure. Needs matplotlib: pip install "viscorough[plot]". Maps have the first row at the top
+    and the coordinates of the file, or count from the centre; colours of pressures end at their 99th percentile.
+    Raises ValueError for another suffix, and for a content that is none of these.
+
+    >>> import viscorough
+    >>> disc = viscorough.self_affine_disc(0.8, 17, rms=1e-6, diameter=1e-4, seed=1)
+    >>> figure = viscorough.plot(viscorough.indent(disc))
+    >>> [axes.get_title() for axes in figure.axes]
+    ['force', 'stiffness', 'contact fraction']
     """
-    suffix = Path(path).suffix.lower()
-    if suffix not in FORMATS:
+    suffix = "" if path is None else Path(path).suffix.lower()
+    if path is not None and suffix not in FORMATS:
         raise ValueError(f"{path}: unknown kind of figure; allowed: {', '.join(FORMATS)}")
     with mpl.rc_context(_STYLE):
-        figure = figure_of(content)
-        dates = {".png": {}, ".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
-        with atomic_write(path) as temporary:
-            figure.savefig(temporary, format=suffix[1:], metadata=dates[suffix])
+        figure = figure_of(_content_of(result))
+        if path is not None:
+            dates: dict[str, Any] = {".png": {}, ".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
+            with atomic_write(path) as temporary:
+                figure.savefig(temporary, format=suffix[1:], metadata=dates[suffix])
+    return figure
+
+
+def _content_of(result: Content | LoadingCurve | Kinetics | Contact | Indenter) -> Content:
+    if isinstance(result, LoadingCurve):
+        return curve_to_content(result)
+    if isinstance(result, Kinetics):
+        return kinetics_to_content(result, np.nan, result.length_unit)
+    if isinstance(result, Contact):
+        return contacts_to_content([result], np.where(np.isnan(result.pressure), np.nan, 0.0))
+    return surface_to_content(result) if isinstance(result, Indenter) else result
 
 
 def figure_of(content: Content) -> Figure:
     """The matplotlib Figure of a Content; its kind follows from names and dimensions. Raises ValueError as `plot`."""
+    draw, numbers = kind_of(content)
+    return draw(numbers)
+
+
+def kind_of(content: Content) -> tuple[Callable[[Variables], Figure], Variables]:
+    """The function that draws a Content, and its numbers. Raises ValueError as `plot`."""
     if set(STORED) <= set(content.variables):  # of a loading curve, also in files of motions that follow from one
         (unstack_curves if "levels" in content.variables else curve_from_content)(content)
     numbers = {name: v for name, v in content.variables.items() if v.values.dtype.kind in "iuf" and v.values.size}
     for draw, names, dimensions in _KINDS:
         together = set(names) <= set(numbers) and len({numbers[name].dimensions for name in names}) == 1
         if together and numbers[names[0]].values.ndim in dimensions:
-            return draw(numbers)
+            return draw, numbers
     raise ValueError(
         "no surface, fields of a contact, loading curve or motion in it; a file that viscorough wrote is needed"
     )
@@ -85,7 +122,7 @@ def _surface(variables: Variables) -> Figure:
     if values.ndim == 1:
         figure, (axes,) = _panels(1)
         axes.plot(_positions(variables, x, values.size)[0], values, color=_BLUE, linewidth=0.6)
-        _label(axes, _axis_label(variables, x), _label_of(variables, "heights"))
+        _label(axes, _axis_label(variables, x), _label_of(variables, "heights"), "heights")
         return figure
     variables = _in_readable_units(variables)
     figure, (axes,) = _panels(1, width=4.6, height=3.8)
@@ -145,14 +182,19 @@ def _map(figure: Figure, axes: Axes, variables: Variables, name: str, values: Ar
     for dimension, points in ((x, values.shape[1]), (y, values.shape[0])):
         position, step = _positions(variables, dimension, points)
         extent += [position[0] - step / 2, position[-1] + step / 2]
-    look: dict[str, Any] = {"extent": extent, "cmap": _COLOURS[name]}
+    left, right, top, bottom = extent  # the first row is at the top
+    look: dict[str, Any] = {"extent": [left, right, bottom, top], "cmap": _COLOURS[name]}
+    label = _label_of(variables, name)
     if name == "contact":
         look |= {"vmin": 0, "vmax": 1}
-    image = axes.imshow(values, origin="lower", **look)
+    if name == "pressure" and (values > 0).any():
+        look["vmax"] = np.percentile(values[values > 0], _PERCENTILE)
+        label += f", colours up to the {_PERCENTILE}th percentile"
+    image = axes.imshow(values, origin="upper", **look)
     axes.set_facecolor("0.85")
     if name != "contact":
-        figure.colorbar(image, ax=axes, label=_label_of(variables, name), shrink=0.85)
-    _label(axes, _axis_label(variables, x), _axis_label(variables, y))
+        figure.colorbar(image, ax=axes, label=label, shrink=0.85, extend="max" if name == "pressure" else "neither")
+    _label(axes, _axis_label(variables, x), _axis_label(variables, y), name)
 
 
 def _positions(variables: Variables, dimension: str, points: int) -> tuple[NDArray[Any], float]:
@@ -192,7 +234,7 @@ def _motion(variables: Variables) -> Figure:
                 raise ValueError(f"{name} and its interval have different units; one is needed")
             panel.fill_between(time, ends[0].values, ends[1].values, color=_BLUE, alpha=0.25, linewidth=0)
         _curve(panel, time, variables[name].values)
-        _label(panel, _label_of(variables, "time"), _label_of(variables, name))
+        _label(panel, _label_of(variables, "time"), _label_of(variables, name), name)
     return figure
 
 
@@ -204,7 +246,7 @@ def _loading_curve(variables: Variables) -> Figure:
     for panel, (x, y) in zip(axes, pairs, strict=True):
         for along, over in zip(*(np.atleast_2d(variables[name].values) for name in (x, y)), strict=True):
             _curve(panel, along, over, thin=dimensions == 2)
-        _label(panel, _label_of(variables, x), _label_of(variables, y))
+        _label(panel, _label_of(variables, x), _label_of(variables, y), y)
     return figure
 
 
@@ -222,8 +264,9 @@ def _curve(axes: Axes, x: Array, y: Array, thin: bool = False) -> None:
     axes.plot(x[shown], y[shown], color=_BLUE, **look)
 
 
-def _label(axes: Axes, x: str, y: str) -> None:
-    axes.set(xlabel=x, ylabel=y)
+def _label(axes: Axes, x: str, y: str, name: str) -> None:
+    """Labels of the axes, and the name of what is drawn as the title."""
+    axes.set(xlabel=x, ylabel=y, title=name.replace("_", " "))
     for axis in (axes.xaxis, axes.yaxis):
         low, high = axis.get_view_interval()
         if axis.get_scale() == "log" and 0 < high < _FEW_DECADES * low:  # ticks at decades alone would be too few

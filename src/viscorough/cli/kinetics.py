@@ -33,7 +33,7 @@ _EXACT = "exact for every topography, without 1/Gamma(2 - alpha)"
 @force_history_option
 @click.option("--viscosity", type=QuantityOption("Pa s"), help="Shear viscosity of a Newtonian half-space.")
 @click.option("--medium", type=FILE, metavar="MEDIUM.yaml", help="Medium of the half-space, instead of --viscosity.")
-@click.option("--times", type=Increasing(), help="Times of the output  [default: of levels, or of the history]")
+@click.option("--times", type=Increasing(), help="Times of the output  [default: a hundred, or those of the history]")
 @output_option("KIN.nc")
 def kinetics(
     curve: Path,
@@ -47,13 +47,12 @@ def kinetics(
 ) -> None:
     """Penetration over time of the indenter whose loading curve is in CURVE.nc.
 
-    For a constant force on a linearly viscous half-space, the times at which the levels of the curve are reached: time
-    = (F/G) VISCOSITY/FORCE, velocity = FORCE/(VISCOSITY k/G). KIN.nc is then CURVE.nc with the variables time (in s)
-    and velocity added. For other media, force histories and --times, KIN.nc holds time, depth, velocity and force.
-    Without --times these are the times of the history; or under a constant force those at which levels are reached,
-    after time 0 if the medium springs at once, without levels that it never reaches. The depth is that of the curve at
-    F/G = the creep, the integral of J(t - s) dF(s) with the creep compliance J. This is exact as long as the creep
-    does not decrease; where it would, the force is refused.
+    KIN.nc holds time, depth, velocity and force. Without --times these are the times of the history; or under a
+    constant force a hundred at equal ratios between those at which the first and last levels of the curve are reached,
+    or until the creep has all but ended, after time 0 if the medium springs at once. The depth is that of the curve at
+    F/G = the creep, the integral of J(t - s) dF(s) with the creep compliance J; on a linearly viscous half-space it is
+    the impulse over the viscosity. This is exact as long as the creep does not decrease; where it would, the force is
+    refused.
 
     MEDIUM.yaml is one mapping: kind, and its parameters. The kinds are newtonian (viscosity), maxwell and kelvin_voigt
     (shear_modulus, viscosity), standard_linear_solid (instantaneous_modulus, relaxed_modulus, relaxation_time), prony
@@ -77,7 +76,6 @@ def kinetics(
     from viscorough.io.curves import curve_from_content
     from viscorough.io.motion import read_force_history
     from viscorough.viscous import correspondence
-    from viscorough.viscous.media import Newtonian
 
     check_output(output, force_history=force_history, medium=medium)
     content = read_content(curve)
@@ -94,14 +92,10 @@ def kinetics(
     elif force is not None:
         history = about["force"] = number_in("N", force, loading.length_unit, "--force")
     motion = correspondence.kinetics(loading, history, law, times)
-    if force is not None and times is None and isinstance(law, Newtonian):
-        of_medium = f"--medium {printable_name(medium)}" if medium else f"--viscosity {viscosity}"
-        _check_that_levels_follow_each_other(motion, f"--force {force}, {of_medium}")
-    content, title = _content(content, motion, history, loading, times is None and viscosity is not None)
+    content, title = _content(motion, history, loading)
     write_output(content, output, title=title, **about)
-    points = "levels" if times is None and force is not None else "times"
     depth = with_unit(motion.depth[-1], loading.length_unit, 6)
-    announce(output, f"{motion.time.size} {points}, depth {depth} at time {motion.time[-1]:.6g}")
+    announce(output, f"{motion.time.size} times, depth {depth} at time {motion.time[-1]:.6g}")
 
 
 def _medium(viscosity: Quantity | None, medium: Path | None, length_unit: str) -> tuple[Medium, dict[str, Any]]:
@@ -127,25 +121,12 @@ def _medium(viscosity: Quantity | None, medium: Path | None, length_unit: str) -
     }
 
 
-def _check_that_levels_follow_each_other(motion: Kinetics, options: str) -> None:
-    import numpy as np
-
-    known = np.isfinite(motion.time).all() and (np.diff(motion.time, prepend=0) > 0).all()
-    if not known or not (motion.velocity > 0).all():
-        raise ValueError(f"{options}: times overflow; closer values are allowed")
-
-
-def _content(
-    content: Content, motion: Kinetics, history: float | ForceHistory, loading: LoadingCurve, of_levels: bool
-) -> tuple[Content, str]:
+def _content(motion: Kinetics, history: float | ForceHistory, loading: LoadingCurve) -> tuple[Content, str]:
     """Content and title of the output; a warning for times at which depth or velocity are not known."""
     import numpy as np
 
-    from viscorough.io.motion import kinetics_to_content, with_motion
+    from viscorough.io.motion import kinetics_to_content
 
-    if np.ndim(history) == 0 and of_levels:
-        title = "Penetration of a rigid indenter into a linearly viscous half-space under a constant force"
-        return with_motion(content, motion.time, motion.velocity), title
     force: Any = history
     if not isinstance(history, float):
         at_samples = np.array_equal(motion.time, history.times)

@@ -1,37 +1,64 @@
-"""`viscorough plot`: a figure of what another command wrote."""
+"""`viscorough plot`: a figure of a surface, or of what another command wrote."""
 
-from typing import Any
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from viscorough.cli.files import check_output, read_content
 from viscorough.cli.messages import announce
 from viscorough.cli.options import FILE
+from viscorough.cli.surface_options import Surface, heights_input, read_indenter
+
+if TYPE_CHECKING:
+    from viscorough.io.netcdf import Content
 
 
-@click.command(short_help="A figure of a curve, a motion, a contact or a surface.")
-@click.argument("file", type=FILE, metavar="FILE.nc")
+@click.command(short_help="A figure of a surface, a curve, a motion or a contact.")
+@heights_input("file")
 @click.option("-o", "--output", type=FILE, required=True, metavar="FIGURE", help="A .png, .pdf or .svg file.")
-def plot(file: Any, output: Any) -> None:
-    """Draw what is in FILE.nc, or in a table (.csv), that another command wrote.
+def plot(surface: Surface, output: Path) -> None:
+    """Draw what is in FILE: what another command wrote (.nc, .csv), or a map of heights, read as by viscorough indent.
 
     A surface is a map of heights; fields of a contact are maps of pressure, gap and contact; a loading curve is force
-    over depth, stiffness and contact fraction over force; a motion is depth and velocity over time. Curves have
-    logarithmic axes. This needs matplotlib: pip install "viscorough[plot]".
+    over depth, stiffness and contact fraction over force; a motion is depth and velocity over time. Maps have the first
+    row at the top; the colours of pressures end at their 99th percentile. Curves have logarithmic axes. This needs
+    matplotlib: pip install "viscorough[plot]".
 
     \b
     Example:
         viscorough plot curve.nc -o curve.png
+        viscorough plot scan.txt --spacing 0.5 --unit um -o scan.png
     """
     try:
         from viscorough import plotting
     except ModuleNotFoundError as error:
         raise click.ClickException('matplotlib is not installed; pip install "viscorough[plot]" installs it') from error
 
+    file = surface.path
     check_output(output, results=file)
-    content = read_content(file)
-    try:
-        plotting.plot(content, output)
-    except ValueError as error:
-        raise ValueError(f"{file}: {error}" if str(output) not in str(error) else str(error)) from error
+    if output.suffix.lower() not in plotting.FORMATS:
+        raise ValueError(f"{output}: unknown kind of figure; allowed: {', '.join(plotting.FORMATS)}")
+    plotting.plot(_content(surface, output), output)
     announce(output, f"figure of {file.name}")
+
+
+def _content(surface: Surface, output: Path) -> Content:
+    """What a command wrote, or else a map of heights. Raises ValueError if the file is neither."""
+    from viscorough.io.surfaces import surface_to_content
+    from viscorough.plotting import kind_of
+
+    written = None
+    if surface == Surface(surface.path) and surface.path.suffix.lower() in (".nc", ".csv"):
+        try:
+            content = read_content(surface.path)
+            kind_of(content)
+            return content
+        except ValueError as error:
+            written = error if str(surface.path) in str(error) else ValueError(f"{surface.path}: {error}")
+    try:
+        return surface_to_content(read_indenter(surface, output))
+    except ValueError as error:
+        raise (written or error) from error

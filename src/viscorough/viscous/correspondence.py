@@ -36,6 +36,7 @@ from viscorough.viscous.medium import Medium
 from viscorough.viscous.spectra import zero_of_increasing
 
 _LATEST = 1e300  # at which creep that stops has stopped
+_SPREAD, _EARLY = 100, 1e-3  # number of times that are chosen; share of the creep at their ends, where it has no level
 _ROUNDING = 1e-10  # relative; the rounding error of an impulse summed over a million force samples
 
 
@@ -90,9 +91,9 @@ def kinetics(
     medium : Medium, as viscorough.Maxwell, or the viscosity η > 0 of a Newtonian one; in Pa, s and Pa s, or a text as
         "2 kPa s", if the curve's unit of length is known, else in units such that F·t/η, or F over a modulus, is a
         length²
-    times : increasing, and not negative if the force is constant; the default, for a constant force only, is the times
-        at which the curve's levels are reached, in a Newtonian medium t = (F/G)·η/F. In a medium that springs at once
-        time 0 stands before them, and levels that are never reached are left out
+    times : increasing, and not negative if the force is constant; the default, for a constant force only, is a hundred
+        times at equal ratios from the curve's first level to its last, or until the creep has all but ended; in a
+        medium that springs at once after time 0
 
     Returns Kinetics at `times`. The velocity is that just after each time; at the last time of a history and before a
     step, that before it. Where an elastic medium steps, the velocity is that of the creep alone; it is infinite in a
@@ -111,7 +112,7 @@ def kinetics(
     if times is None:
         if not constant:
             raise ValueError("times: missing; a force given as samples needs the time of each sample")
-        return _at_levels(curve, load, medium)
+        times = _spread_times(curve, load, medium)
     if isinstance(medium, Newtonian):
         return _newtonian_kinetics(curve, load, medium.viscosity, times)
     times, creep, rate = _creep(load, medium, times)
@@ -142,30 +143,31 @@ def _newtonian_kinetics(curve: LoadingCurve, force: ForceHistory | Any, viscosit
     return Kinetics(times, depth, velocity, curve.length_unit)
 
 
-def _at_levels(curve: LoadingCurve, force: float, medium: Medium) -> Kinetics:
-    """Kinetics under a constant force at the times at which the levels of the curve are reached."""
-    if isinstance(medium, Newtonian):
-        viscosity = medium.viscosity
-        velocity = force / (viscosity * curve.stiffness)
-        return Kinetics(curve.force * viscosity / force, curve.depth, velocity, curve.length_unit)
+def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
+    """Times at equal ratios under a constant force, from about the curve's first level to its last, or to the end.
+
+    After time 0 where the medium springs at once.
+    """
     limit = min(medium.last_time, _LATEST)
-    at_once, at_last = force * medium.creep_compliance(np.array([0.0, limit]))
-    reached = (curve.force > at_once) & (curve.force < at_last)
-    if not reached.any():
+    with np.errstate(over="ignore"):
+        at_once, at_last = force * medium.creep_compliance(np.array([0.0, limit]))
+    first, last = curve.force[0] if curve.force.size > 1 else _EARLY * curve.force[-1], curve.force[-1]
+    if not (at_once < last and at_last > first):
         raise ValueError(
-            f"times: missing, and the curve has no level between F/G {at_once:.6g}, at once, and {at_last:.6g}, in the "
-            "end; times or another force are needed"
+            f"times: missing, and the creep is from F/G {at_once:.6g}, at once, to {at_last:.6g}, in the end, beside "
+            f"the curve, from {first:.6g} to {last:.6g}; times or another force are needed"
         )
-    wanted = curve.force[reached] / force
+    start = first if at_once < first else at_once + _EARLY * (min(last, at_last) - at_once)
+    end = last if at_last >= last else at_last - _EARLY * (at_last - max(first, at_once))
+    wanted = np.array([start, end]) / force
     with np.errstate(all="ignore"):
-        earliest = np.full(wanted.shape, np.finfo(float).tiny)
-        time = zero_of_increasing(lambda time: medium.creep_compliance(time) - wanted, earliest, 0 * wanted + limit)
-    depth, velocity = curve.depth[reached], force * medium.creep_rate(time) / curve.stiffness[reached]
-    if at_once > 0 and at_once <= curve.force[-1] and np.isfinite(start := curve.at_force(at_once)).all():
-        rate = force * medium.creep_rate(0.0)
-        time, depth = np.append(0.0, time), np.append(start[0], depth)
-        velocity = np.append(rate / start[1], velocity)
-    return Kinetics(time, depth, velocity, curve.length_unit)
+        earliest = np.full(2, np.finfo(float).tiny)
+        ends = zero_of_increasing(lambda time: medium.creep_compliance(time) - wanted, earliest, np.full(2, limit))
+    if not (0 < ends[0] < ends[1] < _LATEST / 2):
+        raise ValueError(f"times: from {ends[0]:g} to {ends[1]:g} they overflow; closer force and medium are allowed")
+    times = np.geomspace(ends[0], ends[1], _SPREAD)
+    springs = at_once > 0 and np.isfinite(curve.at_force(at_once)).all()
+    return np.append(0.0, times) if springs else times
 
 
 def _creep(force: ForceHistory | Any, medium: Medium, times: ArrayLike) -> tuple[Array, Array, Array]:

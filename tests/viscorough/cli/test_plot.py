@@ -9,7 +9,7 @@ from PIL import Image
 import viscorough
 from support.cf import violations
 from support.command_line import run, sphere_heights
-from support.contract import complaint
+from support.contract import complaint, refused
 from viscorough.io import netcdf
 from viscorough.io.netcdf import Content, Variable
 from viscorough.plotting import figure_of
@@ -123,7 +123,7 @@ def test_without_matplotlib_one_line_says_what_to_install(here, capsys, monkeypa
     ("arguments", "what"),
     [
         ("curve.nc -o figure.jpg", "unknown kind of figure; allowed: .png, .pdf, .svg"),
-        ("heights.npy -o figure.png", "heights.npy: not readable"),
+        ("heights.npy -o figure.png", "heights.npy: the distance between neighbouring points is not stated"),
         ("other.nc -o figure.png", "other.nc: no surface, fields of a contact, loading curve or motion in it"),
         ("picture.png -o picture.png", "would replace the results"),
     ],
@@ -149,7 +149,7 @@ def test_lengths_are_drawn_in_readable_units():
     )
     axes, colours = figure_of(content).axes
     assert (axes.get_xlabel(), axes.get_ylabel(), colours.get_ylabel()) == ("$x$ (µm)", "$y$ (µm)", "height $z$ (nm)")
-    np.testing.assert_allclose(axes.images[0].get_extent(), [-125, 125, -12.5, 12.5])
+    np.testing.assert_allclose(axes.images[0].get_extent(), [-125, 125, 12.5, -12.5])
     assert axes.images[0].get_array().max() == pytest.approx(5)
     plain = {name: variable._replace(attributes={"units": "1"}) for name, variable in content.variables.items()}
     assert figure_of(Content(plain, {})).axes[0].images[0].get_array().max() == 5e-9
@@ -158,9 +158,9 @@ def test_lengths_are_drawn_in_readable_units():
 @pytest.mark.parametrize(
     ("y", "extent", "label"),
     [
-        ([4.0, 2.0, 0.0], [-0.5, 1.5, 5, -1], "$y$ (m)"),
-        ([0.0, 4.0, 2.0], [-0.5, 1.5, -0.5, 2.5], "y, points"),
-        ([0.0, np.nan, 4.0], [-0.5, 1.5, -0.5, 2.5], "y, points"),
+        ([4.0, 2.0, 0.0], [-0.5, 1.5, -1, 5], "$y$ (m)"),
+        ([0.0, 4.0, 2.0], [-0.5, 1.5, 2.5, -0.5], "y, points"),
+        ([0.0, np.nan, 4.0], [-0.5, 1.5, 2.5, -0.5], "y, points"),
     ],
 )
 def test_positions_are_those_of_the_file_or_points(y, extent, label):
@@ -171,3 +171,32 @@ def test_positions_are_those_of_the_file_or_points(y, extent, label):
     axes = figure_of(content).axes[0]
     np.testing.assert_allclose(axes.images[0].get_extent(), extent)
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("x, points", label)
+
+
+def test_maps_are_drawn_as_they_are_read(here, capsys):
+    """A matrix of text, whose first row is at the top, as imshow draws it."""
+    np.savetxt("scan.csv", np.arange(6.0).reshape(2, 3), delimiter=",")
+    assert run("plot scan.csv --spacing 0.5 --unit um -o scan.png") == 0
+    surface = viscorough.read_heights("scan.csv", 0.5, unit="um")
+    axes = viscorough.plot(surface).axes[0]
+    image = axes.images[0]
+    assert (image.origin, axes.get_title()) == ("upper", "heights")
+    np.testing.assert_allclose(image.get_extent(), [-750, 750, 500, -500])  # nm
+    np.testing.assert_allclose(image.get_array(), surface.heights)  # up to 5 um
+
+
+def test_results_are_drawn_from_python(here):
+    """Every panel has a title; the colours of pressures end at a percentile that is named."""
+    indenter = viscorough.Indenter(sphere_heights(17), 1.0, length_unit="um")
+    curve, contact = viscorough.indent(indenter), viscorough.contact_at(indenter, depth=0.3, shear_modulus="2 MPa")
+    motion = viscorough.kinetics(curve, "1 uN", "1 kPa s")
+    for result in (indenter, curve, contact, motion):
+        panels = [axes for axes in viscorough.plot(result).axes if axes.get_label() != "<colorbar>"]
+        assert all(axes.get_title() for axes in panels)
+    figure = viscorough.plot(contact, "contact.png")
+    assert (here / "contact.png").exists()
+    assert any(axes.get_ylabel() == "pressure $p/G$, colours up to the 99th percentile" for axes in figure.axes)
+    limit = figure.axes[0].images[0].get_clim()[1]
+    assert limit == pytest.approx(np.percentile(contact.pressure[contact.contact], 99))
+    with refused("figure.jpg: unknown kind of figure"):
+        viscorough.plot(motion, "figure.jpg")

@@ -53,10 +53,9 @@ def test_varying_force_against_time_integration(curve):
 def test_times_of_the_levels_reproduce_the_levels(curve):
     """Rounding of F·t/η, up or down, moves no level beyond the ends of the curve."""
     for force in np.random.default_rng(5).uniform(0.1, 10, 50):
-        levels = kinetics(curve, force, VISCOSITY)
-        again = kinetics(curve, force, VISCOSITY, levels.time)
-        np.testing.assert_allclose(again.depth, levels.depth, rtol=1e-13)
-        np.testing.assert_allclose(again.velocity, levels.velocity, rtol=1e-12)
+        levels = kinetics(curve, force, VISCOSITY, curve.force * VISCOSITY / force)
+        np.testing.assert_allclose(levels.depth, curve.depth, rtol=1e-13)
+        np.testing.assert_allclose(levels.velocity, force / (VISCOSITY * curve.stiffness), rtol=1e-12)
 
 
 def test_sum_of_many_samples_reaches_the_last_level(curve):
@@ -134,21 +133,15 @@ def test_history_with_a_step_at_other_times(curve, name):
 
 
 @pytest.mark.parametrize("name", MEDIA)
-def test_default_times_are_those_of_the_levels(curve, name):
+def test_default_times_are_a_hundred_over_the_whole_curve(curve, name):
     medium = MEDIA[name]
     result = kinetics(curve, FORCE, medium)
-    reached = FORCE * medium.creep_compliance(result.time)
-    depths = result.depth[result.time > 0]
-    assert np.isin(depths, curve.depth).all()
-    assert (np.diff(result.time) > 0).all()
-    np.testing.assert_allclose(result.depth, depth_of_sphere(reached), rtol=1e-11)
-    again = kinetics(curve, FORCE, medium, result.time)
-    np.testing.assert_allclose(again.velocity, result.velocity, rtol=1e-6)
-    at_once = medium.creep_compliance(0.0) > 0
-    assert (result.time[0] == 0) == at_once
-    if name == "solid":  # it stops at F/G∞, before the last levels
-        limit = depth_of_sphere(FORCE / 1.5)
-        assert result.depth[-1] == curve.depth[curve.depth < limit][-1]
+    at_once, times = FORCE * medium.creep_compliance(0.0), result.time[result.time > 0]
+    assert (times.size, result.time[0] == 0) == (100, at_once > 0)
+    np.testing.assert_allclose(np.diff(np.log(times)), np.log(times[-1] / times[0]) / 99, rtol=1e-9)
+    np.testing.assert_allclose(result.depth, depth_of_sphere(FORCE * medium.creep_compliance(result.time)), rtol=1e-11)
+    end = FORCE * medium.creep_compliance(min(medium.last_time, 1e300))
+    assert result.depth[-1] == pytest.approx(min(curve.depth[-1], depth_of_sphere(end)), rel=2e-3)
 
 
 def test_newtonian_is_what_a_viscosity_is(curve):
@@ -156,7 +149,8 @@ def test_newtonian_is_what_a_viscosity_is(curve):
     by_name = kinetics(curve, force, Newtonian(30.0), times)
     by_number = kinetics(curve, force, 30.0, times)
     np.testing.assert_array_equal([by_number.depth, by_number.velocity], [by_name.depth, by_name.velocity])
-    np.testing.assert_array_equal(kinetics(curve, 2.0, Newtonian(30.0)).time, curve.force * 30.0 / 2.0)
+    ends = kinetics(curve, 2.0, Newtonian(30.0)).time[[0, -1]]
+    np.testing.assert_allclose(ends, curve.force[[0, -1]] * 30.0 / 2.0, rtol=1e-12)
 
 
 # ---- refusals
@@ -168,7 +162,10 @@ def test_newtonian_is_what_a_viscosity_is(curve):
         ({"medium": 0.0}, "medium: 0.0; allowed: a medium as viscorough.Maxwell, or the viscosity of a Newtonian one"),
         ({"force": 0.0}, "constant force: 0.0; allowed: a finite number above 0"),
         ({"force": 1e9}, "at time 0 the creep ∫J dF is 2.5e+08, beyond the curve's last level"),
-        ({"force": 1e-9, "times": None}, "has no level between F/G 2.5e-10, at once, and 6.66667e-10, in the end"),
+        (
+            {"force": 1e-9, "times": None},
+            "the creep is from F/G 2.5e-10, at once, to 6.66667e-10, in the end",
+        ),
         ({"force": [1.0, 2.0], "times": None}, "needs the time of each sample"),
         ({"force": [1.0, -1e-9, 2.0]}, "sample 1 is -1e-09; allowed: finite, 0 or more"),
         ({"force": [0.01, 0.02, 1e9]}, "at time 2 the creep"),

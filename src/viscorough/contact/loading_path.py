@@ -14,7 +14,7 @@ from viscorough.arrays import increasing
 from viscorough.contact.dense import ROUNDING
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.prescribed_force import ForceSearch
-from viscorough.contact.solver import ContactSolver, check_solvable
+from viscorough.contact.solver import ContactSolver, check_solvable, warn_beyond_theory
 from viscorough.contact.state import ContactState
 from viscorough.contact.step_control import ContactsAhead, Level, StepControl, division
 from viscorough.indenter import Indenter, positive
@@ -100,6 +100,7 @@ def indent(
         levels = _LoadingPath(solver, until_fraction, until_force, progress).levels_from(start_fraction)
     depth = solver.units.length * np.array([level.depth for level in levels])
     force = solver.units.force * np.array([level.pressure_sum for level in levels])
+    warn_beyond_theory("indent", indenter, depth[-1])
     return LoadingCurve(
         depth=depth if depths is None else np.asarray(depths),
         force=force if forces is None else np.asarray(forces),

@@ -1,5 +1,6 @@
 """The contact at a given depth or force, with its maps, without a loading curve."""
 
+import warnings
 from collections.abc import Iterator
 from typing import Any
 
@@ -10,9 +11,10 @@ from viscorough import units
 from viscorough.arrays import increasing
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.prescribed_force import ForceSearch
-from viscorough.contact.solver import ContactSolver, check_solvable
+from viscorough.contact.solver import ContactSolver, check_solvable, warn_beyond_theory
 from viscorough.contact.state import ContactState
 from viscorough.contact_maps import Contact
+from viscorough.errors import AccuracyWarning
 from viscorough.indenter import Indenter, positive
 from viscorough.types import Array, Progress
 
@@ -73,6 +75,12 @@ def contact_at(
         stated = {"depth" if by_depth else "force": value, "shear_modulus": shear_modulus}
         contacts.append(_contact(indenter, tolerance, solver, state, stated))
         progress(len(contacts) / values.size)
+    last = contacts[-1]
+    warn_beyond_theory("contact_at", indenter, last.depth)
+    if last.contact_count == last.elements and np.ptp(indenter.initial_gap[last.contact]) > 0:
+        text = f"contact_at: contact is complete, the contact fraction is 1 at {'depth' if by_depth else 'force'}"
+        text += f" {values[-1]:.4g}; from there on the stiffness is that of a flat punch, whatever the heights"
+        warnings.warn(text, AccuracyWarning, stacklevel=2)
     return contacts if np.ndim(given) else contacts[0]
 
 

@@ -6,6 +6,7 @@ tangent q, the solution of K q = 1 on the contact set (a flat punch of its shape
 stiffness and P + Δu q the predictor for the depth u + Δu.
 """
 
+import warnings
 from dataclasses import replace
 
 import numpy as np
@@ -18,8 +19,9 @@ from viscorough.contact.grid.solver import GridSolver
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.parallel import require_threads
 from viscorough.contact.state import ContactState, MemberLoads, elements_of
-from viscorough.errors import ConvergenceError
+from viscorough.errors import AccuracyWarning, ConvergenceError
 from viscorough.indenter import Indenter, check_indenter
+from viscorough.summaries import with_unit
 from viscorough.types import Array
 
 # Depth that the box of a grid allows for, over the requested depth: less makes boxes smaller, but there are more of
@@ -43,6 +45,16 @@ def check_solvable(name: str, indenter: Indenter, tolerance: float, threads: int
     if not 1e-12 <= tolerance <= 0.1:
         raise ValueError(f"{name}: tolerance must be between 1e-12 and 0.1, not {tolerance!r}")
     require_threads(name, threads)
+
+
+def warn_beyond_theory(name: str, indenter: Indenter, depth: float) -> None:
+    """Give an AccuracyWarning, which starts with the name, for a depth larger than the map is wide."""
+    rows, columns = indenter.heights.shape
+    extent = max(rows * indenter.row_spacing, columns * indenter.spacing)
+    if depth > extent * (1 + 1e-9):
+        width = with_unit(extent, indenter.length_unit)
+        text = f"{name}: the depth u, {with_unit(depth, indenter.length_unit)}, is larger than the map is wide, {width}"
+        warnings.warn(f"{text}; the theory ends far below: check the units of force and heights", AccuracyWarning, 3)
 
 
 class ContactSolver:

@@ -1,0 +1,107 @@
+"""What a stranger asks for first, on the command line and in Python, compared with numbers converted to SI by hand.
+
+A scan in nanometres of a ball of radius 0.1 mm, points 500 nm apart: from the scan to the force-depth curve, to the
+contact under a force, to the penetration of rubber over time, to a figure, and from a measured depth to the rubber.
+Expected numbers are Hertz's, which the grid meets to 2 %.
+"""
+
+import numpy as np
+import pytest
+
+import viscorough
+from support.command_line import run
+from support.contract import refused
+from viscorough.errors import AccuracyWarning
+from viscorough.io import netcdf, tables
+
+RADIUS, SPACING, POINTS = 1e-4, 5e-7, 41  # m
+YOUNG, FORCE = 2e6, 1e-5  # Pa, N
+MODULUS = YOUNG / (1 - 0.5**2) / 4  # E* = 4 G
+DEPTH = (FORCE * 3 / 4 / (4 * MODULUS) / RADIUS**0.5) ** (2 / 3)  # F = 4/3 E* R^(1/2) u^(3/2)
+RADIUS_OF_CONTACT = (RADIUS * DEPTH) ** 0.5
+LARGEST_PRESSURE = 1.5 * FORCE / (np.pi * RADIUS_OF_CONTACT**2)
+RUBBER = viscorough.StandardLinearSolid(instantaneous_modulus=3e6, relaxed_modulus=1e6, relaxation_time=0.2)
+RUBBER_FILE = """kind: standard_linear_solid
+instantaneous_modulus: 3 MPa
+relaxed_modulus: 1 MPa
+relaxation_time: 200 ms
+"""
+
+
+def depth_in_rubber(time):
+    """Lee and Radok, u^(3/2) = 3 F J/(16 R^(1/2)), in m."""
+    return (3 * FORCE * RUBBER.creep_compliance(time) / (16 * RADIUS**0.5)) ** (2 / 3)
+
+
+@pytest.fixture
+def here(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    position = SPACING * (np.arange(POINTS) - (POINTS - 1) / 2)
+    np.savetxt("scan.txt", -1e9 * np.add.outer(position**2, position**2) / (2 * RADIUS))
+    (tmp_path / "rubber.yaml").write_text(RUBBER_FILE)
+    return tmp_path
+
+
+def test_on_the_command_line(here, capsys):
+    scan = "scan.txt --spacing 500 --unit nm"
+    assert run(f"indent {scan} --until-fraction 0.3 -o curve.csv") == 0
+    curve = tables.read("curve.csv").variables
+    at = np.interp(4 * MODULUS * DEPTH**1.5 * RADIUS**0.5 * 4 / 3 / MODULUS * 1e18, *_columns(curve, "force", "depth"))
+    assert at * 1e-9 == pytest.approx(DEPTH, rel=0.02)
+
+    assert run(f"contact {scan} --force '10 uN' --young '2 MPa' -o fields.nc") == 0
+    assert f"F {FORCE:g} N, largest p " in capsys.readouterr().out
+    fields = netcdf.read("fields.nc").variables
+    assert float(fields["normal_force"].values) == pytest.approx(1e-5, rel=1e-12)
+    assert fields["normal_force"].attributes["units"] == "N"
+    assert fields["largest_normal_pressure"].attributes["units"] == "Pa"
+    assert float(fields["largest_normal_pressure"].values) == pytest.approx(LARGEST_PRESSURE, rel=0.03)
+    assert np.nansum(fields["normal_pressure"].values) * SPACING**2 == pytest.approx(FORCE, rel=1e-5)
+
+    assert run("kinetics curve.csv --force '10 uN' --medium rubber.yaml -o motion.csv") == 0
+    motion = tables.read("motion.csv").variables
+    assert {name: motion[name].attributes["units"] for name in ("time", "depth")} == {"time": "s", "depth": "nm"}
+    times, depths = _columns(motion, "time", "depth")
+    np.testing.assert_allclose(depths[1:] * 1e-9, depth_in_rubber(times[1:]), rtol=0.02)
+
+    for made in ("scan.txt --spacing 500 --unit nm", "curve.csv", "fields.nc", "motion.csv"):
+        assert run(f"plot {made} -o figure.png") == 0
+
+    assert run("creep curve.csv motion.csv --force '10 uN' -o found.yaml") == 0
+    found = viscorough.read_medium("found.yaml", "nm")
+    np.testing.assert_allclose(found.creep_compliance(times[1:]), RUBBER.creep_compliance(times[1:]), rtol=0.01)
+
+
+def _columns(variables, *names):
+    return [variables[name].values for name in names]
+
+
+def test_in_python(here):
+    surface = viscorough.read_heights("scan.txt", 500, unit="nm").to("um")
+    curve = viscorough.indent(surface, until_fraction=0.3)
+    contact = viscorough.contact_at(surface, force="10 uN", shear_modulus=MODULUS)
+    motion = viscorough.kinetics(curve, "10 uN", RUBBER)
+    viscorough.plot(motion, "motion.png")
+    viscorough.save_curve(curve, "curve.nc")
+    found = viscorough.identify_medium(curve, "10 uN", motion.time[1:], motion.depth[1:])
+
+    assert contact.depth * 1e-6 == pytest.approx(DEPTH, rel=0.02)
+    assert contact.normal_force == pytest.approx(FORCE, rel=1e-12)
+    assert contact.largest_pressure * MODULUS == pytest.approx(LARGEST_PRESSURE, rel=0.03)
+    assert f"depth u {contact.depth:.4g} um" in str(contact)
+    np.testing.assert_allclose(motion.depth * 1e-6, depth_in_rubber(motion.time), rtol=0.02)
+    assert "time t 0 to " in str(motion)
+    assert str(motion).splitlines()[1].endswith(" s")
+    assert viscorough.load_curve("curve.nc") == curve
+    times = motion.time[1:]
+    np.testing.assert_allclose(found.medium.creep_compliance(times), RUBBER.creep_compliance(times), rtol=0.01)
+
+
+def test_results_that_nobody_can_mean_are_warned_of(here):
+    surface = viscorough.read_heights("scan.txt", 500, unit="nm")
+    with pytest.warns(AccuracyWarning, match=r"contact_at: the depth u, 3e\+08 nm, is larger than the map is wide, 2"):
+        viscorough.contact_at(surface, depth="0.3 m")
+    with pytest.warns(AccuracyWarning, match="contact is complete, the contact fraction is 1 at depth 1e"):
+        viscorough.contact_at(surface, depth="10 um")
+    with refused("impulse: 1 is beyond the curve's last level; allowed: up to "):
+        viscorough.kinetics(viscorough.indent(surface, until_fraction=0.3), 1.0, 1.0, [1.0])

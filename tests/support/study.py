@@ -13,7 +13,7 @@ from viscorough.loading_curve import LoadingCurve
 from viscorough_study.comparisons.direct_integration import compare_direct
 from viscorough_study.comparisons.mdr_equivalence import WINDOWS
 from viscorough_study.ensembles.averages import abscissa, ensemble_dataset, on_abscissae
-from viscorough_study.ensembles.pool import OF_REALIZATIONS, VARIABLES, ensembles
+from viscorough_study.ensembles.pool import REALIZATION_COORDINATES, VARIABLES, ensembles
 from viscorough_study.fits.conventions import FITTED, PLAIN
 from viscorough_study.fits.fit_table import COLUMNS, fit_rows
 from viscorough_study.fits.intervals import three_columns
@@ -74,7 +74,7 @@ def pool_of(members, group="base"):
     """Pool of ensembles, each of one case, without their averages."""
     parts = []
     for member in members:
-        coords = {name: member[name].item() for name in OF_REALIZATIONS if name != "group"} | {"group": group}
+        coords = {name: member[name].item() for name in REALIZATION_COORDINATES if name != "group"} | {"group": group}
         part = member[list(VARIABLES)].drop_vars([name for name in coords if name != "group"])
         size = member.sizes["realization"]
         parts.append(part.assign_coords({name: ("realization", [value] * size) for name, value in coords.items()}))

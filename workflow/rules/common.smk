@@ -100,7 +100,7 @@ def of_scan(name):
 
 def disc_ensembles(wildcards):
     """Ensembles of discs in a batch."""
-    return cases.ensembles_of_batch(DISCS[wildcards.case], wildcards.batch)
+    return cases.batch_ensembles(DISCS[wildcards.case], wildcards.batch)
 
 
 def origin_of_surfaces(wildcards):

@@ -10,7 +10,7 @@ from viscorough_study.run.seeds import realization_seed
 def main(surfaces, *, ensembles, seed):
     """Generate the realizations of a batch; lengths in m.
 
-    ensembles : of `viscorough_study.run.cases.ensembles_of_batch`; surface : arguments of self_affine_disc
+    ensembles : of `viscorough_study.run.cases.batch_ensembles`; surface : arguments of self_affine_disc
     """
 
     def discs(name, spawn_key, surface, elements, numbers):

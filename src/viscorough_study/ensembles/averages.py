@@ -1,9 +1,9 @@
-"""Ensembles: realizations of one surface brought to common abscissae, their averages and their spread.
+"""Ensembles: realizations of one surface on common abscissae, their averages and their spread.
 
-The abscissa is X = F/(4GhL), which for the viscous problem is Ft/(4ηhL) (paper, Eqs. 2 and 3). Where F, η, L and a
-nominal h are common to all realizations, fixed X is fixed time and vt/h is the velocity times a constant: averages at
-fixed X and at fixed t are then the same. They differ where h is measured on each realization, since X and vt/h then
-are in units of the h of that realization. An ensemble contains several such rms conventions side by side.
+The abscissa is X = F/(4GhL), which for the viscous problem is Ft/(4ηhL) (paper, Eqs. 2 and 3). If all realizations have
+the same F, η, L and nominal h, fixed X means fixed time, and vt/h is the velocity times a constant: averages at fixed X
+and at fixed t are then the same. They differ if h is measured on each realization, since X and vt/h are then in units
+of the h of that realization. An ensemble contains several such rms conventions.
 """
 
 import warnings
@@ -11,7 +11,7 @@ import warnings
 import numpy as np
 import xarray as xr
 
-ROUNDING = 1e-9  # relative difference up to which abscissae and ends of ranges count as equal
+ROUNDING = 1e-9  # relative difference below which abscissae and ends of ranges count as equal
 
 
 def abscissa(low, high, per_decade):
@@ -63,20 +63,20 @@ def on_abscissae(curves, rms, diameter, x):
 def ensemble_dataset(conventions, x, stiffness, count, coords):
     """Ensemble dataset: vt/h = X/κ (velocity), κ (stiffness), elements in contact, and averages over the realizations.
 
-    Averages are the means and medians of these that their names tell, velocity_spread, the standard deviation of
-    ln(vt/h), realizations_defined, whose curve reaches an abscissa, and fraction_defined, the share of the curves that
-    were to reach it and do.
+    Averages are means and medians, by their names; velocity_spread, the standard deviation of ln(vt/h);
+    realizations_defined, the number of curves that reach an abscissa; and fraction_defined, this number over that of
+    the curves intended to reach it.
 
     conventions : names of the rms conventions; x : X, shape (abscissae,)
     stiffness, count : κ and elements in contact, shape (conventions, realizations, abscissae), nan where undefined
-    coords : hurst, case, diameter, elements, and until_x, the X that the curves were to reach, if it is less than all
+    coords : hurst, case, diameter, elements, and until_x, the X up to which curves were computed, if it is limited
     """
     coords = {"until_x": np.inf} | coords
     velocity, until_x = x / stiffness, coords["until_x"]
     until_x = until_x[1] if isinstance(until_x, tuple) else until_x  # of every realization
-    of_curves = ("rms_convention", "realization", "abscissa")
+    dimensions = ("rms_convention", "realization", "abscissa")
     variables = {"velocity": velocity, "stiffness": stiffness, "contact_count": count}
-    variables = {name: (of_curves, values) for name, values in variables.items()}
+    variables = {name: (dimensions, values) for name, values in variables.items()}
     variables |= {
         name: (("rms_convention", "abscissa"), values)
         for name, values in _averages(x, velocity, count, until_x).items()
@@ -85,7 +85,7 @@ def ensemble_dataset(conventions, x, stiffness, count, coords):
 
 
 def _averages(x, velocity, count, until_x):
-    """Averages over the realizations that are defined, each of shape (rms conventions, abscissae)."""
+    """Averages over the defined realizations, each of shape (rms conventions, abscissae)."""
     defined = np.isfinite(velocity)
     number = defined.sum(axis=1)
     expected = np.broadcast_to(np.reshape(until_x, (-1, 1)) * (1 + ROUNDING) >= x, velocity.shape[1:]).sum(axis=0)

@@ -36,18 +36,17 @@ class Realization(NamedTuple):
 def batch_of_curves(curves, realizations, *, until_x, settings):
     """Content of a NetCDF file; lengths in m.
 
-    curves, realizations : LoadingCurve and Realization of every surface; those of numbers that all surfaces share are
-        stored once
-    until_x : X that each curve was to reach; settings : what the curves were made from, for the attribute settings
+    curves, realizations : LoadingCurve and Realization of every surface; values common to all surfaces are stored once
+    until_x : X up to which each curve was computed; settings : of the curves, for the attribute settings
     """
     content = stack_curves(curves)
     ensemble, number, hurst, diameter, spacing, rms = zip(*realizations, strict=True)
-    stored = {f"rms_{name}": (np.array([one[name] for one in rms]), RMS[name], "m") for name in rms[0]}
+    stored = {f"rms_{name}": (np.array([heights[name] for heights in rms]), RMS[name], "m") for name in rms[0]}
     stored |= {
-        "spacing": (_one_if_equal(spacing), "spacing of the grid", "m"),
-        "diameter": (_one_if_equal(diameter), "diameter of the indenter", "m"),
-        "hurst": (_one_if_equal(hurst), "Hurst exponent", "1"),
-        "until_x": (_one_if_equal(until_x), "X that the curve was to reach", "1"),
+        "spacing": (_single_if_equal(spacing), "spacing of the grid", "m"),
+        "diameter": (_single_if_equal(diameter), "diameter of the indenter", "m"),
+        "hurst": (_single_if_equal(hurst), "Hurst exponent", "1"),
+        "until_x": (_single_if_equal(until_x), "X that the curve was to reach", "1"),
         "number": (np.asarray(number), "number of the realization", "1"),
         "case": (np.asarray(ensemble, dtype=object), "name of the ensemble", ""),
     }
@@ -59,15 +58,15 @@ def batch_of_curves(curves, realizations, *, until_x, settings):
 
 
 def numbered(ensembles):
-    """[(ensemble, number)] of every realization of a batch (viscorough_study.run.cases.ensembles_of_batch)."""
-    return [(one, number) for one in ensembles for number in range(*one["numbers"])]
+    """[(ensemble, number)] of every realization of a batch (viscorough_study.run.cases.batch_ensembles)."""
+    return [(ensemble, number) for ensemble in ensembles for number in range(*ensemble["numbers"])]
 
 
 def without_numbers(ensembles):
-    """The ensembles of a batch as the settings of a file record them, whichever realizations the batch has."""
-    return [{name: value for name, value in one.items() if name != "numbers"} for one in ensembles]
+    """The ensembles of a batch as recorded in the settings of a file, independent of the realizations in the batch."""
+    return [{name: value for name, value in ensemble.items() if name != "numbers"} for ensemble in ensembles]
 
 
-def _one_if_equal(values):
+def _single_if_equal(values):
     values = np.asarray(values)
     return values.flat[0] if values.size == 1 or (values == values.flat[0]).all() else values

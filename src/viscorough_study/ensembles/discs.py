@@ -11,10 +11,10 @@ def ensemble_disc(elements, surface, seed):
 
     elements : across the disc; surface : arguments of self_affine_disc with rms, diameter and rms_over
 
-    The nominal rms height is met over the disc or over the periodic square that the disc is cut from, as rms_over says.
+    The nominal rms height is that over the disc or over the periodic square that the disc is cut from, by rms_over.
     The conventions are the rms height over the disc, that over the square, the height of the highest peak above the
-    mean of the disc, and the rms height of the ensemble: with it as unit, realizations are not normalised one by one
-    but have the same spectrum, and it is the rms height that this spectrum gives the square on average.
+    mean of the disc, and the rms height of the ensemble, which the common spectrum gives the square on average: in this
+    unit realizations are not normalised individually.
     """
     shape = {name: value for name, value in surface.items() if name not in ("rms", "diameter", "rms_over")}
     square = square_of_disc(**shape, elements_across=elements, normalised=False, seed=seed)

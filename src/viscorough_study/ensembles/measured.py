@@ -10,9 +10,9 @@ from viscorough.units import metres
 def measured_indenter(file, *, spacing, unit, preparation):
     """The prepared Indenter of a scan, in metres.
 
-    spacing : [], as the file states; [of both directions] or [between columns, between rows]
-    unit : of the heights, None as the file states; preparation : further arguments of read_heights
-    Raises ValueError if the unit of length is not known.
+    spacing : [] for that in the file, [of both directions] or [between columns, between rows]
+    unit : of the heights, None for that in the file; preparation : further arguments of read_heights
+    Raises ValueError if the unit of length is unknown.
     """
     both = {0: None, 1: spacing[:1], 2: spacing}[len(spacing)]
     spacing = both[0] if both and len(both) == 1 else both

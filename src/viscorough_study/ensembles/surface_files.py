@@ -15,8 +15,8 @@ from viscorough_study.ensembles.batches import RMS, Realization
 def write_surfaces(ensembles, path):
     """Write surfaces as NetCDF, atomically; only one of them is in memory at a time.
 
-    ensembles : list of (settings, number, surfaces): a dict of what they are made from, the number of realizations, and
-        an iterable of (Realization, Indenter), which agree in all but numbers, heights and rms heights
+    ensembles : list of (settings, number, surfaces): dict of settings, number of realizations, and iterable of
+        (Realization, Indenter), which agree except in numbers, heights and rms heights
     """
     with atomic_write(path) as temporary, netCDF4.Dataset(temporary, "w") as file:
         file.set_fill_off()  # every value is written
@@ -35,7 +35,7 @@ def write_surfaces(ensembles, path):
 
 
 def _define(group, realization, indenter):
-    """The variables of a group, with the values that all its realizations share."""
+    """Define the variables of a group, and write the values common to all its realizations."""
 
     def variable(name, dimensions, long_name, units="m", **kind):
         stored = group.createVariable(name, kind.pop("kind", "f8"), dimensions, **kind)
@@ -56,7 +56,7 @@ def _define(group, realization, indenter):
 
 
 class Surfaces(Sequence):
-    """The surfaces in a file as (Realization, Indenter), each read when it is asked for; closed by a `with` statement.
+    """Sequence of the (Realization, Indenter) in a file, read on access; a context manager that closes the file.
 
     settings : dict of each ensemble, of what it is made from
     Raises a one-line ValueError, here and in reading, if the file is missing or damaged.

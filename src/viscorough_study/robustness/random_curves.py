@@ -64,18 +64,18 @@ def random_audit(generator):
 
 
 def audit_failure(case):
-    """What is wrong, in words, with the integrals of the loading curve of a RandomCurve; "" if they are exact."""
+    """Error message on the integrals of the loading curve of a RandomCurve; "" if they are exact."""
     result = audit(case.indenter, **case.arguments)
     return "" if result.agrees else str(result)
 
 
 def curve_failure(case, compute=indent):
-    """What is wrong, in words, with the loading curve of a RandomCurve; "" if nothing is.
+    """Error message on the loading curve of a RandomCurve; "" if it is right.
 
-    The reference is the direct integration in time, exact from event to event, which shares nothing with the loading
-    path but the influence coefficients. The depth at the force of every level must have an error below the tolerance.
-    So must the depth interpolated between levels, down to FINEST_ACCURACY, from the start fraction on, unless a warning
-    says otherwise. The kinetics under a force history must have the depths of the reference.
+    The reference is the direct integration in time, exact from event to event, which shares only the influence
+    coefficients with the loading path. The error of the depth at the force of every level must be below the tolerance,
+    and so must that of depths interpolated between levels, down to FINEST_ACCURACY, from the start fraction on, unless
+    a warning was given. The kinetics under a force history must have the depths of the reference.
     """
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", AccuracyWarning)
@@ -100,7 +100,7 @@ def _error(name, places, depth, exact, tolerance, rounding):
 
 
 def _error_between(curve, events, case, tolerance, rounding):
-    """What is wrong between the levels."""
+    """Error message on depths between the levels, or ""."""
     arguments, last = case.arguments, curve.force[-1]
     if curve.contact_fraction[-1] < arguments["until_fraction"] and last < arguments.get("until_force", np.inf):
         return f"stops at a contact fraction of {curve.contact_fraction[-1]:.3g}"
@@ -117,7 +117,7 @@ def _error_between(curve, events, case, tolerance, rounding):
 
 
 def _error_before(curve, events, tolerance, rounding):
-    """What is wrong before the first given depth, where a depth is offered only if it is exact."""
+    """Error message on depths before the first given one, which are returned only if they are exact; or ""."""
     force = curve.force[0] * np.array([1e-3, 0.3, 0.9])
     exact, depth = events.depth_at(force), curve.at_force(force)[0]
     depth = np.where(np.isnan(depth), exact, depth)

@@ -35,11 +35,11 @@ def random_case(generator):
 
 
 def silent_failure(case, solver_type=ContactSolver):
-    """What is wrong, in words, with a solution of a RandomCase that claims to have converged; "" if nothing is.
+    """Error message on a converged solution of a RandomCase; "" if it is right.
 
-    With the dense influence matrix it is checked for tension, and for gap in contact or overlap outside it of more than
-    ten times the tolerance. The force is compared with that of the direct integration in time, which shares nothing
-    with the path but the influence coefficients. At small depths the rounding of the heights is allowed for.
+    The solution is checked, by the dense influence matrix, for tension, and for a gap in contact or an overlap outside
+    it of more than ten times the tolerance. The force is compared with that of the direct integration in time, which
+    shares only the influence coefficients with the path. The rounding of the heights at small depths is allowed for.
     A ConvergenceError is not a silent failure; a level solved before it can be one.
     """
     options = GRID_ONLY["single"] if case.on_grid else DEFAULT

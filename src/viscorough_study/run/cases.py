@@ -1,11 +1,11 @@
-"""Tables of cases: which ensembles, batches and indenters the settings ask for, and what their jobs need.
+"""Tables of cases: the ensembles, batches and indenters of the settings, and the memory of their jobs.
 
-A case is a dictionary of what its jobs need: one ensemble of surfaces of one kind, or several. The combinations of one
-Hurst exponent are batched side by side, so that a job has the same realizations of all of them; those of the numbers 1
-to 9 are one case, of 10 to 19 the next, so that a tenth combination leaves the curves of nine alone. Grids from coarse
-to fine are batched one after the other, so that a job can hold many small discs. The name of a case stands in file
-names, which hold no floating-point numbers, that of an ensemble in the tables. Cases of one meaning form a group; the
-curves of all cases that are evaluated together are brought to common abscissae in one pool.
+A case is a dictionary that describes one ensemble of surfaces, or several, for the jobs that compute them. The
+combinations of one Hurst exponent are batched side by side, so that a job has the same realizations of all of them;
+numbers 1 to 9 are one case, 10 to 19 the next, so that a tenth combination does not change the curves of the first
+nine. Grids from coarse to fine are batched in sequence, so that a job can hold many small discs. Names of cases are
+parts of file names, which contain no floating-point numbers; names of ensembles are in the tables. Cases of the same
+kind form a group; the curves of all cases evaluated together are brought to common abscissae in one pool.
 """
 
 import itertools
@@ -34,10 +34,10 @@ def hurst_id(hurst):
 def disc_cases(settings):
     """{case: its description} of every case of discs.
 
-    A description holds pool, group, realizations, batch, indentation and ensembles, each of them name, spawn_key,
-    elements, surface (arguments of self_affine_disc) and realizations; those of the base cases also combination. To the
-    spawn key (run.seeds) the number of the realization is added. Realizations of the case are those of all
-    ensembles, or, where `side_by_side` is true, of each.
+    A description has pool, group, realizations, batch, indentation and ensembles; each ensemble has name, spawn_key,
+    elements, surface (arguments of self_affine_disc) and realizations, in base cases also combination. The number of
+    the realization is appended to the spawn key (run.seeds). Realizations of the case are those of all ensembles
+    together, or of each one if `side_by_side` is true.
     """
     return _paper_discs(settings) | _size_discs(settings)
 
@@ -59,10 +59,10 @@ def _paper_discs(settings):
             }
             for combination in discs["combinations"]
         ]
-        about = {"group": "base", "realizations": discs["realizations"], "batch": discs["batch"], "side_by_side": True}
-        for tens in sorted({one["combination"]["number"] // 10 for one in combinations}):
-            alike = [one for one in combinations if one["combination"]["number"] // 10 == tens]
-            cases[hurst_id(hurst) + (f"_{tens}0" if tens else "")] = shared | about | {"ensembles": alike}
+        base = {"group": "base", "realizations": discs["realizations"], "batch": discs["batch"], "side_by_side": True}
+        for tens in sorted({ensemble["combination"]["number"] // 10 for ensemble in combinations}):
+            members = [ensemble for ensemble in combinations if ensemble["combination"]["number"] // 10 == tens]
+            cases[hurst_id(hurst) + (f"_{tens}0" if tens else "")] = shared | base | {"ensembles": members}
         for name, changed in _changes_of_variants(settings).items():
             ensemble = {
                 "name": f"{hurst_id(hurst)}_{name}",
@@ -71,20 +71,20 @@ def _paper_discs(settings):
                 "surface": settings["surface"] | changed | UNIT_DISC | {"hurst": hurst},
                 "realizations": variants["realizations"],
             }
-            cases[ensemble["name"]] = shared | _of_several([ensemble], variants["batch"], name)
+            cases[ensemble["name"]] = shared | _joint_description([ensemble], variants["batch"], name)
     return cases
 
 
 def _changes_of_variants(settings):
-    """{variant: what its surfaces have in place of the settings `surface`}."""
+    """{variant: settings of its surfaces that differ from `surface`}."""
     variants = settings["variants"]["cases"]
-    return {one["name"]: {key: value for key, value in one.items() if key != "name"} for one in variants}
+    return {variant["name"]: {key: value for key, value in variant.items() if key != "name"} for variant in variants}
 
 
 def surface_conventions(settings):
-    """{group: {convention: value}} of discs whose surfaces differ only in what the paper leaves open.
+    """{group: {convention: value}} of discs whose surfaces differ only in conventions that the paper leaves open.
 
-    Variants with other differences, such as a roll-off, are controls, and are left out.
+    Variants with other differences, such as a roll-off, are controls, and are omitted.
     """
     return {
         group: {name: (settings["surface"] | changed)[name] for name in SURFACE_CONVENTIONS}
@@ -104,15 +104,15 @@ def _size_discs(settings):
         ("controls", [sizes["control"]], seeds.size_control_key),
     ):
         ensembles = [
-            {"name": group, "spawn_key": key(one["hurst"], grid["elements"]), "surface": surface | one, **grid}
-            for one, grid in itertools.product(changes, sizes["discs"])
+            {"name": group, "spawn_key": key(change["hurst"], grid["elements"]), "surface": surface | change, **grid}
+            for change, grid in itertools.product(changes, sizes["discs"])
         ]
-        cases[group] = shared | _of_several(ensembles, sizes["batch"], group)
+        cases[group] = shared | _joint_description(ensembles, sizes["batch"], group)
     return cases
 
 
-def _of_several(ensembles, batch, group):
-    """Part of the description of a case of several ensembles."""
+def _joint_description(ensembles, batch, group):
+    """Group, ensembles, realizations and batch of a case whose ensembles are batched in sequence."""
     return {
         "group": group,
         "ensembles": ensembles,
@@ -124,8 +124,8 @@ def _of_several(ensembles, batch, group):
 def line_cases(settings):
     """{line: its description} of every case of lines.
 
-    A description is that of a case of discs, or of one of its ensembles, with points in place of elements, surface the
-    arguments of self_affine_line, and until_x in place of indentation.
+    A description has the form of a case of discs, or of one of its ensembles, with points instead of elements, the
+    arguments of self_affine_line as surface, and until_x instead of indentation.
     """
     lines, sizes = settings["lines"], settings["sizes"]
     shared = {name: settings["surface"][name] for name in ("amplitudes", "roll_off_wavelength", "roll_off_level")}
@@ -148,12 +148,12 @@ def line_cases(settings):
         for hurst, grid in itertools.product(sizes["hurst"], sizes["lines"])
     ]
     cases["sizes"] = {"pool": "size_lines", "until_x": sizes["until_x"]}
-    cases["sizes"] |= _of_several([{"name": "sizes"} | one for one in powers], sizes["batch"], "sizes")
+    cases["sizes"] |= _joint_description([{"name": "sizes"} | power for power in powers], sizes["batch"], "sizes")
     return cases
 
 
 def method_problems(settings):
-    """{problem: arguments of performance.methods.named_problem} of every indenter on which methods are compared."""
+    """{problem: arguments of performance.problems.named_problem} of every indenter on which methods are compared."""
     methods = settings["methods"]
     bodies = {
         f"{body}_{n}": {"name": body, "elements": n} for body in methods["bodies"] for n in methods["bodies_elements"]
@@ -166,7 +166,7 @@ def method_problems(settings):
 
 
 def measured_cases(scans, indentation):
-    """{scan: its description} of measured surfaces, each an ensemble of one.
+    """{scan: its description} of measured surfaces, each an ensemble of one realization.
 
     scans : run.scans.scans; indentation : setting of that name
     """
@@ -191,7 +191,7 @@ def example_discs(settings):
     """Ensembles, as of a batch, of the first disc of every Hurst exponent: of the first combination, with h = L = 1."""
     ensembles = combined_ensembles(settings)
     examples = [_in_batch(ensembles[name], [0, 1]) for name in first_combination(settings)]
-    return [one | {"surface": one["surface"] | UNIT_DISC} for one in examples]
+    return [example | {"surface": example["surface"] | UNIT_DISC} for example in examples]
 
 
 # ---- batches: the realizations of one job
@@ -209,7 +209,7 @@ def realizations(batch):
     return [int(first), int(last) + 1]
 
 
-def ensembles_of_batch(case, batch):
+def batch_ensembles(case, batch):
     """Ensembles of a batch, each with name, spawn_key, surface, elements or points, and numbers of its realizations.
 
     numbers : first realization of the batch in this ensemble, and the one after its last
@@ -236,39 +236,39 @@ def pool_batches(cases, pool):
 
 # ---- memory of jobs [MB]
 
-BASE_MEMORY = 700  # Python with its imports and, as a job of Slurm, two Snakemakes around it
+BASE_MEMORY = 700  # Python with its imports and, in a Slurm job, two surrounding Snakemake processes
 
 
 def generation_memory(ensembles):
-    """A disc, and the square that it is cut from."""
-    bytes_ = max((24 + 64 * one["surface"]["period"] ** 2) * one["elements"] ** 2 for one in ensembles)
+    """Memory for a disc and the square that it is cut from."""
+    bytes_ = max((24 + 64 * ensemble["surface"]["period"] ** 2) * ensemble["elements"] ** 2 for ensemble in ensembles)
     return round(BASE_MEMORY + bytes_ / 1e6)
 
 
 def disc_memory(case):
-    """A disc, and the fields of the solver on a doubled grid."""
-    return round(BASE_MEMORY + 424 * max(one["elements"] for one in case["ensembles"]) ** 2 / 1e6)
+    """Memory for a disc and the fields of the solver on a doubled grid."""
+    return round(BASE_MEMORY + 424 * max(ensemble["elements"] for ensemble in case["ensembles"]) ** 2 / 1e6)
 
 
 def large_memory(elements):
-    """One disc and the fields of the solver on its grid."""
+    """Memory for one disc and the fields of the solver on its grid."""
     return round(BASE_MEMORY + 240 * elements**2 / 1e6)
 
 
 def measured_memory(case):
-    """A scan of at least four bytes for each height in its file, and the fields of the solver on its grid."""
+    """Memory for a scan with at least four bytes per height in its file, and the fields of the solver on its grid."""
     return round(BASE_MEMORY + 400 / 4 * case["bytes"] / 1e6)
 
 
 def line_memory(case):
-    """Spectrum, heights and gaps of a line."""
-    return round(BASE_MEMORY + 40 * max(one["points"] for one in case.get("ensembles", [case])) / 1e6)
+    """Memory for spectrum, heights and gaps of a line."""
+    return round(BASE_MEMORY + 40 * max(ensemble["points"] for ensemble in case.get("ensembles", [case])) / 1e6)
 
 
 def pool_memory(cases, pool, ensemble):
-    """All realizations of a pool on common abscissae, twice while they are joined; ensemble : setting of that name."""
-    members = [one for case in cases.values() if case["pool"] == pool for one in case.get("ensembles", [case])]
-    realizations = sum(one["realizations"] for one in members)
+    """Memory for all realizations of a pool on common abscissae, twice; ensemble : setting of that name."""
+    members = [member for case in cases.values() if case["pool"] == pool for member in case.get("ensembles", [case])]
+    realizations = sum(member["realizations"] for member in members)
     abscissae = 1 + ensemble["per_decade"] * math.log10(ensemble["x_high"] / ensemble["x_low"])
     variables = 2 * len(POOLS[pool])
     return round(BASE_MEMORY + 2 * 8 * variables * realizations * abscissae / 1e6)

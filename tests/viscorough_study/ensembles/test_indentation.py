@@ -33,7 +33,7 @@ def test_a_realization_is_the_same_in_every_batch(tmp_path, kind):
     settings = read_settings("config")
     table, size = (cases.disc_cases, {"elements": 17}) if kind == "discs" else (cases.line_cases, {"points": 512})
     make = {"discs": curves_of_discs, "lines": curves_of_lines}
-    ensembles = [one | size for one in cases.ensembles_of_batch(table(settings)["h04000"], "0000-0002")[-2:]]
+    ensembles = [one | size for one in cases.batch_ensembles(table(settings)["h04000"], "0000-0002")[-2:]]
     curves = {}
     for first in (0, 2):
         batch = [ensemble | {"numbers": [first, 3]} for ensemble in ensembles]
@@ -48,7 +48,7 @@ def test_a_realization_is_the_same_in_every_batch(tmp_path, kind):
 
 def test_the_first_curves_of_every_ensemble_go_further(tmp_path):
     settings = read_settings("config")
-    ensembles = cases.ensembles_of_batch(cases.disc_cases(settings)["h09000"], "0000-0002")[:2]
+    ensembles = cases.batch_ensembles(cases.disc_cases(settings)["h09000"], "0000-0002")[:2]
     batch = [ensemble | {"elements": 17} for ensemble in ensembles]
     values = curves_of_discs(tmp_path, batch)
     assert values["until_x"].tolist() == [3.0, 0.1, 0.1] * 2

@@ -44,18 +44,18 @@ def test_a_batch_of_several_ensembles_holds_each_realization_once(settings):
     members = [
         (*one["spawn_key"], number)
         for batch in cases.batches(case)
-        for one in cases.ensembles_of_batch(case, batch)
+        for one in cases.batch_ensembles(case, batch)
         for number in range(*one["numbers"])
     ]
     sizes = [(100000, 33, 9), (100000, 65, 2), (900000, 33, 9), (900000, 65, 2)]
     assert members == [(8, hurst, n, number) for hurst, n, numbers in sizes for number in range(numbers)]
-    assert cases.ensembles_of_batch(case, "0007-0013")[1]["surface"]["hurst"] == 0.1
+    assert cases.batch_ensembles(case, "0007-0013")[1]["surface"]["hurst"] == 0.1
     assert case["indentation"]["until_x"] == settings["sizes"]["until_x"] != settings["indentation"]["until_x"]
 
 
 def test_a_batch_has_the_same_realizations_of_all_combinations(settings):
     """So that more realizations add batches, and change none."""
-    batch = cases.ensembles_of_batch(cases.disc_cases(settings)["h04000"], "0002-0005")
+    batch = cases.batch_ensembles(cases.disc_cases(settings)["h04000"], "0002-0005")
     assert [one["spawn_key"] for one in batch] == [(1, 400000, number) for number in range(1, 10)]
     assert {(*one["numbers"], one["elements"]) for one in batch} == {(2, 6, 257)}
 

@@ -11,7 +11,7 @@ COARSEST = 32  # least number of points along a side of the coarsest grid
 
 
 class AspherNested:
-    """Exact convolution ("fft"); the cascade starts from nothing, so that no level uses the one before."""
+    """Exact convolution ("fft"); the cascade starts from zero pressure, independent of the previous level."""
 
     def __init__(self, problem):
         self.problem = problem

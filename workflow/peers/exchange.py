@@ -1,4 +1,4 @@
-"""What the adapters of other contact solvers share: request, timing of the levels, answer. Needs numpy only.
+"""Common part of the adapters of other contact solvers: request, timing of the levels, answer. Needs numpy only.
 
 viscorough_study.performance.other_solvers describes the request, the answer and their units: lengths are in element
 sides and pressures in shear moduli G; E = 3, ν = 1/2, E* = 4. A solver is a class that is called with a Problem and has
@@ -27,7 +27,7 @@ class Problem:
 
 
 def answer_request(distribution, solver_class):
-    """Read the request named first on the command line, solve it, write the answer named second.
+    """Read the request, the first argument of the command line, solve it and write the answer, the second argument.
 
     distribution : name under which the solver is installed, for its version
     solver_class : solver_class(problem) sets up everything that does not depend on the level. Its
@@ -83,7 +83,7 @@ def _all_levels(solver, levels, tolerance):
 
 
 def _padded(request):
-    """Initial gap on the padded grid; outside the indenter just too large for contact, as more slows some solvers."""
+    """Initial gap on the padded grid; outside the indenter just too large for contact: more slows some solvers."""
     gap, side = request["gap"], int(request["padding"])
     inside = np.isfinite(gap)
     largest = max(gap[inside].max(), 1.1 * request["depths"][-1])
@@ -93,7 +93,7 @@ def _padded(request):
 
 
 def _limit_threads(threads):
-    """Restart this script with the number of threads in its environment, which libraries read when they are loaded."""
+    """Restart this script with the number of threads in its environment, which libraries read on loading."""
     names = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
     if any(os.environ.get(name) != str(threads) for name in names):
         os.environ.update(dict.fromkeys(names, str(threads)))

@@ -11,7 +11,7 @@ tamaas.set_log_level(tamaas.LogLevel.error)
 
 
 class Tamaas:
-    """The problem in the pressures: the one in the gaps needs the inverse operator, which only periodic models have."""
+    """Formulation in the pressures: that in the gaps needs the inverse operator, which only periodic models have."""
 
     def __init__(self, problem):
         self.problem = problem

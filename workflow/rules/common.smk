@@ -1,4 +1,4 @@
-"""What rules are made from; everything that does not need Snakemake is in viscorough_study."""
+"""Functions and constants of the rules; code independent of Snakemake is in viscorough_study."""
 
 import hashlib
 import importlib.util
@@ -83,7 +83,7 @@ def require_valid(settings):
 
 
 def measured_cases(settings):
-    """Cases of the measured surfaces; ends with one line about a file that is not there."""
+    """Cases of the measured surfaces; ends with one line about a missing file."""
     try:
         return cases.measured_cases(scans(settings["measured"]), settings["indentation"])
     except SettingsError as error:
@@ -93,7 +93,7 @@ def measured_cases(settings):
 # ---- inputs and params
 
 
-def of_scan(name):
+def scan_value(name):
     """Input or params function: a value of the measured surface."""
     return lambda wildcards: MEASURED[wildcards.scan][name]
 
@@ -144,7 +144,7 @@ def paper(name):
 
 
 def region_limits():
-    """Settings by which region (b) is found: those of the fits without the ones that only fits need."""
+    """Settings that determine region (b): those of the fits without the ones that only fits need."""
     return {name: value for name, value in config["scaling"].items() if name not in ("stiffness_range", "resamples")}
 
 
@@ -176,7 +176,7 @@ def combinations():
 
 
 def other_solvers():
-    """{solver: Python of its environment, its adapter}, whether or not `make peers` has built the environments."""
+    """{solver: [Python of its environment, its adapter]}, whether or not `make peers` has built the environments."""
     adapters = WORKFLOW / "peers"
     modern, slippy = (str(PROJECT / name / "bin" / "python") for name in (".venv-peers", ".venv-slippy"))
     pythons = {"ASPHER": modern, "ASPHER nested": modern, "ContactMechanics": modern, "SlipPY": slippy}
@@ -188,19 +188,19 @@ def other_solvers():
 
 
 def other_solvers_wanted():
-    """Whether the methods that are measured include other solvers; otherwise the page quotes published times."""
+    """Whether the measured methods include other solvers; otherwise the page quotes published times."""
     return "other solver" in config["methods"]["groups"]
 
 
 def page_digests():
-    """Digests of the texts of the page that are no results, whose paths depend on where the project lies."""
+    """Digests of the texts of the page that are not results; their paths depend on the location of the project."""
     texts = sorted([*(WORKFLOW / "page").iterdir(), *(WORKFLOW / "report").rglob("*.rst"), WORKFLOW / "results.yaml"])
     texts += [PROJECT / name for name in ("resources/published/other_solvers.csv", "docs/claims.csv", "docs/rules.png")]
     return [hashlib.sha256(path.read_bytes()).hexdigest()[:16] for path in texts]
 
 
 def adapter_digests():
-    """Digests of the adapters of the other solvers, which run in other environments than the scripts."""
+    """Digests of the adapters of the other solvers, which run in separate environments."""
     return [SOURCES.digest(path) for path in sorted((WORKFLOW / "peers").glob("*.py"))]
 
 
@@ -225,14 +225,14 @@ FIGURES = {
     name: {"target": "all", "params": [], "file": name, "module": name} | entry
     for name, entry in RESULTS["figures"].items()
 }
-OF_TABLES = {"target": "all", "input": {}, "memory": 1000, "queued": False, "alone": False}
+TABULATION_DEFAULTS = {"target": "all", "input": {}, "memory": 1000, "queued": False, "alone": False}
 TABLES = {
-    table: {"target": rule.get("target", "all"), "timed": False} | about
+    table: {"target": rule.get("target", "all"), "timed": False} | entry
     for rule in RESULTS["tables"].values()
-    for table, about in rule["tables"].items()
+    for table, entry in rule["tables"].items()
 }
 TABULATIONS = {
-    name: OF_TABLES | entry | {"tables": {table: TABLES[table] for table in entry["tables"]}}
+    name: TABULATION_DEFAULTS | entry | {"tables": {table: TABLES[table] for table in entry["tables"]}}
     for name, entry in RESULTS["tables"].items()
     if "function" in entry
 }
@@ -244,15 +244,15 @@ def tables_of(target):
 
 
 def shown_tables_of(target):
-    """{table: entry} of those that the report shows."""
+    """{table: entry} of the tables of a target that the report shows."""
     return {name: table for name, table in tables_of(target).items() if "chapter" in table}
 
 
-def functions_of_tables(made):
+def table_functions(tabulation):
     """The function that makes the tables of a rule, and the columns of each table, as in scripts/tabulate.py."""
-    default = made["function"].rpartition(".")[0] + ".COLUMNS"
-    columns = {name: table.get("columns", default) for name, table in made["tables"].items()}
-    return {"tabulate": made["function"]} | columns
+    default = tabulation["function"].rpartition(".")[0] + ".COLUMNS"
+    columns = {name: table.get("columns", default) for name, table in tabulation["tables"].items()}
+    return {"tabulate": tabulation["function"]} | columns
 
 
 def plots_of(target):
@@ -260,15 +260,15 @@ def plots_of(target):
     return [getattr(rules, f"plot_{name}") for name, figure in FIGURES.items() if figure["target"] == target]
 
 
-def functions_of(figure):
-    """The function that draws a figure and those that read what is no table, as in scripts/plot.py."""
+def figure_functions(figure):
+    """The function that draws a figure and those that read inputs other than tables, as in scripts/plot.py."""
     readers = [argument for argument, path in figure["input"].items() if not path.endswith(".csv")]
     draw = {"draw": "viscorough_study.figures.{module}.plot_{module}".format(**figure)}
     return draw | {argument: f"viscorough_study.figures.inputs.{argument}" for argument in readers}
 
 
 def chapter(name):
-    """Category of a result; a function, because Snakemake calls those of categories only when it makes a report."""
+    """Category of a result, as a function, which Snakemake calls only when it makes a report."""
 
     def category(wildcards):
         require_current()
@@ -278,7 +278,7 @@ def chapter(name):
 
 
 def require_current():
-    """End with one line if jobs would have to run for the report: its captions would not describe the results."""
+    """End with one line if jobs would have to run before the report, whose captions would not match the results."""
     if outdated := sorted({job.rule.name for job in workflow.dag.needrun_jobs() if job.output}):
         raise SystemExit(
             "Error: results were not made with these settings and sources; run the workflow first, or give the settings "
@@ -307,31 +307,31 @@ def large_memory(wildcards):
 
 def own_rules():
     """The rules of this workflow, without those of one that uses it as a module."""
-    return [one for one in workflow.rules if path_of(one.basedir).is_relative_to(WORKFLOW)]
+    return [own_rule for own_rule in workflow.rules if path_of(own_rule.basedir).is_relative_to(WORKFLOW)]
 
 
 def explain(rules):
     """Give every rule without a docstring its message, for `snakemake --list`."""
-    for one in rules:
-        one.docstring = one.docstring or re.sub(r"{wildcards\.(\w+)}", r"{\1}", one.message or "")
+    for own_rule in rules:
+        own_rule.docstring = own_rule.docstring or re.sub(r"{wildcards\.(\w+)}", r"{\1}", own_rule.message or "")
 
 
 def add_source_digests(rules):
-    """Give every rule with a script a digest of the source code that it uses as a parameter without a name.
+    """Give every rule with a script an unnamed parameter, the digest of the source code that it uses.
 
-    Snakemake itself sees changes of a script, but not of what it imports, and would rerun for reworded comments:
+    Snakemake itself sees changes of a script, but not of its imports, and would rerun for reworded comments:
     profiles/default switches its trigger `code` off.
     """
-    for one in rules:
-        if one.script:
-            functions = dict(one.params).get("functions", {})  # which its script imports by name
-            one.set_params(SOURCES.digest(WORKFLOW / "rules" / one.script, *functions.values()))
+    for own_rule in rules:
+        if own_rule.script:
+            functions = dict(own_rule.params).get("functions", {})  # imported by name in the script
+            own_rule.set_params(SOURCES.digest(WORKFLOW / "rules" / own_rule.script, *functions.values()))
 
 
 def compile_kernels():
     """Fill numba's cache once before any job.
 
-    Not a rule: an output that many jobs need would rerun them all when it is made again, and as an `ancient` input it
+    This is no rule: an output that many jobs need would rerun them all when it is remade, and as an `ancient` input it
     hides changes of their parameters from Snakemake.
     """
     stamp = Path(".snakemake") / "kernels"
@@ -341,7 +341,7 @@ def compile_kernels():
     print("Compiling the solvers, once: about a minute", file=sys.stderr, flush=True)
     start = time.monotonic()
     subprocess.run([sys.executable, "-m", "viscorough_study.run.kernels"], check=True)
-    cost = Path("results/benchmarks/compile_kernels.tsv")  # as of a job, whose memory is not measured
+    cost = Path("results/benchmarks/compile_kernels.tsv")  # as for a job, without its memory
     cost.parent.mkdir(parents=True, exist_ok=True)
     with atomic_write(cost) as temporary:
         temporary.write_text(f"s\tmax_rss\n{time.monotonic() - start:.2f}\t\n")

@@ -34,7 +34,7 @@ for name, figure in FIGURES.items():
             mem_mb=1000,
         params:
             **{param: FIGURE_PARAMS[param] for param in figure["params"]},
-            functions=functions_of(figure),
+            functions=figure_functions(figure),
         message:
             f"Figure: {figure['label']}"
         script:

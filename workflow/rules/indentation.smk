@@ -3,7 +3,7 @@
 
 rule indent_surfaces:
     input:
-        # Params tell what the surfaces are made from: files that are temporary, and ancient here, do not.
+        # Changes of the surfaces are tracked by params: the files are temporary, and ancient here.
         surfaces=ancient("results/surfaces/{kind}/{case}/{batch}.nc"),
     output:
         curves="results/curves/{kind}/{case}/{batch}.nc",
@@ -25,7 +25,7 @@ rule indent_surfaces:
         "../scripts/indent_surfaces.py"
 
 
-# Lines are generated where they are reduced: a line of 4 000 000 points takes 16 MB.
+# Lines are generated in the job that reduces them: a line of 4 000 000 points takes 16 MB.
 rule reduce_lines:
     output:
         curves="results/curves/lines/{line}/{batch}.nc",

@@ -1,5 +1,5 @@
-# What is timed: every method on every indenter, and one disc on ever finer grids. `make speed` measures more methods on
-# more indenters, and other solvers, which takes over an hour.
+# Measured times: every method on every indenter, and one disc on grids from coarse to fine. `make speed` measures more
+# methods on more indenters, and other solvers, which takes over an hour.
 
 
 rule measure_methods:
@@ -23,7 +23,7 @@ rule measure_methods:
         region={name: config["scaling"][name] for name in ("elements_min", "stiffness_max")},
         repeats=config["methods"]["repeats"],
         longest=config["methods"]["longest"],
-        # In pairs of close levels, a solution that takes no start cannot win.
+        # For pairs of close levels, a solution without a start value cannot win.
         peers=(
             {name: paths for name, paths in other_solvers().items() if name != "ASPHER nested"}
             if other_solvers_wanted()

@@ -1,6 +1,6 @@
-# The page of the results: the last thing that `all` makes, from results only.
+# The page of the results: the last output of `all`, made from results only.
 
-# Figures on the page, each with the caption of the same name that it has in the report.
+# Figures on the page, with their captions in the report.
 PAGE_FIGURES = {
     figure["file"]: figure["alternative"]
     for figure in FIGURES.values()

@@ -1,4 +1,4 @@
-# What the rules cost. It differs from run to run, as does all that is timed.
+# Cost of the rules, which differs from run to run, as do all measured times.
 
 
 rule tabulate_rule_costs:
@@ -28,6 +28,6 @@ rule tabulate_rule_costs:
 
 
 rule costs:
-    """What the rules cost."""
+    """Time and memory of every rule."""
     input:
         rules.tabulate_rule_costs.output,

@@ -41,7 +41,7 @@ use rule generate_discs as generate_examples with:
 
 rule prepare_measured:
     input:
-        heights=ancient(of_scan("file")),  # the digest of its content counts
+        heights=ancient(scan_value("file")),  # the digest of its content counts
     output:
         surfaces=temp("results/surfaces/measured/{scan}/0000-0000.nc"),
     log:
@@ -53,12 +53,12 @@ rule prepare_measured:
     resources:
         mem_mb=lambda wildcards: cases.measured_memory(MEASURED[wildcards.scan]),
     params:
-        of_scan("digest"),
+        scan_value("digest"),
         name=lambda wildcards: wildcards.scan,
-        group=of_scan("group"),
-        spacing=of_scan("spacing"),
-        unit=of_scan("unit"),
-        preparation=of_scan("preparation"),
+        group=scan_value("group"),
+        spacing=scan_value("spacing"),
+        unit=scan_value("unit"),
+        preparation=scan_value("preparation"),
     message:
         "Measured surface {wildcards.scan}"
     script:

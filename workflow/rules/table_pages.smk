@@ -1,4 +1,4 @@
-# Tables as pages of HTML, for the report: those that one target makes in one job.
+# Tables as HTML pages for the report, in one job per target.
 
 for target in dict.fromkeys(table["target"] for table in TABLES.values()):
 

@@ -1,4 +1,4 @@
-# The tables of workflow/results.yaml that functions make: a rule for each of them, and one script.
+# The tables of workflow/results.yaml that functions make: one rule for each function, and one script.
 
 # {name of an input: files}
 TABLE_INPUTS = {
@@ -113,11 +113,11 @@ for name, made in TABULATIONS.items():
             mem_mb=made["memory"],
         params:
             adapter_digests() if name == "time_other_solvers" else [],
-            functions=functions_of_tables(made),
+            functions=table_functions(made),
             tables={
-                table: {key: about[key] for key in ("label", "dimension")} for table, about in made["tables"].items()
+                table: {key: entry[key] for key in ("label", "dimension")} for table, entry in made["tables"].items()
             },
-            timed=any(about["timed"] for about in made["tables"].values()),
+            timed=any(entry["timed"] for entry in made["tables"].values()),
             arguments=TABLE_PARAMS.get(name, {}),
         message:
             made["message"]

@@ -1,4 +1,4 @@
-# What can be asked for beside `all` and single results.
+# Targets besides `all` and single results.
 
 
 rule curves:
@@ -22,7 +22,7 @@ for number, name in enumerate(("surfaces", "kinetics", "master_curve", "exponent
 rule figures:
     """All figures."""
     input:
-        [one.output for one in plots_of("all")],
+        [plot.output for plot in plots_of("all")],
 
 
 rule tables:
@@ -44,18 +44,18 @@ rule validation:
 rule measured:
     """Tables and figures of the measured surfaces that the settings name."""
     input:
-        [one.output for one in (*plots_of("measured"), rules.show_tables_of_measured)] if MEASURED else [],
+        [result.output for result in (*plots_of("measured"), rules.show_tables_of_measured)] if MEASURED else [],
 
 
 rule speed:
     """Speed against accuracy of every method, and of other solvers."""
     input:
-        [one.output for one in (rules.plot_speed, rules.plot_level_placement, *plots_of("speed"))],
+        [plot.output for plot in (rules.plot_speed, rules.plot_level_placement, *plots_of("speed"))],
         rules.show_tables_of_speed.output,
 
 
 rule stability:
-    """Where each method fails."""
+    """Failure map of all methods."""
     input:
         rules.plot_failure_map.output,
 
@@ -68,7 +68,7 @@ rule sizes:
 
 
 rule large:
-    """The cost of one disc on ever finer grids."""
+    """Cost of one disc on grids from coarse to fine."""
     input:
         rules.plot_large.output,
         rules.show_tables_of_large.output,

@@ -1,4 +1,4 @@
-# Verdicts: on the comparison with exact solutions, which `all` requires to be met, and on the claims of the paper.
+# Verdicts on the comparison with exact solutions, which `all` requires to pass, and on the claims of the paper.
 
 
 rule check_validation:
@@ -23,7 +23,7 @@ rule check_validation:
         "../scripts/check_validation.py"
 
 
-# Tables that the claims are judged by.
+# Tables by which the claims are judged.
 EVIDENCE = ("scaling", "validation", "direct", "reduction", "mdr_summary", "mdr_exponents", "plateaus", "prefactors")
 EVIDENCE += ("zeta_laws", "methods", "sizes", "sizes_trends")
 

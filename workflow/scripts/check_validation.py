@@ -1,4 +1,4 @@
-"""Stop the workflow, naming the cases, where a comparison with an exact solution failed."""
+"""Stop the workflow with the names of failed cases if a comparison with an exact solution failed."""
 
 from pathlib import Path
 
@@ -9,7 +9,7 @@ from viscorough_study.run.job_log import log_to
 
 
 def main(table, passed, *, order_margin):
-    """Write what passed; raise ValueError with a part for every failed comparison of the table."""
+    """Write the names of passed comparisons. Raises ValueError, naming the failed ones, if there are any."""
     comparisons = pd.read_csv(table)
     if failed := failures(comparisons, order_margin):
         raise ValueError(f"validation failed, see {table}: " + "; ".join(failed))

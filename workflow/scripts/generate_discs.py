@@ -18,9 +18,9 @@ def main(surfaces, *, ensembles, seed):
             disc, rms = ensemble_disc(elements, surface, realization_seed(seed, *spawn_key, number))
             yield Realization(name, number, surface["hurst"], surface["diameter"], disc.spacing, rms), disc
 
-    settings = [{"seed": seed} | one for one in without_numbers(ensembles)]
-    sizes = [len(range(*one["numbers"])) for one in ensembles]
-    write_surfaces(zip(settings, sizes, (discs(**one) for one in ensembles), strict=True), surfaces)
+    settings = [{"seed": seed} | ensemble for ensemble in without_numbers(ensembles)]
+    sizes = [len(range(*ensemble["numbers"])) for ensemble in ensembles]
+    write_surfaces(zip(settings, sizes, (discs(**ensemble) for ensemble in ensembles), strict=True), surfaces)
 
 
 if job := globals().get("snakemake"):

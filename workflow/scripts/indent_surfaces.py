@@ -22,8 +22,8 @@ def main(surfaces, curves, *, indentation):
         for realization, indenter in progress(batch, len(batch), "indentations"):
             start, end = time.perf_counter(), end_of_curve(realization.number, indentation)
             curve = indent_surface(indenter, realization.rms, realization.diameter, until_x=end, **accuracy)
-            about = curve.depth.size, curve.operator_applications, time.perf_counter() - start
-            logging.info("realization %d: %d levels, %d operator applications, %.2f s", realization.number, *about)
+            cost = curve.depth.size, curve.operator_applications, time.perf_counter() - start
+            logging.info("realization %d: %d levels, %d operator applications, %.2f s", realization.number, *cost)
             indented.append(curve)
             realizations.append(realization)
             until_x.append(end)

@@ -13,13 +13,13 @@ from viscorough_study.run.seeds import large_disc_key, realization_seed
 
 
 def main(csv, curve, *, elements, threads, seed, hurst, tolerance, until_fraction, warm_up):
-    """Measure a disc of so many elements across; the other parameters are those of measure_disc."""
+    """Measure a disc of `elements` elements across; the other parameters are those of measure_disc."""
     key = large_disc_key(elements)
-    how = {"tolerance": tolerance, "until_fraction": until_fraction, "warm_up": warm_up, "threads": threads}
-    loading_curve, cost = measure_disc(hurst, elements, realization_seed(seed, *key), **how)
+    options = {"tolerance": tolerance, "until_fraction": until_fraction, "warm_up": warm_up, "threads": threads}
+    loading_curve, cost = measure_disc(hurst, elements, realization_seed(seed, *key), **options)
     settings = {"seed": seed, "spawn_key": key, "hurst": hurst, "until_fraction": until_fraction}
-    about = {"title": "A disc on a fine grid", "settings": json.dumps(settings)}
-    netcdf.write(stack_curves([loading_curve]).with_attributes(**about), curve)
+    attributes = {"title": "A disc on a fine grid", "settings": json.dumps(settings)}
+    netcdf.write(stack_curves([loading_curve]).with_attributes(**attributes), curve)
     with atomic_write(csv) as temporary:
         pd.DataFrame([cost]).to_csv(temporary, index=False)
 

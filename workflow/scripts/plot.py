@@ -11,11 +11,11 @@ def main(files, png, pdf, *, functions, **params):
     """Draw a figure from files.
 
     files : {argument of the function that draws: path}; params : its further arguments
-    functions : names, with their modules, of the function that draws ("draw") and, under the arguments, of those that
-        take files and return what it draws; other arguments are tables
+    functions : dotted names of the function that draws ("draw") and, under the arguments, of their readers, which take
+        `files`; other arguments are tables
     """
-    given = {name: named(functions[name])(files) if name in functions else pd.read_csv(files[name]) for name in files}
-    save_figure(named(functions["draw"])(**given, **params), png, pdf)
+    inputs = {name: named(functions[name])(files) if name in functions else pd.read_csv(files[name]) for name in files}
+    save_figure(named(functions["draw"])(**inputs, **params), png, pdf)
 
 
 if job := globals().get("snakemake"):

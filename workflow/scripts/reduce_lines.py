@@ -9,21 +9,20 @@ from viscorough_study.run.seeds import realization_seed
 
 
 def main(curves, *, ensembles, seed, until_x):
-    """Generate and reduce the realizations of a batch until X = F/(4GhL) is until_x; lengths in m.
+    """Generate and reduce the realizations of a batch up to X = F/(4GhL) = until_x; lengths in m.
 
-    ensembles : the batch's, each with spawn_key, points, surface (arguments of SelfAffineLines) and numbers, first
-        realization and the one after the last
+    ensembles : of `viscorough_study.run.cases.batch_ensembles`; surface : arguments of SelfAffineLines
     """
     batch, reduced, realizations, before = numbered(ensembles), [], [], None
-    for one, number in progress(batch, len(batch), "lines"):
-        surface = one["surface"]
-        if one is not before:  # what the realizations of an ensemble share is computed once
-            lines, before = SelfAffineLines(points=one["points"], **surface), one
-        heights = lines.heights_in_any_order(realization_seed(seed, *one["spawn_key"], number))
+    for ensemble, number in progress(batch, len(batch), "lines"):
+        surface = ensemble["surface"]
+        if ensemble is not before:  # quantities common to the realizations are computed once
+            lines, before = SelfAffineLines(points=ensemble["points"], **surface), ensemble
+        heights = lines.heights_in_any_order(realization_seed(seed, *ensemble["spawn_key"], number))
         until_force = 4 * surface["rms"] * surface["length"] * until_x
         reduced.append(reduce_heights(heights, lines.spacing, until_force=until_force, length_unit="m"))
         lengths = surface["length"], lines.spacing, {"line": surface["rms"]}  # every line has the nominal rms height
-        realizations.append(Realization(one["name"], number, surface["hurst"], *lengths))
+        realizations.append(Realization(ensemble["name"], number, surface["hurst"], *lengths))
     settings = {"seed": seed, "until_x": until_x, "ensembles": without_numbers(ensembles)}
     netcdf.write(batch_of_curves(reduced, realizations, until_x=until_x, settings=settings), curves)
 

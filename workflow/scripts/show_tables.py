@@ -8,7 +8,7 @@ from viscorough_study.run.job_log import log_to
 
 
 def main(template, csv, nc, html):
-    """Write the page of every table; csv, nc, html : paths, in one order; template : path of that of the pages"""
+    """Write the page of every table; csv, nc, html : paths in the same order; template : path of the pages' template"""
     text = Path(template).read_text(encoding="utf-8")
     for table, described, page in zip(csv, nc, html, strict=True):
         with atomic_write(page) as temporary:

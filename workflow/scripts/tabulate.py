@@ -17,10 +17,10 @@ def main(files, csv, nc, *, functions, tables, timed, arguments):
     made = named(functions["tabulate"])(**{name: read_input(path) for name, path in files.items()}, **arguments)
     made = dict.fromkeys(tables, made) if isinstance(made, pd.DataFrame) else made
     attributes = recorded(settings=arguments, **({"machine": timing.machine()} if timed else {}))
-    for (name, about), *paths in zip(tables.items(), csv, nc, strict=True):
-        title = about["label"][0].upper() + about["label"][1:]
-        how = {"dimension": about["dimension"], "title": title, "attributes": attributes}
-        write_table(made[name], *paths, columns=named(functions[name]), **how)
+    for (name, entry), *paths in zip(tables.items(), csv, nc, strict=True):
+        title = entry["label"][0].upper() + entry["label"][1:]
+        description = {"columns": named(functions[name]), "dimension": entry["dimension"], "title": title}
+        write_table(made[name], *paths, **description, attributes=attributes)
 
 
 if job := globals().get("snakemake"):

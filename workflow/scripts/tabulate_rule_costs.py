@@ -9,11 +9,11 @@ from viscorough_study.run.tables import recorded, write_table
 
 
 def main(csv, nc, *, benchmarks):
-    """Sum up the benchmark files of the jobs that were run so far; benchmarks : their folder."""
+    """Sum up the benchmark files of the jobs so far; benchmarks : their folder."""
     made = {"date": date.today().isoformat()}
-    about = recorded(machine=timing.machine(), versions=versions(), made=made)
+    attributes = recorded(machine=timing.machine(), versions=versions(), made=made)
     table, title = rule_costs(benchmarks), "Time and memory of every rule"
-    write_table(table, csv, nc, columns=COLUMNS, dimension="rule", title=title, attributes=about)
+    write_table(table, csv, nc, columns=COLUMNS, dimension="rule", title=title, attributes=attributes)
 
 
 if job := globals().get("snakemake"):

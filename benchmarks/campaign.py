@@ -1,4 +1,4 @@
-"""Count silent failures: random small indenters whose solution claims to have converged but is wrong.
+"""Count silent failures: random small indenters whose solution is reported as converged but is wrong.
 
     python benchmarks/campaign.py --output results/campaign.json
 
@@ -22,7 +22,7 @@ from viscorough_study.robustness.random_curves import audit_failure, curve_failu
 from viscorough_study.robustness.random_indenters import random_case, silent_failure
 from viscorough_study.run.seeds import random_indenter_key, realization_seed
 
-# What draws a case, what checks it, and the share of the number of cases that is run.
+# {family: (function that draws a case, function that checks it, fraction of the number of cases)}
 FAMILIES = {
     "levels": (random_case, silent_failure, 1.0),
     "curves": (random_curve, curve_failure, 1.0),
@@ -33,7 +33,7 @@ FAMILIES = {
 
 
 def failure(family, seed, case):
-    """What is wrong, in words, with one case of a family; "" if nothing is. Any exception counts as a failure."""
+    """Failure of one case of a family, as text; "" if there is none. Any exception counts as a failure."""
     draw, check, _ = FAMILIES[family]
     generator = np.random.default_rng(realization_seed(seed, *random_indenter_key(case)))
     try:

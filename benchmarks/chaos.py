@@ -1,4 +1,4 @@
-"""Kill the workflow repeatedly, and compare what it finally makes with the results of an undisturbed run.
+"""Kill the workflow repeatedly, and compare its final results with those of an undisturbed run.
 
     python benchmarks/chaos.py --kills 60 --seed 1 --output results/chaos.json
 
@@ -36,7 +36,7 @@ HANGS = 3600  # seconds after which a run is taken to hang, even on a busy machi
 
 
 def copy_project(folder):
-    """What git tracks or would track, and numba's caches beside the modules: compiling would take most of the time."""
+    """Copy the files that git tracks or would track, and numba's caches: compiling would take most of the time."""
     list_files = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
     tracked = subprocess.run(list_files, cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True).stdout
     for name in tracked.rstrip("\0").split("\0"):
@@ -52,7 +52,7 @@ def remove_results(folder):
 
 
 def wait_for(condition, what, seconds=120):
-    """The condition's value as soon as it is true."""
+    """Wait until the condition is true; return its value."""
     end = time.monotonic() + seconds
     while not (value := condition()):
         if time.monotonic() > end:
@@ -84,7 +84,7 @@ def started(folder, *arguments, log="chaos.log", mode="w"):
 
 
 def verdict(folder, run):
-    """Wait for the end of a run that is not disturbed any more; one line on what went wrong, or None."""
+    """Wait for the end of a run that is no longer disturbed; an error message, or None."""
     try:
         code = run.wait(HANGS)
     except subprocess.TimeoutExpired:
@@ -128,7 +128,7 @@ def jobs_done(folder):
 
 
 def killed_run(folder, random, longest_wait, kills, report):
-    """A run without results until its end, killed up to `kills` times; one line on what else went wrong, or None."""
+    """A run without results until its end, killed up to `kills` times; an error message on other faults, or None."""
     remove_results(folder)
     killed = 0
     while True:
@@ -150,7 +150,7 @@ def killed_run(folder, random, longest_wait, kills, report):
 
 
 def contents(folder):
-    """{name: bytes} of everything in results/, without the bytes of what contains times."""
+    """{name: bytes} of all files in results/, without the bytes of files that hold times."""
     results = folder / "results"
     names = sorted(path.relative_to(results) for path in results.rglob("*") if path.is_file())
     return {str(name): b"" if holds_times(name) else (results / name).read_bytes() for name in names}

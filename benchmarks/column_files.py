@@ -83,10 +83,10 @@ def read_history(path):
     heading = CLEAR.format(u="m")
     (path.parent / "loading.csv").write_text("\n".join([*ABOUT, heading + COUNTS, "1e12,1e12,1.0,99,1.0,0.0", ""]))
     names = [str(path.parent / "loading.csv"), "--force-history", str(path), "--viscosity", "1", "-o"]
-    with contextlib.redirect_stderr(io.StringIO()) as said, contextlib.redirect_stdout(io.StringIO()):
+    with contextlib.redirect_stderr(io.StringIO()) as messages, contextlib.redirect_stdout(io.StringIO()):
         code = cli.main(["kinetics", *names, str(path.parent / "kinetics.nc")])
     if code:
-        raise ValueError(said.getvalue().strip().removeprefix("viscorough kinetics: "))
+        raise ValueError(messages.getvalue().strip().removeprefix("viscorough kinetics: "))
     variables = netcdf.read(path.parent / "kinetics.nc").variables
     return np.stack([variables["time"].values, variables["force"].values], axis=1)
 

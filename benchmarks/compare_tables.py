@@ -34,7 +34,7 @@ def content(path):
 
 
 def difference(old, new):
-    """What differs between the values of a column in OLD and NEW, None where there is none; "" if nothing does."""
+    """Difference between the values of a column in OLD and NEW, None where it is absent, as text; "" if none."""
     if old is None or new is None:
         return "only in NEW" if old is None else "only in OLD"
     if old.shape != new.shape:
@@ -61,23 +61,23 @@ def main(old, new, allow):
     ]
     # A table is compared as CSV, not also as NetCDF.
     every = {name for name in runs[0] | runs[1] if (name.suffix == ".csv") == (name.parts[0] == "tables")}
-    found, compared = {}, 0
+    differences, compared = {}, 0
     for name in sorted(every):
         if holds_times(name):
             click.echo(f"not compared, holds measured times: {name}")
         elif name not in runs[0] or name not in runs[1]:
-            found[str(name)] = "only in OLD" if name in runs[0] else "only in NEW"
+            differences[str(name)] = "only in OLD" if name in runs[0] else "only in NEW"
         else:
             contents = content(old / name), content(new / name)
             for column in dict.fromkeys([*contents[0], *contents[1]]):
-                values = [of_run.get(column) for of_run in contents]
+                values = [columns.get(column) for columns in contents]
                 compared += values[0] is not None and values[0].size
-                found |= {f"{name}, {column}": what} if (what := difference(*values)) else {}
-    meant = {name for name in found if any(fnmatch.fnmatch(name, pattern) for pattern in allow)}
-    for name, what in found.items():
-        click.echo(f"{'allowed' if name in meant else 'DIFFERENCE'}: {name}: {what}")
-    click.echo(f"{compared} values compared, {len(found) - len(meant)} differences")
-    sys.exit(len(found) > len(meant))
+                differences |= {f"{name}, {column}": text} if (text := difference(*values)) else {}
+    allowed = {name for name in differences if any(fnmatch.fnmatch(name, pattern) for pattern in allow)}
+    for name, text in differences.items():
+        click.echo(f"{'allowed' if name in allowed else 'DIFFERENCE'}: {name}: {text}")
+    click.echo(f"{compared} values compared, {len(differences) - len(allowed)} differences")
+    sys.exit(len(differences) > len(allowed))
 
 
 if __name__ == "__main__":

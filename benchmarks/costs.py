@@ -31,8 +31,8 @@ def sizes(folder):
 def run_to_its_end(command):
     """Run a command and return its exit code.
 
-    Ctrl-C reaches the command by itself, and `subprocess.run` would kill it a quarter of a second later. Here, it has
-    the time to end its jobs and to unlock its folder. SIGTERM, which reaches only this process, is passed on.
+    Ctrl-C reaches the command itself, and `subprocess.run` would kill it a quarter of a second later. Here it has time
+    to end its jobs and to unlock its folder. SIGTERM, which reaches only this process, is passed on.
     """
     process = subprocess.Popen(command)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
@@ -47,7 +47,7 @@ def run_to_its_end(command):
 @click.argument("command", nargs=-1, required=True)
 def main(output, results, command):
     try:
-        rule_costs(results / "benchmarks")  # of earlier runs: a damaged file is better found now than afterwards
+        rule_costs(results / "benchmarks")  # of earlier runs: a damaged file is reported before the run
     except ValueError as error:
         raise click.ClickException(str(error)) from None
     start = time.perf_counter()
@@ -55,16 +55,16 @@ def main(output, results, command):
     seconds = time.perf_counter() - start
     if code:
         sys.exit(code)
-    of_rules = rule_costs(results / "benchmarks").set_index("rule").to_dict("index")
-    of_folders = sizes(results)
+    rules = rule_costs(results / "benchmarks").set_index("rule").to_dict("index")
+    megabytes = sizes(results)
     total = {
         "wall_s": round(seconds, 1),
-        "jobs_s": round(sum(rule["seconds"] for rule in of_rules.values()), 1),
-        "memory_mb": max((rule["memory_mb"] for rule in of_rules.values()), default=0),
-        "results_mb": round(sum(of_folders.values()), 1),
+        "jobs_s": round(sum(rule["seconds"] for rule in rules.values()), 1),
+        "memory_mb": max((rule["memory_mb"] for rule in rules.values()), default=0),
+        "results_mb": round(sum(megabytes.values()), 1),
     }
     click.echo("{wall_s:.0f} s; jobs at most {memory_mb:.0f} MB; results {results_mb:.0f} MB".format(**total))
-    save({"command": " ".join(command), **total, "rules": of_rules, "results": of_folders}, output)
+    save({"command": " ".join(command), **total, "rules": rules, "results": megabytes}, output)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Measure what curves, lines and operators cost and how accurate they are, in one process on one thread.
+"""Measure the cost and accuracy of curves, lines and operators, in one process on one thread.
 
     python benchmarks/curves.py --output results/benchmarks.json
 
@@ -52,8 +52,8 @@ def curves(hursts, seeds, repeats):
 
 def _curve(hurst, seed, repeats):
     disc = self_affine_disc(hurst, ELEMENTS, seed=seed)
-    one = partial(indent, disc, until_fraction=UNTIL, until_force=4 * UNTIL_X)
-    curve, (wall, processor) = one(), medians({"curve": one}, repeats)["curve"]
+    compute = partial(indent, disc, until_fraction=UNTIL, until_force=4 * UNTIL_X)
+    curve, (wall, processor) = compute(), medians({"curve": compute}, repeats)["curve"]
     at_levels = indent(disc, tolerance=1e-6, depths=curve.depth[curve.contact_count > 1])
     fine = indent(disc, tolerance=1e-6, depths=np.geomspace(curve.depth[0], curve.depth[-1] * (1 - 1e-9), 300))
     inside = fine.force <= curve.force[-1]
@@ -112,8 +112,8 @@ def shares(function, parts):
     """Processor seconds of a function, and the share of each part in them."""
     with stopwatch(parts) as seconds:
         _, _, whole = timing.timed(function)
-    of_parts = {part: round(spent / whole, 3) for part, spent in seconds.items()}
-    return {"processor_s": round(whole, 4), **of_parts, "rest": round(1 - sum(of_parts.values()), 3)}
+    shares_of_parts = {part: round(spent / whole, 3) for part, spent in seconds.items()}
+    return {"processor_s": round(whole, 4), **shares_of_parts, "rest": round(1 - sum(shares_of_parts.values()), 3)}
 
 
 def parts():
@@ -125,9 +125,9 @@ def parts():
         rows[f"curve of a {across} disc"] = curve, PARTS_OF_CURVE
     rows[f"line of {POINTS} points"] = partial(curve_of_line, SelfAffineLines(0.6, POINTS)), PARTS_OF_LINE
     result = {}
-    for name, (function, of_function) in rows.items():
+    for name, (function, timed_parts) in rows.items():
         function()
-        result[name] = pd.DataFrame([shares(function, of_function) for _ in range(5)]).median().to_dict()
+        result[name] = pd.DataFrame([shares(function, timed_parts) for _ in range(5)]).median().to_dict()
     return result
 
 

@@ -1,4 +1,4 @@
-"""Read files of known maps of heights, in every format with its ordinary variations: is any read as another map?
+"""Read files of known maps of heights, in every format with its ordinary variations, and find those misread.
 
     python benchmarks/file_campaign.py --files 10000 --seed 1 --output results/file_campaign.json
 
@@ -89,12 +89,12 @@ def outcome(case, folder):
     """(READ, REFUSED, UNREAD or WRONG, why) of a case, whose file is written to the folder."""
     path, printed = Path(folder) / case.name, io.StringIO()
     path.write_bytes(case.content)
-    found, refusal = None, ""
+    result, refusal = None, ""
     with warnings.catch_warnings(record=True) as caught, contextlib.redirect_stdout(printed):
         warnings.simplefilter("always")
         try:
             with contextlib.redirect_stderr(printed), time_limit(LONGEST):
-                found = read(case, path)
+                result = read(case, path)
         except ValueError as error:
             refusal = str(error)
         except Exception:
@@ -104,9 +104,9 @@ def outcome(case, folder):
             return WRONG, f"{warning.category.__name__}: {warning.message}"
     if printed.getvalue() or NO_END in refusal:
         return WRONG, printed.getvalue()[:200] or refusal
-    if found is None:
+    if result is None:
         return judged_refusal(case, refusal, path)
-    fault = difference(case, *found)
+    fault = difference(case, *result)
     return (WRONG, fault) if fault else (READ, "")
 
 
@@ -125,14 +125,14 @@ def judged_refusal(case, text, path):
     """The outcome of a refusal."""
     if "\n" in text or not text.startswith(str(path)):
         return WRONG, f"a refusal of more than one line, or without the file: {text[:200]!r}"
-    what = text.removeprefix(f"{path}: ")
-    if case.faulty_line and not re.search(r"\blines? \d+", what):
-        return WRONG, f"a refusal that does not name the line: {what}"
-    return (UNREAD if case.unambiguous else REFUSED), what
+    reason = text.removeprefix(f"{path}: ")
+    if case.faulty_line and not re.search(r"\blines? \d+", reason):
+        return WRONG, f"a refusal that does not name the line: {reason}"
+    return (UNREAD if case.unambiguous else REFUSED), reason
 
 
 def difference(case, heights, unit, spacing):
-    """How what was read differs from the truth of a case; empty if it does not."""
+    """Difference of the result from the truth of a case, as text; "" if there is none."""
     read_as = f"shape {heights.shape}, spacing {spacing}, unit {unit} m"
     if case.heights is None:
         return f"read, though it must be refused: {read_as}"
@@ -176,9 +176,9 @@ def main(files, seed, only, keep, output):
             if only is not None:
                 click.echo(f"{case.kind}, {', '.join(case.traits)}; arguments {case.options}\n{word}: {why}")
                 click.echo(f"truth: {case.heights}, spacing {case.spacing}, unit {case.unit} m")
-    about = {"seed": seed, "files": len(numbers), "seconds": round(time.perf_counter() - began, 1), "counts": counts}
+    summary = {"seed": seed, "files": len(numbers), "seconds": round(time.perf_counter() - began, 1), "counts": counts}
     if output:
-        save({**about, "failures": failures}, output)
+        save({**summary, "failures": failures}, output)
     for failure in failures[:40]:
         text = f"{failure['is']}: {failure['kind']} ({', '.join(failure['traits'])}): {failure['why']}"
         click.echo(f"--seed {seed} --only {failure['file']}: {text}")

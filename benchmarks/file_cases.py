@@ -18,7 +18,7 @@ def generators(seed, numbers):
 
 @dataclass
 class Case:
-    """A file, the arguments it is read with, and the truth about both.
+    """A file, the arguments with which it is read, and the expected result.
 
     kind : of file; traits : the variations that were drawn
     heights : the numbers, nan where missing, in `unit`; None if the file must be refused
@@ -43,7 +43,7 @@ class Case:
 
 
 class Draft:
-    """The random choices of a file: their names, and whether they leave it unambiguous, or impossible to read."""
+    """Random choices of a file: their names, and whether they leave it unambiguous, or unreadable."""
 
     def __init__(self, kind, random):
         self.kind, self.random, self.traits = kind, random, []
@@ -53,7 +53,7 @@ class Draft:
         return self.random.random() < share
 
     def one_of(self, choices):
-        """One of the choices, without a trace."""
+        """One of the choices, without recording it."""
         return choices[self.random.integers(len(choices))]
 
     def pick(self, clear, unclear=(), bad=(), odd=0.12):
@@ -92,7 +92,7 @@ def map_shape(draft, least=2):
 
 
 def missing_points(draft, shape):
-    """Where points are missing: nowhere, at single places, around a disc, in entire rows or columns."""
+    """Mask of missing points: none, single ones, those outside a disc, or entire rows or columns."""
     mask = np.zeros(shape, bool)
     form = draft.one_of([*["none"] * 5, *["random", "first", "last", "round", "column", "row"] * 2, "first row"])
     row, column = (int(draft.random.integers(n)) for n in shape)

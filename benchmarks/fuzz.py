@@ -1,4 +1,4 @@
-"""Run the command line on random files and options, most of them bad: does it keep its contract?
+"""Run the command line on random files and options, most of them invalid, and check its contract.
 
     python benchmarks/fuzz.py --runs 10000 --output results/fuzz.json
 
@@ -75,7 +75,7 @@ def _run_in_child(arguments, out, err):
 
 
 def result_of(folder, arguments, files):
-    """Exit code of a run, and how it breaks the contract, in words; empty if it keeps it. `folder` is emptied first."""
+    """Exit code of a run, and its breach of the contract as text, "" if none. `folder` is emptied first."""
     for path in folder.iterdir():
         shutil.rmtree(path) if path.is_dir() and not path.is_symlink() else path.unlink()
     for name, content in ({"older.nc": b"older"} | files).items():
@@ -90,7 +90,7 @@ def result_of(folder, arguments, files):
 
 
 def breach(arguments, result, before, after):
-    """How the result of a run and the files before and after it break the contract, in words; empty if they keep it."""
+    """Breach of the contract by the result of a run and the files before and after it, as text; "" if there is none."""
     code, out, err = result
     changed = [path for path in sorted({*before, *after}) if before.get(path) != after.get(path)]
     if any(path.name == STARTED for path in after):
@@ -114,7 +114,7 @@ def breach(arguments, result, before, after):
 
 
 def fault_of_output(path):
-    """What is wrong with an output file, in words; empty if nothing is."""
+    """Fault of an output file, as text; "" if it has none."""
     if path.suffix in FIGURES:
         return "" if path.read_bytes().startswith(FIGURES[path.suffix]) else "the figure is damaged"
     try:
@@ -124,7 +124,7 @@ def fault_of_output(path):
     variables = content.variables
     if "depth_low" in variables or "levels" in variables:  # estimates and stacks of curves, which hold nan
         return ""
-    # A depth before the curve's first level is missing, and a velocity without bound; users are told.
+    # A depth before the curve's first level is missing, and an unbounded velocity; a warning says so.
     may_be_missing = {"depth", "velocity"} if "are missing" in str(content.attributes.get("warnings")) else set()
     for name in {*OVER_LEVELS, "time", "velocity", "overlap"} & set(variables):
         values = variables[name].values
@@ -138,20 +138,20 @@ def fault_of_output(path):
 
 
 def breaches(seed, numbers, folder):
-    """(number, arguments, words) of the runs that break the contract, and the number of each exit code."""
-    found, codes = [], Counter()
+    """[(number, arguments, breach)] of the runs that break the contract, and the number of runs by exit code."""
+    failures, codes = [], Counter()
     for number, random in generators(seed, numbers):
         arguments, files = case(random)
         code, words = result_of(folder, arguments, files)
         codes[str(code)] += 1
         if words:
-            found.append((number, arguments, words))
-    return found, codes
+            failures.append((number, arguments, words))
+    return failures, codes
 
 
 @contextlib.contextmanager
 def workplace():
-    """An empty folder, the working folder meanwhile; modules and compiled code are loaded once for all runs."""
+    """An empty working folder for the context; modules and compiled code are loaded once for all runs."""
     with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
         np.save("heights.npy", np.random.default_rng(0).random((7, 7)))
         heights = ["heights.npy", "--spacing", "100", "-o", "curve.nc"]
@@ -175,17 +175,17 @@ def main(runs, seed, only, output):
     """Count runs that break the contract; exit code 1 if there is any."""
     began, numbers = time.perf_counter(), range(runs) if only is None else [only]
     with workplace() as folder:
-        found, codes = breaches(seed, tqdm(numbers, unit="run", mininterval=2), folder)
-    for number, arguments, words in found:
+        failures, codes = breaches(seed, tqdm(numbers, unit="run", mininterval=2), folder)
+    for number, arguments, words in failures:
         repeat = f"python benchmarks/fuzz.py --seed {seed} --only {number}"
         click.echo(f"{repeat}: viscorough {' '.join(map(repr, arguments))}: {words}")
-    failures = [{"run": number, "arguments": arguments, "breach": words} for number, arguments, words in found]
+    failures = [{"run": number, "arguments": arguments, "breach": words} for number, arguments, words in failures]
     seconds = round(time.perf_counter() - began, 1)
-    click.echo(f"{len(found)} of {len(numbers)} runs off the contract, exit codes {dict(codes)}, {seconds} s")
-    about = {"seed": seed, "runs": len(numbers), "seconds": seconds, "exit_codes": codes}
+    click.echo(f"{len(failures)} of {len(numbers)} runs off the contract, exit codes {dict(codes)}, {seconds} s")
+    attributes = {"seed": seed, "runs": len(numbers), "seconds": seconds, "exit_codes": codes}
     if output:
-        save({**about, "off_contract": failures}, output)
-    raise SystemExit(bool(found))
+        save({**attributes, "off_contract": failures}, output)
+    raise SystemExit(bool(failures))
 
 
 if __name__ == "__main__":

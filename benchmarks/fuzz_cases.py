@@ -1,4 +1,4 @@
-"""Random command lines and the files that they name, most of them bad; for fuzz.py.
+"""Random command lines and the files that they name, most of them invalid; for fuzz.py.
 
 What can be drawn is a text or bytes, a function of the random generator, or a list of such choices. Maps of heights,
 histories, creep tables and curves in text are those of file_campaign.py, with the faults of this module.
@@ -28,7 +28,7 @@ STARTED = "code-was-run"  # the file that code in a file would make
 
 
 def drawn(random, choice):
-    """A choice, made until it is a text or bytes."""
+    """A random choice, nested until it is text or bytes."""
     while not isinstance(choice, (str, bytes)):
         choice = choice(random) if callable(choice) else one_of(random, choice)
     return choice
@@ -69,7 +69,7 @@ def odd_field(random, whole):
 
 
 def odd_line(random, whole):
-    """A line is missing, stands twice or is another one."""
+    """Text with a line removed, repeated or replaced."""
     lines = whole.splitlines(keepends=True) or [b""]
     at = random.integers(len(lines))
     return b"".join([*lines[:at], *one_of(random, [[], 2 * [lines[at]], [b"1\n"], [b"x: 1\n"]]), *lines[at + 1 :]])
@@ -99,7 +99,7 @@ def damaged(content):
 
 
 class Payload:
-    """Makes a file when it is unpickled."""
+    """Object that makes a file when it is unpickled."""
 
     def __reduce__(self):
         return open, (STARTED, "w")
@@ -169,10 +169,10 @@ def changed_netcdf(content):
         with netCDF4.Dataset("old.nc", memory=drawn(random, content)) as old:
             old.set_auto_maskandscale(False)
             variables = {name: [v.dimensions, np.array(v[...]), dict(v.__dict__)] for name, v in old.variables.items()}
-            about = dict(old.__dict__) | (attributes(random) if random.random() < 0.3 else {})
+            global_attributes = dict(old.__dict__) | (attributes(random) if random.random() < 0.3 else {})
         for _ in range(one_of(random, [0, 0, 1, 1, 2])):
             change(random, variables)
-        return netcdf_bytes(variables, about)
+        return netcdf_bytes(variables, global_attributes)
 
     return draw
 
@@ -181,25 +181,25 @@ def change(random, variables):
     """Change one variable, {name: [dimensions, values, attributes]}, remove it or add another."""
     name = one_of(random, list(variables))
     values = variables[name][1]
-    what = one_of(random, ["entry", "type", "attributes", "units", "missing", "added"])
+    edit = one_of(random, ["entry", "type", "attributes", "units", "missing", "added"])
     with contextlib.suppress(IndexError, OverflowError, ValueError), np.errstate(all="ignore"):
-        if what == "entry" and values.size:
+        if edit == "entry" and values.size:
             values.flat[random.integers(values.size)] = one_of(random, EXTREME)
-        elif what == "type":
+        elif edit == "type":
             variables[name][1] = np.nan_to_num(values).astype(one_of(random, ["S3", "i4", "f4", "u1"]))
-        elif what == "attributes":
+        elif edit == "attributes":
             variables[name][2].update(attributes(random))
-        elif what == "units":
+        elif edit == "units":
             variables[name][2].pop("units", None)
-        elif what == "missing" and len(variables) > 1:
+        elif edit == "missing" and len(variables) > 1:
             del variables[name]
-        elif what == "added":
+        elif edit == "added":
             added = array(random, any_shape(random))
             variables["added"] = [tuple(f"d{axis}" for axis in range(added.ndim)), added, attributes(random)]
 
 
-def netcdf_bytes(variables, about):
-    """A NetCDF file of what the library accepts of variables and attributes."""
+def netcdf_bytes(variables, global_attributes):
+    """A NetCDF file of those variables and attributes that the library accepts."""
     file = netCDF4.Dataset("new.nc", "w", memory=4096)
     for name, (dimensions, values, own) in variables.items():
         with contextlib.suppress(Exception), np.errstate(all="ignore"):
@@ -211,7 +211,7 @@ def netcdf_bytes(variables, about):
             variable.set_auto_maskandscale(False)
             set_attributes(variable, own)
             variable[...] = values
-    set_attributes(file, about)
+    set_attributes(file, global_attributes)
     return bytes(file.close())
 
 
@@ -227,8 +227,8 @@ def curve_file(random):
     scale = one_of(random, [1.0, 1.0, 1e-6, 1e150, 1e-160])
     depth, stiffness = scale * np.cumsum(random.random((2, levels)) + 0.1, axis=1)
     force = np.cumsum((np.append(0, stiffness[:-1]) + stiffness) / 2 * np.diff(depth, prepend=0))
-    about = levels + 9, "boundary elements", 1e-3, 5, 1e-3 * random.random(levels), one_of(random, ["1", "m", "um"])
-    content = curve_to_content(LoadingCurve(depth, force, stiffness, np.arange(1, levels + 1), *about))
+    fields = levels + 9, "boundary elements", 1e-3, 5, 1e-3 * random.random(levels), one_of(random, ["1", "m", "um"])
+    content = curve_to_content(LoadingCurve(depth, force, stiffness, np.arange(1, levels + 1), *fields))
     content = with_motion(content, depth, force) if random.random() < 0.5 else content
     with tempfile.TemporaryDirectory() as folder:
         netcdf.write(content, Path(folder) / "curve.nc")
@@ -249,7 +249,7 @@ MEDIA = [
 ]
 
 
-def of_campaign(*makers, kind=None):
+def campaign_file(*makers, kind=None):
     """Function that draws a file of file_campaign.py, of a kind if its maker has several."""
 
     def draw(random):
@@ -266,22 +266,22 @@ def sides(least, most, dimensions):
     return lambda random: tuple(random.integers(least, most + 1, dimensions))
 
 
-MATRICES = damaged(of_campaign(text_files.matrix))
+MATRICES = damaged(campaign_file(text_files.matrix))
 FILES = {
     "heights.npy": npy_file(sides(1, 7, 2)),
-    "heights.nc": damaged(changed_netcdf(of_campaign(binary_files.netcdf))),
+    "heights.nc": damaged(changed_netcdf(campaign_file(binary_files.netcdf))),
     "heights.txt": MATRICES,
     "heights.csv": MATRICES,
-    "heights.asc": damaged(of_campaign(point_files.esri)),
-    "heights.xyz": damaged(of_campaign(point_files.points, point_files.zygo)),
-    "heights.tif": damaged(of_campaign(binary_files.tiff, binary_files.geotiff, binary_files.imagej)),
+    "heights.asc": damaged(campaign_file(point_files.esri)),
+    "heights.xyz": damaged(campaign_file(point_files.points, point_files.zygo)),
+    "heights.tif": damaged(campaign_file(binary_files.tiff, binary_files.geotiff, binary_files.imagej)),
     "curve.nc": damaged(changed_netcdf(curve_file)),
-    "curve.csv": damaged(of_campaign(column_files.curve)),
+    "curve.csv": damaged(campaign_file(column_files.curve)),
     "line.npy": npy_file(sides(1, 9, 1)),
-    "force.csv": damaged(of_campaign(column_files.two_columns, kind="force history")),
+    "force.csv": damaged(campaign_file(column_files.two_columns, kind="force history")),
     "force.npy": npy_file(lambda _: (2, 2)),
     "medium.yaml": damaged(MEDIA),
-    "table.csv": damaged(of_campaign(column_files.two_columns, kind="creep table")),
+    "table.csv": damaged(campaign_file(column_files.two_columns, kind="creep table")),
 }
 
 # ---- options
@@ -377,7 +377,7 @@ def arguments_of(random):
 
 
 def method_of_march(random):
-    """The method of a direct integration, and what it mostly needs."""
+    """The method of a direct integration, mostly with the options that it needs."""
     method = one_of(random, METHODS)
     in_medium = method == "second_order" or (method in ("events", "implicit") and random.random() < 0.5)
     stepping = in_medium or method not in ("events", "")

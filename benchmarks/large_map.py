@@ -1,4 +1,4 @@
-"""Measure what a large measured-like map costs: its curve, and the contact at a force.
+"""Measure the cost of a large map, similar to measured ones: its curve, and the contact at a force.
 
     python benchmarks/large_map.py --output results/large_map.json
 

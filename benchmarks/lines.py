@@ -1,9 +1,9 @@
-"""Measure what a line costs, from random numbers to its loading curve, against one Fourier transform of its length.
+"""Measure the cost of a line, from random numbers to its loading curve, over that of a Fourier transform of its length.
 
     python benchmarks/lines.py --output results/lines.json
 
-The transform is ducc0's: real, in place, in single precision, on one thread, of as many points as the line. It takes
-turns with lines, which are made and reduced as in the workflow. Keys: `points`; the medians `line_wall_s` and
+The transform is ducc0's: real, in place, in single precision, on one thread, of as many points as the line. It
+alternates with lines, which are generated and reduced as in the workflow. Keys: `points`; the medians `line_wall_s` and
 `transform_wall_s`; the `ratio` of both within a turn, as its `median` and quartiles `low` and `high`; and of the time
 of a line the shares of its `waves` (random numbers and spectrum), of its `transform` and of the `bins` of its gaps.
 """
@@ -29,7 +29,7 @@ def measured(repeats, points=POINTS):
     spectrum, amplitude = np.empty(points // 2, np.complex64), np.ones(points // 2 + 1, np.float32)
     walls = []
     for turn in range(repeats + 1):
-        values = noise.copy()  # transformed in place: again and again, they would overflow
+        values = noise.copy()  # repeated transforms in place would overflow
         key = line_waves.key_of(np.random.SeedSequence(turn))
         transformed = partial(fft.r2r_fftpack, values, [0], real2hermitian=False, forward=False, out=values)
         _, transform, _ = timed(transformed)

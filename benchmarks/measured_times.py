@@ -1,4 +1,4 @@
-"""Which files of a run hold measured times, so that they differ from run to run."""
+"""Files of a run that hold measured times, and therefore differ from run to run."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""What the benchmarks have in common: their command lines and files, one thread, and functions that take turns."""
+"""Common parts of the benchmarks: command line, output file, one thread, and interleaved repeats."""
 
 import os
 import sys
@@ -10,7 +10,7 @@ import viscorough
 from viscorough_study.performance import timing
 from viscorough_study.run.tables import write_json
 
-# One thread, and an allocator that keeps its pages as in the workflow: both are read when a process starts.
+# One thread, and the settings of the allocator of the workflow, both of which a process reads when it starts.
 ENVIRONMENT = {
     **dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS"), "1"),
     "MALLOC_MMAP_THRESHOLD_": str(2**25),
@@ -21,7 +21,7 @@ output_option = click.option("--output", type=click.Path(path_type=Path), requir
 
 
 def save(content, output):
-    """Write the content of a file of results, with the machine and the version that it was made with."""
+    """Write the content of a file of results, with machine and version."""
     write_json({"machine": timing.machine(), "viscorough": viscorough.__version__, **content}, output)
     click.echo(f"written to {output}")
 
@@ -46,7 +46,7 @@ def command(measured, repeats):
 
 
 def medians(functions, repeats):
-    """{name: (wall, processor) seconds}, medians over repeats that are interleaved, after a first call of each."""
+    """{name: (wall, processor) seconds}, medians over interleaved repeats, after a first call of each function."""
     for function in functions.values():
         function()
     return timing.interleaved(functions, repeats)

@@ -1,4 +1,4 @@
-"""Measure what a member of an ensemble costs, and what its tolerance does to the mean.
+"""Measure the cost of a member of an ensemble, and the effect of its tolerance on the mean.
 
     python benchmarks/members.py --output results/members.json
 
@@ -32,18 +32,18 @@ WINDOW = 1e-3, 1e-1  # X of region (b)
 
 
 def measured(discs, settings=None):
-    """The content of the file, from so many discs of each Hurst exponent."""
+    """Content of the file, from `discs` discs of each Hurst exponent."""
     settings = settings or yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
     ensembles, ensemble = cases.combined_ensembles(settings), settings["ensemble"]
     x = abscissa(ensemble["x_low"], settings["discs"]["short_until_x"], ensemble["per_decade"])
     content = {"tolerance": settings["discs"]["tolerance"], "hurst": {}}
     for name in cases.first_combination(settings):
-        one = ensembles[name]
-        _turn(settings, one, 0, 0, x)  # loads the compiled code
-        # The shares of whole curves among those measured and of the ensemble are the same.
+        ensemble = ensembles[name]
+        _turn(settings, ensemble, 0, 0, x)  # loads the compiled code
+        # The fraction of whole curves is that of the ensemble.
         kept = round(discs * settings["discs"]["whole_curves"] / settings["discs"]["realizations"])
-        turns = [_turn(settings, one, number, kept, x) for number in range(discs)]
-        content["hurst"][f"{one['surface']['hurst']:g}"] = _summary(settings, turns, x)
+        turns = [_turn(settings, ensemble, number, kept, x) for number in range(discs)]
+        content["hurst"][f"{ensemble['surface']['hurst']:g}"] = _summary(settings, turns, x)
     return content
 
 
@@ -65,10 +65,10 @@ def _turn(settings, ensemble, number, whole_curves, x):
         until = {"until_x": indentation["until_x"], "until_fraction": until_fraction}
         return indent_surface(disc, rms, surface["diameter"], tolerance=TOLERANCE, **until)
 
-    (disc, rms, of_member), _, member_s = timing.timed(member)
+    (disc, rms, member_stiffness), _, member_s = timing.timed(member)
     whole, _, curve_s = timing.timed(whole_curve)
-    of_whole = on_abscissae([whole], {"disc": rms["disc"]}, surface["diameter"], x)[0][0, 0]
-    return member_s, curve_s, np.log(x / of_member), np.log(x / of_whole)
+    whole_stiffness = on_abscissae([whole], {"disc": rms["disc"]}, surface["diameter"], x)[0][0, 0]
+    return member_s, curve_s, np.log(x / member_stiffness), np.log(x / whole_stiffness)
 
 
 def _summary(settings, turns, x):

@@ -23,14 +23,14 @@ from measuring import output_option, save
 
 ROOT = Path(__file__).resolve().parents[1]
 FAULTS = Path(__file__).with_suffix(".yaml")
-LEFT_OUT = shutil.ignore_patterns(".git", ".venv*", ".snakemake", "results", ".pytest_cache", ".hypothesis")
+NOT_COPIED = shutil.ignore_patterns(".git", ".venv*", ".snakemake", "results", ".pytest_cache", ".hypothesis")
 TIME_LIMIT = 300.0  # seconds for the tests of one fault
-PASSED, FAILED = 0, 1  # exit codes of pytest; the others say that it could not run the tests
+PASSED, FAILED = 0, 1  # exit codes of pytest; others mean that the tests could not run
 
 
 @dataclass(frozen=True)
 class Fault:
-    """A wrong text in place of a right one; tests : arguments of pytest; why : what goes wrong with it."""
+    """A wrong text in place of a right one; tests : arguments of pytest; why : consequence of the fault."""
 
     name: str
     file: str
@@ -50,7 +50,7 @@ def read_faults(path=FAULTS):
 
 
 def problems(fault, root=ROOT):
-    """Lines that say why a fault cannot be planted or its tests not be run; none if they can."""
+    """Reasons, one per line, why a fault cannot be planted or its tests cannot run."""
     file, lines = root / fault.file, []
     count = file.read_text(encoding="utf-8").count(fault.old) if file.is_file() else 0
     if count != 1:
@@ -79,19 +79,19 @@ def plant(fault, folder):
 
 
 def importers(file, source):
-    """The file and all that import it, directly or not: numba compiles what they call into their own code."""
+    """The file and all that import it, directly or not: numba compiles called functions into the callers' code."""
     texts = {module: module.read_text(encoding="utf-8") for module in source.rglob("*.py")}
-    found, new = set(), {file}
+    known, new = set(), {file}
     while new:
-        found |= new
+        known |= new
         names = {module.stem for module in new}
         imports = re.compile(rf"^ *(from|import) .*\b({'|'.join(names)})\b", re.MULTILINE)
-        new = {module for module, text in texts.items() if imports.search(text)} - found
-    return found
+        new = {module for module, text in texts.items() if imports.search(text)} - known
+    return known
 
 
 def run_tests(tests, folder, time_limit):
-    """(exit code of pytest, None beyond the time limit; what it says; seconds) of tests of a copy of the project."""
+    """(exit code of pytest, None beyond the time limit; its summary; seconds) of tests of a copy of the project."""
     environment = os.environ | {"PYTHONPATH": str(folder / "src")}  # before the installed package
     command = [sys.executable, "-m", "pytest", "-q", "-x", "-W", "ignore", "-p", "no:cacheprovider", *tests]
     began = time.perf_counter()
@@ -108,30 +108,30 @@ def run_tests(tests, folder, time_limit):
 
 def prepare(folder, tests, time_limit):
     """A copy of the project whose tests pass, with its functions compiled. Raises ClickException if they do not."""
-    shutil.copytree(ROOT, folder, ignore=LEFT_OUT)
+    shutil.copytree(ROOT, folder, ignore=NOT_COPIED)
     (folder / "results").mkdir()
     environment = os.environ | {"PYTHONPATH": str(folder / "src")}
     where = [sys.executable, "-c", "import viscorough; print(viscorough.__file__)"]
     imported = subprocess.run(where, cwd=folder, env=environment, capture_output=True, text=True, check=True).stdout
     if not Path(imported.strip()).resolve().is_relative_to(folder.resolve()):
         raise click.ClickException(f"the copy in {folder} would test the package in {imported.strip()}")
-    code, said, seconds = run_tests(tests, folder, time_limit)
+    code, summary, seconds = run_tests(tests, folder, time_limit)
     if code != PASSED:
-        raise click.ClickException(f"tests fail without any fault: {said}")
+        raise click.ClickException(f"tests fail without any fault: {summary}")
     return seconds
 
 
 def outcome(fault, clean, folder, time_limit):
-    """What becomes of one fault, as a dictionary for the file: caught, missed, or why neither is known."""
+    """Outcome of one fault, as a dictionary for the file: caught, missed, or the reason why neither is known."""
     shutil.copytree(clean, folder)
     try:
         plant(fault, folder)
-        code, said, seconds = run_tests(fault.tests, folder, time_limit)
+        code, summary, seconds = run_tests(fault.tests, folder, time_limit)
     finally:
         shutil.rmtree(folder)
     verdict = {PASSED: "missed", FAILED: "caught", None: "not finished"}.get(code, "tests did not run")
-    about = {"name": fault.name, "verdict": verdict, "seconds": round(seconds, 1), "pytest": said}
-    return about | {"file": fault.file, "why": fault.why}
+    report = {"name": fault.name, "verdict": verdict, "seconds": round(seconds, 1), "pytest": summary}
+    return report | {"file": fault.file, "why": fault.why}
 
 
 @click.command(help=__doc__.splitlines()[0])

@@ -104,7 +104,7 @@ def verdict_lines():
 
 
 def time_sentence():
-    """Weeks in the paper, minutes here: of the default run, with its machine and date."""
+    """Sentence on the time of the default run and that of the paper, with machine and date."""
     costs = pd.read_csv(ROOT / DEFAULT_COSTS)
     weeks = read_paper(ROOT / "resources/paper", "numbers")["boundary_elements"]["computing_time"]["value"]
     text = f"**{weeks.capitalize()} in the paper, {duration_text(costs['share_s'].sum())} here**: "
@@ -129,7 +129,7 @@ def other_surfaces(published, draws):
     """Sentence on the verdicts of other draws of the surfaces, {draw: {claim: verdict}}, that are not as published."""
     differ = []
     for claim, verdict in published.items():
-        others = [of_draw[claim] for of_draw in draws.values() if of_draw[claim] != verdict]
+        others = [verdicts[claim] for verdicts in draws.values() if verdicts[claim] != verdict]
         counts = "; ".join(f"{other} in {others.count(other)}" for other in sorted(set(others)))
         differ += [f"{claim} ({counts})"] if counts else []
     return paragraph(
@@ -186,17 +186,17 @@ def correction_exponents(table):
     """Sentences on the corrected fits of the table of infinite grids whose ω the data do not determine."""
     omega = table[["omega", "omega_low", "omega_high"]].itertuples(index=False)
     places = pd.Series([place_in_range(*values) for values in omega], index=table.index)
-    of_place = {}
+    exponents = {}
     for place in PLACES[1:]:
         rows = table[places == place].groupby(["source", "quantity"], sort=False)["hurst"]
-        of_place[place] = "; ".join(
+        exponents[place] = "; ".join(
             f"{source}, {INTERFACE_QUANTITIES[quantity]}, at *H* = {', '.join(f'{hurst:g}' for hurst in hursts)}"
             for (source, quantity), hursts in rows
         )
     text = (
         f"*ω* itself is at an end of the range tried, {OMEGA[0]:g} to {OMEGA[-1]:g}, in {(places == PLACES[2]).sum()} "
-        f"of these {len(table)} fits ({of_place[PLACES[2]] or 'none'}), and its interval reaches an end in "
-        f"{(places == PLACES[1]).sum()} others ({of_place[PLACES[1]] or 'none'})."
+        f"of these {len(table)} fits ({exponents[PLACES[2]] or 'none'}), and its interval reaches an end in "
+        f"{(places == PLACES[1]).sum()} others ({exponents[PLACES[1]] or 'none'})."
     )
     return paragraph(text)
 
@@ -218,7 +218,7 @@ def interface_law():
 
 
 def published_results(records):
-    """What lies in docs/results/, in Markdown: for every command its origin, its figures, and links to its tables.
+    """Contents of docs/results/, in Markdown: for every command its origin, its figures, and links to its tables.
 
     records : content of docs/results/published.json
     """
@@ -240,7 +240,7 @@ def published_results(records):
 
 
 def tables():
-    """{(page, name): text} of what stands between marks in README.md and in pages of docs/."""
+    """{(page, name): text} of the generated parts, between marks, of README.md and pages of docs/."""
     records = json.loads((ROOT / "docs/results/published.json").read_text(encoding="utf-8"))
     return {
         ("README.md", "verdicts"): verdict_lines(),
@@ -254,7 +254,7 @@ def tables():
 
 
 def write_tables():
-    """Write what is between the marks of every table."""
+    """Write the generated parts between their marks."""
     for (page, name), table in tables().items():
         begin, end = BEGIN.format(name), END.format(name)
         before, rest = (ROOT / page).read_text(encoding="utf-8").split(begin)
@@ -290,7 +290,7 @@ def copy_table(file, target):
 
 
 def copy_results(results, project, commands, commit):
-    """Copy what the commands made, and record in docs/results/published.json where each figure and table comes from.
+    """Copy the results of the commands, and record the origin of each figure and table in docs/results/published.json.
 
     Raises ClickException, before anything is copied, if a file is missing.
     """
@@ -302,7 +302,7 @@ def copy_results(results, project, commands, commit):
     folder.mkdir(exist_ok=True)
     record_file = folder / "published.json"
     records = json.loads(record_file.read_text(encoding="utf-8")) if record_file.is_file() else {}
-    about = {"processor": machine["processor"], "cores": machine["cores"], "commit": commit}
+    origin = {"processor": machine["processor"], "cores": machine["cores"], "commit": commit}
     where = f"{machine['processor']}, {machine['cores']} cores"
     for command in commands:
         for name, target in KEPT.get(command, {}).items():
@@ -315,7 +315,7 @@ def copy_results(results, project, commands, commit):
             copy(file, folder / file.name)
             if file.name in PICTURES:
                 shutil.copyfile(folder / file.name, project / "docs" / file.name)
-            records[file.name] = {"command": f"make {command}", "date": date_of(file)} | about
+            records[file.name] = {"command": f"make {command}", "date": date_of(file)} | origin
             if file.name == "other_solvers.csv":
                 copy_other_solvers(file, project / OTHER_SOLVERS, where, date_of(file))
     write_json(dict(sorted(records.items())), record_file)

@@ -1,4 +1,4 @@
-"""Measure what a curve on rectangular elements costs beside one of the same heights on squares.
+"""Measure the cost of a curve on rectangular elements, over that of one of the same heights on squares.
 
     python benchmarks/rectangles.py --output results/rectangles.json
 

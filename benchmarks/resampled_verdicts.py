@@ -33,8 +33,8 @@ def drawn(pool, random):
     strata = pd.DataFrame({name: pool[name].values for name in ("group", "hurst")}).groupby(["group", "hurst"])
     for members in strata.indices.values():
         chosen[members] = random.choice(members, members.size)
-    about = {name: values for name, values in pool.coords.items() if "realization" in values.dims}
-    return pool.isel(realization=chosen).assign_coords(about)
+    coordinates = {name: values for name, values in pool.coords.items() if "realization" in values.dims}
+    return pool.isel(realization=chosen).assign_coords(coordinates)
 
 
 def draw_again(results, folder, random):

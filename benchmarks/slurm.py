@@ -107,8 +107,8 @@ def cluster(folder):
     (folder / "munge.key").write_bytes(os.urandom(128))
     (folder / "munge.key").chmod(0o600)
     memory = psutil.virtual_memory().total // 2**20 * 3 // 4
-    about = {"node": NODE, "folder": folder, "ports": free_ports(2), "cpus": os.cpu_count(), "memory": memory}
-    conf.write_text(SLURM_CONF.format(**about))
+    settings = {"node": NODE, "folder": folder, "ports": free_ports(2), "cpus": os.cpu_count(), "memory": memory}
+    conf.write_text(SLURM_CONF.format(**settings))
     (folder / "bin" / "srun").write_text(SRUN.format(conf=conf, srun=shutil.which("srun")))
     (folder / "bin" / "srun").chmod(0o755)
     os.environ["PATH"] = f"{folder / 'bin'}:{os.environ['PATH']}"
@@ -133,7 +133,7 @@ def start(folder, command):
 
 
 def processes(conf):
-    """Whatever has this cluster's settings in its environment: daemons, jobs and the processes that run them."""
+    """Processes with this cluster's settings in their environment: daemons, jobs and the processes that run them."""
     for process in psutil.process_iter():
         with contextlib.suppress(psutil.Error):
             if process.pid != os.getpid() and process.environ().get("SLURM_CONF") == conf:
@@ -141,7 +141,7 @@ def processes(conf):
 
 
 def stop(conf):
-    """End all processes of the cluster; what one of them starts in the meantime is ended in the next round."""
+    """End all processes of the cluster; processes started in the meantime are ended in the next round."""
     for end in ("terminate", "kill", "kill"):
         own = list(processes(conf))
         for process in own:
@@ -160,9 +160,9 @@ def set_state(value):
     printed("scontrol", "update", f"nodename={NODE}", f"state={value}", "reason=test")
 
 
-def jobs(kind):
-    """Slurm's numbers of the jobs that are RUNNING or PENDING, as `kind` says."""
-    return printed("squeue", "--noheader", "--array", "--states", kind, "--format", "%i").split()
+def jobs(state):
+    """Slurm's numbers of the jobs in a state, RUNNING or PENDING."""
+    return printed("squeue", "--noheader", "--array", "--states", state, "--format", "%i").split()
 
 
 def ended(cluster_folder, folder):
@@ -189,19 +189,19 @@ def run_project(folder, *arguments, disturb=None):
 
 
 def disturbances(log):
-    """Function that disturbs a run; what it does, and when, is appended to `log`."""
+    """Function that disturbs a run and appends every disturbance and its time to `log`."""
 
     def note(run, what):
         log.append({"after_s": round(time.time() - psutil.Process(run.pid).create_time(), 1), "what": what})
         click.echo(f"after {log[-1]['after_s']:.0f} s: {what}")
 
     def under_way(run, besides=()):
-        def found():
+        def started_jobs():
             if run.poll() is not None:
                 raise click.ClickException(f"the run ends before it is disturbed: {log}")
             return [job for job in jobs("RUNNING") if job not in besides]
 
-        return wait_for(found, "start of a job")
+        return wait_for(started_jobs, "start of a job")
 
     def disturb(run):
         victim = under_way(run)[0]
@@ -242,10 +242,10 @@ def compare_runs(folder):
         for copy, disturb in ((undisturbed, None), (disturbed, disturbances(log))):
             shutil.copytree(local, copy)  # with what the local run has compiled
             remove_results(copy)
-            about = run_project(copy, *THROUGH_SLURM, disturb=disturb)
-            about |= {**ended(daemons, copy), "differences": compare(contents(copy), wanted)}
-            result[copy.name] = about
-            lines = [f"{copy.name}: {about['seconds']:.0f} s, {about['ends_of_jobs']}", *about["differences"]]
+            outcome = run_project(copy, *THROUGH_SLURM, disturb=disturb)
+            outcome |= {**ended(daemons, copy), "differences": compare(contents(copy), wanted)}
+            result[copy.name] = outcome
+            lines = [f"{copy.name}: {outcome['seconds']:.0f} s, {outcome['ends_of_jobs']}", *outcome["differences"]]
             click.echo("\n".join(lines))
         result["versions"] = {
             "slurm": printed("sinfo", "--version"),

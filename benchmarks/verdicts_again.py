@@ -22,16 +22,16 @@ def claims(folder, settings, cores, *arguments):
     return pd.read_csv(Path(folder) / "results/tables/claims.csv", keep_default_na=False, na_values=[""])
 
 
-def report(tables, what, output):
+def report(tables, difference, output):
     """Write the verdicts of {run: table of claims}, and the tables as CSV; returns {claim: verdicts} that change.
 
-    what : seed or draw, which the runs differ in
+    difference : seed or draw, which the runs differ in
     """
     verdicts = pd.DataFrame({run: overall(table) for run, table in tables.items()})
     moved = {claim: row.tolist() for claim, row in verdicts[verdicts.nunique(axis=1) > 1].iterrows()}
     save({"moved": moved, "verdicts": verdicts.to_dict()}, output)
-    pd.concat(tables, names=[what]).droplevel(1).to_csv(output.with_suffix(".csv"))
+    pd.concat(tables, names=[difference]).droplevel(1).to_csv(output.with_suffix(".csv"))
     for claim, outcomes in moved.items():
         click.echo(f"{claim}: {', '.join(outcomes)}")
-    click.echo(f"{len(moved)} of {len(verdicts)} verdicts change with the {what}")
+    click.echo(f"{len(moved)} of {len(verdicts)} verdicts change with the {difference}")
     return moved

@@ -33,11 +33,8 @@ def with_motion(content: Content, time: Array, velocity: Array) -> Content:
 
 def _with_time_and_velocity(content: Content, time: Array, velocity: Array) -> Content:
     unit = content.variables["depth"].attributes.get("units", "1")
-    added = {
-        "time": _time(time),
-        "velocity": _over_levels(velocity, "velocity of penetration du/dt", velocity_unit(unit)),
-    }
-    return Content(content.variables | added, content.attributes)
+    velocity = _over_levels(velocity, "velocity of penetration du/dt", velocity_unit(unit))
+    return Content({"time": _time(time)} | content.variables | {"velocity": velocity}, content.attributes)
 
 
 def _over_levels(values: Any, long_name: str, unit: str) -> Variable:

@@ -45,7 +45,8 @@ class IdentifiedMedium(ReadOnlyArrays, Summarised):
     medium : the Medium of the kind that was asked for
     time : 0 and the times at which J was determined, shape (times,)
     compliance : J there, of the table, whichever kind was fitted
-    low, high : ends of the interval of J at each time at the level of 95 %, from the scatter of the record
+    low, high : ends of the interval of J at each time at the level of 95 %, from the scatter of the record; before its
+        first row from 0 on
     scatter : standard deviation of the measured depth about that of the table [length]
     length_unit : of the depth; if it is known, moduli are in Pa and times in s
     """
@@ -123,6 +124,9 @@ def identify_medium(
     compliance = np.maximum.accumulate(values @ coefficients)  # where J is constant, its rounding is not
     if scatter > _ROUNDING * depth.max():
         low, high = record.intervals(coefficients, values, scatter * _student(freedom))
+        # Before the first row that shows J, all that is known is that J does not decrease.
+        before = time < (0.0 if lags[0] == 0 < history.force[0] else lags[lags > 0][0])
+        low[before], high[before] = 0.0, high[~before][0]
     else:
         low = high = compliance
     if kind == "prony":

@@ -23,7 +23,8 @@ from viscorough.contact.halfspace.operator import Halfspace
 from viscorough.contact.loading_path import indent
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.preconditioner.multilevel import REACH, Preconditioner
-from viscorough.contact.state import Elements, elements_of
+from viscorough.contact.ranking import elements_of
+from viscorough.contact.state import Elements
 from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
 from viscorough.loading_curve import LoadingCurve

@@ -66,12 +66,6 @@ def _deflections(influence, row, column, members, pressure, tangent, targets):
     return of_pressure, of_tangent
 
 
-def gap_at_all(elements: Elements, contact: ContactState) -> Array:
-    """Reduced gap e between the deformed surfaces at every element, by rank."""
-    deflection, _ = _deflections_at(elements, *contact.member_loads(), np.arange(elements.count))
-    return deflection - contact.reduced_depth + elements.initial_gap
-
-
 def solve(
     elements: Elements, contact: ContactState, depth: float, candidates: int, max_count: int
 ) -> ContactState | None:
@@ -126,7 +120,7 @@ def follow_events(
     with uninterrupted():
         depth, total, stiffness, members, factor = _follow(
             elements.influence, elements.row, elements.column, elements.initial_gap, contact.reduced_depth,
-            contact.members, contact.reduced_pressure, min(most, elements.count), pressure_sum,
+            contact.members, contact.reduced_pressure, min(most, elements.initial_gap.size), pressure_sum,
         )  # fmt: skip
     count = np.arange(contact.count, contact.count + depth.size)
     # The first entry is the given contact. The last event is known to be complete only if no element is left.

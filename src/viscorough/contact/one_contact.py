@@ -67,7 +67,8 @@ def contact_at(
         given = units.forces_over_modulus(force, shear_modulus, unit, "force")
     values = increasing(f"contact_at: {'depth' if by_depth else 'force'}", np.atleast_1d(given), above_zero=True)
     # Pressures that add up to the force exactly take the other half of the tolerance.
-    solver = ContactSolver(indenter, tolerance / 2, options, threads)
+    most = {"largest_depth": float(values[-1])} if by_depth else {}
+    solver = ContactSolver(indenter, tolerance / 2, options, threads, **most)
     progress = progress or (lambda done: None)
     states = _states_at_depths(solver, values) if by_depth else _states_at_forces(solver, values, progress)
     contacts = []
@@ -106,17 +107,20 @@ def _contact(
     indenter: Indenter, tolerance: float, solver: ContactSolver, state: ContactState, given: dict[str, Any]
 ) -> Contact:
     """The Contact of a ContactState, with the depth or force that was given instead of its rounded value."""
-    place = solver.elements.map_place
-    pressure, gap = np.full((2, *indenter.heights.shape), np.nan)
-    pressure[place], gap[place] = 0.0, solver.gap(state)
+    gap, pressure = solver.gap_map(state), np.zeros(indenter.heights.shape)
+    np.copyto(pressure, np.nan, where=np.isnan(gap))
     loads = state.member_loads()
-    rows, columns = (positions[loads.members] for positions in place)
-    pressure[rows, columns] = loads.pressure * solver.units.pressure
+    place = solver.elements.places_on_map(loads.members)
+    pressure[place] = loads.pressure * solver.units.pressure
+    contact = np.zeros(pressure.shape, bool)
+    contact[place] = loads.pressure > 0
+    for array in (pressure, gap, contact):
+        array.flags.writeable = False  # so that they need not be copied
     quantities: dict[str, Any] = {"depth": state.depth, "force": state.force, "stiffness": state.stiffness} | given
     return Contact(
         pressure=pressure,
         gap=gap,
-        contact=pressure > 0,
+        contact=contact,
         residual=state.residual,
         tolerance=tolerance,
         spacing=indenter.spacing,

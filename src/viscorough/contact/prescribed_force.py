@@ -19,6 +19,8 @@ from viscorough.types import Progress
 # Largest ratio of successive depths before the force is exceeded.
 _MAX_DEPTH_RATIO = 4.0
 _MAX_ATTEMPTS = 100
+# The depth guessed may be too small by the ratio to the last depth to this power; boxes of grids allow for no more.
+_UNCERTAINTY = 0.2
 # Elements in contact from which on the power law is trusted over larger ratios.
 _REPRESENTATIVE = 100
 _TINY = 1e-300
@@ -51,7 +53,9 @@ class ForceSearch:
             self._below = self._above.pop()
         for attempt in range(_MAX_ATTEMPTS):
             depth = self._next_depth(target, attempt)
-            contact = self._solver.advance_reduced(self._below, depth, None if self._above else target)
+            largest_depth = depth * (depth / self._below.reduced_depth) ** _UNCERTAINTY
+            force = None if self._above else (target, largest_depth)
+            contact = self._solver.advance_reduced(self._below, depth, force)
             progress(1.0 if self._above else min(1.0, contact.pressure_sum / target))
             other = self._above[-1] if self._above else self._below
             if contact.pressure_sum <= target:

@@ -16,9 +16,12 @@ from viscorough.contact.dense import ContactEvents
 from viscorough.contact.grid.loops import GridLoops
 from viscorough.contact.grid.memory_demand import require_for_contact
 from viscorough.contact.grid.solver import GridSolver
+from viscorough.contact.halfspace import sparse_loads
+from viscorough.contact.halfspace.operator import Halfspace
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.parallel import require_threads
-from viscorough.contact.state import ContactState, MemberLoads, elements_of
+from viscorough.contact.ranking import Ranking
+from viscorough.contact.state import ContactState, MemberLoads
 from viscorough.errors import AccuracyWarning, ConvergenceError
 from viscorough.indenter import Indenter, check_indenter
 from viscorough.summaries import with_unit
@@ -81,11 +84,13 @@ class ContactSolver:
         largest_depth: float = np.inf,
     ) -> None:
         require_for_contact(indenter.heights, exact=tolerance < options.exact_gap_below, threads=threads)
-        self.elements, self.units = elements_of(indenter, threads)
+        self._indenter, self._ranking = indenter, Ranking(indenter, threads)
+        self.units = self._ranking.units
         self.tolerance, self.options, self.threads, self._loops = tolerance, options, threads, GridLoops(threads)
         self._grid: GridSolver | None = None
         self._reach, self._former_applications = 0, 0
         self._largest_depth = largest_depth / self.units.length
+        self.elements = self._ranking.first(self._largest_depth)
 
     @property
     def operator_applications(self) -> int:
@@ -100,7 +105,7 @@ class ContactSolver:
     @property
     def is_flat(self) -> bool:
         """Whether all elements are of one height, so that all touch at once."""
-        return self.elements.initial_gap[-1] == 0
+        return self.elements.unranked == 0 and self.elements.initial_gap[-1] == 0
 
     def first_contact(self) -> ContactState:
         """The ContactState up to which the curve is straight, since only the highest elements are in contact.
@@ -123,8 +128,7 @@ class ContactSolver:
         if contact.fields is None or self._grid is None:
             return replace(contact, reduced_depth=depth, pressure_sum=pressure_sum)
         settled = self._grid.settled(contact, depth, pressure_sum)
-        overlap = depth - self.elements.initial_gap[self._reach] if self._reach < self.elements.count else 0.0
-        return replace(settled, residual=max(settled.residual, overlap / depth))
+        return replace(settled, residual=max(settled.residual, 1 - self.elements.next_gap(self._reach) / depth))
 
     def advance(self, contact: ContactState, depth: float) -> ContactState:
         """The ContactState at a depth [length] larger than that of `contact`.
@@ -133,65 +137,116 @@ class ContactSolver:
         """
         return self.advance_reduced(contact, depth / self.units.length)
 
-    def advance_reduced(self, contact: ContactState, depth: float, pressure_sum: float | None = None) -> ContactState:
+    def advance_reduced(
+        self, contact: ContactState, depth: float, force: tuple[float, float] | None = None
+    ) -> ContactState:
         """The ContactState at a larger depth in units of the largest initial gap. Raises what `advance` raises.
 
-        pressure_sum : ΣP at a given force, of which the depth is then a first guess: on the grid the contact is the one
-            at this force, within the tolerance, or the last one before elements outside its box could touch; a dense
-            solution is that at the guess
+        force : (ΣP, largest depth) where the depth is a first guess of the one with this ΣP: on the grid the contact is
+            the one at this force, within the tolerance, or else at the largest depth; a dense solution is at the guess
         """
         if depth > _LARGEST_DEPTH:
             text = f"contact at depth {depth * self.units.length:g}: larger than {_LARGEST_DEPTH:g} times the largest"
             raise ValueError(f"{text} initial gap, up to which depths are allowed")
-        candidates = int(np.searchsorted(self.elements.initial_gap, depth))
+        deepest = force[1] if force else max(min(_BOX_DEPTH_MARGIN * depth, self._largest_depth), depth)
+        candidates = self._candidates(depth, deepest)
         if contact.fields is None and self._is_small(candidates, contact):
             solution = dense.solve(self.elements, contact, depth, candidates, self.options.dense_contacts)
             if solution is not None:
                 return self._checked(contact, solution)
-        grid, start = self._grid_up_to(max(candidates, 1)), contact
+        grid, start = self._grid_up_to(max(candidates, 1), deepest), contact
         if not _has_fields_on(grid, contact):
             # The fields of a much shallower contact cost more than they save.
             start = contact if depth < _LARGEST_RATIO_OF_START * contact.reduced_depth else self.unloaded_state()
             start = replace(start, fields=grid.fields(start))
-        gap = self.elements.initial_gap
-        largest_depth = gap[self._reach] if self._reach < gap.size else _LARGEST_DEPTH
-        force = None if pressure_sum is None else (pressure_sum, largest_depth)
+        if force:
+            force = force[0], min(force[1], self.elements.next_gap(self._reach))
         return self._checked(contact, grid.solve(start, depth, force))
 
     def follow_events(
         self, contact: ContactState, most: int, pressure_sum: float
     ) -> tuple[ContactEvents, ContactState]:
         """Events at which the next elements touch, and the contact at the last one; see dense.follow_events."""
-        return dense.follow_events(self.elements, contact, most, pressure_sum)
+        while True:
+            events, last = dense.follow_events(self.elements, contact, most, pressure_sum)
+            if last.reduced_depth < self.elements.ranked_depth:
+                return events, last
+            self.elements = self._ranking.up_to(self.elements, _BOX_DEPTH_MARGIN * last.reduced_depth)
 
-    def gap(self, contact: ContactState) -> Array:
-        """Gap e between the deformed surfaces at every element, by rank [length]."""
-        if self._is_small(self.elements.count, contact):
-            return dense.gap_at_all(self.elements, contact) * self.units.length
-        grid = self._grid_up_to(self.elements.count)
-        fields = contact.grid_fields if _has_fields_on(grid, contact) else grid.fields(contact)
-        return (fields.gap_change.values[fields.place] + self.elements.initial_gap) * self.units.length
+    def gap_map(self, contact: ContactState) -> Array:
+        """Gap e between the deformed surfaces [length], of the shape of the heights; nan outside the indenter.
+
+        Raises ConvergenceError if any element overlaps the surface by more than the residual of the contact says.
+        """
+        heights, (top, left), (rows, columns) = self._indenter.heights, self.elements.origin, self.elements.shape
+        gap = np.subtract(np.fmax.reduce(heights, axis=None), heights, dtype=float)
+        part, grid = gap[top : top + rows, left : left + columns], self._grid
+        on_grid = grid if grid and _has_fields_on(grid, contact) else None
+        if not on_grid or on_grid.box != (0, 0, rows, columns):
+            loads, elements = contact.member_loads(), self.elements
+            place, load = (elements.row[loads.members], elements.column[loads.members]), loads.pressure
+            if self.tolerance > sparse_loads.ACCURACY and sparse_loads.is_suitable(
+                elements.shape, load.size, elements.aspect
+            ):
+                load = load * self.units.length
+                sparse_loads.add_deflection(part, *place, load, aspect=elements.aspect, threads=self.threads)
+            else:
+                how = {"aspect": elements.aspect, "padding": self.options.padding, "threads": self.threads}
+                # Dense solutions are exact to the rounding of double precision.
+                exact = contact.fields is None or self.tolerance < self.options.exact_gap_below
+                halfspace = Halfspace(rows, columns, np.float64 if exact else np.float32, **how)
+                halfspace.load[place] = load * self.units.length
+                part += halfspace.apply()[:, :columns]
+            part -= contact.depth
+            if contact.fields is None:
+                part[place] = 0.0
+        if on_grid:  # which knows the gap in its box to the residual
+            first_row, first_column, rows, columns = on_grid.box
+            in_box = slice(first_row, first_row + rows), slice(first_column, first_column + columns)
+            initial = heights[top : top + self.elements.shape[0], left : left + self.elements.shape[1]][in_box]
+            np.subtract(np.fmax.reduce(heights, axis=None), initial, out=part[in_box], dtype=float)
+            part[in_box] += on_grid.in_box(contact.grid_fields.gap_change.values) * self.units.length
+        overlap = -np.fmin.reduce(gap, axis=None) / contact.depth
+        if overlap > contact.residual + self.tolerance:
+            raise ConvergenceError(
+                f"contact at depth {contact.depth:g}: elements overlap the surface by {overlap:.1e} of the depth"
+            )
+        return gap
+
+    def _candidates(self, depth: float, deepest: float) -> int:
+        """Number of elements whose initial gaps are below a reduced depth: only these can touch there.
+
+        deepest : depth up to which elements are ranked if they are not up to the first one
+        """
+        if depth > self.elements.ranked_depth:
+            self.elements = self._ranking.up_to(self.elements, deepest)
+        return int(np.searchsorted(self.elements.initial_gap, depth))
 
     def _is_small(self, candidates: int, contact: ContactState) -> bool:
         """Whether a dense evaluation is cheaper than the grid."""
         return candidates * contact.count <= self.options.dense_interactions
 
-    def _grid_up_to(self, rank: int) -> GridSolver:
+    def _grid_up_to(self, rank: int, deepest: float) -> GridSolver:
         """The grid solver of a box around the elements up to a rank: the current one, or else one with a larger box.
 
         Only elements whose initial gap is below the depth can touch.
+
+        deepest : depth that a larger box allows for
         """
         if self._grid is None or rank > self._reach:
             # The box allows for larger depths to come, or is the whole grid where it would save little.
+            reach = max(rank, self._candidates(deepest, deepest))
             gap, row, column = self.elements.initial_gap, self.elements.row, self.elements.column
-            deepest = min(_BOX_DEPTH_MARGIN * gap[rank - 1], self._largest_depth)
-            reach = max(rank, int(np.searchsorted(gap, deepest)))
             first, last = ([pick(place[:reach]) for place in (row, column)] for pick in (np.min, np.max))
             box = tuple(int(n) for n in (*first, *np.subtract(last, first) + 1))
             rows, columns = self.elements.shape
             if box[2] * box[3] > _LARGEST_BOX * rows * columns:
-                reach, box = self.elements.count, (0, 0, rows, columns)
-            self._former_applications, self._reach = self.operator_applications, reach
+                reach, box = gap.size, (0, 0, rows, columns)
+            self._reach = reach
+            if self._grid and self._grid.box == box:
+                self._grid.place_elements(row, column, gap)
+                return self._grid
+            self._former_applications = self.operator_applications
             self._grid = None  # its memory is free for the larger one
             if reach == self.elements.count:
                 self.elements.free_influence()  # contacts on the whole grid need no dense solutions
@@ -221,7 +276,7 @@ class ContactSolver:
 
     def _lost_contact(self, before: ContactState, after: ContactState) -> tuple[int, float]:
         """Number of elements that left the contact in a step, and the largest gap there, reduced."""
-        if after.fields and before.fields and before.fields.place is after.fields.place:
+        if after.fields and before.fields and before.fields.initial_gap is after.fields.initial_gap:
             lost = self._loops.difference(before.fields.inside, after.fields.inside)
             return lost.size, after.fields.gap(lost).max(initial=0)
         if after.fields and before.fields:
@@ -235,4 +290,4 @@ class ContactSolver:
 
 def _has_fields_on(grid: GridSolver, contact: ContactState) -> bool:
     """Whether a contact has fields that are those of this grid."""
-    return contact.fields is not None and contact.fields.place is grid.place
+    return contact.fields is not None and contact.fields.initial_gap is grid.initial_gap

@@ -14,19 +14,14 @@ Inside the solver, u, g, P and e are in units of the largest initial gap, so tha
 unit of length; such quantities are called reduced. `Units` holds the factors that convert them.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
 from viscorough.contact.halfspace.influence import influence_table
-from viscorough.contact.parallel import BLOCK, run_blocks
-from viscorough.indenter import Indenter
 from viscorough.types import Array, Integers
-
-# Values from which the ranges that threads sort are chosen, and the largest number of ranges.
-_SAMPLE, _MOST_RANGES = 1000, 8
 
 
 @dataclass(frozen=True)
@@ -58,13 +53,14 @@ class Units:
 
 @dataclass(frozen=True)
 class Elements:
-    """The elements of an indenter, ranked in the order of increasing initial gap; arrays of shape (elements,).
+    """The elements of an indenter, ranked in the order of increasing initial gap; arrays of shape (ranked elements,).
 
     row, column : positions on the grid, counted from the first row and column that have an element
     initial_gap : g, reduced
     origin : first row and column of the indenter's heights that have an element
     shape : rows and columns of the smallest grid with all elements
     aspect : dy/dx of the elements
+    unranked : number of further elements, of larger initial gaps; ranked_depth : up to which all are ranked
     """
 
     row: np.ndarray
@@ -73,6 +69,8 @@ class Elements:
     origin: tuple
     shape: tuple
     aspect: float
+    unranked: int = field(default=0, kw_only=True)
+    ranked_depth: float = field(default=np.inf, kw_only=True)
 
     @cached_property
     def influence(self) -> Array:
@@ -87,73 +85,20 @@ class Elements:
     @property
     def count(self) -> int:
         """Number of elements."""
-        return self.initial_gap.size
+        return self.initial_gap.size + self.unranked
+
+    def next_gap(self, count: int) -> float:
+        """Lower bound of the initial gaps of all elements but the `count` first ones; infinite if there are no more."""
+        return float(self.initial_gap[count]) if count < self.initial_gap.size else self.ranked_depth
 
     @property
     def map_place(self) -> tuple[Integers, Integers]:
-        """Rows and columns of the elements in the indenter's heights."""
-        return self.row + self.origin[0], self.column + self.origin[1]
+        """Rows and columns of the ranked elements in the indenter's heights."""
+        return self.places_on_map(slice(None))
 
-
-def elements_of(indenter: Indenter, threads: int = 1) -> tuple[Elements, Units]:
-    """The Elements of an indenter, and the Units in which their initial gaps are expressed."""
-    heights = indenter.heights.ravel()
-    inside, highest = np.isfinite(indenter.heights), np.fmax.reduce(heights)
-    columns = inside.shape[1]
-    origin = tuple(int(inside.any(axis=axis).argmax()) for axis in (1, 0))
-    place = np.flatnonzero(inside)
-    gap = np.empty(place.size)
-
-    def subtract(i: int, j: int) -> None:
-        np.subtract(highest, heights[place[i:j]], out=gap[i:j], dtype=float)
-
-    run_blocks(subtract, gap.size, threads)
-    units = Units(float(gap.max()) or indenter.element_side, indenter.element_side)
-    order = _increasing_order(gap, threads)
-    row, column, in_order = (np.empty(gap.size, dtype) for dtype in (np.int32, np.int32, float))
-
-    def arrange(i: int, j: int) -> None:
-        row[i:j], column[i:j] = np.divmod(place[order[i:j]], columns)
-        row[i:j] -= origin[0]
-        column[i:j] -= origin[1]
-        np.divide(gap[order[i:j]], units.length, out=in_order[i:j])
-
-    run_blocks(arrange, gap.size, threads)
-    shape = int(row.max()) + 1, int(column.max()) + 1
-    return Elements(row, column, in_order, origin, shape, indenter.aspect), units
-
-
-def _increasing_order(gap: Array, threads: int) -> Integers:
-    """Indices that sort an array, equal values in the order in which they stand, so that ranks are the same everywhere.
-
-    Sorting is several times as fast where that order need not be kept; indices of equal values are sorted afterwards.
-    """
-    order = np.argsort(gap) if threads == 1 or gap.size <= BLOCK else _order_by_ranges(gap, min(threads, _MOST_RANGES))
-    is_equal = np.zeros(gap.size, dtype=bool)  # to the value before
-
-    def compare(i: int, j: int) -> None:
-        in_order = gap[order[max(i - 1, 0) : j]]
-        is_equal[max(i, 1) : j] = in_order[1:] == in_order[:-1]
-
-    run_blocks(compare, gap.size, threads)
-    if is_equal.any():
-        members = np.flatnonzero(is_equal | np.append(is_equal[1:], False))
-        # Numbers that order the members by groups of equal values, and by their indices within a group.
-        group = np.cumsum(~is_equal[members]) * gap.size
-        order[members] = np.sort(group + order[members]) - group
-    return order
-
-
-def _order_by_ranges(gap: Array, ranges: int) -> Integers:
-    """Indices that sort an array, found for ranges of about as many values each on threads of their own."""
-    inner = np.quantile(gap[:: max(gap.size // _SAMPLE, 1)], np.arange(1, ranges) / ranges)
-    limits = [-np.inf, *inner, np.inf]
-
-    def order(i: int, _: int) -> Integers:
-        members = np.flatnonzero((gap >= limits[i]) & (gap < limits[i + 1]))
-        return members[np.argsort(gap[members])]
-
-    return np.concatenate(run_blocks(order, ranges, ranges, 1))
+    def places_on_map(self, ranks: Integers | slice) -> tuple[Integers, Integers]:
+        """Rows and columns in the indenter's heights of elements of given ranks."""
+        return self.row[ranks] + self.origin[0], self.column[ranks] + self.origin[1]
 
 
 @dataclass

@@ -208,9 +208,10 @@ def _predicted_touches(
 def _new_elements(before: GridFields, after: GridFields, threads: int) -> tuple[Integers, Array, Array]:
     """Elements that join a contact: their places on the grid of the GridFields before, and P and q after."""
     loops = GridLoops(threads)
-    if after.place is before.place:
+    if after.initial_gap is before.initial_gap:
         place = places_before = loops.difference(after.inside, before.inside)
     else:
         members = loops.new_members(after, before)
-        place, places_before = after.place[members], before.place[members]
+        # Place 0, outside the grid, for elements that were not ranked.
+        place, places_before = after.place[members], np.append(before.place, 0)[np.minimum(members, before.place.size)]
     return places_before, after.pressure[place].astype(float), after.tangent[place].astype(float)

@@ -61,17 +61,15 @@ def pressure_at(
     weights = np.bincount(place, _weights(medium, time, times), levels.size)
     solver = ContactSolver(indenter, tolerance / 2)  # the correction to the force takes the other half
     search, loads = ForceSearch(solver), solver.first_contact().member_loads()
-    pressure = np.zeros(solver.elements.count)
+    total = np.where(np.isnan(indenter.heights), np.nan, 0.0)
     for level, weight in zip(levels, weights, strict=True):
         if level > 0 and (weight != 0 or level == levels[-1]):
             loads = search.contact_at(level).member_loads()
-            pressure[loads.members] += weight * solver.units.pressure * loads.pressure
+            total[solver.elements.places_on_map(loads.members)] += weight * solver.units.pressure * loads.pressure
     if has_dashpot:
         area = indenter.spacing * indenter.row_spacing
-        missing = history.force[until - 1] / area - pressure.sum()
-        pressure[loads.members] += missing * loads.tangent / loads.tangent.sum()
-    total = np.full(indenter.heights.shape, np.nan)
-    total[solver.elements.map_place] = pressure
+        missing = history.force[until - 1] / area - np.nansum(total)
+        total[solver.elements.places_on_map(loads.members)] += missing * loads.tangent / loads.tangent.sum()
     return total
 
 

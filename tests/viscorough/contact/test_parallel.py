@@ -11,7 +11,7 @@ import pytest
 from viscorough.contact.loading_path import indent
 from viscorough.contact.one_contact import contact_at
 from viscorough.contact.parallel import Buffers, aligned_zeros, run_blocks
-from viscorough.contact.state import elements_of
+from viscorough.contact.ranking import elements_of
 from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
 

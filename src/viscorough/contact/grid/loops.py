@@ -121,13 +121,16 @@ class GridLoops:
             source, target = source[members], place[i:j][members]
             inside[target], pressure[target], tangent[target] = True, fields.pressure[source], fields.tangent[source]
 
-        self._over(place, store)
+        self._over(fields.place, store)
 
     def new_members(self, after: GridFields, before: GridFields) -> Integers:
         """Ranks of the elements in contact in GridFields, but not in other ones, which may be of another grid."""
 
         def new(i: int, j: int) -> Integers:
-            return i + np.flatnonzero(after.inside[after.place[i:j]] > before.inside[before.place[i:j]])
+            is_new = after.inside[after.place[i:j]]
+            place = before.place[i:j]  # shorter where fewer elements were ranked
+            is_new[: place.size] &= ~before.inside[place]
+            return i + np.flatnonzero(is_new)
 
         return joined(self._over(after.place, new))
 

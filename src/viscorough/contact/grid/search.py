@@ -251,15 +251,15 @@ class ContactSearch:
         change : BoundedField of e − g, whose border is kept
         """
         load = self._exact.load[:, : self._width - 2 * REACH]
-        self._loops.shifted(self._interior(pressure), 0, load)
+        self._loops.shifted(self.interior(pressure), 0, load)
         deflection = self._exact.apply()[:, : load.shape[1]]
-        self._loops.shifted(deflection, depth, self._interior(change.values))
+        self._loops.shifted(deflection, depth, self.interior(change.values))
         change.rounding = (self._exact_rounding + self.field_rounding) * depth
 
     def _add_penetrating_elements(self, change: BoundedField, inside: Mask, limit: float) -> int:
         fields = (field[self.inner] for field in (change.values, self.initial_gap, inside))
         return sum(self._loops.each(kernels.add_penetrating_elements, (limit,), *fields))
 
-    def _interior(self, field: Array) -> Array:
+    def interior(self, field: Array) -> Array:
         """View of a flat field without its border, in rows and columns."""
         return field.reshape(-1, self._width)[REACH:-REACH, REACH:-REACH]

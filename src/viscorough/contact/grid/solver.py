@@ -37,6 +37,7 @@ class GridSolver:
     aspect : dy/dx of the elements
     threads : on which it computes
 
+    box : as it was given
     place : index of every element in flat fields, by rank (0: not in the box)
     initial_gap : flat field
     """
@@ -53,14 +54,26 @@ class GridSolver:
         aspect: float = 1.0,
         threads: int = 1,
     ) -> None:
-        top, left, rows, columns = box
-        if rows > _TALL * columns:
-            row, column, top, left, rows, columns = column, row, left, top, columns, rows
-            aspect = 1 / aspect
+        self.box, (_, _, rows, columns) = box, box
+        self._is_transposed = rows > _TALL * columns
+        if self._is_transposed:
+            rows, columns, aspect = columns, rows, 1 / aspect
         self._options, self._loops = options, GridLoops(threads)
         self._search = ContactSearch(rows, columns, tolerance, options, aspect=aspect, threads=threads)
-        self.initial_gap, box = self._search.initial_gap, (top, left, rows, columns)
+        self.initial_gap = self._search.initial_gap
+        self.place_elements(row, column, initial_gap)
+
+    def place_elements(self, row: Integers, column: Integers, initial_gap: Array) -> None:
+        """Place the elements of the arrays, which begin with those placed before."""
+        box = self.box
+        if self._is_transposed:
+            row, column, box = column, row, (*box[1::-1], *box[:1:-1])
         self.place = self._loops.place_elements(box, row, column, initial_gap, self.initial_gap)
+
+    def in_box(self, field: Array) -> Array:
+        """View of a flat field in the rows and columns of the box."""
+        interior = self._search.interior(field)
+        return interior.T if self._is_transposed else interior
 
     @property
     def operator_applications(self) -> int:

@@ -234,7 +234,7 @@ class _Implicit:
                 f"march_steps: no depth found for an impulse of {impulse:g} in {_MAX_NEWTON_ITERATIONS} iterations"
             )
         self.depth += depth_step
-        self._gap[solver.elements.map_place] = np.maximum(solver.gap(contact), 0.0)
+        self._gap = np.maximum(solver.gap_map(contact), 0.0)
         self.resistance, self.count = contact.tangent_sum, contact.count
         self.overlap = contact.residual * depth_step / self.depth
         self.steps += 1

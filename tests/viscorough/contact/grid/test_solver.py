@@ -9,8 +9,8 @@ from support.influence import influence_matrix
 from viscorough.contact.grid.solver import GridSolver
 from viscorough.contact.loading_path import indent
 from viscorough.contact.options import DEFAULT, SolverOptions
+from viscorough.contact.ranking import elements_of
 from viscorough.contact.solver import ContactSolver
-from viscorough.contact.state import elements_of
 from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc
 

@@ -1,0 +1,95 @@
+"""Elements ranked step by step, against all of them at once; contacts of which only few elements are ranked."""
+
+import numpy as np
+import pytest
+
+from viscorough.contact import ranking
+from viscorough.contact.halfspace import sparse_loads
+from viscorough.contact.loading_path import indent
+from viscorough.contact.one_contact import contact_at
+from viscorough.contact.ranking import Ranking
+from viscorough.indenter import Indenter
+from viscorough.surfaces import self_affine_square
+
+HEIGHTS = self_affine_square(0.8, 200, seed=4)
+
+
+def islands():
+    """Few bumps far from each other, above a plate that nothing touches; one of them in a corner, one a spike."""
+    row, column = np.mgrid[:200, :200]
+    heights = np.full((200, 200), -1.0)
+    for number, (y, x) in enumerate([(0, 0), (30, 170), (120, 60), (199, 110)]):
+        heights = np.maximum(heights, -0.002 * ((row - y) ** 2 + (column - x) ** 2) - 0.01 * number)
+    heights[150, 150] = 0.01
+    return heights
+
+
+def with_hole(heights):
+    row, column = np.mgrid[:200, :200]
+    return np.where(np.hypot(row - 90, column - 110) < 60, np.nan, heights)
+
+
+MAPS = {
+    "rough": (HEIGHTS, 1.0),
+    "rough, rectangular elements": (HEIGHTS, (1.0, 1.7)),
+    "hole": (with_hole(HEIGHTS), 1.0),
+    "strip": (HEIGHTS[80:83], 1.0),
+    "islands": (islands(), 1.0),
+    "terraces": (np.floor(3 * HEIGHTS) / 3, 1.0),
+    "in a corner of a larger map": (np.pad(HEIGHTS[:60, :50], ((0, 90), (70, 0)), constant_values=np.nan), 1.0),
+}
+
+
+@pytest.fixture(params=MAPS)
+def indenter(request):
+    return Indenter(*MAPS[request.param])
+
+
+@pytest.fixture
+def few_ranked(monkeypatch):
+    """As on maps of millions of elements: few are ranked at first, and gaps far from the contact are interpolated."""
+    monkeypatch.setattr(ranking, "_LEAST", 50)
+    monkeypatch.setattr(sparse_loads, "_LEAST", 0)
+
+
+def test_elements_ranked_step_by_step_are_those_of_all_at_once(indenter, few_ranked):
+    steps = Ranking(indenter)
+    elements = steps.first(np.inf)
+    everything = steps.up_to(elements, np.inf)
+    assert 0 < elements.initial_gap.size < everything.initial_gap.size == everything.count == indenter.elements
+    assert everything.initial_gap[0] == 0 < elements.initial_gap[-1]
+    assert np.all(np.diff(everything.initial_gap) >= 0)
+    np.testing.assert_allclose(
+        everything.initial_gap * steps.units.length, indenter.initial_gap[everything.map_place], rtol=1e-15
+    )
+    for depth in (0.01, 0.1, 0.3):
+        elements = steps.up_to(elements, depth)
+        ranked = elements.initial_gap.size
+        assert elements.next_gap(ranked) >= depth or not elements.unranked
+        assert np.count_nonzero(everything.initial_gap <= depth) <= ranked
+        for name in ("row", "column", "initial_gap"):
+            np.testing.assert_array_equal(getattr(elements, name), getattr(everything, name)[:ranked])
+
+
+@pytest.mark.parametrize("given", [{"depth": [0.02, 0.3, 1.0]}, {"force": [0.01, 1.0, 30.0]}])
+def test_contacts_are_those_with_all_elements_ranked(indenter, given, few_ranked, monkeypatch):
+    tolerance = 1e-6
+    contacts = contact_at(indenter, tolerance=tolerance, **given)
+    monkeypatch.setattr(ranking, "_LEAST", 10**6)
+    monkeypatch.setattr(sparse_loads, "_LEAST", 10**6)
+    for contact, expected in zip(contacts, contact_at(indenter, tolerance=tolerance, **given), strict=True):
+        assert contact.force == pytest.approx(expected.force, rel=tolerance)
+        assert contact.depth == pytest.approx(expected.depth, rel=tolerance)
+        assert contact.stiffness == pytest.approx(expected.stiffness, rel=1e-4)
+        np.testing.assert_allclose(contact.gap, expected.gap, rtol=0, atol=2 * tolerance * contact.depth)
+        np.testing.assert_array_equal(np.isnan(contact.pressure), np.isnan(indenter.heights))
+        assert np.nanmin(contact.gap) >= -tolerance * contact.depth
+
+
+def test_curves_are_those_with_all_elements_ranked(indenter, few_ranked, monkeypatch):
+    curve = indent(indenter, until_fraction=0.4)
+    monkeypatch.setattr(ranking, "_LEAST", 10**6)
+    expected = indent(indenter, until_fraction=0.4)
+    inside = expected.force <= curve.force[-1]
+    depth, _ = curve.at_force(expected.force[inside])
+    np.testing.assert_allclose(depth, expected.depth[inside], rtol=2e-3)

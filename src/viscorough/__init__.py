@@ -52,6 +52,7 @@ _MODULE_OF = {
     "save_curve": "io.saving",
     "save_heights": "io.saving",
     "save_identified": "io.media",
+    "save_motion": "io.saving",
     "self_affine_disc": "surfaces",
     "self_affine_line": "surfaces",
 }

@@ -88,7 +88,7 @@ def _content_of(result: Content | LoadingCurve | Kinetics | Contact | Indenter) 
     if isinstance(result, LoadingCurve):
         return curve_to_content(result)
     if isinstance(result, Kinetics):
-        return kinetics_to_content(result, np.nan, result.length_unit)
+        return kinetics_to_content(result, None, result.length_unit)
     if isinstance(result, Contact):
         return contacts_to_content([result], np.where(np.isnan(result.pressure), np.nan, 0.0))
     return surface_to_content(result) if isinstance(result, Indenter) else result

@@ -53,12 +53,14 @@ def quantity(text: str) -> Quantity:
     return Quantity(float(match[1]), match[2])
 
 
-def number(value: float | str | Quantity, unit: str, length_unit: str, name: str) -> float:
-    """A number in `unit`, of a plain number, which is returned unchanged, a Quantity, or a text such as "5 mN".
+def number(value: Any, unit: str, length_unit: str, name: str) -> float:
+    """A number in `unit`, of a plain number, which is returned unchanged, a Quantity, also of pint, or "5 mN".
 
     Raises ValueError, which starts with the name, for what is no number in such a unit, and for one with a unit
     although the unit of length is not known: numbers are then in consistent units.
     """
+    if hasattr(value, "magnitude") and hasattr(value, "units"):
+        value = f"{float(value.magnitude)!r} {value.units}"
     if isinstance(value, str):
         try:
             value = quantity(value)

@@ -44,10 +44,12 @@ def here(tmp_path, monkeypatch):
 
 def test_on_the_command_line(here, capsys):
     scan = "scan.txt --spacing 500 --unit nm"
-    assert run(f"indent {scan} --until-fraction 0.3 -o curve.csv") == 0
+    assert run(f"indent {scan} --until-force '50 uN' --young '2 MPa' -o curve.csv") == 0
+    assert ", F " in capsys.readouterr().out
     curve = tables.read("curve.csv").variables
-    at = np.interp(4 * MODULUS * DEPTH**1.5 * RADIUS**0.5 * 4 / 3 / MODULUS * 1e18, *_columns(curve, "force", "depth"))
-    assert at * 1e-9 == pytest.approx(DEPTH, rel=0.02)
+    assert curve["normal_force"].attributes["units"] == "N"
+    assert curve["normal_force"].values[-1] == pytest.approx(5e-5, rel=0.3)
+    assert 1e-9 * np.interp(FORCE, *_columns(curve, "normal_force", "depth")) == pytest.approx(DEPTH, rel=0.02)
 
     assert run(f"contact {scan} --force '10 uN' --young '2 MPa' -o fields.nc") == 0
     assert f"F {FORCE:g} N, largest p " in capsys.readouterr().out
@@ -83,6 +85,7 @@ def test_in_python(here):
     motion = viscorough.kinetics(curve, "10 uN", RUBBER)
     viscorough.plot(motion, "motion.png")
     viscorough.save_curve(curve, "curve.nc")
+    viscorough.save_motion(motion, "motion.csv")
     found = viscorough.identify_medium(curve, "10 uN", motion.time[1:], motion.depth[1:])
 
     assert contact.depth * 1e-6 == pytest.approx(DEPTH, rel=0.02)
@@ -93,6 +96,8 @@ def test_in_python(here):
     assert "time t 0 to " in str(motion)
     assert str(motion).splitlines()[1].endswith(" s")
     assert viscorough.load_curve("curve.nc") == curve
+    saved = tables.read("motion.csv").variables
+    np.testing.assert_array_equal(saved["depth"].values, motion.depth)
     times = motion.time[1:]
     np.testing.assert_allclose(found.medium.creep_compliance(times), RUBBER.creep_compliance(times), rtol=0.01)
 

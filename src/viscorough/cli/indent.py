@@ -103,7 +103,7 @@ def indent(
 
     from viscorough import sum_rules
     from viscorough.contact.loading_path import indent
-    from viscorough.io.curves import curve_to_content
+    from viscorough.io.curves import curve_to_content, with_normal_force
 
     attributes, lines = surface.attributes(indenter) | medium.attributes, []
     with progress_bar("viscorough indent", progress) as report:
@@ -115,7 +115,11 @@ def indent(
                 warnings.warn(lines[0], AccuracyWarning, stacklevel=2)
         else:
             curve = indent(indenter, **how)
-    write_output(curve_to_content(curve), output, **attributes)
-    depth = with_unit(curve.depth[-1], curve.length_unit, 6)
+    content, depth = curve_to_content(curve), with_unit(curve.depth[-1], curve.length_unit, 6)
+    if medium.shear_modulus is not None:
+        content = with_normal_force(content, medium.shear_modulus, curve.length_unit)
+        newtons = "1" if curve.length_unit == "1" else "N"
+        depth += f", F {with_unit(content.variables['normal_force'].values[-1], newtons, 6)},"
+    write_output(content, output, **attributes)
     count = f"{curve.contact_count[-1]} of {curve.elements} elements in contact"
     announce(output, "\n".join([f"{curve.depth.size} levels, the last at depth {depth} with {count}", *lines]))

@@ -54,6 +54,13 @@ def curve_to_content(curve: LoadingCurve) -> Content:
     return Content(variables, attributes | {name: getattr(curve, name) for name in PER_CURVE})
 
 
+def with_normal_force(content: Content, shear_modulus: float, length_unit: str) -> Content:
+    """The Content of a curve with the force F [N] over its levels, or in consistent units if the unit is not known."""
+    newtons = content.variables["force"].values * (shear_modulus * units.square_metres(length_unit))
+    about = {"long_name": "normal force F", "units": "1" if length_unit == units.UNKNOWN else "N"}
+    return Content(content.variables | {"normal_force": Variable(("level",), newtons, about)}, content.attributes)
+
+
 def curve_from_content(content: Content) -> LoadingCurve:
     """The LoadingCurve in a Content made by curve_to_content.
 

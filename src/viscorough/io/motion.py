@@ -107,12 +107,15 @@ def read_force_history(path: FilePath, length_unit: str = "1") -> ForceHistory:
         raise ValueError(f"{path}: {error}") from error
 
 
-def kinetics_to_content(motion: Kinetics, force: ArrayLike, length_unit: str = "1") -> Content:
-    """A viscous.correspondence.Kinetics as a Content over its times; `force` is F there, or a constant.
+def kinetics_to_content(motion: Kinetics, force: ArrayLike | None, length_unit: str = "1") -> Content:
+    """A viscous.correspondence.Kinetics as a Content over its times; `force` is F there, or a constant; None for none.
 
     Where a depth is undetermined (before the curve's first level) or a velocity infinite, the value is missing.
     """
-    force = np.broadcast_to(np.asarray(force, dtype=float), motion.time.shape)
-    variables = _of_levels(length_unit, depth=motion.depth) | {"force": _force(force, length_unit)}
+    variables = _of_levels(length_unit, depth=motion.depth)
+    if force is not None:
+        force = np.broadcast_to(np.asarray(force, dtype=float), motion.time.shape)
+        variables |= {"force": _force(force, length_unit)}
     velocity = np.where(np.isinf(motion.velocity), np.nan, motion.velocity)
-    return _with_time_and_velocity(Content(variables, {}), motion.time, velocity)
+    title = {} if force is not None else {"title": "Penetration of a rigid indenter into a viscoelastic half-space"}
+    return _with_time_and_velocity(Content(variables, title), motion.time, velocity)

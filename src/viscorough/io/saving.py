@@ -1,12 +1,14 @@
-"""Loading curves and surfaces as files that the command line reads and writes."""
+"""Loading curves, motions and surfaces as files that the command line reads and writes."""
 
 from viscorough.indenter import Indenter
 from viscorough.io import netcdf, tables
 from viscorough.io.curves import curve_from_content, curve_to_content
+from viscorough.io.motion import kinetics_to_content
 from viscorough.io.netcdf import Content
 from viscorough.io.surfaces import surface_to_content
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import FilePath
+from viscorough.viscous.correspondence import Kinetics
 
 
 def save_curve(curve: LoadingCurve, path: FilePath) -> None:
@@ -35,6 +37,14 @@ def save_heights(indenter: Indenter, path: FilePath) -> None:
     Raises ValueError for a path that cannot be written, OSError if writing fails.
     """
     write_content(surface_to_content(indenter), path)
+
+
+def save_motion(motion: Kinetics, path: FilePath) -> None:
+    """Write penetration over time as NetCDF, or as a table if the name ends in .csv: time, depth, velocity; atomically.
+
+    Raises ValueError for a path that cannot be written, OSError if writing fails.
+    """
+    write_content(kinetics_to_content(motion, None, motion.length_unit), path)
 
 
 def write_content(content: Content, path: FilePath) -> None:

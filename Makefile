@@ -14,11 +14,11 @@ WITH_PROGRESS = $(BIN)/python -m viscorough_study.page.terminal --
 
 help:
 	@echo "make reproduce   the default reproduction: figures, tables, and the page results/index.html, which shows them"
-	@echo "make paper       the same at the paper's full scale, and its cost in results/costs.json"
+	@echo "make paper       the same at full scale, twice that of the paper, and its cost in results/costs.json"
 	@echo "make report      results/report.html of the existing results, with the SETTINGS that they were made with"
 	@echo "make check       format, lint, contracts, types and the tests of what has changed since the last commit; half a minute"
 	@echo "make test        format, lint, types, documentation and every test"
-	@echo "make docs        the documentation as a site, in build/docs/index.html"
+	@echo "make docs        the documentation as a website, in build/docs/index.html"
 	@echo "make bench       cost and errors of curves, lines and operators, in results/benchmarks.json and files beside it"
 	@echo "make speed       speed against accuracy of every method, in results/figures/speed.png; 80 minutes"
 	@echo "make stability   where each method fails, and random small indenters against dense solutions"
@@ -27,14 +27,14 @@ help:
 	@echo "make fuzz        10000 bad files and options through the command line, 10000 files of known maps; 12 minutes"
 	@echo "make faults      faults planted in copies of the project, one at a time: how many do the tests catch?"
 	@echo "make seeds       the reproduction with three root seeds: does any verdict change?"
-	@echo "make resampled   the surfaces of make paper drawn again, eight times: does any verdict change?"
+	@echo "make resampled   the surfaces of make paper drawn again with replacement, eight times: does any verdict change?"
 	@echo "make publish     verdicts and numbers from results/ into README.md, docs/ and the package, after make paper"
 	@echo "make chaos       a small reproduction killed 60 times, its results compared with those of an undisturbed run"
-	@echo "make test-slurm  the workflow through a Slurm cluster on this machine, undisturbed and disturbed; Debian, as root"
+	@echo "make test-slurm  the workflow through Slurm on this machine, with and without lost jobs; Debian, as root"
 	@echo "make peers       install the other solvers that make speed compares with, in separate environments"
 	@echo "make lock        renew requirements.lock from pyproject.toml; needs uv, as do lock-peers and lock-slurm"
 	@echo "make clean       remove results and caches, keep the environment"
-	@echo "CORES=$(CORES) and PYTHON=$(PYTHON) may be set, and SETTINGS=mine.yaml for reproduce, report, speed to large."
+	@echo "Variables: CORES=$(CORES), PYTHON=$(PYTHON); SETTINGS=mine.yaml for reproduce, report, speed, stability, sizes, large."
 
 environment: .venv/package-installed
 

@@ -76,7 +76,7 @@ def curve_of_line(lines):
 
 
 def lines(hursts, repeats):
-    """Loading curves of lines by the reduction of dimensionality, generation of the lines included."""
+    """Loading curves of lines by the method of dimensionality reduction, generation of the lines included."""
     functions = {hurst: partial(curve_of_line, SelfAffineLines(hurst, POINTS)) for hurst in hursts}
     return [
         {"hurst": hurst, "points": POINTS, "wall_s": wall, "processor_s": processor}

@@ -2,8 +2,8 @@
 
     python examples/contact_area.py
 
-Persson's line is A/A0 = erf(√2 p/(E* h')), with the mean pressure p = F/A0, E* = 4G and the rms slope h'. It is a
-theory of infinite surfaces, approximate but for complete contact; simulations find larger areas at small forces. Here
+Persson's theory gives A/A0 = erf(√2 p/(E* h')), with the mean pressure p = F/A0, E* = 4G and the rms slope h'. It
+describes infinite surfaces, and is exact only at complete contact; simulations find larger areas at small forces. Here
 the roughness reaches down to two spacings, and the area counts whole elements, which makes it larger still.
 """
 

@@ -1,4 +1,4 @@
-"""A map of heights of your own: how it sinks into a viscous medium. Makes own_surface.png.
+"""Penetration of a measured map of heights into a viscous medium. Makes own_surface.png.
 
     python examples/own_surface.py
 

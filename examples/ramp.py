@@ -1,4 +1,4 @@
-"""A rough punch under a force that rises for one second and then stays: depth and velocity. Makes ramp.png.
+"""A rough punch under a force that rises for one second and then stays constant. Makes ramp.png.
 
     python examples/ramp.py
 

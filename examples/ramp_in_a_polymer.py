@@ -2,8 +2,8 @@
 
     python examples/ramp_in_a_polymer.py
 
-The force rises and then stays; the medium is at first ten times stiffer than in the end. Between the two dashed lines,
-elastic media with its first and its last modulus, the punch creeps through one decade of times after the other.
+The force rises and then stays constant; the instantaneous modulus of the medium is ten times its relaxed modulus. The
+dashed lines are elastic media with these two moduli; between them, the punch creeps over many decades of time.
 """
 
 import matplotlib.pyplot as plt

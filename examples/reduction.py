@@ -1,4 +1,4 @@
-"""The method of reduction of dimensionality (MDR) against boundary elements: stiffness over force. Makes reduction.png.
+"""The method of dimensionality reduction (MDR) against boundary elements: stiffness over force. Makes reduction.png.
 
     python examples/reduction.py
 

@@ -2,8 +2,8 @@
 
     python examples/sphere_in_a_solid.py
 
-Lee and Radok: u^(3/2) = 3 F J(t)/(16 √R) with the creep compliance J(t) of the medium. The solid springs to the depth
-of its instantaneous modulus and creeps to that of its relaxed one.
+Lee and Radok: u^(3/2) = 3 F J(t)/(16 √R) with the creep compliance J(t) of the medium. The solid responds elastically
+at t = 0, with its instantaneous modulus, and creeps to the depth of its relaxed modulus.
 """
 
 import matplotlib.pyplot as plt

@@ -33,7 +33,7 @@ X_LOW, X_HIGH = 1e-3, 30.0  # the widest range of the law; from X_HIGH on, vt/h 
 LARGEST_DEVIATION = 0.05  # of the law from the mean vt/h of the calibration, in its range
 
 COLUMNS = {
-    "source": ("discs (boundary elements) or lines (reduction of dimensionality)", ""),
+    "source": ("discs (boundary elements) or lines (method of dimensionality reduction)", ""),
     "hurst": ("Hurst exponent H", "1"),
     **{
         f"{name}{end}": (f"{text}{meaning}", "1")

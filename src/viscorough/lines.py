@@ -5,7 +5,7 @@ complex transform of half the length, m = n/2, over points taken in pairs. It is
 in external or hierarchical memory, 1990): with m = N₁N₂, k = N₂k₁ + k₂ and j = j₁ + N₁j₂,
     z_j = Σ_k₂ exp(2πi j₂k₂/N₂) exp(2πi j₁k₂/m) Σ_k₁ exp(2πi j₁k₁/N₁) Z_k,
 so that every transform fits in the cache. Pairs are then stored in the order of (j₁, j₂), which does not matter to the
-method of reduction of dimensionality. All other lines are an ordinary real transform.
+method of dimensionality reduction. All other lines are an ordinary real transform.
 """
 
 import math

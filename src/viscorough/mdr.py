@@ -1,4 +1,4 @@
-"""The method of reduction of dimensionality (MDR): a line of independent springs instead of the half-space.
+"""The method of dimensionality reduction (MDR): a line of independent springs instead of the half-space.
 
 Springs of stiffness 4G Δx, one per point of the line with spacing Δx, carry F/G = 4 Δx Σ(u - g)₊ at depth u, where g
 are the initial gaps, measured from the highest point. With η for G they are dashpots of damping 4η Δx that carry
@@ -26,7 +26,7 @@ _BLOCK = 512  # points whose bins are found at a time
 def reduce(
     line: Indenter, *, until_fraction: float = 1.0, until_force: float | None = None, bins_per_octave: int = 64
 ) -> LoadingCurve:
-    """Loading curve of a line by the method of reduction of dimensionality (MDR).
+    """Loading curve of a line by the method of dimensionality reduction (MDR).
 
     line : Indenter with one-dimensional heights
     until_fraction : contact fraction at which to stop, in (0, 1]

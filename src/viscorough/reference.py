@@ -10,7 +10,7 @@ of a relation that is nonlinear in F/G.
 
 Sources: Hertz 1882; Love 1929 and 1939 (square element, cone); Sneddon 1965 (bodies of revolution);
 Johnson 1985, Contact Mechanics (flat ellipse); Lee and Radok 1960 (viscous sphere); Ting 1966 (sphere on the way out);
-Popov and Heß 2015 (method of reduction of dimensionality, MDR).
+Popov and Heß 2015 (method of dimensionality reduction, MDR).
 """
 
 from collections.abc import Callable

@@ -174,7 +174,7 @@ def self_affine_line(
     seed: Seed,
     dtype: DTypeLike = np.float32,
 ) -> Indenter:
-    """Periodic self-affine line, C1D ∝ q^(-(2H+1)): an indenter for the method of reduction of dimensionality (MDR).
+    """Periodic self-affine line, C1D ∝ q^(-(2H+1)): an indenter for the method of dimensionality reduction (MDR).
 
     hurst, rms, amplitudes, seed : as in `self_affine_disc`
     points : number of points per period, at least 2

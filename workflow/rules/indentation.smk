@@ -1,4 +1,4 @@
-# Elastic loading curves: surfaces by boundary elements, lines by the method of reduction of dimensionality.
+# Elastic loading curves: surfaces by boundary elements, lines by the method of dimensionality reduction.
 
 
 rule indent_surfaces:

@@ -1,4 +1,4 @@
-"""Loading curves of a batch of self-affine lines by the reduction of dimensionality; no line is stored."""
+"""Loading curves of a batch of self-affine lines by the method of dimensionality reduction; no line is stored."""
 
 from viscorough.io import netcdf
 from viscorough.lines import SelfAffineLines

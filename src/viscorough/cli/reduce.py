@@ -25,7 +25,7 @@ _OF_A_MAP = (
 )
 
 
-@click.command(short_help="Loading curve by the method of reduction of dimensionality (MDR).")
+@click.command(short_help="Loading curve by the method of dimensionality reduction (MDR).")
 @heights_input("line_or_map")
 @click.option("--until-fraction", type=PositiveNumber(1), help="Contact fraction at which to stop  [default: 1]")
 @click.option("--realizations", type=click.IntRange(1, 100_000), help="Lines to make of a map  [default: 1]")
@@ -35,7 +35,7 @@ _OF_A_MAP = (
 def reduce(
     surface: Surface, until_fraction: float, realizations: int | None, seed: int, output: Path, progress: bool
 ) -> None:
-    """Loading curve of a line by the method of reduction of dimensionality (MDR), in a fraction of a second.
+    """Loading curve of a line by the method of dimensionality reduction (MDR), in a fraction of a second.
 
     LINE_OR_MAP is a .npy or NetCDF file with the heights of a line, as viscorough generate --points makes it: springs
     that do not know of each other stand in for the half-space. Or it is a map, as for viscorough indent: then lines

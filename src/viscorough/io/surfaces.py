@@ -28,7 +28,7 @@ def surface_to_content(indenter: Indenter) -> Content:
 
 
 def read_line(path: FilePath, spacing: Distance | None = None, unit: str | None = None) -> Indenter:
-    """Read the heights of a line as an Indenter, for the method of reduction of dimensionality (mdr.reduce).
+    """Read the heights of a line as an Indenter, for the method of dimensionality reduction (mdr.reduce).
 
     path : .npy of shape (points,), or .nc with a variable `heights` of one dimension, or only one such variable
     spacing : distance between neighbouring points, a number in the unit of the heights or a viscorough.units.Quantity;

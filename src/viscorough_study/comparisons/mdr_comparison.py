@@ -1,4 +1,4 @@
-"""The reduction of dimensionality compared with boundary elements, surface by surface.
+"""The method of dimensionality reduction compared with boundary elements, surface by surface.
 
 The line that represents a surface has the spectrum C1D = π q C2D (Eq. 13), here of the same realization of the surface,
 averaged over rings of wave vectors, with independent random phases, which the method leaves unspecified.

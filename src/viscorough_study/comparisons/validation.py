@@ -167,7 +167,7 @@ def _penetration(indenter, body):
 
 
 def _reduction(line, body):
-    """Errors of the line of the reduction of dimensionality, at given forces, against the elastic solution."""
+    """Errors of the line of the MDR, at given forces, against the elastic solution."""
     depth = body.mdr_profile(RADII)
     reduced_depth, stiffness = reduce(line).at_force(body.force(depth))
     return {"depth": _error(reduced_depth, depth), "stiffness": _error(stiffness, body.stiffness(depth))}

@@ -1,4 +1,4 @@
-"""The method of reduction of dimensionality (MDR) against boundary elements, surface by surface."""
+"""The method of dimensionality reduction (MDR) against boundary elements, surface by surface."""
 
 import numpy as np
 

@@ -31,7 +31,7 @@ def _interval_descriptions():
 
 # column: (long_name, units), in the order of the table; units None for text
 COLUMNS = {
-    "source": ("discs (boundary elements) or lines (reduction of dimensionality)", None),
+    "source": ("discs (boundary elements) or lines (method of dimensionality reduction)", None),
     "case_group": ("base or name of the variant of the surfaces", None),
     "hurst": ("Hurst exponent H", "1"),
     "rms_convention": ("where the rms height h is measured", None),

@@ -5,7 +5,7 @@ velocities: vt/h = X/κ_c + g(X), where κ_c is the stiffness κ of the punch on
 of the interface. Where F is exponential in the mean separation, F ∝ exp(−s/u₀), the stiffness of the interface is F/u₀
 (Persson, Physical Review Letters 99, 125502 (2007)), and g = u₀/h is constant. u₀/h is therefore taken where g is flat:
 the **plateau** is the range of X around the largest g in which g is at most a given fraction below it, and u₀/h is the
-mean of g over ln X on it. Lines of the reduction of dimensionality have κ_c = 1.
+mean of g over ln X on it. Lines of the MDR have κ_c = 1.
 """
 
 import numpy as np
@@ -22,7 +22,7 @@ from viscorough_study.fits.power_law import log_means
 
 LAW_ELEMENTS_MIN = 5  # smallest median number of elements in contact at which the law is fitted
 ENSEMBLE = {
-    "source": ("discs (boundary elements) or lines (reduction of dimensionality)", ""),
+    "source": ("discs (boundary elements) or lines (method of dimensionality reduction)", ""),
     "case_group": ("base, sizes: grids from coarse to fine, or lines", ""),
     "hurst": ("Hurst exponent H", "1"),
     "across": ("elements across the disc, or points of the line", "1"),

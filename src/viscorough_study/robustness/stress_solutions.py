@@ -30,7 +30,7 @@ INTERPOLATED_FORCES = 20  # forces between two of these depths at which interpol
 REFERENCE_TOLERANCE = 1e-11
 BISECTIONS = 12  # in the search for the depth of a contact fraction
 BEYOND_FULL_CONTACT = 3.0  # factor on the depth of full contact
-LINE_POINTS = 2**14  # of lines of the reduction of dimensionality
+LINE_POINTS = 2**14  # of lines of the MDR
 LIMIT_EVENTS, LIMIT_STEPS, LIMIT_MODEL = 1e-9, 0.02, 1.0  # a model may be off by a factor of 2 for one realization
 
 

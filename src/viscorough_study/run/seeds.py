@@ -33,7 +33,7 @@ def variant_key(hurst, name):
 
 
 def line_key(hurst):
-    """Lines that the reduction of dimensionality indents."""
+    """Lines that the method of dimensionality reduction indents."""
     return _key(3, _millionths(hurst))
 
 

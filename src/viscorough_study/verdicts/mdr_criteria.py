@@ -1,6 +1,6 @@
 """Criteria of claims on lines that represent surfaces: λ, exponents, contact area, separation, single surfaces.
 
-The paper calls the applicability of the method of reduction of dimensionality proven, and compares exponents. The other
+The paper calls the applicability of the method of dimensionality reduction proven, and compares exponents. The other
 quantities that a line would have to reproduce are judged here as well: Lyashenko, Pastewka & Persson (Tribology Letters
 52, 223 (2013)) find that it reproduces neither contact area nor separation.
 """

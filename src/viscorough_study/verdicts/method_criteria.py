@@ -1,4 +1,4 @@
-"""Criteria of claims on the methods: the factor Γ, the line of the reduction of dimensionality, counts and time."""
+"""Criteria of claims on the methods: the factor Γ, the line of the MDR, counts and time."""
 
 import numpy as np
 

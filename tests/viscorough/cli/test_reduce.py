@@ -1,4 +1,4 @@
-"""`viscorough reduce`: curves of lines and of maps by the method of reduction of dimensionality."""
+"""`viscorough reduce`: curves of lines and of maps by the method of dimensionality reduction."""
 
 import numpy as np
 import pytest

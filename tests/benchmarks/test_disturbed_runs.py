@@ -23,15 +23,15 @@ def results(tmp_path):
 
 
 def test_measured_times_may_differ_and_nothing_else(results):
-    one, two = results
-    expected = chaos.contents(one)
+    first, second = results
+    expected = chaos.contents(first)
     assert len(expected) == 7
-    assert chaos.compare(chaos.contents(two), expected) == []
-    (two / "results/tables/claims.csv").write_text("else")
-    (two / "results/index.html").unlink()
-    (two / "results/tables/claims.csv.part").touch()
+    assert chaos.compare(chaos.contents(second), expected) == []
+    (second / "results/tables/claims.csv").write_text("else")
+    (second / "results/index.html").unlink()
+    (second / "results/tables/claims.csv.part").touch()
     lines = ["index.html: is missing", "tables/claims.csv.part: is left over", "tables/claims.csv: differs"]
-    assert chaos.compare(chaos.contents(two), expected) == lines
+    assert chaos.compare(chaos.contents(second), expected) == lines
 
 
 @pytest.fixture

@@ -29,7 +29,7 @@ def case(some_cases):
 def test_no_file_is_read_as_another_map(some_cases, tmp_path):
     """A failure is repeated by `python benchmarks/file_campaign.py --seed 2013 --only NUMBER`."""
     outcomes = [(number, *campaign.outcome(case, tmp_path)) for number, case in enumerate(some_cases)]
-    assert [found for found in outcomes if found[1] in (campaign.WRONG, campaign.UNREAD)] == []
+    assert [outcome for outcome in outcomes if outcome[1] in (campaign.WRONG, campaign.UNREAD)] == []
 
 
 def test_every_kind_of_file_is_tried_and_many_are_unambiguous_or_bad(some_cases):

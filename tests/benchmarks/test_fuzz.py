@@ -24,8 +24,8 @@ def folder():
 def test_random_files_and_options_keep_the_contract(folder, monkeypatch):
     """A breach is repeated by `python benchmarks/fuzz.py --seed 2013 --only NUMBER`; one file opens too slowly."""
     monkeypatch.setattr("viscorough.cli.files.LONGEST", 5)
-    found, codes = fuzz.breaches(2013, range(40), folder)
-    assert found == []
+    breaches, codes = fuzz.breaches(2013, range(40), folder)
+    assert breaches == []
     assert codes["0"] > 3
     assert codes["2"] > 15
 
@@ -112,16 +112,16 @@ def test_code_in_a_file_would_be_run_by_a_careless_reader(folder):
 
 
 @pytest.mark.parametrize("how", ["killed", "exception", "endless"])
-def test_ended_processes_exceptions_and_runs_without_end_are_noticed(folder, monkeypatch, how):
+def test_ended_processes_exceptions_and_runs_without_end_are_noticed(folder, monkeypatch, end):
     def main(_):
-        if how == "killed":
+        if end == "killed":
             os.kill(os.getpid(), signal.SIGTERM)
-        if how == "endless":
+        if end == "endless":
             time.sleep(60)
         raise ZeroDivisionError
 
     monkeypatch.setattr(fuzz.cli, "main", main)
-    monkeypatch.setattr(fuzz, "LONGEST", 0.2 if how == "endless" else 60)
+    monkeypatch.setattr(fuzz, "LONGEST", 0.2 if end == "endless" else 60)
     code, words = fuzz.result_of(folder, ["indent"], {})
-    assert code == {"killed": -signal.SIGTERM, "exception": 1, "endless": -signal.SIGKILL}[how]
-    assert ("lines on stderr: 'Traceback" if how == "exception" else f"exit code {code}") in words
+    assert code == {"killed": -signal.SIGTERM, "exception": 1, "endless": -signal.SIGKILL}[end]
+    assert ("lines on stderr: 'Traceback" if end == "exception" else f"exit code {code}") in words

@@ -36,11 +36,11 @@ def run_page(page):
 def run_console(text):
     """Run the lines that start with "$"; what they print must match the lines below, where ... stands for any text."""
     path = f"{VISCOROUGH.parent}{os.pathsep}{os.environ['PATH']}"
-    for command, shown in re.findall(r"^\$ (.*)\n((?:(?!\$ ).*\n)*)", text, re.MULTILINE):
+    for command, expected in re.findall(r"^\$ (.*)\n((?:(?!\$ ).*\n)*)", text, re.MULTILINE):
         environment = os.environ | {"PATH": path}
         done = subprocess.run(command, shell=True, capture_output=True, text=True, check=False, env=environment)
         assert done.returncode == 0, done.stderr
-        pattern = ".*".join(re.escape(piece) for piece in shown.split("..."))
+        pattern = ".*".join(re.escape(piece) for piece in expected.split("..."))
         assert re.fullmatch(pattern, done.stdout), done.stdout
 
 
@@ -62,9 +62,9 @@ def test_readme_makes_the_picture_that_it_shows(tmp_path):
 def test_settings_shown_are_valid():
     default = (ROOT / "config/config.yaml").read_text(encoding="utf-8")
     schema = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text(encoding="utf-8"))
-    shown = [yaml.safe_load(block.text) for page in PAGES for block in blocks(page) if block.language == "yaml"]
-    assert len(shown) >= 2
-    for settings in shown:
+    examples = [yaml.safe_load(block.text) for page in PAGES for block in blocks(page) if block.language == "yaml"]
+    assert len(examples) >= 2
+    for settings in examples:
         merged = yaml.safe_load(default)
         for section, keys in settings.items():
             merged[section] = keys if isinstance(keys, list) else merged[section] | keys

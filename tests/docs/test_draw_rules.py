@@ -22,8 +22,8 @@ def test_rules_stand_in_their_stages_apart_from_each_other():
     assert draw_rules.without_implied(CHAIN | implied) == CHAIN
     edges, stage = draw_rules.from_stage_to_stage(CHAIN, draw_rules.stages(CHAIN))
     assert all(stage[then] == stage[rule] + 1 for rule, then in edges)
-    of_chain = {"generate_discs": 0, "fit_scaling": 3, "compare_prefactors": 4, "plot_exponent": 5}
-    assert {rule: stage[rule] for rule in of_chain} == of_chain
+    stages = {"generate_discs": 0, "fit_scaling": 3, "compare_prefactors": 4, "plot_exponent": 5}
+    assert {rule: stage[rule] for rule in stages} == stages
     assert stage["fit_scaling 4"] == 4
     row = draw_rules.rows(edges, stage)
     assert abs(row["fit_scaling 4"] - row["compare_prefactors"]) >= 1 - 1e-9

@@ -64,11 +64,11 @@ def above(betas):
     return betas - betas.index.map(exponent_beta)
 
 
-def of_base(law):
+def base_values(law):
     return law.query("case_group == 'base' and average == 'geometric'")
 
 
-def of_claims(claim, case=slice(None)):
+def claim_verdicts(claim, case=slice(None)):
     return set(np.atleast_1d(value(claim, case, "verdict")))
 
 
@@ -155,7 +155,7 @@ def two_threads():
 def discs_of_paper():
     """Number of discs of the paper's scale, by group."""
     cases = disc_cases(merged(read_settings("config"), read_settings("paper"))).values()
-    discs = [(case["group"], one["realizations"]) for case in cases for one in case["ensembles"]]
+    discs = [(case["group"], ensemble["realizations"]) for case in cases for ensemble in case["ensembles"]]
     return pd.DataFrame(discs, columns=["group", "number"]).groupby("group")["number"].sum()
 
 
@@ -185,8 +185,8 @@ QUOTED = {
         "in region (b) to {:.0f} %": lambda: 100 * value("exact_correspondence").abs().iloc[::2].max(),
         "F/({:.2f} h)": lambda: LAW["u0"].mean(),
         "within 5 % from X = {:.1g} to {:.0f}": lambda: [
-            of_base(LAW)["law_low"].max(),
-            of_base(LAW)["law_high"].min(),
+            base_values(LAW)["law_low"].max(),
+            base_values(LAW)["law_high"].min(),
         ],
         "take {:.0f} to {:.0f}": lambda: [other_times().min(), 10 * round(other_times().max() / 10)],
         "{} minutes here": minutes_of_reproduction,
@@ -318,9 +318,9 @@ def test_numbers_on_pages_are_those_of_the_tables(page, sentence):
 
 def test_what_pages_conclude_from_the_tables():
     """Sentences without numbers, whose words change only if one of these does."""
-    assert of_claims("zeta_better") == {"reproduced"}
-    assert "not reproduced" in of_claims("master_curve_shape")
-    assert of_claims("alpha_limit", "H = 1, discs") == {"undecided"}
+    assert claim_verdicts("zeta_better") == {"reproduced"}
+    assert "not reproduced" in claim_verdicts("master_curve_shape")
+    assert claim_verdicts("alpha_limit", "H = 1, discs") == {"undecided"}
     assert value("coincide").abs()[["H = 0.6", "H = 0.9"]].max() < 0.02
     assert value("coincide_equal_windows").abs().iloc[:2].round(2).tolist() == [0.08, 0.08]
     assert set(LAW_HERE.index) == set(plateaus("roll_off")["hurst"]) | {1.0} == {0.1, 0.4, 0.6, 0.9, 1.0}

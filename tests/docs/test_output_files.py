@@ -25,8 +25,8 @@ def test_files_of_the_command_line(tmp_path, monkeypatch):
         assert run(f"{command} {arguments} -o {command}.nc") == 0
         (row,) = (row for name, row in rows.items() if name.endswith(f"viscorough {command}"))
         # "those of the curve", "the coordinates"
-        said = {"generate": {"x", "y"}}.get(command, set())
+        coordinates = {"generate": {"x", "y"}}.get(command, set())
         with netCDF4.Dataset(f"{command}.nc") as made:
             curve = curve or set(made.variables)
             assert set(made.dimensions) == set(row.dimensions)
-            assert set(made.variables) | ({"force"} if command == "march" else set()) == {*row.variables, *said}
+            assert set(made.variables) | ({"force"} if command == "march" else set()) == {*row.variables, *coordinates}

@@ -50,8 +50,8 @@ def _check_snakemake(words):
         elif previous == "--forcerun":
             assert word in rules, word
         elif not word.startswith("-") and previous not in takes_value:
-            of_discs = re.fullmatch(r"results/surfaces/discs/h\d{5}/\d{4}-\d{4}\.nc", word)
-            assert of_discs or word in rules | {"tabulate_departures", "plot_departures"}, word
+            surfaces = re.fullmatch(r"results/surfaces/discs/h\d{5}/\d{4}-\d{4}\.nc", word)
+            assert surfaces or word in rules | {"tabulate_departures", "plot_departures"}, word
         previous = word
 
 

@@ -18,30 +18,30 @@ NUMBERS = set("bhilqBHILQfd")  # the types of CF-1.11 besides characters and str
 def violations(path):
     """One line for every requirement that a file does not meet."""
     with netCDF4.Dataset(path) as file:
-        found = _of_file(file)
+        lines = _file_violations(file)
         for group in (file, *file.groups.values()):
-            found += _of_names(group)
+            lines += _name_violations(group)
             for name, variable in group.variables.items():
-                found += [f"{name}: {line}" for line in _of_variable(name, variable, group)]
-    return found
+                lines += [f"{name}: {line}" for line in _variable_violations(name, variable, group)]
+    return lines
 
 
-def _of_file(file):
-    found = [f"no {name}" for name in ("title", "source", "history") if not getattr(file, name, "")]
+def _file_violations(file):
+    lines = [f"no {name}" for name in ("title", "source", "history") if not getattr(file, name, "")]
     if getattr(file, "Conventions", "") != "CF-1.11":
-        found.append("Conventions is not CF-1.11")
-    return found
+        lines.append("Conventions is not CF-1.11")
+    return lines
 
 
-def _of_names(file):
+def _name_violations(file):
     names = [*file.dimensions, *file.variables]
-    found = [f"name {name}" for name in [*names, *file.ncattrs()] if not NAME.fullmatch(name)]
+    lines = [f"name {name}" for name in [*names, *file.ncattrs()] if not NAME.fullmatch(name)]
     if len({name.lower() for name in file.variables}) < len(file.variables):
-        found.append("names of variables differ only in case")
-    return found
+        lines.append("names of variables differ only in case")
+    return lines
 
 
-def _of_variable(name, variable, file):
+def _variable_violations(name, variable, file):
     text = variable.dtype is str
     attributes = {key: variable.getncattr(key) for key in variable.ncattrs()}
     if not text and variable.dtype.char not in NUMBERS:
@@ -63,10 +63,10 @@ def _of_variable(name, variable, file):
     if np.size(attributes.get("flag_values", [])) != len(str(attributes.get("flag_meanings", "")).split()):
         yield "flag_values without flag_meanings"
     if name in file.dimensions:
-        yield from _of_coordinate(name, variable, attributes, text)
+        yield from _coordinate_violations(name, variable, attributes, text)
 
 
-def _of_coordinate(name, variable, attributes, text):
+def _coordinate_violations(name, variable, attributes, text):
     """A variable with the name of a dimension: one-dimensional, complete, numeric and monotonic."""
     if variable.dimensions != (name,):
         yield "a coordinate of other dimensions"

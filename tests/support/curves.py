@@ -29,10 +29,10 @@ def random_curve(levels=7, seed=0, **changes):
     return LoadingCurve(**(values | changes))
 
 
-def assert_same_curve(one, other):
+def assert_same_curve(curve, other):
     """Assert that every field is equal in value and type."""
     for field in dataclasses.fields(LoadingCurve):
-        value, other_value = getattr(one, field.name), getattr(other, field.name)
+        value, other_value = getattr(curve, field.name), getattr(other, field.name)
         np.testing.assert_array_equal(value, other_value, err_msg=field.name, strict=True)
         assert type(value) is type(other_value), field.name
 

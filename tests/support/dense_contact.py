@@ -29,12 +29,12 @@ def displacement(pressure, contact_modulus, side=1.0):
 
 def pressure_at_depth(gap, depth, contact_modulus, side=1.0):
     """Pressure of a rigid indenter with the given initial gap at a depth; same shape as the gap."""
-    return _solve(gap, contact_modulus, side, lambda tangent, of_gap: depth)
+    return _solve(gap, contact_modulus, side, lambda tangent, part: depth)
 
 
 def pressure_at_force(gap, force, contact_modulus, side=1.0):
     """Pressure of a rigid indenter with the given initial gap under a force; same shape as the gap."""
-    return _solve(gap, contact_modulus, side, lambda tangent, of_gap: (force / side**2 + of_gap.sum()) / tangent.sum())
+    return _solve(gap, contact_modulus, side, lambda tangent, part: (force / side**2 + part.sum()) / tangent.sum())
 
 
 def _solve(gap, contact_modulus, side, depth_of):
@@ -45,9 +45,9 @@ def _solve(gap, contact_modulus, side, depth_of):
     for _ in range(10 * gap.size):
         pressure = np.zeros(gap.size)
         right_hand_sides = np.array([np.ones(contact.sum()), initial_gap[contact]]).T
-        tangent, of_gap = np.linalg.solve(matrix[np.ix_(contact, contact)], right_hand_sides).T
-        depth = depth_of(tangent, of_gap)
-        pressure[contact] = depth * tangent - of_gap
+        tangent, gap_part = np.linalg.solve(matrix[np.ix_(contact, contact)], right_hand_sides).T
+        depth = depth_of(tangent, gap_part)
+        pressure[contact] = depth * tangent - gap_part
         overlap = depth - initial_gap - matrix @ pressure
         if (pressure < 0).any():
             contact &= pressure >= 0

@@ -34,7 +34,7 @@ def case_of(hurst, name):
 
 
 MODULES = {  # of the figures of the report, by their files
-    one.get("file", name): one.get("module", name) for name, one in RESULTS["figures"].items()
+    figure.get("file", name): figure.get("module", name) for name, figure in RESULTS["figures"].items()
 }
 
 
@@ -106,13 +106,13 @@ def mdr_table():
 def mdr_lambda_tables():
     """λ = 2 in region (b) and more beyond it; exponents that differ in one window and are unknown in another."""
     x = np.geomspace(1e-3, 10, 9)
-    of_lambda, difference = {"x": x, "in_region": (x < 0.1).astype(int)}, np.array([-0.1, 0.0, np.nan])
+    lambdas, difference = {"x": x, "in_region": (x < 0.1).astype(int)}, np.array([-0.1, 0.0, np.nan])
     for name, value in (("lambda", 2 + x), ("velocity_ratio", 1 / (1 + x))):
-        of_lambda |= {name: value, f"{name}_low": value / 1.1, f"{name}_high": value * 1.1}
+        lambdas |= {name: value, f"{name}_low": value / 1.1, f"{name}_high": value * 1.1}
     exponents = {"window": ["own region", "same X", "same κ"], "difference": difference}
     exponents |= {"difference_low": difference - 0.05, "difference_high": difference + 0.05}
     two = pd.DataFrame({"hurst": (0.4, 0.9)})
-    return [two.merge(pd.DataFrame(table), how="cross") for table in (of_lambda, exponents)]
+    return [two.merge(pd.DataFrame(table), how="cross") for table in (lambdas, exponents)]
 
 
 def direct_table():
@@ -178,22 +178,22 @@ def sizes_table():
 def curves_of_sizes():
     """Curves X^(H/(1+H)) for two Hurst exponents on two grids, and less X for the interface."""
     log_x = np.log(10.0) * np.arange(-4, 0.1, 0.1)
-    found = {
+    grids = {
         hurst: [
             Grid(number, 4, log_x, (hurst / (1 + hurst) * log_x + 0.5)[None], np.full(log_x.size, 20.0), 1.0, 1.0)
             for number in (33, 129)
         ]
         for hurst in (0.4, 0.9)
     }
-    return curve_table(found, 1.0)
+    return curve_table(grids, 1.0)
 
 
 def collapse_tables():
     """Tables of the collapse and of the infinitely fine grid for discs of two Hurst exponents."""
-    about = {"source": "discs", "height": "spectrum", "x_high": 0.03}
+    labels = {"source": "discs", "height": "spectrum", "x_high": 0.03}
     collapse, infinite = [], []
     for hurst, quantity in product((0.4, 0.9), QUANTITIES):
-        row = about | {"hurst": hurst, "quantity": quantity, "expected": hurst / (1 + hurst)}
+        row = labels | {"hurst": hurst, "quantity": quantity, "expected": hurst / (1 + hurst)}
         collapse.append(row | {"beta_low": row["expected"] - 0.02, "beta_high": row["expected"] + 0.02})
         for law in ("power", "corrected"):
             beta = row["expected"] + 0.03
@@ -255,16 +255,16 @@ def interface_tables_drawn():
     ensembles += [("lines", "lines", 0.4, 4096), ("lines", "sizes", 0.4, 64)]
     for source, group, hurst, across in ensembles:
         for average in ("arithmetic", "geometric"):
-            about = {"source": source, "case_group": group, "hurst": hurst, "across": across, "average": average}
+            labels = {"source": source, "case_group": group, "hurst": hurst, "across": across, "average": average}
             law = {"exponent": hurst / (1 + hurst), "peak": 0.5, "peak_x": 0.8}
             interface = interface_velocity(x, *law.values())
             plateau = {"u0": 0.48 + across / 1e4, "u0_low": 0.47, "u0_high": 0.53}
             plateau |= {"plateau_low": 0.4, "plateau_high": 1.2}
-            rows.append(about | plateau | law | {"kappa_c": 1.0, "law_low": 1e-3, "law_high": 28.0})
+            rows.append(labels | plateau | law | {"kappa_c": 1.0, "law_low": 1e-3, "law_high": 28.0})
             velocity = x + interface
             parts = {"x": x, "velocity": velocity, "interface": interface, "law": 1.02 * velocity}
             parts |= {"interface_low": 0.9 * interface, "interface_high": 1.1 * interface}
-            curves.append(pd.DataFrame(parts).assign(**about))
+            curves.append(pd.DataFrame(parts).assign(**labels))
     return pd.DataFrame(rows).reindex(columns=list(INTERFACE)), pd.concat(curves, ignore_index=True)
 
 

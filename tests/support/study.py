@@ -62,10 +62,10 @@ def ensemble(hurst, case, zeta, *, bent=0.0, scatter=0.02, seed=0, square=1.0):
     """
     random = np.random.default_rng([seed, round(hurst * 1e6)])
     alpha = reference.exponent_alpha(hurst) + bent
-    one = reference.one_element_stiffness(ACROSS)
+    one_element = reference.one_element_stiffness(ACROSS)
     factor = np.exp(scatter * random.standard_normal((20, 1)))
-    stiffness = np.clip([scale * zeta * factor * X**alpha for scale in (1.0, square)], one, 1.0)
-    count = np.where(stiffness > one, np.maximum(ELEMENTS * stiffness**2, 2.0), 1.0)
+    stiffness = np.clip([scale * zeta * factor * X**alpha for scale in (1.0, square)], one_element, 1.0)
+    count = np.where(stiffness > one_element, np.maximum(ELEMENTS * stiffness**2, 2.0), 1.0)
     coords = {"hurst": hurst, "case": case, "diameter": 1.0, "elements": ELEMENTS}
     return ensemble_dataset(["disc", "square"], X, stiffness, count, coords)
 
@@ -94,17 +94,17 @@ def evidence(zeta=reference.zeta_elastic, **options):
 def _evidence(zeta, **options):
     members = [ensemble(hurst, f"c{i}", zeta(hurst), seed=i, **options) for hurst in HURST for i in range(4)]
     discs, first = pool_of(members), dict(zip(HURST, members[::4], strict=True))
-    how, rows = {**BOOTSTRAP, "stiffness_range": [0.03, 0.3], **LIMITS}, []
+    fit_options, rows = {**BOOTSTRAP, "stiffness_range": [0.03, 0.3], **LIMITS}, []
     for hurst, pooled in ensembles(discs, "hurst").items():
         lines = first[hurst].sel(rms_convention=["disc"]).assign_coords(rms_convention=["line"])
         lines = lines.isel(realization=np.tile(np.arange(20), 4))  # as many as the paper averages at least
-        rows += fit_rows(pooled, source="discs", case_group="base", lines=lines, **how)
-        rows += fit_rows(lines, source="lines", case_group="base", **how)
+        rows += fit_rows(pooled, source="discs", case_group="base", lines=lines, **fit_options)
+        rows += fit_rows(lines, source="lines", case_group="base", **fit_options)
     plateaus = [("base", hurst, 80, 2.4, 2.2, 2.6, 0.0) for hurst in HURST]
-    of_plateaus = ["case_group", "hurst", "realizations", "decades", "decades_low", "decades_high", "power_law_fails"]
+    columns = ["case_group", "hurst", "realizations", "decades", "decades_low", "decades_high", "power_law_fails"]
     validation = pd.DataFrame({"case": "sphere_reduction", "quantity": "depth", "elements": (65, 129)})
     scaling = pd.DataFrame(rows, columns=list(COLUMNS))
-    found = evidence_of(
+    evidence = evidence_of(
         discs,
         scaling=scaling,
         prefactors=prefactors(scaling, BASE_SURFACES),
@@ -113,11 +113,11 @@ def _evidence(zeta, **options):
         methods=pd.DataFrame(METHODS, columns=["method", "hurst", "elements", "value", "wall_s", "error", "steps"]),
         sizes_trends=pd.DataFrame(TRENDS, columns=["source", "window_rule", "hurst", *SLOPES]),
         sizes=scaling.query("source == 'discs'").assign(case_group="sizes", elements=round(0.778 * ACROSS**2)),
-        plateaus=pd.DataFrame(plateaus, columns=of_plateaus),
+        plateaus=pd.DataFrame(plateaus, columns=columns),
         **mdr_tables(),
     )
-    laws = zeta_laws(found.pooled, found.regions, (0.0, 0.6), average="geometric", **BOOTSTRAP)
-    return replace(found, tables=found.tables | {"zeta_laws": laws})  # which has not pooled the discs yet
+    laws = zeta_laws(evidence.pooled, evidence.regions, (0.0, 0.6), average="geometric", **BOOTSTRAP)
+    return replace(evidence, tables=evidence.tables | {"zeta_laws": laws})  # which has not pooled the discs yet
 
 
 @cache

@@ -47,8 +47,8 @@ def failure(folder, *arguments, before=()):
 def test_workflow_on_a_full_disk_goes_on_when_there_is_room(lines):
     """The sources, which Snakemake copies, are small enough, curves are not."""
     before = contents(lines / "results")
-    shown = failure(lines, "--", NEW, before=[sys.executable, "-c", NO_LARGE_FILES, "40000"])
-    assert f"ERROR OSError: {NEW}: not written (" in shown
+    output = failure(lines, "--", NEW, before=[sys.executable, "-c", NO_LARGE_FILES, "40000"])
+    assert f"ERROR OSError: {NEW}: not written (" in output
     assert contents(lines / "results") == before
     snakemake(lines, *SETTINGS, "--", NEW)
     assert netcdf.read(lines / NEW).variables["levels"].values.size == 2
@@ -61,8 +61,8 @@ def test_damaged_input_of_a_rule_is_named_and_can_be_made_again(lines):
     before = contents(lines)
     (lines / CURVES).write_bytes(DAMAGES["second half zeros"](before[CURVES]))
     damaged = contents(lines / "results/curves")
-    shown = failure(lines, "--forcerun", "aggregate_curves", "--", TARGET)
-    assert re.search("ERROR (.*)", shown)[1].startswith(f"ValueError: {CURVES}: not readable (")
+    output = failure(lines, "--forcerun", "aggregate_curves", "--", TARGET)
+    assert re.search("ERROR (.*)", output)[1].startswith(f"ValueError: {CURVES}: not readable (")
     assert contents(lines / "results/curves") == damaged
     assert not (lines / TARGET).exists()
     (lines / CURVES).unlink()
@@ -86,15 +86,15 @@ def test_second_run_in_a_folder_ends_and_the_first_is_not_disturbed(lines):
                 assert time.monotonic() < deadline, "the first run does not lock its folder"
                 time.sleep(0.01)
             first.send_signal(signal.SIGSTOP)  # it holds its lock while the second run starts, however long that takes
-            shown = failure(lines, "--forceall", "--", TARGET)
+            output = failure(lines, "--forceall", "--", TARGET)
             first.send_signal(signal.SIGCONT)
             assert first.poll() is None, "else it had not been a second run"
             finished, _ = first.communicate(timeout=HANGS)
         finally:
             first.terminate()
             first.send_signal(signal.SIGCONT)
-    assert "Error: Directory cannot be locked." in shown
-    assert "Traceback" not in shown
+    assert "Error: Directory cannot be locked." in output
+    assert "Traceback" not in output
     assert first.returncode == 0, finished
     assert contents(lines / "results") == before
 

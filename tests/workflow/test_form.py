@@ -12,8 +12,8 @@ from support.workflow import RESULTS, ROOT, TEST, copy_project, plan
 def rules():
     """{rule: its text} of all rules with a script of their own."""
     text = "\n".join(path.read_text() for path in (ROOT / "workflow/rules").glob("*.smk"))
-    found = re.findall(r"^rule (\w+):\n(.*?)(?=\n\S|\Z)", text, re.MULTILINE | re.DOTALL)
-    return {name: body for name, body in found if "script:" in body}
+    matches = re.findall(r"^rule (\w+):\n(.*?)(?=\n\S|\Z)", text, re.MULTILINE | re.DOTALL)
+    return {name: body for name, body in matches if "script:" in body}
 
 
 def tabulations(kind):

@@ -16,7 +16,7 @@ ALL = [name for name, table in TABLES.items() if "target" not in table]  # table
 
 def test_every_figure_and_table_is_made(finished_once):
     results = finished_once / "results"
-    for figure in (name for name, one in FIGURES.items() if "target" not in one):
+    for figure in (name for name, figure_entry in FIGURES.items() if "target" not in figure_entry):
         assert (results / f"figures/{figure}.png").read_bytes().startswith(b"\x89PNG")
         assert (results / f"figures/{figure}.pdf").read_bytes().startswith(b"%PDF")
     for table in ALL:
@@ -77,7 +77,7 @@ def test_timed_jobs_ran_alone(finished_once):
         if job:
             running[job] = message
             most = max(most, len(running))
-            assert len(running) == 1 or not any(one.startswith(timed) for one in running.values()), running
+            assert len(running) == 1 or not any(job.startswith(timed) for job in running.values()), running
     assert most > 1, "else it would not show that timed jobs run alone"
 
 

@@ -66,7 +66,7 @@ def test_nothing_comes_from_elsewhere(html, page):
 def test_every_number_stands_in_a_table(page, tables):
     assert len(page.numbers) > 100
     for _, place, text in page.numbers:
-        shown, half_a_digit = number_in(text)
+        number, half_a_digit = number_in(text)
         table = tables[place["data-table"]]
         if "data-row" in place:
             value = float(table.at[int(place["data-row"]), place["data-column"]])
@@ -77,7 +77,7 @@ def test_every_number_stands_in_a_table(page, tables):
         else:
             value = list(overall(table).values()).count(place["data-counted"])
         assert value == float(place["value"]), place
-        assert abs(shown - value) <= 1.001 * half_a_digit, (place, text)
+        assert abs(number - value) <= 1.001 * half_a_digit, (place, text)
 
 
 def test_the_answer_states_no_other_numbers(page):

@@ -143,8 +143,8 @@ def test_kept_surfaces_are_those_that_curves_are_made_from(finished):
 def test_an_edit_of_the_generator_reruns_discs_and_their_curves(editable):
     edit(editable / "src/viscorough/surfaces.py", lambda text: text.replace("if period < 1:", "if not period >= 1:"))
     planned = plan(editable, *TEST, "--", "curves", "figure_1")
-    of_discs = {"generate_discs": 4, "indent_surfaces": 4}
-    assert planned == of_discs | {"generate_examples": 1, "plot_surfaces": 1}
+    disc_jobs = {"generate_discs": 4, "indent_surfaces": 4}
+    assert planned == disc_jobs | {"generate_examples": 1, "plot_surfaces": 1}
 
 
 def test_reworded_docstrings_and_comments_rerun_nothing(editable):
@@ -179,8 +179,8 @@ def test_a_changed_script_table_or_figure_reruns_its_rule_and_what_depends_on_it
     edit(script, lambda text: text.replace("validation failed, see", "failed, see"))
     for module in ("comparisons/direct_integration", "figures/exponent"):
         edit(editable / f"src/viscorough_study/{module}.py", with_another_statement)
-    of_table = {"compare_direct", "plot_direct", "judge_claims"}
-    assert set(plan(editable, *TEST)) == {"check_validation", *of_table, "plot_exponent", *LAST}
+    dependents = {"compare_direct", "plot_direct", "judge_claims"}
+    assert set(plan(editable, *TEST)) == {"check_validation", *dependents, "plot_exponent", *LAST}
 
 
 def test_forcing_one_rule(finished_once):

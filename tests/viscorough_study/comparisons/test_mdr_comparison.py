@@ -18,9 +18,9 @@ def test_line_has_the_power_of_the_rings(n):
     assert (line.heights.shape, line.spacing) == ((n,), 0.5)
     # Without corners all waves of the map are in rings up to the Nyquist wavenumber: equal rms heights.
     assert line.heights.std() == pytest.approx(square.std(), rel=1e-12)
-    one = np.cos(2 * np.pi * 3 * np.arange(n) / n)
-    of_one_wave = line_of_surface(np.tile(one, (n, 1)), 1.0, 3).heights
-    power = np.abs(np.fft.rfft(of_one_wave)) ** 2
+    wave = np.cos(2 * np.pi * 3 * np.arange(n) / n)
+    line = line_of_surface(np.tile(wave, (n, 1)), 1.0, 3).heights
+    power = np.abs(np.fft.rfft(line)) ** 2
     assert np.argmax(power) == 3
     assert power[3] == pytest.approx(power.sum(), rel=1e-9)
 
@@ -32,8 +32,8 @@ def test_comparison():
     assert table["stiffness_ratio"].between(0.3, 3).all()
     half_width = stats.t.ppf(0.975, 5) * table["stiffness_scatter"] / np.sqrt(6)
     for end, side in (("low", -1), ("high", 1)):
-        found = np.log(table[f"stiffness_ratio_{end}"] / table["stiffness_ratio"])
-        np.testing.assert_allclose(found, side * half_width)
+        distance = np.log(table[f"stiffness_ratio_{end}"] / table["stiffness_ratio"])
+        np.testing.assert_allclose(distance, side * half_width)
     np.testing.assert_allclose(stats.norm.cdf(np.arctanh(table["chance"]) * np.sqrt(6 - 3)), 0.975, atol=1e-4)
     assert table["stiffness"].is_monotonic_increasing
     assert table["gap"].notna().equals(is_power_of_ten(table["x"]))

@@ -31,11 +31,11 @@ def tables(discs, lines):
 
 def test_equal_ensembles_have_the_lambda_pi():
     discs = ensemble(0.6, seed=1)
-    of_lambda, summary, exponents = found = tables(discs, discs)
-    assert list(map(list, found)) == list(map(list, (LAMBDA_COLUMNS, SUMMARY_COLUMNS, EXPONENT_COLUMNS)))
-    inside = of_lambda[of_lambda["in_region"] == 1]
+    lambdas, summary, exponents = all_tables = tables(discs, discs)
+    assert list(map(list, all_tables)) == list(map(list, (LAMBDA_COLUMNS, SUMMARY_COLUMNS, EXPONENT_COLUMNS)))
+    inside = lambdas[lambdas["in_region"] == 1]
     np.testing.assert_allclose(inside["lambda"], np.pi, rtol=1e-6)
-    np.testing.assert_allclose(of_lambda["velocity_ratio"], 1, rtol=1e-6)
+    np.testing.assert_allclose(lambdas["velocity_ratio"], 1, rtol=1e-6)
     (row,) = summary.to_dict("records")
     assert (row["lambda_best"], row["drift"]) == pytest.approx((np.pi, 1), rel=1e-6)
     assert row["drift_low"] < 1 < row["drift_high"]
@@ -43,16 +43,16 @@ def test_equal_ensembles_have_the_lambda_pi():
     assert exponents["window"].tolist() == list(WINDOWS)
     assert exponents["difference"].abs().max() < 1e-9
     few = discs.assign(contact_count_median=discs["contact_count_median"] * 0)  # without a region
-    of_lambda, summary, exponents = tables(few, discs)
-    assert of_lambda.empty
+    lambdas, summary, exponents = tables(few, discs)
+    assert lambdas.empty
     assert np.isnan(summary["drift"]).all()
     assert exponents["difference"].notna().tolist() == [window == "same κ" for window in WINDOWS]
 
 
 def test_discs_and_lines_are_drawn_independently():
     """Even if they are the same curves: the variances of both exponents add up."""
-    one = {0.7: ensemble(0.6, seed=1, spread=0.01)}
-    _, _, exponents = compare_ensembles(one, one, **HOW | {"resamples": 500})
+    same = {0.7: ensemble(0.6, seed=1, spread=0.01)}
+    _, _, exponents = compare_ensembles(same, same, **HOW | {"resamples": 500})
     widths = {name: exponents[f"{name}_high"] - exponents[f"{name}_low"] for name in ("beta_discs", "difference")}
     np.testing.assert_allclose(widths["difference"], np.sqrt(2) * widths["beta_discs"], rtol=0.15)
 

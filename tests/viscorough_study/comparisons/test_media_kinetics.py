@@ -65,8 +65,8 @@ def power_law_curve(factor, beta=0.4):
 def test_power_of_time_of_a_power_law(medium, times, creep, exponent):
     """vt/h ∝ X^β is ∝ t^(aβ) where J ∝ t^a, in the means, in the fit, and by Eq. 10 of β = H/(1 + H)."""
     ensembles = {2 / 3: ([power_law_curve(factor) for factor in (0.9, 1.1)], [1e-3, 1e-3], 1.0)}  # H/(1 + H) = 0.4
-    how = FIT | {"stiffness_range": [0.0, 10.0]}
-    table, fits = media_tables(ensembles, {"medium": medium}, force=1e-3, times=abscissa(*times, 20), **how)
+    options = FIT | {"stiffness_range": [0.0, 10.0]}
+    table, fits = media_tables(ensembles, {"medium": medium}, force=1e-3, times=abscissa(*times, 20), **options)
     fit = fits.iloc[0]
     assert list(fits) == list(EXPONENT_COLUMNS)
     np.testing.assert_allclose(table[["exponent", "expected"]], exponent, atol=2e-3)
@@ -82,8 +82,8 @@ def test_no_power_of_time_where_the_medium_has_none():
     """
     ensembles = {0.5: ([power_law_curve(1.0)] * 2, [1e-3, 1e-3], 1.0)}
     media = {"solid": StandardLinearSolid(1e6, 1e5, 1.0), "spring": StandardLinearSolid(1e6, 1e5, 1e-6)}
-    how = FIT | {"stiffness_range": [0.0, 10.0]}
-    _, fits = media_tables(ensembles, media, force=1e-3, times=abscissa(1e-2, 1e2, 20), **how)
+    fit = FIT | {"stiffness_range": [0.0, 10.0]}
+    _, fits = media_tables(ensembles, media, force=1e-3, times=abscissa(1e-2, 1e2, 20), **fit)
     solid, spring = fits.to_dict("records")
     assert solid["creep_largest"] - solid["creep_least"] > 0.4
     assert solid["exponent"] == pytest.approx(solid["expected"], abs=2e-3)

@@ -77,13 +77,13 @@ def test_averages_are_over_the_realizations_defined(gaps):
     assert np.array_equal(np.isnan(velocity), np.isnan(count))
     for j in range(x.size):
         v = velocity[~np.isnan(velocity[:, j]), j]
-        one = ensemble.isel(rms_convention=0, abscissa=j)
-        assert one.realizations_defined == v.size
-        assert one.fraction_defined == v.size / 12
-        assert one.velocity_arithmetic == pytest.approx(np.mean(v), rel=1e-12)
-        assert one.velocity_geometric == pytest.approx(np.prod(v) ** (1 / v.size), rel=1e-12)
-        assert one.velocity_spread == pytest.approx(np.std(np.log(v), ddof=1), rel=1e-9, abs=1e-12)
-        assert one.contact_count_median == np.median(count[~np.isnan(count[:, j]), j])
+        mean = ensemble.isel(rms_convention=0, abscissa=j)
+        assert mean.realizations_defined == v.size
+        assert mean.fraction_defined == v.size / 12
+        assert mean.velocity_arithmetic == pytest.approx(np.mean(v), rel=1e-12)
+        assert mean.velocity_geometric == pytest.approx(np.prod(v) ** (1 / v.size), rel=1e-12)
+        assert mean.velocity_spread == pytest.approx(np.std(np.log(v), ddof=1), rel=1e-9, abs=1e-12)
+        assert mean.contact_count_median == np.median(count[~np.isnan(count[:, j]), j])
     assert set(ensemble.realizations_defined.values[0]) >= {8, 12}
     last = aggregate(curves[:1], {"line": 1.0}, 1.0, [0.1, 1e3], hurst=0.5, case="a").isel(abscissa=1)
     assert last.realizations_defined == 0, "beyond all curves"

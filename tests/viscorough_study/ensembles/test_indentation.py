@@ -20,12 +20,12 @@ def curves_of_discs(folder, batch):
     """{name: values} in the file of curves that scripts make of a batch, by way of the file of its surfaces."""
     load_script("generate_discs").main(folder / "surfaces.nc", ensembles=batch, seed=7)
     load_script("indent_surfaces").main(folder / "surfaces.nc", folder / "curves.nc", indentation=INDENTATION)
-    return {name: one.values for name, one in netcdf.read(folder / "curves.nc").variables.items()}
+    return {name: variable.values for name, variable in netcdf.read(folder / "curves.nc").variables.items()}
 
 
 def curves_of_lines(folder, batch):
     load_script("reduce_lines").main(folder / "curves.nc", ensembles=batch, seed=7, until_x=30.0)
-    return {name: one.values for name, one in netcdf.read(folder / "curves.nc").variables.items()}
+    return {name: variable.values for name, variable in netcdf.read(folder / "curves.nc").variables.items()}
 
 
 @pytest.mark.parametrize("kind", ["discs", "lines"])
@@ -33,7 +33,7 @@ def test_a_realization_is_the_same_in_every_batch(tmp_path, kind):
     settings = read_settings("config")
     table, size = (cases.disc_cases, {"elements": 17}) if kind == "discs" else (cases.line_cases, {"points": 512})
     make = {"discs": curves_of_discs, "lines": curves_of_lines}
-    ensembles = [one | size for one in cases.batch_ensembles(table(settings)["h04000"], "0000-0002")[-2:]]
+    ensembles = [ensemble | size for ensemble in cases.batch_ensembles(table(settings)["h04000"], "0000-0002")[-2:]]
     curves = {}
     for first in (0, 2):
         batch = [ensemble | {"numbers": [first, 3]} for ensemble in ensembles]

@@ -59,10 +59,10 @@ def test_ensemble_of_a_hurst_exponent_is_one_large_ensemble(curves, pool):
         np.testing.assert_allclose(pooled[name], whole[name], rtol=1e-12, err_msg=name)
     assert pooled["case"].values.tolist() == ["a_c1"] * 5 + ["a_c2"] * 7
     assert (pooled["hurst"].item(), pooled["elements"].item(), pooled["diameter"].item()) == (0.5, 40, 1.0)
-    of_cases = ensembles(select(pool, group="base"), "case")
-    assert list(of_cases) == ["a_c1", "a_c2"]
+    by_case = ensembles(select(pool, group="base"), "case")
+    assert list(by_case) == ["a_c1", "a_c2"]
     second = aggregate(curves[5:], {"line": RMS[5:]}, 1.0, X, hurst=0.5, case="a_c2")
-    np.testing.assert_allclose(of_cases["a_c2"]["velocity_geometric"], second["velocity_geometric"], rtol=1e-12)
+    np.testing.assert_allclose(by_case["a_c2"]["velocity_geometric"], second["velocity_geometric"], rtol=1e-12)
 
 
 def test_unlike_realizations_make_no_ensemble(pool):
@@ -76,13 +76,13 @@ def test_a_batch_of_several_ensembles(curves):
     short = line_curve([0.0, 0.5, 1.0])
     content = batch([*curves[:2], short], np.ones(3), hurst=[0.5, 0.5, 0.7], case="sizes")
     other = batch([short], np.ones(1), hurst=0.7, case="sizes", first=3)
-    for one, names in ((content, ("a", "b")), (other, ("b", "c"))):
-        one.attributes["settings"] = json.dumps({"ensembles": [{"name": name} for name in names]})
+    for file, names in ((content, ("a", "b")), (other, ("b", "c"))):
+        file.attributes["settings"] = json.dumps({"ensembles": [{"name": name} for name in names]})
     mixed = pool_batches([("sizes", content), ("sizes", other)], ["line"], X)
     assert mixed["elements"].values.tolist() == [40, 40, 3, 3]
     assert mixed["hurst"].values.tolist() == [0.5, 0.5, 0.7, 0.7]
-    assert [one["name"] for one in json.loads(mixed.attrs["settings"])["sizes"]["ensembles"]] == ["a", "b", "c"]
+    assert [entry["name"] for entry in json.loads(mixed.attrs["settings"])["sizes"]["ensembles"]] == ["a", "b", "c"]
     assert list(ensembles(mixed, "hurst", "elements")) == [(0.5, 40), (0.7, 3)]
-    found = ensembles(mixed, "hurst", "elements")[0.5, 40]
+    pooled = ensembles(mixed, "hurst", "elements")[0.5, 40]
     whole = aggregate(curves[:2], {"line": np.ones(2)}, 1.0, X, hurst=0.5, case="a")
-    np.testing.assert_array_equal(found["stiffness"], whole["stiffness"])
+    np.testing.assert_array_equal(pooled["stiffness"], whole["stiffness"])

@@ -61,10 +61,10 @@ def lines():
 def scaling(pooled, lines):
     rows = []
     for ensemble, line in zip(pooled, lines, strict=True):
-        how = {"resamples": 20, "seed": 1, **SCALING}
-        rows += fit_rows(ensemble, source="discs", case_group="base", lines=line, **how)
-        rows += fit_rows(ensemble, source="discs", case_group="roll_off", **how)
-        rows += fit_rows(line, source="lines", case_group="base", **how)
+        options = {"resamples": 20, "seed": 1, **SCALING}
+        rows += fit_rows(ensemble, source="discs", case_group="base", lines=line, **options)
+        rows += fit_rows(ensemble, source="discs", case_group="roll_off", **options)
+        rows += fit_rows(line, source="lines", case_group="base", **options)
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
@@ -86,7 +86,8 @@ def drawn(discs, pooled, lines, scaling, combinations):
         "prefactors": (prefactors(scaling, BASE_SURFACES), SHOWN),
         "measured": ({"polished": pooled[0]}, pooled, measured, tables.measured_kinetics(), SHOWN),
     }
-    shares = {name: {"fraction_min": 0.95} for name, one in FIGURES.items() if "fraction_min" in one.get("params", [])}
+    params = {name: figure.get("params", []) for name, figure in FIGURES.items()}
+    shares = {name: {"fraction_min": 0.95} for name in params if "fraction_min" in params[name]}
     with warnings.catch_warnings(action="error"):
         return {
             name: tables.plot(tables.MODULES[name], *given, **shares.get(name, {})) for name, given in arguments.items()

@@ -68,17 +68,17 @@ def plain(text):
 
 
 def faults(caption, figure, repeated):
-    """What a caption says wrongly of a figure, or does not say."""
+    """Errors and omissions of a caption, one line each."""
     caption, wrong = plain(caption), []
-    shown, named = names_of_panels(figure), names_in_caption(caption)
+    drawn, named = names_of_panels(figure), names_in_caption(caption)
     if repeated:
-        said = re.findall(r"one (?:panel|column) for each (Hurst exponent|quantity|indenter|medium)", caption)
-        wrong += [] if said == [repeated] else [f"panels are for each {repeated}"]
-        shown = shown if named else set()
-    wrong += [f"panel {name} is not described" for name in sorted(shown - named)]
-    wrong += [f"there is no panel {name}" for name in sorted(named - shown)]
-    said = caption.lower().replace("right side of the paper's eq. 12", plain(RIGHT_SIDE).lower())
-    wrong += [f"axis {label} is not described" for label in quantities(figure) if label.lower() not in said]
+        repeats = re.findall(r"one (?:panel|column) for each (Hurst exponent|quantity|indenter|medium)", caption)
+        wrong += [] if repeats == [repeated] else [f"panels are for each {repeated}"]
+        drawn = drawn if named else set()
+    wrong += [f"panel {name} is not described" for name in sorted(drawn - named)]
+    wrong += [f"there is no panel {name}" for name in sorted(named - drawn)]
+    text = caption.lower().replace("right side of the paper's eq. 12", plain(RIGHT_SIDE).lower())
+    wrong += [f"axis {label} is not described" for label in quantities(figure) if label.lower() not in text]
     artists = [line for axes in figure.axes for line in axes.lines]
     artists += [handle for legend in figure.legends for handle in legend.get_lines()]
     for word, is_drawn in {
@@ -89,7 +89,7 @@ def faults(caption, figure, repeated):
         "hatched": any(patch.get_hatch() for axes in figure.axes for patch in axes.patches),
         "rings": any(line.get_markersize() > 8 and line.get_markerfacecolor() == "none" for line in artists),
     }.items():
-        wrong += [f"nothing is {word}"] if word in said and not is_drawn else []
+        wrong += [f"nothing is {word}"] if word in text and not is_drawn else []
     return wrong
 
 
@@ -129,7 +129,7 @@ def test_panels_are_as_many_as_what_they_are_for(drawn):
 )
 def test_faults_of_captions_are_seen(drawn, name, change, fault):
     seen = faults(plain(read(name)).replace(*change), drawn[name], REPEATED.get(name))
-    assert any(each.startswith(fault) for each in seen) if fault else seen == []
+    assert any(line.startswith(fault) for line in seen) if fault else seen == []
 
 
 def test_units_stand_in_parentheses_and_dimensionless_quantities_have_none(drawn):
@@ -152,7 +152,7 @@ def test_a_hurst_exponent_looks_the_same_in_all_figures(drawn):
     looks = []
     for figure in drawn.values():
         legends = [*figure.legends, *(axes.get_legend() for axes in figure.axes if axes.get_legend())]
-        pairs = [pair for one in legends for pair in zip(one.legend_handles, one.get_texts(), strict=True)]
+        pairs = [pair for legend in legends for pair in zip(legend.legend_handles, legend.get_texts(), strict=True)]
         looks += [handle for handle, text in pairs if text.get_text() == "$H=0.4$"]
         titled = [axes for axes in figure.axes if axes.get_title().endswith("$H=0.4$")]
         looks += [line for axes in titled for line in axes.lines if line.get_marker() not in ("None", "", "|")]

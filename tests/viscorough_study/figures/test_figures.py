@@ -38,9 +38,9 @@ def test_figure_of_no_rows_is_refused(name):
 
 def test_surfaces_are_darker_where_higher():
     examples = [(h, self_affine_disc(h, 33, seed=1).heights, 1 / 33) for h in (0.1, 0.5, 0.9)]
-    shown = [axes for axes in plot("surfaces", examples).axes if axes.images]
+    panels = [axes for axes in plot("surfaces", examples).axes if axes.images]
     ends = min(np.nanmin(heights) for _, heights, _ in examples), max(np.nanmax(heights) for _, heights, _ in examples)
-    for axes, (hurst, heights, _) in zip(shown, examples, strict=True):
+    for axes, (hurst, heights, _) in zip(panels, examples, strict=True):
         (image,) = axes.images
         np.testing.assert_array_equal(image.get_array().filled(np.nan), heights)
         assert image.get_extent() == pytest.approx([-0.5, 0.5, -0.5, 0.5])
@@ -52,12 +52,12 @@ def test_surfaces_are_darker_where_higher():
 
 @pytest.mark.parametrize("average", ["geometric", "arithmetic"])
 def test_master_curve_shows_both_sides_of_the_law(pooled, lines, scaling, average):
-    shown = SHOWN | {"average": average}
-    law, ratio = plot("master_curve", pooled, lines, scaling, shown, fraction_min=0.95).axes
+    conventions = SHOWN | {"average": average}
+    law, ratio = plot("master_curve", pooled, lines, scaling, conventions, fraction_min=0.95).axes
     (identity,) = dashed(law)
     np.testing.assert_array_equal(identity.get_xdata(), identity.get_ydata())
     np.testing.assert_array_equal(dashed(ratio)[0].get_ydata(), 1)
-    windows = fits(scaling, shown, source="discs", case_group="base").set_index("hurst")
+    windows = fits(scaling, conventions, source="discs", case_group="base").set_index("hurst")
     for rank, ensemble in enumerate(pooled):
         hurst, discs = ensemble["hurst"].item(), ensemble.sel(rms_convention="disc")
         right, left = reference.rate_law(X, hurst, gamma=True), discs[f"velocity_{average}"].values
@@ -198,9 +198,9 @@ def test_interface_law_and_plateaus(drawn):
     for line in law.lines[:3]:
         close(line.get_ydata(), 1.02)
     ours = sorted(line.get_ydata()[0] for line in plateaus.lines if line.get_marker() not in ("_", "|", "None"))
-    shown = wanted[(wanted["source"] == "discs") | (wanted["case_group"] != "sizes")]
-    assert ours == pytest.approx(sorted(shown["u0"]))
-    (band,) = [one for one in plateaus.collections if len(one.get_facecolor())]
+    rows = wanted[(wanted["source"] == "discs") | (wanted["case_group"] != "sizes")]
+    assert ours == pytest.approx(sorted(rows["u0"]))
+    (band,) = [collection for collection in plateaus.collections if len(collection.get_facecolor())]
     corners = {tuple(corner) for corner in band.get_paths()[0].vertices}
     assert corners == {(0.4, 0.5), (0.4, 0.56), (0.9, 0.41), (0.9, 0.46)}
     (stated,) = [line for line in dashed(plateaus) if line.get_marker() == "None"]

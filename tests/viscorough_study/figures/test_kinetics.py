@@ -21,8 +21,8 @@ def test_kinetics_are_those_of_the_curves_in_real_units(curves, discs, combinati
     for hurst, name in curves:
         at, label = COMBINATIONS[name], case_of(hurst, name)
         time, velocity = moving[label]
-        each = [kinetics(curve, at["force"], at["viscosity"], time).velocity for curve in curves[hurst, name]]
-        np.testing.assert_allclose(velocity, np.sqrt(each[0] * each[1]), rtol=1e-9)
+        velocities = [kinetics(curve, at["force"], at["viscosity"], time).velocity for curve in curves[hurst, name]]
+        np.testing.assert_allclose(velocity, np.sqrt(velocities[0] * velocities[1]), rtol=1e-9)
         unit = at["rms"] * at["viscosity"] * at["diameter"]
         np.testing.assert_allclose(scaled[label], [at["force"] * time / unit, velocity * time / at["rms"]], rtol=1e-12)
 
@@ -46,10 +46,10 @@ def test_combinations_are_named_at_their_lines_and_listed_below(discs, combinati
 
 @pytest.mark.parametrize(("convention", "length"), [("diameter", 1.0), ("radius", 0.5)])
 def test_kinetics_mark_the_regions(discs, combinations, scaling, convention, length):
-    shown = SHOWN | {"diameter_convention": convention}
-    axes = plot_kinetics(discs, combinations, scaling, shown, fraction_min=0.95).axes[1]
+    conventions = SHOWN | {"diameter_convention": convention}
+    axes = plot_kinetics(discs, combinations, scaling, conventions, fraction_min=0.95).axes[1]
     bars = [line.get_xdata() for line in axes.lines if line.get_transform() == axes.get_xaxis_transform()]
-    fitted = fits(scaling, shown, source="discs", case_group="base")
+    fitted = fits(scaling, conventions, source="discs", case_group="base")
     np.testing.assert_allclose(sorted(map(tuple, bars)), sorted(zip(4 * fitted.x_low, 4 * fitted.x_high, strict=True)))
     first, last = (line.get_xydata() for line in axes.lines if line.get_linestyle() == ":")
     kappa = reference.one_element_stiffness(ELEMENTS)

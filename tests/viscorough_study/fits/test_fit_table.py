@@ -18,8 +18,8 @@ BOOTSTRAP = {"resamples": 400, "seed": 1}
 
 
 def combination_rows(ensemble, **changes):
-    about = {"source": "discs", "case_group": "base", "stiffness_range": (0.03, 0.3)}
-    return fit_rows(ensemble, **(about | LIMITS | BOOTSTRAP | changes))
+    options = {"source": "discs", "case_group": "base", "stiffness_range": (0.03, 0.3)}
+    return fit_rows(ensemble, **(options | LIMITS | BOOTSTRAP | changes))
 
 
 @pytest.fixture(scope="module")

@@ -15,11 +15,11 @@ ELEMENTS = np.array([1e3, 1e4, 1e5, 1e6])
 
 def table(departure, *, hurst=0.1, source="discs", case_group="sizes", half_width=0.01):
     beta = departure + (0.0 if case_group == "controls" else exponent_beta(hurst))
-    about = fit_row(source=source, case_group=case_group, hurst=hurst)
+    columns = fit_row(source=source, case_group=case_group, hurst=hurst)
     if source == "lines":
-        about["rms_convention"] = "line"
+        columns["rms_convention"] = "line"
     values = {"elements": ELEMENTS, "beta": beta, "beta_low": beta - half_width, "beta_high": beta + half_width}
-    return pd.DataFrame(about | values)
+    return pd.DataFrame(columns | values)
 
 
 @pytest.mark.parametrize(
@@ -37,10 +37,10 @@ def test_finding(departure, half_width, finding):
     assert finding in FINDINGS
     for source, case_group in (("discs", "sizes"), ("discs", "controls"), ("lines", "sizes")):
         fits = table(np.array(departure), source=source, case_group=case_group, half_width=half_width)
-        found = trends(fits, SHOWN, TOLERANCE)
-        assert list(found) == list(COLUMNS)
+        trend = trends(fits, SHOWN, TOLERANCE)
+        assert list(trend) == list(COLUMNS)
         name = "controls" if case_group == "controls" else source
-        assert found[["finding", "source"]].iloc[0].tolist() == [finding, name]
+        assert trend[["finding", "source"]].iloc[0].tolist() == [finding, name]
 
 
 def test_slope_and_its_interval():
@@ -57,17 +57,17 @@ def test_slope_and_its_interval():
 def test_fixed_windows_beside_the_moving_one_in_the_convention_shown():
     fixed = table(np.full(4, 0.2)).assign(window_rule="X = 0.01 to 0.1")
     other = table(np.zeros(4)).assign(average="arithmetic")
-    found = trends(pd.concat([other, table(np.array([0.3, 0.25, 0.2, 0.15])), fixed]), SHOWN, TOLERANCE)
-    assert found["window_rule"].tolist() == ["default", "X = 0.01 to 0.1"]
-    assert found["finding"].tolist() == ["departs, and less on finer grids", "departs on every grid"]
+    trend = trends(pd.concat([other, table(np.array([0.3, 0.25, 0.2, 0.15])), fixed]), SHOWN, TOLERANCE)
+    assert trend["window_rule"].tolist() == ["default", "X = 0.01 to 0.1"]
+    assert trend["finding"].tolist() == ["departs, and less on finer grids", "departs on every grid"]
 
 
 def test_fits_in_windows_of_fixed_x():
     """Of a power law; a window that begins before enough elements are in contact has no fit."""
-    about = {"source": "discs", "case_group": "sizes"}
-    how = {"average": "geometric", "rms_convention": "disc", "elements_min": 10, "fraction_min": 0.95, **BOOTSTRAP}
+    labels = {"source": "discs", "case_group": "sizes"}
+    options = {"average": "geometric", "rms_convention": "disc", "elements_min": 10, "fraction_min": 0.95, **BOOTSTRAP}
     windows = [(1e-5, 1e-4), (1e-3, 1e-2), (1e-2, 1e-1)]
-    rows = fixed_window_rows(ensemble(0.6, "c1", 1.2, scatter=0.0), windows, about, **how)
+    rows = fixed_window_rows(ensemble(0.6, "c1", 1.2, scatter=0.0), windows, labels, **options)
     assert [row["window_rule"] for row in rows] == ["X = 0.001 to 0.01", "X = 0.01 to 0.1"]
     assert [row["beta"] for row in rows] == pytest.approx([exponent_beta(0.6)] * 2)
     assert (rows[0]["x_low"], rows[0]["x_high"], rows[0]["decades"]) == pytest.approx((1e-3, 1e-2, 1.0))

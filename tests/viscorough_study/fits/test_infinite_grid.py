@@ -13,7 +13,7 @@ RANGES = {"elements_min": [10, 20], "x_high": {"power": [0.03], "corrected": [0.
 
 def ensembles(*, scatter=0.1, punch=0.0, factor=np.exp, omega=OMEGA, seed=1):
     """vt/h = A X^β exp(B X^ω) (or with another factor) + punch X on four grids; scatter from one curve to another."""
-    generator, found = np.random.default_rng(seed), []
+    generator, grids = np.random.default_rng(seed), []
     for number, realizations in ((65, 60), (257, 40), (1025, 30), (4097, 20)):
         x = 10 ** np.arange(np.ceil(20 * np.log10(2 * number ** -(1 + HURST))) / 20, 0, 0.05)
         law = A * x**BETA * factor(B * x**omega)
@@ -21,20 +21,20 @@ def ensembles(*, scatter=0.1, punch=0.0, factor=np.exp, omega=OMEGA, seed=1):
         velocity = law * np.exp(scatter * tilt) + punch * x
         means = log_means(velocity, "geometric", 200, generator)
         count = 10 * (x / x[0]) ** 0.9
-        found.append(Grid(number, realizations, np.log(x), means, count, 1 / punch if punch else np.inf, 1.0))
-    return {HURST: found}
+        grids.append(Grid(number, realizations, np.log(x), means, count, 1 / punch if punch else np.inf, 1.0))
+    return {HURST: grids}
 
 
 def row(limits, quantity, law, height="resolved"):
-    (found,) = limits[(limits[["quantity", "law", "height"]] == [quantity, law, height]).all(axis=1)].itertuples()
-    return found
+    (row,) = limits[(limits[["quantity", "law", "height"]] == [quantity, law, height]).all(axis=1)].itertuples()
+    return row
 
 
 def test_a_known_law_is_found_exactly():
     log_x = np.log(np.geomspace(1e-5, 0.3, 80))
     log_y = np.log(A) + BETA * log_x + B * np.exp(OMEGA * log_x)
-    found, deviation = fit(log_x, np.stack([log_y, log_y + 0.1]), np.ones(80), corrected=True)
-    np.testing.assert_allclose(found[1], [np.log(A) + 0.1, BETA, B, OMEGA], atol=1e-9)
+    coefficients, deviation = fit(log_x, np.stack([log_y, log_y + 0.1]), np.ones(80), corrected=True)
+    np.testing.assert_allclose(coefficients[1], [np.log(A) + 0.1, BETA, B, OMEGA], atol=1e-9)
     assert deviation < 1e-7
     plain, deviation = fit(log_x, log_y[None], np.ones(80), corrected=False)
     assert plain[0, 2] == 0
@@ -47,12 +47,12 @@ def test_joint_fit_returns_the_law_within_its_intervals(factor):
         row(limit_table(ensembles(seed=seed, factor=factor), "discs", tolerance=0.03, **RANGES), "whole", "corrected")
         for seed in range(6)
     ]
-    assert sum(one.beta_low <= BETA <= one.beta_high for one in fits) >= 5
-    assert all(one.ranges_low <= BETA <= one.ranges_high for one in fits)
+    assert sum(fitted.beta_low <= BETA <= fitted.beta_high for fitted in fits) >= 5
+    assert all(fitted.ranges_low <= BETA <= fitted.ranges_high for fitted in fits)
     if factor is np.exp:
-        assert sum(one.omega_low <= OMEGA <= one.omega_high for one in fits) >= 5
-        assert np.median([one.correction for one in fits]) == pytest.approx(B, rel=0.2)
-        assert np.median([one.amplitude for one in fits]) == pytest.approx(A, rel=0.1)
+        assert sum(fitted.omega_low <= OMEGA <= fitted.omega_high for fitted in fits) >= 5
+        assert np.median([fitted.correction for fitted in fits]) == pytest.approx(B, rel=0.2)
+        assert np.median([fitted.amplitude for fitted in fits]) == pytest.approx(A, rel=0.1)
 
 
 def test_resamples_scatter_as_means_of_independent_realizations():
@@ -60,8 +60,8 @@ def test_resamples_scatter_as_means_of_independent_realizations():
     generator, x = np.random.default_rng(1), np.geomspace(1e-3, 0.1, 9)
     logarithms = generator.standard_normal((3, 1))
     means = log_means(np.exp(logarithms) * x**BETA, "geometric", 4000, generator)
-    of_hurst = [Grid(number, 3, np.log(x), means, np.full(x.size, 10), 1.0, 1.0) for number in (65, 257)]
-    _, log_y, _ = points(of_hurst, "whole", "resolved", elements_min=10, x_high=1.0)
+    grids = [Grid(number, 3, np.log(x), means, np.full(x.size, 10), 1.0, 1.0) for number in (65, 257)]
+    _, log_y, _ = points(grids, "whole", "resolved", elements_min=10, x_high=1.0)
     assert log_y[1:, 0].std() == pytest.approx(logarithms.std(ddof=1) / np.sqrt(3), rel=0.05)
 
 

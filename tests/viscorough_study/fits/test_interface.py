@@ -25,13 +25,13 @@ def ensemble(interface, *, scatter=0.05, realizations=40, punch=PUNCH, elements=
         first > X, (first / punch + factor * interface(first)) / first, 1 / punch + factor * interface(X) / X
     )
     count = np.where(first > X, 1.0, 20.0 * np.ones_like(softness))
-    about = {"hurst": hurst, "case": "c", "diameter": 1.0, "elements": elements}
-    return ensemble_dataset(["disc"], X, 1 / softness[None], count[None], about)
+    coordinates = {"hurst": hurst, "case": "c", "diameter": 1.0, "elements": elements}
+    return ensemble_dataset(["disc"], X, 1 / softness[None], count[None], coordinates)
 
 
 def examined(interface, average="arithmetic", **changes):
-    how = HOW | {"average": average}
-    return fit_interface(ensemble(interface, **changes).sel(rms_convention="disc"), PUNCH, **how)
+    options = HOW | {"average": average}
+    return fit_interface(ensemble(interface, **changes).sel(rms_convention="disc"), PUNCH, **options)
 
 
 def test_plateau_is_given_back():
@@ -87,7 +87,7 @@ def test_tables_of_every_grid_and_average():
     ]
     pool = pool_of(members)
     cases = group_ensembles(pool, "discs", "base")
-    assert [(about["across"], about["hurst"]) for about, _, _ in cases] == [(33, 0.5), (33, 0.7), (65, 0.5)]
+    assert [(labels["across"], labels["hurst"]) for labels, _, _ in cases] == [(33, 0.5), (33, 0.7), (65, 0.5)]
     assert len(group_ensembles(pool, "discs", "base", {0.7})) == 1
     table, curves = fit_interfaces(cases, "disc", **HOW)
     assert (list(table), list(curves)) == (list(COLUMNS), list(CURVES))

@@ -24,9 +24,9 @@ def test_lambda_of_a_line_stretched_in_height():
     s = 10 ** (steps / 20)
     lines = scattered(0.4, 12, seed=8) * (1 + 0.5 * x)  # bent
     discs = s * np.roll(lines, steps, axis=1)
-    found, low, high = match_lambda(x, discs, lines, (1e-4, 1e-2), average="arithmetic", **BOOTSTRAP)
-    assert found == pytest.approx(np.pi * s**2, rel=1e-9)
-    assert low < found < high
+    value, low, high = match_lambda(x, discs, lines, (1e-4, 1e-2), average="arithmetic", **BOOTSTRAP)
+    assert value == pytest.approx(np.pi * s**2, rel=1e-9)
+    assert low < value < high
     match = match_lines(x, discs, lines, **GEOMETRIC)
     inner = (x > 1e-5) & (x < 1)
     np.testing.assert_allclose(match.lambda_at(x[inner])[0], np.pi * s**2, rtol=1e-9)

@@ -43,20 +43,20 @@ def test_longest_run_within_the_tolerance():
 def test_plateau_of_a_curve_with_a_kink():
     """Slope 0.4 up to X = 0.1 and 1 above: the longer plateau ends where local slopes begin to see the kink."""
     mean = np.where(X < 0.1, 0.4 * np.log(X / 0.1), np.log(X / 0.1))
-    found = plateau(np.log(X), scattered(mean, 30, 1e-4), random=np.random.default_rng(1), **HOW)
-    assert found["x_low"] == pytest.approx(10**-3.75)
-    assert 10**-1.26 <= found["x_high"] <= 10**-1.05
-    assert found["slope"] == pytest.approx(0.4, abs=0.02)
-    assert found["decades_low"] <= found["decades"] <= found["decades_high"]
+    columns = plateau(np.log(X), scattered(mean, 30, 1e-4), random=np.random.default_rng(1), **HOW)
+    assert columns["x_low"] == pytest.approx(10**-3.75)
+    assert 10**-1.26 <= columns["x_high"] <= 10**-1.05
+    assert columns["slope"] == pytest.approx(0.4, abs=0.02)
+    assert columns["decades_low"] <= columns["decades"] <= columns["decades_high"]
 
 
 def test_power_laws_pass_and_what_is_none_does_not():
     random, residuals = np.random.default_rng(2), scattered(0.0, 200, 0.1)
     residuals = residuals - residuals.mean(axis=0)
     means = 0.3 * np.log(X), control(X), 0.05 * np.log(X) ** 2
-    how = {"draws": 20, "decades_min": 2.0, "random": random} | HOW
-    assert [shares(np.log(X), mean, residuals, **how) for mean in means] == [(1, 0), (0, 1), (0, 1)]
-    passed, failed = shares(np.log(X), means[0], scattered(0.0, 8, 0.5), **how)
+    options = {"draws": 20, "decades_min": 2.0, "random": random} | HOW
+    assert [shares(np.log(X), mean, residuals, **options) for mean in means] == [(1, 0), (0, 1), (0, 1)]
+    passed, failed = shares(np.log(X), means[0], scattered(0.0, 8, 0.5), **options)
     assert (passed, failed > 0.05) == (0, True), "few realizations lose power laws"
 
 
@@ -65,8 +65,8 @@ OPTIONS = {"x_range": [1e-3, 1.0], "half_width": 0.25, "tolerance": 0.05, "decad
 
 def row(mean):
     curve, none = (
-        ensemble_of(X, X * np.exp(-scattered(one, number, 0.1, seed)), elements=10**9).isel(rms_convention=0)
-        for one, number, seed in ((mean, 200, 0), (control(X), 20, 1))
+        ensemble_of(X, X * np.exp(-scattered(curve, number, 0.1, seed)), elements=10**9).isel(rms_convention=0)
+        for curve, number, seed in ((mean, 200, 0), (control(X), 20, 1))
     )
     return plateau_row(curve, none, resamples=100, draws=10, random=np.random.default_rng(4), **OPTIONS)
 
@@ -78,15 +78,15 @@ def test_row_of_a_power_law_and_of_a_control():
     assert law["decades_low"] >= 2
     assert law["slope"] == pytest.approx(0.3, abs=0.02)
     assert none["decades_high"] < 2
-    for found in (law, none):
-        assert (found["power_law_passes"], found["bent_passes"], found["control_passes"]) == (1, 0, 0)
-        assert found["power_law_fails"] == 0
+    for columns in (law, none):
+        assert (columns["power_law_passes"], columns["bent_passes"], columns["control_passes"]) == (1, 0, 0)
+        assert columns["power_law_fails"] == 0
 
 
 def test_curves_that_do_not_reach_all_abscissae_are_undecided():
     curves = np.exp(-scattered(0.3 * np.log(X) - 3, 20, 0.1)) * X
     curves[0, -40:] = np.nan
     short = ensemble_of(X, curves).isel(rms_convention=0)
-    found = plateau_row(short, None, resamples=20, draws=2, random=np.random.default_rng(1), **OPTIONS)
-    assert {"case_group", *found} == set(COLUMNS)
-    assert np.isnan(found["decades"])
+    columns = plateau_row(short, None, resamples=20, draws=2, random=np.random.default_rng(1), **OPTIONS)
+    assert {"case_group", *columns} == set(COLUMNS)
+    assert np.isnan(columns["decades"])

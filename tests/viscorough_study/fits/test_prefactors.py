@@ -63,6 +63,6 @@ def test_surfaces_are_crossed_with_the_other_conventions(scaling):
 
 def test_combination_without_all_exponents_is_not_compared(scaling):
     missing = (scaling["source"] == "discs") & (scaling["hurst"] == 0.6) & (scaling["window_rule"] == "kappa")
-    found = prefactors(scaling.assign(zeta=scaling["zeta"].mask(missing)), BASE_SURFACES)
-    assert found.loc[found["window_rule"] == "kappa", ["worst_eq4", "shape_eq4", "common_eq11"]].isna().all(axis=None)
-    assert found.loc[found["window_rule"] == "default", "worst_eq4"].notna().all()
+    table = prefactors(scaling.assign(zeta=scaling["zeta"].mask(missing)), BASE_SURFACES)
+    assert table.loc[table["window_rule"] == "kappa", ["worst_eq4", "shape_eq4", "common_eq11"]].isna().all(axis=None)
+    assert table.loc[table["window_rule"] == "default", "worst_eq4"].notna().all()

@@ -41,11 +41,11 @@ def grid(number, realizations, generator, *, beta=BETA, share=1.0, punch=1.0, be
 
 def ensembles(seed, realizations=(40, 30, 20, 10), **options):
     generator = np.random.default_rng(seed)
-    return [grid(*one, generator, **options) for one in zip((33, 129, 513, 2049), realizations, strict=True)]
+    return [grid(*sizes, generator, **options) for sizes in zip((33, 129, 513, 2049), realizations, strict=True)]
 
 
-def p_value(of_hurst, beta=BETA, height="resolved"):
-    return spread([(one, one.curve("whole", height, X_HIGH)) for one in of_hurst], beta)[2]
+def p_value(grids, beta=BETA, height="resolved"):
+    return spread([(member, member.curve("whole", height, X_HIGH)) for member in grids], beta)[2]
 
 
 @pytest.mark.parametrize("realizations", [(40, 30, 20, 10), (16, 12, 8, 4)], ids=["many", "few"])
@@ -58,11 +58,11 @@ def test_one_law_is_accepted_in_95_percent(realizations):
 
 def test_exponents_with_which_curves_collapse_contain_their_own():
     beta = BETA + 0.06
-    how = {"hurst": HURST, "quantity": "whole", "height": "resolved", "x_high": X_HIGH, "tolerance": 0.05}
-    rows = [collapse(ensembles(seed, beta=beta), **how) for seed in range(9)]
+    options = {"hurst": HURST, "quantity": "whole", "height": "resolved", "x_high": X_HIGH, "tolerance": 0.05}
+    rows = [collapse(ensembles(seed, beta=beta), **options) for seed in range(9)]
     assert {row["finding"] for row in rows} == {"does not collapse"}
     assert sum(row.get("beta_low", 1) <= beta <= row.get("beta_high", 0) for row in rows) >= 7
-    rows = [collapse(ensembles(seed), **how) for seed in range(9)]
+    rows = [collapse(ensembles(seed), **options) for seed in range(9)]
     assert sum(row["finding"] == "collapses" for row in rows) >= 7
     assert {row["finding"] for row in rows} <= set(FINDINGS)
 
@@ -78,8 +78,8 @@ def test_quantile_and_p_value_are_those_of_the_distribution_of_spreads(apart, p,
     resamples = np.concatenate([[0], np.linspace(0, 1, 101) * np.sqrt(9 / 10)])  # means of 10 scatter more
     log_x = STEP * np.arange(-30, 0)
     curves = [BETA * log_x + side * (apart + resamples[:, None]) for side in (-1, 1)]
-    of_hurst = [Grid(129, 10, log_x, curve, np.full(log_x.size, 100.0), 1.0, 1.0) for curve in curves]
-    row = collapse(of_hurst, HURST, "whole", "resolved", 1.0, tolerance=0.05)
+    grids = [Grid(129, 10, log_x, curve, np.full(log_x.size, 100.0), 1.0, 1.0) for curve in curves]
+    row = collapse(grids, HURST, "whole", "resolved", 1.0, tolerance=0.05)
     assert (row["spread"], row["spread_null"], row["p_value"]) == pytest.approx((apart, 0.95, p), abs=1e-3)
     assert row["finding"] == finding
     assert ("beta_low" in row) == (finding == "undecided"), "grids of equal N collapse with any exponent or none"
@@ -89,17 +89,17 @@ def test_the_height_over_all_waves_makes_one_law_of_many():
     """Each grid has its share of the heights; at a large share of the scatter, only h of the spectrum collapses."""
     generator = np.random.default_rng(3)
     shares = {33: 0.5, 129: 0.65, 513: 0.8}
-    of_hurst = [grid(number, 60, generator, share=share) for number, share in shares.items()]
-    assert p_value(of_hurst) < 0.05
-    assert p_value(of_hurst, height="spectrum") >= 0.05
+    grids = [grid(number, 60, generator, share=share) for number, share in shares.items()]
+    assert p_value(grids) < 0.05
+    assert p_value(grids, height="spectrum") >= 0.05
 
 
 def test_the_punch_is_taken_off():
-    one = grid(129, 20, np.random.default_rng(1), punch=0.9)
-    log_x, log_y = one.curve("interface", "resolved", 1e-2)
-    whole = one.curve("whole", "resolved", 1e-2)
+    disc = grid(129, 20, np.random.default_rng(1), punch=0.9)
+    log_x, log_y = disc.curve("interface", "resolved", 1e-2)
+    whole = disc.curve("whole", "resolved", 1e-2)
     np.testing.assert_allclose(np.exp(log_y), np.exp(whole[1][:, : log_x.size]) - np.exp(log_x) / 0.9)
-    assert one.curve("whole", "resolved", 1e-9) is None
+    assert disc.curve("whole", "resolved", 1e-9) is None
 
 
 @pytest.mark.parametrize(("source", "hurst"), [("discs", 0.1), ("lines", 0.6), ("discs", 1.0)])
@@ -124,8 +124,8 @@ def pool(*realizations, scatter=0.0):
     for elements, number in zip((ELEMENTS, 13049), realizations, strict=True):
         velocity = np.exp(scatter * np.random.default_rng(1).standard_normal((1, number, 1))) * x**0.4
         count = np.broadcast_to(10 * x / x[10], velocity.shape)
-        about = {"hurst": HURST, "elements": elements, "case": "sizes", "diameter": 1.0}
-        members.append(ensemble_dataset(["disc"], x, x / velocity, count, about))
+        coordinates = {"hurst": HURST, "elements": elements, "case": "sizes", "diameter": 1.0}
+        members.append(ensemble_dataset(["disc"], x, x / velocity, count, coordinates))
     return pool_of(members, "sizes")
 
 
@@ -134,19 +134,19 @@ OF_POOL = {"average": "geometric", "rms_convention": "disc", "elements_min": 10,
 
 def test_realizations_of_each_grid_are_drawn_independently():
     """Resamples of equal curves on two grids are not correlated: 0.2 is four standard errors of 400 pairs."""
-    found = grids(pool(20, 20, scatter=0.1), "discs", **OF_POOL, resamples=400)
-    coarse, fine = (one.log_velocity[1:, 0] for one in found[HURST])
+    by_hurst = grids(pool(20, 20, scatter=0.1), "discs", **OF_POOL, resamples=400)
+    coarse, fine = (member.log_velocity[1:, 0] for member in by_hurst[HURST])
     assert abs(np.corrcoef(coarse, fine)[0, 1]) < 0.2
 
 
 def test_grids_of_a_pool():
     """One of which has too few realizations."""
-    found = grids(pool(4, 2), "discs", **OF_POOL, resamples=20)
-    (one,) = found[HURST]
-    assert (one.number, one.realizations, one.log_velocity.shape[0]) == (257, 4, 21)
-    assert one.punch == pytest.approx(0.99486, abs=1e-4)
-    assert one.log_x[0] == pytest.approx(np.log(1e-3))
-    np.testing.assert_allclose(one.log_velocity, np.tile(0.4 * one.log_x, (21, 1)))
-    table = collapse_table(found, "discs", x_high=[0.03], tolerance=0.03)
+    by_hurst = grids(pool(4, 2), "discs", **OF_POOL, resamples=20)
+    (member,) = by_hurst[HURST]
+    assert (member.number, member.realizations, member.log_velocity.shape[0]) == (257, 4, 21)
+    assert member.punch == pytest.approx(0.99486, abs=1e-4)
+    assert member.log_x[0] == pytest.approx(np.log(1e-3))
+    np.testing.assert_allclose(member.log_velocity, np.tile(0.4 * member.log_x, (21, 1)))
+    table = collapse_table(by_hurst, "discs", x_high=[0.03], tolerance=0.03)
     assert list(table) == list(scaling_collapse.COLUMNS)
     assert table["finding"].tolist() == ["undecided"] * 4

@@ -16,8 +16,8 @@ MEASURES = "deviation", "common factor", "spread"
 FOUR, VISCOUS, ELEVEN = LAWS  # Eq. 4 without and with Γ, Eq. 11 with Γ
 
 
-def compared(found, *hurst_mins):
-    return zeta_laws(found.pooled, found.regions, hurst_mins or (0.0,), average="geometric", **BOOTSTRAP)
+def compared(sample, *hurst_mins):
+    return zeta_laws(sample.pooled, sample.regions, hurst_mins or (0.0,), average="geometric", **BOOTSTRAP)
 
 
 def measures(table, quantity, law, hurst_min=0.0):
@@ -43,7 +43,7 @@ def test_differences_are_those_of_the_same_samples():
     table = compared(evidence())
     for quantity, law, measure in product(("zeta", "curve"), (FOUR, VISCOUS), ("deviation", "spread")):
         value, low, high = measure_value(table, quantity, difference(law), measure)
-        first, second = (measure_value(table, quantity, one, measure)[0] for one in (law, ELEVEN))
+        first, second = (measure_value(table, quantity, name, measure)[0] for name in (law, ELEVEN))
         assert value == pytest.approx(first - second, rel=1e-12)
         assert low <= value <= high
     value, _, high = measure_value(table, "curve", difference(FOUR), "deviation")
@@ -52,8 +52,8 @@ def test_differences_are_those_of_the_same_samples():
 
 def test_realizations_of_each_hurst_exponent_are_drawn_independently():
     """The common factor is a mean over Hurst exponents, whose errors add up as those of independent ensembles."""
-    found = evidence_with_factors(0.2)
-    table = zeta_laws(found.pooled, found.regions, average="geometric", resamples=1000, seed=1)
+    sample = evidence_with_factors(0.2)
+    table = zeta_laws(sample.pooled, sample.regions, average="geometric", resamples=1000, seed=1)
     error = stats.t.ppf(0.975, 79) * 0.2 / np.sqrt(80) / np.sqrt(len(HURST))
     for quantity in ("zeta", "curve"):
         _, low, high = measure_value(table, quantity, FOUR, "common factor")
@@ -68,19 +68,19 @@ def test_spread_of_curves_is_that_at_equal_abscissae():
 
 
 def test_exponents_from_the_lowest_on():
-    found = evidence(lambda hurst: reference.zeta_elastic(hurst) * (1.5 if hurst < 0.5 else 1.0))
-    table = compared(found, 0.0, 0.6)
+    sample = evidence(lambda hurst: reference.zeta_elastic(hurst) * (1.5 if hurst < 0.5 else 1.0))
+    table = compared(sample, 0.0, 0.6)
     assert set(table["hurst_exponents"]) == {2, 3}
     assert measures(table, "zeta", FOUR, 0.6) == pytest.approx([0, 1, 0], abs=0.02)
     assert measures(table, "zeta", FOUR)[2] > 0.15
 
 
 def test_what_cannot_be_compared_is_undefined():
-    found = evidence()
-    nowhere = dataclasses.replace(found, limits=LIMITS | {"elements_min": 10**9})
+    sample = evidence()
+    nowhere = dataclasses.replace(sample, limits=LIMITS | {"elements_min": 10**9})
     assert compared(nowhere)["value"].isna().all()
-    assert compared(found, 2.0)["value"].isna().all()
+    assert compared(sample, 2.0)["value"].isna().all()
     apart = dict(zip(HURST, ((1e-5, 1e-4), (1e-4, 1e-3), (1e-3, 1e-2)), strict=True))
-    table = zeta_laws(found.pooled, apart, average="geometric", **BOOTSTRAP).set_index("quantity")
+    table = zeta_laws(sample.pooled, apart, average="geometric", **BOOTSTRAP).set_index("quantity")
     assert table.loc["curve", ["value", "low", "x_low"]].isna().all(axis=None)
     assert table.loc["zeta", "value"].notna().all()

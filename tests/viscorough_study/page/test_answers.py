@@ -50,17 +50,17 @@ def test_intervals_and_cases_are_those_of_their_numbers(text):
 
 
 def test_numbers_of_the_paper_are_the_expected_ones(text):
-    said = re.findall(r"paper(?:: | has )\{\d+ (\w+)\}(?: to \{\d+ (\w+)\})?", text)
-    assert {column for columns in said for column in columns if column} == {"expected"}
-    assert len(said) == text.count("the paper:") + text.count("the paper has")
+    columns_named = re.findall(r"paper(?:: | has )\{\d+ (\w+)\}(?: to \{\d+ (\w+)\})?", text)
+    assert {column for columns in columns_named for column in columns if column} == {"expected"}
+    assert len(columns_named) == text.count("the paper:") + text.count("the paper has")
 
 
 def test_least_largest_and_ends_are_those_of_all_cases():
-    of_claim = dict(list(TABLE.groupby("claim")))
-    assert abs(FOUND["coincide"]["value"].value) == of_claim["coincide"]["value"].abs().max()
+    by_claim = dict(list(TABLE.groupby("claim")))
+    assert abs(FOUND["coincide"]["value"].value) == by_claim["coincide"]["value"].abs().max()
     ranges = {"power_law": [("value", "value")], "gamma": [("least", "largest"), ("expected", "expected")]}
     for name, claim in (("decades", "power_law"), ("gamma", "gamma")):
-        ends = [(of_claim[claim][low].min(), of_claim[claim][high].max()) for low, high in ranges[claim]]
+        ends = [(by_claim[claim][low].min(), by_claim[claim][high].max()) for low, high in ranges[claim]]
         assert [number.value for number in FOUND[name]] == [end for pair in ends for end in pair]
     for name in ("elastic", "viscous"):
         assert [case["case"] for case in FOUND[name]] == ["H = 0.1", "H = 0.9"]

@@ -42,17 +42,17 @@ def test_script_agrees_with_the_command():
     """
     done = subprocess.run([NODE, "-e", SCRIPT + loop], capture_output=True, text=True, check=True)
     sides = set()
-    for case, found in zip(cases, json.loads(done.stdout), strict=True):
-        sides.add(found["where"])
-        if found["where"]:
+    for case, computed in zip(cases, json.loads(done.stdout), strict=True):
+        sides.add(computed["where"])
+        if computed["where"]:
             with pytest.raises(ValueError, match="where the law holds"):
                 expected(case)
             continue
         wanted = expected(case)
-        assert found["x"] == pytest.approx(wanted.x[0], rel=1e-12)
+        assert computed["x"] == pytest.approx(wanted.x[0], rel=1e-12)
         for name in ("depth", "velocity"):
             ends = [getattr(wanted, f"{name}{end}")[0] for end in ("", "_low", "_high")]
-            assert found[name] == pytest.approx(ends, rel=1e-10)
+            assert computed[name] == pytest.approx(ends, rel=1e-10)
     assert sides == {"", "below", "above"}
 
 

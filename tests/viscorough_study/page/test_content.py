@@ -36,11 +36,11 @@ def pool(path, description, realizations):
 )
 def test_scale_is_told_from_the_ensembles(tmp_path, elements, realizations, lines, points, name):
     discs = pool(tmp_path / "discs.nc", {"elements": elements}, realizations)
-    of_lines = pool(tmp_path / "lines.nc", {"points": points}, lines)
-    found = scale(discs, of_lines, NUMBERS)
-    assert found["name"] == name
-    assert found["run"] == {"elements": elements, "realizations": realizations, "points": points, "lines": lines}
-    assert (found["discs"]["hurst"], found["discs"]["cases_per_hurst"]) == ([0.4, 0.9], 2)
+    lines_pool = pool(tmp_path / "lines.nc", {"points": points}, lines)
+    content = scale(discs, lines_pool, NUMBERS)
+    assert content["name"] == name
+    assert content["run"] == {"elements": elements, "realizations": realizations, "points": points, "lines": lines}
+    assert (content["discs"]["hurst"], content["discs"]["cases_per_hurst"]) == ([0.4, 0.9], 2)
 
 
 @pytest.fixture
@@ -77,34 +77,34 @@ def test_numbers_stand_in_the_rows_for_which_they_are_shown():
         "measured_scans": {"file": ["g", "h"], "group": "i"},
         "measured_fits": {"case_group": ["j", "k"], **conventions},
     }
-    numbers = "accuracy reached levels wall_s ratio error jobs seconds share_s longest_s memory_mb elements spacing"
-    numbers += " row_spacing rms rms_slope diameter realizations decades beta beta_low beta_high zeta"
-    tables = {name: pd.DataFrame(of).assign(**dict.fromkeys(numbers.split(), 1.0)) for name, of in keys.items()}
+    stated = "accuracy reached levels wall_s ratio error jobs seconds share_s longest_s memory_mb elements spacing"
+    stated += " row_spacing rms rms_slope diameter realizations decades beta beta_low beta_high zeta"
+    tables = {name: pd.DataFrame(of).assign(**dict.fromkeys(stated.split(), 1.0)) for name, of in keys.items()}
     results = Results(tables | {"claims": pd.read_csv(ROOT / "docs/claims.csv")}, {}, {})
-    shown = [
+    stated = [
         (case["value"], {"claim": claim["name"], "case": case["case"]})
         for claims in verdicts(results, CLAIMS, results.tables["claims"]).values()
         for claim in claims
         for case in claim["cases"]
     ]
     for scene in scenes(results):
-        shown += [(row["levels"], {"scene": scene["scene"], "choice": name}) for name, row in scene["choices"].items()]
-    shown += [(row["jobs"], {"rule": row["rule"]}) for row in costs(results)]
-    of_scans = measured(results, conventions)
-    shown += [(row["rms"], {"file": row["file"]}) for row in of_scans["scans"]]
-    shown += [(row["beta"], {"case_group": row["group"]}) for row in of_scans["groups"]]
-    for number, about in shown:
-        assert results.tables[number.table].loc[number.row, list(about)].to_dict() == about
-    assert {number.table for number, _ in shown} == set(results.tables)
+        stated += [(row["levels"], {"scene": scene["scene"], "choice": name}) for name, row in scene["choices"].items()]
+    stated += [(row["jobs"], {"rule": row["rule"]}) for row in costs(results)]
+    scans = measured(results, conventions)
+    stated += [(row["rms"], {"file": row["file"]}) for row in scans["scans"]]
+    stated += [(row["beta"], {"case_group": row["group"]}) for row in scans["groups"]]
+    for number, values in stated:
+        assert results.tables[number.table].loc[number.row, list(values)].to_dict() == values
+    assert {number.table for number, _ in stated} == set(results.tables)
 
 
 def test_worst_error_of_the_models_is_one_of_those_that_users_are_told():
     rows = [("MDR", "stated", 0.3), ("MDR", "holds", 0.4), ("power law", "warned", 0.2), ("path", "warned", 0.5)]
     table = pd.DataFrame(rows, columns=["method", "verdict", "error"]).assign(group="a", case="b", reason="c")
-    found = failures(Results({"failure_map": table}, {}, {}))
-    assert found["worst_model"].value == 0.3
-    assert (found["cases"].value, found["warned"].value, found["unnoticed"].value) == (2, 2, 0)
-    assert [row["messages"] for row in found["methods"]] == [{}, {}, {("warned", "c"): ["a: b"]}]
+    content = failures(Results({"failure_map": table}, {}, {}))
+    assert content["worst_model"].value == 0.3
+    assert (content["cases"].value, content["warned"].value, content["unnoticed"].value) == (2, 2, 0)
+    assert [row["messages"] for row in content["methods"]] == [{}, {}, {("warned", "c"): ["a: b"]}]
 
 
 def claims_table(*verdicts_of_cases):
@@ -140,10 +140,10 @@ def test_measured_ratios_of_other_solvers_are_not_called_published(tmp_path):
     rows = [("few", 0.4, 33, 8, "Tamaas", "2", threads, ratio) for threads, ratio in ((1, 140.0), (2, 90.0))]
     rows += [("few", 0.4, 33, 8, "viscorough", "1", 1, 1.0)]
     pd.DataFrame(rows, columns=columns).to_csv(tmp_path / "other_solvers.csv", index=False)
-    found = other_solvers(tmp_path / "other_solvers.csv")
-    assert found["published"] is None
+    content = other_solvers(tmp_path / "other_solvers.csv")
+    assert content["published"] is None
     assert set(other_solvers(ROOT / "resources/published/other_solvers.csv")["published"]) == {"measured", "machine"}
-    assert found["rows"] == [{"task": "few", "hurst": 0.4, "elements": 33, "levels": 8, "ratios": {"Tamaas": 140.0}}]
+    assert content["rows"] == [{"task": "few", "hurst": 0.4, "elements": 33, "levels": 8, "ratios": {"Tamaas": 140.0}}]
 
 
 def test_media_are_named_and_their_exponents_taken_at_both_ends_and_near_x_of_one_hundredth():

@@ -14,8 +14,8 @@ def test_numbers_are_readable():
     texts |= {2e-6: "2×10⁻⁶", 0.0: "0", np.inf: "∞", None: "–", np.nan: "–"}
     assert {value: readable(value) for value in texts} == texts
     for value in list(texts)[:7]:
-        shown, half_a_digit = number_in(readable(value))
-        assert abs(shown - value) <= half_a_digit * 1.001
+        number, half_a_digit = number_in(readable(value))
+        assert abs(number - value) <= half_a_digit * 1.001
 
 
 def test_numbers_name_their_place():
@@ -33,8 +33,8 @@ def test_results_give_numbers_with_their_places(tmp_path):
     table = pd.DataFrame({"kind": ["a", "b", "a"], "error": [0.3, 0.1, np.nan]})
     columns = {"kind": ("kind", ""), "error": ("error", "1")}
     files = tmp_path / "errors.csv", tmp_path / "errors.nc"
-    about = recorded(settings={"seed": 1})
-    write_table(table, *files, columns=columns, dimension="row", title="Errors", attributes=about)
+    attributes = recorded(settings={"seed": 1})
+    write_table(table, *files, columns=columns, dimension="row", title="Errors", attributes=attributes)
     results = read_results({"errors": tmp_path / "errors.csv"})
     rows = results.rows("errors", kind="a")
     assert results.largest(rows, "errors", "error") == Number(0.3, "errors", 0, "error")

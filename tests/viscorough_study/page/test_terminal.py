@@ -95,12 +95,12 @@ def test_a_terminal_has_one_line_that_is_drawn_again(tmp_path):
     terminal, screen = pty.openpty()
     done = run(tmp_path, f"print({STARTED + FINISHED!r})", stderr=screen)
     os.close(screen)
-    shown = os.read(terminal, 10**5).decode()
+    output = os.read(terminal, 10**5).decode()
     os.close(terminal)
     assert done.returncode == 0
-    assert "\n" not in shown
-    assert "1 of 41" in shown
-    assert shown.endswith(CLEAR)
+    assert "\n" not in output
+    assert "1 of 41" in output
+    assert output.endswith(CLEAR)
 
 
 def test_the_run_goes_on_where_nobody_reads_its_progress(tmp_path):

@@ -25,6 +25,6 @@ def test_levels_by_hand_are_the_fewest_that_reach_the_accuracy(scenes):
     tried = (2, 4, 8, 16, 32, 64, 128)
     table = level_placement.compare(scenes[2], 1, hand_picked=tried, naive=(8,))
     number = table.set_index("choice").loc["best by hand", "levels"]
-    fewer = [each for each in tried if each < number]
+    fewer = [smaller for smaller in tried if smaller < number]
     assert fewer
     assert "best by hand" not in level_placement.compare(scenes[2], 1, hand_picked=fewer, naive=(8,))["choice"].tolist()

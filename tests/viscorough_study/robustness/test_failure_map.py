@@ -43,8 +43,8 @@ def test_nothing_fails_unnoticed(table):
 
 @pytest.mark.parametrize("method", NUMERICAL)
 def test_numerical_methods_hold_or_refuse(table, method):
-    of_method = cells(table, method=method)
-    others = of_method[of_method["verdict"] != "holds"]
+    rows = cells(table, method=method)
+    others = rows[rows["verdict"] != "holds"]
     # Beyond the last level nothing is interpolated.
     refused = REFUSED | ({"past all elements"} if method == "path, interpolated" else set())
     assert set(others["case"]) <= refused | {"2 to 20 elements", "up to half of all"}
@@ -55,9 +55,9 @@ def test_numerical_methods_hold_or_refuse(table, method):
 def test_what_the_figure_leaves_blank_cannot_matter(table, group):
     """Methods that a difficulty does not concern have the error of the same indenter without it."""
     usual = cells(table, case="256 steps").set_index("method")["error"]
-    of_group = cells(table, group=group)
-    of_group = of_group[(of_group["verdict"] != "refused") & (of_group["case"] != "2 to 20 elements")]
-    blank = of_group[~of_group["method"].str.startswith(CONCERNED[group])]
+    rows = cells(table, group=group)
+    rows = rows[(rows["verdict"] != "refused") & (rows["case"] != "2 to 20 elements")]
+    blank = rows[~rows["method"].str.startswith(CONCERNED[group])]
     assert len(blank) > 5
     assert (np.abs(blank["error"] - blank["method"].map(usual)) < 1e-12).all()
 
@@ -74,9 +74,9 @@ def test_results_are_invariant_under_rescaling(table):
 def test_powers_of_two_change_no_bit():
     disc = self_affine_disc(0.6, 17, seed=1)
     depths = np.linspace(0.2, 1, 4) * np.nanmax(disc.initial_gap)
-    how = {"tolerance": 1e-6, "options": ablations.GRID_ONLY["single"]}
-    usual = indent(disc, depths=depths, **how).force
-    scaled = indent(Indenter(2.0**40 * disc.heights, 2.0**-30 * disc.spacing), depths=2.0**40 * depths, **how)
+    options = {"tolerance": 1e-6, "options": ablations.GRID_ONLY["single"]}
+    usual = indent(disc, depths=depths, **options).force
+    scaled = indent(Indenter(2.0**40 * disc.heights, 2.0**-30 * disc.spacing), depths=2.0**40 * depths, **options)
     np.testing.assert_array_equal(scaled.force, 2.0**10 * usual)
 
 

@@ -14,7 +14,7 @@ def settings():
 def test_spawn_keys_do_not_depend_on_order(settings):
     discs, lines = cases.disc_cases(settings), cases.line_cases(settings)
     all_cases = [*discs.values(), *lines.values()]
-    keys = [one["spawn_key"] for case in all_cases for one in case.get("ensembles", [case])]
+    keys = [ensemble["spawn_key"] for case in all_cases for ensemble in case.get("ensembles", [case])]
     assert len(set(keys)) == len(keys) == 4 * 10 + 21 + 5 * (4 + 3) + 4
     assert cases.combined_ensembles(settings)["h01000_c3"]["spawn_key"] == (1, 100000, 3)
     assert discs["h01000_roll_off"]["ensembles"][0]["spawn_key"][:2] == (2, 100000)
@@ -22,8 +22,8 @@ def test_spawn_keys_do_not_depend_on_order(settings):
     settings["discs"]["hurst"].reverse()
     settings["discs"]["combinations"].reverse()
     for name, case in cases.disc_cases(settings).items():
-        known = {one["name"]: one for one in discs[name]["ensembles"]}
-        assert {one["name"]: one for one in case["ensembles"]} == known
+        known = {ensemble["name"]: ensemble for ensemble in discs[name]["ensembles"]}
+        assert {ensemble["name"]: ensemble for ensemble in case["ensembles"]} == known
 
 
 def test_every_case_is_in_one_pool(settings):
@@ -42,10 +42,10 @@ def test_a_batch_of_several_ensembles_holds_each_realization_once(settings):
     settings["sizes"]["discs"] = [{"elements": 33, "realizations": 9}, {"elements": 65, "realizations": 2}]
     case = cases.disc_cases(settings)["sizes"]
     members = [
-        (*one["spawn_key"], number)
+        (*ensemble["spawn_key"], number)
         for batch in cases.batches(case)
-        for one in cases.batch_ensembles(case, batch)
-        for number in range(*one["numbers"])
+        for ensemble in cases.batch_ensembles(case, batch)
+        for number in range(*ensemble["numbers"])
     ]
     sizes = [(100000, 33, 9), (100000, 65, 2), (900000, 33, 9), (900000, 65, 2)]
     assert members == [(8, hurst, n, number) for hurst, n, numbers in sizes for number in range(numbers)]
@@ -56,8 +56,8 @@ def test_a_batch_of_several_ensembles_holds_each_realization_once(settings):
 def test_a_batch_has_the_same_realizations_of_all_combinations(settings):
     """So that more realizations add batches, and change none."""
     batch = cases.batch_ensembles(cases.disc_cases(settings)["h04000"], "0002-0005")
-    assert [one["spawn_key"] for one in batch] == [(1, 400000, number) for number in range(1, 10)]
-    assert {(*one["numbers"], one["elements"]) for one in batch} == {(2, 6, 257)}
+    assert [ensemble["spawn_key"] for ensemble in batch] == [(1, 400000, number) for number in range(1, 10)]
+    assert {(*ensemble["numbers"], ensemble["elements"]) for ensemble in batch} == {(2, 6, 257)}
 
 
 def test_a_tenth_combination_is_a_case_of_its_own(settings):
@@ -68,7 +68,7 @@ def test_a_tenth_combination_is_a_case_of_its_own(settings):
     ten = cases.disc_cases(settings)
     assert {name: ten[name] for name in nine} == nine
     assert set(ten) - set(nine) == {f"{cases.hurst_id(hurst)}_10" for hurst in settings["discs"]["hurst"]}
-    assert [one["name"] for one in ten["h01000_10"]["ensembles"]] == ["h01000_c10"]
+    assert [ensemble["name"] for ensemble in ten["h01000_10"]["ensembles"]] == ["h01000_c10"]
 
 
 def test_surfaces_that_are_compared_differ_only_in_what_the_paper_leaves_open(settings):

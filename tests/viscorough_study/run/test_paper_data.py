@@ -20,10 +20,10 @@ def test_numbers_and_claims_agree():
 
 def test_settings_of_the_paper_are_its_numbers():
     default, paper = (yaml.safe_load((ROOT / f"config/{name}.yaml").read_text()) for name in ("config", "paper"))
-    about = {name: entry["value"] for name, entry in NUMBERS["boundary_elements"].items()}
-    assert default["discs"]["elements"] == about["elements_across"]
-    assert default["discs"]["hurst"] == about["hurst_exponents"]
-    assert len(default["discs"]["combinations"]) == about["combinations_per_hurst"]
-    assert paper["discs"]["realizations"] >= about["realizations_min"]
+    numbers = {name: entry["value"] for name, entry in NUMBERS["boundary_elements"].items()}
+    assert default["discs"]["elements"] == numbers["elements_across"]
+    assert default["discs"]["hurst"] == numbers["hurst_exponents"]
+    assert len(default["discs"]["combinations"]) == numbers["combinations_per_hurst"]
+    assert paper["discs"]["realizations"] >= numbers["realizations_min"]
     assert paper["lines"]["points"] == number(NUMBERS, "reduction", "points")
     assert len(paper["lines"]["hurst"]) == number(NUMBERS, "reduction", "hurst_count")

@@ -31,9 +31,9 @@ def shares(folder, **jobs):
 
 def test_jobs_side_by_side_share_the_time_and_pauses_count_for_none(tmp_path, monkeypatch):
     monkeypatch.setattr(os, "cpu_count", lambda: 4)
-    found = shares(tmp_path, a=(1010, 10), b=(1012, 8), within=(1008, 2), next_day=(90000, 5))
-    assert found == {"a": 6.67, "b": 4.67, "within": 0.67, "next_day": 5}
-    assert sum(found.values()) == pytest.approx(12 + 5, abs=0.02)
+    times = shares(tmp_path, a=(1010, 10), b=(1012, 8), within=(1008, 2), next_day=(90000, 5))
+    assert times == {"a": 6.67, "b": 4.67, "within": 0.67, "next_day": 5}
+    assert sum(times.values()) == pytest.approx(12 + 5, abs=0.02)
 
 
 def test_shares_of_a_copied_folder_sum_up_to_the_time_of_all_jobs_over_the_cores(tmp_path, monkeypatch):

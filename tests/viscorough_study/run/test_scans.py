@@ -16,15 +16,15 @@ def here(tmp_path, monkeypatch):
 
 
 def test_patterns_and_names(here):
-    found = scans(
+    by_name = scans(
         [{"name": "ground", "files": ["scans/*.txt"], "unit": "um"}, {"name": "other", "files": ["scans/b.npy"]}]
     )
-    assert list(found) == ["ground_a_1", "ground_b", "other_b"]
-    assert found["ground_a_1"]["file"] == "scans/a 1.txt"
-    assert (found["ground_b"]["unit"], found["other_b"]["unit"], found["other_b"]["spacing"]) == ("um", None, [])
-    assert found["ground_b"]["bytes"] == 5
+    assert list(by_name) == ["ground_a_1", "ground_b", "other_b"]
+    assert by_name["ground_a_1"]["file"] == "scans/a 1.txt"
+    assert (by_name["ground_b"]["unit"], by_name["other_b"]["unit"], by_name["other_b"]["spacing"]) == ("um", None, [])
+    assert by_name["ground_b"]["bytes"] == 5
     (absolute,) = scans([{"name": "ground", "files": [str(here / "scans/b.txt")]}]).values()
-    assert absolute["digest"] == found["ground_b"]["digest"]
+    assert absolute["digest"] == by_name["ground_b"]["digest"]
     (here / "scans/b.txt").write_text("b.txu")
     (changed,) = scans([{"name": "ground", "files": ["scans/b.txt"]}]).values()
     assert changed["digest"] != absolute["digest"]

@@ -116,15 +116,15 @@ def test_rules_count_the_solvers_that_they_use():
     boundary_elements |= {"compare_level_placement"}
     boundary_elements |= {"fit_collapse", "fit_interface", "judge_claims"}  # flat discs, small rough discs
     boundary_elements |= {"check_validation", "make_page", "tabulate_large"}  # by what they describe
-    of_lines = {"reduce_lines", "compare_reduction", "validate", "map_failures", "measure_methods"}
-    of_lines |= {"check_validation", "make_page"}  # by what they describe
+    reducing = {"reduce_lines", "compare_reduction", "validate", "map_failures", "measure_methods"}
+    reducing |= {"check_validation", "make_page"}  # by what they describe
     rules = {path.stem: used(path.stem) for path in SCRIPTS.glob("*.py")}
     rules |= {
         name: used("tabulate", rule["function"]) for name, rule in RESULTS["tables"].items() if "function" in rule
     }
     for rule, modules in rules.items():
         assert ("viscorough/contact/halfspace/column_fft.py" in modules) == (rule in boundary_elements), rule
-        assert ("viscorough/mdr.py" in modules) == (rule in of_lines), rule
+        assert ("viscorough/mdr.py" in modules) == (rule in reducing), rule
         assert any(name.startswith("viscorough_study/figures/") for name in modules) == (rule == "plot"), rule
 
 
@@ -132,5 +132,5 @@ def test_a_figure_is_drawn_by_its_own_module():
     modules = [figure.get("module", name) for name, figure in RESULTS["figures"].items()]
     for module in modules:
         drawing = used("plot", f"viscorough_study.figures.{module}.plot_{module}")
-        assert {one for one in modules if f"viscorough_study/figures/{one}.py" in drawing} == {module}
+        assert {name for name in modules if f"viscorough_study/figures/{name}.py" in drawing} == {module}
         assert "viscorough/surfaces.py" not in drawing, module

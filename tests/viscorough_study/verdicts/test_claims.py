@@ -45,8 +45,8 @@ def test_every_claim_is_judged_and_shown(table):
 
 def test_verdicts_on_surfaces_that_obey_equation_4(table):
     verdicts = overall(table)
-    said = ("collapse", "first_region", "last_region", "power_law", "beta", "beta_lines", "coincide", "zeta_elastic")
-    assert {verdicts[name] for name in (*said, "bodies_of_revolution", "elements")} == {"reproduced"}
+    held = ("collapse", "first_region", "last_region", "power_law", "beta", "beta_lines", "coincide", "zeta_elastic")
+    assert {verdicts[name] for name in (*held, "bodies_of_revolution", "elements")} == {"reproduced"}
     missed = ("zeta_viscous", "zeta_better", "gamma", "line_spectrum")  # the lines equal discs for every H
     assert {verdicts[name] for name in missed} == {"not reproduced"}
     depth = table[table["claim"] == "depth"]["value"]
@@ -57,36 +57,36 @@ def test_verdicts_on_surfaces_that_obey_equation_4(table):
 
 def test_factor_of_equation_9_belongs_to_equation_11():
     """ζ = 2 − H with the factor in the law is (2 − H) Γ(2 − α) without it."""
-    found = evidence(lambda hurst: (2 - hurst) * gamma_function(2 - reference.exponent_alpha(hurst)))
-    verdicts = overall(judge({name: CLAIMS[name] for name in LAWS}, found))
+    sample = evidence(lambda hurst: (2 - hurst) * gamma_function(2 - reference.exponent_alpha(hurst)))
+    verdicts = overall(judge({name: CLAIMS[name] for name in LAWS}, sample))
     assert verdicts == dict.fromkeys(LAWS, "reproduced") | {"zeta_elastic": "not reproduced"}
 
 
 def test_conventions_are_named_under_which_a_claim_holds():
-    found = evidence(lambda hurst: 1.3 * reference.zeta_elastic(hurst), square=1 / 1.3)
-    rows = judge(ELASTIC, found)
+    sample = evidence(lambda hurst: 1.3 * reference.zeta_elastic(hurst), square=1 / 1.3)
+    rows = judge(ELASTIC, sample)
     assert overall(rows) == {"zeta_elastic": "reproduced under a stated convention"}
     assert rows["convention"].str.fullmatch("rms_convention square.*surfaces base").all()
 
 
 def test_surfaces_are_among_the_conventions_under_which_a_claim_holds():
-    found = evidence(lambda hurst: 1.3 * reference.zeta_elastic(hurst))
-    scaling = found.tables["scaling"]
+    sample = evidence(lambda hurst: 1.3 * reference.zeta_elastic(hurst))
+    scaling = sample.tables["scaling"]
     longer = scaling[scaling["source"] == "discs"].assign(case_group="longer_period")
     longer[["zeta", "zeta_low", "zeta_high"]] /= 1.3
     surfaces = BASE_SURFACES | {"longer_period": BASE_SURFACES["base"] | {"period": 2.0}}
-    found.tables["prefactors"] = prefactors(pd.concat([scaling, longer], ignore_index=True), surfaces)
-    rows = judge(ELASTIC, found)
+    sample.tables["prefactors"] = prefactors(pd.concat([scaling, longer], ignore_index=True), surfaces)
+    rows = judge(ELASTIC, sample)
     assert overall(rows) == {"zeta_elastic": "reproduced under a stated convention"}
     assert rows["convention"].str.endswith("surfaces longer_period").all()
 
 
 def test_no_claim_holds_because_the_diameter_is_taken_for_the_radius():
     """ζ so small that only the radius, which makes it 2^β as large, gives Eq. 4."""
-    found = evidence(lambda hurst: reference.zeta_elastic(hurst) / 2 ** reference.exponent_beta(hurst))
-    rows = judge(ELASTIC, found)
+    sample = evidence(lambda hurst: reference.zeta_elastic(hurst) / 2 ** reference.exponent_beta(hurst))
+    rows = judge(ELASTIC, sample)
     assert overall(rows) == {"zeta_elastic": "not reproduced"}
-    table = found.tables["prefactors"]
+    table = sample.tables["prefactors"]
     assert table.loc[table["diameter_convention"] == "radius", "worst_eq4"].min() < 0.05
 
 
@@ -116,15 +116,15 @@ def test_scatter_of_few_realizations_is_not_taken_for_that_of_combinations():
 
 def test_interval_decides():
     """Of a tolerance of 0.03: what lies inside holds, what lies outside fails, what reaches over its end is open."""
-    found = evidence()
-    scaling = found.tables["scaling"]
+    sample = evidence()
+    scaling = sample.tables["scaling"]
     rows = scaling["source"] == "discs"
     cases = ((0.04, 0.005, "not reproduced"), (0.04, 0.05, "undecided"), (0.01, 0.015, "reproduced"))
     for deviation, half_width, verdict in cases:
         law = reference.exponent_beta(scaling.loc[rows, "hurst"])
         for name, shift in (("beta", 0.0), ("beta_low", -half_width), ("beta_high", half_width)):
             scaling.loc[rows, name] = law + deviation + shift
-        table = judge({"beta": CLAIMS["beta"]}, found)
+        table = judge({"beta": CLAIMS["beta"]}, sample)
         assert overall(table) == {"beta": verdict}
         assert undecided_cases(table) == ("2 of 2 cases undecided" if verdict == "undecided" else "")
 
@@ -154,10 +154,10 @@ def test_markdown_has_a_row_for_every_claim_and_sums_up_many_cases(table):
     assert [line.removeprefix("### ") for line in lines if line.startswith("###")] == list(KINDS.values())
     rows = [line for line in lines if line.startswith("| ") and not line.startswith("| the paper says")]
     assert len(rows) == len(CLAIMS)
-    many = pd.concat([table[table["claim"] == "beta"].iloc[:1]] * 12, ignore_index=True)
-    many["case"] = [f"H = 0.{i}" for i in range(12)]
-    many.loc[5, "value"] = 0.9
-    line = markdown(many, CLAIMS).splitlines()[4]
+    repeated = pd.concat([table[table["claim"] == "beta"].iloc[:1]] * 12, ignore_index=True)
+    repeated["case"] = [f"H = 0.{i}" for i in range(12)]
+    repeated.loc[5, "value"] = 0.9
+    line = markdown(repeated, CLAIMS).splitlines()[4]
     assert "12 cases, of which H = 0.0: " in line
     assert "H = 0.5: 0.9 [" in line
     assert "H = 0.3: " not in line

@@ -37,8 +37,8 @@ def test_variance_between_groups_is_covered_at_the_stated_rate():
     for _ in range(draws):
         means = np.sqrt(between) * random.standard_normal(6)
         groups = means[:, None] + np.sqrt(within) * random.standard_normal((6, 8))
-        median, low, high, of_means = excess_variance([list(groups)])
-        truth = between / (within / 8) * of_means
+        median, low, high, sampling = excess_variance([list(groups)])
+        truth = between / (within / 8) * sampling
         beyond += median > truth, low > truth, high < truth
     for count, share in zip(beyond, (0.5, 0.025, 0.025), strict=True):
         fewest, most = stats.binom.interval(0.9999, draws, share)
@@ -47,29 +47,29 @@ def test_variance_between_groups_is_covered_at_the_stated_rate():
 
 def test_variance_between_groups_is_never_negative_and_needs_two_groups():
     same = [np.array([0.0, 1.0, np.nan])] * 3
-    median, low, high, of_means = excess_variance([same])
+    median, low, high, sampling = excess_variance([same])
     assert (median, low) == (0, 0)
-    assert high == pytest.approx((1 / stats.f.ppf(0.025, 2, 3) - 1) * of_means), "as if they scattered by chance"
+    assert high == pytest.approx((1 / stats.f.ppf(0.025, 2, 3) - 1) * sampling), "as if they scattered by chance"
     assert np.isnan([excess_variance([same[:1]]), excess_variance([[np.zeros(1)] * 4])]).all()
 
 
 def test_variance_between_groups_of_several_sets_leaves_out_that_between_the_sets():
     """Four sets tell the component four times as well as one, by the freedom 32 and 284 in place of 8 and 71."""
     groups = np.random.default_rng(5).standard_normal((4, 9, 80))
-    apart = excess_variance([list(one + 10 * i) for i, one in enumerate(groups)])
-    np.testing.assert_allclose(apart, excess_variance([list(one) for one in groups]), rtol=1e-9)
-    assert apart[2] < 0.5 * np.mean([excess_variance([list(one)])[2] for one in groups])
+    apart = excess_variance([list(group + 10 * i) for i, group in enumerate(groups)])
+    np.testing.assert_allclose(apart, excess_variance([list(group) for group in groups]), rtol=1e-9)
+    assert apart[2] < 0.5 * np.mean([excess_variance([list(group)])[2] for group in groups])
 
 
 def test_borderline_cases_of_few_realizations_are_never_decided():
     """Of 100 draws of 54 realizations with a mean inside, at an end, or outside of the range, none is decided."""
-    found, random = evidence(), np.random.default_rng(11)
+    sample, random = evidence(), np.random.default_rng(11)
     for mean in (0.0, 0.5, 1.0, 1.5):
         draws = (mean_with_interval(mean + random.standard_normal(54)) for _ in range(100))
-        assert {found.within(values, -1.0, 1.0, realizations=54, cases=4) for values in draws} == {None}
+        assert {sample.within(values, -1.0, 1.0, realizations=54, cases=4) for values in draws} == {None}
     exact = mean_with_interval(0.001 * random.standard_normal(54))
-    assert found.within(exact, -1.0, 1.0, realizations=54, cases=4) is True
-    assert found.within(np.add(exact, 2.0), -1.0, 1.0, realizations=54, cases=4) is False
+    assert sample.within(exact, -1.0, 1.0, realizations=54, cases=4) is True
+    assert sample.within(np.add(exact, 2.0), -1.0, 1.0, realizations=54, cases=4) is False
 
 
 def test_borderline_cases_do_not_flip_between_the_two_verdicts():
@@ -77,10 +77,10 @@ def test_borderline_cases_do_not_flip_between_the_two_verdicts():
 
     Of 1000 draws: 2.5 % reproduced, 2.5 %/4 not reproduced, within the 99.99 % range of the binomial distribution.
     """
-    found, random, draws = evidence(), np.random.default_rng(12), 1000
+    sample, random, draws = evidence(), np.random.default_rng(12), 1000
     for mean, shares in ((1.0, (0.025, 0.025 / 4)), (0.9, (None, 0.0))):
         outcomes = [
-            found.within(mean_with_interval(mean + random.standard_normal(100)), -1.0, 1.0, realizations=100, cases=4)
+            sample.within(mean_with_interval(mean + random.standard_normal(100)), -1.0, 1.0, realizations=100, cases=4)
             for _ in range(draws)
         ]
         for outcome, share in zip((True, False), shares, strict=True):
@@ -91,12 +91,12 @@ def test_borderline_cases_do_not_flip_between_the_two_verdicts():
 
 def test_number_of_cases_and_of_realizations_enter_a_verdict():
     """1.05 to 1.35 lies outside of -1 to 1, of four cases from 1.01 on, of fifty from 0.95 on."""
-    found, values = evidence(), (1.2, 1.05, 1.35)
-    assert found.within(values, -1.0, 1.0, realizations=80, cases=4) is False
-    assert found.within(values, -1.0, 1.0, realizations=80, cases=50) is None
-    assert found.within(values, -1.0, 1.0, realizations=79) is None
-    assert found.within(values, -1.0, 1.5, realizations=80, cases=50) is True, "all cases must hold, each by itself"
-    assert found.within(values, -1.0, 1.5, realizations=79) is None
+    sample, values = evidence(), (1.2, 1.05, 1.35)
+    assert sample.within(values, -1.0, 1.0, realizations=80, cases=4) is False
+    assert sample.within(values, -1.0, 1.0, realizations=80, cases=50) is None
+    assert sample.within(values, -1.0, 1.0, realizations=79) is None
+    assert sample.within(values, -1.0, 1.5, realizations=80, cases=50) is True, "all cases must hold, each by itself"
+    assert sample.within(values, -1.0, 1.5, realizations=79) is None
 
 
 def test_claims_on_ensembles_of_few_realizations_are_undecided():
@@ -127,12 +127,12 @@ def test_outcomes_of_a_case():
 
 def test_all_errors_of_bodies_of_revolution_are_held_to_the_tolerance():
     """Also those of the stiffness, of which the finest grid decides."""
-    found = evidence()
+    sample = evidence()
     rows = [("depth", 65, 1e-2), ("depth", 129, 1e-5), ("stiffness", 65, 3e-2), ("stiffness", 129, 3e-3)]
     validation = pd.DataFrame(rows, columns=["quantity", "elements", "error"]).assign(case="cone_reduction")
-    found.tables["validation"] = validation
+    sample.tables["validation"] = validation
     for tolerance, verdicts in ((5e-3, ["reproduced"] * 2), (1e-3, ["reproduced", "not reproduced"])):
-        cases = list(bodies_of_revolution(found, tolerance))
+        cases = list(bodies_of_revolution(sample, tolerance))
         assert [case.verdict for case in cases] == verdicts
         assert [(case.value, case.least, case.largest) for case in cases] == [(1e-5, 1e-5, 1e-2), (3e-3, 3e-3, 3e-2)]
 
@@ -145,9 +145,9 @@ def test_four_elements_lie_on_the_rim_of_the_disc():
 
 def test_settings_decide_how_long_a_power_law_must_be():
     """The intervals are 2.2 to 2.6 decades."""
-    found = evidence()
+    sample = evidence()
     for decades, verdict in ((2.2, "reproduced"), (2.3, "undecided"), (2.7, "not reproduced")):
-        changed = dataclasses.replace(found, rules=found.rules | {"decades_min": decades})
+        changed = dataclasses.replace(sample, rules=sample.rules | {"decades_min": decades})
         assert {case.verdict for case in power_law(changed, 0.05)} == {verdict}
     changed.tables["plateaus"]["power_law_fails"] = 0.1
     assert {case.verdict for case in power_law(changed, 0.05)} == {"undecided"}, "the test loses power laws"
@@ -165,9 +165,9 @@ def test_identities_hold_exactly_and_would_fail():
 
 def test_curves_that_leave_the_first_region_sooner_separate_first():
     """κ = ζ X^α is twice π/(K₀₀ n) at X = (2π/(K₀₀ n ζ))^(1/α)."""
-    found = evidence()
+    sample = evidence()
     end = {hurst: (2 * one_element_stiffness(ACROSS) / zeta_elastic(hurst)) ** (1 + hurst) for hurst in HURST}
-    cases = separation(found, 0.0)
+    cases = separation(sample, 0.0)
     for case, (lower, higher) in zip(cases, pairwise(HURST), strict=True):
         assert case.value == pytest.approx(end[lower] / end[higher], rel=0.1)
         assert case.low < case.value < case.high
@@ -176,100 +176,100 @@ def test_curves_that_leave_the_first_region_sooner_separate_first():
 
 def test_interval_of_the_separation_is_that_of_independent_ensembles():
     """ln X at the end of region (a) scatters by 1/α of ln κ, and the variances of both Hurst exponents add up."""
-    found = dataclasses.replace(evidence_with_factors(0.2), resamples=1000)
+    sample = dataclasses.replace(evidence_with_factors(0.2), resamples=1000)
     error = stats.t.ppf(0.975, 79) * 0.2 / np.sqrt(80)
-    for case, pair in zip(separation(found, 0.0), pairwise(HURST), strict=True):
-        of_both = error * np.hypot(*(1 / exponent_alpha(hurst) for hurst in pair))
-        assert np.log(case.high / case.low) / 2 == pytest.approx(of_both, rel=0.1)
+    for case, pair in zip(separation(sample, 0.0), pairwise(HURST), strict=True):
+        expected = error * np.hypot(*(1 / exponent_alpha(hurst) for hurst in pair))
+        assert np.log(case.high / case.low) / 2 == pytest.approx(expected, rel=0.1)
 
 
 def test_contact_is_complete_only_where_most_elements_touch():
     """These discs have κ² of their elements in contact, and all of them where κ is 1."""
-    found = evidence()
-    assert {case.verdict for case in complete_contact(found, 0.1)} == {"reproduced"}
-    halved = found.discs.assign(contact_count=found.discs["contact_count"] / 2)
-    cases = list(complete_contact(dataclasses.replace(found, discs=halved), 0.1))
+    sample = evidence()
+    assert {case.verdict for case in complete_contact(sample, 0.1)} == {"reproduced"}
+    halved = sample.discs.assign(contact_count=sample.discs["contact_count"] / 2)
+    cases = list(complete_contact(dataclasses.replace(sample, discs=halved), 0.1))
     assert {case.verdict for case in cases} == {"not reproduced"}
     assert all(case.value == pytest.approx(0.5, abs=0.01) for case in cases)
 
 
 def test_exponents_of_combinations_are_compared():
-    found = evidence(scatter=0.02)
-    assert {case.verdict for case in hurst_only(found, 0.03)} == {"reproduced"}
-    first = found.discs["case"] == "c0"
-    found.discs["stiffness"] = found.discs["stiffness"] * xr.where(first, found.discs["x"] ** 0.2, 1)
-    assert {case.verdict for case in hurst_only(dataclasses.replace(found), 0.03)} == {"not reproduced"}
+    sample = evidence(scatter=0.02)
+    assert {case.verdict for case in hurst_only(sample, 0.03)} == {"reproduced"}
+    first = sample.discs["case"] == "c0"
+    sample.discs["stiffness"] = sample.discs["stiffness"] * xr.where(first, sample.discs["x"] ** 0.2, 1)
+    assert {case.verdict for case in hurst_only(dataclasses.replace(sample), 0.03)} == {"not reproduced"}
 
 
 def test_change_of_exponents_with_the_grid_is_judged_in_windows_of_fixed_x():
-    found = evidence()
-    verdicts = [case.verdict for case in no_grid(found, 0.03)]
+    sample = evidence()
+    verdicts = [case.verdict for case in no_grid(sample, 0.03)]
     assert verdicts == ["reproduced", "undecided", "not reproduced"]
-    found.tables["sizes_trends"] = found.tables["sizes_trends"].query("source == 'lines'")
-    assert [case.verdict for case in no_grid(found, 0.03)] == ["undecided"]
+    sample.tables["sizes_trends"] = sample.tables["sizes_trends"].query("source == 'lines'")
+    assert [case.verdict for case in no_grid(sample, 0.03)] == ["undecided"]
 
 
 def test_interval_of_the_exponent_that_250_indentations_give():
-    found = evidence(scatter=0.0)
-    random = np.random.default_rng(5).standard_normal(found.discs.sizes["realization"])
+    sample = evidence(scatter=0.0)
+    random = np.random.default_rng(5).standard_normal(sample.discs.sizes["realization"])
     exponent = xr.DataArray(0.1 * random, dims="realization")
-    found.discs["stiffness"] = found.discs["stiffness"] * found.discs["x"] ** exponent
-    for case in realizations(found, 0.03):
+    sample.discs["stiffness"] = sample.discs["stiffness"] * sample.discs["x"] ** exponent
+    for case in realizations(sample, 0.03):
         assert case.low < 1.96 * 0.1 / np.sqrt(250) < case.high
         probabilities = [stats.chi2.cdf(79 * (case.value / end) ** 2, 79) for end in (case.low, case.high)]
         assert probabilities == pytest.approx([0.975, 0.025]), "the distribution of a variance of 80 samples"
         assert case.verdict == "reproduced"
-    assert {case.verdict for case in realizations(found, 0.001)} == {"not reproduced"}
+    assert {case.verdict for case in realizations(sample, 0.001)} == {"not reproduced"}
 
 
 def test_limit_of_the_exponent_needs_lines_and_discs_of_that_exponent():
-    found = evidence()
-    assert [case.verdict for case in alpha_limit(found, 0.015)] == ["undecided", "undecided"]
+    sample = evidence()
+    assert [case.verdict for case in alpha_limit(sample, 0.015)] == ["undecided", "undecided"]
     for number, (table, source) in enumerate((("scaling", "lines"), ("sizes", "discs"))):
-        known = found.tables[table]
+        known = sample.tables[table]
         rows = known[(known["source"] == source) & (known["hurst"] == 0.9)].assign(hurst=1.0, beta=0.5)
         for half_width, verdict in ((0.01, "reproduced"), (0.02, "undecided")):
             more = rows.assign(beta_low=0.5 - half_width, beta_high=0.5 + half_width)
-            found.tables[table] = pd.concat([known, more], ignore_index=True)
-            assert [case.verdict for case in alpha_limit(found, 0.015)][number] == verdict
+            sample.tables[table] = pd.concat([known, more], ignore_index=True)
+            assert [case.verdict for case in alpha_limit(sample, 0.015)][number] == verdict
     others = [more.assign(elements=more["elements"] * of, beta=0.1) for of in (0.25, 4)]
-    found.tables["sizes"] = pd.concat([*others, more], ignore_index=True)
-    assert [case.value for case in alpha_limit(found, 0.015)][1] == 0.5
+    sample.tables["sizes"] = pd.concat([*others, more], ignore_index=True)
+    assert [case.value for case in alpha_limit(sample, 0.015)][1] == 0.5
 
 
 def test_time_is_compared_at_the_numbers_of_the_paper():
     """2880 indentations of 51433 events at 1 ms, over 101 · 500 · 4e6 points at 1 ns: 733."""
-    found = evidence()
-    (case,) = computing_time(found, 10)
+    sample = evidence()
+    (case,) = computing_time(sample, 10)
     assert case.value == pytest.approx(2880 * 51433 * 1e-3 / (101 * 500 * 4e6 * 1e-9))
-    assert (case.verdict, *(one.verdict for one in computing_time(found, 14))) == ("not reproduced", "reproduced")
-    found.tables["methods"] = found.tables["methods"].query("method == 'MDR'")
-    assert [one.verdict for one in computing_time(found, 10)] == ["undecided"]
-    assert [one.verdict for one in contact_problems(found, 10)] == ["undecided"]
+    assert (case.verdict, *(case.verdict for case in computing_time(sample, 14))) == ("not reproduced", "reproduced")
+    sample.tables["methods"] = sample.tables["methods"].query("method == 'MDR'")
+    assert [case.verdict for case in computing_time(sample, 10)] == ["undecided"]
+    assert [case.verdict for case in contact_problems(sample, 10)] == ["undecided"]
 
 
 def test_contact_problems_are_counted_against_changes_of_the_contact():
     """58 levels for H = 0.8, 51 for 0.4, each the fewest with an error below 1 %, for 51432 elements."""
-    found = evidence()
-    (case,) = contact_problems(found, 10)
+    sample = evidence()
+    (case,) = contact_problems(sample, 10)
     assert (case.value, case.least, case.verdict) == (58 / 51432, 51 / 51432, "not reproduced")
-    found.tables["methods"]["steps"] = 6000.0
-    assert [one.verdict for one in contact_problems(found, 10)] == ["reproduced"]
+    sample.tables["methods"]["steps"] = 6000.0
+    assert [case.verdict for case in contact_problems(sample, 10)] == ["reproduced"]
 
 
 def evidence_of_curves(stiffness, count):
     """Evidence of discs of one Hurst exponent with these κ and elements in contact, shape (realizations, abscissae)."""
-    about = {"hurst": 0.6, "case": "c", "diameter": 1.0, "elements": ELEMENTS}
-    return evidence_of(pool_of([ensemble_dataset(["disc"], X, stiffness[None], count[None], about)]))
+    coordinates = {"hurst": 0.6, "case": "c", "diameter": 1.0, "elements": ELEMENTS}
+    return evidence_of(pool_of([ensemble_dataset(["disc"], X, stiffness[None], count[None], coordinates)]))
 
 
 def test_slope_and_prefactor_of_the_last_region_are_those_of_the_curve_there():
     """A parabola of ln(vt/h) over ln X has the least-squares slope of its middle: a quarter of a decade, five steps."""
     log_x = np.log(X)
     stiffness = np.tile(X / np.exp(0.2 + 0.7 * log_x + 0.05 * log_x**2), (3, 1))
-    found = dataclasses.replace(evidence_of_curves(stiffness, stiffness), rules={"end_decades": 0.26})
+    sample = dataclasses.replace(evidence_of_curves(stiffness, stiffness), rules={"end_decades": 0.26})
     slope = 0.7 + 0.1 * log_x[[-6, -1]].mean()
-    assert [case.value for case in last_region(found, 0.05)] == pytest.approx([stiffness[0, -1], slope], rel=1e-9)
+    assert [case.value for case in last_region(sample, 0.05)] == pytest.approx([stiffness[0, -1], slope], rel=1e-9)
 
 
 def test_interval_of_the_depth_contains_the_scatter_of_the_exponent():

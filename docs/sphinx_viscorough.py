@@ -1,6 +1,7 @@
 """What this documentation needs beyond Sphinx: our docstrings as reStructuredText, MathML, and the texts of --help."""
 
 import importlib
+import inspect
 import re
 
 import click
@@ -49,10 +50,10 @@ def _kind(line, last):
     return "items" if line.startswith("- ") else "prose"
 
 
-def _escaped(text):
+def _escaped(text, signs=r"([*|_\\:])"):
     """Text in which only `names` between backticks are marked up."""
     pieces = text.split("`")
-    pieces[::2] = [re.sub(r"([*|_\\:])", r"\\\1", piece) for piece in pieces[::2]]
+    pieces[::2] = [re.sub(signs, r"\\\1", piece) for piece in pieces[::2]]
     return "``".join(pieces)
 
 
@@ -98,7 +99,17 @@ def _link_to_pages(_app, _page, source):
 
 
 def _convert_docstring(_app, _what, _name, _object, _options, lines):
-    lines[:] = to_rst(lines)
+    """Docstrings with sections are left to napoleon, with `names` and signs of formulas as in the others."""
+    if any(re.fullmatch("-{4,}", line) for line in lines):
+        lines[:] = [line if line.lstrip().startswith((">>>", "...")) else _escaped(line, r"([*|])") for line in lines]
+    else:
+        lines[:] = to_rst(lines)
+
+
+def _restore_property(_app, what, _name, item, _options, lines):
+    """What stands before a colon in the docstring of a property, which napoleon takes for its type."""
+    if what == "property":
+        lines[:] = to_rst((inspect.getdoc(item) or "").splitlines())
 
 
 def _skip_tuple_fields(_app, _what, _name, member, _skip, _options):
@@ -111,6 +122,7 @@ def setup(app):
     app.add_directive("command-help", CommandHelp)
     app.add_directive("table-columns", TableColumns)
     app.connect("source-read", _link_to_pages)
-    app.connect("autodoc-process-docstring", _convert_docstring)
+    app.connect("autodoc-process-docstring", _convert_docstring, priority=400)  # before napoleon
+    app.connect("autodoc-process-docstring", _restore_property, priority=600)
     app.connect("autodoc-skip-member", _skip_tuple_fields)
     return {"parallel_read_safe": True}

@@ -173,7 +173,28 @@ def penetration_law(hurst: float) -> PenetrationLaw:
     """PenetrationLaw of a self-affine surface with Hurst exponent H.
 
     Between the calibrated exponents all constants and intervals are interpolated linearly in H, of places in X their
-    logarithms. Raises ValueError for a Hurst exponent outside the calibrated range.
+    logarithms.
+
+    Parameters
+    ----------
+    hurst : float
+        Hurst exponent H, 0.1 to 1.
+
+    Returns
+    -------
+    PenetrationLaw
+
+    Raises
+    ------
+    ValueError
+        For a Hurst exponent outside the calibrated range.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> law = viscorough.penetration_law(0.7)
+    >>> round(law.beta, 1), bool(law.velocity(1.0) > 0)
+    (0.4, True)
     """
     table, beyond = calibration(), interface_calibration()
     low, high = table["hurst"][[0, -1]]

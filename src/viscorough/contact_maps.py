@@ -28,21 +28,42 @@ class Patches(NamedTuple):
 class Contact(ReadOnlyArrays, Summarised):
     """The contact of a rigid indenter with an elastic half-space at one depth, as `contact_at` returns it.
 
-    pressure : p/G, G the shear modulus of the incompressible half-space; zero outside the contact, nan outside the
-        indenter; shape (rows, columns) of the heights [1]
-    gap : between the deformed surface and the indenter; nan outside the indenter [length]. In contact it is zero within
-        `residual` times the depth, and nowhere is it below zero by more than that
-    contact : whether an element is in contact, which is where the pressure is above zero
-    depth : u, from first contact [length]
-    force : F/G, the sum of the pressures times the area of an element [length²]
-    stiffness : k/G = d(F/G)/du, of the elements in contact [length]
-    residual : largest gap in contact or overlap outside it, rounding included, over the depth [1]
-    tolerance : requested bound of the residual
-    spacing, row_spacing : distances between neighbouring columns and rows, dx and dy [length]
-    length_unit : unit of all lengths; "1" if it is not known
-    shear_modulus : G [Pa], or in consistent units if the unit of length is not known; None if it is not known
-
     Arrays are copied and read-only.
+
+    Attributes
+    ----------
+    pressure : array
+        p/G, G the shear modulus of the incompressible half-space; zero outside the contact, nan outside the indenter;
+        shape (rows, columns) of the heights [1].
+    gap : array
+        Between the deformed surface and the indenter; nan outside the indenter [length]. In contact it is zero within
+        `residual` times the depth, and nowhere is it below zero by more than that.
+    contact : array
+        Whether an element is in contact, which is where the pressure is above zero.
+    depth : float
+        u, from first contact [length].
+    force : float
+        F/G, the sum of the pressures times the area of an element [length²].
+    stiffness : float
+        k/G = d(F/G)/du, of the elements in contact [length].
+    residual : float
+        Largest gap in contact or overlap outside it, rounding included, over the depth [1].
+    tolerance : float
+        Requested bound of the residual.
+    spacing, row_spacing : float
+        Distances between neighbouring columns and rows, dx and dy [length].
+    length_unit : str
+        Unit of all lengths; "1" if it is not known.
+    shear_modulus : float or None
+        G [Pa], or in consistent units if the unit of length is not known; None if it is not known.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> disc = viscorough.self_affine_disc(0.7, 17, rms=0.01, seed=1)
+    >>> contact = viscorough.contact_at(disc, depth=0.005)
+    >>> contact.pressure.shape, bool(contact.contact.any())
+    ((17, 17), True)
     """
 
     pressure: np.ndarray

@@ -70,13 +70,36 @@ def estimate(
 ) -> Estimate:
     """Depth and velocity of a self-affine indenter under a constant force, by the calibrated law, without a simulation.
 
-    hurst : Hurst exponent H, 0.1 to 1
-    rms : rms height h; diameter : L, in the same unit [length]
-    force : F > 0, constant from time 0 on
-    medium : Medium, as viscorough.Maxwell, or the viscosity of a Newtonian one; in units such that F·J is a length²
-    times : above 0, increasing
+    Parameters
+    ----------
+    hurst : float
+        Hurst exponent H, 0.1 to 1.
+    rms : float
+        Rms height h.
+    diameter : float
+        L, in the same unit [length].
+    force : float
+        F > 0, constant from time 0 on.
+    medium : Medium or float
+        Medium, as viscorough.Maxwell, or the viscosity of a Newtonian one; in units such that F·J is a length².
+    times : array_like
+        Above 0, increasing.
 
-    Returns an Estimate. Raises ValueError for values outside these ranges, and if the law holds at none of the times.
+    Returns
+    -------
+    Estimate
+
+    Raises
+    ------
+    ValueError
+        For values outside these ranges, and if the law holds at none of the times.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> motion = viscorough.estimate(0.7, rms=0.1, diameter=1.0, force=1.0, medium=1.0, times=[0.01, 0.1])
+    >>> bool(motion.depth_low[0] < motion.depth[0] < motion.depth_high[0])
+    True
     """
     law, medium = penetration_law(hurst), medium_of(medium)
     rms, diameter, force = positive("rms", rms), positive("diameter", diameter), positive("force", force)

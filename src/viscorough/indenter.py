@@ -19,19 +19,36 @@ _LARGEST_WHOLE = 2**53  # larger whole numbers are not all numbers of double pre
 class Indenter(ReadOnlyArrays):
     """A rigid indenter: heights on a rectangular grid, or along a line, of equal spacing.
 
-    heights : a map of shape (rows, columns), nan outside the indenter, or a line of shape (points,); larger is higher,
-        and the highest point touches first [length]. They are copied and read-only; masked entries become nan, and
-        numbers other than those of single precision are kept in double precision
-    spacing : distance between neighbouring columns of a map, or points of a line, dx [length]; a pair (dx, dy) stands
-        for both spacings of a map
-    row_spacing : distance between neighbouring rows of a map, dy, at most five times dx or dx five times it; by default
-        equal to `spacing` [length]
-    length_unit : unit of heights and spacings, as UDUNITS spells it ("um"); "1" if it is not known
+    Parameters
+    ----------
+    heights : array
+        a map of shape (rows, columns), nan outside the indenter, or a line of shape (points,); larger is higher, and
+        the highest point touches first [length]. They are copied and read-only; masked entries become nan, and numbers
+        other than those of single precision are kept in double precision.
+    spacing : float
+        Distance between neighbouring columns of a map, or points of a line, dx [length]; a pair (dx, dy) stands for
+        both spacings of a map.
+    row_spacing : float
+        Distance between neighbouring rows of a map, dy, at most five times dx or dx five times it; by default equal to
+        `spacing` [length].
+    length_unit : str
+        Unit of heights and spacings, as UDUNITS spells it ("um"); "1" if it is not known.
 
-    Raises ValueError if the heights are not real numbers in one or two dimensions, are whole numbers beyond 2**53,
-    are infinite, differ by more than double precision holds, have no element or, on a line, have a nan; if a
-    spacing is not a positive number, or the two differ by more than a factor of five, or on a line at all; or if the
-    unit is no text.
+    Raises
+    ------
+    ValueError
+        If the heights are not real numbers in one or two dimensions, are whole numbers beyond 2**53, are infinite,
+        differ by more than double precision holds, have no element or, on a line, have a nan; if a spacing is not a
+        positive number, or the two differ by more than a factor of five, or on a line at all; or if the unit is no
+        text.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscorough
+    >>> indenter = viscorough.Indenter(np.array([[0.0, 1.0], [np.nan, 0.5]]), 2.0)
+    >>> indenter.elements, indenter.row_spacing
+    (3, 2.0)
     """
 
     heights: np.ndarray

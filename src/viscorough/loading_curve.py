@@ -22,20 +22,46 @@ _ROUNDING = 1e-12
 class LoadingCurve(ReadOnlyArrays, Summarised):
     """Depth, force and tangent stiffness of a rigid indenter pressed into an elastic half-space, at successive levels.
 
-    depth : u, shape (levels,), strictly increasing and positive [length]
-    force : F/G, shape (levels,) [length²], G the shear modulus of the incompressible half-space
-    stiffness : k/G = d(F/G)/du, shape (levels,) [length], of the elements in contact at that level
-    contact_count : elements in contact, shape (levels,) [1]
-    elements : number of elements of the indenter
-    method : how the curve was obtained
-    tolerance : requested relative accuracy
-    operator_applications : number of applications of the half-space operator on the grid
-    residual : largest remaining |gap| in contact or overlap outside it, over the depth, shape (levels,) [1]
-    length_unit : unit of the lengths, as UDUNITS spells it; "1" if it is not known
+    Arrays are copied and read-only.
 
-    Arrays are copied and read-only. Raises ValueError without levels, for depths or forces that do not increase or are
-    not finite, and for stiffnesses that are not finite and positive, as overflow or a damaged file can produce.
-    Read with G → η and F → ∫F dt it is the solution of the linearly viscous problem (Radok; paper, Sec. III).
+    Attributes
+    ----------
+    depth : array
+        u, shape (levels,), strictly increasing and positive [length].
+    force : array
+        F/G, shape (levels,) [length²], G the shear modulus of the incompressible half-space.
+    stiffness : array
+        k/G = d(F/G)/du, shape (levels,) [length], of the elements in contact at that level.
+    contact_count : array
+        Elements in contact, shape (levels,) [1].
+    elements : int
+        Number of elements of the indenter.
+    method : str
+        How the curve was obtained.
+    tolerance : float
+        Requested relative accuracy.
+    operator_applications : int
+        Number of applications of the half-space operator on the grid.
+    residual : array
+        Largest remaining |gap| in contact or overlap outside it, over the depth, shape (levels,) [1].
+    length_unit : str
+        Unit of the lengths, as UDUNITS spells it; "1" if it is not known.
+
+    Raises
+    ------
+    ValueError
+        Without levels, for depths or forces that do not increase or are not finite, and for stiffnesses that are not
+        finite and positive, as overflow or a damaged file can produce. Read with G → η and F → ∫F dt it is the solution
+        of the linearly viscous problem (Radok; paper, Sec. III).
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> disc = viscorough.self_affine_disc(0.7, 17, rms=0.01, seed=1)
+    >>> curve = viscorough.indent(disc)
+    >>> depth, stiffness = curve.at_force(curve.force[-1])
+    >>> bool(abs(depth / curve.depth[-1] - 1) < 1e-12)
+    True
     """
 
     depth: np.ndarray

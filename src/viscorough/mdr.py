@@ -28,14 +28,10 @@ def reduce(
 ) -> LoadingCurve:
     """Loading curve of a line by the method of dimensionality reduction (MDR).
 
-    line : Indenter with one-dimensional heights
-    until_fraction : contact fraction at which to stop, in (0, 1]
-    until_force : F/G at which to stop [length²]; if the line is in full contact before, one more level is added at
-        exactly this force, unless `until_fraction` stops the curve
-    bins_per_octave : levels per factor of two in depth, a power of 2; with 64, bins are 0.8 to 1.6 % wide
+    Levels are the edges of the bins in which contact grows. There force and stiffness::
 
-    Levels are the edges of the bins in which contact grows. There force and stiffness
         F/G = 4 Δx Σ(u - g)₊,   k/G = 4 Δx (number of g < u)
+
     are exact, up to the rounding of gaps and sums in double precision.
     From one level to the next either at most one point comes into contact, and LoadingCurve.at_force is exact, or the
     levels are one bin apart, and its depth has an error that is a small part of the bin's width.
@@ -43,9 +39,35 @@ def reduce(
     `until_force`, but at least the second. A flat line, which sets no scale of depth, has levels at half a spacing and
     at one spacing.
 
-    Returns a LoadingCurve. Raises ValueError for a map instead of a line, or for values outside these ranges.
-    Source: V. L. Popov and M. Heß, Method of Dimensionality Reduction in Contact Mechanics and Friction
-    (2015); paper, Sec. V.
+    Parameters
+    ----------
+    line : Indenter
+        Indenter with one-dimensional heights.
+    until_fraction : float, optional
+        Contact fraction at which to stop, in (0, 1].
+    until_force : float, optional
+        F/G at which to stop [length²]; if the line is in full contact before, one more level is added at exactly this
+        force, unless `until_fraction` stops the curve.
+    bins_per_octave : int, optional
+        Levels per factor of two in depth, a power of 2; with 64, bins are 0.8 to 1.6 % wide.
+
+    Returns
+    -------
+    LoadingCurve
+
+    Raises
+    ------
+    ValueError
+        For a map instead of a line, or for values outside these ranges. Source: V. L. Popov and M. Heß, Method of
+        Dimensionality Reduction in Contact Mechanics and Friction (2015); paper, Sec. V.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> line = viscorough.self_affine_line(0.7, 257, rms=0.1, seed=1)
+    >>> curve = viscorough.reduce(line, until_fraction=0.5)
+    >>> bool((curve.stiffness[1:] >= curve.stiffness[:-1]).all())
+    True
     """
     check_indenter("reduce", line)
     if line.heights.ndim != 1:
@@ -124,13 +146,35 @@ def _levels(heights: Array, spacing: float, bins_per_octave: int) -> tuple[Array
 def line_of_surface(square: Array, spacing: float, seed: Seed) -> Indenter:
     """Line with the power spectrum of a periodic map, C1D = π q C2D (Eq. 13), and random phases.
 
-    square : heights, shape (n, n) [length]
-    spacing : distance between the points of both map and line [length]
-    seed : int or SeedSequence
+    The wave with wavenumber k per period of the line has the power of all waves of the map with wavenumbers from k -
+    1/2 to k + 1/2, up to the Nyquist wavelength.
 
-    The wave with wavenumber k per period of the line has the power of all waves of the map with wavenumbers from
-    k - 1/2 to k + 1/2, up to the Nyquist wavelength. Returns an Indenter with heights of shape (n,). Raises ValueError
-    for a map that is not square.
+    Parameters
+    ----------
+    square : array
+        Heights, shape (n, n) [length].
+    spacing : float
+        Distance between the points of both map and line [length].
+    seed : Seed
+        Int or SeedSequence.
+
+    Returns
+    -------
+    Indenter
+        With heights of shape (n,).
+
+    Raises
+    ------
+    ValueError
+        For a map that is not square.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscorough
+    >>> heights = np.random.default_rng(1).normal(size=(16, 16))
+    >>> viscorough.line_of_surface(heights, 1.0, seed=2).heights.shape
+    (16,)
     """
     n = len(square)
     if square.shape != (n, n):
@@ -144,15 +188,35 @@ def line_of_surface(square: Array, spacing: float, seed: Seed) -> Indenter:
 def line_of_map(surface: Indenter, seed: Seed) -> Indenter:
     """Line with the radially averaged power spectrum of a map that is not periodic, and with its rms height.
 
-    surface : Indenter with two-dimensional heights; elements that are nan count as of mean height
-    seed : int or SeedSequence
-
     As `line_of_surface`, after the heights over their mean were multiplied with a Hann window, cos²(πr/2) at the
     relative distance r from the centre to the edge of the inscribed ellipse: otherwise the edges of the map, which are
     steps of a periodic map, would add to the short waves. The window spoils the three longest waves: they are those of
     the heights without it, multiplied so that the mean square of the heights is that of the map. The line is as long as
-    the longer side of the map, at the larger of its two spacings. Returns an Indenter. Raises ValueError for a line or
-    a flat map.
+    the longer side of the map, at the larger of its two spacings.
+
+    Parameters
+    ----------
+    surface : Indenter
+        Indenter with two-dimensional heights; elements that are nan count as of mean height.
+    seed : Seed
+        Int or SeedSequence.
+
+    Returns
+    -------
+    Indenter
+
+    Raises
+    ------
+    ValueError
+        For a line or a flat map.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscorough
+    >>> heights = np.random.default_rng(1).normal(size=(16, 16))
+    >>> viscorough.line_of_map(viscorough.Indenter(heights, 1.0), seed=2).heights.shape
+    (16,)
     """
     if surface.heights.ndim != 2:
         raise ValueError("line_of_map: the indenter's heights must be two-dimensional")

@@ -59,13 +59,26 @@ _STATE |= {"contact_fraction": "contact fraction", "patches": "patches"}
 def plot(result: Content | LoadingCurve | Kinetics | Contact | Indenter, path: FilePath | None = None) -> Figure:
     """Draw a result: the heights of an Indenter, the fields of a Contact, a LoadingCurve, or Kinetics.
 
-    result : one of these, or the io.netcdf.Content of a file
-    path : .png, .pdf or .svg to write, atomically; the same result gives the same bytes. By default nothing is written
+    Parameters
+    ----------
+    result : Content or LoadingCurve or Kinetics or Contact or Indenter
+        One of these, or the io.netcdf.Content of a file.
+    path : path, optional
+        .png, .pdf or .svg to write, atomically; the same result gives the same bytes. By default nothing is written.
 
-    Returns the matplotlib Figure. Needs matplotlib: pip install "viscorough[plot]". Maps have the first row at the top
-    and the coordinates of the file, or count from the centre; colours of pressures end at their 99th percentile.
-    Raises ValueError for another suffix, and for a content that is none of these.
+    Returns
+    -------
+    Figure
+        The matplotlib Figure. Needs matplotlib: pip install "viscorough[plot]". Maps have the first row at the top and
+        the coordinates of the file, or count from the centre; colours of pressures end at their 99th percentile.
 
+    Raises
+    ------
+    ValueError
+        For another suffix, and for a content that is none of these.
+
+    Examples
+    --------
     >>> import viscorough
     >>> disc = viscorough.self_affine_disc(0.8, 17, rms=1e-6, diameter=1e-4, seed=1)
     >>> figure = viscorough.plot(viscorough.indent(disc))

@@ -34,15 +34,37 @@ def prepare(
 ) -> Indenter:
     """A map of heights made ready, as a new Indenter; each step is done only if asked for, in this order.
 
-    nodata : a value, or several, that mark points that were not measured; these become nan
-    crop : ((first column, end), (first row, end)), numbers of points from 0; ends are not included
-    flip : change the sign, for data in which larger is lower
-    detrend : "mean", "plane" or "sphere": subtract what fits best in least squares over all points that are not nan; a
-        sphere includes a plane
-    fill : "harmonic": heights for nan regions that are enclosed, from the Laplace equation with the heights around them
-
     A sphere of curvature k is a + bx + cy + k r²/(1 + √(1 − k²r²)), with r the distance from the middle of the map.
-    Raises ValueError for a line, an unknown option, a crop beyond the map, and where no sphere fits.
+
+    Parameters
+    ----------
+    indenter : Indenter
+        A map of heights.
+    nodata : Sequence[float], optional
+        A value, or several, that mark points that were not measured; these become nan.
+    crop : pairs of int, optional
+        ((first column, end), (first row, end)), numbers of points from 0; ends are not included.
+    flip : bool, optional
+        Change the sign, for data in which larger is lower.
+    detrend : str, optional
+        "mean", "plane" or "sphere": subtract what fits best in least squares over all points that are not nan; a sphere
+        includes a plane.
+    fill : str, optional
+        "harmonic": heights for nan regions that are enclosed, from the Laplace equation with the heights around them.
+
+    Raises
+    ------
+    ValueError
+        For a line, an unknown option, a crop beyond the map, and where no sphere fits.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscorough
+    >>> heights = np.add.outer(np.arange(4.0), np.arange(4.0) % 2)  # a tilted map
+    >>> prepared = viscorough.prepare(viscorough.Indenter(heights, 1.0), detrend="plane")
+    >>> bool(np.ptp(prepared.heights) < np.ptp(heights))
+    True
     """
     check_indenter("prepare", indenter)
     if detrend not in DETREND or fill not in FILL:

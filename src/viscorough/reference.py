@@ -36,10 +36,24 @@ COMPLETE_CONTACT_STIFFNESS = 1.0  # κ of the whole disc as a flat punch, k = 2E
 class PowerLawBody:
     """Body of revolution with the profile z = c rⁿ (Sneddon): u = κ_n c aⁿ, F = 2E*·n/(n+1)·u a, k = 2E*a.
 
-    coefficient : c > 0 [length^(1−n)]
-    exponent : n > 0; 1 is a cone, 2 a sphere (as a paraboloid)
+    Parameters
+    ----------
+    coefficient : float
+        c > 0 [length^(1−n)].
+    exponent : float
+        n > 0; 1 is a cone, 2 a sphere (as a paraboloid).
 
-    Raises ValueError unless both are finite and positive.
+    Raises
+    ------
+    ValueError
+        Unless both are finite and positive.
+
+    Examples
+    --------
+    >>> from viscorough import reference
+    >>> sphere = reference.sphere(radius=2.0)
+    >>> round(float(sphere.depth(sphere.force(0.1))), 12)
+    0.1
     """
 
     coefficient: float
@@ -88,13 +102,27 @@ class PowerLawBody:
 
 
 def sphere(radius: float) -> PowerLawBody:
-    """Sphere z = r²/(2R), R = `radius`: F = (4/3)E*√R u^(3/2), a = √(Ru) (Hertz)."""
+    """Sphere z = r²/(2R), R = `radius`: F = (4/3)E*√R u^(3/2), a = √(Ru) (Hertz).
+
+    Examples
+    --------
+    >>> from viscorough import reference
+    >>> round(float(reference.sphere(radius=1.0).contact_radius(0.01)), 12)  # √(Ru)
+    0.1
+    """
     positive("radius of a sphere", radius)
     return PowerLawBody(1 / (2 * radius), 2)
 
 
 def cone(slope: float) -> PowerLawBody:
-    """Cone z = r tanθ with `slope` = tanθ: F = 2E*u²/(π tanθ), u = (π/2) a tanθ (Love)."""
+    """Cone z = r tanθ with `slope` = tanθ: F = 2E*u²/(π tanθ), u = (π/2) a tanθ (Love).
+
+    Examples
+    --------
+    >>> from viscorough import reference
+    >>> round(float(reference.cone(slope=0.1).contact_radius(0.1)), 6)  # 2u/(π slope)
+    0.63662
+    """
     return PowerLawBody(slope, 1)
 
 
@@ -102,7 +130,18 @@ def flat_ellipse_stiffness(major: float, minor: float) -> float:
     """k/G [length] of a flat elliptical punch with semi-axes a = `major` ≥ b = `minor` (Johnson): k = πE*a/K(m).
 
     K is the complete elliptic integral of the first kind of parameter m = 1 − b²/a². The force is k u at every depth u.
-    Equal semi-axes give the flat disc, k = 2E*a. Raises ValueError unless major ≥ minor > 0 and both are finite.
+    Equal semi-axes give the flat disc, k = 2E*a.
+
+    Raises
+    ------
+    ValueError
+        Unless major ≥ minor > 0 and both are finite.
+
+    Examples
+    --------
+    >>> from viscorough import reference
+    >>> round(float(reference.flat_ellipse_stiffness(1.0, 1.0)), 6)  # a disc: 8a
+    8.0
     """
     if not np.all((np.asarray(minor) > 0) & (np.asarray(major) >= minor) & np.isfinite(major)):
         raise ValueError(f"semi-axes of an ellipse: {major}, {minor}; allowed: finite, major >= minor > 0")
@@ -110,7 +149,14 @@ def flat_ellipse_stiffness(major: float, minor: float) -> float:
 
 
 def flat_disc_stiffness(radius: float) -> float:
-    """k/G = 8a [length] of a flat disc of radius a; the force is k u at every depth u."""
+    """k/G = 8a [length] of a flat disc of radius a; the force is k u at every depth u.
+
+    Examples
+    --------
+    >>> from viscorough import reference
+    >>> float(reference.flat_disc_stiffness(1.0))
+    8.0
+    """
     return flat_ellipse_stiffness(radius, radius)
 
 
@@ -122,11 +168,30 @@ def sphere_approach_and_retreat(
 ) -> tuple[float, float]:
     """Force and contact radius of a sphere moved into a viscoelastic half-space and out again at one speed (Ting 1966).
 
-    The depth is vt up to the turning time t_m and v(2t_m − t) after it. While the contact grows, a² = Ru and
-    F = (16/3)√R ∫₀ᵗ ψ(t − s) d(u^(3/2)) (Lee and Radok 1960). While it recedes, a is that of the earlier time t₁ with
+    The depth is vt up to the turning time t_m and v(2t_m − t) after it. While the contact grows, a² = Ru and F =
+    (16/3)√R ∫₀ᵗ ψ(t − s) d(u^(3/2)) (Lee and Radok 1960). While it recedes, a is that of the earlier time t₁ with
     ∫_{t₁}^t ψ(t − s) u′(s) ds = 0, and the integral of the force ends there; contact ends when t₁ is 0.
 
-    time : t > 0, a number; relaxation : ψ(t) of the medium, a function. Returns (F, a), both 0 once contact has ended.
+    Parameters
+    ----------
+    time : float
+        t > 0.
+    radius, speed, turning_time : float
+        R, v and t_m.
+    relaxation : function
+        ψ(t) of the medium.
+
+    Returns
+    -------
+    tuple of float
+        F and a, both 0 once contact has ended.
+
+    Examples
+    --------
+    >>> from viscorough import reference
+    >>> force, radius = reference.sphere_approach_and_retreat(1.0, 1.0, 0.01, 2.0, lambda t: 1.0)
+    >>> round(float(radius), 12)  # √(Ru) with u = 0.01
+    0.1
     """
 
     def integral(duration: float) -> float:
@@ -147,44 +212,105 @@ def sphere_approach_and_retreat(
 
 
 def stiffness_law(x: Numbers, zeta: Numbers, alpha: Numbers) -> Numbers:
-    """κ = ζ X^α (Eq. 3)."""
+    """κ = ζ X^α (Eq. 3).
+
+    Examples
+    --------
+    >>> from viscorough import reference
+    >>> reference.stiffness_law(4.0, zeta=0.5, alpha=0.5)
+    1.0
+    """
     return zeta * x**alpha
 
 
 def zeta_elastic(hurst: Numbers) -> Numbers:
-    """ζ ≈ π(3 − H)/10, the paper's fit to elastic contact (Eq. 4)."""
+    """ζ ≈ π(3 − H)/10, the paper's fit to elastic contact (Eq. 4).
+
+    Examples
+    --------
+    >>> from viscorough import reference
+    >>> round(float(reference.zeta_elastic(0.5)), 4)
+    0.7854
+    """
     return np.pi * (3 - hurst) / 10
 
 
 def exponent_alpha(hurst: Numbers) -> Numbers:
-    """α = 1/(1 + H), which the paper states for H in (0.4, 1) (Eq. 5)."""
+    """α = 1/(1 + H), which the paper states for H in (0.4, 1) (Eq. 5).
+
+    Examples
+    --------
+    >>> from viscorough import reference
+    >>> reference.exponent_alpha(1.0)
+    0.5
+    """
     return 1 / (1 + hurst)
 
 
 def depth_law(x: Numbers, zeta: Numbers, alpha: Numbers, *, gamma: bool = False) -> Numbers:
-    """u/h = X^(1−α)/(ζ(1−α)) (Eq. 6); with `gamma` divided by Γ(2−α) (Eq. 8). Raises ValueError unless α < 1."""
+    """u/h = X^(1−α)/(ζ(1−α)) (Eq. 6); with `gamma` divided by Γ(2−α) (Eq. 8).
+
+    Raises
+    ------
+    ValueError
+        Unless α < 1.
+
+    Examples
+    --------
+    >>> from viscorough import reference
+    >>> reference.depth_law(4.0, zeta=0.5, alpha=0.5)
+    8.0
+    """
     if not np.all(np.asarray(alpha) < 1):
         raise ValueError(f"exponent alpha of the depth law: {alpha}; allowed: below 1")
     return velocity_law(x, zeta, alpha, gamma=gamma) / (1 - alpha)
 
 
 def velocity_law(x: Numbers, zeta: Numbers, alpha: Numbers, *, gamma: bool = False) -> Numbers:
-    """vt/h = X^(1−α)/ζ = X/κ (Eqs. 1 and 3); with `gamma` divided by Γ(2−α) (Eq. 9)."""
+    """vt/h = X^(1−α)/ζ = X/κ (Eqs. 1 and 3); with `gamma` divided by Γ(2−α) (Eq. 9).
+
+    Examples
+    --------
+    >>> from viscorough import reference
+    >>> reference.velocity_law(4.0, zeta=0.5, alpha=0.5)
+    4.0
+    """
     return x ** (1 - alpha) / (zeta * (gamma_function(2 - alpha) if gamma else 1))
 
 
 def exponent_beta(hurst: Numbers) -> Numbers:
-    """β = 1 − α = H/(1 + H) (Eq. 10)."""
+    """β = 1 − α = H/(1 + H) (Eq. 10).
+
+    Examples
+    --------
+    >>> from viscorough import reference
+    >>> reference.exponent_beta(1.0)
+    0.5
+    """
     return hurst / (1 + hurst)
 
 
 def zeta_viscous(hurst: Numbers) -> Numbers:
-    """ζ ≈ 2 − H, the paper's fit of the law with the factor 1/Γ(2−α) to viscous indentation (Eq. 11)."""
+    """ζ ≈ 2 − H, the paper's fit of the law with the factor 1/Γ(2−α) to viscous indentation (Eq. 11).
+
+    Examples
+    --------
+    >>> from viscorough import reference
+    >>> reference.zeta_viscous(0.5)
+    1.5
+    """
     return 2 - hurst
 
 
 def rate_law(x: Numbers, hurst: Numbers, *, gamma: bool = False) -> Numbers:
-    """vt/h with Eqs. 5 and 11 for α and ζ; with `gamma` this is Eq. 12, Γ(2−α) = Γ((1+2H)/(1+H))."""
+    """vt/h with Eqs. 5 and 11 for α and ζ; with `gamma` this is Eq. 12, Γ(2−α) = Γ((1+2H)/(1+H)).
+
+    Examples
+    --------
+    >>> from viscorough import reference
+    >>> reference.rate_law(4.0, hurst=1.0)
+    2.0
+    """
     return velocity_law(x, zeta_viscous(hurst), exponent_alpha(hurst), gamma=gamma)
 
 
@@ -192,6 +318,12 @@ def line_spectrum(wavenumber: Numbers, spectrum: Numbers, transfer: Numbers = np
     """C1D(q) = λ q C2D(q), the two-sided spectrum of the line that represents a surface; λ = `transfer` is π in Eq. 13.
 
     λ = π gives line and surface the same rms height; in general λ = π (h1D/h2D)².
+
+    Examples
+    --------
+    >>> from viscorough import reference
+    >>> round(float(reference.line_spectrum(2.0, 1.0)), 4)  # π q C2D
+    6.2832
     """
     return transfer * wavenumber * spectrum
 
@@ -200,6 +332,12 @@ def one_element_stiffness(elements_across: int) -> float:
     """κ while one square element is in contact (region a): π/(K₀₀ n), n elements across L; vt/h = X/κ has slope 1.
 
     A square of side d = L/n under uniform pressure p sinks by u = pd K₀₀/(πE*) at its centre.
+
+    Examples
+    --------
+    >>> from viscorough import reference
+    >>> round(float(reference.one_element_stiffness(11)), 3)
+    0.081
     """
     return np.pi / (UNIT_SQUARE_DEFLECTION * elements_across)
 

@@ -37,23 +37,50 @@ def self_affine_disc(
 ) -> Indenter:
     """Disc with n = `elements_across` elements across its diameter, cut from a periodic self-affine square.
 
-    hurst : Hurst exponent H, 0 to 1
-    elements_across : n, at least 3; 257 gives 51433 elements
-    rms : standard deviation h of the heights, exact in every realization [length]
-    diameter : L; the spacing is L/n [length]
-    period : of the square in diameters, at least 1, rounded to whole spacings; with 1 the disc spans the period, with
-        2 it is cut from a surface that repeats after two diameters
-    corners : whether waves in the corners of the Fourier square, beyond the Nyquist circle q = π/spacing, are present
-    roll_off_wavelength : longest wavelength of the power law, in diameters; longer waves have the spectral density at
-        this wavelength times `roll_off_level` (0: they are absent, 1: a plateau)
-    amplitudes : "random": complex Gaussian, so that the heights are a Gaussian process; "fixed": exactly the
-        square root of the spectrum, so that only the phases are random
-    rms_over : "disc" or "square": the points over which h is taken
-    length_unit : of rms and diameter, as in Indenter
-    seed : int or numpy SeedSequence; the same seed gives the same realization
+    Parameters
+    ----------
+    hurst : float
+        Hurst exponent H, 0 to 1.
+    elements_across : int, optional
+        n, at least 3; 257 gives 51433 elements.
+    rms : float, optional
+        Standard deviation h of the heights, exact in every realization [length].
+    diameter : float, optional
+        L; the spacing is L/n [length].
+    period : float, optional
+        Of the square in diameters, at least 1, rounded to whole spacings; with 1 the disc spans the period, with 2 it
+        is cut from a surface that repeats after two diameters.
+    corners : bool, optional
+        Whether waves in the corners of the Fourier square, beyond the Nyquist circle q = π/spacing, are present.
+    roll_off_wavelength, roll_off_level : float, optional
+        Longest wavelength of the power law, in diameters; longer waves have the spectral density at this wavelength
+        times `roll_off_level` (0: they are absent, 1: a plateau).
+    amplitudes : str, optional
+        "random": complex Gaussian, so that the heights are a Gaussian process; "fixed": exactly the square root of the
+        spectrum, so that only the phases are random.
+    rms_over : str, optional
+        "disc" or "square": the points over which h is taken.
+    length_unit : str, optional
+        Of rms and diameter, as in Indenter.
+    seed : int or SeedSequence
+        A number or a numpy SeedSequence; the same seed gives the same realization.
 
-    Returns an Indenter with heights of shape (n, n), nan outside the disc (see `cut_disc`).
-    Raises ValueError for values outside these ranges.
+    Returns
+    -------
+    Indenter
+        With heights of shape (n, n), nan outside the disc (see `cut_disc`).
+
+    Raises
+    ------
+    ValueError
+        For values outside these ranges.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> disc = viscorough.self_affine_disc(0.7, 33, rms=0.1, diameter=2.0, seed=1)
+    >>> disc.heights.shape, round(disc.spacing, 4)
+    ((33, 33), 0.0606)
     """
     n = spectrum.whole("elements_across", elements_across, at_least=3)
     rms, diameter, period = (
@@ -152,7 +179,30 @@ def cut_disc(square: Array, elements_across: int) -> Array:
     """Disc cut from the corner [:n, :n] of a map of heights, n = `elements_across`; shape (n, n), nan outside.
 
     An element belongs to the disc if x² + y² <= ((n-1)/2)², with x and y from the centre of the disc in spacings.
-    Raises ValueError if the map has fewer than n x n points.
+
+    Parameters
+    ----------
+    square : array
+        Heights, shape (m, m) [length].
+    elements_across : int
+        n, not above m.
+
+    Returns
+    -------
+    array
+        Heights of the disc, a copy.
+
+    Raises
+    ------
+    ValueError
+        If the map has fewer than n x n points.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscorough
+    >>> int(np.isfinite(viscorough.cut_disc(np.zeros((5, 5)), 5)).sum())
+    13
     """
     n = spectrum.whole("elements_across", elements_across, at_least=1)
     if square.ndim != 2 or min(square.shape) < n:
@@ -176,14 +226,36 @@ def self_affine_line(
 ) -> Indenter:
     """Periodic self-affine line, C1D ∝ q^(-(2H+1)): an indenter for the method of dimensionality reduction (MDR).
 
-    hurst, rms, amplitudes, seed : as in `self_affine_disc`
-    points : number of points per period, at least 2
-    length : L, which is also the period; the spacing is L/points [length]
-    roll_off_wavelength, roll_off_level : as in `self_affine_disc`, but the wavelength in units of the length
-    length_unit : of rms and length, as in Indenter
-    dtype : float32 or float64; the realization is the same up to rounding
+    Parameters
+    ----------
+    hurst, rms, amplitudes, seed : float or str or Seed
+        As in `self_affine_disc`.
+    points : int
+        Number of points per period, at least 2.
+    length : float, optional
+        L, which is also the period; the spacing is L/points [length].
+    roll_off_wavelength, roll_off_level : float or float, optional
+        As in `self_affine_disc`, but the wavelength in units of the length.
+    length_unit : str, optional
+        Of rms and length, as in Indenter.
+    dtype : DTypeLike, optional
+        Float32 or float64; the realization is the same up to rounding.
 
-    Returns an Indenter with heights of shape (points,) and mean 0. Raises ValueError for values outside these ranges.
+    Returns
+    -------
+    Indenter
+        With heights of shape (points,) and mean 0.
+
+    Raises
+    ------
+    ValueError
+        For values outside these ranges.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> viscorough.self_affine_line(0.7, 1000, rms=0.1, seed=1).heights.shape
+    (1000,)
     """
     lines = SelfAffineLines(
         hurst,

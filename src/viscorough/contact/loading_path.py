@@ -6,6 +6,8 @@ is straight, so that interpolation is exact. Later, levels are placed where inte
 (step_control).
 """
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -47,27 +49,57 @@ def indent(
     Solves w = (1/4πG) ∫ p/r dA with p ≥ 0, w ≥ u − g and p (w − u + g) = 0 for the initial gaps g of the indenter's
     elements (uniform pressure on square elements; Love 1929), at increasing depths u.
 
-    indenter : Indenter with two-dimensional heights
-    tolerance : largest gap in contact, or overlap outside it, over the depth, at every level, rounding included; the
-        relative error of the force there is of second order in it (measured: `make bench`, key curve, force_error).
-        Also the largest relative error of the depth interpolated between levels by LoadingCurve.at_force, down to 1e-5,
-        where neither depths nor forces are given. Between 1e-12 and 0.1
-    depths : levels at exactly these depths, increasing [length]; default: levels are placed as the tolerance requires
-    forces : levels at exactly these F/G, increasing [length²]; not together with depths
-    start_fraction : contact fraction from which on the curve is needed, below `until_fraction`; at smaller fractions it
-        has only a few levels, and interpolation between these is not held to the tolerance; ignored where depths or
-        forces are given
-    until_fraction : contact fraction at which to stop, in (0, 1]; ignored where depths or forces are given
-    until_force : F/G at which to stop [length²]; ignored where depths or forces are given
-    shear_modulus : G [Pa], or a text as "2 MPa"; forces are then F [N], or texts as "5 mN". Depths may be texts, too
-    progress : function that is called after a level with the estimated share of the computation that is done, up to 1
-    threads : of the processor on which a curve is computed; the result does not depend on them. Worth it for large maps
-    options : SolverOptions
+    Parameters
+    ----------
+    indenter : Indenter
+        Indenter with two-dimensional heights.
+    tolerance : float, optional
+        Largest gap in contact, or overlap outside it, over the depth, at every level, rounding included; the relative
+        error of the force there is of second order in it (measured: `make bench`, key curve, force_error). Also the
+        largest relative error of the depth interpolated between levels by LoadingCurve.at_force, down to 1e-5, where
+        neither depths nor forces are given. Between 1e-12 and 0.1.
+    depths : array_like, optional
+        Levels at exactly these depths, increasing [length]; default: levels are placed as the tolerance requires.
+    forces : array_like, optional
+        Levels at exactly these F/G, increasing [length²]; not together with depths.
+    start_fraction : float, optional
+        Contact fraction from which on the curve is needed, below `until_fraction`; at smaller fractions it has only a
+        few levels, and interpolation between these is not held to the tolerance; ignored where depths or forces are
+        given.
+    until_fraction : float, optional
+        Contact fraction at which to stop, in (0, 1]; ignored where depths or forces are given.
+    until_force : float or str, optional
+        F/G at which to stop [length²]; ignored where depths or forces are given.
+    shear_modulus : float or str, optional
+        G [Pa], or a text as "2 MPa"; forces are then F [N], or texts as "5 mN". Depths may be texts, too.
+    progress : Progress, optional
+        Function that is called after a level with the estimated share of the computation that is done, up to 1.
+    threads : int, optional
+        Of the processor on which a curve is computed; the result does not depend on them. Worth it for large maps.
+    options : SolverOptions, optional
+        SolverOptions.
 
-    Returns a LoadingCurve. The last level is the first one at or beyond `until_fraction` or `until_force`.
-    An indenter of one height has a single level, at a depth of one spacing (√(dx dy) for two): its curve is the
-    straight line from the origin through it.
-    Raises ValueError for arguments out of range, ConvergenceError if a level cannot be solved to the tolerance.
+    Returns
+    -------
+    LoadingCurve
+        The last level is the first one at or beyond `until_fraction` or `until_force`. An indenter of one height has a
+        single level, at a depth of one spacing (√(dx dy) for two): its curve is the straight line from the origin
+        through it.
+
+    Raises
+    ------
+    ValueError
+        For arguments out of range.
+    ConvergenceError
+        If a level cannot be solved to the tolerance.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> disc = viscorough.self_affine_disc(0.7, 17, rms=0.01, seed=1)
+    >>> curve = viscorough.indent(disc, depths=[0.005, 0.01])
+    >>> curve.depth.tolist(), bool(curve.force[0] < curve.force[1])
+    ([0.005, 0.01], True)
     """
     check_solvable("indent", indenter, tolerance, threads)
     if depths is not None and forces is not None:

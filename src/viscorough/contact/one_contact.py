@@ -1,5 +1,7 @@
 """The contact at a given depth or force, with its maps, without a loading curve."""
 
+from __future__ import annotations
+
 import warnings
 from collections.abc import Iterator
 from typing import Any
@@ -36,22 +38,49 @@ def contact_at(
 
     Solves the same problem as `indent`, at this depth only, or at the few depths that lead to the force.
 
-    indenter : Indenter with two-dimensional heights
-    depth : u, from first contact [length], or a text with a unit as "20 nm"; or several ones, increasing
-    force : F/G, G the shear modulus [length²]; with `shear_modulus` F [N], or a text with a unit as "5 mN"; or several
-        ones, increasing. Either depth or force must be given
-    shear_modulus : G [Pa], or a text as "2 MPa": E/4/(1 − ν²) of the half-space. If the unit of length is not known, it
-        is in consistent units
-    tolerance : largest gap in contact, or overlap outside it, over the depth, rounding included; the relative errors of
-        force at a given depth, and of depth at a given force, are of second order in it. Between 1e-12 and 0.1
-    progress : function that is called after a contact is solved with the estimated share of the computation that is
-        done, up to 1
-    threads : of the processor on which it is computed; the result does not depend on them. Worth it for large maps
-    options : SolverOptions
+    Parameters
+    ----------
+    indenter : Indenter
+        Indenter with two-dimensional heights.
+    depth : array_like, optional
+        u, from first contact [length], or a text with a unit as "20 nm"; or several ones, increasing.
+    force : array_like, optional
+        F/G, G the shear modulus [length²]; with `shear_modulus` F [N], or a text with a unit as "5 mN"; or several
+        ones, increasing. Either depth or force must be given.
+    shear_modulus : float or str, optional
+        G [Pa], or a text as "2 MPa": E/4/(1 − ν²) of the half-space. If the unit of length is not known, it is in
+        consistent units.
+    tolerance : float, optional
+        Largest gap in contact, or overlap outside it, over the depth, rounding included; the relative errors of force
+        at a given depth, and of depth at a given force, are of second order in it. Between 1e-12 and 0.1.
+    progress : Progress, optional
+        Function that is called after a contact is solved with the estimated share of the computation that is done, up
+        to 1.
+    threads : int, optional
+        Of the processor on which it is computed; the result does not depend on them. Worth it for large maps.
+    options : SolverOptions, optional
+        SolverOptions.
 
-    Returns a Contact; for several depths or forces a list of them, which are solved along one path. The pressures add
-    up to `force` to rounding.
-    Raises ValueError for arguments out of range, ConvergenceError if a contact cannot be solved to the tolerance.
+    Returns
+    -------
+    Contact or list[Contact]
+        Contact; for several depths or forces a list of them, which are solved along one path. The pressures add up to
+        `force` to rounding.
+
+    Raises
+    ------
+    ValueError
+        For arguments out of range.
+    ConvergenceError
+        If a contact cannot be solved to the tolerance.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> disc = viscorough.self_affine_disc(0.7, 17, rms=0.01, seed=1)
+    >>> contact = viscorough.contact_at(disc, force=0.005)
+    >>> round(contact.force, 6)
+    0.005
     """
     check_solvable("contact_at", indenter, tolerance, threads)
     if (depth is None) == (force is None):

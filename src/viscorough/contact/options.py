@@ -14,25 +14,48 @@ LATE = 0.5
 class SolverOptions:
     """Options of the contact solver. The defaults suit every indenter; other values serve to measure what a part gains.
 
-    precision : "single" or "double": floating-point type of the iterations on the grid. They compute corrections to the
-        predicted contact, so that rounding to single precision stays far below the tolerance
-    exact_gap_below : tolerance below which the gap is recomputed in double precision when the bound on its rounding
-        error nears the tolerance; 0: the gap is never recomputed
-    operator_rounding : bound on the rounding error of one application of the half-space operator, over the largest
-        deflection and the machine precision; 0: rounding is ignored
-    preconditioner : "multilevel": sparse approximate inverse with a multilevel coarse correction; "sparse": without the
-        correction; "none"
-    release_step : length of the first step of a level in which elements leave the contact, in units of the
-        preconditioned residual; later ones are a tenth longer. 0 for the weaker preconditioners, for which no fixed
-        length is suitable: elements then leave at steps of conjugate gradients
-    warm_start : "tangent": the iterations of a level start from P + Δu q of the level before; "pressure": from its P
-    max_iterations : iterations of one level after which ConvergenceError is raised
-    dense_contacts : elements in contact up to which a level is solved densely
-    dense_interactions : number of elements that can be in contact, times the number of those in contact at the level
-        before, up to which a level is solved densely
-    padding : whether the grid is padded against periodic images; without it the indenter has images at its own distance
+    Parameters
+    ----------
+    precision : str
+        "single" or "double": floating-point type of the iterations on the grid. They compute corrections to the
+        predicted contact, so that rounding to single precision stays far below the tolerance.
+    exact_gap_below : float
+        Tolerance below which the gap is recomputed in double precision when the bound on its rounding error nears the
+        tolerance; 0: the gap is never recomputed.
+    operator_rounding : float
+        Bound on the rounding error of one application of the half-space operator, over the largest deflection and the
+        machine precision; 0: rounding is ignored.
+    preconditioner : str
+        "multilevel": sparse approximate inverse with a multilevel coarse correction; "sparse": without the correction;
+        "none".
+    release_step : float
+        Length of the first step of a level in which elements leave the contact, in units of the preconditioned
+        residual; later ones are a tenth longer. 0 for the weaker preconditioners, for which no fixed length is
+        suitable: elements then leave at steps of conjugate gradients.
+    warm_start : str
+        "tangent": the iterations of a level start from P + Δu q of the level before; "pressure": from its P.
+    max_iterations : int
+        Iterations of one level after which ConvergenceError is raised.
+    dense_contacts : int
+        Elements in contact up to which a level is solved densely.
+    dense_interactions : int
+        Number of elements that can be in contact, times the number of those in contact at the level before, up to which
+        a level is solved densely.
+    padding : bool
+        Whether the grid is padded against periodic images; without it the indenter has images at its own distance.
 
-    Raises ValueError for other texts, for negative numbers, and for max_iterations below 1.
+    Raises
+    ------
+    ValueError
+        For other texts, for negative numbers, and for max_iterations below 1.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> disc = viscorough.self_affine_disc(0.7, 17, rms=0.01, seed=1)
+    >>> double = viscorough.SolverOptions(precision="double")
+    >>> viscorough.indent(disc, depths=[0.005], options=double).depth.tolist()
+    [0.005]
     """
 
     precision: str = "single"

@@ -35,20 +35,44 @@ def read_heights(
 ) -> Indenter:
     """Read a map of heights as an Indenter: the highest point touches first, points that are nan lie outside it.
 
-    path : .npy, NetCDF (.nc), text (.txt, .csv, .asc, .dat, .tsv, .xyz: a matrix, an ESRI grid, or columns x, y, z),
-        (Geo)TIFF, or a format of an instrument, for which SurfaceTopography must be installed
-        (pip install 'viscorough[formats]')
-    spacing : distance between neighbouring points, or (dx, dy): from column to column, from row to row; in the unit of
-        the heights. Needed where the file states none
-    unit : unit of length of the heights, where the file states none, such as "um"
-    channel : name or number (from 0) of the map to read, where a file holds several; by default the variable `heights`
-        of a NetCDF file, and the first channel of heights of an instrument's file
-    scale : what the numbers in a file without a unit are multiplied with, as "0.053 nm" per count of a detector
-    preparation : keyword arguments of viscorough.prepare
-
     Rows are along y and columns along x, in the order of the file; columns of x, y, z in increasing order. Values that
     the file marks as missing are nan. Gives an AccuracyWarning for each of the doubts that viscorough.preparation has
-    about the prepared map. Raises a one-line ValueError that names the file, what is wrong and what is needed.
+    about the prepared map.
+
+    Parameters
+    ----------
+    path : path
+        .npy, NetCDF (.nc), text (.txt, .csv, .asc, .dat, .tsv, .xyz: a matrix, an ESRI grid, or columns x, y, z),
+        (Geo)TIFF, or a format of an instrument, for which SurfaceTopography must be installed (pip install
+        'viscorough[formats]').
+    spacing : Distance or Spacing, optional
+        Distance between neighbouring points, or (dx, dy): from column to column, from row to row; in the unit of the
+        heights. Needed where the file states none.
+    unit : str, optional
+        Unit of length of the heights, where the file states none, such as "um".
+    channel : str, optional
+        Name or number (from 0) of the map to read, where a file holds several; by default the variable `heights` of a
+        NetCDF file, and the first channel of heights of an instrument's file.
+    scale : float or str or units.Quantity, optional
+        What the numbers in a file without a unit are multiplied with, as "0.053 nm" per count of a detector.
+    preparation : Any
+        Keyword arguments of viscorough.prepare.
+
+    Raises
+    ------
+    ValueError
+        That names the file, what is wrong and what is needed.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import numpy as np
+    >>> import viscorough
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     np.save(f"{folder}/heights.npy", np.random.default_rng(1).normal(size=(8, 8)))
+    ...     surface = viscorough.read_heights(f"{folder}/heights.npy", 0.5, unit="um")
+    >>> surface.heights.shape, surface.spacing, surface.length_unit
+    ((8, 8), 0.5, 'um')
     """
     try:
         given = None if spacing is None else _pair(spacing)

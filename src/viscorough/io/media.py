@@ -40,7 +40,33 @@ def read_medium(path: FilePath, length_unit: str = "1") -> Medium:
     """The medium in a YAML file, which holds one mapping as `medium_from_mapping` takes it.
 
     The file of a creep table is relative to the YAML file.
-    Raises a one-line ValueError that names the file and what is wrong.
+
+    Parameters
+    ----------
+    path : path
+        The YAML file.
+    length_unit : str, optional
+        Of the indenter; where it is known, values are converted to Pa and s.
+
+    Returns
+    -------
+    Medium
+
+    Raises
+    ------
+    ValueError
+        In one line, with the file and what is wrong.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import viscorough
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     with open(f"{folder}/medium.yaml", "w") as file:
+    ...         _ = file.write("{kind: maxwell, shear_modulus: 2, viscosity: 5}")
+    ...     medium = viscorough.read_medium(f"{folder}/medium.yaml")
+    >>> medium
+    Maxwell(shear_modulus=2.0, viscosity=5.0)
     """
     mapping = _mapping(path)
     try:
@@ -77,9 +103,36 @@ def save_identified(identified: IdentifiedMedium, path: FilePath, **attributes: 
     """Write an IdentifiedMedium as YAML for `read_medium`, atomically; of a creep table, J stands in a table beside it.
 
     The table, with the suffix .csv, has the columns time, compliance, and the ends of its interval, low and high.
-    attributes : what else the table says above its columns
 
-    Raises ValueError for a path that is not .yaml or cannot be written, OSError if writing fails.
+    Parameters
+    ----------
+    identified : IdentifiedMedium
+        What `identify_medium` returned.
+    path : path
+        File to write or replace.
+    **attributes : Any
+        What else the table says above its columns.
+
+    Raises
+    ------
+    ValueError
+        For a path that is not .yaml or cannot be written.
+    OSError
+        If writing fails.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import numpy as np
+    >>> import viscorough
+    >>> curve = viscorough.indent(viscorough.self_affine_disc(0.8, 17, rms=1e-6, diameter=1e-4, seed=1))
+    >>> record = viscorough.kinetics(curve, 5e-6, 1e6, np.geomspace(0.1, 100, 50))
+    >>> identified = viscorough.identify_medium(curve, 5e-6, record.time, record.depth)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     viscorough.save_identified(identified, f"{folder}/medium.yaml")
+    ...     medium = viscorough.read_medium(f"{folder}/medium.yaml")
+    >>> type(medium).__name__
+    'CreepTable'
     """
     path, medium, table = Path(path), identified.medium, check_medium_file(path)
     (kind,) = (kind for kind, (make, _) in KINDS.items() if make is type(medium))

@@ -96,9 +96,28 @@ def estimate_to_content(estimate: Estimate, length_unit: str = "1") -> Content:
 def read_force_history(path: FilePath, length_unit: str = "1") -> ForceHistory:
     """The ForceHistory in a file of two columns, times and forces: .csv or .npy (io.columns.read_columns).
 
-    length_unit : of the indenter. If it is known, numbers are converted to s and N from the units that a heading states
+    Parameters
+    ----------
+    path : path
+        A .csv or .npy file of two columns.
+    length_unit : str, optional
+        Of the indenter. If it is known, numbers are converted to s and N from the units that a heading states.
 
-    Raises a one-line ValueError that names the file and what is wrong.
+    Raises
+    ------
+    ValueError
+        In one line, with the file and what is wrong.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import viscorough
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     with open(f"{folder}/ramp.csv", "w") as file:
+    ...         _ = file.write("t,F\\n0,0\\n2,1\\n")
+    ...     history = viscorough.read_force_history(f"{folder}/ramp.csv")
+    >>> history.impulse.tolist()
+    [0.0, 1.0]
     """
     times, force = read_columns(path, "a force history", {"time": "s", "force": "N"}, length_unit)
     try:

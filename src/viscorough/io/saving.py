@@ -14,7 +14,30 @@ from viscorough.viscous.correspondence import Kinetics
 def save_curve(curve: LoadingCurve, path: FilePath) -> None:
     """Write a loading curve as NetCDF, or as a table if the name ends in .csv; atomically.
 
-    Raises ValueError for a path that cannot be written, OSError if writing fails.
+    Parameters
+    ----------
+    curve : LoadingCurve
+        The curve.
+    path : path
+        File to write or replace.
+
+    Raises
+    ------
+    ValueError
+        For a path that cannot be written.
+    OSError
+        If writing fails.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> disc = viscorough.self_affine_disc(0.7, 17, rms=0.01, seed=1)
+    >>> curve = viscorough.indent(disc)
+    >>> import os, tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     viscorough.save_curve(curve, f"{folder}/curve.csv")
+    ...     os.listdir(folder)
+    ['curve.csv']
     """
     write_content(curve_to_content(curve), path)
 
@@ -22,7 +45,31 @@ def save_curve(curve: LoadingCurve, path: FilePath) -> None:
 def load_curve(path: FilePath) -> LoadingCurve:
     """Read the loading curve in a file of `save_curve` or of the command viscorough indent.
 
-    Raises a one-line ValueError if the file is missing or damaged or holds no loading curve.
+    Parameters
+    ----------
+    path : path
+        A NetCDF file, or a table (.csv).
+
+    Returns
+    -------
+    LoadingCurve
+
+    Raises
+    ------
+    ValueError
+        In one line, if the file is missing or damaged or holds no loading curve.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> disc = viscorough.self_affine_disc(0.7, 17, rms=0.01, seed=1)
+    >>> curve = viscorough.indent(disc)
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     viscorough.save_curve(curve, f"{folder}/curve.nc")
+    ...     loaded = viscorough.load_curve(f"{folder}/curve.nc")
+    >>> bool((loaded.force == curve.force).all())
+    True
     """
     content = (tables if tables.is_table(path) else netcdf).read(path)
     try:
@@ -34,7 +81,30 @@ def load_curve(path: FilePath) -> LoadingCurve:
 def save_heights(indenter: Indenter, path: FilePath) -> None:
     """Write the heights of an indenter as NetCDF, with its spacing and unit of length, for `read_heights`; atomically.
 
-    Raises ValueError for a path that cannot be written, OSError if writing fails.
+    Parameters
+    ----------
+    indenter : Indenter
+        A map, or a line.
+    path : path
+        File to write or replace.
+
+    Raises
+    ------
+    ValueError
+        For a path that cannot be written.
+    OSError
+        If writing fails.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> disc = viscorough.self_affine_disc(0.7, 17, rms=0.01, seed=1)
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     viscorough.save_heights(disc, f"{folder}/disc.nc")
+    ...     loaded = viscorough.read_heights(f"{folder}/disc.nc")
+    >>> loaded.elements == disc.elements
+    True
     """
     write_content(surface_to_content(indenter), path)
 

@@ -30,12 +30,31 @@ def surface_to_content(indenter: Indenter) -> Content:
 def read_line(path: FilePath, spacing: Distance | None = None, unit: str | None = None) -> Indenter:
     """Read the heights of a line as an Indenter, for the method of dimensionality reduction (mdr.reduce).
 
-    path : .npy of shape (points,), or .nc with a variable `heights` of one dimension, or only one such variable
-    spacing : distance between neighbouring points, a number in the unit of the heights or a viscorough.units.Quantity;
-        by default that of the coordinate in a NetCDF file
-    unit : unit of length of the heights, where the file states none, such as "um"
+    Parameters
+    ----------
+    path : path
+        .npy of shape (points,), or .nc with a variable `heights` of one dimension, or only one such variable.
+    spacing : Distance, optional
+        Distance between neighbouring points, a number in the unit of the heights or a viscorough.units.Quantity; by
+        default that of the coordinate in a NetCDF file.
+    unit : str, optional
+        Unit of length of the heights, where the file states none, such as "um".
 
-    Raises a one-line ValueError that names the file and what is wrong.
+    Raises
+    ------
+    ValueError
+        In one line, with the file and what is wrong.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import numpy as np
+    >>> import viscorough
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     np.save(f"{folder}/line.npy", np.random.default_rng(1).normal(size=64))
+    ...     line = viscorough.read_line(f"{folder}/line.npy", 0.5)
+    >>> line.heights.shape
+    (64,)
     """
     scan = Scan(npy_array(path)) if Path(path).suffix == ".npy" else _scan_of_netcdf(path)
     if scan.heights.dtype.kind not in "iuf" or scan.heights.ndim != 1:

@@ -68,9 +68,21 @@ class Kinetics(ReadOnlyArrays, Summarised):
 class ForceHistory(NamedTuple):
     """A force over time, linear between samples, and its integral; read-only arrays of shape (samples,).
 
-    times : t, increasing, or the same in two samples: a step from one force to the other
-    force : F(t) ≥ 0
-    impulse : ∫F dt up to t
+    Attributes
+    ----------
+    times : array
+        t, increasing, or the same in two samples: a step from one force to the other.
+    force : array
+        F(t) ≥ 0.
+    impulse : array
+        ∫F dt up to t.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> history = viscorough.impulses([0.0, 1.0], [0.0, 2.0])  # a ramp
+    >>> history.impulse.tolist()
+    [0.0, 1.0]
     """
 
     times: np.ndarray
@@ -83,24 +95,45 @@ def kinetics(
 ) -> Kinetics:
     """Depth and velocity of an indenter with the given loading curve in a linear viscoelastic half-space.
 
-    curve : LoadingCurve of the indenter
-    force : a number, the constant force F > 0 applied at t = 0; or samples F ≥ 0 of shape (times,), linear in between,
+    Parameters
+    ----------
+    curve : LoadingCurve
+        LoadingCurve of the indenter.
+    force : array_like or ForceHistory
+        a number, the constant force F > 0 applied at t = 0; or samples F ≥ 0 of shape (times,), linear in between,
         applied from times[0] on, with a time given twice where the force steps; or a ForceHistory (`impulses`), whose
         samples need not be those of `times`. Forces are in N, or texts with a unit as "5 mN", if the curve's unit of
-        length is known
-    medium : Medium, as viscorough.Maxwell, or the viscosity η > 0 of a Newtonian one; in Pa, s and Pa s, or a text as
-        "2 kPa s", if the curve's unit of length is known, else in units such that F·t/η, or F over a modulus, is a
-        length²
-    times : increasing, and not negative if the force is constant; the default, for a constant force only, is a hundred
+        length is known.
+    medium : Medium or float or str
+        Medium, as viscorough.Maxwell, or the viscosity η > 0 of a Newtonian one; in Pa, s and Pa s, or a text as "2 kPa
+        s", if the curve's unit of length is known, else in units such that F·t/η, or F over a modulus, is a length².
+    times : array_like, optional
+        Increasing, and not negative if the force is constant; the default, for a constant force only, is a hundred
         times at equal ratios from the curve's first level to its last, or until the creep has all but ended; in a
-        medium that springs at once after time 0
+        medium that springs at once after time 0.
 
-    Returns Kinetics at `times`. The velocity is that just after each time; at the last time of a history and before a
-    step, that before it. Where an elastic medium steps, the velocity is that of the creep alone; it is infinite in a
-    Springpot. Between its levels the curve is interpolated (LoadingCurve.at_force); before its first level, where that
-    is not possible, the result is nan.
-    Raises ValueError for values outside these ranges, for a force beyond the curve's last level, and, with the time,
-    where the creep decreases and the contact would recede.
+    Returns
+    -------
+    Kinetics
+        At `times`. The velocity is that just after each time; at the last time of a history and before a step, that
+        before it. Where an elastic medium steps, the velocity is that of the creep alone; it is infinite in a
+        Springpot. Between its levels the curve is interpolated (LoadingCurve.at_force); before its first level, where
+        that is not possible, the result is nan.
+
+    Raises
+    ------
+    ValueError
+        For values outside these ranges, for a force beyond the curve's last level, and, with the time, where the creep
+        decreases and the contact would recede.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> disc = viscorough.self_affine_disc(0.7, 17, rms=0.01, seed=1)
+    >>> curve = viscorough.indent(disc)
+    >>> motion = viscorough.kinetics(curve, force=1.0, medium=30.0, times=[0.5, 1.0])
+    >>> bool(motion.depth[0] < motion.depth[1]), bool(motion.velocity[0] > motion.velocity[1])
+    (True, True)
     """
     medium = medium_of(medium, curve.length_unit)
     if times is None and isinstance(force, ForceHistory):
@@ -210,11 +243,24 @@ def resampled(force: ForceHistory | Any, times: ArrayLike) -> tuple[ForceHistory
 def impulses(force: Any, times: ArrayLike) -> ForceHistory:
     """The ForceHistory of a force F(t) ≥ 0 at the given times.
 
-    force : a constant F > 0 from t = 0 on, or samples of shape (times,), linear in between, from times[0] on
-    times : strictly increasing; those of samples may be given twice, where the force steps
+    Parameters
+    ----------
+    force : Any
+        a constant F > 0 from t = 0 on, or samples of shape (times,), linear in between, from times[0] on.
+    times : array_like
+        Strictly increasing; those of samples may be given twice, where the force steps.
 
-    Raises ValueError for values outside these ranges: under a negative force the contact would open, which the
-    correspondence excludes.
+    Raises
+    ------
+    ValueError
+        For values outside these ranges: under a negative force the contact would open, which the correspondence
+        excludes.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> viscorough.impulses(2.0, [0.0, 1.0, 3.0]).impulse.tolist()
+    [0.0, 2.0, 6.0]
     """
     constant = np.ndim(force) == 0
     times = increasing("times", times, steps=None if constant else "the force")

@@ -42,13 +42,31 @@ _TRIALS, _CLOSE = 8, 0.02  # for an end of an interval: of its distance from the
 class IdentifiedMedium(ReadOnlyArrays, Summarised):
     """A medium identified from a record of depth over time, as `identify_medium` returns it.
 
-    medium : the Medium of the kind that was asked for
-    time : 0 and the times at which J was determined, shape (times,)
-    compliance : J there, of the table, whichever kind was fitted
-    low, high : ends of the interval of J at each time at the level of 95 %, from the scatter of the record; before its
-        first row from 0 on
-    scatter : standard deviation of the measured depth about that of the table [length]
-    length_unit : of the depth; if it is known, moduli are in Pa and times in s
+    Attributes
+    ----------
+    medium : Medium
+        Of the kind that was asked for.
+    time : array
+        0 and the times at which J was determined, shape (times,).
+    compliance : array
+        J there, of the table, whichever kind was fitted.
+    low, high : array
+        Ends of the interval of J at each time at the level of 95 %, from the scatter of the record; before its first
+        row from 0 on.
+    scatter : float
+        Standard deviation of the measured depth about that of the table [length].
+    length_unit : str
+        Of the depth; if it is known, moduli are in Pa and times in s.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import viscorough
+    >>> curve = viscorough.indent(viscorough.self_affine_disc(0.8, 17, rms=1e-6, diameter=1e-4, seed=1))
+    >>> record = viscorough.kinetics(curve, 5e-6, 1e6, np.geomspace(0.1, 100, 50))
+    >>> identified = viscorough.identify_medium(curve, 5e-6, record.time, record.depth)
+    >>> bool((identified.low <= identified.compliance).all())
+    True
     """
 
     medium: Medium
@@ -80,19 +98,34 @@ def identify_medium(
 ) -> IdentifiedMedium:
     """The medium of a half-space from the measured depth of an indenter with the given loading curve.
 
-    curve : LoadingCurve of the indenter, to the largest depth of the record
-    force : as of `kinetics`: the constant force applied at time 0, samples at `times`, or a ForceHistory
-    times, depth : the record, shape (rows,); times increase. The scatter of the depth is taken for independent from row
-        to row and of one size
-    kind : "table": a CreepTable, the concave J that fits best; "prony" or "springpot": that medium, fitted by least
-        squares in depth
+    Parameters
+    ----------
+    curve : LoadingCurve
+        LoadingCurve of the indenter, to the largest depth of the record.
+    force : array_like or ForceHistory
+        As of `kinetics`: the constant force applied at time 0, samples at `times`, or a ForceHistory.
+    times, depth : array_like
+        The record, shape (rows,); times increase. The scatter of the depth is taken for independent from row to row and
+        of one size.
+    kind : str, optional
+        "table": a CreepTable, the concave J that fits best; "prony" or "springpot": that medium, fitted by least
+        squares in depth.
 
-    Returns IdentifiedMedium, in Pa and s if the curve's unit of length is known. The interval of J at a time holds all
-    values for which the best fit with that value is not significantly worse than the best of all (profile likelihood,
-    95 %), among the concave J and among all that do not decrease.
-    Raises ValueError for a record of fewer than five rows, or that leaves the curve, or whose depth recedes by more
-    than its scatter explains, and for a kind that the record does not determine.
+    Returns
+    -------
+    IdentifiedMedium
+        , in Pa and s if the curve's unit of length is known. The interval of J at a time holds all values for which the
+        best fit with that value is not significantly worse than the best of all (profile likelihood, 95 %), among the
+        concave J and among all that do not decrease.
 
+    Raises
+    ------
+    ValueError
+        For a record of fewer than five rows, or that leaves the curve, or whose depth recedes by more than its scatter
+        explains, and for a kind that the record does not determine.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from viscorough import identify_medium, indent, kinetics, self_affine_disc
     >>> curve = indent(self_affine_disc(0.8, 17, rms=1e-6, diameter=1e-4, seed=1))

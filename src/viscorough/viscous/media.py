@@ -93,7 +93,16 @@ class _Exponential(Medium):
 class Newtonian(_Exponential):
     """A linearly viscous medium, that of the paper: J = t/η, ψ = η δ(t).
 
-    viscosity : η. Raises ValueError unless it is a finite number above 0.
+    Parameters
+    ----------
+    viscosity : float
+        η. Raises ValueError unless it is a finite number above 0.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> float(viscorough.Newtonian(viscosity=5.0).creep_compliance(10.0))
+    2.0
     """
 
     viscosity: float
@@ -121,7 +130,18 @@ class _SpringAndDashpot(_Exponential):
 class Maxwell(_SpringAndDashpot):
     """A spring and a dashpot in series: J = 1/G + t/η, ψ = G exp(−t/τ), τ = η/G.
 
-    shear_modulus : G; viscosity : η. Raises ValueError unless both are finite numbers above 0.
+    Parameters
+    ----------
+    shear_modulus
+        G.
+    viscosity
+        η. Raises ValueError unless both are finite numbers above 0.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> float(viscorough.Maxwell(shear_modulus=2.0, viscosity=5.0).creep_compliance(10.0))
+    2.5
     """
 
     @cached_property
@@ -136,7 +156,18 @@ class Maxwell(_SpringAndDashpot):
 class KelvinVoigt(_SpringAndDashpot):
     """A spring and a dashpot side by side: J = (1 − exp(−t/θ))/G, θ = η/G, ψ = G + η δ(t).
 
-    shear_modulus : G; viscosity : η. Raises ValueError unless both are finite numbers above 0.
+    Parameters
+    ----------
+    shear_modulus
+        G.
+    viscosity
+        η. Raises ValueError unless both are finite numbers above 0.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> viscorough.KelvinVoigt(shear_modulus=2.0, viscosity=5.0).retardation.times.tolist()
+    [2.5]
     """
 
     @cached_property
@@ -152,8 +183,26 @@ class KelvinVoigt(_SpringAndDashpot):
 class StandardLinearSolid(_Exponential):
     """J = 1/G∞ − (1/G∞ − 1/G₀) exp(−t/θ), θ = τ G₀/G∞; ψ = G∞ + (G₀ − G∞) exp(−t/τ).
 
-    instantaneous_modulus : G₀; relaxed_modulus : G∞ < G₀; relaxation_time : τ
-    Raises ValueError unless all are finite numbers above 0 and G∞ < G₀.
+    Parameters
+    ----------
+    instantaneous_modulus : float
+        G₀.
+    relaxed_modulus : float
+        G∞ < G₀.
+    relaxation_time : float
+        τ.
+
+    Raises
+    ------
+    ValueError
+        Unless all are finite numbers above 0 and G∞ < G₀.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> solid = viscorough.StandardLinearSolid(4.0, 1.0, relaxation_time=0.5)
+    >>> float(solid.creep_compliance(0.0)), solid.retardation.times.tolist()
+    (0.25, [2.0])
     """
 
     instantaneous_modulus: float
@@ -187,9 +236,26 @@ class StandardLinearSolid(_Exponential):
 class Prony(_Exponential):
     """A Prony series: ψ = G∞ + Σ G_i exp(−t/τ_i); J from the zeros of its relaxance, exactly.
 
-    relaxed_modulus : G∞ ≥ 0, 0 for a medium that flows; moduli : G_i > 0; relaxation_times : τ_i > 0, in any order
+    Parameters
+    ----------
+    relaxed_modulus : float
+        G∞ ≥ 0, 0 for a medium that flows.
+    moduli : tuple[float, ...]
+        G_i > 0.
+    relaxation_times : tuple[float, ...]
+        τ_i > 0, in any order.
 
-    Raises ValueError for values outside these ranges, and unless there are as many times as moduli, at least one.
+    Raises
+    ------
+    ValueError
+        For values outside these ranges, and unless there are as many times as moduli, at least one.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> medium = viscorough.Prony(1.0, moduli=[2.0, 3.0], relaxation_times=[0.1, 10.0])
+    >>> float(medium.relaxation.instantaneous_modulus)
+    6.0
     """
 
     relaxed_modulus: float
@@ -230,8 +296,23 @@ class Prony(_Exponential):
 class Springpot(Medium):
     """Creep by a power law: J = t^a/(K Γ(1+a)), ψ = K t^(−a)/Γ(1−a).
 
-    modulus : K [modulus · time^a]; exponent : a
-    Raises ValueError unless K is a finite number above 0 and 0 < a < 1.
+    Parameters
+    ----------
+    modulus : float
+        K [modulus · time^a].
+    exponent : float
+        a.
+
+    Raises
+    ------
+    ValueError
+        Unless K is a finite number above 0 and 0 < a < 1.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> round(float(viscorough.Springpot(modulus=1.0, exponent=0.5).creep_compliance(4.0)), 4)
+    2.2568
     """
 
     modulus: float
@@ -276,11 +357,25 @@ class Springpot(Medium):
 class CreepTable(ReadOnlyArrays, Medium):
     """A measured creep compliance, linear between its points.
 
-    times : 0 and increasing; compliances : J at these times, J(0+) first; arrays of shape (points,), copied
+    Parameters
+    ----------
+    times : array
+        0 and increasing.
+    compliances : array
+        J at these times, J(0+) first; arrays of shape (points,), copied.
 
-    Raises ValueError unless there are two points, all are finite and J is 0 or more, does not decrease and is concave,
-    as the compliance of every passive medium is: noise has to be smoothed first. Beyond its last point nothing is
-    known.
+    Raises
+    ------
+    ValueError
+        Unless there are two points, all are finite and J is 0 or more, does not decrease and is concave, as the
+        compliance of every passive medium is: noise has to be smoothed first. Beyond its last point nothing is known.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> table = viscorough.CreepTable([0.0, 1.0, 10.0], [0.2, 0.5, 0.9])
+    >>> float(table.creep_compliance(1.0))
+    0.5
     """
 
     times: np.ndarray

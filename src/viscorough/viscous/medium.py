@@ -44,6 +44,14 @@ class Medium(ABC):
 
     A subclass gives J, its rate and its integral. Where its ψ or its spectra are known it gives those as well: ψ is
     what prescribed depths and pressures need, discrete spectra are what direct integration needs.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> isinstance(viscorough.Maxwell(2.0, 5.0), viscorough.Medium)
+    True
+    >>> viscorough.Springpot(1.0, 0.5).relaxation is None  # no springs and dashpots
+    True
     """
 
     @property

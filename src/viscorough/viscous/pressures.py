@@ -29,17 +29,41 @@ def pressure_at(
 ) -> Array:
     """Pressure p on an indenter in a viscoelastic half-space at one time, in Pa or the unit of the moduli.
 
-    indenter : Indenter with two-dimensional heights; medium : as in kinetics, but no CreepTable, whose ψ is not known
-    force : a number, the constant force F > 0 from t = 0 on; or a ForceHistory
-    time : t, within the history; where the force steps, p is that after the step
-    contacts : number of elastic contacts between the start of the force and t, besides those at its samples. Between
-        them pressures are taken as linear in time: the error is of second order in 1/contacts. Media with a parallel
-        dashpot (Newtonian, Kelvin-Voigt) need the contact at t alone, and have no such error
-    tolerance : of the elastic contacts
+    Parameters
+    ----------
+    indenter : Indenter
+        Indenter with two-dimensional heights.
+    medium : Medium or float or str
+        As in kinetics, but no CreepTable, whose ψ is not known.
+    force : float or str or ForceHistory
+        a number, the constant force F > 0 from t = 0 on; or a ForceHistory.
+    time : float
+        t, within the history; where the force steps, p is that after the step.
+    contacts : int, optional
+        Number of elastic contacts between the start of the force and t, besides those at its samples. Between them
+        pressures are taken as linear in time: the error is of second order in 1/contacts. Media with a parallel dashpot
+        (Newtonian, Kelvin-Voigt) need the contact at t alone, and have no such error.
+    tolerance : float, optional
+        Of the elastic contacts.
 
-    Returns a map of the shape of the heights, nan outside the indenter; its sum times the area of an element is F(t) up
-    to the error in time, so that this shows its size. Raises ValueError for arguments out of range and, with the time,
-    where the contact would recede.
+    Returns
+    -------
+    array
+        Map of the shape of the heights, nan outside the indenter; its sum times the area of an element is F(t) up to
+        the error in time, so that this shows its size.
+
+    Raises
+    ------
+    ValueError
+        For arguments out of range and, with the time, where the contact would recede.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> disc = viscorough.self_affine_disc(0.7, 17, rms=0.01, seed=1)
+    >>> pressure = viscorough.pressure_at(disc, 30.0, force=1.0, time=2.0)
+    >>> pressure.shape
+    (17, 17)
     """
     medium = medium_of(medium, indenter.length_unit)
     check_solvable("pressure_at", indenter, tolerance)

@@ -35,15 +35,38 @@ class DepthHistory(NamedTuple):
 def force_under_depth(curve: LoadingCurve, depth: ArrayLike, medium: Medium | float, times: ArrayLike) -> DepthHistory:
     """Force on an indenter that is moved to given depths in a viscoelastic half-space.
 
-    curve : LoadingCurve of the indenter; medium : as in kinetics, but no CreepTable, whose ψ is not known
-    times, depth : shape (times,), u ≥ 0 and not decreasing, linear in between, and u = 0 before times[0]; a time given
-        twice is a step, which a Newtonian or Kelvin-Voigt medium does not allow, as its force would be infinite
+    Parameters
+    ----------
+    curve : LoadingCurve
+        LoadingCurve of the indenter.
+    medium : Medium or float
+        As in kinetics, but no CreepTable, whose ψ is not known.
+    times, depth : array_like
+        Shape (times,), u ≥ 0 and not decreasing, linear in between, and u = 0 before times[0]; a time given twice is a
+        step, which a Newtonian or Kelvin-Voigt medium does not allow, as its force would be infinite.
 
-    Returns DepthHistory. Exact for steps and holds, and where the curve is exact between its levels (it is linear there
-    as long as every level adds one element); elsewhere of second order in the distance between levels. At a step the
-    force is its limit from either side, in a Springpot infinite. In a dashpot the force is that just after each time,
-    and just before the last one.
-    Raises ValueError for arguments out of range and for depths beyond the curve's last level.
+    Returns
+    -------
+    DepthHistory
+        Exact for steps and holds, and where the curve is exact between its levels (it is linear there as long as every
+        level adds one element); elsewhere of second order in the distance between levels. At a step the force is its
+        limit from either side, in a Springpot infinite. In a dashpot the force is that just after each time, and just
+        before the last one.
+
+    Raises
+    ------
+    ValueError
+        For arguments out of range and for depths beyond the curve's last level.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> disc = viscorough.self_affine_disc(0.7, 17, rms=0.01, seed=1)
+    >>> curve = viscorough.indent(disc)
+    >>> solid = viscorough.StandardLinearSolid(4.0, 1.0, 0.5)
+    >>> held = viscorough.force_under_depth(curve, [0.01, 0.01, 0.01], solid, [0.0, 1.0, 100.0])
+    >>> round(float(held.force[0] / held.force[-1]), 6)  # it relaxes from one modulus to the other
+    4.0
     """
     medium, area = medium_of(medium, curve.length_unit), units.square_metres(curve.length_unit)
     times, depth = _depth_samples(curve, depth, times)

@@ -58,12 +58,34 @@ def march_events(indenter: Indenter, *, until_fraction: float = 1.0) -> Events:
     surface is integrated as the response to the pressure impulse. Only elements that can touch next are evaluated: no
     gap closes faster than the indenter moves.
 
-    indenter : Indenter with two-dimensional heights
-    until_fraction : contact fraction at which to stop, in (0, 1]
+    Parameters
+    ----------
+    indenter : Indenter
+        Indenter with two-dimensional heights.
+    until_fraction : float, optional
+        Contact fraction at which to stop, in (0, 1].
 
-    Returns Events. Memory is 8 (until_fraction · elements)² bytes, time of third order in the elements in contact.
-    Raises ValueError for arguments out of range, MemoryError if that memory is not available, ConvergenceError if an
-    element comes under tension: contact could then open, which it cannot without adhesion and with F ≥ 0.
+    Returns
+    -------
+    Events
+        Memory is 8 (until_fraction · elements)² bytes, time of third order in the elements in contact.
+
+    Raises
+    ------
+    ValueError
+        For arguments out of range.
+    MemoryError
+        If that memory is not available.
+    ConvergenceError
+        If an element comes under tension: contact could then open, which it cannot without adhesion and with F ≥ 0.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> disc = viscorough.self_affine_disc(0.7, 17, rms=0.01, seed=1)
+    >>> events = viscorough.march_events(disc, until_fraction=0.1)
+    >>> int(events.contact_count[-1])
+    20
     """
     elements = elements_of_map(indenter, "march_events")
     if not 0 < until_fraction <= 1:

@@ -52,12 +52,34 @@ def march_medium_events(
 ) -> MediumEvents:
     """Motion of a rigid indenter on a viscoelastic half-space while the contact grows, exact between contact events.
 
-    indenter, medium, times, force, depth, progress : as of march_medium
-    until_fraction : contact fraction up to which there is room for elements, in (0, 1]
+    Parameters
+    ----------
+    indenter, medium, times, force, depth, progress
+        As of march_medium.
+    until_fraction : float, optional
+        Contact fraction up to which there is room for elements, in (0, 1].
 
-    Returns MediumEvents. Raises ValueError for arguments out of range, and with the time from which on the contact
-    recedes (march_medium goes on there); ConvergenceError if more elements touch than until_fraction allows or one of
-    them comes under tension; MemoryError if 8 (until_fraction · elements)² bytes are not available.
+    Returns
+    -------
+    MediumEvents
+
+    Raises
+    ------
+    ValueError
+        For arguments out of range, and with the time from which on the contact recedes (march_medium goes on there).
+    ConvergenceError
+        If more elements touch than until_fraction allows or one of them comes under tension.
+    MemoryError
+        If 8 (until_fraction · elements)² bytes are not available.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> disc = viscorough.self_affine_disc(0.7, 9, rms=0.01, seed=1)
+    >>> solid = viscorough.StandardLinearSolid(4.0, 1.0, 0.5)
+    >>> motion = viscorough.march_medium_events(disc, solid, [0.0, 1.0], force=[0.001, 0.001])
+    >>> bool(motion.depth[0] < motion.depth[1])
+    True
     """
     if not 0 < until_fraction <= 1:
         raise ValueError(f"march_medium_events: until_fraction must lie in (0, 1], not {until_fraction!r}")

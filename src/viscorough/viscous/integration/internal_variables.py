@@ -68,16 +68,43 @@ def march_medium(
     move linearly within a step; a parallel dashpot (Newtonian, Kelvin-Voigt) exactly for pressures that are constant
     within it. Both keep pressures positive where the exact ones are, and neither needs short steps to be stable.
 
-    indenter : Indenter with a small two-dimensional map: the cost is of third order in the elements in contact
-    medium : Medium of springs and dashpots (no Springpot, no CreepTable), or the viscosity of a Newtonian one
-    times : ends of the steps, increasing; a time given twice is a step of the load
-    force, depth : one of them, a load at these times, of shape (times,), F ≥ 0 and linear in between; before times[0]
-        there is none, so that its first value is a step. A force may decrease, and so may a depth: the contact recedes.
-        Forces are in N and moduli in Pa if the unit of length is known
-    progress : function that is called at each of the times with the share of them that is done
+    Parameters
+    ----------
+    indenter : Indenter
+        Indenter with a small two-dimensional map: the cost is of third order in the elements in contact.
+    medium : Medium or float
+        Medium of springs and dashpots (no Springpot, no CreepTable), or the viscosity of a Newtonian one.
+    times : array_like
+        Ends of the steps, increasing; a time given twice is a step of the load.
+    force, depth : array_like, optional
+        One of them, a load at these times, of shape (times,), F ≥ 0 and linear in between; before times[0] there is
+        none, so that its first value is a step. A force may decrease, and so may a depth: the contact recedes. Forces
+        are in N and moduli in Pa if the unit of length is known.
+    scheme : str, optional
+        "second_order" or "backward_euler".
+    progress : Progress, optional
+        Function that is called at each of the times with the share of them that is done.
 
-    Returns MediumMotion. Raises ValueError for arguments out of range, ConvergenceError if a contact problem is not
-    solved, MemoryError if the elements in contact are too many for the memory.
+    Returns
+    -------
+    MediumMotion
+
+    Raises
+    ------
+    ValueError
+        For arguments out of range.
+    ConvergenceError
+        If a contact problem is not solved.
+    MemoryError
+        If the elements in contact are too many for the memory.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> disc = viscorough.self_affine_disc(0.7, 17, rms=0.01, seed=1)
+    >>> motion = viscorough.march_medium(disc, 30.0, [0.0, 1.0, 2.0], force=[1.0, 1.0, 1.0])
+    >>> bool(motion.depth[1] < motion.depth[2])
+    True
     """
     if scheme not in MEDIUM_SCHEMES:
         raise ValueError(f"march_medium: scheme must be one of {', '.join(MEDIUM_SCHEMES)}, not {scheme!r}")

@@ -71,16 +71,45 @@ def march_steps(
     in its current shape: ΔP ≥ 0, e + KΔP − Δu ≥ 0 and one of them zero, with 4π d ΣΔP the impulse of the step. It is
     exact for steps of any size, because contact only grows.
 
-    indenter : Indenter with two-dimensional heights
-    impulses : ∫F dt/η at the ends of the steps, positive and increasing [length²]; the first step starts at zero
-    scheme : one of SCHEMES
-    overlap : explicit steps are divided so that no element is predicted to overlap the surface by more than this share
-        of the depth
-    tolerance : residual of the contact problems, as in indent
-    progress : function that is called at each of the impulses with the share of them that is done
+    Parameters
+    ----------
+    indenter : Indenter
+        Indenter with two-dimensional heights.
+    impulses : array_like
+        ∫F dt/η at the ends of the steps, positive and increasing [length²]; the first step starts at zero.
+    scheme : str, optional
+        One of SCHEMES.
+    overlap : float, optional
+        Explicit steps are divided so that no element is predicted to overlap the surface by more than this share of the
+        depth.
+    tolerance : float, optional
+        Residual of the contact problems, as in indent.
+    progress : Progress, optional
+        Function that is called at each of the impulses with the share of them that is done.
 
-    Returns Steps. Warns (AccuracyWarning) where the indenter overlaps the surface by more than 1 % of the depth.
-    Raises ValueError for arguments out of range, ConvergenceError if a contact problem is not solved.
+    Returns
+    -------
+    Steps
+
+    Raises
+    ------
+    ValueError
+        For arguments out of range.
+    ConvergenceError
+        If a contact problem is not solved.
+
+    Warns
+    -----
+    AccuracyWarning
+        Where the indenter overlaps the surface by more than 1 % of the depth.
+
+    Examples
+    --------
+    >>> import viscorough
+    >>> disc = viscorough.self_affine_disc(0.7, 17, rms=0.01, seed=1)
+    >>> steps = viscorough.march_steps(disc, [0.01, 0.02], scheme="implicit")
+    >>> bool(steps.depth[0] < steps.depth[1])
+    True
     """
     if indenter.heights.ndim != 2:
         raise ValueError("march_steps: the indenter's heights must be two-dimensional")

@@ -1,0 +1,40 @@
+"""Docstrings of the public names: the parameters of the signature, and examples that run."""
+
+import doctest
+import inspect
+import pydoc
+import re
+
+import pytest
+
+import viscorough
+from viscorough import reference
+
+FORMULAS = {name for name, item in vars(reference).items() if getattr(item, "__module__", "") == reference.__name__}
+PUBLIC = {name: getattr(viscorough, name) for name in viscorough.__all__ if name != "reference"}
+PUBLIC |= {f"reference.{name}": getattr(reference, name) for name in FORMULAS if not name.startswith("_")}
+
+
+@pytest.mark.parametrize("name", PUBLIC)
+def test_examples_run(name):
+    (test,) = (each for each in doctest.DocTestFinder(recurse=False).find(PUBLIC[name], name))
+    assert test.examples, "no example"
+    report = []
+    assert doctest.DocTestRunner().run(test, out=report.append).failed == 0, "".join(report)
+
+
+@pytest.mark.parametrize("name", [name for name, item in PUBLIC.items() if inspect.isfunction(item)])
+def test_parameters_are_those_of_the_signature(name):
+    """Formulas that take what their one line names need no section."""
+    text = inspect.getdoc(PUBLIC[name])
+    if "reference." in name and "Parameters\n" not in text:
+        return
+    section = text.split("Parameters\n----------\n")[1].split("\n\n")[0]
+    described = {
+        each for line in re.findall(r"^\**(\w.*?)(?: :.*)?$", section, re.MULTILINE) for each in line.split(", ")
+    }
+    assert described == set(inspect.signature(PUBLIC[name]).parameters)
+
+
+def test_help_of_indent_fits_a_screen_and_a_half():
+    assert len(pydoc.render_doc(viscorough.indent).splitlines()) <= 75

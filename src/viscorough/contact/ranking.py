@@ -38,7 +38,8 @@ class Ranking:
         if self._count < inside.size:
             bounds = [np.flatnonzero(inside.any(axis=axis))[[0, -1]] for axis in (1, 0)]
             self._origin = int(bounds[0][0]), int(bounds[1][0])
-            self._shape = tuple(int(last - first) + 1 for first, last in bounds)
+            rows, columns = (int(last - first) + 1 for first, last in bounds)
+            self._shape = rows, columns
 
     def first(self, depth: float) -> Elements:
         """The Elements up to a reduced depth, or as many as are ranked in no time; infinite where it is not known."""

@@ -8,6 +8,7 @@ stiffness and P + Δu q the predictor for the depth u + Δu.
 
 import warnings
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -191,7 +192,11 @@ class ContactSolver:
                 load = load * self.units.length
                 sparse_loads.add_deflection(part, *place, load, aspect=elements.aspect, threads=self.threads)
             else:
-                how = {"aspect": elements.aspect, "padding": self.options.padding, "threads": self.threads}
+                how: dict[str, Any] = {
+                    "aspect": elements.aspect,
+                    "padding": self.options.padding,
+                    "threads": self.threads,
+                }
                 # Dense solutions are exact to the rounding of double precision.
                 exact = contact.fields is None or self.tolerance < self.options.exact_gap_below
                 halfspace = Halfspace(rows, columns, np.float64 if exact else np.float32, **how)

@@ -78,8 +78,8 @@ def _smooth_kernel(row: Array, column: Array, sides: tuple[float, float], sigma:
 def _convolve(coarse: Array, sides: tuple[float, float], sigma: float) -> Array:
     """Convolution with S of loads on the coarse grid."""
     lengths = [2 * ducc0.fft.good_size(n, True) for n in coarse.shape]
-    distances = [_STRIDE * np.arange(length // 2 + 1.0) for length in lengths]
-    spectrum = _smooth_kernel(*distances, sides, sigma)
+    row, column = (_STRIDE * np.arange(length // 2 + 1.0) for length in lengths)
+    spectrum = _smooth_kernel(row, column, sides, sigma)
     ducc0.fft.dct(spectrum, axes=[0, 1], type=1, out=spectrum)
     spectrum /= np.prod(lengths)
     rows, columns = coarse.shape

@@ -197,17 +197,23 @@ def _map(figure: Figure, axes: Axes, variables: Variables, name: str, values: Ar
         extent += [position[0] - step / 2, position[-1] + step / 2]
     left, right, top, bottom = extent  # the first row is at the top
     look: dict[str, Any] = {"extent": [left, right, bottom, top], "cmap": _COLOURS[name]}
-    label = _label_of(variables, name)
+    title = name
     if name == "contact":
         look |= {"vmin": 0, "vmax": 1}
     if name == "pressure" and (values > 0).any():
         look["vmax"] = np.percentile(values[values > 0], _PERCENTILE)
-        label += f", colours up to the {_PERCENTILE}th percentile"
+        title += f", colours to the {_PERCENTILE}th percentile"
     image = axes.imshow(values, origin="upper", **look)
     axes.set_facecolor("0.85")
     if name != "contact":
-        figure.colorbar(image, ax=axes, label=label, shrink=0.85, extend="max" if name == "pressure" else "neither")
-    _label(axes, _axis_label(variables, x), _axis_label(variables, y), name)
+        figure.colorbar(
+            image,
+            ax=axes,
+            label=_label_of(variables, name),
+            shrink=0.85,
+            extend="max" if name == "pressure" else "neither",
+        )
+    _label(axes, _axis_label(variables, x), _axis_label(variables, y), title)
 
 
 def _positions(variables: Variables, dimension: str, points: int) -> tuple[NDArray[Any], float]:

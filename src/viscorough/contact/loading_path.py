@@ -119,13 +119,13 @@ def indent(
     if depths is not None:
         depths = np.atleast_1d(units.numbers(depths, unit, unit, "depths"))
         depths = increasing("indent: depths", depths, above_zero=True)
-        solver = ContactSolver(indenter, tolerance, options, threads, largest_depth=depths[-1])
+        solver = ContactSolver(indenter, tolerance, options, threads, largest_depth=depths[-1], whole=False)
         levels = _levels_at_depths(solver, depths, progress)
     elif forces is not None:
         forces = np.atleast_1d(units.forces_over_modulus(forces, shear_modulus, unit, "forces"))
         forces = increasing("indent: forces", forces, above_zero=True)
         # The correction to the force takes the other half of the tolerance.
-        solver = ContactSolver(indenter, tolerance / 2, options, threads)
+        solver = ContactSolver(indenter, tolerance / 2, options, threads, whole=False)
         levels = _levels_at_forces(solver, forces, progress)
     else:
         solver = ContactSolver(indenter, tolerance, options, threads)

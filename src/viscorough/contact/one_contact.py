@@ -96,8 +96,8 @@ def contact_at(
         given = units.forces_over_modulus(force, shear_modulus, unit, "force")
     values = increasing(f"contact_at: {'depth' if by_depth else 'force'}", np.atleast_1d(given), above_zero=True)
     # Pressures that add up to the force exactly take the other half of the tolerance.
-    most = {"largest_depth": float(values[-1])} if by_depth else {}
-    solver = ContactSolver(indenter, tolerance / 2, options, threads, **most)
+    most: dict[str, Any] = {"largest_depth": float(values[-1])} if by_depth else {}
+    solver = ContactSolver(indenter, tolerance / 2, options, threads, whole=False, **most)
     progress = progress or (lambda done: None)
     states = _states_at_depths(solver, values) if by_depth else _states_at_forces(solver, values, progress)
     contacts = []

@@ -15,7 +15,7 @@ import numpy as np
 from viscorough.contact import dense
 from viscorough.contact.dense import ContactEvents
 from viscorough.contact.grid.loops import GridLoops
-from viscorough.contact.grid.memory_demand import require_for_contact
+from viscorough.contact.grid.memory_demand import require_for_box, require_for_contact
 from viscorough.contact.grid.solver import GridSolver
 from viscorough.contact.halfspace import sparse_loads
 from viscorough.contact.halfspace.operator import Halfspace
@@ -69,6 +69,8 @@ class ContactSolver:
     options : SolverOptions
     threads : on which contacts on the grid are computed
     largest_depth : the largest depth that will be requested, where it is known: no grid allows for more [length]
+    whole : whether the whole map will be in contact, so that the memory must suffice for it; else it must for boxes
+        around the elements that can touch, as they are needed
 
     elements, units : state.Elements and state.Units of the indenter
 
@@ -83,8 +85,11 @@ class ContactSolver:
         threads: int = 1,
         *,
         largest_depth: float = np.inf,
+        whole: bool = True,
     ) -> None:
-        require_for_contact(indenter.heights, exact=tolerance < options.exact_gap_below, threads=threads)
+        self._of_memory = {"exact": tolerance < options.exact_gap_below, "threads": threads}
+        if whole:
+            require_for_contact(indenter.heights, **self._of_memory)
         self._indenter, self._ranking = indenter, Ranking(indenter, threads)
         self.units = self._ranking.units
         self.tolerance, self.options, self.threads, self._loops = tolerance, options, threads, GridLoops(threads)
@@ -253,6 +258,7 @@ class ContactSolver:
                 return self._grid
             self._former_applications = self.operator_applications
             self._grid = None  # its memory is free for the larger one
+            require_for_box(self._indenter.heights, box, **self._of_memory)
             if reach == self.elements.count:
                 self.elements.free_influence()  # contacts on the whole grid need no dense solutions
             self._grid = GridSolver(

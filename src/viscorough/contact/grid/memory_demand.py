@@ -41,6 +41,11 @@ def require_for_contact(heights: Array, *, exact: bool, threads: int = 1) -> Non
     memory.require(needed, f"contact of a map of {heights.shape} heights")
 
 
+def require_for_box(heights: Array, box: tuple[int, ...], *, exact: bool, threads: int = 1) -> None:
+    """The same for the contact in a box: (first row, first column, rows, columns); the elements exist already."""
+    memory.require(_of_grid(*box[2:], exact=exact, threads=threads), f"contact of a map of {heights.shape} heights")
+
+
 def _of_grid(rows: int, columns: int, *, exact: bool, threads: int) -> float:
     """Bytes of a grid solver, its operators, and the contacts on its grid."""
     rows, columns = sorted((int(rows), int(columns)))

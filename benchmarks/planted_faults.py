@@ -1,6 +1,6 @@
 """Plant faults in copies of the project, one at a time, and count how many the tests catch.
 
-    python benchmarks/planted_faults.py --output results/planted_faults.json [--only NAME ...]
+    python benchmarks/planted_faults.py --output results/planted_faults.json [--only NAME ...] [--tests TEST ...]
 
 The faults are those of planted_faults.yaml beside this file: a text that stands exactly once in a file, what it is
 replaced with, the tests to run, and why it matters. A fault is caught if one of its tests fails; first of all, every
@@ -14,7 +14,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import click
@@ -137,8 +137,9 @@ def outcome(fault, clean, folder, time_limit):
 @click.command(help=__doc__.splitlines()[0])
 @output_option
 @click.option("--only", multiple=True, help="Name of a fault; may be given more than once  [default: all].")
-def main(output, only):
-    faults = [fault for fault in read_faults() if not only or fault.name in only]
+@click.option("--tests", multiple=True, help="Test to run instead of those of each fault; repeatable.")
+def main(output, only, tests):
+    faults = [replace(fault, tests=tests or fault.tests) for fault in read_faults() if not only or fault.name in only]
     if unknown := set(only) - {fault.name for fault in faults}:
         raise click.UsageError(f"no fault has the name {', '.join(sorted(unknown))}")
     if lines := [line for fault in faults for line in problems(fault)]:

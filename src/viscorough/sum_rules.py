@@ -25,6 +25,7 @@ from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.preconditioner.multilevel import REACH, Preconditioner
 from viscorough.contact.ranking import elements_of
 from viscorough.contact.state import Elements
+from viscorough.contact.step_control import FINEST_ACCURACY
 from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
 from viscorough.loading_curve import LoadingCurve
@@ -142,12 +143,14 @@ class Audit(Summarised):
     complete : CompleteContact of the indenter
     curve : LoadingCurve with the added levels
     rules : SumRules of this curve
+    interpolation_error : largest relative error of the depth that was interpolated without the added levels, at these
     """
 
     tolerance: float
     complete: CompleteContact
     curve: LoadingCurve
     rules: SumRules
+    interpolation_error: float
 
     @property
     def is_accurate(self) -> bool:
@@ -155,14 +158,25 @@ class Audit(Summarised):
         return self.rules.error <= self.tolerance
 
     @property
+    def is_interpolated(self) -> bool:
+        """Whether the depth between levels was as accurate as `indent` promises."""
+        return self.interpolation_error <= max(self.curve.tolerance, FINEST_ACCURACY)
+
+    @property
     def agrees(self) -> bool:
-        """Whether the estimated error, and all deviations from the exact integrals, are within the tolerance."""
-        return self.is_accurate and self.rules.largest_deviation <= self.tolerance
+        """Whether estimated error and all deviations from the exact integrals are within the tolerance, and the
+        interpolated depth is as accurate as promised.
+        """
+        return self.is_accurate and self.rules.largest_deviation <= self.tolerance and self.is_interpolated
 
     def _summary(self) -> Summary:
         """Verdict; exact value, deviations and estimated error of both integrals; what the curve lacks."""
-        curve, verdict = self.curve, "agree" if self.agrees else "do not agree"
+        curve = self.curve
+        is_right = self.is_accurate and self.rules.largest_deviation <= self.tolerance
+        verdict = "agree" if is_right else "do not agree"
         title = f"Audit over {curve.depth.size} levels: both integrals {verdict} to {self.tolerance:g}"
+        if not self.is_interpolated:
+            title += f", and depths between levels are off by {self.interpolation_error:.1e}"
         integrals = ("mean gap", self.rules.first, 1), ("energy U/G", self.rules.second, 3)
         lines = [
             [
@@ -365,10 +379,12 @@ def audit(
     how: dict[str, Any] = {"tolerance": contact_tolerance, "threads": threads, "options": options}
     complete = complete_contact(indenter, threads)
     until_force = min(until_force, (1 + _STRAIGHT) * complete.force or np.inf)
-    curve = indent(indenter, until_fraction=until_fraction, until_force=until_force, **how)
+    plain = curve = indent(indenter, until_fraction=until_fraction, until_force=until_force, **how)
     rules = integrals(curve, complete)
     for number in range(_MAX_ROUNDS):
-        if rules.error <= tolerance or (depths := _depths_to_add(curve, rules, tolerance)).size == 0:
+        # A few levels are added in any case, unless the curve is exact: at them it is seen whether interpolation holds.
+        allowed, enough = (tolerance, tolerance) if number else (min(tolerance, rules.error / 2), _STRAIGHT)
+        if rules.error <= enough or (depths := _depths_to_add(curve, rules, allowed)).size == 0:
             break
         progress((number + 1) / _MAX_ROUNDS)
         try:
@@ -376,7 +392,9 @@ def audit(
         except ValueError:
             break  # the added levels contradict the others, so that the estimated error remains
         rules = integrals(curve, complete)
-    return Audit(tolerance, complete, curve, rules)
+    between = curve.force > plain.force[0]
+    interpolated = plain.at_force(curve.force[between])[0] / curve.depth[between]
+    return Audit(tolerance, complete, curve, rules, abs(interpolated - 1).max(initial=0.0))
 
 
 def _depths_to_add(curve: LoadingCurve, rules: SumRules, allowed: float) -> Array:

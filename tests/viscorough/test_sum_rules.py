@@ -69,13 +69,16 @@ def test_solution_on_the_grid_is_that_of_the_dense_matrix(aspect):
     np.testing.assert_allclose([end.mean_gap, end.energy, end.stiffness, end.depth], exact, rtol=1e-10)
 
 
-@pytest.mark.parametrize(("tolerance", "levels"), [(1e-3, 600), (2e-4, 1000)])
-def test_audit_on_the_grid_adds_levels_until_both_integrals_are_known(tolerance, levels):
-    result = audit(self_affine_disc(0.6, 49, seed=1), tolerance=tolerance)
+@pytest.mark.parametrize(
+    ("hurst", "across", "tolerance", "levels"), [(0.2, 65, 1e-3, 600), (0.6, 49, 1e-3, 600), (0.6, 49, 2e-4, 1000)]
+)
+def test_audit_on_the_grid_adds_levels_until_both_integrals_are_known(hurst, across, tolerance, levels):
+    disc = self_affine_disc(hurst, across, seed=1)
+    result = audit(disc, tolerance=tolerance)
     assert result.agrees
     assert abs(result.rules.first.deviations["last level"]) < 1e-7
     assert result.curve.depth.size < levels
-    plain = integrals(indent(self_affine_disc(0.6, 49, seed=1), until_fraction=1.0), result.complete)
+    plain = integrals(indent(disc, until_fraction=1.0), result.complete)
     assert plain.largest_deviation > 5 * result.rules.largest_deviation
 
 

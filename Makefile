@@ -116,6 +116,7 @@ speed: settings
 stability: settings
 	$(SNAKEMAKE) -- stability
 	$(BIN)/python benchmarks/campaign.py --output results/campaign.json
+	$(BIN)/python benchmarks/sum_rules.py --output results/sum_rules.json
 
 sizes: settings
 	$(SNAKEMAKE) -- sizes

@@ -2,11 +2,11 @@
 
     python benchmarks/chaos.py --kills 60 --seed 1 --output results/chaos.json
 
-A run of the small settings, which starts without results, is disturbed after a random time: half of the times all of it
-is killed (SIGKILL), a quarter of the times one of its jobs is, and a quarter of the times it is interrupted (SIGINT to
-its group, as by Ctrl-C). The same command is then given again, and nothing else (config/README.md, Interrupted runs),
-until it finishes. Its figures, tables, ensembles and curves must then equal those of an undisturbed run to the last
-byte. Of what contains measured times, such as logs and the page, only names must agree.
+A run of the small settings, which starts without results, is disturbed after a random time: in half of the cases the
+whole run is killed (SIGKILL), in a quarter one of its jobs, and in a quarter the run is interrupted (SIGINT to its
+group, as by Ctrl-C). The same command alone is then repeated (config/README.md, Interrupted runs) until it finishes.
+Its figures, tables, ensembles and curves must then equal those of an undisturbed run to the last byte. Of files with
+measured times, such as logs and the page, only names must agree.
 """
 
 import contextlib
@@ -177,7 +177,7 @@ def undisturbed(folder):
 
 
 def chaos(folder, kills, seed):
-    """Runs with so many kills in total, as a dictionary for the file."""
+    """Runs with `kills` kills in total, as a dictionary for the file."""
     copy_project(folder)
     wanted, seconds = undisturbed(folder)  # compiles what is not in numba's caches
     again, seconds = undisturbed(folder)

@@ -6,15 +6,15 @@ Each file is made from a known map, spacing and unit (text_files.py, point_files
 viscorough.read_heights; a few are curves, force histories and creep tables (column_files.py). It must be read exactly,
 with nan where points are missing, or be refused by a ValueError of one line that names the file, and the line where the
 fault is in a line of text. Everything else is wrong: another number, spacing or unit, a missing point that is dropped,
-another error, a warning other than AccuracyWarning, anything printed, a file that takes too long. Files that hold no
-single map, or contradict themselves, must be refused.
+another error, a warning other than AccuracyWarning, printed text, a file that takes too long. Files that do not hold a
+single map, or are contradictory, must be refused.
 
-A file is marked *unambiguous* if its variations are ordinary and leave one meaning to a person who reads it: numbers
-in rows of equal length, one of the usual delimiters and decimal marks that cannot be confused with each other, the
-usual marks of missing points, comments behind #, %, // or in words, and headers that name one quantity a line with its
-unit, as common programs write them. Those must be read; their refusals are counted apart, and are failures, too.
+A file is marked *unambiguous* if its variations are ordinary and a human reader would give it one meaning: numbers in
+rows of equal length, one of the usual delimiters and decimal marks that cannot be confused with each other, the usual
+marks of missing points, comments after #, %, // or as text, and headers that name one quantity per line with its unit,
+as common programs write them. These must be read; their refusals are counted separately, and also are failures.
 
-`--only I --keep FOLDER` repeats one file of a seed and leaves it in the folder; --keep alone keeps all that failed.
+`--only I --keep FOLDER` repeats one file of a seed and leaves it in the folder; --keep alone keeps all failed files.
 """
 
 import contextlib

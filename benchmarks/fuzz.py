@@ -2,10 +2,10 @@
 
     python benchmarks/fuzz.py --runs 10000 --output results/fuzz.json
 
-Every run ends in one of two ways. Either the exit code is 0, the output file can be read and holds finite
-numbers, and standard error holds nothing but warnings of one line; or the exit code is 1 or 2, standard error holds one
-line, standard output nothing, and no file was made or changed, so that no code in a file was run either. `make fuzz`
-runs it. A failure is printed with the command that repeats it.
+The contract allows two ends of a run. Either the exit code is 0, the output file can be read and holds finite numbers,
+and standard error holds only warnings of one line; or the exit code is 1 or 2, standard error holds one line, standard
+output is empty, and no file was made or changed, which also shows that no code in a file was run. `make fuzz` runs it.
+A failure is printed with the command that repeats it.
 """
 
 import contextlib

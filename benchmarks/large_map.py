@@ -19,7 +19,7 @@ UNTIL_FRACTION = 0.5
 
 
 def measured(repeats, points=POINTS):
-    """{question: cost of its answer}"""
+    """{"curve", "contact": cost}"""
     surface = Indenter(self_affine_square(HURST, points, seed=SEED), 1 / points)
     questions = {
         "curve": lambda: indent(surface, tolerance=TOLERANCE, until_fraction=UNTIL_FRACTION).contact_fraction[-1],

@@ -2,14 +2,14 @@
 
     python benchmarks/members.py --output results/members.json
 
-Discs of the first combination of every Hurst exponent are indented as the workflow does, from their seeds to κ at the
-abscissae of the ensemble, with `discs.tolerance` and `discs.whole_curves` of the settings. They take turns with whole
+Discs of the first combination of every Hurst exponent are indented as in the workflow, from their seeds to κ at the
+abscissae of the ensemble, with `discs.tolerance` and `discs.whole_curves` of the settings. They alternate with whole
 curves by `viscorough.indent` of the same discs at its default tolerance. `--repeats` is the number of discs. Keys, for
-each Hurst exponent: `member_s` and `curve_s`, the means of the processor time of both, `ratio` their quotient; the root
-mean squares over X, up to `discs.short_until_x`, of `mean_error`, the change of the mean of ln(vt/h) over these discs
-by the tolerance, of `disc_error`, the same of a single disc, of its `scatter` over the discs, and of `standard_error`,
-that of the mean over as many discs as the settings have for a Hurst exponent; and `beta_error`, the change of the
-mean's slope over `WINDOW`.
+each Hurst exponent: `member_s` and `curve_s`, the means of the processor time of both, and `ratio`, their quotient; the
+root mean squares over X, up to `discs.short_until_x`, of `mean_error`, the change of the mean of ln(vt/h) over these
+discs by the tolerance, of `disc_error`, the same for a single disc, of its `scatter` over the discs, and of
+`standard_error`, that of the mean over as many discs as the settings have for a Hurst exponent; and `beta_error`, the
+change of the mean's slope over `WINDOW`.
 """
 
 from pathlib import Path

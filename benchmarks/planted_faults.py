@@ -2,9 +2,9 @@
 
     python benchmarks/planted_faults.py --output results/planted_faults.json [--only NAME ...] [--tests TEST ...]
 
-The faults are those of planted_faults.yaml beside this file: a text that stands exactly once in a file, what it is
-replaced with, the tests to run, and why it matters. A fault is caught if one of its tests fails; first of all, every
-test must pass without any fault. The working tree is never changed.
+The faults are those of planted_faults.yaml in this folder: a text that occurs exactly once in a file, its replacement,
+the tests to run, and the consequence of the fault. A fault is caught if one of its tests fails; before that, every test
+must pass without any fault. The working tree is never changed.
 """
 
 import os
@@ -45,7 +45,7 @@ def read_faults(path=FAULTS):
     faults = [Fault(**fields) for fields in yaml.safe_load(path.read_text(encoding="utf-8"))]
     names = [fault.name for fault in faults]
     if repeated := {name for name in names if names.count(name) > 1}:
-        raise ValueError(f"{path}: these names stand twice: {', '.join(sorted(repeated))}")
+        raise ValueError(f"{path}: these names are repeated: {', '.join(sorted(repeated))}")
     return faults
 
 
@@ -54,9 +54,9 @@ def problems(fault, root=ROOT):
     file, lines = root / fault.file, []
     count = file.read_text(encoding="utf-8").count(fault.old) if file.is_file() else 0
     if count != 1:
-        lines.append(f"{fault.name}: the old text stands {count} times in {fault.file}, it must stand there once")
+        lines.append(f"{fault.name}: the old text occurs {count} times in {fault.file}; it must occur once")
     if not isinstance(fault.new, str):
-        lines.append(f"{fault.name}: the new text is {fault.new!r}, no text; it must stand in quotes")
+        lines.append(f"{fault.name}: the new text is {fault.new!r}, not text; quotes are needed")
     if fault.old == fault.new:
         lines.append(f"{fault.name}: the new text is the old one")
     for test in fault.tests:

@@ -4,9 +4,9 @@
 
 Every command (`make paper`, `make speed`, ...) has its own figures and tables, which are copied into docs/results/ with
 their origin. Name the commands whose results are in the folder: some of the files also exist at a smaller scale. Those
-of paper include the verdicts and the calibrated law, those of reproduce verdicts, cost and Figure 2 of the default run;
-seeds and resampled have how the verdicts depend on the seed, and on the surfaces drawn. Without results
-(`--pages-only`) only the tables in README.md and docs/ are written, from what was published before and from the
+of paper include the verdicts and the calibrated law, those of reproduce verdicts, cost and Figure 2 of the default run,
+those of seeds and resampled the dependence of the verdicts on the seed and on the surfaces drawn. Without results
+(`--pages-only`) only the tables in README.md and docs/ are written, from the last published results and from the
 statements in resources/paper/claims.yaml. The workflow writes only into results/.
 """
 
@@ -19,7 +19,7 @@ from pathlib import Path
 
 import click
 import pandas as pd
-from PIL import Image  # which matplotlib needs
+from PIL import Image  # a dependency of matplotlib
 
 from viscorough_study.fits.infinite_grid import OMEGA, PLACES, place_in_range
 from viscorough_study.performance import timing
@@ -31,7 +31,7 @@ from viscorough_study.verdicts.evidence import VERDICTS
 
 ROOT = Path(__file__).resolve().parents[1]
 BEGIN, END = "<!-- {}: by benchmarks/publish.py -->\n", "<!-- end of {} -->\n"
-OTHER_SOLVERS = "resources/published/other_solvers.csv"  # with which runs are compared that do not measure them
+OTHER_SOLVERS = "resources/published/other_solvers.csv"  # quoted by runs that do not measure them
 DEFAULT_COSTS, DEFAULT_CLAIMS = "resources/published/default_costs.csv", "resources/published/default_claims.csv"
 # {command of make: names of figures, names of tables} that it makes in results/ and that are published
 MADE = {

@@ -2,10 +2,10 @@
 
     python benchmarks/resampled_verdicts.py results --settings config/paper.yaml --output results/resampled.json
 
-Every draw takes as many discs and lines of each Hurst exponent as there are, with replacement, and every table of fits
-and verdicts is made of them by the workflow's own rules. Results that are no means over these ensembles stay: direct
+Every draw takes as many discs and lines of each Hurst exponent as the run has, with replacement, and the workflow's own
+rules make every table of fits and verdicts from them. Results other than means over these ensembles are kept: direct
 integration, validation, comparison surface by surface, grids from coarse to fine, and times. The tables of claims of
-all draws are written beside the output, as CSV.
+all draws are written as CSV, to the path of the output with this suffix.
 
 Discs are drawn over all combinations of a Hurst exponent, whose surfaces have the same distribution: force, viscosity,
 diameter and rms height are units of X and vt/h (claim one_surface). Drawn within the combinations, their means would

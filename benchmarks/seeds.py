@@ -2,8 +2,8 @@
 
     python benchmarks/seeds.py --seeds 3 --output results/seeds.json
 
-Every run starts from nothing in a temporary folder; the verdicts on the paper's claims are compared. The tables of
-claims of all seeds are written beside the output, as CSV.
+Every run starts without results in a temporary folder; the verdicts on the paper's claims are compared. The tables of
+claims of all seeds are written as CSV, to the path of the output with this suffix.
 """
 
 import sys
@@ -18,7 +18,7 @@ from verdicts_again import claims, report
 @click.command(help=__doc__.splitlines()[0])
 @click.option("--seeds", type=click.IntRange(2), default=3, show_default=True, help="Number of root seeds: 1, 2, ...")
 @click.option("--cores", type=click.IntRange(1), default=2, show_default=True)
-@click.option("--settings", type=click.Path(exists=True, path_type=Path), help="What differs from config/config.yaml.")
+@click.option("--settings", type=click.Path(exists=True, path_type=Path), help="Changes to config/config.yaml.")
 @output_option
 def main(seeds, cores, settings, output):
     tables = {}

@@ -46,12 +46,12 @@ def plain(indenter, complete, tolerance):
 
 
 def audited(indenter, tolerance):
-    """Deviations of an audited curve, and what they took."""
+    """Deviations of an audited curve, and their cost."""
     began = time.perf_counter()
     result = audit(indenter, tolerance=tolerance)
     seconds = round(time.perf_counter() - began, 1)
-    about = {"levels": result.curve.depth.size, "seconds": seconds, "agrees": bool(result.agrees)}
-    return about | {"estimated_error": result.rules.error, **deviations(result.rules)}
+    cost = {"levels": result.curve.depth.size, "seconds": seconds, "agrees": bool(result.agrees)}
+    return cost | {"estimated_error": result.rules.error, **deviations(result.rules)}
 
 
 @click.command(help=__doc__.splitlines()[0])

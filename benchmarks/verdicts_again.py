@@ -14,7 +14,7 @@ ROOT = Path(__file__).resolve().parents[1]
 
 
 def claims(folder, settings, cores, *arguments):
-    """Table of claims of a run in a folder, with settings beside config/config.yaml or None."""
+    """Table of claims of a run in a folder; settings : file of changes to config/config.yaml, or None."""
     command = [sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile"), "--directory", str(folder)]
     command += ["--configfile", str(settings.resolve())] if settings else []
     command += ["--cores", str(cores), "--quiet", "all", *arguments]

@@ -37,8 +37,8 @@ def test_a_fault_is_caught_missed_or_undecided(fault, tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     ("change", "problem"),
     [
-        ({"old": "x / 4"}, "stands 0 times"),
-        ({"old": "x"}, "stands 2 times"),
+        ({"old": "x / 4"}, "occurs 0 times"),
+        ({"old": "x"}, "occurs 2 times"),
         ({"new": "x / 2"}, "is the old one"),
         ({"tests": ("test_half.py::test_third",)}, "no test test_half.py::test_third"),
     ],

@@ -42,7 +42,7 @@ os.environ.update(NUMBA_NUM_THREADS="1", OMP_NUM_THREADS="1")
 os.environ.update(MALLOC_MMAP_THRESHOLD_=str(2**25), MALLOC_TRIM_THRESHOLD_=str(10**9))
 os.environ.setdefault("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1")  # large pages where the system has them
 
-# Threads of a timed job, so that no other job runs beside it: Snakemake reduces them to --cores. `workflow.cores` would
+# Threads of a timed job, so that no other job runs with it: Snakemake reduces them to --cores. `workflow.cores` would
 # make --unlock, --summary, --rulegraph and --report fail without --cores.
 ALL_CORES = 10**6
 

@@ -20,7 +20,7 @@ def main(csv, *, problem, groups, seed, levels, region, repeats, longest, peers)
     methods = (*METHODS, *(other_solver_method(solver, longest) for solver in solvers if solver.installed))
     methods = [method for method in methods if method.group in groups]
     compile_kernels()  # so that loading compiled code is not timed
-    with threadpool_limits(1):  # Snakemake gives the job all cores, so that nothing runs beside it
+    with threadpool_limits(1):  # Snakemake gives the job all cores, so that no other job runs
         indenter = named_problem(**problem, levels=levels, root=seed, region=region)
         table = measure(indenter, repeats, methods, report=logging.info, longest=longest)
     with atomic_write(csv) as temporary:

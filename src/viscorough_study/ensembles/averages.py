@@ -17,7 +17,7 @@ ROUNDING = 1e-9  # relative difference below which abscissae and ends of ranges 
 def abscissa(low, high, per_decade):
     """Logarithmic grid of X: the multiples of 1/per_decade decades in [low, high], shape (abscissae,) [1].
 
-    Grids of the same per_decade share their points, whatever their ends. Raises ValueError for an empty grid.
+    Grids of the same per_decade share their points, independent of their ends. Raises ValueError for an empty grid.
     """
     if not (0 < low <= high < np.inf):
         raise ValueError(f"abscissa: low and high must be 0 < low <= high < inf, not {low} and {high}")

@@ -58,7 +58,7 @@ def _define(group, realization, indenter):
 class Surfaces(Sequence):
     """Sequence of the (Realization, Indenter) in a file, read on access; a context manager that closes the file.
 
-    settings : dict of each ensemble, of what it is made from
+    settings : list of the settings of each ensemble
     Raises a one-line ValueError, here and in reading, if the file is missing or damaged.
     """
 

@@ -1,4 +1,4 @@
-"""Placement of labels beside points, clear of each other and of the curves."""
+"""Placement of labels next to points, clear of each other and of the curves."""
 
 from itertools import product
 
@@ -18,7 +18,7 @@ WEIGHT_OF_MARKER = 40  # cost of covering a single marker, in covered points of 
 
 
 def place_labels(axes, labels):
-    """Place labels beside points of axes whose limits and scales are final.
+    """Place labels next to points of axes whose limits and scales are final.
 
     labels : list of (text, x, y, color), drawn in slightly darker colours
     Each label in turn takes the position, in eight directions and up to 30 points away, at which it covers no other

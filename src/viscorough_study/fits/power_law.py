@@ -42,7 +42,7 @@ def find_region(mean, *, elements_min, stiffness_max, slope_max, slope_half_widt
     - the geometric mean κ is at most stiffness_max: above, the finite size of the indenter matters, in the transition
       to region (c);
     - the local slope of the geometric mean vt/h, over slope_half_width decades to either side, is at most slope_max:
-      it is 1 in regions (a) and (c). A self-affine surface meets this wherever it meets the other conditions;
+      it is 1 in regions (a) and (c). Self-affine surfaces that meet the other conditions also meet this one;
     - the fraction of defined realizations is at least fraction_min: a mean over the few curves that reach further
       is biased.
 
@@ -64,7 +64,7 @@ def named_windows(mean, *, stiffness_range, fraction_min, decades_min, **limits)
     - kappa: stiffness_range[0] <= κ <= stiffness_range[1], the same state of contact on any grid, whereas default
       begins at much smaller X for lines than for discs.
 
-    All windows are found on the geometric mean, whichever average is fitted in them.
+    All windows are determined from the geometric mean, also for fits to the arithmetic one.
     """
     run_limits = {"fraction_min": fraction_min, "decades_min": decades_min}
     windows = dict.fromkeys(FITTED["window_rule"])

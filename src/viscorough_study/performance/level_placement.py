@@ -68,7 +68,7 @@ def scenes(elements, hurst, seed):
 
 def compare_scenes(*, elements, hurst, seed, repeats):
     """The three choices of levels for every scene, on one thread; a pandas.DataFrame with the columns of `COLUMNS`."""
-    with threadpool_limits(1):  # Snakemake gives the job all cores, so that nothing runs beside it
+    with threadpool_limits(1):  # Snakemake gives the job all cores, so that no other job runs
         return pd.concat([compare(scene, repeats, logging.info) for scene in scenes(elements, hurst, seed)])
 
 

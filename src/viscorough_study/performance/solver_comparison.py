@@ -77,7 +77,7 @@ def time_other_solvers(*, seed, hursts, pairs, longest, tasks, peers):
             logging.warning("%s is not installed and is omitted (make peers installs it)", solver.name)
     common = {"pairs": pairs, "time_limit": longest, "report": logging.info}
     tables, installed = [], [solver for solver in solvers if solver.installed]
-    threadpool_limits(1)  # of linear algebra, for good; Snakemake gives the job all cores: nothing runs beside it
+    threadpool_limits(1)  # of linear algebra; Snakemake gives the job all cores, so that no other job runs
     for number, task in enumerate(tasks):
         fractions = np.geomspace(*task["fractions"], task["levels"]) if task["levels"] > 1 else task["fractions"][:1]
         for hurst in hursts:

@@ -1,6 +1,4 @@
-"""Random loading curves for detecting silent failures: at their levels, between them, in what is made of them, and in
-their integrals.
-"""
+"""Random loading curves for detecting silent failures: at levels, between them, in kinetics, and in integrals."""
 
 import warnings
 from dataclasses import dataclass

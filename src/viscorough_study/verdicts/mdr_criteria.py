@@ -95,5 +95,5 @@ def _at_centre(rows):
 
 
 def _fewest(row):
-    """Realizations of a row of the summary: discs or lines, whichever are fewer."""
+    """Realizations of a row of the summary: the smaller of the numbers of discs and lines."""
     return min(row["discs"], row["lines"])

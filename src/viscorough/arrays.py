@@ -10,7 +10,7 @@ from viscorough.types import Array
 
 
 def read_only(values: Any) -> NDArray[Any]:
-    """The values as an array that cannot be changed: a copy, unless nobody can change it already.
+    """The values as an array that cannot be changed: a copy, unless already immutable.
 
     Masked entries of numpy's masked arrays, also of a list of them, become nan.
     """

@@ -1,20 +1,20 @@
-"""The recommended penetration law, calibrated with boundary elements at the paper's scale: region (b) and beyond it.
+"""The recommended penetration law, calibrated with boundary elements on the paper's grid: region (b) and beyond.
 
-Two springs in series, the interface and the flat punch of the whole disc behind it, have vt/h = X + g(X) with X =
-Ft/(4ηhL). The interface alone is
+Two springs in series, the interface and the flat punch of the whole disc, have vt/h = X + g(X) with X =
+Ft/(4ηhL). The contribution of the interface is
 
     g = g_m (X/X_m)^b exp(2b(1 − √(X/X_m))):
 
 a power law with the exponent b at small X; a maximum g_m at X_m, around which the stiffness of the interface is
-proportional to the force, as elastic contacts have it whose force is exponential in the separation; nothing at complete
-contact. Then vt/h = X, region (c). The constants b, g_m, X_m are those of data/interface.csv, a copy of
+proportional to the force, as in elastic contacts whose force is exponential in the separation; at large X it vanishes,
+and vt/h = X, region (c). The constants b, g_m, X_m are those of data/interface.csv, a copy of
 results/tables/interface.csv from `make paper`, which also has the error of the law. β and ζ of the paper's power law in
 region (b) are those of data/calibration.csv, a copy of results/tables/calibration.csv.
 
 Conventions: geometric mean at fixed X, h the rms height of the disc, L its diameter, no factor Γ; the power law is
 fitted over the whole region (b). Grids: 257 elements across; at small X the law contains their finest waves, and b is
-the exponent of these curves, not of an infinitely fine grid. Where the curves end before X = 30, the form of the law is
-all that is known beyond, and that vt/h = X at complete contact.
+the exponent of these curves, not of an infinitely fine grid. Where the curves end before X = 30, the law beyond rests
+on its form alone, and on vt/h = X at complete contact.
 """
 
 import csv
@@ -70,7 +70,7 @@ class PenetrationLaw:
     calibration, and by at most `error` from the ends of the 95 % intervals of these means.
 
     hurst : Hurst exponent H
-    beta, zeta : exponent β and prefactor ζ of the power law in region (b), to which nothing else here refers
+    beta, zeta : exponent β and prefactor ζ of the power law in region (b), independent of all other attributes
     beta_interval, zeta_interval : (lower, upper) ends of their 95 % confidence intervals, from the ensembles of the
         calibration
     region : (lower, upper) end of region (b) in X

@@ -25,7 +25,7 @@ from viscorough.interrupts import uninterrupted
 _CHECKSUM_SIZE = sha256().digest_size
 
 
-@functools.cache  # said once
+@functools.cache  # once per process
 def _announce_compilation() -> None:
     """Tell those who wait at a terminal or a notebook why the first computation takes longer."""
     if "ipykernel" in sys.modules or (sys.stderr is not None and sys.stderr.isatty()):
@@ -67,7 +67,7 @@ class _CheckedCache(caching.FunctionCache):
         try:
             super().save_overload(sig, data)
         except OSError:  # a full disk, for example
-            _say_that_nothing_is_kept()
+            _warn_cache_disabled()
 
 
 def _cache(function: Callable[..., Any]) -> Any:
@@ -76,12 +76,12 @@ def _cache(function: Callable[..., Any]) -> Any:
         return _CheckedCache(function)
     except RuntimeError:  # numba finds no writable folder, or the function has no source file
         if os.path.exists(inspect.getfile(function)):
-            _say_that_nothing_is_kept()
+            _warn_cache_disabled()
         return caching.NullCache()
 
 
-@functools.cache  # said once
-def _say_that_nothing_is_kept() -> None:
+@functools.cache  # once per process
+def _warn_cache_disabled() -> None:
     logging.warning(
         "compiled code cannot be kept on disk, so every process compiles it again, which takes up to a minute; "
         "set NUMBA_CACHE_DIR to a folder that is writable and has room"

@@ -77,7 +77,7 @@ class SelfAffineLines:
         return ordered.reshape(-1).view(np.float32)
 
     def heights_in_any_order(self, seed: Seed) -> Array:
-        """The same heights, read-only, in an order without a meaning; valid until the next call of a method."""
+        """The same heights, read-only, in unspecified order; valid until the next call of a method."""
         if not self._in_pairs:
             return self._by_real_transform(seed)
         heights = self._by_four_steps(seed).reshape(-1).view(np.float32)

@@ -188,7 +188,7 @@ def line_of_surface(square: Array, spacing: float, seed: Seed) -> Indenter:
 def line_of_map(surface: Indenter, seed: Seed) -> Indenter:
     """Line with the radially averaged power spectrum of a map that is not periodic, and with its rms height.
 
-    As `line_of_surface`, after the heights over their mean were multiplied with a Hann window, cos²(πr/2) at the
+    As `line_of_surface`, after multiplication of the heights over their mean by a Hann window, cos²(πr/2) at the
     relative distance r from the centre to the edge of the inscribed ellipse: otherwise the edges of the map, which are
     steps of a periodic map, would add to the short waves. The window spoils the three longest waves: they are those of
     the heights without it, multiplied so that the mean square of the heights is that of the map. The line is as long as
@@ -197,7 +197,7 @@ def line_of_map(surface: Indenter, seed: Seed) -> Indenter:
     Parameters
     ----------
     surface : Indenter
-        Indenter with two-dimensional heights; elements that are nan count as of mean height.
+        Indenter with two-dimensional heights; elements that are nan count as having the mean height.
     seed : Seed
         Int or SeedSequence.
 
@@ -242,7 +242,7 @@ def line_of_map(surface: Indenter, seed: Seed) -> Indenter:
 
 
 def _power_of_piece(heights: Array, weights: Array) -> Array:
-    """Power of the waves of the heights over their mean, multiplied with weights; per mean square of the weights."""
+    """Power of the waves of the heights over their mean, multiplied by weights; per mean square of the weights."""
     over_mean = np.where(weights > 0, heights - np.sum(weights * np.nan_to_num(heights)) / weights.sum(), 0)
     return np.abs(np.fft.fft2(weights * over_mean)) ** 2 / (weights.size * np.sum(weights**2, dtype=float))
 

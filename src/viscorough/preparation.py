@@ -1,6 +1,6 @@
 """Measured maps of heights made ready for contact: missing values, cropping, sign, tilt or form, holes.
 
-And doubts about maps that were not: what makes the results of a contact wrong without an error.
+And warnings about defects of unprepared maps, which make the results of a contact wrong without an error.
 """
 
 from collections.abc import Iterator, Sequence

@@ -109,7 +109,7 @@ def square_metres(length_unit: str) -> float:
 
 
 def factor(unit: str, to: str) -> float:
-    """What numbers in `unit` are multiplied with to be in the unit `to`.
+    """Conversion factor from `unit` to the unit `to`.
 
     Raises ValueError if one of them is not a unit, or if they measure different things.
     """

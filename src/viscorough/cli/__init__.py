@@ -21,7 +21,7 @@ from viscorough.cli.generate import generate
 from viscorough.cli.indent import indent
 from viscorough.cli.kinetics import kinetics
 from viscorough.cli.march import march
-from viscorough.cli.messages import complain, discard_what_cannot_be_written, escape_letters_without_code, report
+from viscorough.cli.messages import complain, discard_what_cannot_be_written, escape_unencodable_characters, report
 from viscorough.cli.plot import plot
 from viscorough.cli.reduce import reduce
 from viscorough.errors import ConvergenceError
@@ -52,7 +52,7 @@ def main(arguments: list[str] | None = None, commands: click.Group = cli) -> int
     """
     arguments = list(sys.argv[1:] if arguments is None else arguments)
     command = "viscorough"
-    escape_letters_without_code()
+    escape_unencodable_characters()
     try:
         with (
             on_interrupt(SIG_DFL),  # ends the process at once, also where libraries do not return to Python

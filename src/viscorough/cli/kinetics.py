@@ -49,10 +49,10 @@ def kinetics(
 
     KIN.nc holds time, depth, velocity and force. Without --times these are the times of the history; or under a
     constant force a hundred at equal ratios between those at which the first and last levels of the curve are reached,
-    or until the creep has all but ended, after time 0 if the medium springs at once. The depth is that of the curve at
-    F/G = the creep, the integral of J(t - s) dF(s) with the creep compliance J; on a linearly viscous half-space it is
-    the impulse over the viscosity. This is exact as long as the creep does not decrease; where it would, the force is
-    refused.
+    or until creep has nearly ended; after time 0 if the medium responds elastically at t = 0. The depth is that of the
+    curve at F/G = the creep response, the integral of J(t - s) dF(s) with the creep compliance J; on a linearly viscous
+    half-space it is the impulse over the viscosity. This is exact as long as the creep response does not decrease; a
+    force under which it would is refused.
 
     MEDIUM.yaml is one mapping: kind, and its parameters. The kinds are newtonian (viscosity), maxwell and kelvin_voigt
     (shear_modulus, viscosity), standard_linear_solid (instantaneous_modulus, relaxed_modulus, relaxation_time), prony

@@ -1,4 +1,4 @@
-"""What the command line writes to standard output and standard error, which may be closed, full or of few letters."""
+"""Messages of the command line on standard output and error, which may be closed, full, or limited in encoding."""
 
 import contextlib
 import io
@@ -12,8 +12,8 @@ import click
 def announce(output: Path, text: str) -> None:
     """Write the closing line of a command, which names its output file, to standard output.
 
-    The file is complete by then. If the line cannot be written, a line on standard error says so; if nobody
-    reads it, nothing does.
+    The file is complete by then. If the line cannot be written, a line on standard error says so, unless the
+    reader has closed the pipe.
     """
     try:
         click.echo(f"{output}: {text}")
@@ -47,14 +47,14 @@ def report(command: str, error: BaseException) -> None:
     complain(command, f"{text.strip().removesuffix('.')}{hint}")
 
 
-def escape_letters_without_code() -> None:
-    """Write letters that the encoding of standard output lacks, as in names of files, with backslashes."""
+def escape_unencodable_characters() -> None:
+    """Write characters that the encoding of standard output lacks, as in names of files, with backslashes."""
     if isinstance(sys.stdout, io.TextIOWrapper) and sys.stdout.errors == "strict":
         sys.stdout.reconfigure(errors="backslashreplace")
 
 
 def discard_what_cannot_be_written() -> None:
-    """Else the interpreter would fail to write it once more at its end, with a message and another exit code."""
+    """Discard output that cannot be written: the interpreter would try again at exit, and change the exit code."""
     for stream in (sys.stdout, sys.stderr):
         try:
             if stream:

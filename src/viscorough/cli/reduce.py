@@ -37,13 +37,13 @@ def reduce(
 ) -> None:
     """Loading curve of a line by the method of dimensionality reduction (MDR), in a fraction of a second.
 
-    LINE_OR_MAP is a .npy or NetCDF file with the heights of a line, as viscorough generate --points makes it: springs
-    that do not know of each other stand in for the half-space. Or it is a map, as for viscorough indent: then lines
-    are made of its radially averaged power spectrum, with random phases and the rms height of the map.
+    LINE_OR_MAP is a .npy or NetCDF file with the heights of a line, as viscorough generate --points makes it:
+    independent springs stand in for the half-space. Or it is a map, as for viscorough indent: then lines are made with
+    its radially averaged power spectrum, random phases, and the rms height of the map.
 
-    What this is not good for: a line made of a map stands for random surfaces with its spectrum, not for the map. The
-    mean stiffness of many surfaces comes out to about 20 %; that of the single surface is off by a factor of 1.2 to 2,
-    and contact area and places of contact mean nothing.
+    Limits: a line made from a map represents random surfaces with its spectrum, not the map itself. The mean stiffness
+    of many surfaces is right to about 20 %; that of a single surface is wrong by a factor of 1.2 to 2, and contact
+    area and contact positions have no meaning.
 
     CURVE.nc is as for viscorough indent; with several --realizations its dimensions are realization and level.
 

@@ -21,7 +21,7 @@ from viscorough.types import Array, Integers
 # Rounding error allowed for in a gap over the depth, in a pressure over the largest one, and in the depth of an event.
 ROUNDING = 1e-12
 _MAX_ITERATIONS = 100
-# A depth beyond all measure, finite because compiled loops may assume that numbers are.
+# Depth of an event that never happens; finite, because compiled loops may assume that numbers are.
 _NEVER = 1e300
 
 

@@ -57,7 +57,7 @@ def run_blocks(
         work()
     finally:
         for helper in pending:
-            if not helper.cancel():  # where it has not started yet, nothing is left for it
+            if not helper.cancel():  # a helper that has not started yet has nothing left to do
                 helper.result()
     return results
 
@@ -71,7 +71,7 @@ def aligned_zeros(shape: tuple[int, ...], dtype: DTypeLike) -> NDArray[Any]:
 
 
 class Buffers:
-    """Arrays to compute in, as many as threads compute at the same time; zero when they are made."""
+    """Pool of scratch arrays, one per active thread; zero when allocated."""
 
     def __init__(self, shape: tuple[int, ...], dtype: DTypeLike) -> None:
         self._shape, self._dtype = shape, dtype
@@ -79,7 +79,7 @@ class Buffers:
 
     @contextmanager
     def one(self) -> Iterator[NDArray[Any]]:
-        """Context that lends an array, with what its last user left in it."""
+        """Context: borrow a scratch array; contents undefined."""
         try:
             buffer = self._free.pop()
         except IndexError:
@@ -90,5 +90,5 @@ class Buffers:
 
 @lru_cache(maxsize=1)
 def _helpers(_process: int, threads: int) -> ThreadPoolExecutor:
-    """Threads besides the calling one; a process that was forked from another one needs its own."""
+    """Threads besides the calling one; a forked process needs its own."""
     return ThreadPoolExecutor(threads, thread_name_prefix="viscorough")

@@ -40,8 +40,8 @@ class ForceSearch:
         ΣP is that of the force, and the pressures sum to it. The depth is the one at which the tangent from the nearest
         contact that was solved reaches the force; over this distance the stiffness changes by less than the tolerance.
         progress : function that is called after each contact with the share of the force that was reached, up to 1
-        Raises ConvergenceError if a contact cannot be solved to the tolerance, ValueError for a force beyond all
-        measure.
+        Raises ConvergenceError if a contact cannot be solved to the tolerance, ValueError for a force too large
+        to represent.
         """
         target = force / self._solver.units.force
         if target <= self._first.pressure_sum or self._solver.is_flat:
@@ -87,7 +87,7 @@ class ForceSearch:
             depth = min(by_tangent, above.depth - (above.pressure_sum - target) / above.tangent_sum)
         else:
             depth = interpolate(below, above, np.array([target]))[0]
-        # Both contacts are only as exact as the tolerance: the tangent leads on where they are too close to each other.
+        # Both contacts are only as exact as the tolerance: where they are too close, the tangent gives the next depth.
         return float(min(depth, above.depth) if depth > below.depth else by_tangent)
 
     def _is_near(self, contact: ContactState, other: ContactState, target: float) -> bool:

@@ -139,7 +139,7 @@ class ContactSolver:
     def advance(self, contact: ContactState, depth: float) -> ContactState:
         """The ContactState at a depth [length] larger than that of `contact`.
 
-        Raises ConvergenceError if it is not solved to the tolerance, ValueError for a depth beyond all measure.
+        Raises ConvergenceError if it is not solved to the tolerance, ValueError for a depth too large to represent.
         """
         return self.advance_reduced(contact, depth / self.units.length)
 

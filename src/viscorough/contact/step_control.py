@@ -2,7 +2,8 @@
 
 The curve is convex, so that between two levels it lies in the triangle of their tangents and their chord. This bounds
 the error of the interpolated depth in every interval, whatever the surface. On rough surfaces the error is far below
-the bound; three times the bound is accepted where the depths at which elements are predicted to touch make it so.
+the bound; about three times the bound is accepted where the error predicted from the depths at which elements touch is
+small enough.
 """
 
 from dataclasses import dataclass
@@ -15,8 +16,8 @@ from viscorough.contact.state import ContactState, GridFields
 from viscorough.loading_curve import interpolate_between
 from viscorough.types import Array, Integers
 
-# Smallest accuracy of interpolation that is offered: a smaller one would require every contact event as a level, as in
-# direct integration.
+# Finest tolerance of interpolation: a smaller one would require every contact event as a level, as in direct
+# integration.
 FINEST_ACCURACY = 1e-5
 # Ratios of the depths of successive levels: the largest one; the first one where there are few contact events.
 _MAX_DEPTH_RATIO, _INITIAL_DEPTH_RATIO = 2.0, 1.15

@@ -49,7 +49,7 @@ def gridded(points: Array, required: bool) -> tuple[Array, tuple[float, float]] 
 
 
 def _axis(positions: Array) -> _Axis | str:
-    """(index of each position, number of indices, spacing) along an axis of equal spacing; a text about what it lacks.
+    """(index of each position, number of indices, spacing) along an axis of equal spacing; else an error message.
 
     Positions may be rounded, and whole columns may be missing.
     """

@@ -36,8 +36,8 @@ def read_heights(
     """Read a map of heights as an Indenter: the highest point touches first, points that are nan lie outside it.
 
     Rows are along y and columns along x, in the order of the file; columns of x, y, z in increasing order. Values that
-    the file marks as missing are nan. Gives an AccuracyWarning for each of the doubts that viscorough.preparation has
-    about the prepared map.
+    the file marks as missing are nan. Gives an AccuracyWarning for each defect that viscorough.preparation finds in
+    the prepared map.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ def read_heights(
         Name or number (from 0) of the map to read, where a file holds several; by default the variable `heights` of a
         NetCDF file, and the first channel of heights of an instrument's file.
     scale : float or str or units.Quantity, optional
-        What the numbers in a file without a unit are multiplied with, as "0.053 nm" per count of a detector.
+        Conversion factor of the numbers in a file without a unit, as "0.053 nm" per count of a detector.
     preparation : Any
         Keyword arguments of viscorough.prepare.
 

@@ -109,8 +109,8 @@ def kinetics(
         s", if the curve's unit of length is known, else in units such that F·t/η, or F over a modulus, is a length².
     times : array_like, optional
         Increasing, and not negative if the force is constant; the default, for a constant force only, is a hundred
-        times at equal ratios from the curve's first level to its last, or until the creep has all but ended; in a
-        medium that springs at once after time 0.
+        times at equal ratios from the curve's first level to its last, or until creep has nearly ended; in a
+        medium that responds elastically at t = 0, after time 0.
 
     Returns
     -------
@@ -179,7 +179,7 @@ def _newtonian_kinetics(curve: LoadingCurve, force: ForceHistory | Any, viscosit
 def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
     """Times at equal ratios under a constant force, from about the curve's first level to its last, or to the end.
 
-    After time 0 where the medium springs at once.
+    After time 0 where the medium responds elastically at t = 0.
     """
     limit = min(medium.last_time, _LATEST)
     with np.errstate(over="ignore"):

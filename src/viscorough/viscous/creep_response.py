@@ -1,4 +1,4 @@
-"""The creep Φ(t) = ∫ J(t − s) dF(s) of a medium under a force that is linear between samples and may have steps.
+"""Creep response Φ(t) = ∫ J(t − s) dF(s) of a medium to a force that is linear between samples and may have steps.
 
 For media of springs and dashpots Φ is a sum of states that are carried from sample to sample, at a cost of samples ×
 branches. For others every sample is summed over all before it, at a cost of samples². Either way the integral is exact.
@@ -51,7 +51,7 @@ def creep_response(medium: Medium, history: ForceHistory) -> tuple[Array, Array]
 
 
 class _Intervals:
-    """The force between the samples of a history, and the places where dΦ/dt is wanted."""
+    """The force between the samples of a history, and the times at which dΦ/dt is evaluated."""
 
     def __init__(self, medium: Medium, history: ForceHistory) -> None:
         self.medium, self.times, self.force = medium, history.times, history.force
@@ -92,7 +92,7 @@ class _Intervals:
         return found
 
     def _first_jump_down(self) -> float:
-        """The first time of a step down to which the medium responds at once."""
+        """The first time of a downward step to which the medium responds instantaneously."""
         with np.errstate(over="ignore"):
             at_once = self.medium.creep_compliance(0.0) > 0 or np.isinf(self.medium.creep_rate(0.0))
         down = self.jumps < -_ROUNDING * self.force
@@ -113,9 +113,9 @@ class _Intervals:
 
 
 class _ByStates(_Intervals):
-    """Springs and dashpots: the delayed response y and what is left of it, z = F − y, of every retardation time θ.
+    """Springs and dashpots: the delayed response y of every retardation time θ, and the remainder z = F − y.
 
-    θ y' + y = F, both exact for a force linear in time and computed without differences where the force is positive.
+    θ y' + y = F; both are exact for a force linear in time, and computed without cancellation where it is positive.
     """
 
     def __init__(self, medium: Medium, retardation: RetardationSpectrum, history: ForceHistory) -> None:
@@ -161,7 +161,7 @@ class _BySums(_Intervals):
         *,
         left: bool = False,
     ) -> tuple[Array, Array, Array]:
-        """Sums of jumps up to `sample` and intervals before `last_interval`: all, positive and negative terms."""
+        """Sums over jumps up to `sample` and intervals before `last_interval`: all, positive, negative terms."""
         positive, negative = np.zeros(sample.size), np.zeros(sample.size)
         rows = max(1, _CHUNK // self.times.size)
         for first in range(0, sample.size, rows):
@@ -178,7 +178,7 @@ class _BySums(_Intervals):
         return positive + negative, positive, negative
 
     def parts(self, interval: Integers, offset: Array, *, left: bool) -> tuple[Array, Array, Array]:
-        """As of _ByStates: J is concave, so that what is left of the past falls where it is positive."""
+        """As of _ByStates; J is concave, so that positive contributions of the past decrease with time."""
         _, falling, rising = self._over_the_past(interval, offset, self._rate_of, interval, left=left)
         present = self.slopes[interval] * self.medium.creep_compliance(offset)
         terms = falling - rising + abs(present)

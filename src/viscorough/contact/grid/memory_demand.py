@@ -17,7 +17,7 @@ _FIELDS_OF_CONTACTS, _FIELDS_OF_CONTACTS_IF_EXACT, _OTHER_FIELDS = 16, 24, 4
 _PER_PLACE = 12 + 25
 # Arrays in double precision of the size of the spectrum of the half-space: kept, and while the operator is prepared.
 _SPECTRA = 2
-# Numbers of a row of the two blocks of columns that a thread convolves, and columns of a block.
+# Numbers in a row of the two blocks of columns that each thread convolves, and columns of a block.
 _BLOCK_OF_COLUMNS, _COLUMNS_OF_BLOCK = 2 * 152, 64
 # Whatever the size: tables, and dense solutions of hundreds of elements.
 _CONSTANT = 6e6
@@ -30,9 +30,9 @@ def require_for_contact(heights: Array, *, exact: bool, threads: int = 1) -> Non
     exact : whether gaps are also computed in double precision
     threads : on which the contact is computed; each has its own buffers
 
-    The need follows the allocation: it is proportional to the number of points of the padded grid around all elements,
-    of its border included, which for narrow strips are several times as many as the elements. It lies above what is
-    taken, by up to a factor of two (tests/viscorough/test_memory.py).
+    The estimate follows the allocation: it is proportional to the number of points of the padded grid around all
+    elements, including its border, which for narrow strips are several times as many as the elements. It exceeds the
+    memory taken by up to a factor of two (tests/viscorough/test_memory.py).
     """
     inside = np.isfinite(heights)
     rows, columns = (int(np.ptp(np.flatnonzero(inside.any(axis=axis)))) + 1 for axis in (1, 0))

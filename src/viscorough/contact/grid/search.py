@@ -131,8 +131,8 @@ class ContactSearch:
             if changed:
                 contact_set = self.contact_set(inside)
             largest = self._loops.largest_gap(change.values, self.initial_gap, self.residual, contact_set.places)
-            # Residual and rounding error together must not exceed the limit. Where the rounding error takes most of it,
-            # the gap is recomputed as soon as it is no larger than its rounding error.
+            # Residual and rounding error together must not exceed the limit. Where the rounding error is most of it,
+            # the gap is recomputed as soon as the residual is no larger than the rounding error.
             close_enough = max(limit - change.rounding, change.rounding)
             is_close = largest <= close_enough and not tension
             if is_close and (not force or force.is_met(pressure, contact_set.places, depth, limit)):
@@ -212,7 +212,7 @@ class ContactSearch:
         return self.gap_change(tangent, 1)
 
     def zeros(self, dtype: DTypeLike | None = None) -> NDArray[Any]:
-        """A flat field of zeros, whose memory is taken by whatever loop fills it, on the threads of that loop."""
+        """A flat field of zeros; its memory is allocated by the loop that fills it, on the threads of that loop."""
         return np.zeros(self.initial_gap.size, dtype or self.precision)
 
     def _release_step(self, releases: int) -> float:
@@ -220,14 +220,14 @@ class ContactSearch:
         return self._options.release_step * later * 0.5 ** (releases // _HALVE_STEP_EVERY)
 
     def _search(self, contact_set: ContactSet, last: ConjugateGradients | None = None) -> ConjugateGradients:
-        """Conjugate gradients on a set: the last search goes on, unless there is none or steps have no fixed length."""
+        """Conjugate gradients on a set: the last search continued, or a new one if steps have no fixed length."""
         if last is None or self._options.release_step == 0:
             return ConjugateGradients(self._halfspace, self._preconditioner, contact_set, self._loops)
         last.change_set(contact_set)
         return last
 
     def _exclude(self, search: ConjugateGradients, pressure: Array, contact_set: ContactSet) -> bool:
-        """Take unloaded elements under tension out of the set if they are a large share; returns whether they are."""
+        """Remove unloaded elements under tension from the set if they are a large share; returns whether they are."""
         places = search.unloaded_under_tension(pressure)
         is_large = places.size > _EXCLUDED * contact_set.places.size
         if is_large:

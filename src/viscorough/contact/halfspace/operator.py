@@ -33,7 +33,7 @@ def convolution_lengths(rows: int, columns: int) -> tuple[int, int]:
 
 @lru_cache(maxsize=6)
 def _kept_spectrum(lengths: tuple[int, int], period: tuple[float, float] | None, aspect: float) -> Array:
-    """The same as `_spectrum`, kept for further grids with these lengths."""
+    """The same as `_spectrum`, cached for grids with these lengths."""
     return _spectrum(lengths, period, aspect, threads=1)
 
 

@@ -4,7 +4,7 @@ It is a factorized sparse approximate inverse (FSAI) with a multilevel coarse co
 
 The sparse factor G (in this module not the shear modulus) is lower triangular with G K Gᵀ ≈ 1. Row i of G holds entries
 for element i and for those of the twelve nearest elements before it (in rows and columns) that are in contact, and is
-exact if no other elements are in contact (Kolotilina and Yeremin 1993). How it is stored: sparse_factor.
+exact if no other elements are in contact (Kolotilina and Yeremin 1993). Its storage is described in sparse_factor.
 
 The remainder G K Gᵀ − 1 is smooth: it is the deflection by distant loads. The coarse correction represents it on blocks
 of elements, the next grid level. In a block the smooth part acts along one vector, the row sums of G. With W the matrix
@@ -47,7 +47,7 @@ _OUTDATED = 0.02
 # Blocks that are factorised at a time by one thread.
 _FACTORISED_AT_ONCE = 1 << 13
 _TINY = np.finfo(float).tiny
-# K of a block on itself, times its side: less than 2.97, the mean over a uniformly loaded square, because G already
+# Self-influence of a block, times its side: less than 2.97, the mean over a uniformly loaded square, because G already
 # accounts for near neighbours.
 _OWN = 1.0
 

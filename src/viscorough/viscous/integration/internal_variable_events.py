@@ -135,7 +135,7 @@ class _ByForce:
     def begin(self, length: float, load: float, end_load: float) -> None:
         viscosity, relaxed, moduli, times = self._medium
         self.length, size = length, self._state.size
-        if length == 0:  # everything springs at once, or, with a dashpot, nothing
+        if length == 0:  # all springs respond elastically; with a dashpot in parallel, none does
             spring = 0.0 if viscosity else (end_load - load) / self._scale / self._medium.instantaneous_modulus
             self._matrix, self._start, self._change = None, self._state, np.full(size, spring)
         elif viscosity:

@@ -241,7 +241,7 @@ class _ContactProblem:
     def solve(self, free: Array, wanted: float, *, by_depth: bool) -> tuple[Array, float]:
         """Q of all elements, and c u.
 
-        free : e; wanted : c u if `by_depth`, else ΣQ. Without a force the indenter stands where it would touch.
+        free : e; wanted : c u if `by_depth`, else ΣQ. Without a force the indenter is placed at first contact.
         """
         pressure = np.zeros(free.size)
         if not by_depth and wanted <= 0:

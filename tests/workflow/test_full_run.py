@@ -23,7 +23,7 @@ def test_every_figure_and_table_is_made(finished_once):
         csv = pd.read_csv(results / f"tables/{table}.csv")
         with xr.open_dataset(results / f"tables/{table}.nc") as nc:
             assert set(nc.variables) == set(csv.columns)
-            assert nc.source.startswith("viscorough ")
+            assert nc.attrs["source"].startswith("viscorough ")
         page = results / f"tables/{table}.html"
         assert page.read_text().count("<tr>") == len(csv) + 1 if table in SHOWN else not page.exists()
     assert (results / "tables/validation_passed.txt").read_text().startswith("sphere force\n")

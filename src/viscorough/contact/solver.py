@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from viscorough import units
 from viscorough.contact import dense
 from viscorough.contact.dense import ContactEvents
 from viscorough.contact.grid.loops import GridLoops
@@ -52,10 +53,13 @@ def check_solvable(name: str, indenter: Indenter, tolerance: float, threads: int
 
 
 def warn_beyond_theory(name: str, indenter: Indenter, depth: float) -> None:
-    """Give an AccuracyWarning, which starts with the name, for a depth larger than the map is wide."""
+    """Give an AccuracyWarning, which starts with the name, for a depth larger than the map is wide.
+
+    Not where the unit of length is not known: the theory is linear in the heights, which then may be in any unit.
+    """
     rows, columns = indenter.heights.shape
     extent = max(rows * indenter.row_spacing, columns * indenter.spacing)
-    if depth > extent * (1 + 1e-9):
+    if indenter.length_unit != units.UNKNOWN and depth > extent * (1 + 1e-9):
         width = with_unit(extent, indenter.length_unit)
         text = f"{name}: the depth u, {with_unit(depth, indenter.length_unit)}, is larger than the map is wide, {width}"
         warnings.warn(f"{text}; the theory ends far below: check the units of force and heights", AccuracyWarning, 3)

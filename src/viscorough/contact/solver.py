@@ -91,7 +91,7 @@ class ContactSolver:
         largest_depth: float = np.inf,
         whole: bool = True,
     ) -> None:
-        self._of_memory = {"exact": tolerance < options.exact_gap_below, "threads": threads}
+        self._of_memory: dict[str, Any] = {"exact": tolerance < options.exact_gap_below, "threads": threads}
         if whole:
             require_for_contact(indenter.heights, **self._of_memory)
         self._indenter, self._ranking = indenter, Ranking(indenter, threads)

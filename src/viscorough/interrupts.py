@@ -1,4 +1,4 @@
-"""What an interrupt (Ctrl-C) does while a block of code runs."""
+"""Handling of interrupts (Ctrl-C) while a block of code runs."""
 
 import contextlib
 import signal

@@ -16,7 +16,7 @@ from viscorough.types import Array, Complex, Integers
 
 MOST_WAVES = 2**32 - 1  # the largest counter
 _BLOCK = 1024  # waves computed at a time: their arrays stay in the fastest cache
-_U64, _U32, _I32, _F32 = np.uint64, np.uint32, np.int32, np.float32  # numba calculates in types that it is told
+_U64, _U32, _I32, _F32 = np.uint64, np.uint32, np.int32, np.float32  # numba computes in the types stated
 
 _ROUNDS, _MULTIPLIER, _WEYL, _LOW = 10, _U64(0xD256D193), _U64(0x9E3779B9), _U64(0xFFFFFFFF)
 # Polynomials of S. Moshier's Cephes library for single precision, relative errors of 1e-7: (ln(1+z) - z + z²/2) / z³,

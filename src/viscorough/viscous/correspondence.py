@@ -1,8 +1,8 @@
 """Kinetics of penetration: the loading curve read as the solution for any linear viscoelastic half-space.
 
-The surface of a linearly viscous half-space moves at ẇ = (1/4πη)∫p/r dA. Integrated over time, with the pressure
-impulse J = ∫p dt, this is the elastic relation w = (1/4πη)∫J/r dA, and ∫J dA = I = ∫F dt, the impulse. The elastic
-solution at the force F/G = I/η meets every condition of the viscous problem at every time: more load on a
+The surface of a linearly viscous half-space moves at ẇ = (1/4πη)∫p/r dA. Integrated over time, this is the elastic
+relation with ∫p dt in place of p, η in place of G, and the impulse I = ∫F dt in place of the force. The elastic
+solution at F/G = I/η meets every condition of the viscous problem at every time: an increment of the load on a
 frictionless, non-adhesive contact adds the flat-punch pressure of the elements in contact, which is nowhere
 negative, so the contact only grows and no pressure becomes tensile. Hence, for any topography and any F(t) ≥ 0,
 
@@ -11,7 +11,7 @@ negative, so the contact only grows and no pressure becomes tensile. Hence, for 
 exactly. For a constant force I = Ft, so X = Ft/(4ηhL) and vt/h = X/κ(X) (Eqs. 2 and 3). Eqs. 7-9 of the paper
 instead Laplace-transform the relation u(F/G), which is not linear, and so carry an extra factor 1/Γ(2−α).
 
-Likewise for a medium of creep compliance J(t): where the creep Φ(t) = ∫J(t − s) dF(s) does not decrease,
+Likewise for a medium of creep compliance J(t): where the creep response Φ(t) = ∫J(t − s) dF(s) does not decrease,
 
     u(t) = u_el(F/G = Φ(t)),    v(t) = Φ'(t)/(k/G),
 
@@ -35,7 +35,7 @@ from viscorough.viscous.media import Newtonian, medium_of
 from viscorough.viscous.medium import Medium
 from viscorough.viscous.spectra import zero_of_increasing
 
-_LATEST = 1e300  # at which creep that stops has stopped
+_LATEST = 1e300  # time by which creep that ends has ended
 _SPREAD, _EARLY = 100, 1e-3  # number of times that are chosen; share of the creep at their ends, where it has no level
 _ROUNDING = 1e-10  # relative; the rounding error of an impulse summed over a million force samples
 

@@ -12,6 +12,7 @@ interface's part of vt/h, g(X) = X/κ − X/κ_c, over ln X and over X. No conta
 that they check levels, stiffness and interpolation of a curve together.
 """
 
+import warnings
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -26,7 +27,7 @@ from viscorough.contact.preconditioner.multilevel import REACH, Preconditioner
 from viscorough.contact.ranking import elements_of
 from viscorough.contact.state import Elements
 from viscorough.contact.step_control import FINEST_ACCURACY
-from viscorough.errors import ConvergenceError
+from viscorough.errors import AccuracyWarning, ConvergenceError
 from viscorough.indenter import Indenter
 from viscorough.loading_curve import LoadingCurve
 from viscorough.summaries import Summarised, Summary, unit_power, with_unit
@@ -380,7 +381,7 @@ def audit(
     how: dict[str, Any] = {"tolerance": contact_tolerance, "threads": threads, "options": options}
     complete = complete_contact(indenter, threads)
     until_force = min(until_force, (1 + _STRAIGHT) * complete.force or np.inf)
-    plain = curve = indent(indenter, until_fraction=until_fraction, until_force=until_force, **how)
+    plain = curve = _curve(indenter, until_fraction=until_fraction, until_force=until_force, **how)
     rules, last = integrals(curve, complete), np.inf
     for number in range(_MAX_ROUNDS):
         # A few levels are added in any case, unless the curve is exact: at them it is seen whether interpolation holds.
@@ -393,13 +394,20 @@ def audit(
             break
         progress((number + 1) / _MAX_ROUNDS)
         try:
-            curve = _merged(curve, indent(indenter, depths=depths, **how))
+            curve = _merged(curve, _curve(indenter, depths=depths, **how))
         except ValueError:
             break  # the added levels contradict the others, so that the estimated error remains
         rules = integrals(curve, complete)
     between = curve.force > plain.force[0]
     interpolated = plain.at_force(curve.force[between])[0] / curve.depth[between]
     return Audit(tolerance, complete, curve, rules, abs(interpolated - 1).max(initial=0.0))
+
+
+def _curve(indenter: Indenter, **how: Any) -> LoadingCurve:
+    """The curve of `indent`, without its warnings: complete contact lies beyond what the theory describes."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", AccuracyWarning)
+        return indent(indenter, **how)
 
 
 def _depths_to_add(curve: LoadingCurve, rules: SumRules, allowed: float) -> Array:

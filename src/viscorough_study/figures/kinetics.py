@@ -58,8 +58,7 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
     handles = style.hurst_handles(looks, marker="")
     collapsed.legend(handles=handles, loc="upper left", title=realizations, alignment="left")
     style.logarithmic_ticks(raw, collapsed)
-    named = {_combination(case): values for case, values in combinations.items()}
-    _tabulate(below.subplots(), {name: values for name, values in named.items() if name})
+    _tabulate(below.subplots(), {name: at for case, at in combinations.items() if (name := _combination(case))})
     place_labels(raw, [(name, *end, style.BLACK) for name, end in ends.items() if name])
     return figure
 

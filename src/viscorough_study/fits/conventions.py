@@ -91,7 +91,7 @@ def left_open(table):
     return table
 
 
-def conventions_text(conventions):
+def as_text(conventions):
     """Conventions as text, such as "rms_convention disc, average geometric"."""
     return ", ".join(f"{name} {value}" for name, value in conventions.items())
 

@@ -44,9 +44,7 @@ COLUMNS = {
     "zeta": ("prefactor ζ without Γ (Eq. 3), L the diameter", "1"),
     **_interval_descriptions(),
     "residual": ("rms deviation of ln(vt/h) from the power law in the window", "1"),
-    **described(
-        "lambda", "λ in C1D = λ q C2D that matches the line to the surface (Eq. 13)", ends="of the 95 % interval of λ"
-    ),
+    **described("lambda", "λ in C1D = λ q C2D, line matched to surface (Eq. 13)", ends="of the 95 % interval of λ"),
 }
 
 
@@ -103,9 +101,8 @@ def _fit(ensemble, lines, window, **options):
         columns |= dict(zip(interval_columns(**reading), fit.zeta(**reading)[1:], strict=True))
     if lines is not None:
         with suppress(ValueError):
-            columns |= three_columns(
-                "lambda", match_lambda(x, velocity, lines["velocity"].values[0], window, **options)
-            )
+            values = match_lambda(x, velocity, lines["velocity"].values[0], window, **options)
+            columns |= three_columns("lambda", values)
     return columns
 
 

@@ -10,15 +10,7 @@ import numpy as np
 import pandas as pd
 
 from viscorough import reference
-from viscorough_study.fits.conventions import (
-    FITTED,
-    NAMES,
-    conventions_text,
-    in_every_reading,
-    left_open,
-    select,
-    source_values,
-)
+from viscorough_study.fits.conventions import FITTED, NAMES, as_text, in_every_reading, left_open, select, source_values
 from viscorough_study.fits.intervals import UNDEFINED, deviation_interval, difference, interval, percentile_interval
 from viscorough_study.fits.power_law import fit_power_law, in_window, log_means
 from viscorough_study.verdicts.evidence import hurst_name, judged
@@ -57,7 +49,7 @@ def _nearest_convention(scaling, source, hursts, tolerance):
         ends = group.set_index("hurst").reindex(hursts)[["beta_low", "beta_high"]].to_numpy()
         deviations = np.abs(ends - reference.exponent_beta(hursts.to_numpy())[:, None])
         if np.isfinite(deviations).all() and deviations.max() <= smallest:
-            nearest, smallest = conventions_text(dict(zip(NAMES, values, strict=True))), deviations.max()
+            nearest, smallest = as_text(dict(zip(NAMES, values, strict=True))), deviations.max()
     return nearest
 
 
@@ -68,7 +60,7 @@ def coincide(evidence, tolerance):
         conventions = dict(zip(FITTED, values, strict=True))
         ends = np.abs(_differences(evidence, conventions)[["low", "high"]].to_numpy())
         if ends.size and np.isfinite(ends).all() and ends.max() <= smallest:
-            nearest, smallest = conventions_text(conventions), ends.max()
+            nearest, smallest = as_text(conventions), ends.max()
     differences = _differences(evidence, {})
     for hurst, row in differences.iterrows():
         *values, number = row.tolist()

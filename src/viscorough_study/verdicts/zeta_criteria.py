@@ -7,7 +7,7 @@ verdict names the conventions with the smallest deviation.
 
 import numpy as np
 
-from viscorough_study.fits.conventions import NAMES, conventions_text, left_open
+from viscorough_study.fits.conventions import NAMES, as_text, left_open
 from viscorough_study.fits.intervals import interval
 from viscorough_study.fits.prefactors import COMBINED, LAWS
 from viscorough_study.fits.zeta_laws import difference, measure_value
@@ -43,7 +43,7 @@ def _nearest_convention(table, name, gamma, tolerance):
     if largest.empty or largest.min() > tolerance:
         return ""
     nearest = dict(zip(COMBINED, largest.idxmin(), strict=True))
-    return conventions_text({name: nearest[name] for name in NAMES} | {"surfaces": nearest["case_group"]})
+    return as_text({name: nearest[name] for name in NAMES} | {"surfaces": nearest["case_group"]})
 
 
 def zeta_elastic_shape(evidence, tolerance):

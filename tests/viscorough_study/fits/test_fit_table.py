@@ -17,7 +17,7 @@ X = abscissa(1e-7, 10, 20)
 BOOTSTRAP = {"resamples": 400, "seed": 1}
 
 
-def combination_rows(ensemble, **changes):
+def fitted(ensemble, **changes):
     options = {"source": "discs", "case_group": "base", "stiffness_range": (0.03, 0.3)}
     return fit_rows(ensemble, **(options | LIMITS | BOOTSTRAP | changes))
 
@@ -33,7 +33,7 @@ def lines():
 
 
 def test_a_row_for_every_fit(discs, lines):
-    rows = combination_rows(discs, lines=lines)
+    rows = fitted(discs, lines=lines)
     assert len(rows) == len({tuple(row[name] for name in FITTED) for row in rows}) == 2 * 4
     for row in rows:
         assert list(row) == list(COLUMNS)
@@ -42,20 +42,20 @@ def test_a_row_for_every_fit(discs, lines):
     row = next(r for r in rows if r["average"] == "geometric" and r["window_rule"] == "default")
     zeta = discs.isel(rms_convention=0).stiffness_geometric.values[100] / X[100] ** 0.6
     assert row["zeta"] == pytest.approx(zeta, rel=1e-9)
-    assert all(np.isnan(without["lambda"]) for without in combination_rows(discs))
+    assert all(np.isnan(without["lambda"]) for without in fitted(discs))
     assert row["lambda"] == pytest.approx(np.pi * (1.3 * 1.2 / zeta) ** (2 / 0.6), rel=1e-9)
 
 
 def test_lines_that_do_not_reach_give_no_lambda(discs, lines):
     short = lines.copy(deep=True)
     short["velocity"][0, 0, X > 3e-7] = np.nan
-    assert all(np.isnan(row["lambda"]) and np.isfinite(row["beta"]) for row in combination_rows(discs, lines=short))
+    assert all(np.isnan(row["lambda"]) and np.isfinite(row["beta"]) for row in fitted(discs, lines=short))
     with pytest.raises(ValueError, match="same abscissae"):
-        combination_rows(discs, lines=ensemble_of(X[1:], three_regions(X[1:])))
+        fitted(discs, lines=ensemble_of(X[1:], three_regions(X[1:])))
 
 
 def test_without_a_region_rows_have_no_numbers():
-    rows = combination_rows(ensemble_of(X, np.ones((4, X.size))))
+    rows = fitted(ensemble_of(X, np.ones((4, X.size))))
     assert len(rows) == 8
     for row in rows:
         assert row["decades"] == 0
@@ -63,14 +63,8 @@ def test_without_a_region_rows_have_no_numbers():
 
 
 def test_calibration_has_base_discs_and_lines_in_the_conventions_shown(discs, lines):
-    rows = (
-        combination_rows(discs, lines=lines)
-        + combination_rows(discs, case_group="roll_off")
-        + combination_rows(lines, source="lines")
-    )
-    sizes = pd.concat(
-        [pd.DataFrame(combination_rows(discs, case_group="sizes")).assign(hurst=h) for h in (0.7, 0.8, 0.9)]
-    )
+    rows = fitted(discs, lines=lines) + fitted(discs, case_group="roll_off") + fitted(lines, source="lines")
+    sizes = pd.concat([pd.DataFrame(fitted(discs, case_group="sizes")).assign(hurst=h) for h in (0.7, 0.8, 0.9)])
     sizes = sizes.assign(elements=np.where(sizes["hurst"] == 0.9, 3209, 51433))
     table = calibrated(pd.DataFrame(rows), sizes, conventions=SHOWN | {"gamma": "with"}, across=257)
     assert list(table) == list(calibrated_law.COLUMNS)
@@ -86,7 +80,7 @@ def test_lines_of_self_affine_roughness_have_the_exponent_of_the_paper():
     octaves of roughness leave. The halves of the window have twice the error, and are allowed twice as much.
     """
     curves = [reduce(self_affine_line(0.7, 2**14, seed=realization_seed(1, 3, i))) for i in range(40)]
-    rows = combination_rows(aggregate(curves, {"line": 1.0}, 1.0, X, hurst=0.7, case="lines"), source="lines")
+    rows = fitted(aggregate(curves, {"line": 1.0}, 1.0, X, hurst=0.7, case="lines"), source="lines")
     by_window = {row["window_rule"]: row for row in rows if row["average"] == "geometric"}
     for window, error in (("default", 0.03), ("lower_half", 0.06), ("upper_half", 0.06)):
         assert by_window[window]["beta"] == pytest.approx(reference.exponent_beta(0.7), abs=error)

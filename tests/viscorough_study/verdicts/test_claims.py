@@ -176,10 +176,7 @@ def test_scale_attributes(across, trial):
         paper_value=lambda section, name: number(NUMBERS, section, name),
     )
     attributes = scale_attributes(evidence)
-    assert (attributes["elements_across"], attributes["paper_elements_across"], attributes["realizations"]) == (
-        across,
-        257,
-        54,
-    )
+    names = ("elements_across", "paper_elements_across", "realizations")
+    assert [attributes[name] for name in names] == [across, 257, 54]
     assert attributes["trial"] == trial
     assert ("mean nothing" in attributes["scale"]) == trial

@@ -39,11 +39,11 @@ MADE = {
         "fig1_surfaces fig2_kinetics fig3_master_curve fig4_exponent conventions validation interface reduction "
         "mdr_lambda",
         "scaling interface validation direct reduction rule_costs mdr_lambda mdr_summary mdr_exponents plateaus "
-        "literature",
+        "literature zeta_laws prefactors grid_dependence",
     ),
     "speed": ("speed growth other_solvers level_placement", "methods other_solvers level_placement"),
     "stability": ("failure_map", "failure_map"),
-    "sizes": ("sizes collapse", "sizes sizes_trends collapse infinite_grid"),
+    "sizes": ("sizes collapse", "sizes sizes_trends collapse collapse_curves infinite_grid"),
     "large": ("large", "large"),
     "reproduce": ("", ""),
     "seeds": ("", ""),

@@ -29,13 +29,16 @@ LIMITS = {"elements_min": 10, "stiffness_max": 0.2, "slope_max": 0.8, "slope_hal
 LIMITS |= {"fraction_min": 0.95, "decades_min": 0.5}
 BASE_SURFACES = {"base": {"period": 1.0, "corners": False, "amplitudes": "random"}}
 RULES = {"decades_min": 2.0, "end_decades": 0.25}
-SLOPES = "slope", "slope_low", "slope_high"
-TRENDS = [
-    ("discs", "X = 0.01 to 0.1", 0.4, 0.0, -0.02, 0.02),
-    ("discs", "X = 0.01 to 0.1", 0.6, 0.02, 0.0, 0.04),
-    ("discs", "X = 0.01 to 0.1", 0.9, 0.1, 0.08, 0.12),
-    ("discs", "default", 0.9, 0.0, -0.01, 0.01),
-    ("lines", "X = 0.01 to 0.1", 0.9, 0.0, -0.01, 0.01),
+GRIDS = [  # κ at u/h = 1 of three Hurst exponents, on two grids with enough elements in contact, and vt/h of one
+    {"hurst": hurst, "quantity": quantity, "across": across, "value": value, "compared": int(across > 33)}
+    | three_columns("factor", factor)
+    for hurst, quantity, factor in (
+        (0.4, "κ at u/h = 1", (0.7, 0.6, 0.8)),
+        (0.6, "κ at u/h = 1", (0.9, 0.8, 1.0)),
+        (0.9, "κ at u/h = 1", (1.01, 0.98, 1.04)),
+        (0.9, "vt/h at X = 1", (0.5, 0.4, 0.6)),
+    )
+    for across, value in ((33, 0.4), (65, 0.3), (129, 0.2))
 ]
 METHODS = [  # 1 ms for a step, 1 ns for a point
     ("explicit, logarithmic steps", 0.8, 257, 16, 1.0, 0.1, 16),
@@ -111,7 +114,7 @@ def _evidence(zeta, **options):
         validation=validation.assign(error=1 / validation["elements"] ** 2),
         direct=_direct(),
         methods=pd.DataFrame(METHODS, columns=["method", "hurst", "elements", "value", "wall_s", "error", "steps"]),
-        sizes_trends=pd.DataFrame(TRENDS, columns=["source", "window_rule", "hurst", *SLOPES]),
+        grid_dependence=pd.DataFrame(GRIDS),
         sizes=scaling.query("source == 'discs'").assign(case_group="sizes", elements=round(0.778 * ACROSS**2)),
         plateaus=pd.DataFrame(plateaus, columns=columns),
         **mdr_tables(),

@@ -66,6 +66,10 @@ TABLE_PARAMS = {
         "tolerance": paper("claims")["beta"]["tolerance"],
         "conventions": config["figures"],
     },
+    "compare_grids": {
+        "elements_min": config["scaling"]["elements_min"],
+        "rms_convention": config["figures"]["rms_convention"],
+    },
     "fit_collapse": {
         "ranges": config["collapse"],
         "conventions": config["figures"],

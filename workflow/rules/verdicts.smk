@@ -25,7 +25,7 @@ rule check_validation:
 
 # Tables by which the claims are judged.
 EVIDENCE = ("scaling", "validation", "direct", "reduction", "mdr_summary", "mdr_exponents", "plateaus", "prefactors")
-EVIDENCE += ("zeta_laws", "methods", "sizes", "sizes_trends")
+EVIDENCE += ("zeta_laws", "methods", "sizes", "grid_dependence")
 
 
 rule judge_claims:

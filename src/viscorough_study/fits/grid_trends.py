@@ -67,10 +67,10 @@ def trends(table, conventions, tolerance):
         with the grid; the fixed windows of the table are added
     tolerance : of β, that of the claims on β in resources/paper/claims.yaml
 
-    The trend is a least-squares line weighted by the intervals of β; its own interval is widened where β scatters more
-    than its intervals allow. On the finest grid β agrees if its whole interval lies within the tolerance of the
-    expected exponent, departs if it lies outside, and is undetermined otherwise. A departure is less on finer grids if
-    the whole interval of the slope points towards the expected exponent.
+    The trend is a least-squares line weighted by the number of realizations, whose scatter is pooled over the grids; its
+    interval is widened where β scatters more than they explain. On the finest grid β agrees if its whole interval lies
+    within the tolerance of the expected exponent, departs if it lies outside, and is undetermined otherwise. A departure
+    is less on finer grids if the whole interval of the slope points towards the expected exponent.
     Returns a pandas.DataFrame with the columns of `COLUMNS`.
     """
     rows = []
@@ -113,19 +113,24 @@ def fixed_window_rows(ensemble, windows, labels, *, average, rms_convention, ele
 
 
 def _trend(grids, expected, tolerance):
-    """Columns from `grids` on, of one source and Hurst exponent; grids : fits from coarse to fine."""
-    slope = _slope(*(grids[name].to_numpy() for name in ("elements", "beta", "beta_low", "beta_high")))
+    """Columns of one source and Hurst exponent, from the number of grids on; grids : fits from coarse to fine."""
+    slope = _slope(*(grids[name].to_numpy() for name in ("elements", "beta", "beta_low", "beta_high", "realizations")))
     finest = grids.iloc[-1]
     beta = interval(finest, "beta")
     finding = _finding(np.subtract(beta, expected), slope, tolerance)
     return len(grids), finest["elements"], *beta, expected, *slope, finding
 
 
-def _slope(elements, beta, low, high):
-    """dβ/d log₁₀ n and its 95 % interval; nan for fewer than three grids."""
+def _slope(elements, beta, low, high, realizations):
+    """dβ/d log₁₀ n and its 95 % interval; nan for fewer than three grids.
+
+    The scatter of a realization is pooled over the grids: a bootstrap of a few discs is often far too narrow.
+    """
     if beta.size < 3:
         return UNDEFINED
-    error = np.maximum(high - low, ERROR_MIN) / (2 * 1.96)
+    variance = realizations * ((high - low) / (2 * 1.96)) ** 2
+    pooled = np.sum((realizations - 1) * variance) / max(np.sum(realizations - 1), 1)
+    error = np.maximum(np.sqrt(pooled / realizations), ERROR_MIN)
     x = np.log10(elements)
     (slope, intercept), covariance = np.polyfit(x, beta, 1, w=1 / error, cov="unscaled")
     scatter = np.sum(((beta - np.polyval([slope, intercept], x)) / error) ** 2) / (beta.size - 2)

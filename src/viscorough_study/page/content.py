@@ -9,12 +9,12 @@ from viscorough.io.netcdf import opened
 from viscorough_study.run.cases import medium_label
 from viscorough_study.verdicts.claims import (
     KINDS,
-    case_text,
     cases_shown,
     deciding_case,
     is_trial,
     overall,
     undecided_cases,
+    value_in_words,
 )
 
 VERDICT_SHORT = {
@@ -38,14 +38,14 @@ def verdicts(results, statements, published):
         first, displayed = rows.iloc[0], cases_shown(rows)
         full_scale = None
         if at_full_scale.get(name, verdict) != verdict:
-            claim_cases = published[published["claim"] == name]
-            case = case_text(claim_cases.loc[deciding_case(claim_cases)])
-            full_scale = {"verdict": at_full_scale[name], "case": case}
+            of_claim = published[published["claim"] == name]
+            case = of_claim.loc[deciding_case(of_claim)]
+            full_scale = {"verdict": at_full_scale[name], "case": f"{case['case']}: {value_in_words(case)}"}
         claims[KINDS[first["kind"]]].append(
             {
                 "name": name,
                 "statement": statements[name]["statement"],
-                **first[["where", "criterion", "reason"]],
+                **first[["where", "quantity", "criterion", "reason"]],
                 "tolerance": results.number("claims", rows.index[0], "tolerance"),
                 "verdict": verdict,
                 "full_scale": full_scale,
@@ -61,7 +61,8 @@ def verdicts(results, statements, published):
 def _case(results, row):
     """Texts and numbers of a case of a claim."""
     texts = results.tables["claims"].loc[row, ["case", "verdict", "convention"]].to_dict()
-    return texts | results.numbers("claims", row, "value", "low", "high", "least", "largest", "expected")
+    counts = ("conventions", "agreeing", "contradicting")
+    return texts | results.numbers("claims", row, "value", "low", "high", "least", "largest", "expected", *counts)
 
 
 def other_solvers(path):

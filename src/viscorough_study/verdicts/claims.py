@@ -39,14 +39,16 @@ def _criteria(module):
 JUDGES = {claim: criterion for module in MODULES for claim, criterion in _criteria(module).items()}
 KINDS = {
     "physics": "Physics",
-    "identity": "Identities of the method, which hold for every surface",
+    "identity": "Identities, which hold by the method or by construction",
     "bookkeeping": "Bookkeeping",
+    "beyond": "Beyond the paper",
 }
 COLUMNS = {
     "claim": ("name of the claim, as in resources/paper/claims.yaml", ""),
     "kind": ("one of: " + "; ".join(KINDS), ""),
     "where": ("equation, section or figure of the paper", ""),
-    "case": ("Hurst exponent or part of the claim", ""),
+    "quantity": ("what the value is", ""),
+    "case": ("Hurst exponent or part that the row is about", ""),
     "value": ("quantity by which the claim is judged", "1"),
     "low": ("lower end of its 95 % interval, missing where it has no statistical scatter", "1"),
     "high": ("upper end of its 95 % interval", "1"),
@@ -55,9 +57,12 @@ COLUMNS = {
     "expected": ("value stated by the paper", "1"),
     "tolerance": ("tolerance of the criterion", "1"),
     "verdict": ("one of: " + "; ".join(VERDICTS), ""),
-    "convention": ("convention in which the claim holds, where it does not in those of the figures", ""),
-    "criterion": ("condition under which the claim counts as reproduced", ""),
-    "reason": ("reason for the tolerance", ""),
+    "convention": ("convention in which alone the claim holds, where it depends on one", ""),
+    "conventions": ("combinations of the conventions that the paper leaves open, missing where none enters", "1"),
+    "agreeing": ("number of them in which the case meets the criterion", "1"),
+    "contradicting": ("number of them in which it is outside; the others are undecided", "1"),
+    "criterion": ("when the claim counts as reproduced", ""),
+    "reason": ("why the tolerance is what it is", ""),
     "figure": ("figure that shows it", ""),
 }
 SMALLEST_SHARE = 0.5  # of the paper's elements across; on coarser grids region (b) is hardly long enough for a fit
@@ -67,7 +72,7 @@ CASES_SHOWN_MAX = 10  # number of cases of a claim above which the summary shows
 def judge(claims, evidence):
     """Verdicts on the claims; a pandas.DataFrame with the columns of `COLUMNS`, one row per case of a claim.
 
-    claims : {name: title, kind, where, statement, criterion, tolerance, reason, figure}
+    claims : {name: title, quantity, kind, where, statement, criterion, tolerance, reason, figure}
     A case whose quantity cannot be computed from the evidence, such as an exponent where there is no region (b), is
     undecided. Raises ValueError for a claim that has no criterion.
     """
@@ -75,7 +80,8 @@ def judge(claims, evidence):
     for name, claim in claims.items():
         if name not in JUDGES:
             raise ValueError(f"claim {name}: no criterion computes it; known are {', '.join(JUDGES)}")
-        stated = {key: claim[key] for key in ("kind", "where", "tolerance", "criterion", "reason", "figure")}
+        keys = ("kind", "where", "quantity", "tolerance", "criterion", "reason", "figure")
+        stated = {key: claim[key] for key in keys}
         cases = JUDGES[name](evidence, claim["tolerance"])
         rows += [{"claim": name, **stated, **asdict(case)} for case in cases]
     return pd.DataFrame(rows, columns=list(COLUMNS))
@@ -110,8 +116,13 @@ def overall(table):
 
 
 def counted_verdicts(table):
-    """[(verdict, its number of claims)], most frequent first."""
-    return Counter(overall(table).values()).most_common()
+    """[(verdict, its number of claims of the paper)], most frequent first."""
+    return Counter(overall(of_paper(table)).values()).most_common()
+
+
+def of_paper(table):
+    """The cases of what the paper says, without those beyond it."""
+    return table[table["kind"] != "beyond"]
 
 
 def deciding_case(rows):
@@ -132,22 +143,25 @@ def undecided_cases(rows):
 
 
 def markdown(table, claims):
-    """The verdicts as tables in Markdown, one for each kind, with one row per claim.
+    """The verdicts as tables in Markdown, one for each kind: a row for each claim, and below it one for each case.
 
-    Of more than `CASES_SHOWN_MAX` cases it shows the first, the last, and the one farthest from the paper's value. The
-    number of undecided cases follows the verdict in parentheses.
+    Of more than `CASES_SHOWN_MAX` cases it shows the first, the last, and the one that is farthest from what the paper
+    says. Behind the verdict on a case stands in how many conventions it is met.
     """
     parts, verdicts = [], overall(table)
     for kind, heading in KINDS.items():
         names = [name for name in verdicts if claims[name]["kind"] == kind]
         if not names:
             continue
-        lines = [f"### {heading}", "", "| the paper says | where | computed | verdict |", "|---|---|---|---|"]
+        lines = [f"### {heading}", "", "| claim, case | quantity, value | the paper | verdict |", "|---|---|---|---|"]
         for name in names:
-            rows = table[table["claim"] == name]
-            undecided = undecided_cases(rows)
-            verdict = verdicts[name] + (f" ({undecided})" if undecided else "")
-            lines.append(f"| {claims[name]['statement']} | {claims[name]['where']} | {_cases_text(rows)} | {verdict} |")
+            claim, rows = claims[name], table[table["claim"] == name]
+            lines.append(
+                f"| **{claim['statement']}** ({claim['where']}) | {claim['quantity']} | | **{verdicts[name]}** |"
+            )
+            shown = cases_shown(rows)
+            lines += [_case_line(row) for row in shown.to_dict("records")]
+            lines += [f"| {len(rows) - len(shown)} more cases | | | |"] if len(shown) < len(rows) else []
         parts.append("\n".join(lines) + "\n")
     return "\n".join(parts)
 
@@ -160,22 +174,26 @@ def cases_shown(rows):
     return rows.loc[sorted({rows.index[0], farthest, rows.index[-1]})]
 
 
-def _cases_text(rows):
-    shown = cases_shown(rows)
-    number = f"{len(rows)} cases, of which " if len(shown) < len(rows) else ""
-    return number + "; ".join(case_text(row) for _, row in shown.iterrows())
+def _case_line(row):
+    """Row of one case in the summary."""
+    said = _digits(row["expected"]) if np.isfinite(row["expected"]) else ""
+    verdict = row["verdict"] + (f": {row['convention']}" if row["convention"] else "")
+    if np.isfinite(row["conventions"]):
+        agreeing, contradicting = f"{row['agreeing']:.0f}", f"{row['contradicting']:.0f}"
+        verdict += f"; in {agreeing} of {row['conventions']:.0f} conventions, outside in {contradicting}"
+    return f"| {row['case']} | {value_in_words(row)} | {said} | {verdict} |"
 
 
-def case_text(row):
-    """Name and value of a case, its interval in brackets, its range, and the paper's value, as text."""
+def value_in_words(row):
+    """Value of a case, its interval in brackets, and its range in words."""
     if not np.isfinite(row["value"]):
-        return f"{row['case']}: –"
-    text = f"{row['case']}: {_digits(row['value'])}"
+        return "–"
+    text = _digits(row["value"])
     if np.isfinite(row["low"]):
         text += f" [{_digits(row['low'])}, {_digits(row['high'])}]"
     if np.isfinite(row["least"]):
         text += f", least {_digits(row['least'])}, largest {_digits(row['largest'])}"
-    return text + (f", paper {_digits(row['expected'])}" if np.isfinite(row["expected"]) else "")
+    return text
 
 
 def _digits(number):

@@ -9,7 +9,7 @@ import xarray as xr
 from scipy.special import ndtri
 
 from viscorough_study.ensembles import pool
-from viscorough_study.fits.conventions import select, source_values
+from viscorough_study.fits.conventions import FITTED, conventions_text, select, source_values
 from viscorough_study.fits.intervals import NO_INTERVAL
 from viscorough_study.fits.power_law import find_region
 from viscorough_study.run.paper_data import number
@@ -95,9 +95,8 @@ class Evidence:
         test: Berger, Technometrics 24, 295 (1982)). A single case outside refutes the claim, and of many cases one may
         be outside by chance: for this test intervals are widened to 95 % for all cases together (Bonferroni).
         Verdicts from fewer realizations than the paper averages must hold with intervals `FEW_WIDENED` times as wide:
-        by Chebyshev's inequality a quantity lies beyond those in less than 0.07 % of all draws, for any distribution;
-        in 19 of 20 draws no case of any claim does. A reduced scale then decides only what other surfaces would
-        confirm, and leaves the rest undecided.
+        by Chebyshev's inequality one quantity lies beyond those in less than 0.07 % of all draws, for any distribution.
+        A reduced scale then decides only what other surfaces would confirm, and leaves the rest undecided.
         """
         factor = FEW_WIDENED if self.are_few(realizations) else 1.0
         if equivalence(widened(values, factor), low, high):
@@ -105,14 +104,34 @@ class Evidence:
         together = ndtri(1 - CONFIDENCE_TAIL / cases) / ndtri(1 - CONFIDENCE_TAIL)
         return False if equivalence(widened(values, factor * together), low, high) is False else None
 
-    def case(self, name, values, expected, allowed, *, realizations, cases=1, convention="", extremes=NO_INTERVAL):
-        """Case of a quantity that must lie in the allowed range (low, high), `judged` by `within`.
+    def case(self, name, values, expected, allowed, *, realizations, cases=1, others=None, extremes=NO_INTERVAL):
+        """Case of a quantity that must lie in the range allowed, (low, high): `judged` by `within`.
 
-        convention : in which the claim holds; ignored for few realizations, which do not determine it
+        others : Conventions that the paper leaves open; few realizations do not tell in which of them a claim holds
         """
         met = self.within(values, *allowed, realizations=realizations, cases=cases)
-        other = "" if self.are_few(realizations) else convention
-        return judged(name, values, expected, met, other, extremes=extremes)
+        if others is None or self.are_few(realizations):
+            return judged(name, values, expected, met, extremes=extremes)
+        decided = [self.within(one, *allowed, realizations=realizations, cases=cases) for one in others.values]
+        counts = (len(decided), decided.count(True), decided.count(False))
+        holds_in = others.holds_in
+        if met and counts[2]:
+            met, holds_in = False, others.own or conventions_text({one: self.conventions[one] for one in FITTED})
+        return judged(name, values, expected, met, holds_in, extremes=extremes, counts=counts)
+
+
+@dataclass(frozen=True)
+class Conventions:
+    """The quantity of a case in every combination of the conventions that the paper leaves open.
+
+    values : value and interval in each, shape (combinations, 3)
+    holds_in : combination in words in which every case of the claim holds, "" if there is none
+    own : that of the case itself in words, by default the conventions of the figures
+    """
+
+    values: np.ndarray
+    holds_in: str = ""
+    own: str = ""
 
 
 def equivalence(interval, low, high):
@@ -152,7 +171,9 @@ class Case:
     case : Hurst exponent or part of the claim; expected : value stated by the paper, nan if it states none
     value, low, high : the quantity and its 95 % interval, nan where it has no statistical scatter
     least, largest : smallest and largest value over grids, windows, times or realizations, nan where there is one value
-    convention : in which the claim holds where it does not in those of the figures
+    convention : in which alone the claim holds, where it depends on a convention that the paper leaves open
+    conventions, agreeing, contradicting : number of combinations of conventions, of those in which the case meets the
+        criterion, and of those in which it is outside; nan where no convention enters
     """
 
     case: str
@@ -164,15 +185,18 @@ class Case:
     expected: float
     verdict: str
     convention: str = ""
+    conventions: float = np.nan
+    agreeing: float = np.nan
+    contradicting: float = np.nan
 
 
-def judged(name, values, expected, met, convention="", *, extremes=NO_INTERVAL):
+def judged(name, values, expected, met, convention="", *, extremes=NO_INTERVAL, counts=(np.nan,) * 3):
     """Case with its verdict.
 
     values : value, low, high; extremes : least, largest
-    met : whether the criterion is met, None where the data do not decide (`Evidence.within`); a case whose value could
-        not be computed is undecided
-    convention : in which the criterion is met although it is not in those of the figures, if any
+    met : whether the criterion is met in any convention, None where the data do not decide (`Evidence.within`); a value
+        that could not be computed is never decided
+    convention : in which alone it is met, if any; counts : conventions, agreeing, contradicting
     """
     verdict = "not reproduced"
     if not np.isfinite(values[0]):
@@ -183,4 +207,4 @@ def judged(name, values, expected, met, convention="", *, extremes=NO_INTERVAL):
         verdict = "reproduced under a stated convention"
     elif met is None:
         verdict = "undecided"
-    return Case(name, *values, *extremes, expected, verdict, convention)
+    return Case(name, *values, *extremes, expected, verdict, convention, *counts)

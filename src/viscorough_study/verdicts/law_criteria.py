@@ -1,7 +1,7 @@
 """Criteria of claims that fitted exponents and curves follow a law of the paper.
 
-Where a claim fails in the conventions of the figures but holds in others that the paper leaves open, the verdict names
-the conventions with the smallest deviation.
+Where a claim holds in some of the conventions that the paper leaves open and fails in others, the verdict says so,
+whether those of the figures are among the former or the latter, and names the convention.
 """
 
 from itertools import product
@@ -10,10 +10,10 @@ import numpy as np
 import pandas as pd
 
 from viscorough import reference
-from viscorough_study.fits.conventions import FITTED, NAMES, as_text, in_every_reading, left_open, select, source_values
+from viscorough_study.fits.conventions import FITTED, conventions_text, select, source_values
 from viscorough_study.fits.intervals import UNDEFINED, deviation_interval, difference, interval, percentile_interval
 from viscorough_study.fits.power_law import fit_power_law, in_window, log_means
-from viscorough_study.verdicts.evidence import hurst_name, judged
+from viscorough_study.verdicts.evidence import Conventions, hurst_name, judged
 from viscorough_study.verdicts.region_criteria import combinations_case
 
 SHARE_OF_SQUARE = 0.75  # lower bound of the fraction of a square's elements that its disc has
@@ -26,11 +26,15 @@ def beta(evidence, tolerance, source="discs"):
     """β against H/(1 + H), for the Hurst exponents for which the paper says that it holds."""
     fits = evidence.fits(source)
     fits = fits[fits.index > evidence.paper_value("agreement", "beta_hurst_min")]
-    convention = _nearest_convention(evidence.tables["scaling"], source, fits.index, tolerance)
+    every = evidence.tables["scaling"].query("source == @source").dropna(subset="beta")
+    every = every[every["case_group"].isin(evidence.tables["prefactors"]["case_group"])]
+    holds_in = _nearest_convention(every[every["case_group"] == "base"], fits.index, tolerance)
     for hurst, fit in fits.iterrows():
-        law, claim = reference.exponent_beta(hurst), {"cases": len(fits), "convention": convention}
+        law = reference.exponent_beta(hurst)
+        values = every.loc[every["hurst"] == hurst, ["beta", "beta_low", "beta_high"]].to_numpy()
+        others = {"cases": len(fits), "others": Conventions(values, holds_in), "realizations": fit.realizations}
         ends = law - tolerance, law + tolerance
-        yield evidence.case(hurst_name(hurst), interval(fit, "beta"), law, ends, **claim, realizations=fit.realizations)
+        yield evidence.case(hurst_name(hurst), interval(fit, "beta"), law, ends, **others)
 
 
 def beta_lines(evidence, tolerance):
@@ -38,34 +42,36 @@ def beta_lines(evidence, tolerance):
     return beta(evidence, tolerance, "lines")
 
 
-def _nearest_convention(scaling, source, hursts, tolerance):
-    """Conventions, as text, with the smallest deviation among those with every interval of β within the tolerance.
+def _nearest_convention(fits, hursts, tolerance):
+    """Conventions in words in which the interval of β of every Hurst exponent lies within the tolerance; "" if none.
 
     "" if there are none.
     """
-    fits = left_open(in_every_reading(scaling[(scaling["source"] == source) & (scaling["case_group"] == "base")]))
     nearest, smallest = "", tolerance
-    for values, group in fits.groupby(NAMES, sort=False):
+    for values, group in fits.groupby(list(FITTED), sort=False):
         ends = group.set_index("hurst").reindex(hursts)[["beta_low", "beta_high"]].to_numpy()
         deviations = np.abs(ends - reference.exponent_beta(hursts.to_numpy())[:, None])
         if np.isfinite(deviations).all() and deviations.max() <= smallest:
-            nearest, smallest = as_text(dict(zip(NAMES, values, strict=True))), deviations.max()
+            nearest, smallest = conventions_text(dict(zip(FITTED, values, strict=True))), deviations.max()
     return nearest
 
 
 def coincide(evidence, tolerance):
     """β of lines minus β of discs, with the conventions in which the difference is smallest."""
-    nearest, smallest = "", tolerance
-    for values in product(*(evidence.tables["scaling"][name].unique() for name in FITTED)):
+    nearest, smallest, every = "", tolerance, []
+    for values in product(*(FITTED[name] for name in FITTED)):
         conventions = dict(zip(FITTED, values, strict=True))
-        ends = np.abs(_differences(evidence, conventions)[["low", "high"]].to_numpy())
+        differences = _differences(evidence, conventions)
+        ends = np.abs(differences[["low", "high"]].to_numpy())
         if ends.size and np.isfinite(ends).all() and ends.max() <= smallest:
-            nearest, smallest = as_text(conventions), ends.max()
-    differences = _differences(evidence, {})
+            nearest, smallest = conventions_text(conventions), ends.max()
+        every.append(differences)
+    every, differences = pd.concat(every).dropna(), _differences(evidence, {})
     for hurst, row in differences.iterrows():
         *values, number = row.tolist()
-        options = {"realizations": number, "cases": len(differences), "convention": nearest}
-        yield evidence.case(hurst_name(hurst), values, 0.0, (-tolerance, tolerance), **options)
+        others = Conventions(every.loc[every.index == hurst, ["value", "low", "high"]].to_numpy(), nearest)
+        context = {"realizations": number, "cases": len(differences), "others": others}
+        yield evidence.case(hurst_name(hurst), values, 0.0, (-tolerance, tolerance), **context)
 
 
 def _differences(evidence, conventions):
@@ -88,18 +94,19 @@ def hurst_only(evidence, tolerance):
 
 
 def no_grid(evidence, tolerance):
-    """Change of β in windows of fixed X for a tenfold number of elements, from grids from coarse to fine.
+    """Factor by which a tenfold number of elements changes κ at given u/h (fits.grid_dependence); extremes: of κ.
 
-    The number of realizations enters through the interval of the trend over grids.
+    How many realizations a grid has enters by the interval of the factor, which is over grids.
     """
-    trends = evidence.tables["sizes_trends"]
-    trends = trends[(trends["source"] == "discs") & ~trends["window_rule"].isin(FITTED["window_rule"])]
-    trends = trends.dropna(subset="slope").sort_values("hurst", kind="stable")
-    if trends.empty:
-        yield judged("all H", UNDEFINED, 0.0, None)
-    for row in trends.to_dict("records"):
-        name, ends = f"{hurst_name(row['hurst'])}, {row['window_rule']}", (-tolerance, tolerance)
-        yield evidence.case(name, interval(row, "slope"), 0.0, ends, realizations=np.inf, cases=len(trends))
+    table, ends = evidence.tables["grid_dependence"], (1 / (1 + tolerance), 1 + tolerance)
+    table = table[table["quantity"].str.startswith("κ at u/h") & (table["compared"] == 1)].dropna(subset="factor")
+    if table.empty:
+        yield judged("all H", UNDEFINED, 1.0, None)
+    groups = table.groupby(["hurst", "quantity"])
+    for (hurst, quantity), grids in groups:
+        context = {"cases": len(groups), "extremes": (grids["value"].min(), grids["value"].max())}
+        values, name = interval(grids.iloc[0], "factor"), f"{hurst_name(hurst)}, {quantity}"
+        yield evidence.case(name, values, 1.0, ends, realizations=np.inf, **context)
 
 
 def realizations(evidence, tolerance):

@@ -5,8 +5,6 @@ quantities that a line would have to reproduce are judged here as well: Lyashenk
 52, 223 (2013)) find that it reproduces neither contact area nor separation.
 """
 
-from itertools import product
-
 import numpy as np
 
 from viscorough_study.fits.intervals import UNDEFINED, deviation_interval, interval
@@ -17,21 +15,25 @@ EQUAL_WINDOWS = ("same X", "same κ")
 
 def lambda_constant(evidence, tolerance):
     """λ at the upper end of region (b) over λ at the lower end."""
-    return _summary_cases(evidence, {"drift": ""}, 1.0, (1 / (1 + tolerance), 1 + tolerance))
+    return _summary_cases(evidence, "drift", 1.0, (1 / (1 + tolerance), 1 + tolerance))
 
 
 def exact_correspondence(evidence, tolerance):
-    """Error of ln(vt/h) with the best single λ: at the upper end of region (b), and the largest of the whole curve."""
-    parts = {"error_trend": ", region (b)", "error_whole": ", to complete contact"}
-    return _summary_cases(evidence, parts, 0.0, (-tolerance, tolerance))
+    """Error of ln(vt/h) with the best single λ at the upper end of region (b)."""
+    return _summary_cases(evidence, "error_trend", 0.0, (-tolerance, tolerance))
 
 
-def _summary_cases(evidence, parts, expected, allowed):
-    """Cases of columns of the summary; parts : {column: suffix of the name of the case}."""
+def whole_curve(evidence, tolerance):
+    """The largest error of ln(vt/h) over the whole curve with the λ that is best in region (b)."""
+    return _summary_cases(evidence, "error_whole", 0.0, (-tolerance, tolerance))
+
+
+def _summary_cases(evidence, column, expected, allowed):
+    """Cases of a column of the summary."""
     table = evidence.tables["mdr_summary"]
-    for row, (column, part) in product(table.to_dict("records"), parts.items()):
-        counts = {"realizations": _fewest(row), "cases": len(table) * len(parts)}
-        yield evidence.case(hurst_name(row["hurst"]) + part, interval(row, column), expected, allowed, **counts)
+    for row in table.to_dict("records"):
+        context = {"realizations": _fewest(row), "cases": len(table)}
+        yield evidence.case(hurst_name(row["hurst"]), interval(row, column), expected, allowed, **context)
 
 
 def coincide_equal_windows(evidence, tolerance):

@@ -11,7 +11,10 @@ from viscorough_study.fits.conventions import NAMES, as_text, left_open
 from viscorough_study.fits.intervals import interval
 from viscorough_study.fits.prefactors import COMBINED, LAWS
 from viscorough_study.fits.zeta_laws import difference, measure_value
-from viscorough_study.verdicts.evidence import hurst_name
+from viscorough_study.verdicts.evidence import Conventions, hurst_name
+
+# By which one law fits better than another (fits.zeta_laws): the one of the criterion, and others.
+MEASURES = (("curve", "deviation"), ("curve", "spread"), ("zeta", "deviation"), ("zeta", "spread"))
 
 
 def zeta_elastic(evidence, tolerance):
@@ -26,17 +29,19 @@ def zeta_viscous(evidence, tolerance):
 
 def _absolute(evidence, tolerance, name, gamma):
     """Cases of ζ against a law of viscorough_study.fits.prefactors, one for each Hurst exponent."""
-    convention = _nearest_convention(evidence.tables["prefactors"], name, gamma, tolerance)
-    fits = evidence.fits("discs", gamma=gamma)
+    table = evidence.tables["prefactors"]
+    table = left_open(table[table["gamma"] == gamma]).dropna(subset="zeta")
+    holds_in, fits = _nearest_convention(table, name, tolerance), evidence.fits("discs", gamma=gamma)
     for hurst, fit in fits.iterrows():
-        law, claim = LAWS[name][1](hurst), {"cases": len(fits), "convention": convention}
+        values = table.loc[table["hurst"] == hurst, ["zeta", "zeta_low", "zeta_high"]].to_numpy()
+        others = {"cases": len(fits), "others": Conventions(values, holds_in), "realizations": fit.realizations}
+        law = LAWS[name][1](hurst)
         ends = law * (1 - tolerance), law * (1 + tolerance)
-        yield evidence.case(hurst_name(hurst), interval(fit, "zeta"), law, ends, **claim, realizations=fit.realizations)
+        yield evidence.case(hurst_name(hurst), interval(fit, "zeta"), law, ends, **others)
 
 
-def _nearest_convention(table, name, gamma, tolerance):
-    """Conventions, as text, with the smallest deviation among those with every interval within the tolerance; or ""."""
-    table = left_open(table[table["gamma"] == gamma])
+def _nearest_convention(table, name, tolerance):
+    """Conventions in words in which every interval lies within the tolerance; "" if none."""
     law = LAWS[name][1](table["hurst"])
     ends = np.maximum(np.abs(table["zeta_low"] / law - 1), np.abs(table["zeta_high"] / law - 1))
     largest = ends.fillna(np.inf).groupby([table[column] for column in COMBINED], sort=False).max()
@@ -74,11 +79,14 @@ def _spreads(evidence, tolerance, quantity, law):
 def zeta_better(evidence, tolerance):
     """Deviation from Eq. 4 less that from Eq. 11 of vt/h with the exponent H/(1 + H); positive if Eq. 11 is better.
 
-    Compared with the factor 1/Γ(2 − α) in both, as in the paper, and with Eq. 4 in its own reading, without the factor.
+    Both with the factor 1/Γ(2 − α), as in the paper, and each in its own reading, Eq. 4 without the factor. The paper
+    does not say by which measure the law fits better: the others are the spread of the curves over H, and deviation and
+    spread of the fitted ζ.
     """
     table = evidence.tables["zeta_laws"]
     readings = {"Eq. 4, with Γ": "both with Γ", "Eq. 4, without Γ": "Eq. 4 without Γ"}
-    counts = {"realizations": table["realizations"].min(), "cases": len(readings)}
+    context = {"realizations": table["realizations"].min(), "cases": len(readings)}
     for law, reading in readings.items():
-        values = measure_value(table, "curve", difference(law), "deviation")
-        yield evidence.case(f"all H, {reading}", values, np.nan, (tolerance, np.inf), **counts)
+        values, *others = (measure_value(table, quantity, difference(law), measure) for quantity, measure in MEASURES)
+        context["others"] = Conventions(np.array([values, *others]), own="deviation of the curves")
+        yield evidence.case(f"all H, {reading}", values, np.nan, (tolerance, np.inf), **context)

@@ -15,7 +15,7 @@ ELEMENTS = np.array([1e3, 1e4, 1e5, 1e6])
 
 def table(departure, *, hurst=0.1, source="discs", case_group="sizes", half_width=0.01):
     beta = departure + (0.0 if case_group == "controls" else exponent_beta(hurst))
-    columns = fit_row(source=source, case_group=case_group, hurst=hurst)
+    columns = fit_row(source=source, case_group=case_group, hurst=hurst, realizations=20)
     if source == "lines":
         columns["rms_convention"] = "line"
     values = {"elements": ELEMENTS, "beta": beta, "beta_low": beta - half_width, "beta_high": beta + half_width}

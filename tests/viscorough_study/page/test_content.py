@@ -111,6 +111,7 @@ def claims_table(*verdicts_of_cases):
     """Cases of the claim on β with their verdicts, and with values ever farther from what the paper says."""
     table = pd.DataFrame({"verdict": verdicts_of_cases}).assign(claim="beta", kind="physics", where="Eq. 5")
     table = table.assign(case=[f"H = {i}" for i in range(len(table))], convention="", criterion="it is", reason="it is")
+    table = table.assign(quantity="β", **dict.fromkeys(("conventions", "agreeing", "contradicting"), np.nan))
     numbers = dict.fromkeys(("low", "high", "least", "largest", "tolerance"), 0.1) | {"expected": 0.0}
     return table.assign(value=0.1 * table.index, **numbers)
 

@@ -134,7 +134,7 @@ def test_what_ends_snakemake_itself_is_shown(tmp_path):
 def test_the_end_is_three_lines(tmp_path):
     (tmp_path / "tables").mkdir()
     rows = [("a", "reproduced"), ("a", "undecided"), ("b", "reproduced"), ("c", "reproduced")]
-    pd.DataFrame(rows, columns=["claim", "verdict"]).to_csv(tmp_path / "tables/claims.csv", index=False)
+    pd.DataFrame(rows, columns=["claim", "verdict"]).assign(kind="physics").to_csv(tmp_path / "tables/claims.csv")
     pd.DataFrame({"share_s": [200.0, 40.0]}).to_csv(tmp_path / "tables/rule_costs.csv", index=False)
     for trial, added in ((0, ""), (1, "; trial scale, on which verdicts mean nothing")):
         xr.Dataset(attrs={"trial": trial}).to_netcdf(tmp_path / "tables/claims.nc")

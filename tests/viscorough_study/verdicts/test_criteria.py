@@ -201,12 +201,14 @@ def test_exponents_of_combinations_are_compared():
     assert {case.verdict for case in hurst_only(dataclasses.replace(sample), 0.03)} == {"not reproduced"}
 
 
-def test_change_of_exponents_with_the_grid_is_judged_in_windows_of_fixed_x():
-    sample = evidence()
-    verdicts = [case.verdict for case in no_grid(sample, 0.03)]
-    assert verdicts == ["reproduced", "undecided", "not reproduced"]
-    sample.tables["sizes_trends"] = sample.tables["sizes_trends"].query("source == 'lines'")
-    assert [case.verdict for case in no_grid(sample, 0.03)] == ["undecided"]
+def test_change_of_stiffness_with_the_grid_is_judged_at_given_depths():
+    """Not at given forces, and over the grids only on which enough elements touch."""
+    found = evidence()
+    cases = list(no_grid(found, 0.12))
+    assert [case.verdict for case in cases] == ["not reproduced", "undecided", "reproduced"]
+    assert [(case.least, case.largest) for case in cases] == [(0.2, 0.3)] * 3
+    found.tables["grid_dependence"] = found.tables["grid_dependence"].query("compared == 0")
+    assert [case.verdict for case in no_grid(found, 0.12)] == ["undecided"]
 
 
 def test_interval_of_the_exponent_that_250_indentations_give():

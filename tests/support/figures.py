@@ -247,6 +247,12 @@ def literature_table():
     return table.assign(value=0.5, low=0.49, high=0.51).reindex(columns=list(LITERATURE))
 
 
+def periodic_table():
+    """Table of periodic surfaces of one Hurst exponent, with and without a roll-off."""
+    table = pd.DataFrame({"x": [0.2, 1.0, 5.0], "g": [0.4, 0.5, 0.3], "hurst": 0.4})
+    return pd.concat([table.assign(roll_off_wavelength=wavelength) for wavelength in (np.nan, 0.125)])
+
+
 def interface_tables_drawn():
     """Tables of an interface in series with a punch, as fits.interface makes them; its law is 2 % above."""
     x, rows, curves = np.geomspace(1e-3, 28, 60), [], []
@@ -273,7 +279,7 @@ FROM_TABLES = {  # arguments of the figures that are drawn from tables alone
     "direct": (direct_table(),),
     "failure_map": (failure_table(LETTERS),),
     "growth": (methods_table(),),
-    "interface": (*interface_tables_drawn(), literature_table(), SHOWN),
+    "interface": (*interface_tables_drawn(), literature_table(), periodic_table(), SHOWN),
     "large": (large_table(),),
     "level_placement": (level_placement_table(),),
     "reduction": (mdr_table(),),

@@ -13,6 +13,11 @@ TABLE_PARAMS = {
     "fit_scaling": {"seed": config["seed"], **config["scaling"]},
     "tabulate_calibration": {"conventions": config["figures"], "across": config["discs"]["elements"]},
     "fit_interface": {"fit": interface_limits(), "rms_convention": config["figures"]["rms_convention"]},
+    "compare_periodic": {
+        **{name: value for name, value in config["periodic"].items() if name != "hurst"},
+        "hursts": config["periodic"]["hurst"],
+        "seed": config["seed"],
+    },
     "validate": config["validation"],
     "match_lines": {
         "seed": config["seed"],

@@ -9,10 +9,11 @@ X_SHOWN = (1e-4, 30.0)
 
 
 @style.in_style
-def plot_interface(table, curves, literature, conventions):
-    """g of discs (a) and lines (b), vt/h by the law over vt/h of discs (c), and u₀/h of every grid and method (d).
+def plot_interface(table, curves, literature, periodic, conventions):
+    """g of discs and of periodic surfaces (a) and of lines (b), vt/h of the law over that of discs (c), u₀/h (d).
 
     table, curves : of fits.interface; literature : of comparisons.literature, for u₀/h in (d)
+    periodic : of comparisons.periodic_control
     conventions : those of the figures, {column: value}
     (a) to (c) show each Hurst exponent on the base grid only. Raises ValueError for a table without rows.
     """
@@ -21,10 +22,13 @@ def plot_interface(table, curves, literature, conventions):
     figure = style.new_figure(130)
     panels = figure.subplots(2, 2)
     discs, lines = _on_base_grid(table, "discs"), _on_base_grid(table, "lines")
-    looks = style.hurst_looks(table["hurst"])
+    looks = style.hurst_looks([*table["hurst"], *periodic["hurst"]])
     for axes, rows in zip(panels[0], (discs, lines), strict=True):
         for row in rows.itertuples():
             _draw_interface(axes, row, _curve(curves, row), looks[row.hurst])
+    for (hurst, roll_off), rows in periodic.groupby(["hurst", periodic["roll_off_wavelength"].notna()]):
+        look = {"color": looks[hurst]["color"], "marker": "s" if roll_off else "o", "linestyle": ""}
+        panels[0, 0].plot(rows["x"], rows["g"], **look, markersize=3, markerfacecolor="white" if roll_off else None)
     for row in discs.itertuples():
         curve = _curve(curves, row)
         panels[1, 0].plot(curve["x"], curve["law"] / curve["velocity"], **looks[row.hurst] | {"marker": ""})
@@ -35,6 +39,8 @@ def plot_interface(table, curves, literature, conventions):
         *style.hurst_handles(style.hurst_looks([*discs["hurst"], *lines["hurst"]]), marker=""),
         style.handle("plateau", color=style.GREY, linewidth=3, alpha=0.4),
         style.handle("law", color=style.BLACK, linewidth=0.6),
+        style.handle("periodic", color=style.GREY, marker="o", linestyle=""),
+        style.handle("with roll-off", color=style.GREY, marker="s", markerfacecolor="white", linestyle=""),
     ]
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), columnspacing=1)
     return figure

@@ -90,6 +90,11 @@ def plateau_key(hurst, group):
     return _key(14, _millionths(hurst), zlib.crc32(group.encode()))
 
 
+def periodic_key(hurst, realization):
+    """Periodic surfaces of the control of two springs, the same with and without a roll-off."""
+    return _key(15, _millionths(hurst), realization)
+
+
 def random_indenter_key(case):
     """Small indenter of the stability campaign; case : its number."""
     return _key(case)

@@ -1,0 +1,108 @@
+"""The control of two springs in series: contact of the same spectra on a periodic half-space, behind which is no punch.
+
+A periodic rough surface under the mean pressure p has the mean separation ū, and g_per = −dū/(h d ln p) is the
+compliance of its interface, from which nothing has to be subtracted. If the interface's part g of vt/h of a disc is a
+property of the interface alone, the two agree at equal mean pressure, p/E* = (4/π) X h/L. With a roll-off both are the
+exponential law of Persson's theory, ū₀/h = g_per, around 0.4 (Pastewka et al., Phys. Rev. E 87, 062809 (2013)).
+
+The half-space is solved by conjugate gradients projected on pressures that are nowhere negative and have the mean p
+(Polonsky & Keer, Wear 231, 206 (1999)), with the kernel 2/(E*|q|) in Fourier space and none at q = 0. It is a control,
+independent of the solver of the library.
+"""
+
+from itertools import product
+
+import numpy as np
+import pandas as pd
+from scipy import fft
+
+from viscorough.errors import ConvergenceError
+from viscorough.surfaces import self_affine_square
+from viscorough_study.ensembles.averages import abscissa
+from viscorough_study.fits.intervals import described, mean_with_interval, three_columns
+from viscorough_study.run.job_log import progress
+from viscorough_study.run.seeds import periodic_key, realization_seed
+
+TOLERANCE = 1e-4  # of the gap, over the rms height
+ITERATIONS_MAX = 5000
+COLUMNS = {
+    "hurst": ("Hurst exponent", "1"),
+    "roll_off_wavelength": ("longest wave of the power law over the period, missing without a roll-off", "1"),
+    "x": ("X at which a disc has this mean pressure, p/E* = (4/π) X h/L", "1"),
+    "surfaces": ("surfaces", "1"),
+    **described("g", "−dū/(h d ln p), mean over the surfaces"),
+    "contact_fraction": ("mean share of the elements in contact", "1"),
+}
+
+
+def periodic_control(*, hursts, points, surfaces, roll_off, x_low, x_high, per_decade, seed):
+    """g_per over X, with and without a roll-off; a pandas.DataFrame with the columns of `COLUMNS`.
+
+    points : of a side of the square; surfaces : number for each Hurst exponent and spectrum
+    roll_off : its wavelength over the period, and its level, as of self_affine_square
+    x_low, x_high, per_decade : of the levels, between which g_per is
+    """
+    x, tables = abscissa(x_low, x_high, per_decade), []
+    spectra = {np.nan: {}, roll_off["wavelength"]: {"roll_off_wavelength": points * roll_off["wavelength"]}}
+    spectra[roll_off["wavelength"]]["roll_off_level"] = roll_off["level"]
+    for hurst, (wavelength, waves) in product(hursts, spectra.items()):
+        found = []
+        for number in progress(range(surfaces), surfaces, f"periodic surfaces, H = {hurst:g}"):
+            key = periodic_key(hurst, number)
+            heights = self_affine_square(hurst, points, seed=realization_seed(seed, *key), **waves)
+            found.append(mean_separations(heights, 4 / np.pi * x))
+        separation, fraction = np.moveaxis(np.array(found), 1, 0)
+        g = -np.diff(separation) / np.diff(np.log(x))
+        rows = pd.DataFrame([three_columns("g", mean_with_interval(values)) for values in g.T])
+        rows = rows.assign(hurst=hurst, roll_off_wavelength=wavelength, surfaces=surfaces, x=np.sqrt(x[1:] * x[:-1]))
+        tables.append(rows.assign(contact_fraction=(fraction[:, 1:] + fraction[:, :-1]).mean(axis=0) / 2))
+    return pd.concat(tables, ignore_index=True)[list(COLUMNS)]
+
+
+def mean_separations(heights, pressures):
+    """ū/h, and the share of the elements in contact, at increasing mean pressures p L/(E* h); shape (2, pressures).
+
+    heights : of a periodic square, shape (n, n), of mean 0; any unit
+    """
+    shape = np.array(heights / heights.std(), dtype=float)
+    pressure, found = np.full(shape.shape, pressures[0]), []
+    for mean in pressures:
+        separation, pressure = periodic_contact(shape, pressure * (mean / pressure.mean()))
+        found.append((separation, (pressure > 0).mean()))
+    return np.transpose(found)
+
+
+def periodic_contact(heights, start, tolerance=TOLERANCE):
+    """Mean separation and pressures of a contact with the mean pressure of a start.
+
+    heights : shape (n, n), of mean 0, over the unit of height; start : pressures p L/E* over it, shape (n, n)
+    Raises ConvergenceError if the gap in contact, or an overlap, is above the tolerance after ITERATIONS_MAX.
+    """
+    n, mean, pressure = len(heights), start.mean(), start
+    waves = 2 * np.pi * np.hypot(fft.fftfreq(n, 1 / n)[:, None], fft.rfftfreq(n, 1 / n))
+    waves[0, 0] = np.inf
+    kernel = 2 / waves
+
+    def deflection(load):
+        return fft.irfft2(kernel * fft.rfft2(load), s=load.shape)
+
+    direction, last, keep = np.zeros_like(heights), 1.0, 0.0
+    for _ in range(ITERATIONS_MAX):
+        touching = pressure > 0
+        gap = deflection(pressure) - heights
+        separation = -gap[touching].mean()
+        gap += separation
+        if np.abs(gap[touching]).max() <= tolerance and gap.min() >= -tolerance:
+            return separation, pressure
+        square = np.sum(gap[touching] ** 2)
+        direction = np.where(touching, gap + keep * square / last * direction, 0.0)
+        last = square
+        response = deflection(direction)
+        response -= response[touching].mean()
+        step = np.sum(gap[touching] * direction[touching]) / np.sum(response[touching] * direction[touching])
+        pressure = np.maximum(pressure - step * direction, 0.0)
+        overlapping = (pressure == 0) & (gap < 0)
+        pressure[overlapping] -= step * gap[overlapping]
+        keep = 0.0 if overlapping.any() else 1.0
+        pressure *= mean / pressure.mean()
+    raise ConvergenceError(f"periodic contact: tolerance {tolerance:g} not reached in {ITERATIONS_MAX} iterations")

@@ -194,7 +194,7 @@ def test_interface_law_and_plateaus(drawn):
     discs, lines, law, plateaus = drawn["interface"].axes
     wanted = table[table["average"] == SHOWN["average"]]
     assert len(discs.lines) == 3 * 3 + 2  # g, its law and its plateau for three Hurst exponents; periodic surfaces
-    periodic = [line for line in discs.lines if line.get_marker() in "os"]
+    periodic = [line for line in discs.lines if line.get_marker() in ("o", "s")]
     assert [line.get_ydata().tolist() for line in periodic] == [[0.4, 0.5, 0.3]] * 2
     assert len(lines.lines) == 2
     for line in law.lines[:3]:

@@ -77,7 +77,7 @@ PICTURES = ("speed.png",)  # which README.md shows: also in docs/
 def verdicts():
     """The verdicts of docs/claims.csv with all numbers, as a table in Markdown, and those that other draws change."""
     table = published_claims()
-    text = markdown(table, read_claims())
+    text = markdown(table, read_claims()) + "\n" + own_scale(overall(table), overall(published_claims(DEFAULT_CLAIMS)))
     for name, sentence in (("resampled", other_surfaces), ("seeds", other_seeds)):
         others = json.loads((ROOT / f"docs/{name}.json").read_text(encoding="utf-8"))["verdicts"]
         text += "\n" + sentence(overall(table), others)
@@ -123,6 +123,15 @@ def read_claims():
 def paragraph(text):
     """A paragraph in lines of at most 120 characters."""
     return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False) + "\n"
+
+
+def own_scale(published, default):
+    """Sentence on the verdicts of the default run, which has as many discs as the paper: those that differ."""
+    differ = [f"{claim} ({verdict})" for claim, verdict in default.items() if published[claim] != verdict]
+    return paragraph(
+        "With the paper's own number of discs, 2880 (`make reproduce`, `resources/published/default_claims.csv`), the "
+        f"verdicts are the same, but for: {', '.join(differ) or 'none'}."
+    )
 
 
 def other_surfaces(published, draws):

@@ -67,10 +67,10 @@ def trends(table, conventions, tolerance):
         with the grid; the fixed windows of the table are added
     tolerance : of β, that of the claims on β in resources/paper/claims.yaml
 
-    The trend is a least-squares line weighted by the number of realizations, whose scatter is pooled over the grids; its
-    interval is widened where β scatters more than they explain. On the finest grid β agrees if its whole interval lies
-    within the tolerance of the expected exponent, departs if it lies outside, and is undetermined otherwise. A departure
-    is less on finer grids if the whole interval of the slope points towards the expected exponent.
+    The trend is a least-squares line weighted by the number of realizations, whose scatter is pooled over the grids;
+    its interval is widened where β scatters more than they explain. On the finest grid β agrees if its whole interval
+    lies within the tolerance of the expected exponent, departs if it lies outside, and is undetermined otherwise. A
+    departure is less on finer grids if the whole interval of the slope points towards the expected exponent.
     Returns a pandas.DataFrame with the columns of `COLUMNS`.
     """
     rows = []

@@ -14,7 +14,7 @@ from viscorough_study.verdicts.claims import (
     is_trial,
     overall,
     undecided_cases,
-    value_in_words,
+    value_text,
 )
 
 VERDICT_SHORT = {
@@ -40,7 +40,7 @@ def verdicts(results, statements, published):
         if at_full_scale.get(name, verdict) != verdict:
             of_claim = published[published["claim"] == name]
             case = of_claim.loc[deciding_case(of_claim)]
-            full_scale = {"verdict": at_full_scale[name], "case": f"{case['case']}: {value_in_words(case)}"}
+            full_scale = {"verdict": at_full_scale[name], "case": f"{case['case']}: {value_text(case)}"}
         claims[KINDS[first["kind"]]].append(
             {
                 "name": name,

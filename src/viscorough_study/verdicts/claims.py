@@ -181,11 +181,11 @@ def _case_line(row):
     if np.isfinite(row["conventions"]):
         agreeing, contradicting = f"{row['agreeing']:.0f}", f"{row['contradicting']:.0f}"
         verdict += f"; in {agreeing} of {row['conventions']:.0f} conventions, outside in {contradicting}"
-    return f"| {row['case']} | {value_in_words(row)} | {said} | {verdict} |"
+    return f"| {row['case']} | {value_text(row)} | {said} | {verdict} |"
 
 
-def value_in_words(row):
-    """Value of a case, its interval in brackets, and its range in words."""
+def value_text(row):
+    """Value of a case, its interval in brackets, and its range, as text."""
     if not np.isfinite(row["value"]):
         return "–"
     text = _digits(row["value"])

@@ -10,7 +10,7 @@ SNAKEMAKE = $(BIN)/snakemake --cores $(CORES) $(if $(SETTINGS),--configfile $(SE
 WITH_PROGRESS = $(BIN)/python -m viscorough_study.page.terminal --
 
 .PHONY: help environment environment-slurm settings reproduce paper report check test docs test-slurm bench speed stability \
-	sizes large fuzz faults seeds resampled publish chaos peers lock lock-peers lock-slurm clean
+	sizes large fuzz faults seeds publish chaos peers lock lock-peers lock-slurm clean
 
 help:
 	@echo "make reproduce   the default reproduction: figures, tables, and the page results/index.html, which shows them"
@@ -27,7 +27,6 @@ help:
 	@echo "make fuzz        10000 bad files and options through the command line, 10000 files of known maps; 12 minutes"
 	@echo "make faults      faults planted in copies of the project, one at a time: how many do the tests catch?"
 	@echo "make seeds       the reproduction with three root seeds: does any verdict change?"
-	@echo "make resampled   the surfaces of make paper drawn again with replacement, eight times: does any verdict change?"
 	@echo "make publish     verdicts and numbers from results/ into README.md, docs/ and the package, after make paper"
 	@echo "make chaos       a small reproduction killed 60 times, its results compared with those of an undisturbed run"
 	@echo "make test-slurm  the workflow through Slurm on this machine, with and without lost jobs; Debian, as root"
@@ -133,10 +132,6 @@ faults: environment
 
 seeds: environment
 	$(BIN)/python benchmarks/seeds.py --cores $(CORES) --output results/seeds.json
-
-resampled: environment
-	$(BIN)/python benchmarks/resampled_verdicts.py results --settings config/paper.yaml --cores $(CORES) \
-		--output results/resampled.json
 
 publish: environment
 	$(BIN)/python benchmarks/publish.py --command paper

@@ -5,7 +5,7 @@
 Every command (`make paper`, `make speed`, ...) has its own figures and tables, which are copied into docs/results/ with
 their origin. Name the commands whose results are in the folder: some of the files also exist at a smaller scale. Those
 of paper include the verdicts and the calibrated law, those of reproduce verdicts, cost and Figure 2 of the default run,
-those of seeds and resampled the dependence of the verdicts on the seed and on the surfaces drawn. Without results
+those of seeds the dependence of the verdicts on the seed, that is, on the surfaces drawn. Without results
 (`--pages-only`) only the tables in README.md and docs/ are written, from the last published results and from the
 statements in resources/paper/claims.yaml. The workflow writes only into results/.
 """
@@ -47,7 +47,6 @@ MADE = {
     "large": ("large", "large"),
     "reproduce": ("", ""),
     "seeds": ("", ""),
-    "resampled": ("", ""),
 }
 # {command: files in results/ that are published in docs/results/}
 PUBLISHED = {
@@ -68,20 +67,16 @@ KEPT = {
         "figures/fig2_kinetics.png": "docs/fig2_kinetics.png",
     },
     "seeds": {"seeds.json": "docs/seeds.json", "seeds.csv": "docs/seeds.csv"},
-    "resampled": {"resampled.json": "docs/resampled.json"},
 }
 INTERFACE_QUANTITIES = {"whole": "*vt*/*h*", "interface": "*g*"}
 PICTURES = ("speed.png",)  # which README.md shows: also in docs/
 
 
 def verdicts():
-    """The verdicts of docs/claims.csv with all numbers, as a table in Markdown, and those that other draws change."""
+    """The verdicts of docs/claims.csv with all numbers, as a table in Markdown, and those of other seeds."""
     table = published_claims()
     text = markdown(table, read_claims()) + "\n" + own_scale(overall(table), overall(published_claims(DEFAULT_CLAIMS)))
-    for name, sentence in (("resampled", other_surfaces), ("seeds", other_seeds)):
-        others = json.loads((ROOT / f"docs/{name}.json").read_text(encoding="utf-8"))["verdicts"]
-        text += "\n" + sentence(overall(table), others)
-    return text
+    return text + "\n" + other_seeds(overall(table), json.loads((ROOT / "docs/seeds.json").read_text())["verdicts"])
 
 
 def verdict_lines():
@@ -131,19 +126,6 @@ def own_scale(published, default):
     return paragraph(
         "With the paper's own number of discs, 2880 (`make reproduce`, `resources/published/default_claims.csv`), the "
         f"verdicts are the same, but for: {', '.join(differ) or 'none'}."
-    )
-
-
-def other_surfaces(published, draws):
-    """Sentence on the verdicts of other draws of the surfaces, {draw: {claim: verdict}}, that are not as published."""
-    differ = []
-    for claim, verdict in published.items():
-        others = [verdicts[claim] for verdicts in draws.values() if verdicts[claim] != verdict]
-        counts = "; ".join(f"{other} in {others.count(other)}" for other in sorted(set(others)))
-        differ += [f"{claim} ({counts})"] if counts else []
-    return paragraph(
-        f"Of {len(draws)} draws of the same surfaces with replacement (`make resampled`, "
-        f"[resampled.json](resampled.json)), verdicts that differ from those above: {', '.join(differ) or 'none'}."
     )
 
 

@@ -6,13 +6,39 @@ Every run starts without results in a temporary folder; the verdicts on the pape
 claims of all seeds are written as CSV, to the path of the output with this suffix.
 """
 
+import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 import click
-from measuring import output_option
-from verdicts_again import claims, report
+import pandas as pd
+from measuring import output_option, save
+
+from viscorough_study.verdicts.claims import overall
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+def claims(folder, settings, cores, *arguments):
+    """Table of claims of a run in a folder; settings : file of changes to config/config.yaml, or None."""
+    command = [sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile"), "--directory", str(folder)]
+    command += ["--configfile", str(settings.resolve())] if settings else []
+    command += ["--cores", str(cores), "--quiet", "all", *arguments]
+    subprocess.run([*command, "--", "results/tables/claims.csv"], check=True)
+    return pd.read_csv(Path(folder) / "results/tables/claims.csv", keep_default_na=False, na_values=[""])
+
+
+def report(tables, output):
+    """Write the verdicts of {seed: table of claims}, and the tables as CSV; returns {claim: verdicts} that change."""
+    verdicts = pd.DataFrame({seed: overall(table) for seed, table in tables.items()})
+    moved = {claim: row.tolist() for claim, row in verdicts[verdicts.nunique(axis=1) > 1].iterrows()}
+    save({"moved": moved, "verdicts": verdicts.to_dict()}, output)
+    pd.concat(tables, names=["seed"]).droplevel(1).to_csv(output.with_suffix(".csv"))
+    for claim, outcomes in moved.items():
+        click.echo(f"{claim}: {', '.join(outcomes)}")
+    click.echo(f"{len(moved)} of {len(verdicts)} verdicts change with the seed")
+    return moved
 
 
 @click.command(help=__doc__.splitlines()[0])
@@ -26,7 +52,7 @@ def main(seeds, cores, settings, output):
         with tempfile.TemporaryDirectory() as folder:
             tables[seed] = claims(folder, settings, cores, "--config", f"seed={seed}")
         click.echo(f"seed {seed} of {seeds}")
-    sys.exit(bool(report(tables, "seed", output)))
+    sys.exit(bool(report(tables, output)))
 
 
 if __name__ == "__main__":

@@ -335,12 +335,9 @@ def test_what_pages_conclude_from_the_tables():
     assert (early()["slope_high"] < 0).all()
 
 
-def test_verdicts_of_other_draws_and_seeds():
-    """The claim that a page names is the one whose verdict depends on the draw; none changes with the seed."""
-    draws, seeds = (json.loads(read(ROOT / f"docs/{name}.json")) for name in ("resampled", "seeds"))
-    table, as_published = pd.DataFrame(draws["verdicts"]), overall(TABLE)
-    moved = [claim for claim in as_published if (table.loc[claim] != as_published[claim]).any()]
-    assert moved == ["zeta_elastic_shape"]
+def test_verdicts_of_other_seeds():
+    """None changes with the seed."""
+    seeds = json.loads(read(ROOT / "docs/seeds.json"))
     tables = pd.read_csv(ROOT / "docs/seeds.csv", keep_default_na=False, na_values=[""]).groupby("seed")
     assert {str(seed): overall(table) for seed, table in tables} == seeds["verdicts"]
     assert (len(seeds["verdicts"]), seeds["moved"]) == (3, {})

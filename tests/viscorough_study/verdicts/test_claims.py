@@ -18,7 +18,6 @@ from viscorough_study.verdicts.claims import (
     JUDGES,
     KINDS,
     counted_verdicts,
-    scale_attributes,
     judge,
     markdown,
     overall,

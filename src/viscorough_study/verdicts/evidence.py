@@ -9,7 +9,7 @@ import xarray as xr
 from scipy.special import ndtri
 
 from viscorough_study.ensembles import pool
-from viscorough_study.fits.conventions import FITTED, conventions_text, select, source_values
+from viscorough_study.fits.conventions import FITTED, as_text, select, source_values
 from viscorough_study.fits.intervals import NO_INTERVAL
 from viscorough_study.fits.power_law import find_region
 from viscorough_study.run.paper_data import number
@@ -116,7 +116,7 @@ class Evidence:
         counts = (len(decided), decided.count(True), decided.count(False))
         holds_in = others.holds_in
         if met and counts[2]:
-            met, holds_in = False, others.own or conventions_text({one: self.conventions[one] for one in FITTED})
+            met, holds_in = False, others.own or as_text({one: self.conventions[one] for one in FITTED})
         return judged(name, values, expected, met, holds_in, extremes=extremes, counts=counts)
 
 

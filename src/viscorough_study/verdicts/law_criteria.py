@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from viscorough import reference
-from viscorough_study.fits.conventions import FITTED, conventions_text, select, source_values
+from viscorough_study.fits.conventions import FITTED, as_text, select, source_values
 from viscorough_study.fits.intervals import UNDEFINED, deviation_interval, difference, interval, percentile_interval
 from viscorough_study.fits.power_law import fit_power_law, in_window, log_means
 from viscorough_study.verdicts.evidence import Conventions, hurst_name, judged
@@ -52,7 +52,7 @@ def _nearest_convention(fits, hursts, tolerance):
         ends = group.set_index("hurst").reindex(hursts)[["beta_low", "beta_high"]].to_numpy()
         deviations = np.abs(ends - reference.exponent_beta(hursts.to_numpy())[:, None])
         if np.isfinite(deviations).all() and deviations.max() <= smallest:
-            nearest, smallest = conventions_text(dict(zip(FITTED, values, strict=True))), deviations.max()
+            nearest, smallest = as_text(dict(zip(FITTED, values, strict=True))), deviations.max()
     return nearest
 
 
@@ -64,7 +64,7 @@ def coincide(evidence, tolerance):
         differences = _differences(evidence, conventions)
         ends = np.abs(differences[["low", "high"]].to_numpy())
         if ends.size and np.isfinite(ends).all() and ends.max() <= smallest:
-            nearest, smallest = conventions_text(conventions), ends.max()
+            nearest, smallest = as_text(conventions), ends.max()
         every.append(differences)
     every, differences = pd.concat(every).dropna(), _differences(evidence, {})
     for hurst, row in differences.iterrows():

@@ -108,6 +108,24 @@ def trends():
     return published("sizes_trends.csv").query("source != 'controls'")
 
 
+def grid_factor(quantity):
+    """Change of a quantity with ten times as many elements, by Hurst exponent."""
+    table = published("grid_dependence.csv").drop_duplicates(["hurst", "quantity"])
+    return table[table["quantity"] == quantity].set_index("hurst")["factor"]
+
+
+def grid_bounds(quantity):
+    """Interval of `grid_factor`."""
+    table = published("grid_dependence.csv").drop_duplicates(["hurst", "quantity"])
+    return table[table["quantity"] == quantity].set_index("hurst")[["factor_low", "factor_high"]]
+
+
+def periodic(roll_off):
+    """g of periodic surfaces around X = 1, by Hurst exponent."""
+    table = published("periodic.csv").query("0.7 < x < 1.4")
+    return table[table["roll_off_wavelength"].notna() == roll_off].groupby("hurst")["g"].mean()
+
+
 def early():
     """Trends of lines in fixed windows at small X."""
     return trends().query("source == 'lines' and hurst == 0.1 and window_rule.str.match('X = 0.00')", engine="python")
@@ -234,6 +252,12 @@ QUOTED = {
         ),
         "by {} to {}": lambda: ends(early()["slope"].abs(), 3),
         "which would be {} to {}": lambda: ends(value("gamma", column="expected"), 2),
+        "*u*/*h* = 1 by {:.2f} at *H* = 0.1 and by {:.2f} at": lambda: grid_factor("κ at u/h = 1")[[0.1, 0.4]],
+        "the same, within {:.0f} %, from": lambda: (
+            100 * abs(np.log(grid_bounds("κ at u/h = 1").loc[[0.9, 1.0]])).max(axis=None)
+        ),
+        "change *vt*/*h* by at most {:.0f} %": lambda: 100 * (grid_factor("vt/h at X = 0.1") - 1).abs().max(),
+        "*u*/*h* grows by {:.0f} % at": lambda: 100 * (grid_factor("u/h at X = 0.1")[0.1] - 1),
     },
     "docs/theory.md": {
         "changes *ζ* by {} to {} %": lambda: percents(value("gamma", column="expected")),
@@ -244,6 +268,9 @@ QUOTED = {
         "from *X* = 0.001, at *H* = 0.1 from 0.002": lambda: (
             LAW_HERE["law_low"].round(6).tolist() == [0.001778, 0.001, 0.001, 0.001, 0.001]
         ),
+        "it is {:.2f}, {:.2f} and {:.2f} at *H* = 0.1, 0.6 and 0.9": lambda: periodic(roll_off=False),
+        "a plateau of {:.2f} to {:.2f}. So": lambda: [LAW_HERE["u0"].min(), LAW_HERE["u0"].max()],
+        "period it is {:.2f}, {:.2f} and {:.2f}": lambda: periodic(roll_off=True),
         "softer by about 1.3/*n*": lambda: all(
             abs(number * (1 - punch_stiffness(number)) - 1.3) < 0.06 for number in (33, 257)
         ),

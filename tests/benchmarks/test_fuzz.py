@@ -111,7 +111,7 @@ def test_code_in_a_file_would_be_run_by_a_careless_reader(folder):
     assert (folder / fuzz_cases.STARTED).exists()
 
 
-@pytest.mark.parametrize("how", ["killed", "exception", "endless"])
+@pytest.mark.parametrize("end", ["killed", "exception", "endless"])
 def test_ended_processes_exceptions_and_runs_without_end_are_noticed(folder, monkeypatch, end):
     def main(_):
         if end == "killed":

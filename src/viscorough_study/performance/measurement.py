@@ -57,9 +57,10 @@ def measure(problem, repeats, methods=METHODS, report=lambda text: None, *, long
             key = method.name, value
             rows[key] = errors_and_costs(problem, method, value, answer, memory)
             rows[key] |= dict(zip(TIMES, seconds, strict=True))
-            if seconds[0] < min(longest, MAX_REPEATED):
+            spent = min(seconds)  # on a busy machine only the wall time grows
+            if spent < min(longest, MAX_REPEATED):
                 functions[key] = function
-            if seconds[0] >= longest:  # including runs that were stopped
+            if spent >= longest:  # including runs that were stopped
                 break
     report(f"{problem.name}: {repeats} repeats")
     for key, seconds in timing.interleaved(functions, repeats).items():

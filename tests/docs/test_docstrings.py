@@ -10,7 +10,7 @@ import pytest
 import viscorough
 from viscorough import reference
 
-FORMULAS = {name for name, item in vars(reference).items() if getattr(item, "__module__", "") == reference.__name__}
+FORMULAS = [name for name, item in vars(reference).items() if getattr(item, "__module__", "") == reference.__name__]
 PUBLIC = {name: getattr(viscorough, name) for name in viscorough.__all__ if name != "reference"}
 PUBLIC |= {f"reference.{name}": getattr(reference, name) for name in FORMULAS if not name.startswith("_")}
 

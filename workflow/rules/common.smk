@@ -24,7 +24,8 @@ WORKFLOW = path_of(workflow.current_basedir).parent
 PROJECT = WORKFLOW.parent
 if importlib.util.find_spec("viscorough_study") is None:  # an installed library comes without the study
     sys.path.insert(0, str(PROJECT / "src"))
-    os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [sys.path[0], os.environ.get("PYTHONPATH")]))  # of jobs
+    # Of the jobs.
+    os.environ.update(PYTHONPATH=os.pathsep.join(filter(None, [sys.path[0], os.environ.get("PYTHONPATH")])))
 
 from viscorough.io.atomic import atomic_write
 from viscorough_study.run import cases
@@ -104,7 +105,7 @@ def disc_ensembles(wildcards):
 
 
 def origin_of_surfaces(wildcards):
-    """Params of the rule that makes the surfaces of a batch, and a digest of its source code."""
+    """Params by which the surfaces of a batch are made, and a digest of the source code."""
     if wildcards.kind == "discs":
         script, params = "generate_discs", [disc_ensembles(wildcards), config["seed"]]
     else:
@@ -227,9 +228,9 @@ FIGURES = {
 }
 TABULATION_DEFAULTS = {"target": "all", "input": {}, "memory": 1000, "queued": False, "alone": False}
 TABLES = {
-    table: {"target": rule.get("target", "all"), "timed": False} | entry
-    for rule in RESULTS["tables"].values()
-    for table, entry in rule["tables"].items()
+    table: {"target": made.get("target", "all"), "timed": False} | entry
+    for made in RESULTS["tables"].values()
+    for table, entry in made["tables"].items()
 }
 TABULATIONS = {
     name: TABULATION_DEFAULTS | entry | {"tables": {table: TABLES[table] for table in entry["tables"]}}
@@ -307,13 +308,13 @@ def large_memory(wildcards):
 
 def own_rules():
     """The rules of this workflow, without those of one that uses it as a module."""
-    return [own_rule for own_rule in workflow.rules if path_of(own_rule.basedir).is_relative_to(WORKFLOW)]
+    return [member for member in workflow.rules if path_of(member.basedir).is_relative_to(WORKFLOW)]
 
 
 def explain(rules):
     """Give every rule without a docstring its message, for `snakemake --list`."""
-    for own_rule in rules:
-        own_rule.docstring = own_rule.docstring or re.sub(r"{wildcards\.(\w+)}", r"{\1}", own_rule.message or "")
+    for member in rules:
+        member.docstring = member.docstring or re.sub(r"{wildcards\.(\w+)}", r"{\1}", member.message or "")
 
 
 def add_source_digests(rules):
@@ -322,10 +323,10 @@ def add_source_digests(rules):
     Snakemake itself sees changes of a script, but not of its imports, and would rerun for reworded comments:
     profiles/default switches its trigger `code` off.
     """
-    for own_rule in rules:
-        if own_rule.script:
-            functions = dict(own_rule.params).get("functions", {})  # imported by name in the script
-            own_rule.set_params(SOURCES.digest(WORKFLOW / "rules" / own_rule.script, *functions.values()))
+    for member in rules:
+        if member.script:
+            functions = dict(member.params).get("functions", {})  # imported by name in the script
+            member.set_params(SOURCES.digest(WORKFLOW / "rules" / member.script, *functions.values()))
 
 
 def compile_kernels():

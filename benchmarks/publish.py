@@ -39,7 +39,7 @@ MADE = {
         "fig1_surfaces fig2_kinetics fig3_master_curve fig4_exponent conventions validation interface reduction "
         "mdr_lambda",
         "scaling interface validation direct reduction rule_costs mdr_lambda mdr_summary mdr_exponents plateaus "
-        "literature zeta_laws prefactors grid_dependence periodic",
+        "literature zeta_laws grid_dependence periodic",
     ),
     "speed": ("speed growth other_solvers level_placement", "methods other_solvers level_placement"),
     "stability": ("failure_map", "failure_map"),

@@ -29,7 +29,7 @@ def test_pages_have_the_published_tables(page, name):
 
 def test_readme_has_every_claim_on_physics_and_first_the_time():
     physics = [claim["title"] for claim in CLAIMS.values() if claim["kind"] == "physics"]
-    assert all(publish.verdict_lines().count(title) == 1 for title in physics)
+    assert all(publish.verdict_lines().split("\n\n")[0].count(title) == 1 for title in physics)
     assert list(dict.fromkeys(PUBLISHED_CLAIMS["claim"])) == list(CLAIMS)
     assert read(README).index(publish.time_sentence()) < read(README).index("## ")
 

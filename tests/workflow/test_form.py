@@ -36,7 +36,7 @@ def test_short_rules_run_where_snakemake_runs():
     queued = {name for name, text in rules().items() if "localrule: True" not in text} | tabulations("queued")
     timed = {"measure_large", "measure_methods", "time_other_solvers", "compare_level_placement"}
     curves = {"generate_discs", "prepare_measured", "indent_surfaces", "reduce_lines"}
-    assert queued == timed | curves | {"validate", "compare_reduction", "map_failures"}
+    assert queued == timed | curves | {"validate", "compare_reduction", "compare_periodic", "map_failures"}
 
 
 def test_timed_jobs_run_alone():

@@ -71,7 +71,7 @@ FEW_STEPS |= {"stability": {"across": 11}, "direct": {"elements": 31}}
 OF_FEW_STEPS = MEDIA | INTERFACE | SPEED | {"measure_plateaus", "judge_claims", "tabulate_literature"}
 OF_FEW_STEPS |= {"validate", "check_validation", "plot_validation", "compare_direct", "plot_direct"}
 OF_FEW_STEPS |= {"map_failures", "plot_failure_map", "compare_level_placement", "plot_level_placement"}
-POOLED = {"aggregate_curves", "measure_plateaus"}
+POOLED = {"aggregate_curves", "measure_plateaus", "compare_grids"}
 OF_SURFACES = FITS_AND_FIGURES | INTERFACE | MEDIA | SIZES | POOLED
 OF_SURFACES |= {"generate_discs", "indent_surfaces", "generate_examples", "plot_surfaces"}
 
@@ -163,6 +163,7 @@ def test_a_changed_line_of_the_column_convolution_reruns_what_uses_boundary_elem
     """And what depends on it, but neither lines nor the discs of Figure 1."""
     edit(editable / "src/viscorough/contact/halfspace/column_fft.py", with_another_statement)
     after = {
+        "compare_grids",
         "aggregate_curves",
         "measure_plateaus",
         "plot_direct",

@@ -110,9 +110,30 @@ def save_heights(indenter: Indenter, path: FilePath) -> None:
 
 
 def save_motion(motion: Kinetics, path: FilePath) -> None:
-    """Write penetration over time as NetCDF, or as a table if the name ends in .csv: time, depth, velocity; atomically.
+    """Write penetration over time as NetCDF, or as a table if the name ends in .csv, atomically.
 
-    Raises ValueError for a path that cannot be written, OSError if writing fails.
+    Parameters
+    ----------
+    motion : Kinetics
+        Time, depth and velocity, as of `kinetics`.
+    path : str or os.PathLike
+        File to be written.
+
+    Raises
+    ------
+    ValueError
+        For a path that cannot be written.
+    OSError
+        If writing fails.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import viscorough
+    >>> curve = viscorough.indent(viscorough.self_affine_disc(0.7, 17, seed=1))
+    >>> motion = viscorough.kinetics(curve, force=1e-3, medium=1.0)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     viscorough.save_motion(motion, f"{folder}/motion.csv")
     """
     write_content(kinetics_to_content(motion, None, motion.length_unit), path)
 

@@ -49,10 +49,7 @@ _MODULE_OF = {
     "read_line": "io.surfaces",
     "read_medium": "io.media",
     "reduce": "mdr",
-    "save_curve": "io.saving",
-    "save_heights": "io.saving",
-    "save_identified": "io.media",
-    "save_motion": "io.saving",
+    "save": "io.saving",
     "self_affine_disc": "surfaces",
     "self_affine_line": "surfaces",
 }

@@ -12,12 +12,9 @@ from viscorough.estimates import estimate as estimate
 from viscorough.indenter import Indenter as Indenter
 from viscorough.io.heights import read_heights as read_heights
 from viscorough.io.media import read_medium as read_medium
-from viscorough.io.media import save_identified as save_identified
 from viscorough.io.motion import read_force_history as read_force_history
 from viscorough.io.saving import load_curve as load_curve
-from viscorough.io.saving import save_curve as save_curve
-from viscorough.io.saving import save_heights as save_heights
-from viscorough.io.saving import save_motion as save_motion
+from viscorough.io.saving import save as save
 from viscorough.io.surfaces import read_line as read_line
 from viscorough.loading_curve import LoadingCurve as LoadingCurve
 from viscorough.mdr import line_of_map as line_of_map

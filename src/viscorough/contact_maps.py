@@ -6,6 +6,7 @@ from typing import NamedTuple, cast
 import numpy as np
 
 from viscorough.arrays import ReadOnlyArrays
+from viscorough.saved import Saved
 from viscorough.summaries import Summarised, Summary, unit_power, with_unit
 from viscorough.units import square_metres
 
@@ -25,7 +26,7 @@ class Patches(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Contact(ReadOnlyArrays, Summarised):
+class Contact(ReadOnlyArrays, Saved, Summarised):
     """The contact of a rigid indenter with an elastic half-space at one depth, as `contact_at` returns it.
 
     Arrays are copied and read-only.

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from viscorough import units
 from viscorough.arrays import ReadOnlyArrays, read_only
+from viscorough.saved import Saved
 from viscorough.types import Array
 
 LARGEST_ASPECT = 5  # of the sides of an element, either way
@@ -16,7 +17,7 @@ _LARGEST_WHOLE = 2**53  # larger whole numbers are not all numbers of double pre
 
 
 @dataclass(frozen=True)
-class Indenter(ReadOnlyArrays):
+class Indenter(ReadOnlyArrays, Saved):
     """A rigid indenter: heights on a rectangular grid, or along a line, of equal spacing.
 
     Parameters

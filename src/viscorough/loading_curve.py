@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscorough.arrays import ReadOnlyArrays
+from viscorough.saved import Saved
 from viscorough.summaries import Summarised, Summary, span, unit_power
 from viscorough.types import Array, Integers, Pair
 
@@ -19,10 +20,11 @@ _ROUNDING = 1e-12
 
 
 @dataclass(frozen=True)
-class LoadingCurve(ReadOnlyArrays, Summarised):
+class LoadingCurve(ReadOnlyArrays, Saved, Summarised):
     """Depth, force and tangent stiffness of a rigid indenter pressed into an elastic half-space, at successive levels.
 
-    Arrays are copied and read-only.
+    Arrays are copied and read-only. Read with G → η and F → ∫F dt it is the solution of the linearly viscous problem
+    (Radok; paper, Sec. III).
 
     Attributes
     ----------
@@ -51,8 +53,7 @@ class LoadingCurve(ReadOnlyArrays, Summarised):
     ------
     ValueError
         Without levels, for depths or forces that do not increase or are not finite, and for stiffnesses that are not
-        finite and positive, as overflow or a damaged file can produce. Read with G → η and F → ∫F dt it is the solution
-        of the linearly viscous problem (Radok; paper, Sec. III).
+        finite and positive, as overflow or a damaged file can produce.
 
     Examples
     --------

@@ -19,11 +19,9 @@ from viscorough import units
 from viscorough.contact_maps import Contact
 from viscorough.indenter import Indenter
 from viscorough.io.atomic import atomic_write
-from viscorough.io.contacts import contacts_to_content
-from viscorough.io.curves import STORED, curve_from_content, curve_to_content, unstack_curves
-from viscorough.io.motion import kinetics_to_content
+from viscorough.io.curves import STORED, curve_from_content, unstack_curves
 from viscorough.io.netcdf import Content, Variable
-from viscorough.io.surfaces import surface_to_content
+from viscorough.io.saving import to_content
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import Array, FilePath
 from viscorough.viscous.correspondence import Kinetics
@@ -89,22 +87,12 @@ def plot(result: Content | LoadingCurve | Kinetics | Contact | Indenter, path: F
     if path is not None and suffix not in FORMATS:
         raise ValueError(f"{path}: unknown kind of figure; allowed: {', '.join(FORMATS)}")
     with mpl.rc_context(_STYLE):
-        figure = figure_of(_content_of(result))
+        figure = figure_of(result if isinstance(result, Content) else to_content(result))
         if path is not None:
             dates: dict[str, Any] = {".png": {}, ".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
             with atomic_write(path) as temporary:
                 figure.savefig(temporary, format=suffix[1:], metadata=dates[suffix])
     return figure
-
-
-def _content_of(result: Content | LoadingCurve | Kinetics | Contact | Indenter) -> Content:
-    if isinstance(result, LoadingCurve):
-        return curve_to_content(result)
-    if isinstance(result, Kinetics):
-        return kinetics_to_content(result, None, result.length_unit)
-    if isinstance(result, Contact):
-        return contacts_to_content([result], np.where(np.isnan(result.pressure), np.nan, 0.0))
-    return surface_to_content(result) if isinstance(result, Indenter) else result
 
 
 def figure_of(content: Content) -> Figure:

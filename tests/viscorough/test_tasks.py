@@ -84,8 +84,8 @@ def test_in_python(here):
     contact = viscorough.contact_at(surface, force="10 uN", shear_modulus=MODULUS)
     motion = viscorough.kinetics(curve, "10 uN", RUBBER)
     viscorough.plot(motion, "motion.png")
-    viscorough.save_curve(curve, "curve.nc")
-    viscorough.save_motion(motion, "motion.csv")
+    curve.save("curve.nc")
+    motion.save("motion.csv")
     found = viscorough.identify_medium(curve, "10 uN", motion.time[1:], motion.depth[1:])
 
     assert contact.depth * 1e-6 == pytest.approx(DEPTH, rel=0.02)

@@ -36,12 +36,12 @@ NUMBERS = {
 _SINGLE_FROM, _SINGLE_RANGE = 1e-4, (1e-25, 1e30)
 
 
-def contacts_to_content(contacts: Sequence[Contact], heights: Array) -> Content:
-    """Contacts of one indenter, and its heights, as the Content of a file.
+def contacts_to_content(contacts: Sequence[Contact], heights: Array | None = None) -> Content:
+    """Contacts of one indenter, and its heights if they are given, as the Content of a file.
 
     contacts : Contacts; if there are several, maps and numbers have the dimension `level` before their own
 
-    The variables are MAPS and `heights` over (y, x), NUMBERS, `patches`, the number of patches of contact, and
+    The variables are MAPS and heights over (y, x), NUMBERS, `patches`, the number of patches of contact, and
     `patch_area` over `patch`, their areas in decreasing order, nan beyond the last one. Coordinates count from the
     centre of the map.
     """
@@ -56,10 +56,11 @@ def contacts_to_content(contacts: Sequence[Contact], heights: Array) -> Content:
         return {"long_name": long_name, "units": unit_power(unit, power)}
 
     variables = {}
-    for name, spacing, points in zip("yx", (first.row_spacing, first.spacing), heights.shape, strict=True):
+    for name, spacing, points in zip("yx", (first.row_spacing, first.spacing), first.gap.shape, strict=True):
         position = spacing * (np.arange(points) - (points - 1) / 2)
         variables[name] = Variable((name,), position, attributes(f"position along {name}", 1))
-    variables["heights"] = Variable(("y", "x"), heights, attributes("height", 1))
+    if heights is not None:
+        variables["heights"] = Variable(("y", "x"), heights, attributes("height", 1))
     stored = _kind_of_maps(contacts)
     for name, about in MAPS.items():
         kind = np.int8 if name == "contact" else stored

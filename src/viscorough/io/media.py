@@ -1,7 +1,8 @@
 """Media in YAML files: one mapping with the kind of medium and its parameters."""
 
 import contextlib
-from collections.abc import Callable, Mapping
+import dataclasses
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -19,19 +20,15 @@ from viscorough.viscous.identification import IdentifiedMedium
 from viscorough.viscous.media import CreepTable
 from viscorough.viscous.medium import Medium
 
-MODULUS, VISCOSITY, TIME, PLAIN = "Pa", "Pa s", "s", ""
-# Kinds of media, and their keys with the units that numbers in them may have. The keys are fields of the class.
-KINDS: dict[str, tuple[Callable[..., media.Medium], dict[str, Any]]] = {
-    "newtonian": (media.Newtonian, {"viscosity": VISCOSITY}),
-    "maxwell": (media.Maxwell, {"shear_modulus": MODULUS, "viscosity": VISCOSITY}),
-    "kelvin_voigt": (media.KelvinVoigt, {"shear_modulus": MODULUS, "viscosity": VISCOSITY}),
-    "standard_linear_solid": (
-        media.StandardLinearSolid,
-        {"instantaneous_modulus": MODULUS, "relaxed_modulus": MODULUS, "relaxation_time": TIME},
-    ),
-    "prony": (media.Prony, {"relaxed_modulus": MODULUS, "moduli": MODULUS, "relaxation_times": TIME}),
-    "springpot": (media.Springpot, {"modulus": PLAIN, "exponent": PLAIN}),
-    "creep_table": (media.CreepTable, {"file": None}),
+# Kinds of media. The keys of each are the parameters of its class, but for the table, which is in a file.
+KINDS: dict[str, type[Medium]] = {
+    "newtonian": media.Newtonian,
+    "maxwell": media.Maxwell,
+    "kelvin_voigt": media.KelvinVoigt,
+    "standard_linear_solid": media.StandardLinearSolid,
+    "prony": media.Prony,
+    "springpot": media.Springpot,
+    "creep_table": media.CreepTable,
 }
 _LARGEST_FILE = 1_000_000  # bytes
 
@@ -89,14 +86,14 @@ def medium_from_mapping(mapping: Mapping[str, Any], length_unit: str = "1", *, f
     kind = mapping.get("kind")
     if not isinstance(kind, str) or kind not in KINDS:
         raise ValueError(f"kind {_shown(kind)}; allowed: {', '.join(KINDS)}")
-    make, keys = KINDS[kind]
+    make, keys = KINDS[kind], _keys(kind)
     if unknown := [key for key in mapping if key != "kind" and key not in keys]:
         raise ValueError(f"unknown key {_shown(unknown[0])}; allowed for {kind}: {', '.join(keys)}")
     if missing := [key for key in keys if key not in mapping]:
         raise ValueError(f"lacks {', '.join(missing)}; {kind} needs {', '.join(keys)}")
     if make is media.CreepTable:
         return _table(folder, mapping["file"], length_unit)
-    return make(**{key: _values(key, mapping[key], keys[key], length_unit) for key in keys})
+    return make(**{key: _values(key, mapping[key], length_unit) for key in keys})
 
 
 def save_identified(identified: IdentifiedMedium, path: FilePath, **attributes: Any) -> None:
@@ -129,19 +126,19 @@ def save_identified(identified: IdentifiedMedium, path: FilePath, **attributes: 
     >>> record = viscorough.kinetics(curve, 5e-6, 1e6, np.geomspace(0.1, 100, 50))
     >>> identified = viscorough.identify_medium(curve, 5e-6, record.time, record.depth)
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     viscorough.save_identified(identified, f"{folder}/medium.yaml")
+    ...     identified.save(f"{folder}/medium.yaml")
     ...     medium = viscorough.read_medium(f"{folder}/medium.yaml")
     >>> type(medium).__name__
     'CreepTable'
     """
     path, medium, table = Path(path), identified.medium, check_medium_file(path)
-    (kind,) = (kind for kind, (make, _) in KINDS.items() if make is type(medium))
+    (kind,) = (kind for kind, make in KINDS.items() if make is type(medium))
     mapping: dict[str, Any] = {"kind": kind}
     if isinstance(medium, media.CreepTable):
         tables.write(_content_of_table(identified).with_attributes(**attributes), table)
         mapping["file"] = table.name
     else:
-        mapping |= {key: _plain(getattr(medium, key)) for key in KINDS[kind][1]}
+        mapping |= {key: _plain(getattr(medium, key)) for key in _keys(kind)}
     with atomic_write(path) as temporary:
         temporary.write_text(yaml.safe_dump(mapping, sort_keys=False, allow_unicode=True), encoding="utf-8")
 
@@ -151,6 +148,11 @@ def check_medium_file(path: FilePath) -> Path:
     if Path(path).suffix.lower() not in (".yaml", ".yml"):
         raise ValueError(f"{path}: unknown kind of file; a medium is written as .yaml")
     return Path(path).with_suffix(".csv")
+
+
+def _keys(kind: str) -> list[str]:
+    make: Any = KINDS[kind]
+    return ["file"] if make is media.CreepTable else [field.name for field in dataclasses.fields(make)]
 
 
 def _plain(value: Any) -> Any:
@@ -195,28 +197,23 @@ def _mapping(path: FilePath) -> dict[str, Any]:
     return content
 
 
-def _values(key: str, value: object, unit: str, length_unit: str) -> Any:
-    """A number, or a list of numbers, in `unit`."""
+def _values(key: str, value: object, length_unit: str) -> Any:
+    """A value for the class of a medium, which converts units, or a list of them."""
     if isinstance(value, list):
-        return [_values(f"{key}[{i}]", entry, unit, length_unit) for i, entry in enumerate(value)]
+        return [_values(f"{key}[{i}]", entry, length_unit) for i, entry in enumerate(value)]
     if not isinstance(value, str):
         return value
     with contextlib.suppress(ValueError):
         return float(value)  # YAML takes 1e6, without a point, for a text
-    if unit == PLAIN:
-        raise ValueError(f"{key}: {_shown(value)}; allowed: a plain number")
     if length_unit == "1":
         raise ValueError(f"{key}: {_shown(value)}; allowed: a plain number, since the unit of length is not known")
-    try:
-        return units.quantity(value).to(unit)
-    except ValueError as error:
-        raise ValueError(f"{key}: {error}; allowed: a number above 0, plain or with a unit such as {unit}") from error
+    return value
 
 
 def _table(folder: Path, name: object, length_unit: str) -> CreepTable:
     if not isinstance(name, str) or not name or "\0" in name:
         raise ValueError(f"file: {_shown(name)}; allowed: the name of a .csv or .npy file")
-    columns = {"time": TIME, "compliance": "1/Pa"}
+    columns = {"time": "s", "compliance": "1/Pa"}
     return media.CreepTable(*read_columns(folder / name, "a creep table", columns, length_unit))
 
 

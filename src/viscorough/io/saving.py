@@ -1,30 +1,35 @@
-"""Loading curves, motions and surfaces as files that the command line reads and writes."""
+"""Results as files that the command line reads and writes."""
 
+from viscorough.contact_maps import Contact
 from viscorough.indenter import Indenter
 from viscorough.io import netcdf, tables
+from viscorough.io.contacts import contacts_to_content
 from viscorough.io.curves import curve_from_content, curve_to_content
+from viscorough.io.media import save_identified
 from viscorough.io.motion import kinetics_to_content
 from viscorough.io.netcdf import Content
 from viscorough.io.surfaces import surface_to_content
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import FilePath
 from viscorough.viscous.correspondence import Kinetics
+from viscorough.viscous.identification import IdentifiedMedium
 
 
-def save_curve(curve: LoadingCurve, path: FilePath) -> None:
-    """Write a loading curve as NetCDF, or as a table if the name ends in .csv; atomically.
+def save(result: Indenter | LoadingCurve | Contact | Kinetics | IdentifiedMedium, path: FilePath) -> None:
+    """Write a result as the file that the command line writes and reads; atomically. The same as `result.save(path)`.
 
     Parameters
     ----------
-    curve : LoadingCurve
-        The curve.
+    result : Indenter, LoadingCurve, Contact, Kinetics or IdentifiedMedium
+        Heights are read by `read_heights`, a curve by `load_curve`, a medium by `read_medium`.
     path : path
-        File to write or replace.
+        File to write or replace: NetCDF, or a table of a curve or motion if the name ends in .csv. A medium is YAML;
+        a creep table beside it has the suffix .csv.
 
     Raises
     ------
     ValueError
-        For a path that cannot be written.
+        For a path that cannot be written, and a suffix that does not suit the result.
     OSError
         If writing fails.
 
@@ -32,18 +37,21 @@ def save_curve(curve: LoadingCurve, path: FilePath) -> None:
     --------
     >>> import viscorough
     >>> disc = viscorough.self_affine_disc(0.7, 17, rms=0.01, seed=1)
-    >>> curve = viscorough.indent(disc)
     >>> import os, tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     viscorough.save_curve(curve, f"{folder}/curve.csv")
-    ...     os.listdir(folder)
-    ['curve.csv']
+    ...     viscorough.save(disc, f"{folder}/disc.nc")
+    ...     viscorough.indent(disc).save(f"{folder}/curve.csv")
+    ...     sorted(os.listdir(folder))
+    ['curve.csv', 'disc.nc']
     """
-    write_content(curve_to_content(curve), path)
+    if isinstance(result, IdentifiedMedium):
+        save_identified(result, path)
+    else:
+        write_content(to_content(result), path)
 
 
 def load_curve(path: FilePath) -> LoadingCurve:
-    """Read the loading curve in a file of `save_curve` or of the command viscorough indent.
+    """Read the loading curve in a file of `save` or of the command viscorough indent.
 
     Parameters
     ----------
@@ -66,7 +74,7 @@ def load_curve(path: FilePath) -> LoadingCurve:
     >>> curve = viscorough.indent(disc)
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     viscorough.save_curve(curve, f"{folder}/curve.nc")
+    ...     curve.save(f"{folder}/curve.nc")
     ...     loaded = viscorough.load_curve(f"{folder}/curve.nc")
     >>> bool((loaded.force == curve.force).all())
     True
@@ -78,66 +86,19 @@ def load_curve(path: FilePath) -> LoadingCurve:
         raise ValueError(f"{path}: {error}") from error
 
 
-def save_heights(indenter: Indenter, path: FilePath) -> None:
-    """Write the heights of an indenter as NetCDF, with its spacing and unit of length, for `read_heights`; atomically.
-
-    Parameters
-    ----------
-    indenter : Indenter
-        A map, or a line.
-    path : path
-        File to write or replace.
-
-    Raises
-    ------
-    ValueError
-        For a path that cannot be written.
-    OSError
-        If writing fails.
-
-    Examples
-    --------
-    >>> import viscorough
-    >>> disc = viscorough.self_affine_disc(0.7, 17, rms=0.01, seed=1)
-    >>> import tempfile
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     viscorough.save_heights(disc, f"{folder}/disc.nc")
-    ...     loaded = viscorough.read_heights(f"{folder}/disc.nc")
-    >>> loaded.elements == disc.elements
-    True
-    """
-    write_content(surface_to_content(indenter), path)
-
-
-def save_motion(motion: Kinetics, path: FilePath) -> None:
-    """Write penetration over time as NetCDF, or as a table if the name ends in .csv, atomically.
-
-    Parameters
-    ----------
-    motion : Kinetics
-        Time, depth and velocity, as of `kinetics`.
-    path : str or os.PathLike
-        File to be written.
-
-    Raises
-    ------
-    ValueError
-        For a path that cannot be written.
-    OSError
-        If writing fails.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> import viscorough
-    >>> curve = viscorough.indent(viscorough.self_affine_disc(0.7, 17, seed=1))
-    >>> motion = viscorough.kinetics(curve, force=1e-3, medium=1.0)
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     viscorough.save_motion(motion, f"{folder}/motion.csv")
-    """
-    write_content(kinetics_to_content(motion, None, motion.length_unit), path)
+def to_content(result: Indenter | LoadingCurve | Contact | Kinetics) -> Content:
+    """A result as the Content of its file."""
+    if isinstance(result, LoadingCurve):
+        return curve_to_content(result)
+    if isinstance(result, Kinetics):
+        return kinetics_to_content(result, None, result.length_unit)
+    if isinstance(result, Contact):
+        return contacts_to_content([result])
+    if isinstance(result, Indenter):
+        return surface_to_content(result)
+    raise TypeError(f"{type(result).__name__} is no result; an Indenter, LoadingCurve, Contact or Kinetics is needed")
 
 
 def write_content(content: Content, path: FilePath) -> None:
-    """Write a Content as NetCDF, or as a table if the name ends in .csv; errors as of `save_curve`."""
+    """Write a Content as NetCDF, or as a table if the name ends in .csv; errors as of `save`."""
     (tables if tables.is_table(path) else netcdf).write(content, path)

@@ -28,6 +28,7 @@ from numpy.typing import ArrayLike
 from viscorough import units
 from viscorough.arrays import ReadOnlyArrays, increasing, read_only, samples
 from viscorough.loading_curve import LoadingCurve
+from viscorough.saved import Saved
 from viscorough.summaries import Summarised, Summary, span, velocity_unit
 from viscorough.types import Array, Integers
 from viscorough.viscous.creep_response import creep_response
@@ -41,7 +42,7 @@ _ROUNDING = 1e-10  # relative; the rounding error of an impulse summed over a mi
 
 
 @dataclass(frozen=True)
-class Kinetics(ReadOnlyArrays, Summarised):
+class Kinetics(ReadOnlyArrays, Saved, Summarised):
     """Penetration over time; read-only arrays of shape (times,).
 
     time : t, in s where the unit of length is known, else in the unit that those of force and viscosity make

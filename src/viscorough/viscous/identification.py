@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 
 from viscorough.arrays import ReadOnlyArrays, increasing
 from viscorough.loading_curve import LoadingCurve
+from viscorough.saved import Saved
 from viscorough.summaries import Summarised, Summary, span, with_unit
 from viscorough.types import Array, Integers
 from viscorough.units import UNKNOWN
@@ -39,7 +40,7 @@ _TRIALS, _CLOSE = 8, 0.02  # for an end of an interval: of its distance from the
 
 
 @dataclass(frozen=True)
-class IdentifiedMedium(ReadOnlyArrays, Summarised):
+class IdentifiedMedium(ReadOnlyArrays, Saved, Summarised):
     """A medium identified from a record of depth over time, as `identify_medium` returns it.
 
     Attributes

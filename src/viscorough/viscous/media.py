@@ -4,7 +4,8 @@ Each is a `Medium` (viscorough.viscous.medium). A function that takes a medium a
 Newtonian one.
 
 The half-space is incompressible at all times. Moduli are in one unit, times in another, viscosities in their product
-and compliances in the inverse of the modulus. All media are passive: J does not decrease and is concave.
+and compliances in the inverse of the modulus; a text with a unit, as "2 MPa", is converted to SI units. All media are
+passive: J does not decrease and is concave.
 """
 
 from abc import abstractmethod
@@ -24,6 +25,11 @@ from viscorough.viscous.medium import Medium, RelaxationSpectrum, RetardationSpe
 from viscorough.viscous.spectra import retardation_spectrum
 
 _NONE = np.array([])
+UNITS = {  # of values that are given with a unit, by the name of the parameter
+    **dict.fromkeys(("shear_modulus", "instantaneous_modulus", "relaxed_modulus", "moduli"), "Pa"),
+    **dict.fromkeys(("relaxation_time", "relaxation_times"), "s"),
+    "viscosity": "Pa s",
+}
 _TABLE_ROUNDING = 1e-9  # relative; slopes of tables with ten digits may increase by as much
 _LAST_DIGITS = 1e-14  # relative; rounding of compliances, which their slopes show where J hardly grows
 
@@ -474,7 +480,13 @@ def _keep_positive(medium: Any) -> None:
 
 
 def _number(medium: Medium, name: str, value: Any, *, zero: bool = False) -> float:
-    """The value as a float. Raises ValueError unless it is a finite number above 0, or 0 where that is allowed."""
+    """The value as a float, of a text with a unit in SI units.
+
+    Raises ValueError unless it is a finite number above 0, or 0 where that is allowed.
+    """
+    unit = UNITS.get(name.partition("[")[0])
+    if unit and (isinstance(value, str) or hasattr(value, "units")):
+        value = units.number(value, unit, "m", f"{type(medium).__name__}: {name}")
     real = isinstance(value, Real) and not isinstance(value, bool)
     if not (real and abs(value) <= np.finfo(float).max and (value > 0 or (zero and value == 0))):
         allowed = "0 or a finite number above 0" if zero else "a finite number above 0"

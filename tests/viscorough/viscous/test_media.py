@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.special import beta
 
+from support.contract import refused
 from support.media import SPRINGS_AND_DASHPOTS
 from viscorough.viscous.media import (
     CreepTable,
@@ -119,9 +120,12 @@ def test_table():
     ],
 )
 def test_values_that_are_refused(kind, good):
-    for name, bad in product(good, (0, np.nan, np.inf, True, "1", [1.0])):
+    for name, bad in product(good, (0, np.nan, np.inf, True, [1.0])):
         with pytest.raises(ValueError, match=rf"^{kind.__name__}: {name} [^\n]*; allowed: a finite number above 0$"):
             kind(**(good | {name: bad}))
+    for name in good:
+        with refused(f"^{kind.__name__}: {name}:? 'one'.*(allowed|number)"):
+            kind(**(good | {name: "one"}))
 
 
 @pytest.mark.parametrize(
@@ -151,3 +155,13 @@ def test_refusals(make, message):
 def test_a_number_is_a_newtonian_medium():
     assert medium_of(3) == Newtonian(3.0)
     assert medium_of(Maxwell(1.0, 2.0)) == Maxwell(1.0, 2.0)
+
+
+def test_values_with_a_unit_are_converted_to_si():
+    assert Maxwell("2 MPa", "3 kPa s") == Maxwell(2e6, 3e3)
+    prony = Prony(relaxed_modulus="1 kPa", moduli=["2 kPa", 5.0], relaxation_times=["1 min", "10 ms"])
+    assert (prony.relaxed_modulus, prony.moduli, prony.relaxation_times) == (1e3, (2e3, 5.0), (60.0, 0.01))
+    with refused("KelvinVoigt: shear_modulus: .*Pa s.*Pa"):
+        KelvinVoigt(shear_modulus="1 Pa s", viscosity=1.0)
+    with refused("Springpot: exponent '0.5 Pa'"):
+        Springpot(1.0, "0.5 Pa")

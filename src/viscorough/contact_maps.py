@@ -12,6 +12,8 @@ from viscorough.units import square_metres
 
 # Neighbours of an element that belong to its patch: those that share a side, or a corner too.
 _CONNECTIVITIES = (4, 8)
+# Mean area by which a whole element exceeds the contact, per change of contact between two elements, over dx dy.
+_EXCESS_PER_CHANGE = (np.pi - 1 + np.log(2)) / 24
 
 
 class Patches(NamedTuple):
@@ -127,6 +129,21 @@ class Contact(ReadOnlyArrays, Saved, Summarised):
     def contact_area(self) -> float:
         """Area of the elements in contact [length²]."""
         return self.contact_count * self.spacing * self.row_spacing
+
+    @property
+    def corrected_contact_area(self) -> float:
+        """Area of the contact, whose edge cuts elements that `contact_area` counts whole [length²].
+
+        A* = A − ((π − 1 + ln 2)/24) M dx dy, with M the number of changes between contact and no contact along all rows
+        and columns of the indenter; its own edge counts none. A stretch that makes squares of the elements leaves M
+        and ratios of areas as they are, hence dx dy.
+
+        Source: V. A. Yastrebov, G. Anciaux, J.-F. Molinari, Tribology International 114, 161 (2017).
+        """
+        inside, changes = ~np.isnan(self.pressure), 0
+        for contact, known in ((self.contact, inside), (self.contact.T, inside.T)):
+            changes += np.count_nonzero((contact[1:] != contact[:-1]) & known[1:] & known[:-1])
+        return self.contact_area - float(_EXCESS_PER_CHANGE * changes * self.spacing * self.row_spacing)
 
     @property
     def mean_pressure(self) -> float:

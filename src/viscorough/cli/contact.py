@@ -53,10 +53,11 @@ def contact(
 
     FIELDS.nc has the dimensions y and x, and level if several forces or depths are given; the maps pressure = p/G
     (nan outside the indenter), gap, contact (0 or 1) and heights; and the numbers depth, force = F/G,
-    stiffness = k/G, contact_fraction, contact_area, mean_pressure, largest_pressure, residual and patches, the
-    number of patches of contact, whose areas are in patch_area; with a modulus also normal_force F, normal_pressure p,
-    mean_normal_pressure and largest_normal_pressure. G is the shear modulus of the incompressible half-space
-    with the same E/(1 - nu^2) = 4 G.
+    stiffness = k/G, contact_fraction, contact_area, corrected_contact_area (less what whole elements at its edge
+    add), mean_pressure, largest_pressure, residual and patches, the number of patches of contact, whose areas are in
+    patch_area; with a modulus also normal_force F, normal_pressure p, mean_normal_pressure and
+    largest_normal_pressure. G is the shear modulus of the incompressible half-space with the same
+    E/(1 - nu^2) = 4 G.
 
     \b
     Example, a map in micrometres under F/G = 2 and under 3 square micrometres:

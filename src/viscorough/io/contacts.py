@@ -28,6 +28,7 @@ MAPS = {
 NUMBERS = {
     **{name: OVER_LEVELS[name] for name in ("depth", "force", "stiffness", "contact_fraction")},
     "contact_area": ("area of the elements in contact", 2),
+    "corrected_contact_area": ("contact area less what elements at its edge add", 2),
     "mean_pressure": ("mean pressure in contact over shear modulus", 0),
     "largest_pressure": ("largest pressure over shear modulus", 0),
     "residual": OVER_LEVELS["residual"],

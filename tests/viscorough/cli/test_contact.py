@@ -56,6 +56,7 @@ def test_what_is_written_solves_the_contact_problem_by_itself(here, force, toler
     np.testing.assert_allclose(gap, recomputed, atol=3e-6 if tolerance > 1e-4 else 1e-12)
     assert of["contact_fraction"] == in_contact.mean()
     assert of["contact_area"] == in_contact.sum() * dx * dy
+    assert 0.7 * of["contact_area"] < of["corrected_contact_area"] < of["contact_area"]
     assert of["mean_pressure"] == pytest.approx(pressure[in_contact].mean(), rel=1e-6)
     assert of["largest_pressure"] == pytest.approx(pressure.max(), rel=1e-6)
     assert of["patch_area"].size == of["patches"] > 1

@@ -55,6 +55,11 @@ def unit_power(unit: str, exponent: int) -> str:
     return f"{unit if unit.isascii() and unit.isalpha() else f'({unit})'}{exponent}"
 
 
+def time_unit(unit: str) -> str:
+    """The unit of times: s; "1" for "1", a unit of length that is not known."""
+    return "1" if unit == "1" else "s"
+
+
 def velocity_unit(unit: str) -> str:
     """The unit of a velocity with times in s: "um s-1"; "s-1" for "1", a unit of length that is not known."""
     return "s-1" if unit == "1" else f"{unit} s-1"

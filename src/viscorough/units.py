@@ -53,26 +53,32 @@ def quantity(text: str) -> Quantity:
     return Quantity(float(match[1]), match[2])
 
 
+def with_unit(value: Any) -> Any:
+    """The Quantity that a text or a quantity of pint stands for; anything else is returned unchanged.
+
+    Raises ValueError as `quantity`.
+    """
+    if hasattr(value, "magnitude") and hasattr(value, "units"):
+        value = f"{float(value.magnitude)!r} {value.units}"
+    return quantity(value) if isinstance(value, str) else value
+
+
 def number(value: Any, unit: str, length_unit: str, name: str) -> float:
     """A number in `unit`, of a plain number, which is returned unchanged, a Quantity, also of pint, or "5 mN".
 
     Raises ValueError, which starts with the name, for what is no number in such a unit, and for one with a unit
     although the unit of length is not known: numbers are then in consistent units.
     """
-    if hasattr(value, "magnitude") and hasattr(value, "units"):
-        value = f"{float(value.magnitude)!r} {value.units}"
-    if isinstance(value, str):
-        try:
-            value = quantity(value)
-            value.to(unit)
-        except ValueError as error:
-            raise ValueError(f"{name}: {error}; a number in {unit}, or with such a unit, is needed") from error
-    if not isinstance(value, Quantity):
-        return value
-    if value.unit and length_unit == UNKNOWN:
-        text = f"{name} {value}: needs a plain number, since the unit of length is not known"
-        raise ValueError(f"{text}; state it with --unit where the heights are read")
-    return value.to(unit)
+    try:
+        value = with_unit(value)
+        if not isinstance(value, Quantity):
+            return value
+        if not value.unit or length_unit != UNKNOWN:
+            return value.to(unit)
+    except ValueError as error:
+        raise ValueError(f"{name}: {error}; a number in {unit}, or with such a unit, is needed") from error
+    text = f"{name} {value}: needs a plain number, since the unit of length is not known"
+    raise ValueError(f"{text}; state it with --unit where the heights are read")
 
 
 def numbers(values: Any, unit: str, length_unit: str, name: str) -> Any:

@@ -33,6 +33,14 @@ def test_contact_in_three_lines():
     assert Page(contact._repr_html_()).text.count("um2") == 2
 
 
+def test_indenter_in_three_lines():
+    assert repr(Indenter(np.array([[0.0, 1.5], [-1.0, np.nan]]), 2.0, length_unit="um")).splitlines() == [
+        "Indenter: map of 2 x 2 points, 3 elements",
+        "spacing 2 um",
+        "highest over lowest point 2.5 um",
+    ]
+
+
 def test_motion_in_four_lines():
     motion = Kinetics(np.array([0.0, 2.0]), np.array([0.0, 3.0]), np.array([1.0, 0.5]))
     lines = ["Penetration at 2 times", "time t 0 to 2", "depth u 0 to 3", "velocity v 1 to 0.5"]

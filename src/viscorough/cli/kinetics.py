@@ -13,7 +13,7 @@ from viscorough.cli.files import check_output, printable_name, read_content, wri
 from viscorough.cli.messages import announce
 from viscorough.cli.options import FILE, Increasing, QuantityOption, force_history_option, number_in, output_option
 from viscorough.errors import AccuracyWarning
-from viscorough.summaries import with_unit
+from viscorough.summaries import time_unit, with_unit
 
 if TYPE_CHECKING:
     from viscorough.units import Quantity
@@ -95,7 +95,8 @@ def kinetics(
     content, title = _content(motion, history, loading)
     write_output(content, output, title=title, **about)
     depth = with_unit(motion.depth[-1], loading.length_unit, 6)
-    announce(output, f"{motion.time.size} times, depth {depth} at time {motion.time[-1]:.6g}")
+    time = with_unit(motion.time[-1], time_unit(loading.length_unit), 6)
+    announce(output, f"{motion.time.size} times, depth {depth} at time {time}")
 
 
 def _medium(viscosity: Quantity | None, medium: Path | None, length_unit: str) -> tuple[Medium, dict[str, Any]]:

@@ -20,7 +20,7 @@ from viscorough.cli.options import (
 )
 from viscorough.cli.progress import progress_bar, progress_option
 from viscorough.cli.surface_options import heights_input, read_indenter
-from viscorough.summaries import with_unit
+from viscorough.summaries import time_unit, with_unit
 
 if TYPE_CHECKING:
     from viscorough.units import Quantity
@@ -117,7 +117,8 @@ def march(
     time, depths, count = (content.variables[name].values for name in ("time", "depth", "contact_count"))
     depth = with_unit(depths[-1], indenter.length_unit, 6)
     contact = f"{count[-1]} of {indenter.elements} elements in contact"
-    announce(output, f"{time.size} levels, depth {depth} at time {time[-1]:.6g} with {contact}")
+    last = with_unit(time[-1], time_unit(indenter.length_unit), 6)
+    announce(output, f"{time.size} levels, depth {depth} at time {last} with {contact}")
 
 
 def _check_options_of_method(

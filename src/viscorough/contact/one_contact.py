@@ -18,6 +18,7 @@ from viscorough.contact.state import ContactState
 from viscorough.contact_maps import Contact
 from viscorough.errors import AccuracyWarning
 from viscorough.indenter import Indenter, positive
+from viscorough.summaries import with_unit
 from viscorough.types import Array, Progress
 
 _SHARE_OF_APPROACH = 0.6  # of the time for a force, which the contacts up to it take
@@ -108,8 +109,9 @@ def contact_at(
     last = contacts[-1]
     warn_beyond_theory("contact_at", indenter, last.depth)
     if last.contact_count == last.elements and np.ptp(indenter.initial_gap[last.contact]) > 0:
-        text = f"contact_at: contact is complete, the contact fraction is 1 at {'depth' if by_depth else 'force'}"
-        text += f" {values[-1]:.4g}; from there on the stiffness is that of a flat punch, whatever the heights"
+        depth = with_unit(last.depth, indenter.length_unit)
+        text = f"contact_at: contact is complete, the contact fraction is 1 at the depth u, {depth}; from there on the "
+        text += "stiffness is that of a flat punch, whatever the heights"
         warnings.warn(text, AccuracyWarning, stacklevel=2)
     return contacts if np.ndim(given) else contacts[0]
 

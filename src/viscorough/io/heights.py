@@ -26,7 +26,7 @@ TIFF = (".tif", ".tiff")
 
 def read_heights(
     path: FilePath,
-    spacing: Distance | Spacing | None = None,
+    spacing: Distance | str | tuple[Distance | str, Distance | str] | None = None,
     *,
     unit: str | None = None,
     channel: str | None = None,
@@ -45,9 +45,9 @@ def read_heights(
         .npy, NetCDF (.nc), text (.txt, .csv, .asc, .dat, .tsv, .xyz: a matrix, an ESRI grid, or columns x, y, z),
         (Geo)TIFF, or a format of an instrument, for which SurfaceTopography must be installed (pip install
         'viscorough[formats]').
-    spacing : Distance or Spacing, optional
-        Distance between neighbouring points, or (dx, dy): from column to column, from row to row; in the unit of the
-        heights. Needed where the file states none.
+    spacing : number or text or pair of them, optional
+        Distance between neighbouring points, or (dx, dy): from column to column, from row to row; numbers in the unit
+        of the heights, or texts as "0.2 um". Needed where the file states none.
     unit : str, optional
         Unit of length of the heights, where the file states none, such as "um".
     channel : str, optional
@@ -89,7 +89,7 @@ def read_heights(
 
 def _scaled(scan: Scan, scale: float | str | units.Quantity) -> Scan:
     """The Scan with its heights multiplied by a number, which may have a unit: then that of the heights."""
-    quantity = units.quantity(scale) if isinstance(scale, str) else scale
+    quantity = units.with_unit(scale)
     number, unit = (quantity.number, quantity.unit) if isinstance(quantity, units.Quantity) else (quantity, "")
     if unit and scan.unit.strip() not in ("", units.UNKNOWN):
         raise ValueError(f"--scale {scale}: heights are in {scan.unit} in the file; a plain number is needed")
@@ -98,13 +98,13 @@ def _scaled(scan: Scan, scale: float | str | units.Quantity) -> Scan:
     return scan._replace(heights=scan.heights * number, unit=unit or scan.unit)
 
 
-def _pair(spacing: Distance | Spacing) -> Spacing:
+def _pair(spacing: Any) -> Spacing:
     """A spacing as (dx, dy)."""
     if not isinstance(spacing, tuple | list | np.ndarray):
-        return spacing, spacing
+        return units.with_unit(spacing), units.with_unit(spacing)
     if len(spacing) != 2:
         raise ValueError(f"spacing {spacing!r}: one distance, or the two of columns and rows, is needed")
-    return spacing[0], spacing[1]
+    return units.with_unit(spacing[0]), units.with_unit(spacing[1])
 
 
 def _read_scan(path: FilePath, channel: str | None) -> Scan:

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 from netCDF4 import Dataset
 
+from viscorough import units
 from viscorough.indenter import Indenter
 from viscorough.io.heights import are_indices, npy_array, positions_along, unit_of
 from viscorough.io.netcdf import Content, Variable, opened
@@ -27,16 +28,16 @@ def surface_to_content(indenter: Indenter) -> Content:
     return Content(variables, {"title": "Heights of a rigid indenter; larger is higher and touches first"})
 
 
-def read_line(path: FilePath, spacing: Distance | None = None, unit: str | None = None) -> Indenter:
+def read_line(path: FilePath, spacing: Distance | str | None = None, unit: str | None = None) -> Indenter:
     """Read the heights of a line as an Indenter, for the method of dimensionality reduction (mdr.reduce).
 
     Parameters
     ----------
     path : path
         .npy of shape (points,), or .nc with a variable `heights` of one dimension, or only one such variable.
-    spacing : Distance, optional
-        Distance between neighbouring points, a number in the unit of the heights or a viscorough.units.Quantity; by
-        default that of the coordinate in a NetCDF file.
+    spacing : number or text, optional
+        Distance between neighbouring points, in the unit of the heights, or a text as "0.2 um"; by default that of the
+        coordinate in a NetCDF file.
     unit : str, optional
         Unit of length of the heights, where the file states none, such as "um".
 
@@ -61,9 +62,8 @@ def read_line(path: FilePath, spacing: Distance | None = None, unit: str | None 
         kind = f"type {scan.heights.dtype} and shape {scan.heights.shape}"
         raise ValueError(f"{path}: heights are of {kind}; a line is needed")
     try:
-        row = to_indenter(
-            scan._replace(heights=scan.heights[None]), None if spacing is None else (spacing, spacing), unit
-        )
+        given = None if spacing is None else (units.with_unit(spacing),) * 2
+        row = to_indenter(scan._replace(heights=scan.heights[None]), given, unit)
         return Indenter(row.heights[0], row.spacing, length_unit=row.length_unit)
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from error

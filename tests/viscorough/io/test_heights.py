@@ -1,11 +1,13 @@
 """Maps of heights in .npy and NetCDF files, read exactly; bad files are refused with one line."""
 
 import numpy as np
+import pint
 import pytest
 import xarray as xr
 
 import viscorough
 from support.contract import refused
+from viscorough import units
 from viscorough.io.datasets import write_dataset
 from viscorough.io.heights import read_heights
 
@@ -83,3 +85,14 @@ def test_counts_are_scaled(tmp_path):
     indenter.save(tmp_path / "nm.nc")
     with refused("--scale 0.053 nm: heights are in nm in the file"):
         viscorough.read_heights(tmp_path / "nm.nc", scale="0.053 nm")
+
+
+def test_a_spacing_may_be_a_text_with_a_unit(tmp_path):
+    np.save(tmp_path / "a.npy", np.random.default_rng(1).normal(size=(4, 4)))
+    for spacing in ("0.5 um", (units.Quantity(500.0, "nm"), "0.5 um"), pint.Quantity(0.5, "um")):
+        indenter = read_heights(tmp_path / "a.npy", spacing, unit="nm")
+        assert (indenter.spacing, indenter.row_spacing) == (500.0, 500.0)
+    with refused("spacing '0.5 Pa'|unit 'Pa': cannot be converted to nm"):
+        read_heights(tmp_path / "a.npy", "0.5 Pa", unit="nm")
+    with refused("the unit of the heights is not known"):
+        read_heights(tmp_path / "a.npy", "0.5 um")

@@ -82,6 +82,14 @@ def test_audit_on_the_grid_adds_levels_until_both_integrals_are_known(hurst, acr
     assert plain.largest_deviation > 5 * result.rules.largest_deviation
 
 
+@pytest.mark.parametrize("body", [sphere, cone])
+def test_audit_of_a_body_finds_interpolation_as_accurate_as_promised(body):
+    """Many elements touch between two levels of smooth bodies, so that most levels are placed by the bound alone."""
+    result = audit(body(1.0).indenter(65), tolerance=1e-3)
+    assert result.agrees
+    assert 0.1 < result.interpolation_error / result.curve.tolerance < 1
+
+
 def test_curve_that_stops_before_complete_contact_lacks_what_convexity_allows():
     result = audit(INDENTERS["H = 0.4"], tolerance=1e-7, until_fraction=0.3)
     whole = audit(INDENTERS["H = 0.4"], tolerance=1e-9)

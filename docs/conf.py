@@ -1,20 +1,25 @@
 """How Sphinx builds the pages in this folder into build/docs (`make docs`); nothing is loaded from the network."""
 
+import importlib
 import importlib.metadata
-import sys
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parent))  # for sphinx_viscorough
+import click
+from docutils import nodes
+from docutils.parsers.rst import Directive
+from docutils.utils.math import latex2mathml
+
+from viscorough.cli import cli
 
 project = "viscorough"
 author = "the authors of viscorough"
 release = importlib.metadata.version("viscorough")
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx_viscorough"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4
 nitpicky = True  # a reference that leads nowhere is a warning, and warnings are errors
 nitpick_ignore_regex = [("py:class", "array|bool|float|int|str")]  # types of attributes, in words
+default_role = "code"  # `names` in docstrings
 html_math_renderer = "mathml"
 
 autodoc_default_options = {"members": True, "member-order": "bysource"}
@@ -28,3 +33,60 @@ html_theme = "furo"
 html_title = f"viscorough {release}"
 html_copy_source = False
 html_show_sphinx = False
+
+# Texts beside the docs that pages here include: pages link to the files, so that they can also be read unbuilt.
+_PAGE_OF = {"../config/README.md": "settings.md", "../results/README.md": "output.md", "../README.md": "index.md"}
+
+
+class CommandHelp(Directive):
+    """The text that `viscorough COMMAND --help` prints; the argument is the command."""
+
+    required_arguments = 1
+
+    def run(self):
+        command = cli.commands[self.arguments[0]]
+        context = click.Context(command, info_name=f"viscorough {command.name}", terminal_width=100)
+        text = command.get_help(context)
+        return [nodes.literal_block(text, text, language="none")]
+
+
+class TableColumns(Directive):
+    """The columns of a table: meaning and unit, from `COLUMNS`, or from the second argument, of a module."""
+
+    required_arguments, optional_arguments = 1, 1
+
+    def run(self):
+        module, name = [*self.arguments, "COLUMNS"][:2]
+        columns = getattr(importlib.import_module(module), name)
+        rows = [("column", "unit", "meaning"), *((name, unit or "", text) for name, (text, unit) in columns.items())]
+        head, *body = [nodes.row("", *(nodes.entry("", nodes.paragraph("", cell)) for cell in row)) for row in rows]
+        widths = [nodes.colspec(colwidth=width) for width in (20, 10, 70)]
+        return [nodes.table("", nodes.tgroup("", *widths, nodes.thead("", head), nodes.tbody("", *body), cols=3))]
+
+
+def _visit_inline_math(writer, node):
+    writer.body.append(latex2mathml.tex2mathml(node.astext(), as_block=False))
+    raise nodes.SkipNode
+
+
+def _visit_math_block(writer, node):
+    writer.body.append(f'<div class="math">{latex2mathml.tex2mathml(node.astext(), as_block=True)}</div>')
+    raise nodes.SkipNode
+
+
+def _link_to_pages(_app, _page, source):
+    for path, page in _PAGE_OF.items():
+        source[0] = source[0].replace(f"]({path}", f"]({page}")
+
+
+def _skip_tuple_fields(_app, _what, _name, member, _skip, _options):
+    """Fields of a NamedTuple are described in its docstring; by themselves they are aliases of numbers."""
+    return True if type(member).__name__ == "_tuplegetter" else None
+
+
+def setup(app):
+    app.add_html_math_renderer("mathml", (_visit_inline_math, None), (_visit_math_block, None))
+    app.add_directive("command-help", CommandHelp)
+    app.add_directive("table-columns", TableColumns)
+    app.connect("source-read", _link_to_pages)
+    app.connect("autodoc-skip-member", _skip_tuple_fields)

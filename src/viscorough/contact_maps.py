@@ -19,8 +19,12 @@ _EXCESS_PER_CHANGE = (np.pi - 1 + np.log(2)) / 24
 class Patches(NamedTuple):
     """The contact patches of a map: connected regions of elements in contact.
 
-    labels : map, 0 where there is no contact and 1 … n in the patches, the largest first
-    areas : of the patches in this order, shape (n,) [length²]
+    Attributes
+    ----------
+    labels : array
+        Map, 0 where there is no contact and 1 … n in the patches, the largest first.
+    areas : array
+        Of the patches in this order, shape (n,) [length²].
     """
 
     labels: np.ndarray
@@ -158,9 +162,15 @@ class Contact(ReadOnlyArrays, Saved, Summarised):
     def patches(self, connectivity: int = 4) -> Patches:
         """The Patches of the contact: regions of elements in contact that are neighbours.
 
-        connectivity : 4: elements that share a side are neighbours; 8: those that share a corner, too
+        Parameters
+        ----------
+        connectivity : int
+            4: elements that share a side are neighbours; 8: those that share a corner, too.
 
-        Raises ValueError for another connectivity.
+        Raises
+        ------
+        ValueError
+            For another connectivity.
         """
         from scipy import ndimage  # takes long to import
 

@@ -104,7 +104,7 @@ class Indenter(ReadOnlyArrays, Saved, Summarised):
 
     @property
     def aspect(self) -> float:
-        """Aspect dy/dx of an element: its side along the columns over that along the rows; 1 for squares."""
+        """Aspect dy/dx of an element, its side along the columns over that along the rows; 1 for squares."""
         return self.row_spacing / self.spacing
 
     @property
@@ -114,12 +114,12 @@ class Indenter(ReadOnlyArrays, Saved, Summarised):
 
     @property
     def elements(self) -> int:
-        """Number of elements: points that are not nan."""
+        """Number of elements, which are the points that are not nan."""
         return int(np.count_nonzero(~np.isnan(self.heights)))
 
     @property
     def rms_slope(self) -> float:
-        """Root mean square of the slope |∇h| [1], from differences between neighbours; 0 for a single element."""
+        """Root mean square of the slope `|∇h|` [1], from differences between neighbours; 0 for a single element."""
         squares = 0.0
         with np.errstate(over="ignore"):  # a slope that overflows is infinite
             for axis, spacing in enumerate((self.row_spacing, self.spacing)[-self.heights.ndim :]):
@@ -130,7 +130,7 @@ class Indenter(ReadOnlyArrays, Saved, Summarised):
 
     @property
     def initial_gap(self) -> Array:
-        """Initial gap [length]: depth below the highest element, in double precision; shape (rows, columns)."""
+        """Initial gap, the depth below the highest element [length], in double precision; shape (rows, columns)."""
         return np.subtract(np.fmax.reduce(self.heights, axis=None), self.heights, dtype=float)
 
 

@@ -45,7 +45,7 @@ class LoadingCurve(ReadOnlyArrays, Saved, Summarised):
     operator_applications : int
         Number of applications of the half-space operator on the grid.
     residual : array
-        Largest remaining |gap| in contact or overlap outside it, over the depth, shape (levels,) [1].
+        Largest gap in contact or overlap outside it that remains, over the depth, shape (levels,) [1].
     length_unit : str
         Unit of the lengths, as UDUNITS spells it; "1" if it is not known.
 
@@ -117,7 +117,15 @@ class LoadingCurve(ReadOnlyArrays, Saved, Summarised):
         of one height, so that the tangent passes through the origin to rounding; otherwise depth and stiffness are
         nan, except that at zero force the depth is zero.
 
-        force : F/G, any shape [length²]. Returns (depth, stiffness) of the same shape.
+        Parameters
+        ----------
+        force : array_like
+            F/G, any shape [length²].
+
+        Returns
+        -------
+        depth, stiffness : array
+            Of the same shape [length].
         """
         force = np.asarray(force, dtype=float)
         # A force computed back from a level may miss it by rounding.

@@ -64,7 +64,7 @@ class PowerLawBody:
             positive(f"{name} of a power-law body", getattr(self, name))
 
     def mdr_profile(self, x: Numbers) -> Numbers:
-        """One-dimensional profile g(x) = κ_n c |x|ⁿ with κ_n = √π Γ(n/2+1)/Γ((n+1)/2); same unit as x."""
+        """One-dimensional profile `g(x) = κ_n c |x|ⁿ` with κ_n = √π Γ(n/2+1)/Γ((n+1)/2); same unit as x."""
         n = self.exponent
         kappa = np.sqrt(np.pi) * gamma_function(n / 2 + 1) / gamma_function((n + 1) / 2)
         return kappa * self.coefficient * np.abs(x) ** n
@@ -89,7 +89,14 @@ class PowerLawBody:
     def indenter(self, elements_across: int, width: float = 1.0, rows: int | None = None) -> Indenter:
         """Indenter of this shape on a square of the given width, its tip (height 0) at the centre of the square.
 
-        elements_across : columns of elements; rows : rows of elements, by default as many
+        Parameters
+        ----------
+        elements_across : int
+            Columns of elements.
+        width : float
+            Side of the square [length].
+        rows : int, optional
+            Rows of elements, by default as many as columns.
         """
         rows = rows or elements_across
         x, y = _element_centres(elements_across, width), _element_centres(rows, width)

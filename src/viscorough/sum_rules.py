@@ -56,11 +56,18 @@ _TINY = 1e-300
 class CompleteContact(Summarised):
     """Where the loading curve of an indenter ends, and its two integrals, from linear solutions alone.
 
-    mean_gap : ⟨g₀⟩_q, the first integral [length]
-    energy : U/G, the second integral [length³]
-    stiffness : k_c/G of the whole outline as a flat punch [length]
-    depth : u from which on all elements touch [length]
-    length_unit : unit of the lengths; "1" if it is not known
+    Attributes
+    ----------
+    mean_gap : float
+        ⟨g₀⟩_q, the first integral [length].
+    energy : float
+        U/G, the second integral [length³].
+    stiffness : float
+        k_c/G of the whole outline as a flat punch [length].
+    depth : float
+        u from which on all elements touch [length].
+    length_unit : str
+        Unit of the lengths; "1" if it is not known.
     """
 
     mean_gap: float
@@ -86,11 +93,18 @@ class CompleteContact(Summarised):
 class Integral:
     """One of the two integrals of a loading curve beside its exact value; in the units of the latter.
 
-    exact : from linear solutions
-    values : {name: quadrature over the curve}
-    error : estimated error of the quadrature "by levels"
-    missing : bounds on what the curve lacks beyond its last level, from its convexity; both 0 once all elements touch
-    scale : what errors are relative to: the exact value, unless that is 0
+    Attributes
+    ----------
+    exact : float
+        From linear solutions.
+    values : dict
+        Quadratures over the curve, by name.
+    error : float
+        Estimated error of the quadrature "by levels".
+    missing : tuple
+        Bounds on what the curve lacks beyond its last level, from its convexity; both 0 once all elements touch.
+    scale : float
+        What errors are relative to: the exact value, unless that is 0.
     """
 
     exact: float
@@ -106,7 +120,7 @@ class Integral:
 
     @property
     def deviations(self) -> dict[str, float]:
-        """{name: what separates quadrature and missing part from the exact value, over the scale}."""
+        """What separates quadrature and missing part from the exact value, over the scale, by name."""
         lacking = {name: self.exact - value for name, value in self.values.items()}
         return {name: (float(np.clip(part, *self.missing)) - part) / self.scale for name, part in lacking.items()}
 
@@ -115,11 +129,16 @@ class Integral:
 class SumRules(ReadOnlyArrays):
     """Both integrals of a loading curve.
 
-    first : Integral for ⟨g₀⟩_q: u − F/k_c at the "last level", ∫ (1/k − 1/k_c) dF "by levels", from forces and
-        stiffnesses alone, and "between levels", with the stiffness of LoadingCurve.at_force [length]
-    second : Integral for U/G: ∫ (⟨g₀⟩_q + F/k_c − u) dF "by levels", from depths and stiffnesses there, and
-        "between levels", with the depth of LoadingCurve.at_force [length³]
-    errors : estimated error in each interval, of both integrals over their scales, shape (levels − 1,)
+    Attributes
+    ----------
+    first : Integral
+        For ⟨g₀⟩_q: u − F/k_c at the "last level", ∫ (1/k − 1/k_c) dF "by levels", from forces and stiffnesses alone,
+        and "between levels", with the stiffness of `LoadingCurve.at_force` [length].
+    second : Integral
+        For U/G: ∫ (⟨g₀⟩_q + F/k_c − u) dF "by levels", from depths and stiffnesses there, and "between levels", with
+        the depth of `LoadingCurve.at_force` [length³].
+    errors : array
+        Estimated error in each interval, of both integrals over their scales, shape (levels − 1,).
     """
 
     first: Integral
@@ -141,11 +160,18 @@ class SumRules(ReadOnlyArrays):
 class Audit(Summarised):
     """A loading curve with levels added until its integrals are known to a tolerance, and what they are.
 
-    tolerance : of both integrals, relative
-    complete : CompleteContact of the indenter
-    curve : LoadingCurve with the added levels
-    rules : SumRules of this curve
-    interpolation_error : largest relative error of the depth that was interpolated without the added levels, at these
+    Attributes
+    ----------
+    tolerance : float
+        Of both integrals, relative.
+    complete : CompleteContact
+        What `complete_contact` gives for the indenter.
+    curve : LoadingCurve
+        With the added levels.
+    rules : SumRules
+        Both integrals of this curve.
+    interpolation_error : float
+        Largest relative error of the depth that was interpolated without the added levels, at these.
     """
 
     tolerance: float
@@ -156,7 +182,7 @@ class Audit(Summarised):
 
     @property
     def is_accurate(self) -> bool:
-        """Whether the estimated error is within the tolerance: if not, added levels did not reduce it."""
+        """Whether the estimated error is within the tolerance; if not, added levels did not reduce it."""
         return self.rules.error <= self.tolerance
 
     @property

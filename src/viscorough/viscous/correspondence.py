@@ -45,10 +45,16 @@ _ROUNDING = 1e-10  # relative; the rounding error of an impulse summed over a mi
 class Kinetics(ReadOnlyArrays, Saved, Summarised):
     """Penetration over time; read-only arrays of shape (times,).
 
-    time : t, in s where the unit of length is known, else in the unit that those of force and viscosity make
-    depth : u [length]
-    velocity : v = du/dt [length/time]
-    length_unit : unit of the lengths; "1" if it is not known
+    Attributes
+    ----------
+    time : array
+        Times t, in s where the unit of length is known, else in the unit that those of force and viscosity make.
+    depth : array
+        u [length].
+    velocity : array
+        v = du/dt [length/time].
+    length_unit : str
+        Unit of the lengths; "1" if it is not known.
     """
 
     time: np.ndarray

@@ -24,7 +24,14 @@ _CHUNK = 2**20  # pairs of times at a time
 class DepthHistory(NamedTuple):
     """A depth over time and the force that it takes; read-only arrays of shape (times,).
 
-    time : t; depth : u [length]; force : F
+    Attributes
+    ----------
+    time : array
+        Times t.
+    depth : array
+        u [length].
+    force : array
+        Force F.
     """
 
     time: np.ndarray

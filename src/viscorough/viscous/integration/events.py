@@ -26,12 +26,20 @@ from viscorough.viscous.integration.elements import elements_of_map
 class Events(ReadOnlyArrays):
     """The penetration of an indenter from contact event to contact event; read-only arrays of shape (events,).
 
-    impulse : ∫F dt/η at which the contact set grew [length²]
-    depth : u at that impulse [length]
-    resistance : F/(ηv) from there to the next event [length]
-    contact_count : elements in contact from there on
-    elements : number of elements of the indenter
-    length_unit : unit of the lengths, as UDUNITS spells it; "1" if it is not known
+    Attributes
+    ----------
+    impulse : array
+        ∫F dt/η at which the contact set grew [length²].
+    depth : array
+        u at that impulse [length].
+    resistance : array
+        F/(ηv) from there to the next event [length].
+    contact_count : array
+        Elements in contact from there on.
+    elements : int
+        Number of elements of the indenter.
+    length_unit : str
+        Unit of the lengths, as UDUNITS spells it; "1" if it is not known.
     """
 
     impulse: np.ndarray

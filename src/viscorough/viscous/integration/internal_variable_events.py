@@ -33,7 +33,10 @@ _MAX_NEWTON_ITERATIONS = 60
 class MediumEvents(MediumMotion):
     """Motion of an indenter in a viscoelastic half-space, with all contact events.
 
-    event_time, event_depth : at which the contact set grew, from the second element on; read-only, shape (events,)
+    Attributes
+    ----------
+    event_time, event_depth : array
+        Times and depths at which the contact set grew, from the second element on; read-only, shape (events,).
     """
 
     event_time: np.ndarray

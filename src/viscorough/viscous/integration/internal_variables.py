@@ -35,11 +35,23 @@ _ROUNDING = 1e-12  # of gaps, relative to the depth
 class MediumMotion(ReadOnlyArrays):
     """Motion of an indenter in a viscoelastic half-space; read-only arrays of shape (times,).
 
-    time : t; depth : u [length]; force : F; contact_count : elements in contact
-    elements : number of elements of the indenter
-    pressure : p at the last time, after a step of the force there, on the grid of the heights, nan outside the indenter
-    receding_from : the first time at which an element had left the contact, so that the correspondence with the elastic
-        problem holds no more; nan if none has
+    Attributes
+    ----------
+    time : array
+        Times t.
+    depth : array
+        u [length].
+    force : array
+        Force F.
+    contact_count : array
+        Elements in contact.
+    elements : int
+        Number of elements of the indenter.
+    pressure : array
+        p at the last time, after a step of the force there, on the grid of the heights, nan outside the indenter.
+    receding_from : float
+        The first time at which an element had left the contact, so that the correspondence with the elastic
+        problem holds no more; nan if none has.
     """
 
     time: np.ndarray

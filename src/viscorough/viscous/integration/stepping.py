@@ -34,13 +34,22 @@ _IMPULSE_ACCURACY, _MAX_NEWTON_ITERATIONS = 0.1, 50
 class Steps(ReadOnlyArrays):
     """The penetration of an indenter at given impulses; read-only arrays of shape (impulses,).
 
-    impulse : ∫F dt/η [length²]
-    depth : u [length]
-    resistance : F/(ηv) of the contact at that impulse [length]
-    contact_count : elements in contact
-    overlap : largest overlap of indenter and surface, over the depth [1]
-    steps : number of steps taken, those into which steps were divided included
-    length_unit : unit of the lengths, as UDUNITS spells it; "1" if it is not known
+    Attributes
+    ----------
+    impulse : array
+        ∫F dt/η [length²].
+    depth : array
+        u [length].
+    resistance : array
+        F/(ηv) of the contact at that impulse [length].
+    contact_count : array
+        Elements in contact.
+    overlap : array
+        Largest overlap of indenter and surface, over the depth [1].
+    steps : int
+        Number of steps taken, those into which steps were divided included.
+    length_unit : str
+        Unit of the lengths, as UDUNITS spells it; "1" if it is not known.
     """
 
     impulse: np.ndarray

@@ -221,7 +221,7 @@ def media_table():
     media, time = ("newtonian", "standard_linear_solid"), np.geomspace(1e-3, 1e3, 13)
     table = combinations_of(medium=media, hurst=HURST, time=time)
     power = table["time"] ** table["hurst"]
-    table = table.assign(x=1e-2 * table["time"], depth=power, velocity=power, velocity_error=0.1)
+    table = table.assign(x=1e-2 * table["time"], depth=power, velocity=power)
     return table.assign(exponent=table["hurst"], creep_exponent=1.0, expected=0.5, realizations=6)
 
 

@@ -14,20 +14,18 @@ from viscorough_study.comparisons.direct_integration import compare_direct
 from viscorough_study.comparisons.mdr_equivalence import WINDOWS
 from viscorough_study.ensembles.averages import abscissa, ensemble_dataset, on_abscissae
 from viscorough_study.ensembles.pool import REALIZATION_COORDINATES, VARIABLES, ensembles
-from viscorough_study.fits.conventions import FITTED, PLAIN
+from viscorough_study.fits.conventions import FITTED
 from viscorough_study.fits.fit_table import COLUMNS, fit_rows
 from viscorough_study.fits.intervals import three_columns
-from viscorough_study.fits.prefactors import prefactors
 from viscorough_study.fits.zeta_laws import zeta_laws
 from viscorough_study.run.paper_data import read_paper
 from viscorough_study.verdicts.evidence import Evidence
 
 ROOT = Path(__file__).resolve().parents[2]
 CLAIMS, NUMBERS = (read_paper(ROOT / "resources/paper", name) for name in ("claims", "numbers"))
-SHOWN = {"average": "geometric", "rms_convention": "disc", "window_rule": "default", **PLAIN}
+SHOWN = {"average": "geometric", "rms_convention": "disc", "window_rule": "default", "gamma": "without"}
 LIMITS = {"elements_min": 10, "stiffness_max": 0.2, "slope_max": 0.8, "slope_half_width": 0.25}
 LIMITS |= {"fraction_min": 0.95, "decades_min": 0.5}
-BASE_SURFACES = {"base": {"period": 1.0, "corners": False, "amplitudes": "random"}}
 RULES = {"decades_min": 2.0, "end_decades": 0.25}
 GRIDS = [  # κ at u/h = 1 of three Hurst exponents, on two grids with enough elements in contact, and vt/h of one
     {"hurst": hurst, "quantity": quantity, "across": across, "value": value, "compared": int(across > 33)}
@@ -110,7 +108,6 @@ def _evidence(zeta, **options):
     evidence = evidence_of(
         discs,
         scaling=scaling,
-        prefactors=prefactors(scaling, BASE_SURFACES),
         validation=validation.assign(error=1 / validation["elements"] ** 2),
         direct=_direct(),
         methods=pd.DataFrame(METHODS, columns=["method", "hurst", "elements", "value", "wall_s", "error", "steps"]),
@@ -130,7 +127,7 @@ def _direct():
 
 def evidence_of(discs, **tables):
     """Evidence of a pool of discs and these tables."""
-    rules = {"limits": LIMITS, "rules": RULES, **BOOTSTRAP}
+    rules = {"limits": LIMITS, "rules": RULES, "surfaces": ["base"], **BOOTSTRAP}
     return Evidence(discs=discs, tables=tables, numbers=NUMBERS, conventions=SHOWN, across=ACROSS, **rules)
 
 

@@ -9,10 +9,10 @@ import xarray as xr
 from support.workflow import TEST, copy_sources, jobs, plan, read_settings, settings_file, snakemake
 from viscorough_study.ensembles.surface_files import Surfaces
 
-FITS_AND_FIGURES = {"match_lines", "fit_scaling", "judge_claims", "compare_prefactors", "compare_zeta_laws"}
+FITS_AND_FIGURES = {"match_lines", "fit_scaling", "judge_claims", "compare_zeta_laws"}
 FITS_AND_FIGURES |= {"tabulate_calibration", "tabulate_literature", "plot_mdr_lambda", "plot_kinetics", "plot_exponent"}
 # With the values of others, which stand beside the exponents in one table, `plot_interface`.
-FITS_AND_FIGURES |= {"plot_master_curve", "plot_conventions", "plot_prefactors", "plot_interface"}
+FITS_AND_FIGURES |= {"plot_master_curve", "plot_conventions", "plot_interface"}
 BOUNDARY_ELEMENTS = {"generate_discs", "indent_surfaces"}  # discs were temporary
 BOUNDARY_ELEMENTS |= {
     "compare_direct",
@@ -82,7 +82,7 @@ OF_SURFACES |= {"generate_discs", "indent_surfaces", "generate_examples", "plot_
         (FEW_STEPS, OF_FEW_STEPS),
         # Errors in region (b) are tabulated, too.
         ({"scaling": {"stiffness_max": 0.25}}, FITS_AND_FIGURES | {"fit_sizes", "plot_sizes"} | SPEED),
-        ({"figures": {"average": "arithmetic"}}, (FITS_AND_FIGURES | SIZES) - {"fit_scaling", "compare_prefactors"}),
+        ({"figures": {"average": "arithmetic"}}, (FITS_AND_FIGURES | SIZES) - {"fit_scaling"}),
         ({"ensemble": {"per_decade": 25}}, FITS_AND_FIGURES | SIZES | INTERFACE | POOLED),
         (
             {"lines": {"points": 2048}},

@@ -32,7 +32,6 @@ TABLE_PARAMS = {
     },
     "compare_direct": {**config["direct"], "hursts": config["discs"]["hurst"], "seed": config["seed"]},
     "measure_plateaus": plateau_settings(),
-    "compare_prefactors": {"surfaces": cases.surface_conventions(config)},
     "compare_zeta_laws": {
         "conventions": {name: config["figures"][name] for name in ("average", "rms_convention")},
         "hurst_mins": [0.0, number(paper("numbers"), "agreement", "beta_hurst_min")],
@@ -84,11 +83,9 @@ TABLE_PARAMS = {
     },
     "compute_media": {
         **config["media"],
-        **{name: config["scaling"][name] for name in ("stiffness_range", "resamples")},
         "rms_convention": config["figures"]["rms_convention"],
         "discs": cases.first_combination(config),
         "until_x": config["indentation"]["until_x"],
-        "seed": config["seed"],
     },
     "evaluate_measured": {
         "names": list(MEASURED),

@@ -24,8 +24,8 @@ rule check_validation:
 
 
 # Tables by which the claims are judged.
-EVIDENCE = ("scaling", "validation", "direct", "reduction", "mdr_summary", "mdr_exponents", "plateaus", "prefactors")
-EVIDENCE += ("zeta_laws", "methods", "sizes", "grid_dependence")
+EVIDENCE = ("scaling", "validation", "direct", "reduction", "mdr_summary", "mdr_exponents", "plateaus", "zeta_laws")
+EVIDENCE += ("methods", "sizes", "grid_dependence")
 
 
 rule judge_claims:
@@ -50,6 +50,7 @@ rule judge_claims:
         numbers=paper("numbers"),
         rules=config["verdicts"],
         conventions=config["figures"],
+        surfaces=cases.surfaces_left_open(config),
         across=config["discs"]["elements"],
         limits=region_limits(),
         resamples=config["scaling"]["resamples"],

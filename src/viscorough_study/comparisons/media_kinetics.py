@@ -14,8 +14,7 @@ from viscorough.io.media import medium_from_mapping
 from viscorough.reference import exponent_beta
 from viscorough.viscous.correspondence import kinetics
 from viscorough_study.ensembles.averages import abscissa
-from viscorough_study.fits.intervals import described, three_columns
-from viscorough_study.fits.power_law import fit_power_law, local_slopes
+from viscorough_study.fits.power_law import local_slopes
 
 COLUMNS = {
     "medium": ("name of the medium", None),
@@ -24,29 +23,12 @@ COLUMNS = {
     "x": ("dimensionless creep X = F J(t)/(4hL)", "1"),
     "depth": ("geometric mean of the depth u/h", "1"),
     "velocity": ("geometric mean of the velocity vt/h", "1"),
-    "velocity_error": ("two standard errors of ln(vt/h)", "1"),
     "exponent": ("local exponent d ln(vt/h)/d ln t, fitted over a quarter of a decade to either side", "1"),
     "creep_exponent": ("local exponent a = d ln J/d ln t of the creep compliance", "1"),
     "expected": ("local exponent of vt/h by Eq. 10, β a + d ln a/d ln t with β = H/(1 + H)", "1"),
     "realizations": ("realizations in the mean", "1"),
 }
-EXPONENT_COLUMNS = {
-    "medium": ("name of the medium", None),
-    "hurst": ("Hurst exponent H", "1"),
-    "time_low": ("first time of the window, in which κ lies in scaling.stiffness_range and the medium creeps", "s"),
-    "time_high": ("last time of the window", "s"),
-    "decades": ("decades of time in the window, 0 where there is none", "1"),
-    "creep_exponent": ("exponent of J(t) in the window", "1"),
-    "creep_least": ("least local exponent of J(t) in the window; equal to the largest if J is a power of time", "1"),
-    "creep_largest": ("largest local exponent of J(t) in the window", "1"),
-    "beta": ("exponent β of X/κ in X in the window", "1"),
-    **described("exponent", "exponent of vt/h in time in the window"),
-    "expected": ("exponent of vt/h from β and J: β times the exponent of J, plus that of d ln J/d ln t", "1"),
-    "realizations": ("realizations in the mean", "1"),
-}
 HALF_WIDTH = 0.25  # decades of time to either side over which local exponents are fitted
-_FITTED_MIN = 3  # smallest number of times in a window
-_CREEPING = 0.05  # exponent of J below which the medium hardly creeps, and no power of time is fitted
 
 
 def named_media(cases):
@@ -54,13 +36,12 @@ def named_media(cases):
     return {case["name"]: medium_from_mapping({k: v for k, v in case.items() if k != "name"}) for case in cases}
 
 
-def media_of_batches(curves, *, discs, until_x, rms_convention, cases, times, **options):
-    """{"media", "media_exponents": table} of `media_tables`, from batches of loading curves.
+def media_of_batches(curves, *, discs, until_x, rms_convention, cases, times, force):
+    """`media_table` of batches of loading curves.
 
     curves : Content of the batches; discs, until_x : select the curves of these ensembles that were computed up to
         X = until_x; rms_convention : of h
-    cases : [name and further keys of a medium]; times : low, high [s] and per_decade
-    options : further arguments of `media_tables`
+    cases : [name and further keys of a medium]; times : low, high [s] and per_decade; force : F [N]
     """
     ensembles = {}
     for batch in curves:
@@ -70,36 +51,27 @@ def media_of_batches(curves, *, discs, until_x, rms_convention, cases, times, **
         for i in np.flatnonzero(np.isin(values["case"].astype(str), discs) & (values["until_x"] == until_x)):
             joined, rms, _ = ensembles.get(hurst, ([], [], None))
             ensembles[hurst] = [*joined, read[i]], [*rms, heights[i]], diameter[i]
-    tables = media_tables(ensembles, named_media(cases), times=abscissa(**times), **options)
-    return dict(zip(("media", "media_exponents"), tables, strict=True))
+    return media_table(ensembles, named_media(cases), force=force, times=abscissa(**times))
 
 
-def media_tables(ensembles, media, *, force, times, stiffness_range, resamples, seed):
-    """Means over the realizations of every ensemble in every medium, and exponents of their means.
+def media_table(ensembles, media, *, force, times):
+    """Means over the realizations of every ensemble in every medium; a pandas.DataFrame with the columns of `COLUMNS`.
 
     ensembles : {H: (loading curves, their rms heights, diameter)} [m]
     media : {name: medium of viscorough.viscous.media} in Pa and s; force : F [N]
-    times : t > 0, logarithmically uniform [s]; stiffness_range : range of κ in which exponents are fitted, the same
-        states of contact in all media
-    resamples, seed : of the bootstrap, as in viscorough_study.fits.power_law.fit_power_law
-
+    times : t > 0, logarithmically uniform [s]
     Times at which a depth lies beyond the end of its curve are omitted. X is that of the mean rms height.
-    Returns two pandas.DataFrames, with `COLUMNS` and `EXPONENT_COLUMNS`.
     """
-    parts, fits = [], []
+    parts = []
     for name, medium in media.items():
         creep = medium.creep_compliance(times), times * medium.creep_rate(times) / medium.creep_compliance(times)
         for hurst, (curves, rms, diameter) in ensembles.items():
             depth, velocity = _motions(curves, rms, medium, force, times)
             x = force * creep[0] / (4 * np.mean(rms) * diameter)
-            labels = {"medium": name, "hurst": hurst}
             defined = np.isfinite(depth).all(axis=0) & (velocity > 0).all(axis=0)
             motion = [values[..., defined] for values in (times, x, creep[1], depth, velocity)]
-            parts.append(_means(*motion, exponent_beta(hurst)).assign(**labels))
-            bootstrap = {"average": "geometric", "resamples": resamples, "seed": seed}
-            fits.append(labels | _exponents(*motion[:3], motion[4], stiffness_range, bootstrap))
-    means = pd.concat(parts, ignore_index=True)[list(COLUMNS)]
-    return means, pd.DataFrame(fits, columns=list(EXPONENT_COLUMNS))
+            parts.append(_means(*motion, exponent_beta(hurst)).assign(medium=name, hurst=hurst))
+    return pd.concat(parts, ignore_index=True)[list(COLUMNS)]
 
 
 def _motions(curves, rms, medium, force, times):
@@ -121,38 +93,16 @@ def motion_on_curve(curve, force, medium, times):
 
 def _means(time, x, creep_exponent, depth, velocity, beta):
     """Table of geometric means; depth, velocity : shape (realizations, times), defined and with velocity > 0."""
-    log_depth, log_velocity = np.log(depth), np.log(velocity)
-    mean, number = log_velocity.mean(axis=0), len(velocity)
-    log_time, half_width = np.log(time), HALF_WIDTH * np.log(10)
+    mean, log_time, half_width = np.log(velocity).mean(axis=0), np.log(time), HALF_WIDTH * np.log(10)
     return pd.DataFrame(
         {
             "time": time,
             "x": x,
-            "depth": np.exp(log_depth.mean(axis=0)),
+            "depth": np.exp(np.log(depth).mean(axis=0)),
             "velocity": np.exp(mean),
-            "velocity_error": 2 * log_velocity.std(axis=0, ddof=1) / np.sqrt(number),
             "exponent": local_slopes(log_time, mean, half_width),
             "creep_exponent": creep_exponent,
             "expected": local_slopes(log_time, np.log(creep_exponent * x**beta), half_width),
-            "realizations": number,
+            "realizations": len(velocity),
         }
     )
-
-
-def _exponents(time, x, creep_exponent, velocity, stiffness_range, bootstrap):
-    """Columns of the exponents fitted where κ = a X/(vt/h) lies in the range and the medium creeps."""
-    stiffness = creep_exponent * x / np.exp(np.log(velocity).mean(axis=0))
-    inside = (stiffness >= stiffness_range[0]) & (stiffness <= stiffness_range[1])
-    inside = np.flatnonzero(inside & (creep_exponent >= _CREEPING))
-    columns = {"decades": 0.0, "realizations": len(velocity)}
-    if inside.size < _FITTED_MIN:
-        return columns
-    window = slice(inside[0], inside[-1] + 1)  # κ grows with X, and X with time
-    time, x, a, velocity = time[window], x[window], creep_exponent[window], velocity[:, window]
-    beta = fit_power_law(x, velocity / a, (x[0], x[-1]), **bootstrap).beta
-    fit = fit_power_law(time, velocity, (time[0], time[-1]), **bootstrap)
-    creep, change = (np.polyfit(np.log(time), np.log(values), 1)[0] for values in (x, a))
-    columns |= {"time_low": time[0], "time_high": time[-1], "decades": np.log10(time[-1] / time[0])}
-    columns |= {"creep_exponent": creep, "creep_least": a.min(), "creep_largest": a.max(), "beta": beta}
-    columns |= three_columns("exponent", (fit.beta, *fit.beta_interval))
-    return columns | {"expected": beta * creep + change}

@@ -7,7 +7,7 @@ from viscorough_study.ensembles.pool import elements_across
 from viscorough_study.figures import style
 from viscorough_study.figures.mean_curve import mean_curve, realizations_text
 from viscorough_study.figures.placement import place_labels
-from viscorough_study.fits.conventions import LENGTH, fits
+from viscorough_study.fits.conventions import fits
 
 # Rows of the table of combinations: quantity, symbol, unit, size of the unit.
 QUANTITIES = (
@@ -36,12 +36,11 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
     above, below = figure.subfigures(2, 1, height_ratios=(4.6, 1))
     raw, collapsed = above.subplots(1, 2, width_ratios=(1, 1.2))
     curves = [mean_curve(ds, conventions, fraction_min) for ds in ensembles]
-    length_over_diameter = LENGTH[conventions["diameter_convention"]]
     start = min((curve.x[curve.several][0] for curve in curves if curve.several.any()), default=0) / 10
     ends = {}
     for ds, curve in zip(ensembles, curves, strict=True):
         case, look = ds["case"].item(), looks[ds["hurst"].item()] | {"marker": "", "linewidth": 0.8}
-        time, velocity, dimensionless = _in_units(curve, combinations[case], length_over_diameter)
+        time, velocity, dimensionless = _in_units(curve, combinations[case])
         one_element = (~curve.several | np.append(True, ~curve.several[:-1])) & (curve.x >= start)  # and the next
         for axes, (x, y) in ((raw, (time, velocity)), (collapsed, dimensionless)):
             axes.plot(x[one_element], y[one_element], color=style.PALE, zorder=1)
@@ -52,7 +51,7 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
     raw.set(xscale="log", yscale="log", xlabel="time $t$ (s)", ylabel="velocity $v$ (m/s)")
     raw.margins(x=0.12, y=0.05)
     collapsed.set(xscale="log", yscale="log", xlabel=r"$Ft/(h\eta L)$", ylabel="$vt/h$")
-    _mark_limits(collapsed, elements_across(ensembles[0]["elements"].item()), length_over_diameter)
+    _mark_limits(collapsed, elements_across(ensembles[0]["elements"].item()))
     _mark_windows(collapsed, looks, scaling, conventions)
     realizations = f"each a mean over {realizations_text(ensembles)} discs"
     handles = style.hurst_handles(looks, marker="")
@@ -84,16 +83,15 @@ def _tabulate(axes, combinations):
             axes.text(y=row, s=style.number_text(values[quantity] / size), **place)
 
 
-def _in_units(curve, combination, length_over_diameter):
+def _in_units(curve, combination):
     """Time [s], velocity [m/s], and (Ft/(hηL), vt/h) computed from them."""
-    force, viscosity, diameter, rms = (combination[name] for name in ("force", "viscosity", "diameter", "rms"))
-    length = diameter * length_over_diameter
+    force, viscosity, length, rms = (combination[name] for name in ("force", "viscosity", "diameter", "rms"))
     time = 4 * curve.x * viscosity * rms * length / force
     velocity = curve.velocity * rms / time
     return time, velocity, (force * time / (rms * viscosity * length), velocity * time / rms)
 
 
-def _mark_limits(axes, across, length_over_diameter):
+def _mark_limits(axes, across):
     """Limits (a) and (c), vt/h = X/κ of one element and of complete contact, over Ft/(hηL) = 4X."""
     bottom, top = axes.get_ylim()
     axes.autoscale(False)
@@ -101,7 +99,7 @@ def _mark_limits(axes, across, length_over_diameter):
         (reference.one_element_stiffness(across), bottom, 0.6, "(a) one element in contact", "bottom"),
         (reference.COMPLETE_CONTACT_STIFFNESS, 0.02, 0.1, "(c) complete contact", "top"),
     ):
-        x_of_y = 4 * stiffness / length_over_diameter
+        x_of_y = 4 * stiffness
         axes.plot([x_of_y * low, x_of_y * top], [low, top], color=style.GREY, linestyle=":", linewidth=0.8)
         y = low * (top / low) ** start
         angle = np.degrees(np.arctan(1 / x_of_y))  # of the line through the origin, which has slope 1 in the logarithms

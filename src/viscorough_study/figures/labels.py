@@ -15,5 +15,4 @@ CONVENTION_LABELS = {
         "kappa": "window of given κ",
     },
     "gamma": {"without": "law without Γ", "with": "law with Γ (Eq. 9)"},
-    "diameter_convention": {"diameter": "$L$ the diameter", "radius": "radius: contradicts the paper"},
 }

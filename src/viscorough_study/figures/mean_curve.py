@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscorough_study.figures.style import count_text
-from viscorough_study.fits.conventions import LENGTH
 
 
 @dataclass(frozen=True)
@@ -33,7 +32,7 @@ def mean_curve(ensemble, conventions, fraction_min):
     mean = ensemble.sel(rms_convention=conventions["rms_convention"] if len(available) > 1 else available[0])
     defined = mean["fraction_defined"].values >= fraction_min
     return MeanCurve(
-        mean["x"].values / LENGTH[conventions["diameter_convention"]],
+        mean["x"].values,
         np.where(defined, mean[f"velocity_{conventions['average']}"].values, np.nan),
         2 * mean["velocity_spread"].values / np.sqrt(np.maximum(mean["realizations_defined"].values, 1)),
         defined & (mean["contact_count_median"].values > 1),

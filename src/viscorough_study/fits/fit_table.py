@@ -13,21 +13,10 @@ import pandas as pd
 
 from viscorough.calibrated_law import COLUMNS as CALIBRATION
 from viscorough_study.ensembles.pool import elements_across, ensembles, select
-from viscorough_study.fits.conventions import FITTED, fits, interval_columns, readings, source_values
+from viscorough_study.fits.conventions import FITTED, GAMMA, fits, interval_columns, source_values
 from viscorough_study.fits.intervals import described, described_ends, three_columns
 from viscorough_study.fits.mdr_lambda import match_lambda
 from viscorough_study.fits.power_law import fit_power_law, named_windows
-
-
-def _interval_descriptions():
-    """Columns of the interval of ζ in every reading of the law."""
-    columns = {}
-    for reading in readings():
-        law = "with the factor 1/Γ(1 + β) (Eq. 9)" if reading["gamma"] == "with" else "without Γ (Eq. 3)"
-        ends = f"of the 95 % interval of ζ, {law}, L the {reading['diameter_convention']}"
-        columns |= dict(zip(interval_columns(**reading), described_ends("zeta", ends).values(), strict=True))
-    return columns
-
 
 # column: (long_name, units), in the order of the table; units None for text
 COLUMNS = {
@@ -37,12 +26,13 @@ COLUMNS = {
     "rms_convention": ("where the rms height h is measured", None),
     "average": ("mean over the realizations at fixed X", None),
     "window_rule": ("rule of the window of the fit", None),
-    **described_ends("x", "of the window in X = F/(4GhL) = Ft/(4ηhL), L the diameter"),
+    **described_ends("x", "of the window in X = F/(4GhL) = Ft/(4ηhL)"),
     "decades": ("decades of X in the window, 0 where there is none", "1"),
     "realizations": ("realizations in the ensemble", "1"),
     **described("beta", "exponent β of vt/h in X (Eqs. 9 and 10)", ends="of the 95 % interval of β"),
-    "zeta": ("prefactor ζ without Γ (Eq. 3), L the diameter", "1"),
-    **_interval_descriptions(),
+    **described("zeta", "prefactor ζ without Γ (Eq. 3)", ends="of the 95 % interval of ζ without Γ"),
+    "zeta_low_with_gamma": ("lower end of the 95 % interval of ζ with the factor 1/Γ(1 + β) (Eq. 9)", "1"),
+    "zeta_high_with_gamma": ("upper end of the 95 % interval of ζ with the factor", "1"),
     "residual": ("rms deviation of ln(vt/h) from the power law in the window", "1"),
     **described("lambda", "λ in C1D = λ q C2D, line matched to surface (Eq. 13)", ends="of the 95 % interval of λ"),
 }
@@ -97,8 +87,8 @@ def _fit(ensemble, lines, window, **options):
     columns = {"x_low": window[0], "x_high": window[1], "decades": np.log10(window[1] / window[0])}
     columns |= three_columns("beta", (fit.beta, *fit.beta_interval))
     columns |= {"zeta": fit.zeta()[0], "residual": fit.residual}
-    for reading in readings():
-        columns |= dict(zip(interval_columns(**reading), fit.zeta(**reading)[1:], strict=True))
+    for gamma in GAMMA:
+        columns |= dict(zip(interval_columns(gamma), fit.zeta(gamma)[1:], strict=True))
     if lines is not None:
         with suppress(ValueError):
             values = match_lambda(x, velocity, lines["velocity"].values[0], window, **options)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from viscorough_study.fits.conventions import FITTED, PLAIN, zeta_scale
+from viscorough_study.fits.conventions import FITTED, zeta_scale
 from viscorough_study.fits.intervals import percentile_interval
 
 ROUNDING = 1e-9  # relative difference up to which abscissae and numbers of decades count as equal
@@ -118,11 +118,10 @@ class PowerLaw:
         """95 % interval (low, high) of β."""
         return percentile_interval(self.beta_samples, self.realizations)
 
-    def zeta(self, *, gamma=PLAIN["gamma"], diameter_convention=PLAIN["diameter_convention"]):
+    def zeta(self, gamma="without"):
         """ζ and its 95 % interval, (value, low, high), in a reading of the law (viscorough_study.fits.conventions)."""
-        reading = {"gamma": gamma, "diameter_convention": diameter_convention}
-        samples = zeta_scale(self.beta_samples, **reading) / self.prefactor_samples
-        value = zeta_scale(self.beta, **reading) / self.prefactor
+        samples = zeta_scale(self.beta_samples, gamma) / self.prefactor_samples
+        value = zeta_scale(self.beta, gamma) / self.prefactor
         return value, *percentile_interval(samples, self.realizations)
 
 

@@ -19,7 +19,7 @@ import pandas as pd
 
 from viscorough import reference
 from viscorough_study.ensembles.pool import ensembles, select
-from viscorough_study.fits.conventions import PLAIN, zeta_scale
+from viscorough_study.fits.conventions import zeta_scale
 from viscorough_study.fits.intervals import UNDEFINED, with_interval
 from viscorough_study.fits.power_law import fit_power_law, in_window, log_means, named_windows
 
@@ -124,7 +124,7 @@ def _zeta_ratios(ensembles, windows, *, average, resamples, seed):
         beta = np.append(fit.beta, fit.beta_samples)
         zeta = 1 / np.append(fit.prefactor, fit.prefactor_samples)
         for law, (function, gamma) in LAWS.items():
-            scale = zeta_scale(beta, **PLAIN | {"gamma": "with" if gamma else "without"})
+            scale = zeta_scale(beta, "with" if gamma else "without")
             ratios[law].append(np.log(zeta * scale / function(hurst)))
     return {law: np.stack(values, axis=1)[..., None] for law, values in ratios.items()}
 

@@ -21,7 +21,7 @@ POOLS = {
     "size_lines": ("line",),
     "measured": ("disc",),
 }
-SURFACE_CONVENTIONS = ("period", "corners", "amplitudes")  # settings of surfaces that the paper leaves open
+SURFACE_CONVENTIONS = {"period", "corners", "amplitudes"}  # settings of surfaces that the paper leaves open
 UNIT_DISC = {"rms": 1.0, "diameter": 1.0}
 UNIT_LINE = {"rms": 1.0, "length": 1.0}
 
@@ -81,16 +81,13 @@ def _changes_of_variants(settings):
     return {variant["name"]: {key: value for key, value in variant.items() if key != "name"} for variant in variants}
 
 
-def surface_conventions(settings):
-    """{group: {convention: value}} of discs whose surfaces differ only in conventions that the paper leaves open.
+def surfaces_left_open(settings):
+    """Groups of discs whose surfaces differ only in conventions that the paper leaves open.
 
     Variants with other differences, such as a roll-off, are controls, and are omitted.
     """
-    return {
-        group: {name: (settings["surface"] | changed)[name] for name in SURFACE_CONVENTIONS}
-        for group, changed in ({"base": {}} | _changes_of_variants(settings)).items()
-        if set(changed) <= set(SURFACE_CONVENTIONS)
-    }
+    changes = {"base": {}} | _changes_of_variants(settings)
+    return [group for group, changed in changes.items() if set(changed) <= SURFACE_CONVENTIONS]
 
 
 def _size_discs(settings):

@@ -27,6 +27,7 @@ class Evidence:
     discs : pool of the base discs (viscorough_study.ensembles.pool)
     tables : {name: pandas.DataFrame} of the tables of the workflow that some criterion reads
     numbers : content of resources/paper/numbers.yaml; conventions : those of the figures, {convention: value}
+    surfaces : groups of cases whose surfaces differ only in conventions that the paper leaves open
     across : elements across a disc; limits : arguments of viscorough_study.fits.power_law.find_region
     rules : decades_min and end_decades, as the settings in section `verdicts`
     resamples, seed : of bootstraps
@@ -36,6 +37,7 @@ class Evidence:
     tables: dict[str, pd.DataFrame]
     numbers: dict
     conventions: dict
+    surfaces: list
     across: int
     limits: dict
     rules: dict
@@ -77,6 +79,11 @@ class Evidence:
         """
         wanted = self.conventions | wanted | source_values(source) | {"case_group": "base"}
         return select(self.tables["scaling"], wanted).set_index("hurst")
+
+    def every_fit(self, source):
+        """Fits of "discs" or "lines" in every convention that needs a fit, of all surfaces left open by the paper."""
+        table = self.tables["scaling"]
+        return table[(table["source"] == source) & table["case_group"].isin(self.surfaces)]
 
     def paper_value(self, section, name):
         """A number that the paper states (resources/paper/numbers.yaml)."""

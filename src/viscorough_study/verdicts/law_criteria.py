@@ -26,8 +26,7 @@ def beta(evidence, tolerance, source="discs"):
     """β against H/(1 + H), for the Hurst exponents for which the paper says that it holds."""
     fits = evidence.fits(source)
     fits = fits[fits.index > evidence.paper_value("agreement", "beta_hurst_min")]
-    every = evidence.tables["scaling"].query("source == @source").dropna(subset="beta")
-    every = every[every["case_group"].isin(evidence.tables["prefactors"]["case_group"])]
+    every = evidence.every_fit(source).dropna(subset="beta")
     holds_in = _nearest_convention(every[every["case_group"] == "base"], fits.index, tolerance)
     for hurst, fit in fits.iterrows():
         law = reference.exponent_beta(hurst)

@@ -1,15 +1,15 @@
 """Criteria of claims on the prefactor ζ: absolute, up to a factor common to all H, and comparison of laws.
 
-They use the tables `prefactors` and `zeta_laws` (fits.prefactors and fits.zeta_laws). Where an absolute claim fails in
+They use the tables `scaling` and `zeta_laws` (fits.fit_table and fits.zeta_laws). Where an absolute claim fails in
 the conventions of the figures but holds in others that the paper leaves open, including those of the surfaces, the
 verdict names the conventions with the smallest deviation.
 """
 
 import numpy as np
 
-from viscorough_study.fits.conventions import NAMES, as_text, left_open
+from viscorough import reference
+from viscorough_study.fits.conventions import VALUES, as_text, in_reading
 from viscorough_study.fits.intervals import interval
-from viscorough_study.fits.prefactors import COMBINED, LAWS
 from viscorough_study.fits.zeta_laws import difference, measure_value
 from viscorough_study.verdicts.evidence import Conventions, hurst_name
 
@@ -19,36 +19,36 @@ MEASURES = (("curve", "deviation"), ("curve", "spread"), ("zeta", "deviation"), 
 
 def zeta_elastic(evidence, tolerance):
     """ζ against Eq. 4, which is a law of the elastic contact, without the factor."""
-    return _absolute(evidence, tolerance, "eq4", "without")
+    return _absolute(evidence, tolerance, reference.zeta_elastic, "without")
 
 
 def zeta_viscous(evidence, tolerance):
     """ζ against Eq. 11, which the paper fitted with Eq. 9, which has the factor."""
-    return _absolute(evidence, tolerance, "eq11", "with")
+    return _absolute(evidence, tolerance, reference.zeta_viscous, "with")
 
 
-def _absolute(evidence, tolerance, name, gamma):
-    """Cases of ζ against a law of viscorough_study.fits.prefactors, one for each Hurst exponent."""
-    table = evidence.tables["prefactors"]
-    table = left_open(table[table["gamma"] == gamma]).dropna(subset="zeta")
-    holds_in, fits = _nearest_convention(table, name, tolerance), evidence.fits("discs", gamma=gamma)
+def _absolute(evidence, tolerance, zeta_law, gamma):
+    """Cases of ζ against a law, a function of H, one for each Hurst exponent."""
+    table = in_reading(evidence.every_fit("discs"), gamma).dropna(subset="zeta")
+    holds_in, fits = _nearest_convention(table, zeta_law, tolerance), evidence.fits("discs", gamma=gamma)
     for hurst, fit in fits.iterrows():
         values = table.loc[table["hurst"] == hurst, ["zeta", "zeta_low", "zeta_high"]].to_numpy()
         others = {"cases": len(fits), "others": Conventions(values, holds_in), "realizations": fit.realizations}
-        law = LAWS[name][1](hurst)
+        law = zeta_law(hurst)
         ends = law * (1 - tolerance), law * (1 + tolerance)
         yield evidence.case(hurst_name(hurst), interval(fit, "zeta"), law, ends, **others)
 
 
-def _nearest_convention(table, name, tolerance):
+def _nearest_convention(table, zeta_law, tolerance):
     """Conventions in words in which every interval lies within the tolerance; "" if none."""
-    law = LAWS[name][1](table["hurst"])
+    law = zeta_law(table["hurst"])
     ends = np.maximum(np.abs(table["zeta_low"] / law - 1), np.abs(table["zeta_high"] / law - 1))
-    largest = ends.fillna(np.inf).groupby([table[column] for column in COMBINED], sort=False).max()
+    combined = ["case_group", *VALUES]
+    largest = ends.fillna(np.inf).groupby([table[column] for column in combined], sort=False).max()
     if largest.empty or largest.min() > tolerance:
         return ""
-    nearest = dict(zip(COMBINED, largest.idxmin(), strict=True))
-    return as_text({name: nearest[name] for name in NAMES} | {"surfaces": nearest["case_group"]})
+    surfaces, *conventions = largest.idxmin()
+    return as_text(dict(zip(VALUES, conventions, strict=True)) | {"surfaces": surfaces})
 
 
 def zeta_elastic_shape(evidence, tolerance):

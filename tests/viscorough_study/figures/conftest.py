@@ -7,14 +7,13 @@ import pytest
 
 from support import figures as tables
 from support.figures import COMBINATIONS, ELEMENTS, HURST, X, case_of
-from support.study import BASE_SURFACES, LIMITS, SHOWN, aggregate, pool_of
+from support.study import LIMITS, SHOWN, aggregate, pool_of
 from support.workflow import FIGURES
 from viscorough.contact.loading_path import indent
 from viscorough.mdr import reduce
 from viscorough.surfaces import self_affine_disc, self_affine_line
 from viscorough_study.ensembles.pool import ensembles
 from viscorough_study.fits.fit_table import COLUMNS, fit_rows
-from viscorough_study.fits.prefactors import prefactors
 
 SCALING = LIMITS | {"elements_min": 3, "stiffness_range": (0.03, 0.3)}
 
@@ -83,7 +82,6 @@ def drawn(discs, pooled, lines, scaling, combinations):
         "fig3_master_curve": (pooled, lines, scaling, SHOWN),
         "fig4_exponent": (scaling, SHOWN, (0.4, 1.0)),
         "conventions": (scaling, SHOWN),
-        "prefactors": (prefactors(scaling, BASE_SURFACES), SHOWN),
         "measured": ({"polished": pooled[0]}, pooled, measured, tables.measured_kinetics(), SHOWN),
     }
     params = {name: figure.get("params", []) for name, figure in FIGURES.items()}

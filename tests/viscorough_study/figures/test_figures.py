@@ -7,13 +7,11 @@ from matplotlib.colors import to_rgb
 
 from support import figures as tables
 from support.figures import HURST, X, coordinates, dashed, legend_texts, markers, plot, whole_on_page, without_region
-from support.study import BASE_SURFACES, SHOWN
+from support.study import SHOWN
 from viscorough import reference
 from viscorough.surfaces import self_affine_disc
 from viscorough_study.figures.collapse import SHIFT
-from viscorough_study.figures.prefactors import NEAREST
-from viscorough_study.fits.conventions import fits, left_open, select
-from viscorough_study.fits.prefactors import combination_rows, prefactors, ranked
+from viscorough_study.fits.conventions import fits, select
 
 pytestmark = pytest.mark.filterwarnings("error")
 
@@ -115,10 +113,10 @@ def test_conventions_have_a_row_for_each_change(scaling):
     figure = plot("conventions", scaling, SHOWN)
     grid = np.reshape(figure.axes, (2, len(HURST)))
     labels = [text.get_text() for text in grid[0, 0].get_yticklabels()]
-    assert (labels[0], labels[2], labels[8]) == ("as in other figures", "$h$ of the square", "roll-off (control)")
+    assert (labels[0], labels[2], labels[7]) == ("as in other figures", "$h$ of the square", "roll-off (control)")
     changes = [{}, {"average": "arithmetic"}, {"rms_convention": "square"}]
     changes += [{"window_rule": rule} for rule in ("lower_half", "upper_half", "kappa")]
-    changes += [{"gamma": "with"}, {"diameter_convention": "radius"}, {"case_group": "roll_off"}]
+    changes += [{"gamma": "with"}, {"case_group": "roll_off"}]
     for axes, quantity in zip(grid, ("beta", "zeta"), strict=True):
         for panel, hurst in zip(axes, HURST, strict=True):
             rows = {int(line.get_ydata()[0]): line.get_xdata()[0] for line in markers(panel)}
@@ -129,28 +127,10 @@ def test_conventions_have_a_row_for_each_change(scaling):
     upright = [line for line in grid[1, 1].lines if len(set(line.get_xdata())) == 1 and line.get_zorder() == 1]
     assert {line.get_xdata()[0] for line in upright} == {reference.zeta_viscous(0.9), reference.zeta_elastic(0.9)}
     empty, other = plot("conventions", without_region(scaling, 0.4), SHOWN).axes[:2]
-    assert [text.get_text() for text in empty.texts] == ["no region (b)"] * 9
-    assert len(markers(other)) + len(other.texts) == 9
+    assert [text.get_text() for text in empty.texts] == ["no region (b)"] * 8
+    assert len(markers(other)) + len(other.texts) == 8
     with pytest.raises(ValueError, match="no discs"):
         plot("conventions", scaling[scaling["source"] == "lines"], SHOWN)
-
-
-def test_prefactors_are_ranked_and_all_combinations_are_ticks(scaling):
-    table = prefactors(scaling, BASE_SURFACES)
-    open_rows = left_open(table)
-    figure = plot("prefactors", table, SHOWN)
-    for axes, law in zip(figure.axes, ("eq4", "eq11"), strict=True):
-        labels = [text.get_text() for text in axes.get_yticklabels()]
-        assert len(labels) == NEAREST + 3
-        rank = ranked(open_rows, law).index({"case_group": "base"} | SHOWN) + 1
-        assert labels[-3].startswith(f"as in the other figures, rank {rank}:")
-        best = combination_rows(table, ranked(open_rows, law)[0])
-        first = [line.get_xdata()[0] for line in markers(axes) if line.get_ydata()[0] < 0.5]
-        assert sorted(first) == pytest.approx(sorted(best[law]))
-        ticks = [line for line in axes.lines if line.get_marker() == "|" and len(line.get_xdata()) > 1]
-        assert sum(len(line.get_xdata()) for line in ticks) == len(open_rows)
-    with pytest.raises(ValueError, match="plot_prefactors: the table has no rows"):
-        plot("prefactors", table[:0], SHOWN)
 
 
 def test_measured_scans_stand_beside_the_generated_discs(drawn, pooled, scaling):

@@ -44,17 +44,15 @@ def test_combinations_are_named_at_their_lines_and_listed_below(discs, combinati
     assert collapsed.get_legend().get_title().get_text() == "each a mean over 1 to 2 discs"
 
 
-@pytest.mark.parametrize(("convention", "length"), [("diameter", 1.0), ("radius", 0.5)])
-def test_kinetics_mark_the_regions(discs, combinations, scaling, convention, length):
-    conventions = SHOWN | {"diameter_convention": convention}
-    axes = plot_kinetics(discs, combinations, scaling, conventions, fraction_min=0.95).axes[1]
+def test_kinetics_mark_the_regions(discs, combinations, scaling):
+    axes = plot_kinetics(discs, combinations, scaling, SHOWN, fraction_min=0.95).axes[1]
     bars = [line.get_xdata() for line in axes.lines if line.get_transform() == axes.get_xaxis_transform()]
-    fitted = fits(scaling, conventions, source="discs", case_group="base")
+    fitted = fits(scaling, SHOWN, source="discs", case_group="base")
     np.testing.assert_allclose(sorted(map(tuple, bars)), sorted(zip(4 * fitted.x_low, 4 * fitted.x_high, strict=True)))
     first, last = (line.get_xydata() for line in axes.lines if line.get_linestyle() == ":")
     kappa = reference.one_element_stiffness(ELEMENTS)
-    np.testing.assert_allclose(first[:, 1], first[:, 0] * length / 4 / kappa)
-    np.testing.assert_allclose(last[:, 1], last[:, 0] * length / 4)
+    np.testing.assert_allclose(first[:, 1], first[:, 0] / 4 / kappa)
+    np.testing.assert_allclose(last[:, 1], last[:, 0] / 4)
 
 
 @pytest.mark.parametrize(("fraction_min", "drawn"), [(0.5, True), (0.6, False)])

@@ -9,7 +9,7 @@ from support.study import LIMITS, ROOT, SHOWN, ensemble_of, three_regions
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.figures.labels import CONVENTION_LABELS
 from viscorough_study.fits import conventions
-from viscorough_study.fits.conventions import in_every_reading, in_reading, readings, select, zeta_scale
+from viscorough_study.fits.conventions import GAMMA, in_reading, select, zeta_scale
 from viscorough_study.fits.fit_table import COLUMNS, fit_rows
 from viscorough_study.fits.power_law import fit_power_law
 
@@ -31,38 +31,25 @@ def table(discs):
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
-@pytest.mark.parametrize("reading", readings(), ids=lambda reading: "-".join(reading.values()))
-def test_a_reading_is_a_fit_in_it(discs, table, reading):
-    """ζ, its interval and the window against a fit on the abscissae of that reading."""
-    x = X / conventions.LENGTH[reading["diameter_convention"]]
-    row = in_reading(table, **reading).iloc[0]
+@pytest.mark.parametrize("gamma", GAMMA)
+def test_a_reading_is_a_fit_in_it(discs, table, gamma):
+    """ζ and its interval against a fit in that reading."""
+    row = in_reading(table, gamma).iloc[0]
     window = row["x_low"], row["x_high"]
-    fit = fit_power_law(x, discs["velocity"].values[0], window, average=row["average"], **BOOTSTRAP)
-    expected = fit.zeta(gamma=reading["gamma"])  # with the diameter: the abscissae already are those of the reading
-    assert row[["zeta", "zeta_low", "zeta_high"]].tolist() == pytest.approx(expected, rel=1e-12)
+    fit = fit_power_law(X, discs["velocity"].values[0], window, average=row["average"], **BOOTSTRAP)
+    assert row[["zeta", "zeta_low", "zeta_high"]].tolist() == pytest.approx(fit.zeta(gamma), rel=1e-12)
     assert (row["beta"], row["decades"]) == pytest.approx((fit.beta, np.log10(window[1] / window[0])), rel=1e-12)
 
 
-def test_every_reading_of_every_fit_once(table):
-    every = in_every_reading(table)
-    assert len(every) == 4 * len(table)
-    assert not every.duplicated(["case_group", *conventions.NAMES]).any()
-    assert set(conventions.left_open(every)["diameter_convention"]) == {"diameter"}
-    assert len(conventions.left_open(every)) == len(every) / 2
-
-
 def test_select_is_one_row_for_each_ensemble(table):
-    reading = {"gamma": "with", "diameter_convention": "radius"}
-    wanted = SHOWN | reading | {"case_group": "corners"}
+    wanted = SHOWN | {"gamma": "with", "case_group": "corners"}
     (row,) = select(table, wanted).to_dict("records")
     assert {name: row[name] for name in wanted} == wanted
-    plain = select(table, SHOWN | {"case_group": "corners"}).iloc[0]
-    assert row["x_low"] == 2 * plain["x_low"]
 
 
 def test_unknown_readings_are_refused():
-    with pytest.raises(ValueError, match="diameter_convention: must be one of"):
-        zeta_scale(0.4, gamma="with", diameter_convention="width")
+    with pytest.raises(ValueError, match="gamma: must be one of"):
+        zeta_scale(0.4, "half")
 
 
 def test_settings_and_figures_know_the_same_values():

@@ -123,8 +123,8 @@ def test_fit_refuses_and_has_no_interval_for_one_realization():
     with pytest.raises(ValueError, match="average"):
         fit_power_law(x, velocity, (1e-4, 1e-2), average="harmonic", **BOOTSTRAP)
     fit = fit_power_law(x, velocity, (1e-4, 1e-2), average="geometric", **BOOTSTRAP)
-    with pytest.raises(ValueError, match="diameter"):
-        fit.zeta(diameter_convention="width")
+    with pytest.raises(ValueError, match="gamma"):
+        fit.zeta("half")
 
 
 def test_both_readings_describe_the_same_curve():

@@ -56,13 +56,10 @@ def mdr_tables(discs, lines, *, seed, fit, conventions):
 
     fit : settings of region (b); conventions : average, and rms convention of the discs
     """
-    discs = select(discs, group="base").sel(rms_convention=[conventions["rms_convention"]])
     lines = lines.isel(realization=np.flatnonzero(np.isin(lines["hurst"], discs["hurst"])))
-    pair = (
-        {hurst: ensemble.isel(rms_convention=0) for hurst, ensemble in ensembles(pool, "hurst").items()}
-        for pool in (discs, lines)
-    )
-    tables = compare_ensembles(*pair, average=conventions["average"], seed=seed, **fit)
+    discs = ensembles(select(discs, group="base"), "hurst", rms_convention=conventions["rms_convention"])
+    lines = ensembles(lines, "hurst", rms_convention="line")
+    tables = compare_ensembles(discs, lines, average=conventions["average"], seed=seed, **fit)
     return dict(zip(("mdr_lambda", "mdr_summary", "mdr_exponents"), tables, strict=True))
 
 

@@ -72,17 +72,20 @@ def select(pool, **wanted):
     return pool.isel(realization=np.flatnonzero(chosen))
 
 
-def ensembles(pool, *names):
+def ensembles(pool, *names, rms_convention=None):
     """{value of a coordinate, or values of several: ensemble of its realizations}, in the order of the pool.
+
+    rms_convention : in which alone they are, without this dimension; by default in all of the pool
 
     The ensembles have averages over their realizations (ensembles.averages). Their case and diameter are scalars if all
     realizations agree, otherwise coordinates of the realizations.
     Raises ValueError unless all realizations of an ensemble have one Hurst exponent.
     """
-    result = {}
+    result, pool = {}, pool if rms_convention is None else pool.sel(rms_convention=[rms_convention])
     for values in dict.fromkeys(zip(*(pool[name].values.tolist() for name in names), strict=True)):
         key = values if len(names) > 1 else values[0]
-        result[key] = _ensemble(select(pool, **dict(zip(names, values, strict=True))), key)
+        ensemble = _ensemble(select(pool, **dict(zip(names, values, strict=True))), key)
+        result[key] = ensemble if rms_convention is None else ensemble.isel(rms_convention=0)
     return result
 
 

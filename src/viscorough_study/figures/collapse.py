@@ -9,15 +9,12 @@ LIGHTEST = 0.35  # opacity of the coarsest grid
 SHIFT = 3.0  # factor by which curves of successive H are separated
 
 
-@style.in_style
+@style.figure
 def plot_collapse(curves, collapse, infinite):
     """vt/h (a) and its interface part (b) on all grids over the law, and the exponents compatible with them (c).
 
     curves, collapse, infinite : of fits.infinite_grid.collapse_tables
-
-    Raises ValueError for a table without rows.
     """
-    style.require_rows("plot_collapse", collapse)
     figure = style.new_figure(130)
     places = figure.subplot_mosaic([["whole", "interface"], ["exponents", "exponents"]])
     whole, interface, exponents = places.values()

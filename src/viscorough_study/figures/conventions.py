@@ -5,9 +5,25 @@ from matplotlib.ticker import MaxNLocator, NullLocator
 
 from viscorough import reference
 from viscorough_study.figures import style
-from viscorough_study.figures.labels import CONVENTION_LABELS
 from viscorough_study.fits.conventions import fits
 
+# Labels of the conventions that the paper leaves open, {column of the scaling table: {value: label}}.
+CONVENTION_LABELS = {
+    "average": {"arithmetic": "arithmetic mean", "geometric": "geometric mean"},
+    "rms_convention": {
+        "disc": "$h$ of the disc",
+        "square": "$h$ of the square",
+        "peak": "$h$ of the highest peak",
+        "ensemble": "$h$ of the ensemble",
+    },
+    "window_rule": {
+        "default": "whole window",
+        "lower_half": "lower half of window",
+        "upper_half": "upper half of window",
+        "kappa": "window of given κ",
+    },
+    "gamma": {"without": "law without Γ", "with": "law with Γ (Eq. 9)"},
+}
 VARIANTS = {
     "longer_period": "longer period",
     "corners": "corners of spectrum",
@@ -20,7 +36,7 @@ VARIANTS = {
 }
 
 
-@style.in_style
+@style.figure
 def plot_conventions(scaling, conventions):
     """β and ζ of the discs, with 95 % intervals, as one convention or the surfaces change; four values of H per row.
 

@@ -10,14 +10,12 @@ from viscorough_study.figures import style
 COLUMNS = 3
 
 
-@style.in_style
+@style.figure
 def plot_direct_integration(table):
     """Depth by direct integration over the elastic depth, and its value by Eq. 8, against the elements in contact.
 
     table : of comparisons.direct_integration; each indenter has a panel, with the largest deviation of the ratio from 1
-    Raises ValueError for a table without rows.
     """
-    style.require_rows("plot_direct_integration", table)
     cases = list(table["case"].unique())
     columns = min(COLUMNS, len(cases))
     figure, panels = style.new_panels(len(cases), columns, height=42, rest=16, sharex=True, sharey=True)

@@ -8,7 +8,7 @@ from viscorough_study.figures import style
 from viscorough_study.fits.conventions import fits
 
 
-@style.in_style
+@style.figure
 def plot_exponent(scaling, conventions, hurst_range):
     """β over the Hurst exponent, with 95 % intervals: lines, discs and Eq. 10.
 

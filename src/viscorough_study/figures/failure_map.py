@@ -39,15 +39,14 @@ NORM = LogNorm(FLOOR, 10)
 HEADER = 68  # height in points of the rotated names of the methods above the cells
 
 
-@style.in_style
+@style.figure
 def plot_failure_map(table):
     """Error, as colour and number, and verdict, as letter, of every method (columns) in every case (rows).
 
     table : of viscorough_study.robustness.failure_map
     Methods are grouped by kind. A cell is blank where the difficulty does not apply to the method, unless the method
-    refuses the case or fails unnoticed. Raises ValueError for a table without rows.
+    refuses the case or fails unnoticed.
     """
-    style.require_rows("plot_failure_map", table)
     methods = sorted(dict.fromkeys(table["method"]), key=lambda name: [*KINDS, OTHER_KIND].index(_kind(name)))
     rows = list(dict.fromkeys(zip(table["group"], table["case"], strict=True)))
     figure = style.new_figure(3.7 * len(rows) + 58)

@@ -17,14 +17,13 @@ METHODS = {
 }
 
 
-@style.in_style
+@style.figure
 def plot_growth(table):
     """Wall time and operator applications against the number of elements of rough discs, with fitted exponents.
 
     table : of viscorough_study.performance.measurement
-    Medians over the discs of one size. Raises ValueError for a table without rough discs.
+    Medians over the discs of one size.
     """
-    style.require_rows("plot_growth", table[table["hurst"].notna()])
     figure = style.new_figure(85)
     time, operators = figure.subplots(1, 2)
     looks = style.series_looks(METHODS.values())

@@ -8,16 +8,15 @@ SHIFT = 0.008  # distance in H between markers of grids and methods
 X_SHOWN = (1e-4, 30.0)
 
 
-@style.in_style
+@style.figure
 def plot_interface(table, curves, literature, periodic, conventions):
     """g of discs and of periodic surfaces (a) and of lines (b), vt/h of the law over that of discs (c), u₀/h (d).
 
     table, curves : of fits.interface; literature : of comparisons.literature, for u₀/h in (d)
     periodic : of comparisons.periodic_control
     conventions : those of the figures, {column: value}
-    (a) to (c) show each Hurst exponent on the base grid only. Raises ValueError for a table without rows.
+    (a) to (c) show each Hurst exponent on the base grid only.
     """
-    style.require_rows("plot_interface", table)
     table, curves = (part[part["average"] == conventions["average"]] for part in (table, curves))
     figure = style.new_figure(130)
     panels = figure.subplots(2, 2)

@@ -18,7 +18,7 @@ QUANTITIES = (
 )
 
 
-@style.in_style
+@style.figure
 def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min):
     """Velocity over time in SI units, vt/h over Ft/(hηL) computed from them (Eq. 2), and a table of the combinations.
 

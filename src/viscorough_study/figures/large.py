@@ -4,7 +4,7 @@ from viscorough_study.figures import style
 from viscorough_study.performance.costs import fit_cost
 
 
-@style.in_style
+@style.figure
 def plot_large(table):
     """Time (a) and memory (b) of one curve over the elements, with exponents fitted to the larger half.
 

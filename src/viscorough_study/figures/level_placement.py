@@ -10,14 +10,13 @@ HEIGHT = 0.8 / len(CHOICES)  # of a bar
 MISSED = "////"  # hatching of bars that miss the accuracy
 
 
-@style.in_style
+@style.figure
 def plot_level_placement(table):
     """Wall time of every choice of levels over that of the automatic choice, as bars with number of levels and error.
 
     table : of viscorough_study.performance.level_placement
-    A choice that does not reach the accuracy is hatched. Raises ValueError for a table without rows.
+    A choice that does not reach the accuracy is hatched.
     """
-    style.require_rows("plot_level_placement", table)
     scenes = list(table["scene"].unique())
     figure = style.new_figure(17 * len(scenes) + 24)
     axes = figure.subplots()

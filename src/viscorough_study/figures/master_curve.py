@@ -8,7 +8,7 @@ from viscorough_study.figures.mean_curve import mean_curve, realizations_text
 from viscorough_study.fits.conventions import fits
 
 
-@style.in_style
+@style.figure
 def plot_master_curve(discs, lines, scaling, conventions, *, fraction_min):
     """vt/h over the right side of Eq. 12 with its Γ, and below it their ratio.
 

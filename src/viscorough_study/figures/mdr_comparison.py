@@ -8,16 +8,14 @@ TICKS = [0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000]
 NEAR_ONE = [0.2, 0.3, 0.5, 0.8, 1, 1.2, 1.5, 2, 3, 5]
 
 
-@style.in_style
+@style.figure
 def plot_mdr_comparison(table):
     """Lines compared with the discs whose spectra they have: κ (a, b), contact fraction (c), gap (d), correlation of κ
     (e), force (f).
 
     table : of viscorough_study.comparisons.mdr_comparison
     Bands are 95 % intervals of the means; in (e), 95 % of the correlations of unrelated pairs.
-    Raises ValueError for a table without rows.
     """
-    style.require_rows("plot_mdr_comparison", table)
     figure = style.new_figure(185)
     stiffness, scatter, area, gap, correlation, force = figure.subplots(3, 2, sharex=True).flat
     looks = style.hurst_looks(table["hurst"])

@@ -11,14 +11,12 @@ _RANGE = 4.0  # largest ratio drawn: in region (a), where lines have finer grids
 _LAMBDA_RANGE = (0.3, 30.0)  # limits of the axis: λ grows without bound as contact becomes complete
 
 
-@style.in_style
+@style.figure
 def plot_mdr_lambda(lambdas, exponents):
     """λ over X (a), vt/h of lines with the best single λ over that of discs (b), and exponents in equal windows (c).
 
     lambdas, exponents : tables of viscorough_study.comparisons.mdr_equivalence
-    Raises ValueError for a table of λ without rows.
     """
-    style.require_rows("plot_mdr_lambda", lambdas)
     figure = style.new_figure(75)
     values, ratios, differences = figure.subplots(1, 3)
     looks = style.hurst_looks(exponents["hurst"])

@@ -9,7 +9,7 @@ from viscorough_study.fits.conventions import fits
 _LINES = ("-", "--", ":", "-.", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 3)))
 
 
-@style.in_style
+@style.figure
 def plot_measured(groups, discs, scaling, kinetics, conventions, *, fraction_min):
     """vt/h over X of measured surfaces and of generated discs (a), and the depth over time under given forces (b).
 

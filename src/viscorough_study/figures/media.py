@@ -10,15 +10,13 @@ _LOWEST = 1e-6  # lower end of the axis over the largest velocity: that of a sol
 HOLLOW = {"linestyle": "", "markersize": 3, "markerfacecolor": "none"}
 
 
-@style.in_style
+@style.figure
 def plot_media(table):
     """vt/h over time, one panel for each medium, and the depth u/h over X = F J(t)/(4hL) for all of them.
 
     table : of viscorough_study.comparisons.media_kinetics
     Dotted lines have slope 1; dashed lines have the slope H/(1 + H) of Eq. 10 and pass through X = 0.01.
-    Raises ValueError for a table without rows.
     """
-    style.require_rows("plot_media", table)
     names, looks = list(dict.fromkeys(table["medium"])), style.hurst_looks(table["hurst"])
     figure, panels = style.new_panels(len(names) + 1, 2, height=55, rest=15)
     for axes, name in zip(panels[:-1], names, strict=True):

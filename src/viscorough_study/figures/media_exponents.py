@@ -8,14 +8,12 @@ from viscorough_study.run.cases import medium_label
 _RANGE = (-0.6, 1.2)  # limits of the axis: the exponent of a solid falls without bound
 
 
-@style.in_style
+@style.figure
 def plot_media_exponents(table):
     """d ln(vt/h)/d ln t over time, one panel for each medium, with its value by Eq. 10 and the creep compliance.
 
     table : of viscorough_study.comparisons.media_kinetics
-    Raises ValueError for a table without rows.
     """
-    style.require_rows("plot_media_exponents", table)
     names, looks = list(dict.fromkeys(table["medium"])), style.hurst_looks(table["hurst"])
     figure, panels = style.new_panels(len(names), 3, height=48, rest=18, sharey=True)
     for axes, name in zip(panels, names, strict=True):

@@ -6,14 +6,13 @@ TICKS = (1, 2, 4, 8, 16, 32, 64, 128)
 HOLLOW = {"markerfacecolor": "none"}
 
 
-@style.in_style
+@style.figure
 def plot_other_solvers(table):
     """Wall time of every solver on every task over that of the elastic path; hollow markers are of two threads.
 
     Lines extend from the smallest to the largest ratio of a pair. Solutions that miss the residual are omitted.
-    table : of viscorough_study.performance.solver_comparison. Raises ValueError for a table without rows.
+    table : of viscorough_study.performance.solver_comparison.
     """
-    style.require_rows("plot_other_solvers", table)
     table = table[table["met"] == 1]
     tasks, solvers = list(table["task"].unique()), list(table["solver"].unique())
     exponents = sorted(table["hurst"].unique())

@@ -8,16 +8,14 @@ from viscorough_study.fits.grid_trends import fixed_rules
 CONTROL = {"color": style.GREY, "marker": "x", "linestyle": ""}
 
 
-@style.in_style
+@style.figure
 def plot_sizes(table, conventions):
     """β over the number of elements, of discs (a) and lines (b) in region (b), and in a fixed window (c), (d).
 
     table : sizes, of fits.grid_trends; conventions : {column of it: value}
     The fixed window is the one at the largest X. Colours distinguish Hurst exponents; dotted lines are H/(1 + H),
     Eq. 10; crosses are controls, discs whose spectrum has a roll-off.
-    Raises ValueError for a table without rows.
     """
-    style.require_rows("plot_sizes", table)
     rules = [conventions["window_rule"], *fixed_rules(table)[-1:]]
     figure = style.new_figure(25 + 60 * len(rules))
     panels = figure.subplots(len(rules), 2, sharex="col", sharey=True, squeeze=False)

@@ -25,7 +25,7 @@ PARETO = {"color": style.GREY, "linewidth": 3, "alpha": 0.35, "drawstyle": "step
 PARETO |= {"label": "Pareto front of all methods"}
 
 
-@style.in_style
+@style.figure
 def plot_speed(table):
     """Error of v against wall time: the elastic path, time steps, a model and the fastest of other solvers.
 
@@ -33,9 +33,7 @@ def plot_speed(table):
         as it has them, otherwise its first problem
     The staircase is the Pareto front of all methods of the table. Rings mark the fastest solutions by the path, by time
     steps and by other solvers with an error of at most 1 %; a box compares their times.
-    Raises ValueError for a table without rows.
     """
-    style.require_rows("plot_speed", table)
     rough = sorted(name for name in table["problem"].unique() if name.startswith("rough"))
     problems = [*rough[:1], *({"sphere"} & set(table["problem"]))] or [table["problem"].iloc[0]]
     looks = style.series_looks([*METHODS, "other"])

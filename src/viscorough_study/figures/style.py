@@ -5,10 +5,12 @@ Axis labels give units in parentheses after the symbol, and none for dimensionle
 `SMALL`.
 """
 
+from functools import wraps
 from io import BytesIO
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 from matplotlib import colormaps, rc_context
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -59,7 +61,21 @@ STYLE = {
 }
 
 
-in_style = rc_context(STYLE)  # decorator of every plotting function
+in_style = rc_context(STYLE)
+
+
+def figure(plot):
+    """Decorator of every plotting function: draws in this style, and refuses a table without rows as first argument."""
+
+    @wraps(plot)
+    @in_style
+    def styled(*arguments, **options):
+        first = next(iter((*arguments, *options.values())))
+        if isinstance(first, pd.DataFrame) and first.empty:
+            raise ValueError(f"{plot.__name__}: the table has no rows; at least one is needed")
+        return plot(*arguments, **options)
+
+    return styled
 
 
 def new_figure(height, width=WIDE):
@@ -103,12 +119,6 @@ def _save_picture(figure, path):
     with Image.open(drawn) as picture:
         colours = picture.convert("RGB").quantize(256, dither=Image.Dither.NONE)
         colours.save(path, format="png", dpi=picture.info["dpi"], optimize=True)
-
-
-def require_rows(function, table):
-    """Raise ValueError, naming the plotting function, for a table without rows."""
-    if table.empty:
-        raise ValueError(f"{function}: the table has no rows; at least one is needed")
 
 
 def hurst_looks(exponents):

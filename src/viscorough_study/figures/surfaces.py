@@ -8,7 +8,7 @@ from viscorough_study.figures import style
 COLORS = "cividis_r"  # from bright to dark, for any colour vision and in greyscale
 
 
-@style.in_style
+@style.figure
 def plot_surfaces(examples):
     """Discs side by side, four in a row, all in one colour scale; darker is higher.
 

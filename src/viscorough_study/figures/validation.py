@@ -12,7 +12,7 @@ LIMIT = {"color": "black", "linewidth": 2}
 LABEL_HEIGHT = 0.085  # of the label of an order, as a fraction of the height of its panel
 
 
-@style.in_style
+@style.figure
 def plot_validation(table):
     """Relative errors against exact solutions over the elements across the body, one panel for each quantity.
 

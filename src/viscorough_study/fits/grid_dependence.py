@@ -37,9 +37,9 @@ def grid_dependence(discs, *, elements_min, rms_convention):
     freedom.
     """
     grids = {}
-    pool = select(discs, group="sizes").sel(rms_convention=[rms_convention])
-    for (hurst, elements), ensemble in ensembles(pool, "hurst", "elements").items():
-        for quantity, (values, touching) in _quantities(ensemble.isel(rms_convention=0)).items():
+    pool = ensembles(select(discs, group="sizes"), "hurst", "elements", rms_convention=rms_convention)
+    for (hurst, elements), ensemble in pool.items():
+        for quantity, (values, touching) in _quantities(ensemble).items():
             grids.setdefault((hurst, quantity), []).append((elements, np.log(values), np.median(touching)))
     rows = []
     for (hurst, quantity), members in grids.items():

@@ -13,9 +13,8 @@ import pandas as pd
 from scipy.optimize import least_squares
 
 from viscorough.calibrated_law import LARGEST_DEVIATION, X_LOW, interface_depth, interface_velocity
-from viscorough.reference import COMPLETE_CONTACT_STIFFNESS
-from viscorough_study.ensembles.indentation import punch_stiffness
-from viscorough_study.ensembles.pool import elements_across, ensembles, select
+from viscorough_study.ensembles.indentation import grid_and_punch
+from viscorough_study.ensembles.pool import ensembles, select
 from viscorough_study.fits.conventions import FITTED
 from viscorough_study.fits.intervals import described, described_ends, percentile_interval, three_columns, with_interval
 from viscorough_study.fits.power_law import log_means
@@ -54,7 +53,7 @@ CURVES = {
 }
 
 
-def group_ensembles(pool, source, case_group, hursts=None):
+def group_ensembles(pool, source, case_group, rms_convention, hursts=None):
     """List of (columns of `ENSEMBLE` except the average, ensemble, κ_c) for every Hurst exponent and grid of a group.
 
     pool : of viscorough_study.ensembles.pool; hursts : Hurst exponents to select, None for all
@@ -62,9 +61,8 @@ def group_ensembles(pool, source, case_group, hursts=None):
     result, pool = [], select(pool, group=case_group)
     if hursts is not None:
         pool = pool.isel(realization=np.flatnonzero(np.isin(pool["hurst"], list(hursts))))
-    for (hurst, elements), ensemble in ensembles(pool, "hurst", "elements").items():
-        number = elements if source == "lines" else elements_across(elements)
-        punch = COMPLETE_CONTACT_STIFFNESS if source == "lines" else punch_stiffness(number)
+    for (hurst, elements), ensemble in ensembles(pool, "hurst", "elements", rms_convention=rms_convention).items():
+        number, punch = grid_and_punch(source, elements)
         labels = {"source": source, "case_group": case_group, "hurst": hurst, "across": number}
         result.append((labels, ensemble, punch))
     return result
@@ -76,23 +74,23 @@ def interface_tables(discs, lines, size_discs, size_lines, *, fit, rms_conventio
     discs, lines, size_discs, size_lines : pools, the last two of grids from coarse to fine
     fit : further arguments of `fit_interface`; rms_convention : of the discs
     """
-    discs, size_discs = (pool.sel(rms_convention=[rms_convention]) for pool in (discs, size_discs))
-    cases = group_ensembles(discs, "discs", "base") + group_ensembles(size_discs, "discs", "sizes")
+    cases = group_ensembles(discs, "discs", "base", rms_convention)
+    cases += group_ensembles(size_discs, "discs", "sizes", rms_convention)
     hursts = {labels["hurst"] for labels, _, _ in cases}
-    cases += group_ensembles(lines, "lines", "lines", hursts) + group_ensembles(size_lines, "lines", "sizes")
-    return dict(zip(("interface", "interface_curves"), fit_interfaces(cases, rms_convention, **fit), strict=True))
+    cases += group_ensembles(lines, "lines", "lines", "line", hursts)
+    cases += group_ensembles(size_lines, "lines", "sizes", "line")
+    return dict(zip(("interface", "interface_curves"), fit_interfaces(cases, **fit), strict=True))
 
 
-def fit_interfaces(cases, rms_convention, **options):
+def fit_interfaces(cases, **options):
     """Tables with the columns of `COLUMNS` and `CURVES` (pandas.DataFrame), of every ensemble and average.
 
-    cases : as of `group_ensembles`; rms_convention : of discs; options : further arguments of `fit_interface`
+    cases : as of `group_ensembles`; options : further arguments of `fit_interface`
     """
     rows, curves = [], []
     for labels, ensemble, punch in cases:
-        selected = ensemble.sel(rms_convention="line" if labels["source"] == "lines" else rms_convention)
         for average in FITTED["average"]:
-            row, curve = fit_interface(selected, punch, average=average, **options)
+            row, curve = fit_interface(ensemble, punch, average=average, **options)
             named = labels | {"average": average}
             rows.append(named | row)
             curves.append(curve.assign(**named))

@@ -113,14 +113,18 @@ def plateau_table(discs, *, control, rms_convention, seed, **options):
     discs : pool (viscorough_study.ensembles.pool); control : group without a power law, or None
     options : further arguments of `plateau_row`
     """
-    discs, rows = discs.sel(rms_convention=[rms_convention]), []
-    groups = {name: ensembles(select(discs, group=name), "hurst") for name in ("base", control) if name}
+    groups = {
+        name: ensembles(select(discs, group=name), "hurst", rms_convention=rms_convention)
+        for name in ("base", control)
+        if name
+    }
+    rows = []
     for group, members in groups.items():
         for hurst, ensemble in sorted(members.items()):
             logging.info("%s, H = %g", group, hurst)
             random = np.random.default_rng(realization_seed(seed, *plateau_key(hurst, group)))
-            compared = groups[control][hurst].isel(rms_convention=0) if control else None
-            row = plateau_row(ensemble.isel(rms_convention=0), compared, random=random, **options)
+            compared = groups[control][hurst] if control else None
+            row = plateau_row(ensemble, compared, random=random, **options)
             rows.append({"case_group": group, **row})
     return pd.DataFrame(rows, columns=list(COLUMNS))
 

@@ -20,9 +20,9 @@ import numpy as np
 import pandas as pd
 from scipy.special import zeta
 
-from viscorough.reference import COMPLETE_CONTACT_STIFFNESS, exponent_beta
-from viscorough_study.ensembles.indentation import punch_stiffness
-from viscorough_study.ensembles.pool import elements_across, ensembles, select
+from viscorough.reference import exponent_beta
+from viscorough_study.ensembles.indentation import grid_and_punch
+from viscorough_study.ensembles.pool import ensembles, select
 from viscorough_study.fits.power_law import log_means
 
 QUANTITIES = {"whole": "vt/h", "interface": "vt/h less X/κ_c of the punch"}
@@ -136,17 +136,14 @@ def grids(pool, source, *, average, rms_convention, elements_min, fraction_min, 
     group, grids_by_hurst = "controls" if source == "controls" else "sizes", {}
     generator = np.random.default_rng(seed)
     convention = "line" if source == "lines" else rms_convention
-    part = select(pool, group=group).sel(rms_convention=convention)
-    on_grids = ensembles(part.expand_dims("rms_convention"), "hurst", "elements")
+    on_grids = ensembles(select(pool, group=group), "hurst", "elements", rms_convention=convention)
     for (hurst, elements), ensemble in sorted(on_grids.items()):
-        ensemble = ensemble.isel(rms_convention=0)
         enough = np.flatnonzero(ensemble["contact_count_median"].values >= elements_min)
         defined = ensemble["fraction_defined"].values >= fraction_min
         if ensemble.sizes["realization"] < FEWEST["realizations"] or not enough.size:
             continue
         kept = defined & (np.arange(defined.size) >= enough[0])
-        number = elements if source == "lines" else elements_across(elements)
-        punch = COMPLETE_CONTACT_STIFFNESS if source == "lines" else punch_stiffness(number)
+        number, punch = grid_and_punch(source, elements)
         velocity = ensemble["velocity"].values[:, kept]
         means = log_means(velocity, average, resamples, generator)
         share = 1.0 if source == "controls" else variance_share(hurst, number, source)

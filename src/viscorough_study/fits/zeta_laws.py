@@ -49,8 +49,8 @@ def zeta_laws_of_pool(discs, *, conventions, hurst_mins, fit, resamples, seed):
 
     conventions : average and rms convention, as in the figures; fit : arguments of power_law.named_windows
     """
-    base = select(discs, group="base").sel(rms_convention=[conventions["rms_convention"]])
-    pooled = {hurst: members.isel(rms_convention=0) for hurst, members in sorted(ensembles(base, "hurst").items())}
+    base = ensembles(select(discs, group="base"), "hurst", rms_convention=conventions["rms_convention"])
+    pooled = dict(sorted(base.items()))
     windows = {hurst: named_windows(members, **fit)["default"] for hurst, members in pooled.items()}
     return zeta_laws(pooled, windows, hurst_mins, average=conventions["average"], resamples=resamples, seed=seed)
 

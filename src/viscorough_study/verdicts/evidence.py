@@ -47,25 +47,23 @@ class Evidence:
     @cached_property
     def pooled(self):
         """{H: all discs of this exponent as one ensemble, in the rms convention of the figures}, by ascending H."""
-        ensembles = sorted(pool.ensembles(self._discs, "hurst").items())
-        return {hurst: ensemble.isel(rms_convention=0) for hurst, ensemble in ensembles}
+        return dict(sorted(self._ensembles(self.discs, "hurst").items()))
 
     @cached_property
     def whole(self):
         """{H: the discs of `pooled` whose curves extend to region (c)}, those of the largest X."""
         until_x = self.discs["until_x"].values
-        discs = self._discs.isel(realization=np.flatnonzero(until_x == until_x.max()))
-        return {hurst: pool.ensembles(discs, "hurst")[hurst].isel(rms_convention=0) for hurst in self.pooled}
+        whole = self._ensembles(self.discs.isel(realization=np.flatnonzero(until_x == until_x.max())), "hurst")
+        return {hurst: whole[hurst] for hurst in self.pooled}
 
     @cached_property
     def combinations(self):
         """{H: list of the ensembles of all combinations of force, viscosity, size and rms height}, as in `pooled`."""
-        by_case = {hurst: pool.ensembles(pool.select(self._discs, hurst=hurst), "case") for hurst in self.pooled}
-        return {hurst: [case.isel(rms_convention=0) for case in cases.values()] for hurst, cases in by_case.items()}
+        cases = {hurst: self._ensembles(pool.select(self.discs, hurst=hurst), "case") for hurst in self.pooled}
+        return {hurst: list(by_case.values()) for hurst, by_case in cases.items()}
 
-    @property
-    def _discs(self):
-        return self.discs.sel(rms_convention=[self.conventions["rms_convention"]])
+    def _ensembles(self, discs, name):
+        return pool.ensembles(discs, name, rms_convention=self.conventions["rms_convention"])
 
     @cached_property
     def regions(self):

@@ -7,7 +7,7 @@ import yaml
 
 from support.study import LIMITS, ROOT, SHOWN, ensemble_of, three_regions
 from viscorough_study.ensembles.averages import abscissa
-from viscorough_study.figures.labels import CONVENTION_LABELS
+from viscorough_study.figures.conventions import CONVENTION_LABELS
 from viscorough_study.fits import conventions
 from viscorough_study.fits.conventions import GAMMA, in_reading, select, zeta_scale
 from viscorough_study.fits.fit_table import COLUMNS, fit_rows

@@ -86,10 +86,10 @@ def test_tables_of_every_grid_and_average():
         for n, elements, h in ((33, 797, 0.5), (33, 797, 0.7), (65, 3209, 0.5))
     ]
     pool = pool_of(members)
-    cases = group_ensembles(pool, "discs", "base")
+    cases = group_ensembles(pool, "discs", "base", "disc")
     assert [(labels["across"], labels["hurst"]) for labels, _, _ in cases] == [(33, 0.5), (33, 0.7), (65, 0.5)]
-    assert len(group_ensembles(pool, "discs", "base", {0.7})) == 1
-    table, curves = fit_interfaces(cases, "disc", **HOW)
+    assert len(group_ensembles(pool, "discs", "base", "disc", {0.7})) == 1
+    table, curves = fit_interfaces(cases, **HOW)
     assert (list(table), list(curves)) == (list(COLUMNS), list(CURVES))
     assert table["average"].tolist() == ["arithmetic", "geometric"] * 3
     assert np.ptp(table["u0"]) < 0.01

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
@@ -14,12 +14,9 @@ from viscorough.cli.files import write_output
 from viscorough.cli.messages import announce
 from viscorough.cli.options import Increasing, PositiveNumber, output_option, threads_option
 from viscorough.cli.progress import progress_bar, progress_option
-from viscorough.cli.surface_options import heights_input, read_indenter
+from viscorough.cli.surface_options import Surface, heights_input, read_indenter
 from viscorough.summaries import unit_power, with_unit
-
-if TYPE_CHECKING:
-    from viscorough.cli.surface_options import Surface
-    from viscorough.units import Quantity
+from viscorough.units import Quantity
 
 
 @click.command(short_help="Pressure, gap and contact at a given force or depth.")

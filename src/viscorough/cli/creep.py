@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
-from viscorough.cli.elasticity import check_incompressible
-from viscorough.cli.files import check_output, printable_name, read_content
+from viscorough.cli.files import check_output, printable_name, read_curve
 from viscorough.cli.messages import announce
 from viscorough.cli.options import FILE, QuantityOption, force_history_option, number_in
 from viscorough.summaries import with_unit
-
-if TYPE_CHECKING:
-    from viscorough.units import Quantity
+from viscorough.units import Quantity
 
 
 @click.command(short_help="The medium from a measured depth over time.")
@@ -50,7 +47,6 @@ def creep(
         raise click.UsageError("one of --force and --force-history is needed")
 
     from viscorough.io.columns import read_columns
-    from viscorough.io.curves import curve_from_content
     from viscorough.io.media import check_medium_file, save_identified
     from viscorough.io.motion import read_force_history
     from viscorough.viscous.identification import identify_medium
@@ -58,12 +54,7 @@ def creep(
     table = check_medium_file(output)
     for path in (output, table):
         check_output(path, curve=curve, record=record, force_history=force_history)
-    content = read_content(curve)
-    check_incompressible(content, curve)
-    try:
-        loading = curve_from_content(content)
-    except ValueError as error:
-        raise ValueError(f"{curve}: {error}") from error
+    loading = read_curve(curve)
     unit = loading.length_unit
     times, depth = read_columns(record, "a record", {"time": "s", "depth": unit}, unit)
     history: Any = None
@@ -72,14 +63,8 @@ def creep(
     elif force_history is not None:
         history, stated = read_force_history(force_history, unit), printable_name(force_history)
     identified = identify_medium(loading, history, times, depth, kind=fit)
-    save_identified(
-        identified,
-        output,
-        curve=printable_name(curve),
-        record=printable_name(record),
-        force=stated,
-        scatter=identified.scatter,
-    )
+    about = {"curve": printable_name(curve), "record": printable_name(record), "force": stated}
+    save_identified(identified, output, **about, scatter=identified.scatter)
     first, last = identified.compliance[[1, -1]]
     inverse = "1" if unit == "1" else "1/Pa"
     text = f"J {first:.4g} to {with_unit(last, inverse)} from time {identified.time[1]:.4g} to {times[-1]:.4g}"

@@ -4,18 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from viscorough import units
 from viscorough.cli.options import PositiveNumber, QuantityOption, number_in
-
-if TYPE_CHECKING:
-    from viscorough.units import Quantity
-
-if TYPE_CHECKING:
-    from viscorough.io.netcdf import Content
-    from viscorough.types import FilePath
+from viscorough.units import Quantity
 
 
 def elastic_constants_options(command: Callable[..., Any]) -> Callable[..., Any]:
@@ -47,8 +42,6 @@ class Elasticity:
         With a modulus, forces are in N, or in consistent units if the unit of length is not known; without one, they
         are F/G. Raises UsageError for a force with a unit where no modulus or no unit of length is known.
         """
-        from viscorough import units
-
         try:
             return list(units.forces_over_modulus(quantities, self.shear_modulus, self.length_unit, option))
         except ValueError as error:
@@ -77,14 +70,3 @@ def elasticity(
 def lengths(quantities: Sequence[Quantity], length_unit: str, option: str) -> list[float]:
     """Numbers in the unit of length of the indenter, of Quantities given with an option."""
     return [number_in(length_unit, quantity, length_unit, option) for quantity in quantities]
-
-
-def check_incompressible(content: Content, path: FilePath) -> None:
-    """Raise ValueError if a curve, the Content of a file, is that of a compressible half-space.
-
-    The kinetics of a viscous half-space follow from the elastic curve of an incompressible one only.
-    """
-    ratio = content.attributes.get("poisson_ratio", 0.5)
-    if ratio != 0.5:
-        text = f"{path}: the curve is that of a half-space with Poisson ratio {ratio}"
-        raise ValueError(f"{text}; kinetics need one of an incompressible half-space, 0.5")

@@ -12,13 +12,11 @@ from viscorough.cli.files import check_output, printable_name, write_output
 from viscorough.cli.messages import announce
 from viscorough.cli.options import FILE, Increasing, PositiveNumber, QuantityOption, number_in
 from viscorough.errors import AccuracyWarning
-
-if TYPE_CHECKING:
-    from viscorough.units import Quantity
-    from viscorough.viscous.medium import Medium
+from viscorough.units import Quantity
 
 if TYPE_CHECKING:
     from viscorough.calibrated_law import PenetrationLaw
+    from viscorough.viscous.medium import Medium
 
 
 @click.command(short_help="Depth and velocity of a self-affine surface by the calibrated law, without a simulation.")

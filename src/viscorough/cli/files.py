@@ -18,6 +18,7 @@ from viscorough.interrupts import on_interrupt
 
 if TYPE_CHECKING:
     from viscorough.io.netcdf import Content
+    from viscorough.loading_curve import LoadingCurve
     from viscorough.types import FilePath
 
 
@@ -80,6 +81,23 @@ def read_content(path: FilePath) -> Content:
         return tables.read(path)
     check_opens(path)
     return netcdf.read(path)
+
+
+def read_curve(path: FilePath) -> LoadingCurve:
+    """The loading curve in a file; raises ValueError for that of a compressible half-space, and for what is none.
+
+    The kinetics of a viscous half-space follow from the elastic curve of an incompressible one only.
+    """
+    from viscorough.io.curves import curve_from_content
+
+    content = read_content(path)
+    if (ratio := content.attributes.get("poisson_ratio", 0.5)) != 0.5:
+        text = f"{path}: the curve is that of a half-space with Poisson ratio {ratio}"
+        raise ValueError(f"{text}; kinetics need one of an incompressible half-space, 0.5")
+    try:
+        return curve_from_content(content)
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from error
 
 
 def write_output(content: Content, output: Path, **attributes: Any) -> None:

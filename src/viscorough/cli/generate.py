@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from viscorough.cli.files import check_output, write_output
 from viscorough.cli.messages import announce
 from viscorough.cli.options import PositiveNumber, QuantityOption, number_in, output_option
-
-if TYPE_CHECKING:
-    from viscorough.units import Quantity
+from viscorough.units import Quantity
 
 
 @click.command(short_help="A random self-affine disc or line.")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
@@ -14,15 +14,10 @@ from viscorough.cli.files import write_output
 from viscorough.cli.messages import announce
 from viscorough.cli.options import Increasing, PositiveNumber, QuantityOption, output_option, threads_option
 from viscorough.cli.progress import progress_bar, progress_option
-from viscorough.cli.surface_options import heights_input, read_indenter
+from viscorough.cli.surface_options import Surface, heights_input, read_indenter
 from viscorough.errors import AccuracyWarning
 from viscorough.summaries import with_unit
-
-if TYPE_CHECKING:
-    from viscorough.units import Quantity
-
-if TYPE_CHECKING:
-    from viscorough.cli.surface_options import Surface
+from viscorough.units import Quantity
 
 
 @click.command(short_help="Loading curve of an indenter on an elastic half-space.")

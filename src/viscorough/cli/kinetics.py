@@ -8,15 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscorough.cli.elasticity import check_incompressible
-from viscorough.cli.files import check_output, printable_name, read_content, write_output
+from viscorough.cli.files import check_output, printable_name, read_curve, write_output
 from viscorough.cli.messages import announce
 from viscorough.cli.options import FILE, Increasing, QuantityOption, force_history_option, number_in, output_option
 from viscorough.errors import AccuracyWarning
 from viscorough.summaries import time_unit, with_unit
-
-if TYPE_CHECKING:
-    from viscorough.units import Quantity
+from viscorough.units import Quantity
 
 if TYPE_CHECKING:
     from viscorough.io.netcdf import Content
@@ -73,19 +70,12 @@ def kinetics(
     if (viscosity is None) == (medium is None):
         raise click.UsageError("one of --viscosity and --medium is needed")
 
-    from viscorough.io.curves import curve_from_content
     from viscorough.io.motion import read_force_history
     from viscorough.viscous import correspondence
 
     check_output(output, force_history=force_history, medium=medium)
-    content = read_content(curve)
-    check_incompressible(content, curve)
-    try:
-        loading = curve_from_content(content)
-        law, about = _medium(viscosity, medium, loading.length_unit)
-    except ValueError as error:
-        text = str(error)
-        raise ValueError(text if medium and text.startswith(str(medium)) else f"{curve}: {text}") from error
+    loading = read_curve(curve)
+    law, about = _medium(viscosity, medium, loading.length_unit)
     if force_history is not None:
         history = read_force_history(force_history, loading.length_unit)
         about["force"] = printable_name(force_history)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from viscorough import units
 from viscorough.cli.files import check_output, printable_name, write_output
 from viscorough.cli.messages import announce
 from viscorough.cli.options import (
@@ -19,19 +20,16 @@ from viscorough.cli.options import (
     output_option,
 )
 from viscorough.cli.progress import progress_bar, progress_option
-from viscorough.cli.surface_options import heights_input, read_indenter
+from viscorough.cli.surface_options import Surface, heights_input, read_indenter
 from viscorough.summaries import time_unit, with_unit
+from viscorough.units import Quantity
 
 if TYPE_CHECKING:
-    from viscorough.units import Quantity
-    from viscorough.viscous.integration.internal_variables import MediumMotion
-
-if TYPE_CHECKING:
-    from viscorough.cli.surface_options import Surface
     from viscorough.indenter import Indenter
     from viscorough.io.netcdf import Content
     from viscorough.types import FilePath
     from viscorough.viscous.correspondence import ForceHistory
+    from viscorough.viscous.integration.internal_variables import MediumMotion
 
 METHODS = ("events", "explicit", "heun", "implicit", "second_order")
 _OF_MEDIA = ("events", "implicit", "second_order")  # methods that integrate viscoelastic media
@@ -155,7 +153,6 @@ def _in_viscous_medium(
     """Content of the output for a Newtonian medium; viscosity in Pa s where the unit of length is known."""
     import numpy as np
 
-    from viscorough import units
     from viscorough.io.motion import viscous_motion_to_content
     from viscorough.viscous.integration.events import march_events
     from viscorough.viscous.integration.motion import under_constant_force, under_force_history

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
-if TYPE_CHECKING:
-    from viscorough.units import Quantity
+from viscorough import units
+from viscorough.units import Quantity
 
 
 class PositiveNumber(click.ParamType):
@@ -44,8 +44,6 @@ class QuantityOption(click.ParamType):
         self.unit = unit
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        from viscorough import units
-
         number, reason = 0, ""
         try:
             stated = units.quantity(value)
@@ -64,8 +62,6 @@ def number_in(unit: str, quantity: Quantity, length_unit: str, option: str) -> f
     Raises UsageError if the quantity has a unit although the unit of length is not known: numbers are then in
     consistent units of the user's choice.
     """
-    from viscorough import units
-
     try:
         return units.number(quantity, unit, length_unit, option)
     except ValueError as error:

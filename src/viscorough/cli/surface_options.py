@@ -12,12 +12,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from viscorough import units
 from viscorough.cli.files import check_opens, check_output, printable_name
 from viscorough.cli.options import FILE, QuantityOption
 from viscorough.errors import AccuracyWarning
-
-if TYPE_CHECKING:
-    from viscorough.units import Quantity
+from viscorough.units import Quantity
 
 if TYPE_CHECKING:
     from viscorough.indenter import Indenter
@@ -58,8 +57,6 @@ def _spacing(value: str) -> tuple[Quantity, Quantity]:
 
 
 def _length_unit(value: str) -> str:
-    from viscorough import units
-
     try:
         return units.length_unit(value)
     except ValueError as error:

@@ -19,7 +19,7 @@ help:
 	@echo "make check       format, lint, contracts, types and the tests of what has changed since the last commit; half a minute"
 	@echo "make test        format, lint, types, documentation and every test"
 	@echo "make docs        the documentation as a website, in build/docs/index.html"
-	@echo "make bench       cost and errors of curves, lines and operators, in results/benchmarks.json and files beside it"
+	@echo "make bench       cost and errors of curves, lines, operators and members of ensembles, in results/benchmarks.json"
 	@echo "make speed       speed against accuracy of every method, in results/figures/speed.png; 80 minutes"
 	@echo "make stability   where each method fails, and random small indenters against dense solutions"
 	@echo "make sizes       exponents on grids from 33 to 4097 elements across and on lines, and their collapse"
@@ -100,9 +100,6 @@ test: environment docs
 
 bench: environment
 	$(BIN)/python benchmarks/curves.py --output results/benchmarks.json
-	$(BIN)/python benchmarks/large_map.py --output results/large_map.json
-	$(BIN)/python benchmarks/rectangles.py --output results/rectangles.json
-	$(BIN)/python benchmarks/lines.py --output results/lines.json
 	$(BIN)/python benchmarks/members.py --output results/members.json
 
 speed stability: SETTINGS = config/methods.yaml

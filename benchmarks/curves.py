@@ -2,8 +2,8 @@
 
     python benchmarks/curves.py --output results/benchmarks.json
 
-The file has one key for each function below: operator_ms, column_ms, parts, over_operators, line, curve. Times are
-medians of repeats in one run; the repeats of what is compared are interleaved. `make bench` runs it.
+The file has one key for each function below: operator_ms, parts, over_operators, line, rectangles, large_map, curve.
+Times are medians of repeats in one run; the repeats of what is compared are interleaved. `make bench` runs it.
 """
 
 import contextlib
@@ -11,16 +11,16 @@ import pkgutil
 import time
 from functools import partial
 
-import ducc0
 import numpy as np
 import pandas as pd
+from ducc0 import fft
 from measuring import command, medians
 
-from viscorough import indent, self_affine_disc
-from viscorough.contact.halfspace.column_fft import ColumnConvolution, good_length
+from viscorough import Indenter, contact_at, indent, self_affine_disc
 from viscorough.contact.halfspace.operator import Halfspace
 from viscorough.lines import SelfAffineLines
 from viscorough.mdr import reduce_heights
+from viscorough.surfaces import self_affine_square
 from viscorough_study.performance import timing
 
 ELEMENTS, UNTIL, UNTIL_X = 257, 0.9, 30.0
@@ -75,13 +75,37 @@ def curve_of_line(lines):
     return reduce_heights(lines.heights_in_any_order(1), lines.spacing, until_force=4 * UNTIL_X)
 
 
-def lines(hursts, repeats):
-    """Loading curves of lines by the method of dimensionality reduction, generation of the lines included."""
-    functions = {hurst: partial(curve_of_line, SelfAffineLines(hurst, POINTS)) for hurst in hursts}
+def lines(hursts, repeats, points=POINTS):
+    """Loading curves of lines by the method of dimensionality reduction, generation of the lines included.
+
+    `over_transform`: over the time of a real Fourier transform of as many points by ducc0, in single precision.
+    """
+    noise = np.random.default_rng(1).standard_normal(points, np.float32)
+    options = {"real2hermitian": False, "forward": False, "out": np.empty_like(noise)}
+    functions = {hurst: partial(curve_of_line, SelfAffineLines(hurst, points)) for hurst in hursts}
+    functions["transform"] = partial(fft.r2r_fftpack, noise, [0], **options)
+    measured = medians(functions, repeats)
+    transform, _ = measured.pop("transform")
     return [
-        {"hurst": hurst, "points": POINTS, "wall_s": wall, "processor_s": processor}
-        for hurst, (wall, processor) in medians(functions, repeats).items()
+        {"hurst": hurst, "points": points, "wall_s": wall, "processor_s": processor, "over_transform": wall / transform}
+        for hurst, (wall, processor) in measured.items()
     ]
+
+
+def rectangles(aspects, repeats, elements=ELEMENTS):
+    """{dy/dx: processor time over that on squares} of curves of the same heights on elements of the same area."""
+    heights = self_affine_square(0.8, elements, seed=3)
+    maps = {aspect: Indenter(heights, (aspect**-0.5, aspect**0.5)) for aspect in aspects}
+    measured = medians({aspect: partial(indent, surface) for aspect, surface in maps.items()}, repeats)
+    return {aspect: processor / measured[1.0][1] for aspect, (_, processor) in measured.items()}
+
+
+def large_map(points):
+    """The curve of a map similar to measured ones up to 50 % contact, and the contact at the force of about 10 %."""
+    surface = Indenter(self_affine_square(0.8, points, seed=1), 1 / points)
+    questions = {"curve": partial(indent, surface, until_fraction=0.5)}
+    questions["contact"] = partial(contact_at, surface, force=9)
+    return {question: {"points": points, "wall_s": wall} for question, (wall, _) in medians(questions, 1).items()}
 
 
 @contextlib.contextmanager
@@ -157,38 +181,15 @@ def operators(repeats):
     return {name: 1e3 * wall for name, (wall, _) in medians(functions, repeats).items()}
 
 
-def columns(repeats):
-    """Convolution of the columns alone [ms], and by ducc0's transforms with the product between them."""
-    functions = {}
-    for rows in (257, 1025):
-        length = good_length(2 * (rows - 1))
-        spectrum = np.random.default_rng(1).random((length // 2 + 1, rows))
-        whole = spectrum[np.minimum(np.arange(length), length - np.arange(length))]
-        for name, precision in (("double", np.complex128), ("single", np.complex64)):
-            data = np.random.default_rng(2).random((rows, rows)).astype(precision)
-            convolution = ColumnConvolution(rows, spectrum / length, data.real.dtype)
-            functions[f"{rows} {name}"] = partial(lambda c, d: c.apply(d.copy()), convolution, data)
-            functions[f"{rows} ducc0 {name}"] = partial(ducc0_columns, data, whole.astype(data.real.dtype))
-    return {name: 1e3 * wall for name, (wall, _) in medians(functions, repeats).items()}
-
-
-def ducc0_columns(data, spectrum):
-    """The convolution of columns with rows of zeros below the data."""
-    padded = np.zeros((len(spectrum), data.shape[1]), data.dtype)
-    padded[: len(data)] = data
-    transformed = ducc0.fft.c2c(padded, axes=[0])
-    transformed *= spectrum
-    return ducc0.fft.c2c(transformed, axes=[0], forward=False, inorm=2, out=transformed)[: len(data)]
-
-
 def measured(repeats):
     """The content of the file."""
     return {
         "operator_ms": operators(10 * repeats),
-        "column_ms": columns(10 * repeats),
         "parts": parts(),
         "over_operators": over_operators((0.1, 0.4, 0.9), ELEMENTS, 3 * repeats),
         "line": lines((0.1, 0.6, 0.9), 3 * repeats),
+        "rectangles": rectangles((1.0, 2.0, 0.5, 5.0, 0.2), repeats),
+        "large_map": large_map(2049),
         "curve": curves((0.1, 0.4, 0.6, 0.9), (1, 2), repeats),
     }
 

@@ -3,11 +3,10 @@
     python benchmarks/file_campaign.py --files 10000 --seed 1 --output results/file_campaign.json
 
 Each file is made from a known map, spacing and unit (text_files.py, point_files.py, binary_files.py), and read with
-viscorough.read_heights; a few are curves, force histories and creep tables (column_files.py). It must be read exactly,
-with nan where points are missing, or be refused by a ValueError of one line that names the file, and the line where the
-fault is in a line of text. Everything else is wrong: another number, spacing or unit, a missing point that is dropped,
-another error, a warning other than AccuracyWarning, printed text, a file that takes too long. Files that do not hold a
-single map, or are contradictory, must be refused.
+viscorough.read_heights. It must be read exactly, with nan where points are missing, or be refused by a ValueError of
+one line that names the file, and the line where the fault is in a line of text. Everything else is wrong: another
+number, spacing or unit, a missing point that is dropped, another error, a warning other than AccuracyWarning, printed
+text, a file that takes too long. Files that do not hold a single map, or are contradictory, must be refused.
 
 A file is marked *unambiguous* if its variations are ordinary and a human reader would give it one meaning: numbers in
 rows of equal length, one of the usual delimiters and decimal marks that cannot be confused with each other, the usual
@@ -30,7 +29,6 @@ from pathlib import Path
 
 import binary_files
 import click
-import column_files
 import numpy as np
 import point_files
 import text_files
@@ -51,8 +49,6 @@ KINDS = {
     binary_files.tiff: 3,
     binary_files.geotiff: 6,
     binary_files.imagej: 6,
-    column_files.two_columns: 3,
-    column_files.curve: 1,
 }
 LONGEST, NO_END = 20, "no end after"  # seconds that a file may take
 METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
@@ -112,8 +108,6 @@ def outcome(case, folder):
 
 def read(case, path):
     """(heights, their unit in metres or None, spacing) as the package reads a file."""
-    if case.kind in column_files.READERS:
-        return column_files.READERS[case.kind](path), None, ()
     indenter = viscorough.read_heights(path, **case.options)
     unit, spacing = indenter.length_unit, (indenter.spacing, indenter.row_spacing)
     if unit != "1":

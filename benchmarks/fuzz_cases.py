@@ -1,7 +1,7 @@
 """Random command lines and the files that they name, most of them invalid; for fuzz.py.
 
-What can be drawn is a text or bytes, a function of the random generator, or a list of such choices. Maps of heights,
-histories, creep tables and curves in text are those of file_campaign.py, with the faults of this module.
+What can be drawn is a text or bytes, a function of the random generator, or a list of such choices. Maps of heights are
+those of file_campaign.py, with the faults of this module.
 """
 
 import contextlib
@@ -11,18 +11,12 @@ import tempfile
 from pathlib import Path
 
 import binary_files
-import column_files
-import netCDF4
 import numpy as np
 import point_files
 import text_files
 
+import viscorough
 from viscorough.cli import cli
-from viscorough.io import netcdf
-from viscorough.io.curves import curve_to_content
-from viscorough.io.motion import with_motion
-from viscorough.io.unpacking import STORAGE
-from viscorough.loading_curve import LoadingCurve
 
 STARTED = "code-was-run"  # the file that code in a file would make
 
@@ -112,17 +106,8 @@ def npy_bytes(array, **options):
 
 
 PICKLED = npy_bytes(np.array([[Payload(), 1.0]], dtype=object), allow_pickle=True)
-CALL = f"open('{STARTED}', 'w')"
-CODE = [
-    b"\x93NUMPY\x01\x00" + len(text).to_bytes(2, "little") + text
-    for text in (
-        CALL.encode(),
-        f"{{'descr': {CALL}, 'fortran_order': False, 'shape': (2, 2), }}".encode(),
-        b"{'descr': '<f8', 'fortran_order': False, 'shape': (10000000000, 10000000), }",
-        b"{'descr': '<f8', 'fortran_order': False, 'shape': (-1, 2), }",
-        b"(" * 4000,
-    )
-]
+HUGE = b"{'descr': '<f8', 'fortran_order': False, 'shape': (10000000000, 10000000), }"
+HUGE = b"\x93NUMPY\x01\x00" + len(HUGE).to_bytes(2, "little") + HUGE
 EXTREME = [0.0, -0.0, -1.0, np.nan, np.inf, -np.inf, 5e-324, 1e-300, 1e300, 1.7e308, -1.7e308, 2.0**53 + 2]
 TYPES = [*["f8"] * 20, "f8", "f4", "f2", ">f8", ">f4", "g", "i1", "u1", "i2", ">i4", "i8", "u8"]
 TYPES += ["?", "c16", "U3", "S2", "M8[s]", "m8[s]", "V4", "f8,i4"]
@@ -142,97 +127,32 @@ def array(random, shape):
     return np.zeros(shape, kind)
 
 
-def any_shape(random):
-    return tuple(random.integers(0, 5, random.integers(4)))
-
-
 def npy_file(shape):
-    """Function that draws the bytes of an array of a shape, or of code."""
-    return [*[damaged(lambda random: npy_bytes(array(random, shape(random))))] * 6, [PICKLED, *CODE]]
+    """Function that draws the bytes of an array of a shape, or of one that must not be loaded."""
+    return [*[damaged(lambda random: npy_bytes(array(random, shape(random))))] * 6, [PICKLED, HUGE]]
 
 
-# ---- NetCDF
-
-VALUES = ["", "m", "um", "1", "1e-6 m", "true", "9", "nan", "é", b"\xff", ["a", "b"], 3, np.int8(-1), np.float32(1e20)]
-VALUES += [*EXTREME, np.uint64(2**63), np.array([1.0, 2.0])]
-NAMES = [*STORAGE, "units", "units", "long_name", "Conventions", "elements", "method", "title", "é"]
+# ---- curves and columns
 
 
-def attributes(random):
-    return {one_of(random, NAMES): one_of(random, VALUES) for _ in range(random.integers(4))}
-
-
-def changed_netcdf(content):
-    """Function that draws a NetCDF file with variables and attributes changed, added or removed."""
+def curve_file(suffix):
+    """Function that draws a loading curve, as the package writes it."""
 
     def draw(random):
-        with netCDF4.Dataset("old.nc", memory=drawn(random, content)) as old:
-            old.set_auto_maskandscale(False)
-            variables = {name: [v.dimensions, np.array(v[...]), dict(v.__dict__)] for name, v in old.variables.items()}
-            global_attributes = dict(old.__dict__) | (attributes(random) if random.random() < 0.3 else {})
-        for _ in range(one_of(random, [0, 0, 1, 1, 2])):
-            change(random, variables)
-        return netcdf_bytes(variables, global_attributes)
+        heights = one_of(random, [1.0, 1e-6, 1e100]) * random.random(random.integers(2, 7))
+        curve = viscorough.reduce(viscorough.Indenter(heights, 1.0, length_unit=one_of(random, ["1", "m", "um"])))
+        with tempfile.TemporaryDirectory() as folder:
+            curve.save(Path(folder) / f"curve{suffix}")
+            return (Path(folder) / f"curve{suffix}").read_bytes()
 
     return draw
 
 
-def change(random, variables):
-    """Change one variable, {name: [dimensions, values, attributes]}, remove it or add another."""
-    name = one_of(random, list(variables))
-    values = variables[name][1]
-    edit = one_of(random, ["entry", "type", "attributes", "units", "missing", "added"])
-    with contextlib.suppress(IndexError, OverflowError, ValueError), np.errstate(all="ignore"):
-        if edit == "entry" and values.size:
-            values.flat[random.integers(values.size)] = one_of(random, EXTREME)
-        elif edit == "type":
-            variables[name][1] = np.nan_to_num(values).astype(one_of(random, ["S3", "i4", "f4", "u1"]))
-        elif edit == "attributes":
-            variables[name][2].update(attributes(random))
-        elif edit == "units":
-            variables[name][2].pop("units", None)
-        elif edit == "missing" and len(variables) > 1:
-            del variables[name]
-        elif edit == "added":
-            added = array(random, any_shape(random))
-            variables["added"] = [tuple(f"d{axis}" for axis in range(added.ndim)), added, attributes(random)]
-
-
-def netcdf_bytes(variables, global_attributes):
-    """A NetCDF file of those variables and attributes that the library accepts."""
-    file = netCDF4.Dataset("new.nc", "w", memory=4096)
-    for name, (dimensions, values, own) in variables.items():
-        with contextlib.suppress(Exception), np.errstate(all="ignore"):
-            for dimension, size in zip(dimensions, values.shape, strict=True):
-                if dimension not in file.dimensions:
-                    file.createDimension(dimension, size)
-            values = values.astype(values.dtype.newbyteorder("="))
-            variable = file.createVariable(name, values.dtype, dimensions, fill_value=own.pop("_FillValue", None))
-            variable.set_auto_maskandscale(False)
-            set_attributes(variable, own)
-            variable[...] = values
-    set_attributes(file, global_attributes)
-    return bytes(file.close())
-
-
-def set_attributes(owner, values):
-    for name, value in values.items():
-        with contextlib.suppress(Exception):
-            owner.setncattr(name, value)
-
-
-def curve_file(random):
-    """A loading curve in NetCDF, with motion or without."""
-    levels = int(random.integers(1, 7))
-    scale = one_of(random, [1.0, 1.0, 1e-6, 1e150, 1e-160])
-    depth, stiffness = scale * np.cumsum(random.random((2, levels)) + 0.1, axis=1)
-    force = np.cumsum((np.append(0, stiffness[:-1]) + stiffness) / 2 * np.diff(depth, prepend=0))
-    fields = levels + 9, "boundary elements", 1e-3, 5, 1e-3 * random.random(levels), one_of(random, ["1", "m", "um"])
-    content = curve_to_content(LoadingCurve(depth, force, stiffness, np.arange(1, levels + 1), *fields))
-    content = with_motion(content, depth, force) if random.random() < 0.5 else content
-    with tempfile.TemporaryDirectory() as folder:
-        netcdf.write(content, Path(folder) / "curve.nc")
-        return (Path(folder) / "curve.nc").read_bytes()
+def columns(random):
+    """Times and forces, or compliances, that never decrease, below a heading with units or none."""
+    rows = np.cumsum(random.random((random.integers(1, 7), 2)), axis=0).tolist()
+    heading = one_of(random, ["0,0\n", "t,F\n", "t [ms],F [mN]\n", "t [s],J [1/MPa]\n", "t [kg],F\n"])
+    return "".join([heading, *(f"{first!r},{second!r}\n" for first, second in rows)]).encode()
 
 
 # ---- files
@@ -249,16 +169,9 @@ MEDIA = [
 ]
 
 
-def campaign_file(*makers, kind=None):
-    """Function that draws a file of file_campaign.py, of a kind if its maker has several."""
-
-    def draw(random):
-        while True:
-            case = one_of(random, makers)(random)
-            if kind in (None, case.kind):
-                return case.content
-
-    return draw
+def campaign_file(*makers):
+    """Function that draws a file of file_campaign.py."""
+    return lambda random: one_of(random, makers)(random).content
 
 
 def sides(least, most, dimensions):
@@ -269,19 +182,19 @@ def sides(least, most, dimensions):
 MATRICES = damaged(campaign_file(text_files.matrix))
 FILES = {
     "heights.npy": npy_file(sides(1, 7, 2)),
-    "heights.nc": damaged(changed_netcdf(campaign_file(binary_files.netcdf))),
+    "heights.nc": damaged(campaign_file(binary_files.netcdf)),
     "heights.txt": MATRICES,
     "heights.csv": MATRICES,
     "heights.asc": damaged(campaign_file(point_files.esri)),
     "heights.xyz": damaged(campaign_file(point_files.points, point_files.zygo)),
     "heights.tif": damaged(campaign_file(binary_files.tiff, binary_files.geotiff, binary_files.imagej)),
-    "curve.nc": damaged(changed_netcdf(curve_file)),
-    "curve.csv": damaged(campaign_file(column_files.curve)),
+    "curve.nc": damaged(curve_file(".nc")),
+    "curve.csv": damaged(curve_file(".csv")),
     "line.npy": npy_file(sides(1, 9, 1)),
-    "force.csv": damaged(campaign_file(column_files.two_columns, kind="force history")),
+    "force.csv": damaged(columns),
     "force.npy": npy_file(lambda _: (2, 2)),
     "medium.yaml": damaged(MEDIA),
-    "table.csv": damaged(campaign_file(column_files.two_columns, kind="creep table")),
+    "table.csv": damaged(columns),
 }
 
 # ---- options

@@ -1,91 +1,26 @@
 """Headers of text files as instruments and programs write them; for text_files.py.
 
-In the tables, {dx} and {dy} are spacings with the unit {u}, {w} and {h} width and height of the map, {k} the spacing of
-squares, {z} the unit of heights; {kz} is in that unit, and {dx2} contradicts {dx}. CLEAR headers are unambiguous,
-UNCLEAR ones may be refused, BAD ones must be.
+The headers of text_headers.yaml that are CLEAR are unambiguous, UNCLEAR ones may be refused, BAD ones must be.
 """
 
 import re
+from pathlib import Path
 
+import yaml
 from file_cases import PIXELS, UNITS, distances
 
-
-def _table(text):
-    """{name: lines} of a text with a header per line, its name and lines separated by bars."""
-    return {name: lines for name, *lines in (line.split(" | ") for line in text.strip().splitlines())}
+TABLES = yaml.safe_load(Path(__file__).with_suffix(".yaml").read_text(encoding="utf-8"))
 
 
-GWYDDION = _table("""
-Gwyddion, English | Channel: Topography | Width: {w} {u} | Height: {h} {u} | Value units: {z}
-Gwyddion, partly German | Kanal: Höhe | Breite: {w} {u} | Höhe: {h} {u} | Value units: {z}
-Gwyddion, German | Kanal: Topographie | Breite: {w} {u} | Höhe: {h} {u} | Werteinheiten: {z}
-Gwyddion, French | Canal : Topographie | Largeur : {w} {u} | Hauteur : {h} {u} | Unités : {z}
-French | Canal: Relief | Largeur: {w} {u} | Hauteur: {h} {u} | Unités de valeur: {z}
-""")
-CLEAR = GWYDDION | _table("""
-X and Y pixel size | X pixel size: {dx} {u} | Y pixel size: {dy} {u} | Z unit: {z}
-pixel size a x b | pixel size: {dx} {u} x {dy} {u} | Z unit: {z}
-pixel size | pixel size: {k} {u} | Height unit: {z}
-Pixel size = | Pixel size = {k} {u} | Z units = {z}
-Pixel_size | Pixel_size = {k} {u} | Z_unit = {z}
-X pixel size (u) | X pixel size ({u}): {dx} | Y pixel size ({u}): {dy} | Z unit: {z}
-dx, dy | dx = {dx} {u} | dy = {dy} {u} | z unit: {z}
-dx=, dy= | dx={dx} {u} | dy={dy} {u} | z_unit={z}
-x and y spacing | x spacing = {dx} {u} | y spacing = {dy} {u} | z units: {z}
-one unit for all | pixel size: {kz} {z} | unit: {z}
-spacing | spacing: {k} {u} | z unit: {z}
-""")
-UNCLEAR = _table("""
-X, Y, Z units | X units: {u} | Y units: {u} | Z units: {z} | dx = {dx} | dy = {dy}
-XY units | XY units: {u} | Z units: {z} | X pixel size: {dx} | Y pixel size: {dy}
-lateral and height unit | Lateral unit: {u} | Height unit: {z} | pixel size: {k}
-lateral and value units | Lateral units: {u} | Value units: {z} | x spacing: {dx} | y spacing: {dy}
-X and Z units beside | X units: {u} | Z units: {z} | pixel size: {k} {u}
-X units beside | X units: {u} | Units: {z} | pixel size: {k} {u}
-pixel size a x b, one unit | pixel size: {dx} x {dy} {u} | unit: {z}
-pixel size a u, b u | pixel size: {dx} {u}, {dy} {u} | z unit: {z}
-spacing: a, b u | spacing: {dx}; {dy} {u} | z unit: {z}
-pixel size without unit | pixel size: {kz} | unit: {z}
-dx [u] | dx [{u}] = {dx} | dy [{u}] = {dy} | z [{z}]
-units differ | X pixel size: {kz} {z} | Y pixel size: {k} {u} | z unit: {z}
-x and y size | x size: {w} {u} | y size: {h} {u} | z unit: {z}
-scan size a x b | Scan size: {w} {u} x {h} {u} | z unit: {z}
-no space | dx={dx}{u} | dy={dy}{u} | z unit={z}
-German pixel size | Pixelgröße: {k} {u} | Einheit: {z}
-German pixel sizes | Pixelgröße X: {dx} {u} | Pixelgröße Y: {dy} {u} | Einheit Z: {z}
-German spacing | Punktabstand: {k} {u} | Höheneinheit: {z}
-French pixel size | Taille de pixel : {k} {u} | Unité : {z}
-French spacing | Pas en x : {dx} {u} | Pas en y : {dy} {u} | Unité de z : {z}
-dx repeated | dx = {dx} {u} | dx = {dx} {u} | dy = {dy} {u} | z unit: {z}
-size and dx | Width: {w} {u} | Height: {h} {u} | dx = {dx} {u} | dy = {dy} {u} | Value units: {z}
-sample height | Sample height: 12 mm | dx = {dx} {u} | dy = {dy} {u} | z unit: {z}
-tip | Tip width: 10 nm | Tip height: 3 um | pixel size: {k} {u} | z unit: {z}
-""")
-BAD = _table("""
-two pixel sizes | pixel size: {dx} {u} | pixel size: {dx2} {u} | z unit: {z}
-two dx | dx = {dx} {u} | dx = {dx2} {u} | dy = {dy} {u} | z unit: {z}
-two units | pixel size: {k} {u} | Z units: um | Z units: nm
-two kinds of unit | pixel size: {k} {u} | Value units: um | Z unit: nm
-size contradicts dx | Width: {w} {u} | Height: {h} {u} | dx = {dx2} {u} | Value units: {z}
-unit of one direction | Width: {w} {u} | Height: {h} | Value units: {z}
-heights in volts | pixel size: {k} {u} | Value units: V
-spacing in seconds | pixel size: {k} s | Value units: {z}
-no unit of heights | pixel size: {k} {u}
-size in pixels | Width: {columns} px | Height: {rows} px | Value units: {z}
-pixels of 1 px | Pixel size: 1 pixel | Value units: {z}
-""")
-WITHOUT_SPACING = {"no header": []} | _table("""
-value units | Value units: {z}
-unit | unit: {z}
-z unit | Z unit: {z}
-""")
-WITH_PIXELS = _table("""
-width in pixels | Width: {columns} {p} | Height: {rows} {p} | Value units: {z}
-pixel size 1 px | Pixel size: 1 {p} | Value units: {z}
-x units pixels | X units: {p} | Y units: {p} | Z units: {z}
-scan size in pixels | Scan size: {columns} x {rows} {p} | Z units: {z}
-heights in pixels | Z units: {p}
-""")
+def _table(kind):
+    """{name: lines} of the headers of a kind."""
+    return {name: lines for name, *lines in (line.split(" | ") for line in TABLES[kind].splitlines())}
+
+
+GWYDDION = _table("Gwyddion")
+CLEAR = GWYDDION | _table("clear")
+UNCLEAR, BAD, WITH_PIXELS = _table("unclear"), _table("bad"), _table("with pixels")
+WITHOUT_SPACING = {"no header": []} | _table("without spacing")
 
 
 def header_lines(draft, shape, decimal_comma):

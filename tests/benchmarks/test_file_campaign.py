@@ -1,12 +1,10 @@
 """No file of the campaign is read as another map; and its judge notices what is not read as it should be."""
 
 import dataclasses
-import warnings
 
 import file_campaign as campaign
 import numpy as np
 import pytest
-from click.testing import CliRunner
 
 from viscorough.indenter import Indenter
 
@@ -33,7 +31,7 @@ def test_no_file_is_read_as_another_map(some_cases, tmp_path):
 
 
 def test_every_kind_of_file_is_tried_and_many_are_unambiguous_or_bad(some_cases):
-    assert len({case.kind for case in some_cases}) == len(campaign.KINDS) + 2  # Gwyddion, histories and creep tables
+    assert len({case.kind for case in some_cases}) == len(campaign.KINDS) + 1  # Gwyddion
     assert sum(case.unambiguous for case in some_cases) > 150
     assert sum(case.heights is None for case in some_cases) > 20
     for number, again in campaign.cases(2013, [30, 31]):  # whatever came before
@@ -76,55 +74,3 @@ def test_what_is_missing_or_must_be_refused_is_noticed(case, tmp_path, monkeypat
     filled = dataclasses.replace(case, heights=np.nan_to_num(case.heights))
     monkeypatch.setattr("viscorough.read_heights", reader(filled))
     assert campaign.outcome(case, tmp_path)[0] == campaign.WRONG
-
-
-def refusing(text, error=ValueError):
-    def read(path, **_):
-        raise error(text.format(path=path))
-
-    return read
-
-
-@pytest.mark.parametrize(
-    ("text", "error", "change", "expected"),
-    [
-        ("{path}: no", ValueError, {}, "UNREAD"),
-        ("{path}: no", ValueError, {"unambiguous": False}, "REFUSED"),
-        ("{path}: no", ValueError, {"unambiguous": False, "faulty_line": True}, "WRONG"),
-        ("{path}: line 3 is wrong", ValueError, {"unambiguous": False, "faulty_line": True}, "REFUSED"),
-        ("no", ValueError, {"unambiguous": False}, "WRONG"),
-        ("{path}: no", TypeError, {"unambiguous": False}, "WRONG"),
-    ],
-)
-def test_refusals_are_judged(case, tmp_path, monkeypatch, text, error, change, expected):
-    monkeypatch.setattr("viscorough.read_heights", refusing(text, error))
-    outcome, _ = campaign.outcome(dataclasses.replace(case, **change), tmp_path)
-    assert outcome == getattr(campaign, expected)
-
-
-@pytest.mark.parametrize("fault", ["warning", "print", "endless"])
-def test_warnings_printed_lines_and_readers_without_end_are_noticed(case, tmp_path, monkeypatch, fault):
-    right = reader(case)
-
-    def read(path, **_):
-        if fault == "warning":
-            warnings.warn("overflow", RuntimeWarning, stacklevel=2)
-        if fault == "print":
-            print("reading")
-        while fault == "endless":
-            pass
-        return right(path)
-
-    monkeypatch.setattr("viscorough.read_heights", read)
-    monkeypatch.setattr(campaign, "LONGEST", 0.05)
-    assert campaign.outcome(case, tmp_path)[0] == campaign.WRONG
-
-
-def test_the_command_counts_and_repeats_what_failed(tmp_path, monkeypatch):
-    monkeypatch.setattr("viscorough.read_heights", refusing("{path}: no"))
-    result = CliRunner().invoke(campaign.main, ["--files", "30", "--seed", "3", "--keep", str(tmp_path)])
-    assert result.exit_code == 1
-    assert "--seed 3 --only" in result.output
-    kept = sorted(path.name.split("-")[1] for path in tmp_path.iterdir())
-    again = CliRunner().invoke(campaign.main, ["--seed", "3", "--only", kept[0]])
-    assert campaign.UNREAD in again.output

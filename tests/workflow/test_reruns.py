@@ -80,8 +80,7 @@ OF_SURFACES |= {"generate_discs", "indent_surfaces", "generate_examples", "plot_
     ("changed", "rerun"),
     [
         (FEW_STEPS, OF_FEW_STEPS),
-        # Errors in region (b) are tabulated, too.
-        ({"scaling": {"stiffness_max": 0.25}}, FITS_AND_FIGURES | {"fit_sizes", "plot_sizes"} | SPEED),
+        ({"scaling": {"stiffness_max": 0.25}}, FITS_AND_FIGURES | {"fit_sizes", "plot_sizes"}),
         ({"figures": {"average": "arithmetic"}}, (FITS_AND_FIGURES | SIZES) - {"fit_scaling"}),
         ({"ensemble": {"per_decade": 25}}, FITS_AND_FIGURES | SIZES | INTERFACE | POOLED),
         (

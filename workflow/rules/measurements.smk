@@ -20,7 +20,6 @@ rule measure_methods:
         groups=config["methods"]["groups"],
         seed=config["seed"],
         levels=config["methods"]["levels"],
-        region={name: config["scaling"][name] for name in ("elements_min", "stiffness_max")},
         repeats=config["methods"]["repeats"],
         longest=config["methods"]["longest"],
         # For pairs of close levels, a solution without a start value cannot win.

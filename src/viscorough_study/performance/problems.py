@@ -23,7 +23,6 @@ class Problem:
     """An indenter with h = L = 1 and its reference solution; arrays of shape (levels,).
 
     depth, force, velocity : u, F/G and vt = (F/G)/(k/G) of the reference solution
-    region_b : whether a level is in region (b)
     hurst, seed : of a rough disc; body : of a body of revolution with an exact solution; otherwise None
     """
 
@@ -32,7 +31,6 @@ class Problem:
     depth: np.ndarray
     force: np.ndarray
     velocity: np.ndarray
-    region_b: np.ndarray
     hurst: float | None = None
     seed: np.random.SeedSequence | None = None
     body: reference.PowerLawBody | None = None
@@ -43,11 +41,10 @@ class Problem:
         return len(self.indenter.heights)
 
 
-def rough_problem(hurst, elements, levels, root, region):
+def rough_problem(hurst, elements, levels, root):
     """A self-affine disc, at depths in equal ratios from just above the second contact to FINAL_X or FINAL_FRACTION.
 
     hurst : Hurst exponent; elements : across the disc; levels : number of depths; root : root seed
-    region : elements_min in contact and stiffness_max κ of region (b)
     """
     seed = realization_seed(root, *method_problem_key(hurst, elements))
     disc = self_affine_disc(hurst, elements, seed=seed)
@@ -55,11 +52,8 @@ def rough_problem(hurst, elements, levels, root, region):
     first = coarse.depth[np.argmax(coarse.contact_count > 1)]
     depth = np.geomspace(1.5 * first, coarse.depth[-1], levels)
     exact = indent(disc, tolerance=REFERENCE_TOLERANCE, depths=depth)
-    _, kappa = exact.normalised(1.0, 1.0)
-    region_b = (exact.contact_count >= region["elements_min"]) & (kappa <= region["stiffness_max"])
     name = f"rough disc, H = {hurst:g}, {elements}"
-    velocity = exact.force / exact.stiffness
-    return Problem(name, disc, depth, exact.force, velocity, region_b=region_b, hurst=hurst, seed=seed)
+    return Problem(name, disc, depth, exact.force, exact.force / exact.stiffness, hurst=hurst, seed=seed)
 
 
 def body_problem(name, body, elements, levels):
@@ -67,12 +61,11 @@ def body_problem(name, body, elements, levels):
     indenter = body.indenter(elements)
     depth = body.mdr_profile(np.geomspace(0.1, 0.45, levels))
     force = body.force(depth)
-    velocity, everywhere = force / body.stiffness(depth), np.ones(levels, dtype=bool)
-    return Problem(f"{name}, {elements}", indenter, depth, force, velocity, region_b=everywhere, body=body)
+    return Problem(f"{name}, {elements}", indenter, depth, force, force / body.stiffness(depth), body=body)
 
 
-def named_problem(name, elements, levels, *, root=None, hurst=None, region=None):
-    """A problem by the name of its body, "sphere", "cone" or "rough disc"; root, hurst, region : of a rough disc."""
+def named_problem(name, elements, levels, *, root=None, hurst=None):
+    """A problem by the name of its body, "sphere", "cone" or "rough disc"; root, hurst : of a rough disc."""
     if name == "rough disc":
-        return rough_problem(hurst, elements, levels, root, region)
+        return rough_problem(hurst, elements, levels, root)
     return body_problem(name, BODIES[name], elements, levels)

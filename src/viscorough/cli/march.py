@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
 
 METHODS = ("events", "explicit", "heun", "implicit", "second_order")
 _OF_MEDIA = ("events", "implicit", "second_order")  # methods that integrate viscoelastic media
+_METHODS_OF = {"overlap": ("explicit", "heun"), "until_fraction": ("events",)}  # {option: methods that have it}
 
 
 @click.command(short_help="Penetration over time by direct integration.")
@@ -94,7 +96,9 @@ def march(
         raise click.UsageError("--force-history replaces --force and --times; they exclude each other")
     if medium and viscosity:
         raise click.UsageError("--medium replaces --viscosity; they exclude each other")
-    _check_options_of_method(method, bool(medium), bool(force_history), times, overlap, until_fraction)
+    given = {"until_fraction": until_fraction, "overlap": overlap}
+    options: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
+    _check_options_of_method(method, bool(medium), bool(force_history), times, options)
     check_output(output, force_history=force_history, medium=medium)
     indenter = read_indenter(surface, output)
     unit = indenter.length_unit
@@ -103,8 +107,6 @@ def march(
     about: dict[str, Any] = {"medium": printable_name(medium)} if medium else {"viscosity": viscosity}
     about["force"] = printable_name(force_history) if force_history else force
     history = _read_history(force_history, unit) if force_history else None
-    given = {"until_fraction": until_fraction, "overlap": overlap}
-    options: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     with progress_bar("viscorough march", progress) as report:
         if medium:
             content = _in_medium(indenter, method, medium, force, times, history, progress=report, **options)
@@ -120,12 +122,7 @@ def march(
 
 
 def _check_options_of_method(
-    method: str,
-    has_medium: bool,
-    has_history: bool,
-    times: list[float] | None,
-    overlap: float | None,
-    until_fraction: float | None,
+    method: str, has_medium: bool, has_history: bool, times: list[float] | None, options: Iterable[str]
 ) -> None:
     """Raise UsageError if an option that the method requires is missing, or one is given that does not apply to it."""
     if has_medium and method not in _OF_MEDIA:
@@ -135,10 +132,10 @@ def _check_options_of_method(
     needs_times = has_medium or method != "events"
     if not has_history and needs_times == (times is None):
         raise click.UsageError(f"--times is {'not for' if times else 'needed by'} --method {method}")
-    if overlap is not None and method not in ("explicit", "heun"):
-        raise click.UsageError(f"--overlap is not for --method {method}; allowed: explicit, heun")
-    if until_fraction is not None and method != "events":
-        raise click.UsageError(f"--until-fraction is not for --method {method}; allowed: events")
+    for name in options:
+        if method not in (allowed := _METHODS_OF[name]):
+            option = name.replace("_", "-")
+            raise click.UsageError(f"--{option} is not for --method {method}; allowed: {', '.join(allowed)}")
 
 
 def _in_viscous_medium(

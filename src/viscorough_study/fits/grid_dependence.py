@@ -11,7 +11,7 @@ import pandas as pd
 from scipy.special import stdtrit
 
 from viscorough_study.ensembles.pool import elements_across, ensembles, select
-from viscorough_study.fits.intervals import UNDEFINED, described, three_columns
+from viscorough_study.fits.intervals import UNDEFINED, described, line_slope, three_columns
 
 DEPTHS = (0.5, 1.0, 2.0)  # u/h at which κ is compared
 FORCES = (0.01, 0.1, 1.0)  # X at which vt/h and u/h are compared
@@ -89,11 +89,9 @@ def _trend(members):
     if len(members) > 2:
         x = np.log10([elements for elements, _, _ in members])
         means = np.array([logarithms.mean() for _, logarithms, _ in members])
-        weights = np.sqrt([logarithms.size for _, logarithms, _ in members]) / scatter
-        line, covariance = np.polyfit(x, means, 1, w=weights, cov="unscaled")
-        excess = np.sum((weights * (means - np.polyval(line, x))) ** 2) / (len(members) - 2)
-        half = stdtrit(freedom, 0.975) * np.sqrt(covariance[0, 0] * max(excess, 1.0))
-        factor = tuple(np.exp(line[0] + np.array([0.0, -half, half])))
+        slope, error = line_slope(x, means, scatter / np.sqrt([logarithms.size for _, logarithms, _ in members]))
+        half = stdtrit(freedom, 0.975) * error
+        factor = tuple(np.exp(slope + np.array([0.0, -half, half])))
     return {"factor": factor, "scatter": scatter, "freedom": freedom}
 
 

@@ -14,7 +14,7 @@ from viscorough.reference import exponent_beta
 from viscorough_study.ensembles.pool import ensembles, select
 from viscorough_study.fits import fit_table
 from viscorough_study.fits.conventions import FITTED, fits, source_values
-from viscorough_study.fits.intervals import UNDEFINED, described, interval, three_columns
+from viscorough_study.fits.intervals import UNDEFINED, described, interval, line_slope, three_columns
 from viscorough_study.fits.power_law import fit_power_law, in_window
 from viscorough_study.run.job_log import progress
 
@@ -131,11 +131,8 @@ def _slope(elements, beta, low, high, realizations):
     variance = realizations * ((high - low) / (2 * 1.96)) ** 2
     pooled = np.sum((realizations - 1) * variance) / max(np.sum(realizations - 1), 1)
     error = np.maximum(np.sqrt(pooled / realizations), ERROR_MIN)
-    x = np.log10(elements)
-    (slope, intercept), covariance = np.polyfit(x, beta, 1, w=1 / error, cov="unscaled")
-    scatter = np.sum(((beta - np.polyval([slope, intercept], x)) / error) ** 2) / (beta.size - 2)
-    half = 1.96 * np.sqrt(covariance[0, 0] * max(scatter, 1.0))
-    return slope, slope - half, slope + half
+    slope, slope_error = line_slope(np.log10(elements), beta, error)
+    return slope, slope - 1.96 * slope_error, slope + 1.96 * slope_error
 
 
 def _finding(departure, slope, tolerance):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from viscorough_study.page.results import Count
+from viscorough_study.page.results import Number
 from viscorough_study.performance.costs import fastest
 from viscorough_study.verdicts.claims import counted_verdicts
 
@@ -14,9 +14,10 @@ CASE = ("value", "low", "high", "expected")
 
 
 def verdict_counts(results):
-    """[Count] of claims by verdict, most frequent first; a claim has the verdict over all its cases."""
+    """[Number] of claims by verdict, most frequent first; a claim has the verdict over all its cases."""
     numbers = counted_verdicts(results.tables["claims"])
-    return [Count(number, "claims", "verdict over all cases of a claim", verdict) for verdict, number in numbers]
+    column = "verdict over all cases of a claim"
+    return [Number(number, "claims", column, counted=verdict) for verdict, number in numbers]
 
 
 def answers(results):

@@ -33,7 +33,7 @@ def render(template, style, figures, captions, conventions, **content):
 
 
 def number(value, scale=1, unit=""):
-    """A Number or Count as an element that names its place in a table; a dash for None."""
+    """A Number as an element that names its place in a table; a dash for None."""
     if value is None or (text := readable(scale * value.value)) == "–":
         return "–"
     places = {f"data-{name}": place for name, place in value.place.items()}

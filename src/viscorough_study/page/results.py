@@ -1,6 +1,6 @@
 """Tables of results for the page, and numbers with their place in a table.
 
-Every number that the page states in a sentence is a `Number` or a `Count`; its place in a table becomes part of the
+Every number that the page states in a sentence is a `Number`; its place in a table becomes part of the
 page, so that a reader or a test can look it up.
 """
 
@@ -16,42 +16,30 @@ MAY_BE_EMPTY = ("convention", "reason")  # columns of texts
 
 @dataclass(frozen=True)
 class Number:
-    """A number in a table of results/tables: name of the table, row of its CSV counted from 0, and column."""
+    """A number of the page and its place in a table of results/tables: column, and row of the CSV counted from 0.
+
+    counted : of a number of rows, the value that is counted in the column, or "different values"; then there is no row
+    """
 
     value: float
     table: str
-    row: int
     column: str
+    row: int | None = None
+    counted: str | None = None
 
     @property
     def place(self):
         """Attributes of the HTML element that holds the number."""
-        return {"table": self.table, "row": self.row, "column": self.column}
+        place = {"table": self.table, "row": self.row, "column": self.column, "counted": self.counted}
+        return {name: value for name, value in place.items() if value is not None}
 
     @property
     def title(self):
         """Tooltip of the number."""
-        return f"results/tables/{self.table}.csv, row {self.row}, {self.column}"
-
-
-@dataclass(frozen=True)
-class Count:
-    """Number of rows with a value in a column of a table, or of different values in the column (counted None)."""
-
-    value: int
-    table: str
-    column: str
-    counted: str | None
-
-    @property
-    def place(self):
-        """Attributes of the HTML element that holds the number."""
-        return {"table": self.table, "column": self.column, "counted": self.counted or "different values"}
-
-    @property
-    def title(self):
-        """Tooltip of the number."""
-        return f"results/tables/{self.table}.csv, {self.column}: number of {self.place['counted']}"
+        file = f"results/tables/{self.table}.csv"
+        if self.counted is not None:
+            return f"{file}, {self.column}: number of {self.counted}"
+        return f"{file}, row {self.row}, {self.column}"
 
 
 @dataclass(frozen=True)
@@ -74,7 +62,7 @@ class Results:
 
     def number(self, table, row, column):
         """The number at a place of a table."""
-        return Number(float(self.tables[table].at[row, column]), table, int(row), column)
+        return Number(float(self.tables[table].at[row, column]), table, column, int(row))
 
     def numbers(self, table, row, *columns):
         """{column: Number} of one row."""
@@ -91,7 +79,8 @@ class Results:
     def count(self, table, column, counted=None):
         """Number of rows with the value `counted` in a column; number of different values if it is None."""
         values = self.tables[table][column]
-        return Count(int((values == counted).sum() if counted else values.nunique()), table, column, counted)
+        number = int((values == counted).sum() if counted else values.nunique())
+        return Number(number, table, column, counted=counted or "different values")
 
 
 def read_results(tables):

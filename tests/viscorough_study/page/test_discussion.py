@@ -13,11 +13,11 @@ def shown(**changes):
 def test_numbers_of_others_stand_beside_ours():
     rows = shown()["quantities"]["u0"]
     assert [row["hurst"] for row in rows] == [0.4, 0.9]
-    assert rows[1]["value"] == Number(0.5, "literature", 1, "value")
+    assert rows[1]["value"] == Number(0.5, "literature", "value", 1)
     law, same = rows[1]["theirs"]
-    assert law == ("One 2007", *(Number(value, "literature", 1, f"theirs_{end}") for end, value in ENDS.items()))
+    assert law == ("One 2007", *(Number(value, "literature", f"theirs_{end}", 1) for end, value in ENDS.items()))
     assert same[0] == "One et al. 2013"
-    assert same[1] == Number(0.4, "literature", 3, "theirs_low")
+    assert same[1] == Number(0.4, "literature", "theirs_low", 3)
 
 
 def test_every_source_is_listed_once_with_how_it_is_known():

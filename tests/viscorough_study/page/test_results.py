@@ -5,7 +5,7 @@ import pandas as pd
 
 from support.page import Page, number_in
 from viscorough_study.page.render import caption, number, percent
-from viscorough_study.page.results import Count, Number, read_results, readable
+from viscorough_study.page.results import Number, read_results, readable
 from viscorough_study.run.tables import recorded, write_table
 
 
@@ -19,14 +19,15 @@ def test_numbers_are_readable():
 
 
 def test_numbers_name_their_place():
-    html = str(number(Number(0.123456, "claims", 7, "value"))) + str(number(Count(3, "claims", "verdict", "not <b>")))
+    html = str(number(Number(0.123456, "claims", "value", 7)))
+    html += str(number(Number(3, "claims", "verdict", counted="not <b>")))
     (_, place, text), (_, count, counted) = Page(html).numbers
     wanted = {"value": "0.123456", "data-table": "claims", "data-row": "7", "data-column": "value"}
     assert place == wanted | {"title": "results/tables/claims.csv, row 7, value"}
     assert (text, counted) == ("0.123", "3")
     assert count["data-counted"] == "not <b>"
-    assert str(percent(Number(0.0131, "methods", 0, "error"))).endswith(">1.31 %</data>")
-    assert number(None) == number(Number(np.nan, "claims", 0, "value")) == "–"
+    assert str(percent(Number(0.0131, "methods", "error", 0))).endswith(">1.31 %</data>")
+    assert number(None) == number(Number(np.nan, "claims", "value", 0)) == "–"
 
 
 def test_results_give_numbers_with_their_places(tmp_path):
@@ -37,8 +38,8 @@ def test_results_give_numbers_with_their_places(tmp_path):
     write_table(table, *files, columns=columns, dimension="row", title="Errors", attributes=attributes)
     results = read_results({"errors": tmp_path / "errors.csv"})
     rows = results.rows("errors", kind="a")
-    assert results.largest(rows, "errors", "error") == Number(0.3, "errors", 0, "error")
-    assert results.least(results.tables["errors"], "errors", "error") == Number(0.1, "errors", 1, "error")
+    assert results.largest(rows, "errors", "error") == Number(0.3, "errors", "error", 0)
+    assert results.least(results.tables["errors"], "errors", "error") == Number(0.1, "errors", "error", 1)
     assert results.least(results.rows("errors", kind="c"), "errors", "error") is None
     assert results.count("errors", "kind", "a").value == 2
     assert results.settings == {"errors": {"seed": 1}}

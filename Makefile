@@ -24,6 +24,7 @@ help:
 	@echo "make stability   where each method fails, and random small indenters against dense solutions"
 	@echo "make sizes       exponents on grids from 33 to 4097 elements across and on lines, and their collapse"
 	@echo "make large       time and memory of a disc of up to 8193 elements across, 53 million in all"
+	@echo "make outside     our values beside numbers that others published; two minutes"
 	@echo "make fuzz        10000 bad files and options through the command line, 10000 files of known maps; 12 minutes"
 	@echo "make faults      faults planted in copies of the project, one at a time: how many do the tests catch?"
 	@echo "make seeds       the reproduction with three root seeds: does any verdict change?"
@@ -119,6 +120,9 @@ sizes: settings
 
 large: settings
 	$(SNAKEMAKE) -- large
+
+outside: environment
+	$(BIN)/python benchmarks/outside.py --output results/outside.csv
 
 fuzz: environment
 	$(BIN)/python benchmarks/fuzz.py --runs 10000 --output results/fuzz.json

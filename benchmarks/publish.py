@@ -45,6 +45,7 @@ MADE = {
     "stability": ("failure_map", "failure_map"),
     "sizes": ("sizes collapse", "sizes sizes_trends collapse collapse_curves infinite_grid"),
     "large": ("large", "large"),
+    "outside": ("", ""),
     "reproduce": ("", ""),
     "seeds": ("", ""),
 }
@@ -54,6 +55,7 @@ PUBLISHED = {
     for command, (figures, tables) in MADE.items()
 }
 PUBLISHED["stability"].append("campaign.json")
+PUBLISHED["outside"].append("outside.csv")
 # {command: {file in results/ that other parts of the project read: where they find it}}
 KEPT = {
     "paper": {
@@ -157,6 +159,17 @@ def other_solver_times():
     return "\n".join(lines) + "\n"
 
 
+def outside_numbers():
+    """Numbers of others beside ours, of docs/results/outside.csv, as a table in Markdown."""
+    lines = ["| half-space | quantity | published | ours | deviation | allowed | reason, source |", "|---" * 7 + "|"]
+    for row in pd.read_csv(ROOT / "docs/results/outside.csv").itertuples():
+        numbers = f"{row.published:.4g} | {row.ours:.4g} | {row.deviation:+.2g}"
+        allowed = f"{row.tolerance:.2g}" + ("" if row.met else ", **exceeded**")
+        quantity = row.quantity.replace("*", r"\*")
+        lines.append(f"| {row.half_space} | {quantity} | {numbers} | {allowed} | {row.reason}; {row.source} |")
+    return "\n".join(lines) + "\n"
+
+
 def infinite_grid():
     """Exponents of infinitely fine grids of docs/results/infinite_grid.csv, as a table in Markdown.
 
@@ -239,6 +252,7 @@ def tables():
         ("README.md", "time"): time_sentence(),
         ("docs/verdicts.md", "verdicts"): verdicts(),
         ("docs/performance.md", "other solvers"): other_solver_times(),
+        ("docs/outside.md", "outside"): outside_numbers(),
         ("docs/scaling.md", "infinite grid"): infinite_grid(),
         ("docs/theory.md", "interface law"): interface_law(),
         ("docs/published.md", "results"): published_results(records),

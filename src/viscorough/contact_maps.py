@@ -13,7 +13,7 @@ from viscorough.units import square_metres
 # Neighbours of an element that belong to its patch: those that share a side, or a corner too.
 _CONNECTIVITIES = (4, 8)
 # Mean area by which a whole element exceeds the contact, per change of contact between two elements, over dx dy.
-_EXCESS_PER_CHANGE = (np.pi - 1 + np.log(2)) / 24
+EXCESS_PER_CHANGE = (np.pi - 1 + np.log(2)) / 24
 
 
 class Patches(NamedTuple):
@@ -147,7 +147,7 @@ class Contact(ReadOnlyArrays, Saved, Summarised):
         inside, changes = ~np.isnan(self.pressure), 0
         for contact, known in ((self.contact, inside), (self.contact.T, inside.T)):
             changes += np.count_nonzero((contact[1:] != contact[:-1]) & known[1:] & known[:-1])
-        return self.contact_area - float(_EXCESS_PER_CHANGE * changes * self.spacing * self.row_spacing)
+        return self.contact_area - float(EXCESS_PER_CHANGE * changes * self.spacing * self.row_spacing)
 
     @property
     def mean_pressure(self) -> float:

@@ -275,6 +275,13 @@ QUOTED = {
             abs(number * (1 - punch_stiffness(number)) - 1.3) < 0.06 for number in (33, 257)
         ),
     },
+    "docs/outside.md": {
+        "changes {:.0f} times as much without": lambda: np.divide(
+            *abs(published("outside.csv").set_index("quantity")["ours"])[
+                [f"change of {area}/A₀ from 128² to 512²" for area in ("A", "A*")]
+            ]
+        ),
+    },
     "docs/scaling.md": {
         "at {:.3f} for discs and {:.3f} for lines": lambda: below_expected()["ranges_low"][["discs", "lines"]],
         "| {:.0f} s, {:.0f} operator applications, {:.0f} levels |": lambda: large(

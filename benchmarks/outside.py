@@ -1,0 +1,134 @@
+"""Compare with numbers that others published: contact areas on free and periodic half-spaces, and exact solutions.
+
+    python benchmarks/outside.py --output results/outside.csv
+
+The random surfaces of the sources are not known. What one surface of a source gave is compared with the mean of ours,
+and the tolerance is twice the standard deviation between ours; other tolerances have a reason of their own. A row whose
+deviation is above its tolerance stays in the table, where `met` is 0.
+"""
+
+from pathlib import Path
+
+import click
+import numpy as np
+import pandas as pd
+from scipy.signal import resample
+
+from viscorough import Indenter, contact_at, indent, kinetics, reference
+from viscorough.contact_maps import EXCESS_PER_CHANGE
+from viscorough.io.atomic import atomic_write
+from viscorough.surfaces import self_affine_square
+from viscorough_study.comparisons.periodic_control import mean_separations, periodic_contact
+from viscorough_study.comparisons.validation import BODIES
+
+COLUMNS = ["half_space", "quantity", "published", "ours", "deviation", "tolerance", "met", "reason", "source"]
+# A free square, H = 0.8, waves 1 to 32 of the side, p/(E* h') = 0.30: raw and corrected contact fraction.
+FREE_WAVES = 32
+GRIDS, RAW, CORRECTED = (128, 256, 512), (0.4692, 0.4592, 0.4544), (0.4438, 0.4463, 0.4479)
+STUDY = "ASPHER, convergence study"
+SCATTER = "one surface of theirs: twice the standard deviation between ours"
+
+# Periodic squares, power law of waves 8 to 64 of the period, at these p/(E* h').
+PERIODIC_WAVES, ROLL_OFF = 64, {"roll_off_wavelength": 2 * 64 / 8, "roll_off_level": 1.0}
+LIGHT, LEVELS = 0.01, np.geomspace(0.01, 0.16, 5)
+AREA_SOURCE, SEPARATION_SOURCE = "Hyun and Robbins 2007; Monti et al. 2021", "Pastewka et al. 2013"
+BETWEEN = "distance to the nearer of two theories, 1.60 (Persson) and 2.51 (Bush, Gibson and Thomas)"
+ONE_DIGIT = "half of the last digit that is stated"
+
+ELEMENTS, RADIUS = 129, 0.4  # across bodies of width 1; contact radius, or half of the longer axis
+SECOND_ORDER = "error of second order in spacing over contact radius"
+FIRST_ORDER = "error of first order in spacing over the shorter half-axis"
+
+
+def surface(points, waves, seed, hurst, **roll_off):
+    """Heights of a periodic square of side and rms height 1, with up to so many waves along a side; their rms slope."""
+    coarse = self_affine_square(hurst, 2 * waves, seed=seed, **roll_off)
+    wave = np.fft.fftfreq(len(coarse), 1 / len(coarse))
+    slope = np.linalg.norm(np.fft.fft2(coarse) * 2 * np.pi * np.hypot(wave[:, None], wave)) / coarse.size
+    return resample(resample(coarse, points), points, axis=1), slope
+
+
+def free_squares(surfaces):
+    """Rows on the free square: its corrected area, what the correction takes away, and changes over the grids."""
+    areas = []
+    for seed in range(surfaces):
+        heights, slope = surface(GRIDS[-1], FREE_WAVES, seed, 0.8)
+        for points in GRIDS:
+            step = GRIDS[-1] // points
+            contact = contact_at(Indenter(heights[::step, ::step], 1 / points), force=4 * 0.3 * slope, tolerance=1e-4)
+            areas.append((contact.contact_area, contact.corrected_contact_area))
+    ours = np.moveaxis(np.reshape(areas, (surfaces, len(GRIDS), 2)), 0, 2)  # grid, raw or corrected, surface
+    theirs = np.transpose([RAW, CORRECTED])
+    quantities = {f"A*/A₀ on {GRIDS[-1]}²": lambda area: area[-1, 1]}
+    quantities |= {f"(A − A*)/A₀ on {n}²": lambda area, k=k: area[k, 0] - area[k, 1] for k, n in enumerate(GRIDS)}
+    for k, name in enumerate(("A", "A*")):
+        quantities[f"change of {name}/A₀ from {GRIDS[0]}² to {GRIDS[-1]}²"] = lambda area, k=k: area[-1, k] - area[0, k]
+    for name, quantity in quantities.items():
+        values = quantity(ours)
+        yield "free", name, quantity(theirs), values.mean(), 2 * values.std(ddof=1), SCATTER, STUDY
+
+
+def periodic_squares(surfaces, points=512):
+    """Rows on periodic squares: the coefficient of the area at a small pressure, and the plateau of u₀/h."""
+    for hurst in (0.3, 0.8):
+        coefficients, u0 = [], []
+        for seed in range(surfaces):
+            heights, slope = surface(points, PERIODIC_WAVES, seed, hurst, **ROLL_OFF)
+            _, pressure = periodic_contact(heights, np.full(heights.shape, LIGHT * slope))
+            contact = pressure > 0
+            changes = sum(np.count_nonzero(contact != np.roll(contact, 1, axis)) for axis in (0, 1))
+            coefficients.append((contact.sum() - EXCESS_PER_CHANGE * changes) / contact.size / LIGHT)
+            separation, _ = mean_separations(heights, LEVELS * slope)
+            u0.append(-np.diff(separation) / np.diff(np.log(LEVELS)))
+        area, plateau = f"A* E* h′/(A₀ p), H = {hurst}", f"u₀/h, H = {hurst}"
+        yield "periodic", area, 2.0, np.mean(coefficients), 0.4, BETWEEN, AREA_SOURCE
+        yield "periodic", plateau, 0.4, np.mean(u0, axis=0).max(), 0.05, ONE_DIGIT, SEPARATION_SOURCE
+
+
+def bodies():
+    """Rows on bodies with exact solutions."""
+    second = (1 / (ELEMENTS * RADIUS)) ** 2
+    for name, source in (("sphere", "Hertz 1882"), ("cone", "Love 1939")):
+        body, indenter = BODIES[name], BODIES[name].indenter(ELEMENTS)
+        depth = body.mdr_profile(RADIUS)
+        curve, force = indent(indenter, depths=[depth], tolerance=1e-5), body.force(depth)
+        yield "free", f"F/(G L²) of a {name}", force, curve.force[0], second * force, SECOND_ORDER, source
+        if name == "sphere":
+            motion = kinetics(indent(indenter, tolerance=1e-5, until_force=1.01 * force), 1.0, 1.0, [force])
+            yield (
+                "free",
+                "u/L of a sphere, viscous",
+                depth,
+                motion.depth[0],
+                second * depth,
+                SECOND_ORDER,
+                "Lee and Radok 1960",
+            )
+    x = (np.arange(ELEMENTS) - ELEMENTS // 2) / ELEMENTS
+    ellipse = Indenter(np.where((2 * x[:, None]) ** 2 + x**2 <= RADIUS**2, 0.0, np.nan), 1 / ELEMENTS)
+    exact, ours = reference.flat_ellipse_stiffness(RADIUS, RADIUS / 2), indent(ellipse, tolerance=1e-5).stiffness[0]
+    tolerance = exact / (ELEMENTS * RADIUS / 2)
+    yield "free", "k/(G L) of a flat ellipse", exact, ours, tolerance, FIRST_ORDER, "Johnson 1985"
+
+
+def comparison(free=24, periodic=4):
+    """The table of comparisons, a pandas.DataFrame with the columns of `COLUMNS`, of so many surfaces."""
+    names = ["half_space", "quantity", "published", "ours", "tolerance", "reason", "source"]
+    table = pd.DataFrame([*free_squares(free), *periodic_squares(periodic), *bodies()], columns=names)
+    table["deviation"] = table["ours"] - table["published"]
+    table["met"] = (table["deviation"].abs() <= table["tolerance"]).astype(int)
+    return table[COLUMNS]
+
+
+@click.command(help=__doc__.splitlines()[0])
+@click.option("--output", type=click.Path(path_type=Path), required=True, help="Table to write, CSV.")
+def main(output):
+    table = comparison()
+    output.parent.mkdir(parents=True, exist_ok=True)
+    with atomic_write(output) as temporary:
+        table.to_csv(temporary, index=False, lineterminator="\n")
+    click.echo(table.drop(columns=["reason", "source"]).to_string(index=False))
+
+
+if __name__ == "__main__":
+    main()

@@ -2,27 +2,17 @@
 
     python examples/own_surface.py
 
-Without a file heights.npy it first makes one, a ball with a rough surface. The lines after that are those of README.md,
-and the picture is docs/own_surface.png.
+The lines are those of README.md: first they make a map, a ball of radius 2 mm with a self-affine roughness of 0.2 µm.
 """
-
-from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
 
 import viscorough
 
-
-def rough_ball(points=257, spacing=1e-6):
-    """Heights [m] of a ball of radius 2 mm with a self-affine roughness of 0.2 µm, on a round map; nan outside."""
-    disc = viscorough.self_affine_disc(0.8, points, rms=2e-7, diameter=points * spacing, seed=1)
-    position = spacing * (np.arange(points) - points // 2)
-    return disc.heights - (position[:, None] ** 2 + position**2) / (2 * 2e-3)
-
-
-if not Path("heights.npy").exists():
-    np.save("heights.npy", rough_ball())
+disc = viscorough.self_affine_disc(0.8, 257, rms=2e-7, diameter=257e-6, seed=1)
+x = 1e-6 * (np.arange(257) - 128)
+np.save("heights.npy", disc.heights - (x[:, None] ** 2 + x**2) / 4e-3)  # a rough ball, or heights of your own
 
 surface = viscorough.read_heights("heights.npy", spacing=1e-6)  # in metres; larger is higher; nan is outside
 curve = viscorough.indent(surface, tolerance=1e-3, until_fraction=0.5)

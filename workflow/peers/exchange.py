@@ -40,27 +40,22 @@ def answer_request(distribution, solver_class):
     rows, columns = request["gap"].shape
     problem = Problem(_padded(request), request["depths"], request["forces"], int(request["threads"]))
     solver = solver_class(problem)
-    tolerances, levels = request["tolerances"], len(problem.depths)
-    pressures = np.full((len(tolerances), levels, rows, columns), np.nan)
-    wall, cpu = np.full((2, len(tolerances), int(request["repeats"])), np.nan)
-    iterations = np.full((len(tolerances), levels), -1)
-    depth = np.full(iterations.shape, np.nan)
+    levels = len(problem.depths)
+    pressures, depth = np.full((levels, rows, columns), np.nan), np.full(levels, np.nan)
+    iterations, wall, cpu = np.full(levels, -1), np.nan, np.nan
     signal.signal(signal.SIGALRM, _give_up)
-    for i, tolerance in enumerate(tolerances):
-        for repeat in range(wall.shape[1]):
-            clocks = time.perf_counter(), time.process_time()
-            signal.setitimer(signal.ITIMER_REAL, float(request["maximum_seconds"]))
-            try:
-                solved = _all_levels(solver, levels, tolerance)
-            except TimeoutError:
-                break
-            finally:
-                signal.setitimer(signal.ITIMER_REAL, 0)
-            wall[i, repeat], cpu[i, repeat] = time.perf_counter() - clocks[0], time.process_time() - clocks[1]
-        else:
-            for level, (pressure, count) in enumerate(solved):
-                pressures[i, level], iterations[i, level] = pressure[:rows, :columns], count
-                depth[i, level] = np.mean((solver.displacement(pressure) + problem.gap)[pressure > 0])
+    clocks = time.perf_counter(), time.process_time()
+    signal.setitimer(signal.ITIMER_REAL, float(request["maximum_seconds"]))
+    try:
+        solved = _all_levels(solver, levels, float(request["tolerance"]))
+        wall, cpu = time.perf_counter() - clocks[0], time.process_time() - clocks[1]
+        signal.setitimer(signal.ITIMER_REAL, 0)
+    except TimeoutError:
+        pass
+    else:
+        for level, (pressure, count) in enumerate(solved):
+            pressures[level], iterations[level] = pressure[:rows, :columns], count
+            depth[level] = np.mean((solver.displacement(pressure) + problem.gap)[pressure > 0])
     np.savez(
         sys.argv[2],
         version=metadata.version(distribution),

@@ -37,7 +37,6 @@ rule measure_methods:
 rule measure_large:
     output:
         csv="results/large/{elements}.csv",
-        curve="results/large/{elements}.nc",
     log:
         "results/logs/measure_large/{elements}.log",
     benchmark:

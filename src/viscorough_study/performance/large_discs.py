@@ -30,8 +30,8 @@ def costs_table(costs):
     return pd.concat(costs).sort_values("elements", ignore_index=True)
 
 
-def measure_disc(hurst, elements, seed, *, tolerance, until_fraction, warm_up, threads):
-    """LoadingCurve of a disc of diameter and rms height 1, and its cost, {column of `COLUMNS`: value}.
+def measure_disc(*, hurst, elements, seed, tolerance, until_fraction, warm_up, threads):
+    """Cost of the loading curve of a disc of diameter and rms height 1, {column of `COLUMNS`: value}.
 
     elements, warm_up : across the disc, and across one that is indented first to load the compiled functions
     threads : of a second run, which alternates with the first in ROUNDS rounds, or in one round if runs take long
@@ -45,7 +45,7 @@ def measure_disc(hurst, elements, seed, *, tolerance, until_fraction, warm_up, t
         curve, *alone = timing.timed(press)
         rounds.append((*alone, timing.timed(partial(press, threads=threads))[1]))
     wall, processor, wall_threads = np.median(rounds, axis=0).tolist()
-    return curve, {
+    return {
         "across": elements,
         "elements": disc.elements,
         "levels": curve.depth.size,

@@ -135,7 +135,7 @@ def _other_solver(solver, time_limit, problem, tolerance):
     depths = (problem.depth[:, None] * [1 - shift, 1 + shift]).ravel()
     stiffness = np.repeat(problem.force / problem.velocity, 2)
     forces = np.repeat(problem.force, 2) + stiffness * (depths - np.repeat(problem.depth, 2))
-    (solution,) = other_solvers.solve(solver, problem.indenter, depths, forces, [tolerance], time_limit=time_limit)
+    solution = other_solvers.solve(solver, problem.indenter, depths, forces, tolerance, time_limit=time_limit)
     if solution is None:
         return Answer(np.full(problem.depth.shape, np.nan), seconds=(time_limit, time_limit))
     force, depth = solution.force.reshape(-1, 2), solution.depth.reshape(-1, 2)

@@ -7,16 +7,16 @@ and pressures in shear moduli G; the half-space is incompressible, so that E = 3
 The request holds
     gap : initial gap of the indenter's elements to its highest point, nan outside it, shape (rows, columns)
     depths, forces : u and F/G of the levels, increasing, shape (levels,); a solver uses one or the other
-    tolerances : the solver's own tolerances, shape (tolerances,); all levels are solved with each of them
+    tolerance : the solver's own
     padding : side of the square grid to solve on (see padded_size)
-    threads, repeats, maximum_seconds : threads; runs per tolerance; time limit of a run
+    threads, maximum_seconds : threads; time limit
 
 The answer holds
     version : of the solver
-    pressures : p/G, shape (tolerances, levels, rows, columns)
-    depth : mean of deflection + initial gap over the contact, by the solver's own operator, shape (tolerances, levels)
-    iterations : -1 if not reported, shape (tolerances, levels)
-    wall, cpu : seconds of a run without set-up, nan where it exceeded the time limit, shape (tolerances, repeats)
+    pressures : p/G, shape (levels, rows, columns)
+    depth : mean of deflection + initial gap over the contact, by the solver's own operator, shape (levels,)
+    iterations : -1 if not reported, shape (levels,)
+    wall, cpu : seconds without set-up, nan beyond the time limit
     memory_mb : peak memory of the process in MB
 
 Convergence is judged here, by the residual of the pressures, in the same way for every solver.
@@ -50,7 +50,7 @@ class OtherSolver:
 
 @dataclass(frozen=True)
 class Solution:
-    """Levels solved by another solver with one tolerance; arrays of shape (levels,), lengths in the user's unit.
+    """Levels solved by another solver; arrays of shape (levels,), lengths in the user's unit.
 
     depth, force : u and F/G of its pressures
     residual : largest |gap| in contact or overlap outside it, over the depth, computed from its pressures
@@ -74,30 +74,27 @@ class Solution:
         return int(self.iterations.sum()) if (self.iterations >= 0).all() else -1
 
 
-def solve(solver, indenter, depths, forces, tolerances, *, threads=1, time_limit=60.0):
-    """Solutions by another solver at the given levels, each started from the level before.
+def solve(solver, indenter, depths, forces, tolerance, *, threads=1, time_limit=60.0):
+    """Solution by another solver at the given levels, each started from the level before.
 
     depths, forces : u and F/G of the levels, in the indenter's unit of length; a solver uses one or the other
-    tolerances : the solver's own; time_limit : seconds after which the run of one tolerance is abandoned
+    tolerance : the solver's own; time_limit : seconds after which the run is abandoned
 
-    Returns a Solution per tolerance, None where there is none. If the solver's process fails, warns with the last line
-    of its standard error.
+    Returns None where there is no solution. If the solver's process fails, warns with the last line of its standard
+    error.
     """
     gap = indenter.initial_gap / indenter.spacing
     request = {
         "gap": gap,
         "depths": np.asarray(depths) / indenter.spacing,
         "forces": np.asarray(forces) / indenter.spacing**2,
-        "tolerances": np.asarray(tolerances, dtype=float),
+        "tolerance": tolerance,
         "padding": padded_size(max(gap.shape)),
         "threads": threads,
-        "repeats": 1,
         "maximum_seconds": time_limit,
     }
-    answer = _run_adapter(solver, request, time_limit * len(tolerances) + 60)
-    if answer is None:
-        return [None] * len(tolerances)
-    return [_solution(answer, i, gap, indenter.spacing) for i in range(len(tolerances))]
+    answer = _run_adapter(solver, request, time_limit + 60)
+    return _solution(answer, gap, indenter.spacing) if answer and np.isfinite(answer["wall"]) else None
 
 
 def _run_adapter(solver, request, seconds):
@@ -119,21 +116,19 @@ def _run_adapter(solver, request, seconds):
             return {name: answer[name] for name in answer.files}
 
 
-def _solution(answer, i, gap, spacing):
-    """Solution with the tolerance of index i, in the unit of the spacing; None if it exceeded the time limit."""
-    if not np.isfinite(answer["wall"][i]).all():
-        return None
+def _solution(answer, gap, spacing):
+    """Solution in the unit of the spacing."""
     # The answer holds the depth, which solvers at given force determine and solvers at given depth keep.
-    pressures, depths = answer["pressures"][i], answer["depth"][i]
+    pressures, depths = answer["pressures"], answer["depth"]
     residual = [contact_residual(gap, pressure, depth) for pressure, depth in zip(pressures, depths, strict=True)]
     return Solution(
         version=str(answer["version"]),
         depth=depths * spacing,
         force=pressures.sum(axis=(1, 2)) * spacing**2,
         residual=np.array(residual),
-        iterations=answer["iterations"][i],
-        wall_s=float(np.median(answer["wall"][i])),
-        processor_s=float(np.median(answer["cpu"][i])),
+        iterations=answer["iterations"],
+        wall_s=float(answer["wall"]),
+        processor_s=float(answer["cpu"]),
         memory=float(answer["memory_mb"]) * 1e6,
     )
 

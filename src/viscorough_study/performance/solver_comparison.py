@@ -127,7 +127,7 @@ def compare_solvers(task, solvers, *, pairs, time_limit, report=lambda text: Non
             rows.append(_row(task, exact, solution) | named | cost)
             if met:
                 own_times = (solution.wall_s, solution.processor_s) if threads == 1 else None
-                races.append(_Race(path, partial(ask, [tolerance], threads=threads), own_times, rows[-1]))
+                races.append(_Race(path, partial(ask, tolerance, threads=threads), own_times, rows[-1]))
     longest = min(MAX_REPEATED, HOPELESS * fastest)
     for number in range(pairs):
         report(f"{task.name}, H = {task.hurst:g}: pair {number + 1} of {pairs}")
@@ -161,7 +161,7 @@ class _Race:
             return
         own = timing.timed(self.path)[1:] if path_first else None
         if self.known is None or self.known[0] < longest:
-            (solution,) = self.other()
+            solution = self.other()
             self.known = (solution.wall_s, solution.processor_s) if solution else (np.nan, np.nan)
         self.seconds.append((own or timing.timed(self.path)[1:], self.known))
 
@@ -198,14 +198,14 @@ def _row(task, exact, solution):
 def _loosest_tolerance(ask, required, fastest):
     """Loosest tolerance with which a solver meets the required residual, otherwise its best one, and the Solution.
 
-    ask : returns the solver's Solutions for a list of tolerances, None where it has none
+    ask : returns the solver's Solution for a tolerance, None where it has none
     fastest : seconds of the fastest solver so far; one that takes HOPELESS times as long is not tried with looser ones
     Tolerance and Solution are None if no tolerance gave a solution.
     """
     solutions = {}
 
     def residual(i):
-        (solutions[i],) = ask([TOLERANCE_RATIOS[i] * required])
+        solutions[i] = ask(TOLERANCE_RATIOS[i] * required)
         return np.inf if solutions[i] is None else solutions[i].residual.max()
 
     i = TOLERANCE_RATIOS.index(FIRST_RATIO)

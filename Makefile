@@ -10,7 +10,7 @@ SNAKEMAKE = $(BIN)/snakemake --cores $(CORES) $(if $(SETTINGS),--configfile $(SE
 WITH_PROGRESS = $(BIN)/python -m viscorough_study.page.terminal --
 
 .PHONY: help environment environment-slurm settings reproduce paper report check test docs test-slurm bench speed stability \
-	sizes large fuzz faults seeds publish chaos peers lock lock-peers lock-slurm clean
+	sizes large outside fuzz faults seeds publish chaos dist peers lock lock-peers lock-slurm clean
 
 help:
 	@echo "make reproduce   the default reproduction: figures, tables, and the page results/index.html, which shows them"
@@ -33,6 +33,7 @@ help:
 	@echo "make test-slurm  the workflow through Slurm on this machine, with and without lost jobs; Debian, as root"
 	@echo "make peers       install the other solvers that make speed compares with, in separate environments"
 	@echo "make lock        renew requirements.lock from pyproject.toml; needs uv, as do lock-peers and lock-slurm"
+	@echo "make dist        sdist and wheel in build/dist; README's Python lines and all examples run from the wheel"
 	@echo "make clean       remove results and caches, keep the environment"
 	@echo "Variables: CORES=$(CORES), PYTHON=$(PYTHON); SETTINGS=mine.yaml for reproduce, report, speed, stability, sizes, large."
 
@@ -120,6 +121,9 @@ sizes: settings
 
 large: settings
 	$(SNAKEMAKE) -- large
+
+dist: environment
+	$(BIN)/python benchmarks/distribution.py --output build/dist
 
 outside: environment
 	$(BIN)/python benchmarks/outside.py --output results/outside.csv

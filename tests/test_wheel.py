@@ -1,42 +1,53 @@
-"""The wheel: the library alone, and what its metadata say."""
+"""Sdist and wheel: the library alone, and what its metadata say."""
 
-import shutil
-import subprocess
-import sys
+import tarfile
 import zipfile
-from email import message_from_string
 
+import distribution
 import pytest
 
 from support.documentation import ROOT
 
+KINDS = (".py", ".pyi", ".csv", ".typed")
+LIBRARY = {
+    path.relative_to(ROOT / "src").as_posix() for path in (ROOT / "src/viscorough").rglob("*") if path.suffix in KINDS
+}
+
 
 @pytest.fixture(scope="module")
-def wheel(tmp_path_factory):
-    """The wheel of a copy of the project, which is left as it is."""
-    copy, folder = tmp_path_factory.mktemp("project"), tmp_path_factory.mktemp("wheel")
-    for name in ("pyproject.toml", "README.md", "LICENSE"):
-        shutil.copy(ROOT / name, copy)
-    shutil.copytree(ROOT / "src", copy / "src", ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
-    build = [sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", "--no-build-isolation", "--no-index"]
-    subprocess.run([*build, "--wheel-dir", folder, copy], check=True)
-    with zipfile.ZipFile(*folder.glob("*.whl")) as archive:
-        yield archive
+def built(tmp_path_factory):
+    return distribution.build(tmp_path_factory.mktemp("dist"))
 
 
-def test_it_holds_the_files_of_the_library_and_no_others(wheel):
-    held = {name for name in wheel.namelist() if ".dist-info/" not in name}
-    kinds = (".py", ".pyi", ".csv", ".typed")
-    library = (path for path in (ROOT / "src/viscorough").rglob("*") if path.suffix in kinds)
-    assert held == {path.relative_to(ROOT / "src").as_posix() for path in library}
-    assert {"viscorough/py.typed", "viscorough/__init__.pyi", "viscorough/data/calibration.csv"} <= held
+def test_the_wheel_holds_the_files_of_the_library_and_no_others(built):
+    names = zipfile.ZipFile(built[1]).namelist()
+    assert {name for name in names if ".dist-info/" not in name} == LIBRARY
+    assert {"viscorough/py.typed", "viscorough/__init__.pyi", "viscorough/data/calibration.csv"} <= LIBRARY
+    assert any(name.endswith("/LICENSE") for name in names)
+    assert built[1].stat().st_size <= distribution.WHEEL_BYTES_MAX
 
 
-def test_its_metadata_name_authors_licence_and_paper(wheel):
-    (name,) = (name for name in wheel.namelist() if name.endswith(".dist-info/METADATA"))
-    metadata = message_from_string(wheel.read(name).decode())
-    assert metadata["Author"] == "The viscorough developers"
-    assert metadata["License-Expression"] == "MIT"
-    assert "Paper, https://doi.org/10.1103/PhysRevE.87.042802" in metadata.get_all("Project-URL")
-    assert "numba>=0.61" in metadata.get_all("Requires-Dist")
-    assert any(name.endswith("/LICENSE") for name in wheel.namelist())
+def test_the_sdist_has_no_study(built):
+    with tarfile.open(built[0]) as archive:
+        names = {name.split("/src/")[1] for name in archive.getnames() if "/src/" in name}
+    assert {name for name in names if name.endswith(KINDS)} == LIBRARY
+
+
+def test_metadata_are_valid_and_name_authors_licence_paper_and_readme(built):
+    metadata = distribution.metadata(built[1])
+    assert metadata.author == "The viscorough developers"
+    assert metadata.license_expression == "MIT"
+    assert metadata.project_urls["Paper"] == "https://doi.org/10.1103/PhysRevE.87.042802"
+    assert "numba>=0.61" in map(str, metadata.requires_dist)
+    assert metadata.description.startswith("# viscorough")
+    assert metadata.description_content_type == "text/markdown"
+    assert len(metadata.keywords) >= 5
+    assert all((metadata.summary, metadata.requires_python, metadata.classifiers))
+
+
+def test_what_runs_from_the_wheel():
+    """README's lines and all examples, without the checkout's own folders."""
+    scripts = distribution.scripts()
+    assert set(scripts) == {"README", *(path.stem for path in (ROOT / "examples").glob("*.py"))}
+    assert len(scripts) == 9
+    assert all("savefig" in text for text in scripts.values())

@@ -1,11 +1,14 @@
 """Files for archives and catalogs say the same as CITATION.cff and pyproject.toml."""
 
 import json
+import re
+import shutil
+import subprocess
 import tomllib
 
 import yaml
 
-from support.workflow import ROOT
+from support.workflow import ROOT, snakemake
 
 
 def test_codemeta_agrees_with_citation_and_package():
@@ -38,3 +41,19 @@ def test_workflow_catalog():
     assert usage["software-stack-deployment"] == {"conda": True}
     assert rules.count(" conda:\n") == rules.count(" script:\n")
     assert usage["report"] == ("report(" in rules)
+
+
+def test_the_container_has_what_its_commands_need(tmp_path):
+    """The files that Containerfile copies suffice for plans of its commands."""
+    commands = re.findall(r"^(COPY|RUN|CMD) (.*)", (ROOT / "Containerfile").read_text(), re.MULTILINE)
+    for sources, target in (text.rsplit(maxsplit=1) for kind, text in commands if kind == "COPY"):
+        for source in map(ROOT.joinpath, sources.split()):
+            if source.is_dir():
+                shutil.copytree(source, tmp_path / target, ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
+            else:
+                (tmp_path / target).mkdir(exist_ok=True)
+                shutil.copy(source, tmp_path / target)
+    assert commands[-2:] == [("RUN", "make environment"), ("CMD", '["make", "reproduce"]')]
+    for command in ("environment", "reproduce"):
+        subprocess.run(["make", "--dry-run", command], cwd=tmp_path, check=True, capture_output=True)
+    snakemake(tmp_path, "--dry-run")

@@ -1,6 +1,5 @@
 """Cost and error of every method on one indenter."""
 
-import logging
 from pathlib import Path
 
 from threadpoolctl import threadpool_limits
@@ -22,7 +21,7 @@ def main(csv, *, problem, groups, seed, levels, repeats, longest, peers):
     compile_kernels()  # so that loading compiled code is not timed
     with threadpool_limits(1):  # Snakemake gives the job all cores, so that no other job runs
         indenter = named_problem(**problem, levels=levels, root=seed)
-        table = measure(indenter, repeats, methods, report=logging.info, longest=longest)
+        table = measure(indenter, repeats, methods, longest=longest)
     with atomic_write(csv) as temporary:
         table.to_csv(temporary, index=False)
 

@@ -69,14 +69,13 @@ def scenes(elements, hurst, seed):
 def compare_scenes(*, elements, hurst, seed, repeats):
     """The three choices of levels for every scene, on one thread; a pandas.DataFrame with the columns of `COLUMNS`."""
     with threadpool_limits(1):  # Snakemake gives the job all cores, so that no other job runs
-        return pd.concat([compare(scene, repeats, logging.info) for scene in scenes(elements, hurst, seed)])
+        return pd.concat([compare(scene, repeats) for scene in scenes(elements, hurst, seed)])
 
 
-def compare(scene, repeats, report=lambda text: None, *, hand_picked=HAND_PICKED, naive=NAIVE):
+def compare(scene, repeats, *, hand_picked=HAND_PICKED, naive=NAIVE):
     """Cost and error of the three choices of levels for a scene.
 
     repeats : number of interleaved repeats, of which the times are medians
-    report : called with a line of text before the levels of each choice
     hand_picked, naive : numbers of levels to try, increasing
 
     Returns a pandas.DataFrame with the columns of `COLUMNS`: one row per choice, "automatic", "best by hand" (absent if
@@ -91,7 +90,7 @@ def compare(scene, repeats, report=lambda text: None, *, hand_picked=HAND_PICKED
     automatic = _row(scene, "automatic", partial(path, **range_of_force), exact)
     first, last = ends * [1 - MARGIN, 1 + MARGIN]
 
-    report(f"{scene.name}: levels by hand")
+    logging.info("%s: levels by hand", scene.name)
     by_hand = []
     for number in hand_picked:
         row = _row(scene, "best by hand", partial(path, depths=np.geomspace(first, last, number)), exact)
@@ -99,7 +98,7 @@ def compare(scene, repeats, report=lambda text: None, *, hand_picked=HAND_PICKED
             by_hand.append(row)
         if row["reached"] or number > MAX_RATIO_HAND_PICKED * automatic["levels"]:  # more levels would cost more
             break
-    report(f"{scene.name}: naive levels")
+    logging.info("%s: naive levels", scene.name)
     for number in naive:
         row = _row(scene, "naive", partial(path, depths=np.linspace(0, last, number + 1)[1:]), exact)
         if row["error"] <= automatic["error"] or row["wall_s"] > MAX_RATIO_NAIVE * automatic["wall_s"]:

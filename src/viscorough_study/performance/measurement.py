@@ -4,6 +4,7 @@ The error of a method is the root mean square of the relative deviation of its v
 where a method gives no velocity, the deviation counts as 1.
 """
 
+import logging
 import math
 from functools import partial
 
@@ -33,13 +34,12 @@ COLUMNS = {
 }
 
 
-def measure(problem, repeats, methods=METHODS, report=lambda text: None, *, longest=math.inf):
+def measure(problem, repeats, methods=METHODS, *, longest=math.inf):
     """Cost and error of every method that can solve a problem, at every value of its parameter.
 
     repeats : number of interleaved repeats after the first run, which gives errors and memory, and the time of runs
         longer than MAX_REPEATED
     longest : seconds after which a method is neither repeated nor tried at finer values
-    report : called with a line of text before each first run
 
     Returns a pandas.DataFrame with the columns of `COLUMNS`, one row per method and value.
     """
@@ -48,7 +48,7 @@ def measure(problem, repeats, methods=METHODS, report=lambda text: None, *, long
         if problem.elements_across > method.largest or (method.rough_only and problem.hurst is None):
             continue
         for value in method.values if problem.elements_across <= LARGEST_COMPARED else method.growth:
-            report(f"{problem.name}: {method.name}, {method.parameter} {value:g}")
+            logging.info("%s: %s, %s %g", problem.name, method.name, method.parameter, value)
             function = partial(method.run, problem, value)
             (answer, memory), *seconds = timing.timed(partial(timing.with_memory, function))
             seconds = answer.seconds or seconds
@@ -60,7 +60,7 @@ def measure(problem, repeats, methods=METHODS, report=lambda text: None, *, long
                 functions[key] = function
             if spent >= longest:  # including runs that were stopped
                 break
-    report(f"{problem.name}: {repeats} repeats")
+    logging.info("%s: %d repeats", problem.name, repeats)
     for key, seconds in timing.interleaved(functions, repeats).items():
         rows[key] |= dict(zip(TIMES, seconds, strict=True))
     return pd.DataFrame(rows.values(), columns=list(COLUMNS))

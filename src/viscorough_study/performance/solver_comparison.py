@@ -75,7 +75,7 @@ def time_other_solvers(*, seed, hursts, pairs, longest, tasks, peers):
     for solver in solvers:
         if not solver.installed:
             logging.warning("%s is not installed and is omitted (make peers installs it)", solver.name)
-    common = {"pairs": pairs, "time_limit": longest, "report": logging.info}
+    common = {"pairs": pairs, "time_limit": longest}
     tables, installed = [], [solver for solver in solvers if solver.installed]
     threadpool_limits(1)  # of linear algebra; Snakemake gives the job all cores, so that no other job runs
     for number, task in enumerate(tasks):
@@ -95,13 +95,12 @@ def disc_task(name, hurst, elements, fractions, residual, *, seed, threads=(1,))
     return Task(name, hurst, disc, depths, residual, tuple(threads))
 
 
-def compare_solvers(task, solvers, *, pairs, time_limit, report=lambda text: None):
+def compare_solvers(task, solvers, *, pairs, time_limit):
     """Time and residual of the path and of other solvers on one task, each with its loosest sufficient tolerance.
 
     pairs : number of pairs of runs, of the path and of another solver on as many threads, in alternating order; a
         solver that takes longer than MAX_REPEATED, or HOPELESS times as long as the fastest, runs in one pair only
     time_limit : seconds after which a run of another solver is abandoned
-    report : called with a line of text before each solver and round of pairs
 
     Solutions that miss the residual are not timed. Returns a pandas.DataFrame with the columns of `COLUMNS`: the path
     on each number of threads, then one row per solver and number of threads.
@@ -114,7 +113,7 @@ def compare_solvers(task, solvers, *, pairs, time_limit, report=lambda text: Non
     rows = [_row_of_path(task, path, threads, exact) for threads, path in paths.items()]
     races, fastest = [], np.inf
     for solver in solvers:
-        report(f"{task.name}, H = {task.hurst:g}: {solver.name}, search for its tolerance")
+        logging.info("%s, H = %g: %s, search for its tolerance", task.name, task.hurst, solver.name)
         ask = partial(other_solvers.solve, solver, task.indenter, task.depths, exact.force, time_limit=time_limit)
         tolerance, solution = _loosest_tolerance(ask, task.residual, fastest)
         if solution is None:
@@ -130,7 +129,7 @@ def compare_solvers(task, solvers, *, pairs, time_limit, report=lambda text: Non
                 races.append(_Race(path, partial(ask, tolerance, threads=threads), own_times, rows[-1]))
     longest = min(MAX_REPEATED, HOPELESS * fastest)
     for number in range(pairs):
-        report(f"{task.name}, H = {task.hurst:g}: pair {number + 1} of {pairs}")
+        logging.info("%s, H = %g: pair %d of %d", task.name, task.hurst, number + 1, pairs)
         for race in races:
             race.run_pair(path_first=number % 2 == 0, longest=longest)
     for race in races:

@@ -33,17 +33,17 @@ VERDICTS = ("holds", "model", "stated", "warned", "refused", "not offered", "unn
 def map_failures(*, seed, across, grids, hurst_min):
     """`failure_map` of all stress-test cases, with a warning in the log for every unnoticed failure."""
     cases = stress_cases(realization_seed(seed, *failure_map_key()), across, grids, hurst_min)
-    table = failure_map(cases, report=logging.info)
+    table = failure_map(cases)
     for row in unnoticed(table).itertuples():
         logging.warning("%s: %s fails unnoticed, error %.2g", row.case, row.method, row.error)
     return table
 
 
-def failure_map(cases, methods=METHODS, report=lambda text: None):
+def failure_map(cases, methods=METHODS):
     """Every method on every stress-test case; a pandas.DataFrame with the columns of `COLUMNS`."""
     rows, solutions = [], {}
     for case in cases:
-        report(f"{case.group}: {case.name}")
+        logging.info("%s: %s", case.group, case.name)
         question = (case.indenter.heights.tobytes(), case.indenter.spacing, case.fractions)  # shared by many cases
         if question not in solutions:
             solutions[question] = reference_solution(case)

@@ -33,6 +33,8 @@ from viscorough.types import Array
 # them, each of which takes two applications of the operator. A box that would cover more than this share of the whole
 # grid is replaced by the whole grid.
 _BOX_DEPTH_MARGIN, _LARGEST_BOX = 2.0, 0.8
+# Largest growth of the box, over that of the least depth, for which the contact at a force is solved at once.
+_LARGEST_GROWTH = 2.0
 # Contact only grows with depth. Within the accuracy of the solution an element may leave it, with a gap up to this
 # multiple of the tolerance times the depth; a larger gap is an error.
 _LOST_CONTACT = 3
@@ -164,6 +166,10 @@ class ContactSolver:
             solution = dense.solve(self.elements, contact, depth, candidates, self.options.dense_contacts)
             if solution is not None:
                 return self._checked(contact, solution)
+        if force:
+            deepest = self._depth_of_affordable_box(depth, deepest)
+            depth, force = min(depth, deepest), (force[0], deepest)
+            candidates = self._candidates(depth, deepest)
         grid, start = self._grid_up_to(max(candidates, 1), deepest), contact
         if not _has_fields_on(grid, contact):
             # The fields of a much shallower contact cost more than they save.
@@ -235,6 +241,21 @@ class ContactSolver:
         if depth > self.elements.ranked_depth:
             self.elements = self._ranking.up_to(self.elements, deepest)
         return int(np.searchsorted(self.elements.initial_gap, depth))
+
+    def _depth_of_affordable_box(self, guess: float, largest: float) -> float:
+        """The largest depth for which the box is not much larger than for one as far below the guess as possible.
+
+        Where elements far away come within reach, a contact at a smaller force costs less than the larger box, and it
+        tells the depth better.
+        """
+        least = self._candidates(guess**2 / largest, largest)
+        gap, row, column = self.elements.initial_gap, self.elements.row, self.elements.column
+        reach = int(np.searchsorted(gap, largest))
+        area = np.ones(reach)
+        for place in (row[:reach], column[:reach]):
+            area *= np.maximum.accumulate(place) - np.minimum.accumulate(place) + 1
+        beyond = int(np.searchsorted(area, _LARGEST_GROWTH * area[least - 1], side="right"))
+        return float(gap[beyond]) if beyond < reach else largest
 
     def _is_small(self, candidates: int, contact: ContactState) -> bool:
         """Whether a dense evaluation is cheaper than the grid."""

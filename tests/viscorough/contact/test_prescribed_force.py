@@ -10,7 +10,7 @@ from viscorough.contact.options import SolverOptions
 from viscorough.contact.prescribed_force import ForceSearch
 from viscorough.contact.solver import ContactSolver
 from viscorough.indenter import Indenter
-from viscorough.surfaces import self_affine_disc
+from viscorough.surfaces import self_affine_disc, self_affine_square
 
 # From one element in contact to nearly all.
 FORCES = np.array([1e-8, 1e-3, 0.1, 0.5, 2.0, 3.0, 10.0, 100.0])
@@ -88,6 +88,16 @@ def test_a_force_takes_hardly_more_operators_than_its_depth():
         at_depth = indent(disc, depths=at_force.depth, tolerance=5e-7)
         assert at_depth.force == pytest.approx(force, rel=1e-8)
         assert at_force.operator_applications <= 1.5 * at_depth.operator_applications
+
+
+def test_hills_that_are_not_reached_stay_outside_the_box():
+    """The first guess of the depth is above the second hill; the contact at the force is far below it."""
+    row, column = np.mgrid[:256, :256]
+    first, second = (np.exp(-((row - at) ** 2 + (column - at) ** 2) / 800) for at in (40, 215))
+    heights = np.maximum(first, 0.6 * second) + 0.1 * self_affine_square(0.8, 256, seed=2)
+    search = ForceSearch(ContactSolver(Indenter(heights, 1.0), 1e-6, SolverOptions(dense_interactions=0)))
+    inside = search.contact_at(20.0).fields.initial_gap < 1e9
+    assert np.count_nonzero(inside) < 0.1 * heights.size
 
 
 def test_a_force_that_the_first_guess_meets_exactly():

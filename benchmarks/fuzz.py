@@ -32,6 +32,7 @@ from tqdm import tqdm
 from viscorough import cli
 from viscorough.io import netcdf, tables
 from viscorough.io.curves import OVER_LEVELS
+from viscorough.io.media import read_medium
 
 FIGURES = {".png": b"\x89PNG", ".svg": b"<?xml"}  # first bytes
 LONGEST = 120  # seconds that a run may take
@@ -109,8 +110,19 @@ def breach(arguments, result, before, after):
         return f"success with other than warnings on stderr: {err[:300]!r}"
     if not changed and out.startswith(("Usage: viscorough", f"viscorough {version('viscorough')}", "vt/h = ")):
         return ""  # help, the version, or the table of an estimate
+    if media := [path for path in changed if path.suffix in (".yaml", ".yml")]:
+        return fault_of_medium(media[0], changed)
     paths = {os.path.realpath(path) for path in changed}
     return fault_of_output(changed[0]) if len(paths) == 1 else f"success, and {len(paths)} files changed"
+
+
+def fault_of_medium(path, changed):
+    """Fault of the file of a medium, with its creep table if it has one, as text; "" if there is none."""
+    try:
+        read_medium(path, "m")
+    except ValueError as error:
+        return f"the medium cannot be read: {error}"
+    return "" if {each.stem for each in changed} == {path.stem} else f"success, and {len(changed)} files changed"
 
 
 def fault_of_output(path):

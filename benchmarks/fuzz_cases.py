@@ -155,6 +155,13 @@ def columns(random):
     return "".join([heading, *(f"{first!r},{second!r}\n" for first, second in rows)]).encode()
 
 
+def record(random):
+    """Times, and depths that grow, up to some of those of the curves."""
+    rows = np.cumsum(random.random((random.integers(2, 7), 2)), axis=0) * [1.0, one_of(random, [0.02, 0.2, 2.0, 1e-7])]
+    heading = one_of(random, ["", "t,u\n", "t [ms],u [um]\n", "t [s],u [N]\n"])
+    return "".join([heading, *(f"{first!r},{second!r}\n" for first, second in rows.tolist())]).encode()
+
+
 # ---- files
 
 MEDIA = [
@@ -195,6 +202,7 @@ FILES = {
     "force.npy": npy_file(lambda _: (2, 2)),
     "medium.yaml": damaged(MEDIA),
     "table.csv": damaged(columns),
+    "record.csv": damaged(record),
 }
 
 # ---- options
@@ -216,6 +224,7 @@ OUTPUTS = (
     *("heights.npy", "heights.nc", "force.csv", "curve.nc", "link.nc", "dangling.nc", "older.nc", "\udcff.nc"),
 )
 FIGURES = [*["out.png"] * 40, "out.svg", "out.nc", "out", "none/out.png", "folder", "pipe", "curve.nc", "é.png"]
+MADE_MEDIA = [*["out.yaml"] * 40, "out.yml", "out.nc", "out", "none/out.yaml", "folder", "curve.yaml", "é.yaml"]
 METHODS = [*["events", "explicit", "heun", "implicit", "second_order"] * 4, "magic", ""]
 QUANTITIES = [NUMBERS, ["1 N", "5 mN", "2 MPa", "3 um", "1e-3 m", "1 kg", "2 ", "1 N,2", "1 mN,2 mN"]]
 # Values of options, by the name of the option or else of its type in the command line
@@ -252,7 +261,8 @@ USUAL = {
 SURFACES = [name for name in FILES if name.startswith("heights")]
 READ = {"indent": SURFACES, "contact": SURFACES, "kinetics": ["curve.nc", "curve.csv"]}
 READ |= {"march": ["heights.npy", "heights.nc"], "reduce": ["heights.npy", "heights.nc", "line.npy"]}
-READ |= {"plot": ["curve.nc", "heights.nc", "curve.csv"]}
+READ |= {"plot": ["curve.nc", "heights.nc", "curve.csv"], "creep": ["curve.nc", "curve.csv"]}
+WRITTEN = {"plot": FIGURES, "creep": MADE_MEDIA}  # by the others: OUTPUTS
 ODD = ["--help", "--version", "--colour", "more.npy", "--", "-o", "\x00", "--tolerance=1e-2", "--force"]
 
 
@@ -270,17 +280,21 @@ def arguments_of(random):
     command = one_of(random, sorted(OPTIONS))
     odd_files = ["none.npy", "folder", "older.nc", "pipe", ""]
     file = [one_of(random, odd_files if random.random() < 0.05 else READ[command])] if command in READ else []
-    given = [["-o", one_of(random, FIGURES if command == "plot" else OUTPUTS)]]
+    given = [["-o", one_of(random, WRITTEN.get(command, OUTPUTS))]]
     if command in ("indent", "contact", "march", "reduce") and (file[0].endswith(".npy") or random.random() < 0.3):
         given.append(["--spacing", drawn(random, [*[VALUES_OF["--spacing"]] * 9, NUMBERS])])
     if command == "march":
         given += method_of_march(random)
     given += [[name, drawn(random, values)] for name, values in USUAL.get(command, {}).items()]
-    if command == "kinetics":
+    if command == "creep":
+        file.append("record.csv")
+    if command in ("kinetics", "creep"):
         given.append(one_of(random, [["--force-history", "force.csv"], *[["--force", drawn(random, NUMBERS)]] * 2]))
+    if command == "kinetics":
         given.append(one_of(random, [["--medium", "medium.yaml"], ["--viscosity", drawn(random, NUMBERS)]]))
         given += [["--times", drawn(random, SERIES)]] if random.random() < 0.25 else []
-    if OPTIONS[command] and (command != "kinetics" or random.random() < 0.05):  # whose options exclude each other
+    exclusive = command in ("kinetics", "creep")  # options that exclude each other
+    if OPTIONS[command] and (not exclusive or random.random() < 0.05):
         given += [option(random, one_of(random, OPTIONS[command])) for _ in range(one_of(random, [0, 0, 1, 2]))]
     given = [words for words in given if random.random() > 0.02]
     arguments = [command, *file, *[text for words in given for text in words]]

@@ -9,6 +9,7 @@ import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
+from itertools import pairwise
 
 import numpy as np
 
@@ -21,9 +22,11 @@ from viscorough.mdr import reduce
 from viscorough.surfaces import self_affine_line
 from viscorough.viscous.correspondence import impulses, kinetics
 from viscorough.viscous.integration.events import march_events
+from viscorough.viscous.integration.internal_variable_events import march_medium_events
+from viscorough.viscous.integration.internal_variables import march_medium
 from viscorough.viscous.integration.stepping import march_steps
+from viscorough.viscous.media import Newtonian
 from viscorough_study.performance.ablations import DENSE_ONLY, GRID_ONLY, NO_PADDING
-from viscorough_study.robustness.stress_media import TOLERANCE, by_correspondence, by_steps
 
 DEPTHS = 6  # number of depths at which solutions are compared
 INTERPOLATED_FORCES = 20  # forces between two of these depths at which interpolated depths are compared
@@ -31,6 +34,8 @@ REFERENCE_TOLERANCE = 1e-11
 BISECTIONS = 12  # in the search for the depth of a contact fraction
 BEYOND_FULL_CONTACT = 3.0  # factor on the depth of full contact
 LINE_POINTS = 2**14  # of lines of the MDR
+CURVE_TOLERANCE = 1e-6  # of loading curves for the correspondence
+STEPS, REFERENCE_STEPS = 64, 1024  # between the samples of a force in a medium
 LIMIT_EVENTS, LIMIT_STEPS, LIMIT_MODEL = 1e-9, 0.02, 1.0  # a model may be off by a factor of 2 for one realization
 
 
@@ -170,6 +175,68 @@ def _power_law(gamma, case, solution):
     return rms * reference.depth_law(x, zeta, alpha, gamma=gamma) / solution.depth
 
 
+# ---- in a viscoelastic medium, or a Newtonian one under a constant force if the case has none; the reference is the
+# direct integration from contact event to contact event, exact while the contact grows, or one in many steps
+
+
+def _by_correspondence(case, solution):
+    """Depths by the correspondence, over those of the reference."""
+    curve = indent(case.indenter, tolerance=CURVE_TOLERANCE, until_fraction=1.0, until_force=solution.force[-1])
+    if case.medium is None:
+        return kinetics(curve, 1.0, Newtonian(1.0), solution.force).depth / solution.depth
+    times, force = _history(case, solution)
+    depth = kinetics(curve, impulses(force, times), case.medium).depth
+    return _ratios(depth, _motion_reference(case, solution))
+
+
+def _by_steps(case, solution):
+    """Depths by the second-order steps of direct integration, over those of the reference."""
+    if case.medium is None:
+        times = np.append(0.0, solution.force)
+        moved = march_medium(case.indenter, Newtonian(1.0), times, force=np.ones(times.size))
+        return moved.depth[1:] / solution.depth
+    return _ratios(_stepped(case, solution, STEPS), _motion_reference(case, solution))
+
+
+def _history(case, solution):
+    """Times from 0 to 1, with steps, and a force whose elastic equivalent stays below the solution's last force."""
+    times, shape = np.array(case.medium_load).T
+    largest = solution.force[-1] / case.medium.creep_compliance(times[-1]) / shape.max()
+    return times, 0.999 * largest * shape
+
+
+def _motion_reference(case, solution):
+    times, force = _history(case, solution)
+    if case.recedes:
+        return _stepped(case, solution, REFERENCE_STEPS)
+    until = min(1.0, (1.1 * solution.count[-1] + 2) / case.indenter.elements)
+    return march_medium_events(case.indenter, case.medium, times, force=force, until_fraction=until).depth
+
+
+def _stepped(case, solution, number):
+    """Depths at the samples of the force, with `number` steps between them, shorter ones first."""
+    times, force = _history(case, solution)
+    fine, place = [times[:1]], [0]
+    for start, end in pairwise(times):
+        steps = [end] if start == end else start + (end - start) * np.linspace(0, 1, number + 1)[1:] ** 2
+        fine.append(np.asarray(steps))
+        place.append(place[-1] + len(steps))
+    fine = np.concatenate(fine)
+    step = np.flatnonzero(np.diff(times) == 0)
+    loads = np.interp(fine, times, force)
+    for k in step:  # np.interp returns the force after the step at both
+        loads[place[k]], loads[place[k + 1]] = force[k], force[k + 1]
+    return march_medium(case.indenter, case.medium, fine, force=loads).depth[place]
+
+
+def _ratios(depth, reference):
+    loaded = reference > 0
+    return depth[loaded] / reference[loaded]
+
+
+# ---- all methods
+
+
 def _path_limit(case):
     return 10 * case.tolerance
 
@@ -181,8 +248,8 @@ METHODS = (
     StressedMethod("path, interpolated", _interpolated, lambda case: max(case.tolerance, FINEST_ACCURACY)),
     StressedMethod("events", _events, lambda case: LIMIT_EVENTS),
     StressedMethod("explicit steps", _steps, lambda case: LIMIT_STEPS),
-    StressedMethod("media, correspondence", by_correspondence, lambda case: max(TOLERANCE, FINEST_ACCURACY)),
-    StressedMethod("media, steps", by_steps, lambda case: LIMIT_STEPS),
+    StressedMethod("media, correspondence", _by_correspondence, lambda case: max(CURVE_TOLERANCE, FINEST_ACCURACY)),
+    StressedMethod("media, steps", _by_steps, lambda case: LIMIT_STEPS),
     StressedMethod("MDR", _reduction, lambda case: LIMIT_MODEL, model=True),
     StressedMethod("power law", partial(_power_law, False), lambda case: LIMIT_MODEL, model=True),
     StressedMethod("power law with Γ", partial(_power_law, True), lambda case: LIMIT_MODEL, model=True),

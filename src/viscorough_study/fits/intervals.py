@@ -11,14 +11,14 @@ UNDEFINED = (np.nan, np.nan, np.nan)  # value and interval of a quantity that ca
 NO_INTERVAL = (np.nan, np.nan)  # of a quantity without statistical scatter
 
 
-def described(name, text, units="1", ends="of its 95 % interval"):
-    """Descriptions of the columns of a quantity and its interval, {column: (long_name, units)}."""
-    return {name: (text, units)} | described_ends(name, ends, units)
+def described(name, text, ends="of its 95 % interval"):
+    """Descriptions of the columns of a quantity without unit and its interval, {column: (long_name, units)}."""
+    return {name: (text, "1")} | described_ends(name, ends)
 
 
-def described_ends(name, ends, units="1"):
+def described_ends(name, ends):
     """Descriptions of the columns of the two ends of a range; ends : completes "lower end ..." and "upper end ..."."""
-    return {f"{name}_{end}": (f"{side} end {ends}", units) for end, side in (("low", "lower"), ("high", "upper"))}
+    return {f"{name}_{end}": (f"{side} end {ends}", "1") for end, side in (("low", "lower"), ("high", "upper"))}
 
 
 def three_columns(name, values):

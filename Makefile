@@ -10,7 +10,7 @@ SNAKEMAKE = $(BIN)/snakemake --cores $(CORES) $(if $(SETTINGS),--configfile $(SE
 WITH_PROGRESS = $(BIN)/python -m viscorough_study.page.terminal --
 
 .PHONY: help environment environment-slurm settings reproduce paper report check test docs test-slurm bench speed stability \
-	sizes large outside fuzz faults seeds publish chaos dist peers lock lock-peers lock-slurm clean
+	sizes large article outside fuzz faults seeds publish chaos dist peers lock lock-peers lock-slurm clean
 
 help:
 	@echo "make reproduce   the default reproduction: figures, tables, and the page results/index.html, which shows them"
@@ -24,6 +24,7 @@ help:
 	@echo "make stability   where each method fails, and random small indenters against dense solutions"
 	@echo "make sizes       exponents on grids from 33 to 4097 elements across and on lines, and their collapse"
 	@echo "make large       time and memory of a disc of up to 8193 elements across, 53 million in all"
+	@echo "make article     results/article.pdf, a replication report on the run; with the SETTINGS of the run"
 	@echo "make outside     our values beside numbers that others published; two minutes"
 	@echo "make fuzz        10000 bad files and options through the command line, 10000 files of known maps; 12 minutes"
 	@echo "make faults      faults planted in copies of the project, one at a time: how many do the tests catch?"
@@ -35,7 +36,7 @@ help:
 	@echo "make lock        renew requirements.lock from pyproject.toml; needs uv, as do lock-peers and lock-slurm"
 	@echo "make dist        sdist and wheel in build/dist; README's Python lines and all examples run from the wheel"
 	@echo "make clean       remove results and caches, keep the environment"
-	@echo "Variables: CORES=$(CORES), PYTHON=$(PYTHON); SETTINGS=mine.yaml for reproduce, report, speed, stability, sizes, large."
+	@echo "Variables: CORES=$(CORES), PYTHON=$(PYTHON); SETTINGS=mine.yaml for reproduce, report, article, speed, stability, sizes, large."
 
 environment: .venv/package-installed
 
@@ -124,6 +125,9 @@ large: settings
 
 dist: environment
 	$(BIN)/python benchmarks/distribution.py --output build/dist
+
+article: settings
+	$(SNAKEMAKE) -- article
 
 outside: environment
 	$(BIN)/python benchmarks/outside.py --output results/outside.csv

@@ -54,7 +54,7 @@ PUBLISHED = {
     command: [f"figures/{name}.png" for name in figures.split()] + [f"tables/{name}.csv" for name in tables.split()]
     for command, (figures, tables) in MADE.items()
 }
-PUBLISHED["stability"].append("campaign.json")
+PUBLISHED["stability"] += ["campaign.json", "sum_rules.json"]
 PUBLISHED["outside"].append("outside.csv")
 # {command: {file in results/ that other parts of the project read: where they find it}}
 KEPT = {
@@ -159,6 +159,21 @@ def other_solver_times():
     return "\n".join(lines) + "\n"
 
 
+def sum_rules():
+    """Relative deviations of both integrals of curves and audits, as a table in Markdown."""
+    names = ("first, 1e-3", "second, 1e-3", "first, 1e-8", "second, 1e-8", "levels of the audit")
+    names += ("first, last level alone", "first, audit", "second, audit")
+    lines = [f"| | {' | '.join(names)} |", "|---" * 9 + "|"]
+    content = json.loads((ROOT / "docs/results/sum_rules.json").read_text(encoding="utf-8"))
+    for indenter, rules in content["indenters"].items():
+        loose, tight, audit = rules["plain"]["1e-03"], rules["plain"]["1e-08"], rules["audit"]["1e-05"]
+        both = [curve[rule]["by levels"] for curve in (loose, tight) for rule in ("first", "second")]
+        last = [audit["first"]["last level"], *(audit[rule]["by levels"] for rule in ("first", "second"))]
+        before, after = (" | ".join(f"{abs(number):.0e}" for number in numbers) for numbers in (both, last))
+        lines.append(f"| {indenter} | {before} | {audit['levels']} | {after} |")
+    return "\n".join(lines) + "\n"
+
+
 def outside_numbers():
     """Numbers of others beside ours, of docs/results/outside.csv, as a table in Markdown."""
     lines = ["| half-space | quantity | published | ours | deviation | allowed | reason, source |", "|---" * 7 + "|"]
@@ -253,6 +268,7 @@ def tables():
         ("docs/verdicts.md", "verdicts"): verdicts(),
         ("docs/performance.md", "other solvers"): other_solver_times(),
         ("docs/outside.md", "outside"): outside_numbers(),
+        ("docs/verification.md", "sum rules"): sum_rules(),
         ("docs/scaling.md", "infinite grid"): infinite_grid(),
         ("docs/theory.md", "interface law"): interface_law(),
         ("docs/published.md", "results"): published_results(records),

@@ -20,7 +20,19 @@ TABLES = {name: table | rule for rule in RESULTS["tables"].values() for name, ta
 SHOWN = {name: table for name, table in TABLES.items() if "chapter" in table}  # in the report
 FIGURES = {figure.get("file", name): figure for name, figure in RESULTS["figures"].items()}  # by their files
 HANGS = 3000  # seconds after which a run is taken to hang: ten times the longest on a busy machine
-TARGETS = {"all", "curves", "figures", "tables", "validation", "speed", "stability", "sizes", "large", "costs"}
+TARGETS = {
+    "all",
+    "article",
+    "curves",
+    "figures",
+    "tables",
+    "validation",
+    "speed",
+    "stability",
+    "sizes",
+    "large",
+    "costs",
+}
 TARGETS |= {"measured", *(f"figure_{number}" for number in range(1, 5))}
 
 
@@ -28,10 +40,14 @@ def copy_project(folder):
     """A copy of the workflow, so that tests can run, edit and break it; it uses the packages of this project."""
     for name in ("workflow", "config", "profiles", "resources"):
         shutil.copytree(ROOT / name, folder / name)
-    shutil.copy(ROOT / "Snakefile", folder)
-    (folder / "docs").mkdir()
-    for name in ("claims.csv", "rules.png"):  # published verdicts and a picture of the rules, for the page
-        shutil.copy(ROOT / "docs" / name, folder / "docs")
+    (folder / "docs/results").mkdir(parents=True)
+    published = (
+        "claims.csv",
+        "rules.png",
+        *(f"results/{name}" for name in ("sum_rules.json", "outside.csv", "published.json")),
+    )
+    for name in ("Snakefile", "CITATION.cff", *(f"docs/{name}" for name in published)):  # for page and article
+        shutil.copy(ROOT / name, folder / name)
     return folder
 
 

@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 
 from support.page import BROWSER, Page, number_in
-from support.workflow import FIGURES, HANGS, ROOT
+from support.workflow import FIGURES, HANGS, ROOT, TEST, jobs, snakemake
 from viscorough_study.run.rule_costs import duration_text
 from viscorough_study.verdicts.claims import of_paper, overall
 
@@ -142,3 +142,12 @@ def test_a_browser_shows_it_without_complaints_and_without_horizontal_scrolling(
     found_width, height = map(int, re.search("<title>(.*?)</title>", opened.stdout)[1].split())
     assert found_width == width
     assert 2000 < height <= highest
+
+
+def test_the_article_is_made_of_the_results(finished):
+    """Its rule is not part of the default target; what it quotes beside the run is published."""
+    planned = jobs(snakemake(finished, *TEST, "--", "article"))
+    assert planned == {"make_article": 1}
+    pdf = (finished / "results/article.pdf").read_bytes()
+    assert pdf.startswith(b"%PDF")
+    assert 1e5 < len(pdf) < 5e6

@@ -193,6 +193,13 @@ def other_solvers_wanted():
     return "other solver" in config["methods"]["groups"]
 
 
+def article_digests():
+    """Digests of the texts of the article, and of what it quotes, that are not results of the run."""
+    texts = [*sorted((WORKFLOW / "article").iterdir()), PROJECT / "CITATION.cff"]
+    texts += [PROJECT / "docs/results" / name for name in ("sum_rules.json", "outside.csv", "published.json")]
+    return [hashlib.sha256(path.read_bytes()).hexdigest()[:16] for path in texts]
+
+
 def page_digests():
     """Digests of the texts of the page that are not results; their paths depend on the location of the project."""
     texts = sorted([*(WORKFLOW / "page").iterdir(), *(WORKFLOW / "report").rglob("*.rst"), WORKFLOW / "results.yaml"])

@@ -1,4 +1,4 @@
-# The page of the results: the last output of `all`, made from results only.
+# The page of the results, the last output of `all`, and the article, both made from results only.
 
 # Figures on the page, with their captions in the report.
 PAGE_FIGURES = {
@@ -42,3 +42,41 @@ rule make_page:
         "The page of the results"
     script:
         "../scripts/make_page.py"
+
+
+ARTICLE_FIGURES = ["fig2_kinetics", "fig3_master_curve", "fig4_exponent", "interface", "speed", "failure_map"]
+ARTICLE_TABLES = ["validation", "interface", "periodic", "plateaus"]
+
+
+rule article:
+    """An article on the reproduction, results/article.pdf."""
+    input:
+        "results/article.pdf",
+
+
+rule make_article:
+    input:
+        discs="results/ensembles/discs.nc",
+        lines="results/ensembles/lines.nc",
+        other_solvers=rules.make_page.input.other_solvers,
+        tables=expand("results/tables/{table}.csv", table=PAGE_TABLES + ARTICLE_TABLES),
+        figures=expand("results/figures/{file}.pdf", file=ARTICLE_FIGURES),
+    output:
+        article="results/article.pdf",
+    log:
+        "results/logs/make_article.log",
+    benchmark:
+        "results/benchmarks/make_article.tsv"
+    localrule: True
+    conda:
+        "../envs/viscorough.yaml"
+    resources:
+        mem_mb=1000,
+    params:
+        article_digests(),
+        claims=paper("claims"),
+        numbers=paper("numbers"),
+    message:
+        "The article"
+    script:
+        "../scripts/make_article.py"

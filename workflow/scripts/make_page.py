@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from viscorough.io.atomic import atomic_write
-from viscorough_study.page.assembly import page
+from viscorough_study.page.assembly import contents_of, page
 from viscorough_study.run.job_log import log_to
 
 
@@ -20,9 +20,10 @@ def main(project, discs, lines, other_solvers, tables, figures, page_file, *, cl
     names = ("page.html.jinja", "style.css", "calculator.html", "calculator.js")
     *texts, section, script = [(project / "workflow/page" / name).read_text("utf-8") for name in names]
     (others,) = other_solvers or [project / "resources/published/other_solvers.csv"]
-    more = {"calculator": (section, script), "claims": claims, "numbers": numbers, "alternative": alternative}
-    more |= {"published": project / "docs/claims.csv", "rules": project / "docs/rules.png"}
-    html = page(*texts, discs, lines, other_solvers=others, tables=tables, figures=figures, captions=captions, **more)
+    published = {"other_solvers": others, "published": project / "docs/claims.csv"}
+    contents = contents_of(discs, lines, tables=tables, claims=claims, numbers=numbers, **published)
+    more = {"calculator": (section, script), "rules": project / "docs/rules.png", "alternative": alternative}
+    html = page(*texts, contents, figures=figures, captions=captions, **more)
     with atomic_write(page_file) as temporary:
         temporary.write_text(html, encoding="utf-8")
 

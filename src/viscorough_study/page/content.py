@@ -44,7 +44,7 @@ def verdicts(results, statements, published):
         claims[KINDS[first["kind"]]].append(
             {
                 "name": name,
-                "statement": statements[name]["statement"],
+                **{key: statements[name][key] for key in ("title", "statement")},
                 **first[["where", "quantity", "criterion", "reason"]],
                 "tolerance": results.number("claims", rows.index[0], "tolerance"),
                 "verdict": verdict,

@@ -14,7 +14,7 @@ from viscorough_study.page.results import readable
 SCALE = 0.675  # pixels of the page per pixel of a figure
 
 
-def render(template, style, figures, captions, conventions, **content):
+def render(template, style, figures, captions, *, conventions, **content):
     """HTML of the page.
 
     template, style : text of the template and of the style sheet

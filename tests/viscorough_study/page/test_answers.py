@@ -21,7 +21,9 @@ def text():
     template = (ROOT / "workflow/page/page.html.jinja").read_text(encoding="utf-8")
     answer = template.split("<!DOCTYPE")[0] + re.search('<ol class="found">.*?</ol>', template, re.DOTALL)[0]
     marks = {name: f"<{name}>" for name in CLAIMS}
-    html = render(answer, "", {}, {}, {}, a=FOUND, overall=marks, verdict_short=dict.fromkeys(marks.values(), ""))
+    html = render(
+        answer, "", {}, {}, conventions={}, a=FOUND, overall=marks, verdict_short=dict.fromkeys(marks.values(), "")
+    )
     html = re.sub(r'<data [^>]*data-row="(\d+)" data-column="(\w+)"[^>]*>[^<]*</data>', r"{\1 \2}", html)
     return " ".join(re.sub("<.*?>", "", html).split()).replace("&lt;", "<").replace("&gt;", ">")
 

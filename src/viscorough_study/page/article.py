@@ -1,0 +1,127 @@
+"""The article, results/article.pdf: its text in Typst, filled with the contents of the page and with further tables."""
+
+import json
+import re
+from collections import Counter, defaultdict
+
+import jinja2
+import numpy as np
+import typst
+import yaml
+
+from viscorough_study.page.results import Number, read_table, readable
+
+AUDITED, PLAIN = "1e-05", "1e-03"  # tolerances of the audits and curves whose sum rules are shown
+_MARKUP = re.compile(r"""([\\#*_`$<>@\[\]~/"'=+-])""")
+
+
+def article(project, contents, *, paper, figures):
+    """The article, content of a PDF file.
+
+    project : folder of the project, which has template, style, citation and published results
+    contents : of a run (assembly.contents_of); paper : content of resources/paper/numbers.yaml
+    figures : folder of the figures
+    """
+    style, template = (read(project / "workflow/article" / name) for name in ("style.typ", "article.typ.jinja"))
+    text = style + filled(
+        template,
+        contents,
+        citation=yaml.safe_load(read(project / "CITATION.cff")),
+        paper=paper,
+        sum_rules=json.loads(read(project / "docs/results/sum_rules.json")),
+        outside=read_table(project / "docs/results/outside.csv"),
+        origins=json.loads(read(project / "docs/results/published.json")),
+    )
+    return typst.compile(text.encode(), root=figures, ignore_system_fonts=True)
+
+
+def filled(template, contents, *, citation, paper, sum_rules, outside, origins):
+    """Text of the article in Typst.
+
+    template : text with placeholders; contents, paper : as of `article`; citation : content of CITATION.cff
+    sum_rules, outside : published results of measurements beside the workflow, content of a JSON file and a table
+    origins : content of docs/results/published.json
+    """
+    environment = jinja2.Environment(
+        undefined=jinja2.StrictUndefined, finalize=as_markup, trim_blocks=True, lstrip_blocks=True
+    )
+    environment.filters |= {"percent": lambda number: f"{readable(100 * number.value)} %"}
+    results = contents["results"]
+    return environment.from_string(template).render(
+        contents,
+        citation=citation,
+        original=citation["references"][0],
+        paper=paper,
+        physics=counted_physics(contents["verdicts"]),
+        titles=titles(contents["verdicts"]),
+        validation=finest_grid(results),
+        springs=springs(results, contents["conventions"]["average"]),
+        plateaus=results.tables["plateaus"].to_dict("records"),
+        control=control(results),
+        sum_rules=sum_rules_shown(sum_rules),
+        audited={"plain": float(PLAIN), "audit": float(AUDITED), "across": sum_rules["across"]},
+        outside=outside.to_dict("records"),
+        origins=origins,
+    )
+
+
+def read(path):
+    return path.read_text(encoding="utf-8")
+
+
+def as_markup(value):
+    """A value of a placeholder: numbers of three digits, and texts whose signs have no meaning in Typst."""
+    if isinstance(value, Number):
+        return readable(value.value)
+    if isinstance(value, int | float | np.number):
+        return readable(float(value))
+    return _MARKUP.sub(r"\\\1", str(value))
+
+
+def counted_physics(verdicts):
+    """{verdict: number of claims on physics}, and the total."""
+    claims = next(members for heading, members in verdicts.items() if heading.startswith("Physics"))
+    return Counter(claim["verdict"] for claim in claims) | {"all": len(claims)}
+
+
+def titles(verdicts):
+    """{verdict: titles of its claims of all kinds, with their places in the paper}"""
+    named = defaultdict(list)
+    for claim in (claim for members in verdicts.values() for claim in members):
+        named[claim["verdict"]].append(f"{claim['title']} ({claim['where']})")
+    return named
+
+
+def finest_grid(results):
+    """Rows of the table of validation on the finest grid."""
+    table = results.tables["validation"]
+    return table[table["elements"] == table["elements"].max()].to_dict("records")
+
+
+def springs(results, average):
+    """Rows of the law of two springs, for each Hurst exponent of the base discs."""
+    rows = results.rows("interface", source="discs", case_group="base", average=average)
+    return rows.sort_values("hurst").to_dict("records")
+
+
+def control(results):
+    """g of periodic surfaces at the level nearest to X = 1, for each Hurst exponent, without and with a roll-off."""
+    table, rows = results.tables["periodic"], []
+    for hurst, part in table.groupby("hurst"):
+        part = part[np.log(part["x"]).abs() == np.log(part["x"]).abs().min()]
+        whole, rolled = (part[part["roll_off_wavelength"].notna() == flag].iloc[0] for flag in (False, True))
+        rows.append({"hurst": hurst, "x": whole["x"], "surfaces": whole["surfaces"], "whole": whole, "rolled": rolled})
+    return rows
+
+
+def sum_rules_shown(content):
+    """For each indenter: levels and relative deviations of both integrals, of a plain curve and of an audit."""
+    return [
+        {
+            "indenter": name,
+            "plain": {rule: abs(rules["plain"][PLAIN][rule]["by levels"]) for rule in ("first", "second")},
+            "audit": {rule: abs(rules["audit"][AUDITED][rule]["by levels"]) for rule in ("first", "second")},
+            "levels": rules["audit"][AUDITED]["levels"],
+        }
+        for name, rules in content["indenters"].items()
+    ]

@@ -1,0 +1,60 @@
+"""The text of the article: no number typed by hand, and results whose signs mean nothing in Typst."""
+
+import json
+import re
+
+import numpy as np
+import pandas as pd
+import pytest
+import typst
+
+from support.documentation import ROOT, read
+from viscorough_study.page.article import as_markup, control, sum_rules_shown
+from viscorough_study.page.results import Number, Results
+
+SOURCE = read(ROOT / "workflow/article/article.typ.jinja")
+LAYOUT = r"chart\(\"\w+\.pdf\"|columns: \([^)]*\)|gutter: \w+|#set text\(.*?\)|<[\w-]+>|@[\w-]+"
+REFERENCES = r"(?:Eqs?\.|Figures?) \d+(?: (?:to|and) \d+)?"  # of the paper
+
+
+def numbers_typed(source):
+    """Digits in the running text and decimal numbers in formulas."""
+    text = re.sub(r"\{\{.*?\}\}|\{%.*?%\}", " ", source, flags=re.DOTALL)
+    text = re.sub(f"{LAYOUT}|{REFERENCES}", " ", text)
+    formulas = re.findall(r"\$[^$]*\$", text)
+    words = re.sub(r"\$[^$]*\$", " ", text)
+    return re.findall(r"\S*\d\S*", words) + re.findall(r"\d\.\d+|\d{2,}", " ".join(formulas))
+
+
+def test_no_number_is_typed_by_hand():
+    assert numbers_typed(SOURCE) == []
+    assert SOURCE.count("{{") > 100
+
+
+@pytest.mark.parametrize("text", ["about 17 to 33 % above", "$beta = 0.38$", "{{ x }} of 5 cases", "Table 3"])
+def test_a_number_would_be_noticed(text):
+    assert numbers_typed(text)
+
+
+def test_results_are_no_markup():
+    assert as_markup(Number(0.123456, "claims", "value", 0)) == "0.123"
+    assert as_markup(np.float64(1.2e-5)) == "1.2×10⁻⁵"
+    odd = """A* E_x #x $y$ <a> @b [c] `d` ~ // "e" 'f' -- \\ = + -1"""
+    shown = typst.query(
+        f"#show heading: it => it\n= {as_markup(odd)} <text>".encode(), "<text>", field="body", one=True
+    )
+    assert "".join(part.get("text", " ") for part in json.loads(shown)["children"]) == odd
+
+
+def test_control_takes_the_level_nearest_to_one():
+    rows = [(0.6, x, wave, 8, g) for x, g in ((0.2, 0.1), (1.1, 0.5), (3.0, 0.2)) for wave in (np.nan, 0.125)]
+    table = pd.DataFrame(rows, columns=["hurst", "x", "roll_off_wavelength", "surfaces", "g"])
+    (row,) = control(Results({"periodic": table}, {}, {}))
+    assert (row["hurst"], row["x"], row["whole"]["g"], row["surfaces"]) == (0.6, 1.1, 0.5, 8)
+
+
+def test_sum_rules_are_relative_deviations_without_signs():
+    rules = {"first": {"by levels": -0.02, "last level": 1.0}, "second": {"by levels": 0.003}}
+    content = {"indenters": {"cone": {"plain": {"1e-03": rules}, "audit": {"1e-05": rules | {"levels": 9}}}}}
+    expected = {"first": 0.02, "second": 0.003}
+    assert sum_rules_shown(content) == [{"indenter": "cone", "plain": expected, "audit": expected, "levels": 9}]

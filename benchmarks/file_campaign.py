@@ -1,8 +1,8 @@
-"""Read files of known maps of heights, in every format with its ordinary variations, and find those misread.
+"""Read text files of known maps of heights, with their ordinary variations, and find those misread.
 
     python benchmarks/file_campaign.py --files 10000 --seed 1 --output results/file_campaign.json
 
-Each file is made from a known map, spacing and unit (text_files.py, point_files.py, binary_files.py), and read with
+Each file is made from a known map, spacing and unit (text_files.py, point_files.py), and read with
 viscorough.read_heights. It must be read exactly, with nan where points are missing, or be refused by a ValueError of
 one line that names the file, and the line where the fault is in a line of text. Everything else is wrong: another
 number, spacing or unit, a missing point that is dropped, another error, a warning other than AccuracyWarning, printed
@@ -27,7 +27,6 @@ import warnings
 from collections import Counter
 from pathlib import Path
 
-import binary_files
 import click
 import numpy as np
 import point_files
@@ -44,11 +43,6 @@ KINDS = {
     point_files.points: 14,
     point_files.zygo: 2,
     point_files.esri: 8,
-    binary_files.netcdf: 8,
-    binary_files.npy: 3,
-    binary_files.tiff: 3,
-    binary_files.geotiff: 6,
-    binary_files.imagej: 6,
 }
 LONGEST, NO_END = 20, "no end after"  # seconds that a file may take
 METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}

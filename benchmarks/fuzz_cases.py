@@ -10,10 +10,10 @@ import re
 import tempfile
 from pathlib import Path
 
-import binary_files
 import numpy as np
 import point_files
 import text_files
+import tifffile
 
 import viscorough
 from viscorough.cli import cli
@@ -132,7 +132,27 @@ def npy_file(shape):
     return [*[damaged(lambda random: npy_bytes(array(random, shape(random))))] * 6, [PICKLED, HUGE]]
 
 
-# ---- curves and columns
+# ---- files that the package or a library writes
+
+
+def saved(result, suffix):
+    """The bytes of a file of a result."""
+    with tempfile.TemporaryDirectory() as folder:
+        result.save(Path(folder) / f"saved{suffix}")
+        return (Path(folder) / f"saved{suffix}").read_bytes()
+
+
+def netcdf_file(random):
+    return saved(viscorough.Indenter(random.random(random.integers(1, 7, 2)), 0.5, length_unit="um"), ".nc")
+
+
+def tiff_file(random):
+    """A map, or pages or colours; of ImageJ with a unit, or of any program."""
+    file, kind = io.BytesIO(), one_of(random, ["f4", "u2", "u1"])
+    options = one_of(random, [{}, {}, {"imagej": True, "resolution": (2, 4), "metadata": {"unit": "um"}}])
+    values = (99 * random.random(random.integers(1, 7, one_of(random, [2, 2, 2, 3])))).astype(kind)
+    tifffile.imwrite(file, values, photometric="minisblack", **options)
+    return file.getvalue()
 
 
 def curve_file(suffix):
@@ -140,10 +160,8 @@ def curve_file(suffix):
 
     def draw(random):
         heights = one_of(random, [1.0, 1e-6, 1e100]) * random.random(random.integers(2, 7))
-        curve = viscorough.reduce(viscorough.Indenter(heights, 1.0, length_unit=one_of(random, ["1", "m", "um"])))
-        with tempfile.TemporaryDirectory() as folder:
-            curve.save(Path(folder) / f"curve{suffix}")
-            return (Path(folder) / f"curve{suffix}").read_bytes()
+        unit = one_of(random, ["1", "m", "um"])
+        return saved(viscorough.reduce(viscorough.Indenter(heights, 1.0, length_unit=unit)), suffix)
 
     return draw
 
@@ -189,12 +207,12 @@ def sides(least, most, dimensions):
 MATRICES = damaged(campaign_file(text_files.matrix))
 FILES = {
     "heights.npy": npy_file(sides(1, 7, 2)),
-    "heights.nc": damaged(campaign_file(binary_files.netcdf)),
+    "heights.nc": damaged(netcdf_file),
     "heights.txt": MATRICES,
     "heights.csv": MATRICES,
     "heights.asc": damaged(campaign_file(point_files.esri)),
     "heights.xyz": damaged(campaign_file(point_files.points, point_files.zygo)),
-    "heights.tif": damaged(campaign_file(binary_files.tiff, binary_files.geotiff, binary_files.imagej)),
+    "heights.tif": damaged(tiff_file),
     "curve.nc": damaged(curve_file(".nc")),
     "curve.csv": damaged(curve_file(".csv")),
     "line.npy": npy_file(sides(1, 9, 1)),

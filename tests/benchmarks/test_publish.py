@@ -7,17 +7,14 @@ from pathlib import Path
 
 import click
 import numpy as np
-import pandas as pd
 import publish
 import pytest
 from PIL import Image
 
-from support.documentation import README, ROOT, read
-from support.study import CLAIMS
+from support.documentation import ROOT, read
 from support.workflow import FIGURES
 from support.workflow import TABLES as MADE
 
-PUBLISHED_CLAIMS = publish.published_claims()
 TABLES = publish.tables()
 
 
@@ -25,25 +22,6 @@ TABLES = publish.tables()
 def test_pages_have_the_published_tables(page, name):
     between = re.search(rf"<!-- {name}: .*? -->\n\n(.*?)\n<!-- end of {name} -->", read(ROOT / page), re.DOTALL)[1]
     assert between == TABLES[page, name]
-
-
-def test_readme_has_every_claim_on_physics_and_first_the_time():
-    physics = [claim["title"] for claim in CLAIMS.values() if claim["kind"] == "physics"]
-    assert all(publish.verdict_lines().split("\n\n")[0].count(title) == 1 for title in physics)
-    assert list(dict.fromkeys(PUBLISHED_CLAIMS["claim"])) == list(CLAIMS)
-    assert read(README).index(publish.time_sentence()) < read(README).index("## ")
-
-
-def test_sentences_on_other_scales_and_draws(monkeypatch):
-    changed = PUBLISHED_CLAIMS.copy()
-    monkeypatch.setattr(publish, "DEFAULT_CLAIMS", "default")
-    monkeypatch.setattr(publish, "published_claims", lambda name="": changed if name else PUBLISHED_CLAIMS)
-    assert publish.verdict_lines().endswith("those of `make paper` are the same.\n")
-    changed.loc[changed["claim"] == "gamma", "verdict"] = "reproduced"
-    changed.loc[changed["claim"] == "collapse", "verdict"] = "undecided"
-    assert publish.verdict_lines().endswith("differ in: factor 1/Γ(2 − α).\n")
-    sentence = publish.own_scale({"a": "x", "b": "y"}, {"a": "x", "b": "x"})
-    assert sentence.endswith("but for: b (x).\n")
 
 
 @pytest.fixture
@@ -81,29 +59,11 @@ def test_publishing(results, project):
         assert (project / target).read_text() == (results / name).read_text()
 
 
-def test_publishing_the_default_run(results, project):
-    publish.copy_results(results, project, ["reproduce"], "abc")
-    costs = pd.read_csv(project / publish.DEFAULT_COSTS)
-    assert costs[["share_s", "measured"]].to_numpy().tolist() == [[60.0, "2000-01-01"]]
-    assert costs["machine"].str.endswith("cores").all()
-    assert (project / publish.DEFAULT_CLAIMS).read_text() == (results / "tables/claims.csv").read_text()
-
-
 def test_nothing_is_published_of_an_incomplete_run(results, project):
     """As the charts of a small scale would be, of a folder in which `make speed` was not run."""
     with pytest.raises(click.ClickException, match="make speed"):
         publish.copy_results(results, project, ["speed"], "abc")
     assert not list((project / "docs").iterdir())
-
-
-def test_times_of_other_solvers_are_kept_with_their_origin(tmp_path):
-    published = pd.read_csv(ROOT / publish.OTHER_SOLVERS)
-    measured = published.drop(columns=["measured", "machine"]).assign(wall_s=1.0)
-    others = measured.iloc[:2].assign(solver=["viscorough", "Tamaas"], threads=[1, 2])
-    pd.concat([others, measured]).to_csv(tmp_path / "other_solvers.csv", index=False)
-    publish.copy_other_solvers(tmp_path / "other_solvers.csv", tmp_path / "kept.csv", "a machine", "2030-01-01")
-    kept = pd.read_csv(tmp_path / "kept.csv")
-    pd.testing.assert_frame_equal(kept, published.assign(measured="2030-01-01", machine="a machine"))
 
 
 def test_published_files_say_where_they_come_from():

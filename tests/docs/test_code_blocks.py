@@ -1,16 +1,17 @@
 """The blocks of code in README and docs/ run, in the order in which they stand on a page."""
 
-import os
+import contextlib
+import io
 import re
-import subprocess
+import shlex
 
 import matplotlib as mpl
 import pytest
 import yaml
 from matplotlib.testing.compare import compare_images
 
-from support.command_line import VISCOROUGH
 from support.documentation import PAGES, README, ROOT, blocks
+from viscorough.cli import main
 from viscorough_study.run.settings import check_settings
 
 EXAMPLE = ROOT / "examples/own_surface.py"
@@ -34,13 +35,12 @@ def run_page(page):
 
 def run_console(text):
     """Run the lines that start with "$"; what they print must match the lines below, where ... stands for any text."""
-    path = f"{VISCOROUGH.parent}{os.pathsep}{os.environ['PATH']}"
-    for command, expected in re.findall(r"^\$ (.*)\n((?:(?!\$ ).*\n)*)", text, re.MULTILINE):
-        environment = os.environ | {"PATH": path}
-        done = subprocess.run(command, shell=True, capture_output=True, text=True, check=False, env=environment)
-        assert done.returncode == 0, done.stderr
+    for line, expected in re.findall(r"^\$ (.*)\n((?:(?!\$ ).*\n)*)", text, re.MULTILINE):
+        command, *arguments = shlex.split(line)
+        with contextlib.redirect_stdout(io.StringIO()) as printed:
+            assert (command, main(arguments)) == ("viscorough", 0), line
         pattern = ".*".join(re.escape(piece) for piece in expected.split("..."))
-        assert re.fullmatch(pattern, done.stdout), done.stdout
+        assert re.fullmatch(pattern, printed.getvalue()), printed.getvalue()
 
 
 @pytest.mark.parametrize("page", [page for page in PAGES if RUN[page] and page != README], ids=lambda page: page.stem)

@@ -30,12 +30,6 @@ def imported(script):
     return {line.rsplit("|", 1)[1].strip().split(".")[0] for line in lines if line.startswith("import time:")}
 
 
-def test_solver_imports_nothing_of_the_study():
-    packages = imported("import viscorough; viscorough.indent")
-    assert {"viscorough", "numpy", "numba"} <= packages
-    assert not packages & set(STUDY_ONLY)
-
-
 def test_package_imports_no_slow_package():
     assert not imported("import viscorough") & {*STUDY_ONLY, "numpy", "numba", "scipy", "netCDF4", "click"}
 

@@ -77,16 +77,6 @@ def test_power_law_body_is_consistent(coefficient, exponent):
     np.testing.assert_allclose(line.heights, -body.mdr_profile(centres), rtol=1e-14)
 
 
-@pytest.mark.parametrize(("coefficient", "exponent"), BODIES)
-def test_reduction_of_dimensionality_of_a_power_law(coefficient, exponent):
-    """The foundation 4∫(u−g)₊dx against the force."""
-    body = reference.PowerLawBody(coefficient, exponent)
-    depth = 0.35
-    radius = body.contact_radius(depth)
-    foundation = 8 * quad(lambda x: depth - body.mdr_profile(x), 0, radius, epsabs=0, epsrel=1e-12)[0]
-    assert foundation == pytest.approx(body.force(depth), rel=1e-11)
-
-
 def test_sphere_is_hertz_and_cone_is_love():
     depth, radius, slope = np.geomspace(1e-3, 10, 5), 2.5, 0.3
     sphere, cone = reference.sphere(radius), reference.cone(slope)

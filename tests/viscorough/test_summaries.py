@@ -7,7 +7,6 @@ from support.page import Page
 from viscorough.contact.one_contact import contact_at
 from viscorough.indenter import Indenter
 from viscorough.summaries import html_table, span, unit_power, with_unit
-from viscorough.viscous.correspondence import Kinetics
 
 
 def test_curve_in_three_lines():
@@ -39,13 +38,6 @@ def test_indenter_in_three_lines():
         "spacing 2 um",
         "highest over lowest point 2.5 um",
     ]
-
-
-def test_motion_in_four_lines():
-    motion = Kinetics(np.array([0.0, 2.0]), np.array([0.0, 3.0]), np.array([1.0, 0.5]))
-    lines = ["Penetration at 2 times", "time t 0 to 2", "depth u 0 to 3", "velocity v 1 to 0.5"]
-    assert str(motion).splitlines() == lines
-    assert "1 to 0.5" in motion._repr_html_()
 
 
 def test_units_and_numbers():

@@ -18,7 +18,7 @@ from support.command_line import run, sphere_heights
 from support.contract import complaint
 from viscorough import cli
 from viscorough.errors import ConvergenceError
-from viscorough.io.datasets import read_dataset, write_dataset
+from viscorough.io.datasets import write_dataset
 
 FORCE, VISCOSITY = 2.0, 3.0
 INDENT = "indent heights.npy --spacing 1 -o out.nc"
@@ -43,26 +43,6 @@ def here(here):
 
 
 # ---- contents of the files
-
-
-def test_kinetics_file_spans_the_curve(sphere):
-    curve, kinetics = (xr.open_dataset(sphere / name) for name in ("curve.nc", "kinetics.nc"))
-    for name in ("depth", "time", "velocity"):
-        assert kinetics[name].shape == (100,)
-    np.testing.assert_allclose(kinetics.time[[0, -1]], curve.force[[0, -1]] * VISCOSITY / FORCE, rtol=1e-12)
-    np.testing.assert_allclose(kinetics.depth[[0, -1]], curve.depth[[0, -1]], rtol=1e-9)
-    np.testing.assert_allclose(kinetics.velocity[-1], FORCE / (VISCOSITY * curve.stiffness[-1]), rtol=1e-9)
-    assert (kinetics.force.units, kinetics.time.units, kinetics.velocity.units) == ("1", "s", "s-1")
-    assert curve.contact_fraction[-2] < 0.5 <= curve.contact_fraction[-1] < 1
-    assert (kinetics.attrs["force"], kinetics.attrs["viscosity"]) == (FORCE, VISCOSITY)
-    assert "exact" in kinetics.correspondence
-
-
-@pytest.mark.parametrize("tolerance", [1e-2, 1e-8])
-def test_tolerance_is_passed_on(here, tolerance):
-    assert run(f"{INDENT} --tolerance {tolerance}") == 0
-    ds = read_dataset("out.nc")
-    assert float(ds.residual.max()) <= ds.tolerance == tolerance
 
 
 # ---- mistakes of the user
@@ -128,19 +108,6 @@ def test_warnings_are_written_once_and_on_one_line(capsys):
 
     assert run_indent_as(warn) == 0
     assert capsys.readouterr().err == "viscorough indent: warning: the spacing is odd\n"
-
-
-def test_steep_slopes_give_a_warning_on_stderr_and_in_the_file(here, capsys):
-    assert run(INDENT) == 0
-    assert capsys.readouterr().err == ""
-    assert "warnings" not in read_dataset("out.nc").attrs
-    np.save("heights.npy", 20 * sphere_heights(9))
-    assert run(INDENT) == 0
-    line = capsys.readouterr().err
-    assert line.startswith("viscorough indent: warning: heights.npy: the rms slope is ")
-    warned = read_dataset("out.nc").attrs["warnings"]
-    assert warned in line
-    assert "small slopes" in warned
 
 
 def test_errors_in_the_code_are_not_hidden():

@@ -24,7 +24,6 @@ SPACING = "--spacing 0.5,0.75 --unit um"
 def here(here):
     """A working folder with the same map in several formats and units."""
     write_netcdf("scan.nc", ROUGH, "um")
-    write_netcdf("nanometres.nc", 1e3 * ROUGH, "nm")
     np.save("scan.npy", ROUGH)
     np.savetxt("scan.txt", ROUGH)
     return here
@@ -73,16 +72,6 @@ def test_coordinates_with_different_spacings_are_used(here, capsys):
     assert {name: attributes[name] for name in expected} == expected
     assert_same(curve_of(capsys, f"scan.npy --spacing 0.5,0.75 {DEPTHS}")[0], curve)
     assert_same(curve_of(capsys, f"scan.txt --spacing '500 nm,0.75 um' --unit um {DEPTHS}")[0], curve)
-
-
-def test_heights_in_nanometres_beside_coordinates_in_micrometres(here, capsys):
-    curve, attributes = curve_of(capsys, "nanometres.nc --depths 50,200")
-    right = right_curve()
-    np.testing.assert_allclose(curve.depth, 1e3 * right.depth)
-    np.testing.assert_allclose(curve.force, 1e6 * right.force, rtol=1e-6)
-    np.testing.assert_allclose(curve.stiffness, 1e3 * right.stiffness, rtol=1e-6)
-    assert (attributes["spacing"], attributes["row_spacing"], attributes["length_unit"]) == (500, 750, "nm")
-    assert (curve.length_unit, netcdf.read("curve.nc").variables["force"].attributes["units"]) == ("nm", "nm2")
 
 
 def test_tilt_is_told_and_removed(here, capsys):

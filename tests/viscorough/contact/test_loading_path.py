@@ -123,11 +123,6 @@ def test_interpolation_stays_within_the_tolerance(hurst):
     assert np.median(np.abs(stiffness / fine.stiffness[inside] - 1)) < 1e-3
 
 
-def test_levels_are_fewer_for_a_larger_tolerance():
-    disc = self_affine_disc(0.8, 65, seed=4)
-    assert len(indent(disc, tolerance=3e-2).depth) < 0.7 * len(indent(disc, tolerance=1e-4).depth)
-
-
 def test_stops_at_fraction_or_force():
     disc = self_affine_disc(0.8, 65, seed=4)
     by_fraction = indent(disc, until_fraction=0.3)

@@ -37,6 +37,7 @@ def netcdf_map(path, *, unit="um", x=(0, 0.5, 1.0, 1.5), y=(3, 2, 1), x_unit="um
         ({"unit": "nm", "y": (1e-6, 2e-6, 3e-6), "y_unit": "m"}, {}, (500, 1000), "nm"),
         ({"unit": None, "x_unit": None, "y_unit": None}, {"unit": "mm"}, (0.5, 1), "mm"),
         ({"x": range(4), "y": range(1, 4), "x_unit": None, "y_unit": None}, {"spacing": 7}, (7, 7), "um"),
+        ({"x": range(4), "y": range(3), "x_unit": "px", "y_unit": "px"}, {"spacing": 7}, (7, 7), "um"),
         ({"unit": "nm"}, {"spacing": (units.quantity("0.5 um"), units.quantity("1e-6 m"))}, (500, 1000), "nm"),
     ],
 )
@@ -67,7 +68,8 @@ def test_positions_far_from_0_are_as_exact_as_their_precision():
     assert uniform_spacing("y", northings.astype(np.float32)) == 0.5
     assert uniform_spacing("y", (5e5 + 0.1 * np.arange(200)).astype(np.float32)) == pytest.approx(0.1, rel=3e-3)
     jitter = np.array([0, 0.95, -0.95, 0.5, 0, 0.9, -0.9, 0, 0])
-    for positions in (2e6 + np.arange(9) + 0.04 * jitter, 5.4e6 + 3 * np.arange(9) + jitter):
+    irregular = 2e6 + np.arange(9) + 0.04 * jitter, 5.4e6 + 3 * np.arange(9) + jitter
+    for positions in (*irregular, 1e-6 * np.array([0, 1, 2.2])):
         with refused("not uniform"):
             uniform_spacing("y", positions)
     with refused(r"too coarse|not uniform"):

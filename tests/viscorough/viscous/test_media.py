@@ -17,7 +17,6 @@ from viscorough.viscous.media import (
     Prony,
     Springpot,
     StandardLinearSolid,
-    medium_of,
 )
 
 TIMES = np.append(0, np.geomspace(1e-9, 1e6, 60))
@@ -150,11 +149,6 @@ def test_values_that_are_refused(kind, good):
 def test_refusals(make, message):
     with pytest.raises(ValueError, match=rf"^[^\n]*{message}[^\n]*$"):
         make()
-
-
-def test_a_number_is_a_newtonian_medium():
-    assert medium_of(3) == Newtonian(3.0)
-    assert medium_of(Maxwell(1.0, 2.0)) == Maxwell(1.0, 2.0)
 
 
 def test_values_with_a_unit_are_converted_to_si():

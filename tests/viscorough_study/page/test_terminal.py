@@ -1,9 +1,11 @@
 """One line of progress, from what Snakemake prints; what goes wrong is shown, and the exit code kept."""
 
+import contextlib
+import io
 import os
 import pty
 import re
-import subprocess
+import signal
 import sys
 
 import pandas as pd
@@ -11,7 +13,7 @@ import pytest
 import xarray as xr
 
 from support.study import ROOT
-from support.workflow import environment
+from viscorough_study.page import terminal
 from viscorough_study.page.terminal import CLEAR, SPARSE, Progress, summary
 from viscorough_study.run.stale_locks import REMOVED
 
@@ -71,64 +73,73 @@ def test_a_machine_of_half_the_speed_takes_twice_as_long():
     assert left == pytest.approx(2 * 10, rel=0.1)
 
 
-def run(folder, script, stderr=subprocess.PIPE):
-    """Run a Python script, in place of Snakemake, with its progress."""
-    command = [sys.executable, "-m", "viscorough_study.page.terminal", "--", sys.executable, "-c", script]
-    options = {"cwd": folder, "env": environment(folder), "stdout": subprocess.PIPE, "text": True, "timeout": 3000}
-    return subprocess.run(command, stderr=stderr, **options)
+@pytest.fixture
+def run(tmp_path, monkeypatch):
+    """Runs a Python script, in place of Snakemake, with its progress on a stream; the exit code."""
+    monkeypatch.chdir(tmp_path)
+    handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+
+    def run(script, number=2):
+        with open(number, "wb", buffering=0, closefd=False) as stream:
+            monkeypatch.setattr("sys.stderr", io.TextIOWrapper(stream, write_through=True))
+            return terminal.run([sys.executable, "-c", script])
+
+    yield run
+    for number, handler in handlers.items():
+        signal.signal(number, handler)
 
 
-def test_without_a_terminal_there_are_a_few_lines(tmp_path):
+def test_without_a_terminal_there_are_a_few_lines(run, tmp_path, capfd):
     finished = "".join(f"Finished jobid: {i} (Rule: indent)\n{i} of 41 steps (2%) done\n" for i in range(42))
     printed = f"{REMOVED}\n{STARTED}{finished}"
-    done = run(tmp_path, f"print({printed!r})")
-    assert done.returncode == 0
-    first, *lines = done.stderr.splitlines()
+    assert run(f"print({printed!r})") == 0
+    shown = capfd.readouterr()
+    first, *lines = shown.err.splitlines()
     assert first == REMOVED
     assert 1 <= len(lines) <= SPARSE + 1
     assert all(re.fullmatch(r"\d+ of 41, .* left: .*", line) for line in lines)
-    assert done.stdout == ""
+    assert shown.out == ""
     assert (tmp_path / "results/run.log").read_text() == printed + "\n"
 
 
-def test_a_terminal_has_one_line_that_is_drawn_again(tmp_path):
-    terminal, screen = pty.openpty()
-    done = run(tmp_path, f"print({STARTED + FINISHED!r})", stderr=screen)
+def test_a_terminal_has_one_line_that_is_drawn_again(run):
+    reader, screen = pty.openpty()
+    assert run(f"print({STARTED + FINISHED!r})", screen) == 0
     os.close(screen)
-    output = os.read(terminal, 10**5).decode()
-    os.close(terminal)
-    assert done.returncode == 0
+    output = ""
+    with contextlib.suppress(OSError):  # once everything is read
+        while part := os.read(reader, 1000):
+            output += part.decode()
+    os.close(reader)
     assert "\n" not in output
     assert "1 of 41" in output
     assert output.endswith(CLEAR)
 
 
-def test_the_run_goes_on_where_nobody_reads_its_progress(tmp_path):
+def test_the_run_goes_on_where_nobody_reads_its_progress(run, tmp_path):
     reader, writer = os.pipe()
     os.close(reader)
-    run(tmp_path, f"print({STARTED!r}); open('made', 'w')", stderr=writer)
+    run(f"print({STARTED!r}); open('made', 'w')", writer)
     os.close(writer)
     assert (tmp_path / "made").exists()
 
 
-def test_the_error_of_a_job_is_shown_with_its_log_and_the_code_kept(tmp_path):
+def test_the_error_of_a_job_is_shown_with_its_log_and_the_code_kept(run, tmp_path, capfd):
     lines = ("INFO 3 of 9", "ERROR ValueError: no contact", "ERROR Traceback (most recent")
     (tmp_path / "indent.log").write_text("".join(f"2026-01-01 10:00:00 {line}\n" for line in lines))
-    done = run(tmp_path, f"print({STARTED + FAILED + FAILED!r}); raise SystemExit(3)")
-    assert done.returncode == 3
+    assert run(f"print({STARTED + FAILED + FAILED!r}); raise SystemExit(3)") == 3
     last = ["Error: ValueError: no contact (log: indent.log)", "Full output: results/run.log"]
-    assert done.stderr.splitlines()[-2:] == last
+    assert capfd.readouterr().err.splitlines()[-2:] == last
     (tmp_path / "indent.log").unlink()
-    assert "before it wrote its log (log: indent.log)" in run(tmp_path, f"exit({FAILED!r})").stderr
+    run(f"exit({FAILED!r})")
+    assert "before it wrote its log (log: indent.log)" in capfd.readouterr().err
 
 
-def test_what_ends_snakemake_itself_is_shown(tmp_path):
-    done = run(tmp_path, "print('Building DAG of jobs...'); exit('Error in the settings: lines: 3')")
-    assert done.returncode == 1
-    assert done.stderr == "Error in the settings: lines: 3\n"
-    killed = run(tmp_path, r"import os; print('one\ntwo', flush=True); os.kill(os.getpid(), 9)")
-    assert killed.returncode == 128 + 9
-    assert killed.stderr.splitlines() == ["one", "two", "Full output: results/run.log"]
+def test_what_ends_snakemake_itself_is_shown(run, capfd):
+    assert run("print('Building DAG of jobs...'); exit('Error in the settings: lines: 3')") == 1
+    assert capfd.readouterr().err == "Error in the settings: lines: 3\n"
+    assert run(r"import os; print('one\ntwo', flush=True); os.kill(os.getpid(), 9)") == 128 + 9
+    assert capfd.readouterr().err.splitlines() == ["one", "two", "Full output: results/run.log"]
 
 
 def test_the_end_is_three_lines(tmp_path):

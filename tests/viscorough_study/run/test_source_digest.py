@@ -4,7 +4,6 @@ import textwrap
 
 import pytest
 
-from support.workflow import RESULTS, ROOT, SCRIPTS
 from viscorough_study.run.source_digest import SourceDigests
 
 FILES = {
@@ -100,37 +99,3 @@ def test_relative_imports_are_refused(project):
 def test_functions_that_a_script_imports_by_name_count(project):
     edit = ("src/viscorough/deep/solver.py", "(x, 3)", "(x, 4)")
     assert "nothing" in changed_by(project, *edit, "viscorough.deep.solver.solve")
-
-
-SOURCES = SourceDigests(ROOT / "src")  # which reads each module once
-
-
-def used(script, *functions):
-    files = SOURCES.used_files(SCRIPTS / f"{script}.py", *functions)
-    return {str(path.relative_to(ROOT / "src")) for path in files if path.is_relative_to(ROOT / "src")}
-
-
-def test_rules_count_the_solvers_that_they_use():
-    boundary_elements = {"indent_surfaces", "compare_direct", "compare_reduction", "validate", "map_failures"}
-    boundary_elements |= {"measure_large", "measure_methods", "time_other_solvers"}
-    boundary_elements |= {"compare_level_placement"}
-    boundary_elements |= {"fit_collapse", "fit_interface", "judge_claims"}  # flat discs, small rough discs
-    boundary_elements |= {"check_validation", "make_page", "tabulate_large"}  # by what they describe
-    reducing = {"reduce_lines", "compare_reduction", "validate", "map_failures", "measure_methods"}
-    reducing |= {"check_validation", "make_page"}  # by what they describe
-    rules = {path.stem: used(path.stem) for path in SCRIPTS.glob("*.py")}
-    rules |= {
-        name: used("tabulate", rule["function"]) for name, rule in RESULTS["tables"].items() if "function" in rule
-    }
-    for rule, modules in rules.items():
-        assert ("viscorough/contact/halfspace/column_fft.py" in modules) == (rule in boundary_elements), rule
-        assert ("viscorough/mdr.py" in modules) == (rule in reducing), rule
-        assert any(name.startswith("viscorough_study/figures/") for name in modules) == (rule == "plot"), rule
-
-
-def test_a_figure_is_drawn_by_its_own_module():
-    modules = [figure.get("module", name) for name, figure in RESULTS["figures"].items()]
-    for module in modules:
-        drawing = used("plot", f"viscorough_study.figures.{module}.plot_{module}")
-        assert {name for name in modules if f"viscorough_study/figures/{name}.py" in drawing} == {module}
-        assert "viscorough/surfaces.py" not in drawing, module

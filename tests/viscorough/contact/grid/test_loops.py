@@ -40,12 +40,6 @@ def field(random):
     return lambda size=SIZE: random.standard_normal(size)
 
 
-def test_places_of_a_set(loops):
-    for found, expected in zip(loops.contact_places(INSIDE, WIDTH, STRIDE), (PLACES, SLOTS), strict=True):
-        np.testing.assert_array_equal(found, expected)
-        assert found.dtype == np.uint32
-
-
 @pytest.mark.parametrize("share", [0.02, 0.6])
 @pytest.mark.parametrize("columns", [1, 60])
 def test_places_of_a_set_wherever_rows_and_blocks_end(columns, share, random):

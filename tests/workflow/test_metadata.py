@@ -17,6 +17,11 @@ def test_codemeta_agrees_with_citation_and_package():
     codemeta = json.loads((ROOT / "codemeta.json").read_text())
     assert codemeta["name"] == citation["title"]
     assert codemeta["version"] == citation["version"] == project["version"]
+    assert codemeta["datePublished"] == citation["date-released"].isoformat()
+    assert f"## {project['version']} ({codemeta['datePublished']})\n" in (ROOT / "CHANGELOG.md").read_text()
+    assert [f"Operating System :: POSIX :: {name}" for name in codemeta["operatingSystem"]] == [
+        name for name in project["classifiers"] if name.startswith("Operating System")
+    ]
     assert codemeta["license"] == f"https://spdx.org/licenses/{citation['license']}"
     assert citation["license"] == project["license"]
     assert codemeta["keywords"] == citation["keywords"]

@@ -15,7 +15,7 @@ PER_X = 4 * RMS * DIAMETER  # F·J at X = 1
 def test_estimate_is_the_mean_of_simulated_surfaces(hurst):
     """Geometric mean over 24 discs of 129 elements across; single ones scatter by about 30 % where few spots touch."""
     times = np.geomspace(5e-3, 3, 6)  # force over viscosity is PER_X, so that X = t
-    found = estimate(hurst, RMS, DIAMETER, PER_X, 1.0, times)
+    estimated = estimate(hurst, RMS, DIAMETER, PER_X, 1.0, times)
     motions = []
     for seed in range(24):
         disc = viscorough.self_affine_disc(hurst, 129, rms=RMS, diameter=DIAMETER, seed=seed)
@@ -24,9 +24,9 @@ def test_estimate_is_the_mean_of_simulated_surfaces(hurst):
         motions.append([motion.velocity, motion.depth])
     velocity, depth = np.exp(np.log(motions).mean(axis=0))
     # Three standard errors of the mean.
-    np.testing.assert_allclose(found.velocity, velocity, rtol=0.2)
-    np.testing.assert_allclose(found.velocity[times > 0.5], velocity[times > 0.5], rtol=0.05)
-    np.testing.assert_allclose(found.depth, depth, rtol=0.2)
+    np.testing.assert_allclose(estimated.velocity, velocity, rtol=0.2)
+    np.testing.assert_allclose(estimated.velocity[times > 0.5], velocity[times > 0.5], rtol=0.05)
+    np.testing.assert_allclose(estimated.depth, depth, rtol=0.2)
     scatter = np.log(motions).std(axis=0)[0]
     assert (scatter[times < 0.05] > 0.15).all()
     assert (scatter < 0.45).all()
@@ -35,10 +35,10 @@ def test_estimate_is_the_mean_of_simulated_surfaces(hurst):
 def test_newtonian_media_follow_the_law():
     law = viscorough.penetration_law(0.6)
     times = np.array([0.005, 0.02])
-    found = viscorough.estimate(0.6, RMS, DIAMETER, 3 * PER_X, Newtonian(3.0), times)
-    np.testing.assert_allclose(found.x, times)
+    estimated = viscorough.estimate(0.6, RMS, DIAMETER, 3 * PER_X, Newtonian(3.0), times)
+    np.testing.assert_allclose(estimated.x, times)
     for name, scale in (("velocity", RMS / times), ("depth", RMS)):
-        values = [getattr(found, name), getattr(found, f"{name}_low"), getattr(found, f"{name}_high")]
+        values = [getattr(estimated, name), getattr(estimated, f"{name}_low"), getattr(estimated, f"{name}_high")]
         expected = [getattr(law, name)(times), *getattr(law, f"{name}_interval")(times)]
         np.testing.assert_allclose(values, scale * np.array(expected), rtol=1e-14)
 
@@ -46,18 +46,18 @@ def test_newtonian_media_follow_the_law():
 @pytest.mark.parametrize("medium", [Maxwell(100.0, 1.0), StandardLinearSolid(100.0, 20.0, 0.3)])
 def test_velocity_is_the_derivative_of_the_depth_in_any_medium(medium):
     times = 0.3 + 1e-5 * np.array([-1.0, 0.0, 1.0])
-    found = estimate(0.6, RMS, DIAMETER, 0.2 * PER_X, medium, times)
-    assert found.velocity[1] == pytest.approx(np.gradient(found.depth, times)[1], rel=1e-6)
+    estimated = estimate(0.6, RMS, DIAMETER, 0.2 * PER_X, medium, times)
+    assert estimated.velocity[1] == pytest.approx(np.gradient(estimated.depth, times)[1], rel=1e-6)
 
 
 def test_outside_of_its_range_the_law_gives_no_numbers():
-    found = estimate(0.6, RMS, DIAMETER, PER_X, 1.0, [1e-4, 0.02, 50])
-    assert found.where.tolist() == ["below", "", "above"]
+    estimated = estimate(0.6, RMS, DIAMETER, PER_X, 1.0, [1e-4, 0.02, 50])
+    assert estimated.where.tolist() == ["below", "", "above"]
     for name in ("depth", "depth_low", "depth_high", "velocity", "velocity_low", "velocity_high"):
-        assert np.isfinite(getattr(found, name)).tolist() == [False, True, False]
-    lines = str(found).splitlines()
+        assert np.isfinite(getattr(estimated, name)).tolist() == [False, True, False]
+    lines = str(estimated).splitlines()
     assert [line.split()[-1] for line in lines[1:]][::2] == ["below", "above"]
-    assert "X is above the range" in found._repr_html_()
+    assert "X is above the range" in estimated._repr_html_()
 
 
 def test_values_outside_their_ranges_are_refused():

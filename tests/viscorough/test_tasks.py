@@ -69,9 +69,9 @@ def test_on_the_command_line(here, capsys):
     for made in ("scan.txt --spacing 500 --unit nm", "curve.csv", "fields.nc", "motion.csv"):
         assert run(f"plot {made} -o figure.png") == 0
 
-    assert run("creep curve.csv motion.csv --force '10 uN' -o found.yaml") == 0
-    found = viscorough.read_medium("found.yaml", "nm")
-    np.testing.assert_allclose(found.creep_compliance(times[1:]), RUBBER.creep_compliance(times[1:]), rtol=0.01)
+    assert run("creep curve.csv motion.csv --force '10 uN' -o medium.yaml") == 0
+    medium = viscorough.read_medium("medium.yaml", "nm")
+    np.testing.assert_allclose(medium.creep_compliance(times[1:]), RUBBER.creep_compliance(times[1:]), rtol=0.01)
 
 
 def _columns(variables, *names):
@@ -86,7 +86,7 @@ def test_in_python(here):
     viscorough.plot(motion, "motion.png")
     curve.save("curve.nc")
     motion.save("motion.csv")
-    found = viscorough.identify_medium(curve, "10 uN", motion.time[1:], motion.depth[1:])
+    identified = viscorough.identify_medium(curve, "10 uN", motion.time[1:], motion.depth[1:])
 
     assert contact.depth * 1e-6 == pytest.approx(DEPTH, rel=0.02)
     assert contact.normal_force == pytest.approx(FORCE, rel=1e-12)
@@ -99,7 +99,7 @@ def test_in_python(here):
     saved = tables.read("motion.csv").variables
     np.testing.assert_array_equal(saved["depth"].values, motion.depth)
     times = motion.time[1:]
-    np.testing.assert_allclose(found.medium.creep_compliance(times), RUBBER.creep_compliance(times), rtol=0.01)
+    np.testing.assert_allclose(identified.medium.creep_compliance(times), RUBBER.creep_compliance(times), rtol=0.01)
 
 
 def test_results_that_nobody_can_mean_are_warned_of(here):

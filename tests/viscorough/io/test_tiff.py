@@ -78,6 +78,9 @@ def test_units_and_calibration_of_imagej(tmp_path):
     tifffile.imwrite(tmp_path / "plain.tif", HEIGHTS, resolution=(72, 72), resolutionunit="INCH")
     with refused("--spacing is needed"):
         read_heights(tmp_path / "plain.tif", unit="um")
+    wide = {"imagej": True, "resolution": (0.5, 1.0), "metadata": {"unit": "um"}}
+    tifffile.imwrite(tmp_path / "wide.tif", HEIGHTS, **wide)
+    assert read_heights(tmp_path / "wide.tif", unit="um").spacing == pytest.approx(2, rel=1e-12)
     path = imagej(tmp_path / "c.tif", unit="um", cf=0, c0=5.0, c1=2.0, vunit="nm")
     indenter = read_heights(path)
     np.testing.assert_allclose(indenter.heights, 5 + 2 * HEIGHTS.astype(float), rtol=1e-15)

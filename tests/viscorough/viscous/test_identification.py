@@ -27,9 +27,9 @@ def record(medium, *, ramp=False):
 def test_exact_records_give_the_compliance(name, ramp):
     """At a step of force exactly, under a ramp to the discretization of the Volterra equation."""
     force, depth = record(MEDIA[name], ramp=ramp)
-    found = identify_medium(CURVE, force, TIMES, depth)
+    identified = identify_medium(CURVE, force, TIMES, depth)
     wanted = MEDIA[name].creep_compliance(TIMES)
-    np.testing.assert_allclose(found.medium.creep_compliance(TIMES), wanted, rtol=0.006 if ramp else 1e-9)
+    np.testing.assert_allclose(identified.medium.creep_compliance(TIMES), wanted, rtol=0.006 if ramp else 1e-9)
 
 
 @pytest.mark.parametrize("name", ["newtonian", "solid"])
@@ -38,30 +38,30 @@ def test_intervals_hold_the_compliance(name):
     (force, depth), random = record(MEDIA[name]), np.random.default_rng(5)
     missed, noise = 0, 0.003 * depth[-1]
     for _ in range(10):
-        found = identify_medium(CURVE, force, TIMES, depth + noise * random.standard_normal(depth.size))
-        exact = MEDIA[name].creep_compliance(found.time)
-        missed += ~((found.low <= exact) & (exact <= found.high))
-        assert found.scatter == pytest.approx(noise, rel=0.4)
-        assert (found.low <= found.compliance).all()
-        assert (found.compliance <= found.high).all()
-        assert (found.high - found.low)[-1] < 0.05 * exact[-1]
+        identified = identify_medium(CURVE, force, TIMES, depth + noise * random.standard_normal(depth.size))
+        exact = MEDIA[name].creep_compliance(identified.time)
+        missed += ~((identified.low <= exact) & (exact <= identified.high))
+        assert identified.scatter == pytest.approx(noise, rel=0.4)
+        assert (identified.low <= identified.compliance).all()
+        assert (identified.compliance <= identified.high).all()
+        assert (identified.high - identified.low)[-1] < 0.05 * exact[-1]
     assert missed[1:].max() <= 2
 
 
 @pytest.mark.parametrize("name", ["solid", "prony", "maxwell"])
 def test_prony_series_are_fitted(name):
     force, depth = record(MEDIA[name])
-    found = identify_medium(CURVE, force, TIMES, depth, kind="prony").medium
-    assert isinstance(found, Prony)
-    np.testing.assert_allclose(found.creep_compliance(TIMES), MEDIA[name].creep_compliance(TIMES), rtol=0.003)
+    identified = identify_medium(CURVE, force, TIMES, depth, kind="prony").medium
+    assert isinstance(identified, Prony)
+    np.testing.assert_allclose(identified.creep_compliance(TIMES), MEDIA[name].creep_compliance(TIMES), rtol=0.003)
 
 
 @pytest.mark.parametrize("ramp", [False, True])
 def test_springpots_are_fitted(ramp):
     force, depth = record(MEDIA["springpot"], ramp=ramp)
-    found = identify_medium(CURVE, force, TIMES, depth, kind="springpot").medium
-    assert isinstance(found, Springpot)
-    assert (found.modulus, found.exponent) == pytest.approx((2.0, 0.4), rel=3e-3 if ramp else 1e-5)
+    identified = identify_medium(CURVE, force, TIMES, depth, kind="springpot").medium
+    assert isinstance(identified, Springpot)
+    assert (identified.modulus, identified.exponent) == pytest.approx((2.0, 0.4), rel=3e-3 if ramp else 1e-5)
 
 
 def test_records_that_no_growing_contact_can_have_are_refused():

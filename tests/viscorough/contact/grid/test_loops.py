@@ -144,9 +144,9 @@ def test_steps(loops, field):
 def test_unloaded_elements_under_tension_are_found_in_every_block(loops, field):
     direction, pressure = field(ROWS * STRIDE), field()
     pressure[::3] = 0
-    found = joined(loops.each(kernels.unloaded_under_tension, (direction, pressure), PLACES, SLOTS))
-    np.testing.assert_array_equal(found, PLACES[(pressure[PLACES] == 0) & (direction[SLOTS] < 0)])
-    assert 0 < found.size < PLACES.size
+    tensile = joined(loops.each(kernels.unloaded_under_tension, (direction, pressure), PLACES, SLOTS))
+    np.testing.assert_array_equal(tensile, PLACES[(pressure[PLACES] == 0) & (direction[SLOTS] < 0)])
+    assert 0 < tensile.size < PLACES.size
 
 
 def test_a_field_is_filled_and_another_one_shifted_into_it(loops, field):
@@ -177,9 +177,9 @@ def test_elements_are_placed_in_a_box(loops, elements):
     gap_map[row, column] = initial_gap
     in_box = gap_map[top : top + rows, left : left + columns]
     np.testing.assert_array_equal(field, np.pad(in_box, REACH, constant_values=9.0).ravel())
-    found = place > 0
-    np.testing.assert_array_equal(np.sort(initial_gap[found]), np.sort(in_box, axis=None))
-    np.testing.assert_array_equal(field[place[found]], initial_gap[found])
+    placed = place > 0
+    np.testing.assert_array_equal(np.sort(initial_gap[placed]), np.sort(in_box, axis=None))
+    np.testing.assert_array_equal(field[place[placed]], initial_gap[placed])
 
 
 def test_a_contact_is_transferred_to_a_larger_grid(loops, elements, random):

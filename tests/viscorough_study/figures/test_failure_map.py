@@ -4,7 +4,7 @@ import pandas as pd
 import pytest
 
 from support.figures import failure_table
-from viscorough_study.figures.failure_map import KINDS, LETTERS, MEANINGS, plot_failure_map
+from viscorough_study.figures.failure_map import LETTERS, MEANINGS, plot_failure_map
 from viscorough_study.robustness.failure_map import VERDICTS
 
 pytestmark = pytest.mark.filterwarnings("error")
@@ -20,15 +20,6 @@ def test_map_shows_every_cell_by_number_and_letter():
     assert cells.count("R") == 2
     assert set(LETTERS) == set(MEANINGS) == set(VERDICTS)
     assert len(set(LETTERS.values())) == len(LETTERS)
-
-
-def test_methods_stand_side_by_side_by_their_kind():
-    table = failure_table(VERDICTS)
-    names = ["MDR", "explicit steps", "path, dense", "path, interpolated"]
-    axes = plot_failure_map(pd.concat([table.assign(method=name) for name in names])).axes[0]
-    assert [text.get_text() for text in axes.get_xticklabels()] == ["dense", "interpolated", "explicit steps", "MDR"]
-    kinds = [text.get_text() for text in axes.texts if text.get_text() in KINDS]
-    assert kinds == ["elastic path", "direct integration", "models"]
 
 
 def test_cells_are_blank_where_a_difficulty_cannot_matter():

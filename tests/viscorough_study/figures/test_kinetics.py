@@ -27,23 +27,6 @@ def test_kinetics_are_those_of_the_curves_in_real_units(curves, discs, combinati
         np.testing.assert_allclose(scaled[label], [at["force"] * time / unit, velocity * time / at["rms"]], rtol=1e-12)
 
 
-def test_combinations_are_named_at_their_lines_and_listed_below(discs, combinations, scaling):
-    figure = plot_kinetics(discs, combinations, scaling, SHOWN, fraction_min=0.95)
-    raw, collapsed, table = figure.axes
-    assert sorted(text.get_text() for text in raw.texts) == sorted(COMBINATIONS)
-    for name, label in ((text.get_text(), text) for text in raw.texts):
-        ends = [line.get_xydata()[-1] for line in raw.lines if line.get_label().endswith(f"_{name}")]
-        assert any(np.allclose(label.xy, end) for end in ends)
-    cells = [text.get_text() for text in table.texts]
-    assert cells[:5] == ["combination", "$F$ (N)", r"$\eta$ (Pa s)", "$L$ (mm)", "$h$ (µm)"]
-    assert cells[10:] == ["c9", "300", r"$3\times 10^{7}$", "30", "0.3"]
-    assert collapsed.get_legend().get_title().get_text() == "each a mean over 2 discs"
-    until_x = np.where(np.arange(2) < 1, 30.0, 1.8)
-    shorter = [ds.assign_coords(until_x=("realization", until_x)) for ds in discs]
-    _, collapsed, _ = plot_kinetics(shorter, combinations, scaling, SHOWN, fraction_min=0.95).axes
-    assert collapsed.get_legend().get_title().get_text() == "each a mean over 1 to 2 discs"
-
-
 def test_kinetics_mark_the_regions(discs, combinations, scaling):
     axes = plot_kinetics(discs, combinations, scaling, SHOWN, fraction_min=0.95).axes[1]
     bars = [line.get_xdata() for line in axes.lines if line.get_transform() == axes.get_xaxis_transform()]

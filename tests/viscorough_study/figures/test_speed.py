@@ -2,7 +2,6 @@
 
 import numpy as np
 import pandas as pd
-import pytest
 
 from support.figures import coordinates, legend_texts, methods_table, whole_on_page
 from viscorough_study.figures.speed import FLOOR, RING, plot_speed
@@ -44,11 +43,3 @@ def test_front_is_that_of_all_methods_and_errors_of_zero_stand_on_the_floor():
     front = pareto_front(rough.assign(error=np.maximum(rough["error"], FLOOR)))
     np.testing.assert_allclose(lines[0], front[["wall_s", "error"]])
     assert any(line[:, 1].min() == FLOOR for line in lines[1:])
-
-
-@pytest.mark.parametrize("problem", ["sphere", "cone"])
-def test_one_problem_is_enough(problem):
-    data = methods_table()
-    data = data[data["problem"] == "sphere"].assign(problem=problem)
-    (axes,) = plot_speed(data).axes
-    assert axes.get_title() == f"(a) {problem}, 257 elements across"

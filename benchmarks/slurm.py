@@ -11,7 +11,6 @@ equal to the last byte; of logs and benchmarks, which contain times, only names 
 
 import contextlib
 import os
-import re
 import shutil
 import signal
 import socket
@@ -19,8 +18,6 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections import Counter
-from importlib.metadata import version
 from pathlib import Path
 
 import click
@@ -63,8 +60,6 @@ MpiDefault=none
 MailProg=/bin/true
 SelectType=select/cons_tres
 SelectTypeParameters=CR_CPU_Memory
-JobCompType=jobcomp/filetxt
-JobCompLoc={folder}/jobs
 NodeName={node} NodeAddr=127.0.0.1 CPUs={cpus} RealMemory={memory} State=UNKNOWN
 PartitionName=test Nodes={node} Default=YES MaxTime=INFINITE State=UP
 """
@@ -165,13 +160,6 @@ def jobs(state):
     return printed("squeue", "--noheader", "--array", "--states", state, "--format", "%i").split()
 
 
-def ended(cluster_folder, folder):
-    """Number of jobs submitted for a copy of the project, and {final state: how often}; a requeued job ends twice."""
-    lines = [line for line in (cluster_folder / "jobs").read_text().splitlines() if f"WorkDir={folder} " in line]
-    numbers, states = ([re.search(rf"\b{key}=(\w+)", line)[1] for line in lines] for key in ("JobId", "JobState"))
-    return {"jobs_submitted": len(set(numbers)), "ends_of_jobs": dict(Counter(states))}
-
-
 # ---- runs
 
 
@@ -243,15 +231,10 @@ def compare_runs(folder):
             shutil.copytree(local, copy)  # with what the local run has compiled
             remove_results(copy)
             outcome = run_project(copy, *THROUGH_SLURM, disturb=disturb)
-            outcome |= {**ended(daemons, copy), "differences": compare(contents(copy), wanted)}
+            outcome["differences"] = compare(contents(copy), wanted)
             result[copy.name] = outcome
-            lines = [f"{copy.name}: {outcome['seconds']:.0f} s, {outcome['ends_of_jobs']}", *outcome["differences"]]
-            click.echo("\n".join(lines))
-        result["versions"] = {
-            "slurm": printed("sinfo", "--version"),
-            "munge": printed("munged", "--version").splitlines()[0],
-            **{name: version(name) for name in ("snakemake", "snakemake-executor-plugin-slurm")},
-        }
+            click.echo("\n".join([f"{copy.name}: {outcome['seconds']:.0f} s", *outcome["differences"]]))
+        result["slurm"] = printed("sinfo", "--version")
     return result | {"jobs": jobs_done(local), "files_compared": len(wanted), "disturbances": log}
 
 

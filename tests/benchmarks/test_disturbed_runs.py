@@ -52,15 +52,6 @@ def test_a_run_is_killed_or_interrupted(tmp_path, run, seed, what):
     assert "ends with" in chaos.verdict(tmp_path, run)
 
 
-def test_jobs_of_a_cluster_are_counted_with_their_ends(tmp_path):
-    """A requeued job ends twice; jobs of another copy are not counted."""
-    job = "JobId={} UserId=root(0) JobState={} Partition=test WorkDir={} ProcCnt=1\n"
-    rows = [(1, "CANCELLED", "/run"), (2, "NODE_FAIL", "/run"), (2, "COMPLETED", "/run"), (3, "COMPLETED", "/other")]
-    (tmp_path / "jobs").write_text("".join(job.format(*row) for row in rows))
-    ends = {"CANCELLED": 1, "NODE_FAIL": 1, "COMPLETED": 1}
-    assert slurm.ended(tmp_path, "/run") == {"jobs_submitted": 2, "ends_of_jobs": ends}
-
-
 def test_processes_of_a_cluster_are_ended():
     """Those with its settings in their environment."""
     with subprocess.Popen(["sleep", "600"], env={"SLURM_CONF": "/of/this/test", "PATH": "/usr/bin:/bin"}):

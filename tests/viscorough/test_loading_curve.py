@@ -84,12 +84,12 @@ def test_interpolation_of_a_smooth_curve_is_of_fourth_order():
 
 def test_outside_the_levels():
     """Beyond the last level the result is nan; below the first, too, unless the curve is a line through the origin."""
-    one = springs(np.array([0.0, 0.5]), [0.2])
-    depth, stiffness = one.at_force(np.array([0.0, 0.1, 0.2, 0.2000001, -0.1, np.nan]))
+    straight = springs(np.array([0.0, 0.5]), [0.2])
+    depth, stiffness = straight.at_force(np.array([0.0, 0.1, 0.2, 0.2000001, -0.1, np.nan]))
     np.testing.assert_allclose(depth, [0, 0.1, 0.2, np.nan, np.nan, np.nan], rtol=1e-15)
     np.testing.assert_array_equal(stiffness, [1, 1, 1, np.nan, np.nan, np.nan])
-    assert np.shape(one.at_force(0.1)) == (2,)
-    assert one.at_force(np.full((2, 3), 0.1))[0].shape == (2, 3)
+    assert np.shape(straight.at_force(0.1)) == (2,)
+    assert straight.at_force(np.full((2, 3), 0.1))[0].shape == (2, 3)
 
     sphere = reference.sphere(1.0)
     level = np.array([0.1, 0.2])

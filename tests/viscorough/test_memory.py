@@ -84,9 +84,9 @@ def test_memory_required_for_a_contact_follows_what_its_arrays_take(present, tol
 def test_memory_required_for_a_contact_has_buffers_for_every_thread(monkeypatch):
     """Blocks of columns, twice 64 complex numbers of single precision by the padded length, and of padded rows."""
     indenter = Indenter(np.zeros((1024, 1024)), 1.0)
-    one, many = (demand(partial(indent, indenter, threads=threads), monkeypatch) for threads in (1, 9))
+    single, many = (demand(partial(indent, indenter, threads=threads), monkeypatch) for threads in (1, 9))
     columns, rows = 2 * 64 * 8 * 2048, 2 * 128 * 4 * 2048
-    assert 8 * (columns + rows) < many - one < 1.3 * 8 * (columns + rows)
+    assert 8 * (columns + rows) < many - single < 1.3 * 8 * (columns + rows)
     # No more of them than there are blocks.
     assert demand(partial(indent, indenter, threads=1024), monkeypatch) < 2 * many
 

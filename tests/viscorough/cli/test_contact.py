@@ -142,6 +142,6 @@ def test_mistakes_are_one_line(here, capsys, line, message):
 def test_numbers_beyond_single_precision_are_kept(here):
     """Heights of 1e100: the same contact as that of heights of 1, scaled."""
     np.save("huge.npy", 1e100 * np.load("heights.npy"))
-    one, huge = values(contact("--depth 0.5")), values(contact("--depth 0.5e100", heights="huge.npy"))
+    usual, huge = values(contact("--depth 0.5")), values(contact("--depth 0.5e100", heights="huge.npy"))
     for name in ("pressure", "gap", "force"):
-        np.testing.assert_allclose(1e-100 * huge[name], one[name], rtol=1e-5, atol=1e-6)
+        np.testing.assert_allclose(1e-100 * huge[name], usual[name], rtol=1e-5, atol=1e-6)

@@ -60,10 +60,10 @@ def test_a_contact_is_a_level_of_the_curve():
 
 def test_one_value_gives_one_contact_in_the_unit_of_the_indenter_and_several_a_list():
     disc = Indenter(DISC.heights, DISC.spacing, length_unit="um")
-    one, several = contact_at(disc, force=1.0), contact_at(disc, force=[1.0])
+    single, several = contact_at(disc, force=1.0), contact_at(disc, force=[1.0])
     assert isinstance(several, list)
-    assert one.depth == several[0].depth
-    assert (one.length_unit, one.spacing, one.row_spacing) == ("um", DISC.spacing, DISC.spacing)
+    assert single.depth == several[0].depth
+    assert (single.length_unit, single.spacing, single.row_spacing) == ("um", DISC.spacing, DISC.spacing)
 
 
 def test_invalid_arguments_are_refused():

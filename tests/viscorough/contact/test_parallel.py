@@ -104,17 +104,17 @@ def disc():
 
 
 def test_a_curve_is_the_same(disc):
-    one, *others = (indent(disc, until_fraction=0.1, threads=threads) for threads in THREADS)
+    on_one_thread, *others = (indent(disc, until_fraction=0.1, threads=threads) for threads in THREADS)
     for other in others:
         for name in ("depth", "force", "stiffness", "contact_count", "residual"):
-            np.testing.assert_array_equal(getattr(other, name), getattr(one, name))
+            np.testing.assert_array_equal(getattr(other, name), getattr(on_one_thread, name))
 
 
 def test_a_contact_in_double_precision_is_the_same(disc):
-    one, *others = (contact_at(disc, force=1.0, tolerance=1e-6, threads=threads) for threads in THREADS)
+    on_one_thread, *others = (contact_at(disc, force=1.0, tolerance=1e-6, threads=threads) for threads in THREADS)
     for other in others:
-        np.testing.assert_array_equal(other.pressure, one.pressure)
-        np.testing.assert_array_equal(other.gap, one.gap)
+        np.testing.assert_array_equal(other.pressure, on_one_thread.pressure)
+        np.testing.assert_array_equal(other.gap, on_one_thread.gap)
 
 
 @pytest.mark.parametrize("threads", [0, 1.0, None, True, 1025])

@@ -78,8 +78,8 @@ def test_before_the_first_level(curve):
     np.testing.assert_array_equal(rested.depth[:2], 0)
     np.testing.assert_array_equal(rested.velocity[:2], 0)
 
-    one = curve_of_levels([0.5], [1.0], [2.0], [1])
-    result = kinetics(one, 4.0, 10.0, [0, 0.1, 2.5])
+    straight = curve_of_levels([0.5], [1.0], [2.0], [1])
+    result = kinetics(straight, 4.0, 10.0, [0, 0.1, 2.5])
     np.testing.assert_allclose(result.depth, [0, 0.02, 0.5], rtol=1e-14)
     np.testing.assert_allclose(result.velocity, 0.2, rtol=1e-14)
 

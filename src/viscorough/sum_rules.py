@@ -47,7 +47,7 @@ _JUMP, _JUMP_OF_SECOND = 12**-0.5, 720**-0.5
 # whose effect on the first integral grows with the force at complete contact.
 _CONTACT_TOLERANCE, _LEAST_CONTACT_TOLERANCE = 0.01, 1e-12
 # Largest number of parts into which an interval is divided at a time, and of times; factor by which the errors of all
-# intervals together must fall each time, which they do not if the levels are wrong.
+# intervals together must fall within two times, which they do not if the levels are wrong.
 _MOST_PARTS, _MAX_ROUNDS, _LEAST_REDUCTION = 3, 12, 0.9
 _TINY = 1e-300
 
@@ -408,14 +408,15 @@ def audit(
     complete = complete_contact(indenter, threads)
     until_force = min(until_force, (1 + _STRAIGHT) * complete.force or np.inf)
     plain = curve = _curve(indenter, until_fraction=until_fraction, until_force=until_force, **how)
-    rules, last = integrals(curve, complete), np.inf
+    rules, norms = integrals(curve, complete), [np.inf, np.inf]
     for number in range(_MAX_ROUNDS):
         # A few levels are added in any case, unless the curve is exact: at them it is seen whether interpolation holds.
         allowed, enough = (tolerance, tolerance) if number else (min(tolerance, rules.error / 2), _STRAIGHT)
-        now = np.linalg.norm(rules.errors)
-        if rules.error <= enough or now > _LEAST_REDUCTION * last:
+        # Where the jump in the middle of an interval comes to an end of a part of it, only the round after shows less.
+        norms.append(float(np.linalg.norm(rules.errors)))
+        if rules.error <= enough or norms[-1] > _LEAST_REDUCTION * norms[-3]:
             break
-        last, depths = now, _depths_to_add(curve, rules, allowed)
+        depths = _depths_to_add(curve, rules, allowed)
         if depths.size == 0:
             break
         progress((number + 1) / _MAX_ROUNDS)

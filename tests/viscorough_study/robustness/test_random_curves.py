@@ -38,6 +38,12 @@ def test_integrals_of_random_curves_are_exact():
         assert audit_failure(random_audit(generator(number))) == "", f"case {number}"
 
 
+@pytest.mark.parametrize(("seed", "number"), [(1, 266), (1, 674), (2, 460)])
+def test_an_interval_with_one_jump_is_no_error(seed, number):
+    """Divided, it has the jump at an end of one part, whose error is hardly less than that of the whole."""
+    assert audit_failure(random_audit(generator(number, seed))) == ""
+
+
 def test_wrong_integrals_are_found():
     no_padding = SolverOptions(dense_contacts=0, dense_interactions=0, padding=False)
     case = RandomCurve(DISC, {"tolerance": 1e-3, "options": no_padding})

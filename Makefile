@@ -10,7 +10,7 @@ SNAKEMAKE = $(BIN)/snakemake --cores $(CORES) $(if $(SETTINGS),--configfile $(SE
 WITH_PROGRESS = $(BIN)/python -m viscorough_study.page.terminal --
 
 .PHONY: help environment environment-slurm settings reproduce paper report check test docs test-slurm bench speed stability \
-	sizes large article outside fuzz faults seeds publish chaos dist peers lock lock-peers lock-slurm clean
+	sizes law large article outside fuzz faults seeds publish chaos dist peers lock lock-peers lock-slurm clean
 
 help:
 	@echo "make reproduce   the default reproduction: figures, tables, and the page results/index.html, which shows them"
@@ -23,6 +23,7 @@ help:
 	@echo "make speed       speed against accuracy of every method, in results/figures/speed.png; 80 minutes"
 	@echo "make stability   where each method fails, and random small indenters against dense solutions"
 	@echo "make sizes       exponents on grids from 33 to 4097 elements across and on lines, and their collapse"
+	@echo "make law         the calibrated law of the interface, from discs to complete contact; 10 minutes"
 	@echo "make large       time and memory of a disc of up to 8193 elements across, 53 million in all"
 	@echo "make article     results/article.pdf, a replication report on the run; with the SETTINGS of the run"
 	@echo "make outside     our values beside numbers that others published; two minutes"
@@ -119,6 +120,9 @@ stability: settings
 
 sizes: settings
 	$(SNAKEMAKE) -- sizes
+
+law: environment
+	$(BIN)/python benchmarks/law.py --cores $(CORES) --output results/tables/law.csv
 
 large: settings
 	$(SNAKEMAKE) -- large

@@ -4,10 +4,10 @@
 
 Every command (`make paper`, `make speed`, ...) has its own figures and tables, which are copied into docs/results/ with
 their origin. Name the commands whose results are in the folder: some of the files also exist at a smaller scale. Those
-of paper include the verdicts and the calibrated law, those of reproduce verdicts, cost and Figure 2 of the default run,
-those of seeds the dependence of the verdicts on the seed, that is, on the surfaces drawn. Without results
-(`--pages-only`) only the tables in README.md and docs/ are written, from the last published results and from the
-statements in resources/paper/claims.yaml. The workflow writes only into results/.
+of paper include the verdicts and the calibrated power law, those of law the law of the interface, those of reproduce
+verdicts, cost and Figure 2 of the default run, those of seeds the dependence of the verdicts on the seed, that is, on
+the surfaces drawn. Without results (`--pages-only`) only the tables in README.md and docs/ are written, from the last
+published results and from the statements in resources/paper/claims.yaml. The workflow writes only into results/.
 """
 
 import json
@@ -21,6 +21,7 @@ import click
 import pandas as pd
 from PIL import Image  # a dependency of matplotlib
 
+from viscorough.calibrated_law import CONSTANTS
 from viscorough_study.fits.infinite_grid import OMEGA, PLACES, place_in_range
 from viscorough_study.performance import timing
 from viscorough_study.run.paper_data import read_paper
@@ -46,6 +47,7 @@ MADE = {
     "sizes": ("sizes collapse", "sizes sizes_trends collapse collapse_curves infinite_grid"),
     "large": ("large", "large"),
     "outside": ("", ""),
+    "law": ("", "law"),
     "reproduce": ("", ""),
     "seeds": ("", ""),
 }
@@ -61,8 +63,8 @@ KEPT = {
     "paper": {
         "tables/claims.csv": "docs/claims.csv",
         "tables/calibration.csv": "src/viscorough/data/calibration.csv",
-        "tables/interface.csv": "src/viscorough/data/interface.csv",
     },
+    "law": {"tables/law.csv": "src/viscorough/data/law.csv"},
     "reproduce": {
         "tables/rule_costs.csv": DEFAULT_COSTS,
         "tables/claims.csv": DEFAULT_CLAIMS,
@@ -222,18 +224,23 @@ def correction_exponents(table):
 
 
 def interface_law():
-    """u₀/h and the law of two springs for each Hurst exponent, of data/interface.csv, as a table in Markdown.
-
-    Of discs on the paper's grid, geometric means, those of the base ensembles where there are any.
-    """
-    table = pd.read_csv(ROOT / KEPT["paper"]["tables/interface.csv"]).query("source == 'discs' and across == 257")
-    table = table[table["average"] == "geometric"].drop_duplicates("hurst")
-    head = ("*H*", "discs", "*u*₀/*h*", "*b*", "*g*_m", "*X*_m", "law holds for *X*", "largest deviation there")
+    """The law of two springs for each Hurst exponent and grid, of data/law.csv, as two tables in Markdown."""
+    table = pd.read_csv(ROOT / KEPT["law"]["tables/law.csv"]).sort_values(["across", "hurst"], ascending=[False, True])
+    symbols = dict(zip(CONSTANTS, ("*A*", "*b*", "*s*", "*m*", "*d*"), strict=True))
+    symbols |= {"mean_gap": "∫*g* d ln *X*", "energy": "∫*g* d*X*"}
+    head = ("*H*", "elements across", *symbols.values())
     lines = [f"| {' | '.join(head)} |", "|---" * len(head) + "|"]
-    for row in table.itertuples():
-        u0 = f"{row.u0:.3f} [{row.u0_low:.3f}, {row.u0_high:.3f}]"
-        law = f"{row.exponent:.3f} | {row.peak:.3f} | {row.peak_x:.2f} | {row.law_low:.2g} to {row.law_high:.3g}"
-        lines.append(f"| {row.hurst:g} | {row.realizations} | {u0} | {law} | {100 * row.deviation:.1f} % |")
+    for _, row in table.iterrows():
+        cells = [f"{row[name]:.3g} [{row[f'{name}_low']:.3g}, {row[f'{name}_high']:.3g}]" for name in symbols]
+        lines.append(f"| {row['hurst']:g} | {row['across']:g} | {' | '.join(cells)} |")
+    head = ("*H*", "elements across", "discs, other discs", "law of *g* within 5 % for *X*", "largest deviation of *g*")
+    head += ("without control variates", "standard error", "geometric mean of *vt*/*h* lower by", "of *u*/*h*")
+    lines += ["", f"| {' | '.join(head)} |", "|---" * len(head) + "|"]
+    names = ("deviation", "unadjusted", "standard_error", "geometric_velocity", "geometric_depth")
+    for _, row in table.iterrows():
+        cells = [f"{row['discs']:g}, {row['unused']:g}", f"{row['x_low']:.2g} to {row['x_high']:.3g}"]
+        cells += [f"{100 * row[name]:.1f} %" for name in names]
+        lines.append(f"| {row['hurst']:g} | {row['across']:g} | {' | '.join(cells)} |")
     return "\n".join(lines) + "\n"
 
 

@@ -3,18 +3,23 @@
 Two springs in series, the interface and the flat punch of the whole disc, have vt/h = X + g(X) with X =
 Ft/(4ηhL). The contribution of the interface is
 
-    g = g_m (X/X_m)^b exp(2b(1 − √(X/X_m))):
+    g = (g₁^(−3/2) + (cX)^(−3/2))^(−2/3),    g₁ = A X^b (1 + X/s)^(−m) (1 + (X/d)²)^(−4).
 
-a power law with the exponent b at small X; a maximum g_m at X_m, around which the stiffness of the interface is
-proportional to the force, as in elastic contacts whose force is exponential in the separation; at large X it vanishes,
-and vt/h = X, region (c). The constants b, g_m, X_m are those of data/interface.csv, a copy of
-results/tables/interface.csv from `make paper`, which also has the error of the law. β and ζ of the paper's power law in
-region (b) are those of data/calibration.csv, a copy of results/tables/calibration.csv.
+At small X, g₁ is a power law with the exponent b; around X = 1 it has a broad maximum, where the stiffness of the
+interface is proportional to the force, as in elastic contacts whose force is exponential in the separation; beyond, it
+falls, and vanishes at complete contact, so that vt/h = X. c belongs to region (a): while a single element touches, g =
+cX, with a c that the number of elements across determines.
 
-Conventions: geometric mean at fixed X, h the rms height of the disc, L its diameter, no factor Γ; the power law is
-fitted over the whole region (b). Grids: 257 elements across; at small X the law contains their finest waves, and b is
-the exponent of these curves, not of an infinitely fine grid. Where the curves end before X = 30, the law beyond rests
-on its form alone, and on vt/h = X at complete contact.
+The constants A, b, s, m, d are those of data/law.csv, a copy of results/tables/law.csv from `make law`. With them the
+two integrals of g over ln X and over X are the means of the exact ones (sum_rules), and g is closest to the mean of
+curves to complete contact. The table also has the range in which g is within 5 % of the mean over other discs. β and ζ
+of the paper's power law in region (b) are those of data/calibration.csv, a copy of results/tables/calibration.csv from
+`make paper`.
+
+Conventions: h the rms height of the disc, L its diameter, no factor Γ. The law is that of arithmetic means at fixed X,
+since springs add; the power law is fitted to geometric means, as in the figures, over the whole region (b). Grids: 257
+elements across; at small X the law contains their finest waves, and b is the exponent of these curves, not of an
+infinitely fine grid.
 """
 
 import csv
@@ -24,13 +29,24 @@ from functools import cache
 from importlib import resources
 
 import numpy as np
-from scipy.special import gamma as gamma_function
-from scipy.special import gammainc
+from scipy.integrate import simpson
 
+from viscorough.reference import one_element_stiffness
 from viscorough.types import Array, Numbers
 
-X_LOW, X_HIGH = 1e-3, 30.0  # the widest range of the law; from X_HIGH on, vt/h is X to 2 %
-LARGEST_DEVIATION = 0.05  # of the law from the mean vt/h of the calibration, in its range
+ACROSS = 257  # elements across the discs of the calibration
+LARGEST_DEVIATION = 0.05  # of g from its mean over discs that were not used for the calibration, in the law's range
+# Exponents of the law that are common to all H: of the transition from region (a), and of the last factor of g₁.
+_ONSET, _LAST = 1.5, 4.0
+# Steps in ln X, and their number, in which g is integrated: from e^-40 of the X wanted on, far into region (a).
+_STEP, _STEPS = 0.05, 800
+CONSTANTS = {
+    "amplitude": "A of the law of g",
+    "exponent": "b of the law of g, its exponent at small X",
+    "bend": "s of the law of g, X at which it leaves this power law",
+    "fall": "m of the law of g, by which the exponent falls there",
+    "cutoff": "d of the law of g, X beyond which it vanishes",
+}
 
 COLUMNS = {
     "source": ("discs (boundary elements) or lines (method of dimensionality reduction)", ""),
@@ -46,38 +62,41 @@ COLUMNS = {
 }
 
 
-def interface_velocity(x: Numbers, exponent: float, peak: float, peak_x: float) -> Array:
-    """g(X), the interface's part of vt/h: peak (X/peak_x)^exponent exp(2 exponent (1 − √(X/peak_x))); any shape."""
-    scaled = x / peak_x
-    return peak * scaled**exponent * np.exp(2 * exponent * (1 - np.sqrt(scaled)))
+def interface_velocity(
+    x: Numbers, amplitude: float, exponent: float, bend: float, fall: float, cutoff: float, *, across: int = ACROSS
+) -> Array:
+    """g(X), the interface's part of vt/h, X > 0 of any shape; see the module for the formula and its constants.
 
-
-def interface_depth(x: Numbers, exponent: float, peak: float, peak_x: float) -> Array:
-    """∫₀^X g dX/X, the interface's part of u/h: 2 peak (e/2b)^(2b) γ(2b, 2b√(X/peak_x)), b = exponent; any shape.
-
-    γ(a, w) = ∫₀^w s^(a−1) e^(−s) ds is the lower incomplete gamma function.
+    across : elements across the disc, which determine region (a)
     """
-    twice = 2 * exponent
-    incomplete = gammainc(twice, twice * np.sqrt(x / peak_x)) * gamma_function(twice)
-    return 2 * peak * (np.e / twice) ** twice * incomplete
+    x = np.asarray(x, dtype=float)
+    interface = amplitude * x**exponent * (1 + x / bend) ** -fall * (1 + (x / cutoff) ** 2) ** -_LAST
+    of_one_element = x * (1 / one_element_stiffness(across) - 1)
+    return interface / (1 + (interface / of_one_element) ** _ONSET) ** (1 / _ONSET)
+
+
+def interface_depth(x: Numbers, *constants: float, across: int = ACROSS) -> Array:
+    """∫₀^X g dX/X, the interface's part of u/h, by Simpson's rule; constants : as of `interface_velocity`."""
+    logarithm = _STEP * np.arange(-_STEPS, 1)
+    x = np.multiply.outer(np.asarray(x, dtype=float), np.exp(logarithm))
+    return simpson(interface_velocity(x, *constants, across=across), dx=_STEP)
 
 
 @dataclass(frozen=True)
 class PenetrationLaw:
     """vt/h = X + g(X) for x_low <= X <= x_high, X = Ft/(4ηhL), and X^beta/zeta in region (b) (paper, Eqs. 1 to 3, 10).
 
-    All quantities are dimensionless. The law deviates by at most 5 % from the mean vt/h of every ensemble of the
-    calibration, and by at most `error` from the ends of the 95 % intervals of these means.
+    All quantities are dimensionless. g deviates by at most 5 % from its mean over discs that were not used for the
+    calibration; means are arithmetic ones over surfaces, at fixed X.
 
     hurst : Hurst exponent H
     beta, zeta : exponent β and prefactor ζ of the power law in region (b), independent of all other attributes
     beta_interval, zeta_interval : (lower, upper) ends of their 95 % confidence intervals, from the ensembles of the
         calibration
     region : (lower, upper) end of region (b) in X
-    exponent, peak, peak_x : constants b, g_m and X_m of g, see `interface_velocity`
-    depth_offset, depth_offset_interval : u/h less the integral of the law from X = 0 on, because of the approach before
-        the first contact spots; its 95 % interval
-    error : relative error of vt/h, as a mean of many surfaces
+    amplitude, exponent, bend, fall, cutoff : constants A, b, s, m and d of g, see `interface_velocity`
+    velocity_error, depth_error : largest relative distances of vt/h and u/h from the ends of the 95 % intervals of
+        their means over discs that were not used for the calibration
     x_low, x_high : range of the law in X
     """
 
@@ -87,19 +106,20 @@ class PenetrationLaw:
     zeta: float
     zeta_interval: tuple
     region: tuple
+    amplitude: float
     exponent: float
-    peak: float
-    peak_x: float
-    depth_offset: float
-    depth_offset_interval: tuple
-    error: float
+    bend: float
+    fall: float
+    cutoff: float
+    velocity_error: float
+    depth_error: float
     x_low: float
     x_high: float
 
     def velocity(self, x: Numbers) -> Array:
         """vt/h at X, any shape. Raises ValueError outside the range of X in which the law was calibrated."""
         x = self._inside(x)
-        return x + interface_velocity(x, self.exponent, self.peak, self.peak_x)
+        return x + interface_velocity(x, *self._constants)
 
     def velocity_interval(self, x: Numbers) -> tuple[Array, Array]:
         """(lower, upper) ends of vt/h, by the relative error of the law: arrays.
@@ -107,24 +127,21 @@ class PenetrationLaw:
         This is the uncertainty of the mean of many surfaces; single ones scatter more. Raises ValueError as `velocity`.
         """
         velocity = self.velocity(x)
-        return velocity * (1 - self.error), velocity * (1 + self.error)
+        return velocity * (1 - self.velocity_error), velocity * (1 + self.velocity_error)
 
     def depth(self, x: Numbers) -> Array:
-        """u/h = ∫ vt/h dX/X at X, any shape. Raises ValueError as `velocity`.
-
-        Below x_low the law does not hold: the grid of the calibration limits the approach before the first contacts.
-        What this changes is one constant, `depth_offset`.
-        """
-        return self._depth(self._inside(x), self.depth_offset)
+        """u/h = ∫ vt/h dX/X at X, any shape. Raises ValueError as `velocity`."""
+        x = self._inside(x)
+        return x + interface_depth(x, *self._constants)
 
     def depth_interval(self, x: Numbers) -> tuple[Array, Array]:
-        """(lower, upper) ends of u/h over the interval of the offset and the error of vt/h; see `velocity_interval`."""
-        x = self._inside(x)
-        low, high = (self._depth(x, offset) for offset in self.depth_offset_interval)
-        return low * (1 - self.error), high * (1 + self.error)
+        """(lower, upper) ends of u/h, by the relative error of the law; see `velocity_interval`."""
+        depth = self.depth(x)
+        return depth * (1 - self.depth_error), depth * (1 + self.depth_error)
 
-    def _depth(self, x: Array, offset: float) -> Array:
-        return offset + x + interface_depth(x, self.exponent, self.peak, self.peak_x)
+    @property
+    def _constants(self) -> tuple[float, ...]:
+        return self.amplitude, self.exponent, self.bend, self.fall, self.cutoff
 
     def _inside(self, x: Numbers) -> Array:
         """X as an array. Raises ValueError outside the range of the law."""
@@ -132,7 +149,7 @@ class PenetrationLaw:
         if not np.all((x >= self.x_low) & (x <= self.x_high)):
             raise ValueError(
                 f"X of the law for H = {self.hurst:g}: from {x.min():.3g} to {x.max():.3g}; "
-                f"allowed: {self.x_low:.3g} to {self.x_high:.3g}, in which discs of 257 elements across calibrated it"
+                f"allowed: {self.x_low:.3g} to {self.x_high:.3g}, in which discs of {ACROSS} elements across confirm it"
             )
         return x
 
@@ -154,26 +171,16 @@ def calibration() -> dict[str, Array]:
 
 @cache
 def interface_calibration() -> dict[str, Array]:
-    """The law beyond region (b), {column of data/interface.csv: array over the H of `calibration`}."""
-    names = ("hurst", "exponent", "peak", "peak_x", "law_low", "error", "depth_offset", "depth_low", "depth_high")
-    chosen = {"source": "discs", "average": "geometric", "across": "257"}
-
-    def table(group: str) -> dict[str, Array]:
-        return _read("interface.csv", lambda row: row.items() >= (chosen | {"case_group": group}).items(), names)
-
-    tables = table("base"), table("sizes")
-    # Exponents that only the grids from coarse to fine have, such as H = 1.
-    further = ~np.isin(tables[1]["hurst"], tables[0]["hurst"]) & np.isin(tables[1]["hurst"], calibration()["hurst"])
-    joined = {name: np.append(tables[0][name], tables[1][name][further]) for name in names}
-    order = np.argsort(joined["hurst"])
-    return {name: values[order] for name, values in joined.items()}
+    """The law beyond region (b), {column of data/law.csv: array over the H of `calibration`}."""
+    names = ("hurst", *CONSTANTS, "velocity_error", "depth_error", "x_low", "x_high")
+    return _read("law.csv", lambda row: int(row["across"]) == ACROSS, names)
 
 
 def penetration_law(hurst: float) -> PenetrationLaw:
     """PenetrationLaw of a self-affine surface with Hurst exponent H.
 
     Between the calibrated exponents all constants and intervals are interpolated linearly in H, of places in X their
-    logarithms.
+    logarithms. The law was confirmed at the calibrated exponents only.
 
     Parameters
     ----------
@@ -217,12 +224,13 @@ def penetration_law(hurst: float) -> PenetrationLaw:
         zeta=linear("zeta"),
         zeta_interval=(linear("zeta_low"), linear("zeta_high")),
         region=(logarithmic("x_low"), logarithmic("x_high")),
+        amplitude=linear("amplitude", beyond),
         exponent=linear("exponent", beyond),
-        peak=linear("peak", beyond),
-        peak_x=logarithmic("peak_x", beyond),
-        depth_offset=linear("depth_offset", beyond),
-        depth_offset_interval=(linear("depth_low", beyond), linear("depth_high", beyond)),
-        error=linear("error", beyond),
-        x_low=logarithmic("law_low", beyond),
-        x_high=X_HIGH,
+        bend=logarithmic("bend", beyond),
+        fall=linear("fall", beyond),
+        cutoff=logarithmic("cutoff", beyond),
+        velocity_error=linear("velocity_error", beyond),
+        depth_error=linear("depth_error", beyond),
+        x_low=logarithmic("x_low", beyond),
+        x_high=logarithmic("x_high", beyond),
     )

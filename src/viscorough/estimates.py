@@ -25,7 +25,8 @@ class Estimate(ReadOnlyArrays):
     """Depth and velocity over time by the penetration law; arrays of shape (times,), nan where the law does not hold.
 
     time : t; x : X = F·J(t)/(4hL)
-    depth, velocity : u and v = du/dt, the mean of many surfaces; a single surface scatters more than the intervals tell
+    depth, velocity : u and v = du/dt, arithmetic means over many surfaces at the same X, with h of each surface in X;
+        a single surface scatters more than the intervals tell
     depth_low, depth_high, velocity_low, velocity_high : ends of the intervals that follow from those of the law
     law : the PenetrationLaw, which holds from law.x_low to law.x_high
     """

@@ -11,38 +11,40 @@ function penetrationLaw(table, hurst) {
   const geometric = (low, high) => low * (high / low) ** share;
   const law = {};
   for (const [name, values] of Object.entries(table)) {
-    const between = ["x_low", "x_high", "peak_x"].includes(name) ? geometric : linear;
+    const between = ["x_low", "x_high", "bend", "cutoff"].includes(name) ? geometric : linear;
     law[name] = between(values[place], values[place + 1]);
   }
   return law;
 }
 
-/** Lower incomplete gamma function γ(a, w), by its series w^a e^(−w) Σ wⁿ/(a(a + 1)…(a + n)). */
-function incompleteGamma(a, w) {
-  let term = 1 / a;
-  let sum = term;
-  for (let n = 1; term > 1e-17 * sum; n += 1) {
-    term *= w / (a + n);
-    sum += term;
+/** g(X), the interface's part of vt/h. */
+function interfaceVelocity(law, x) {
+  const power = law.amplitude * x ** law.exponent * (1 + x / law.bend) ** -law.fall;
+  const falling = power * (1 + (x / law.cutoff) ** 2) ** -4;
+  return falling / (1 + (falling / (law.of_one_element * x)) ** 1.5) ** (2 / 3);
+}
+
+/** The interface's part of u/h: g integrated over ln X by Simpson's rule, as in Python. */
+function interfaceDepth(law, x) {
+  let sum = 0;
+  for (let i = 0; i <= 800; i += 1) {
+    const weight = i % 800 === 0 ? 1 : i % 2 ? 4 : 2;
+    sum += weight * interfaceVelocity(law, x * Math.exp(-0.05 * i));
   }
-  return w ** a * Math.exp(-w) * sum;
+  return (0.05 / 3) * sum;
 }
 
 /** Depth and velocity with their intervals, in the units of rms height and time; where: "", "below" or "above". */
 function estimate(law, { rms, diameter, force, viscosity, time }) {
   const x = (force * time) / viscosity / (4 * rms * diameter);
   const where = x < law.x_low ? "below" : x > law.x_high ? "above" : "";
-  const twice = 2 * law.exponent;
-  const root = Math.sqrt(x / law.peak_x);
-  const velocity = x + law.peak * root ** twice * Math.exp(twice * (1 - root));
-  const gained = x + 2 * law.peak * (Math.E / twice) ** twice * incompleteGamma(twice, twice * root);
-  const [low, high] = [1 - law.error, 1 + law.error];
-  const depths = [law.offset + gained, low * (law.offset_low + gained), high * (law.offset_high + gained)];
+  const depth = rms * (x + interfaceDepth(law, x));
+  const velocity = (rms / time) * (x + interfaceVelocity(law, x));
   return {
     x,
     where,
-    depth: depths.map((depth) => rms * depth),
-    velocity: [velocity, low * velocity, high * velocity].map((rate) => (rms / time) * rate),
+    depth: [depth, depth * (1 - law.depth_error), depth * (1 + law.depth_error)],
+    velocity: [velocity, velocity * (1 - law.velocity_error), velocity * (1 + law.velocity_error)],
   };
 }
 

@@ -42,11 +42,11 @@ def estimate(
     """Depth and velocity of a self-affine indenter without a simulation, from the calibrated penetration law.
 
     The law, vt/h = X + g(X) with X = Ft/(4 viscosity h L), was calibrated with boundary elements on discs of 257
-    elements across; where few spots touch, it is close to a power law, X^beta/zeta. It gives the mean of many
-    surfaces, with an interval of this mean; a single surface scatters by about 30 %. In a medium with the creep
-    compliance J(t), X is F J(t)/(4 h L). The law holds from the first few contact spots to X = 30, where the whole disc
-    sinks like a flat punch; outside of that range no number is given, and the last column says on which side the time
-    is.
+    elements across; where few spots touch, it is close to a power law, X^beta/zeta. It gives the arithmetic mean of
+    many surfaces, with an interval of this mean; a single surface scatters by about 30 %. In a medium with the creep
+    compliance J(t), X is F J(t)/(4 h L). The law is given where g was confirmed to 5 % on other discs: from the first
+    few contact spots until the whole disc sinks nearly like a flat punch; outside of that range no number is given, and
+    the last column says on which side the time is.
 
     Plain numbers are in consistent units: m, N and Pa s, for example. If the lengths have units, as in --rms "2 um",
     force and viscosity may have, too; then results are in m and s, and plain numbers are in N, Pa s and s.

@@ -1,6 +1,6 @@
-"""Interface and flat punch in series: g over X, the calibrated law over all X, and u₀/h over the Hurst exponent."""
+"""Interface and flat punch in series: g over X, the law of the library over it, and u₀/h over the Hurst exponent."""
 
-from viscorough.calibrated_law import LARGEST_DEVIATION
+from viscorough.calibrated_law import ACROSS, LARGEST_DEVIATION, interface_calibration, penetration_law
 from viscorough_study.comparisons.literature import cited
 from viscorough_study.figures import style
 
@@ -9,15 +9,15 @@ X_SHOWN = (1e-4, 30.0)
 
 
 @style.figure
-def plot_interface(table, curves, literature, periodic, conventions):
-    """g of discs and of periodic surfaces (a) and of lines (b), vt/h of the law over that of discs (c), u₀/h (d).
+def plot_interface(table, curves, literature, periodic):
+    """g of discs and of periodic surfaces (a) and of lines (b), g of the law over that of discs (c), u₀/h (d).
 
     table, curves : of fits.interface; literature : of comparisons.literature, for u₀/h in (d)
     periodic : of comparisons.periodic_control
-    conventions : those of the figures, {column: value}
-    (a) to (c) show each Hurst exponent on the base grid only.
+    All means are arithmetic ones, as springs add. (a) to (c) show each Hurst exponent on the base grid only; (c) shows
+    those for which the library has a law.
     """
-    table, curves = (part[part["average"] == conventions["average"]] for part in (table, curves))
+    table, curves = (part[part["average"] == "arithmetic"] for part in (table, curves))
     figure = style.new_figure(130)
     panels = figure.subplots(2, 2)
     discs, lines = _on_base_grid(table, "discs"), _on_base_grid(table, "lines")
@@ -28,9 +28,11 @@ def plot_interface(table, curves, literature, periodic, conventions):
     for (hurst, roll_off), rows in periodic.groupby(["hurst", periodic["roll_off_wavelength"].notna()]):
         look = {"color": looks[hurst]["color"], "marker": "s" if roll_off else "o", "linestyle": ""}
         panels[0, 0].plot(rows["x"], rows["g"], **look, markersize=3, markerfacecolor="white" if roll_off else None)
-    for row in discs.itertuples():
-        curve = _curve(curves, row)
-        panels[1, 0].plot(curve["x"], curve["law"] / curve["velocity"], **looks[row.hurst] | {"marker": ""})
+    for row in discs[discs["hurst"].isin(interface_calibration()["hurst"])].itertuples():
+        x, law = _law_of(_curve(curves, row), row.hurst)
+        panels[0, 0].plot(x, law, color=style.BLACK, linewidth=0.6)
+        interface = _curve(curves, row).set_index("x").loc[x, "interface"]
+        panels[1, 0].plot(x, law / interface.to_numpy(), **looks[row.hurst] | {"marker": ""})
     _draw_literature(panels[1, 1], literature)
     _draw_plateaus(panels[1, 1], table, looks)
     _label(panels)
@@ -60,13 +62,17 @@ def _curve(curves, row):
     return curves[(curves["x"] >= X_SHOWN[0]) & (curves["x"] <= X_SHOWN[1] * 1.01)]
 
 
+def _law_of(curve, hurst):
+    """X of a curve within the range of the law of the library, and its g there."""
+    law = penetration_law(hurst)
+    x = curve.loc[curve["x"].between(law.x_low, law.x_high), "x"].to_numpy()
+    return x, law.velocity(x) - x
+
+
 def _draw_interface(axes, row, curve, look):
-    """Draw g with its interval, law and plateau."""
+    """Draw g with its interval and plateau."""
     style.draw_band(axes, curve, "interface", look["color"], alpha=0.25)
     axes.plot(curve["x"], curve["interface"], **look | {"marker": ""})
-    if row.source == "discs":
-        inside = curve[(curve["x"] >= row.law_low) & (curve["x"] <= row.law_high)]
-        axes.plot(inside["x"], inside["law"] - inside["x"] / row.kappa_c, color=style.BLACK, linewidth=0.6)
     plateau = curve[(curve["x"] >= row.plateau_low) & (curve["x"] <= row.plateau_high)]
     axes.plot(plateau["x"], plateau["interface"], color=look["color"], linewidth=3, alpha=0.6, solid_capstyle="butt")
 
@@ -111,6 +117,7 @@ def _label(panels):
         axes.set(title=title, ylabel=r"$g = vt/h − X/\kappa_c$", ylim=(0, 0.6))
     ratio.axhspan(1 - LARGEST_DEVIATION, 1 + LARGEST_DEVIATION, color="0.92", linewidth=0, zorder=0)
     ratio.axhline(1, color=style.BLACK, linewidth=0.6)
-    ratio.set(title="(c) the law over boundary elements", ylabel="$vt/h$ of the law over the mean", ylim=(0.8, 1.2))
+    title = f"(c) the law for {ACROSS} elements over boundary elements"
+    ratio.set(title=title, ylabel="$g$ of the law over the mean", ylim=(0.8, 1.2))
     style.logarithmic_ticks(discs, lines, ratio)
     plateaus.set(title="(d) plateau of $g$", xlabel="Hurst exponent $H$", ylabel="$u$₀$/h$", ylim=(0.2, 0.7))

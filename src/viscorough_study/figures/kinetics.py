@@ -20,7 +20,7 @@ QUANTITIES = (
 
 @style.figure
 def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min):
-    """Velocity over time in SI units, vt/h over Ft/(hηL) computed from them (Eq. 2), and a table of the combinations.
+    """Velocity over time in SI units, vt/h over X computed from them (Eq. 2), and a table of the combinations.
 
     ensembles : ensemble datasets, one for each case
     combinations : {case: force [N], viscosity [Pa s], diameter [m], rms [m]}
@@ -50,7 +50,7 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
             ends[name] = max(end, ends.get(name, end))  # of the curve that ends last
     raw.set(xscale="log", yscale="log", xlabel="time $t$ (s)", ylabel="velocity $v$ (m/s)")
     raw.margins(x=0.12, y=0.05)
-    collapsed.set(xscale="log", yscale="log", xlabel=r"$Ft/(h\eta L)$", ylabel="$vt/h$")
+    collapsed.set(xscale="log", yscale="log", xlabel=r"$X = Ft/(4\eta hL)$", ylabel="$vt/h$")
     _mark_limits(collapsed, elements_across(ensembles[0]["elements"].item()))
     _mark_windows(collapsed, looks, scaling, conventions)
     realizations = f"each a mean over {realizations_text(ensembles)} discs"
@@ -84,33 +84,34 @@ def _tabulate(axes, combinations):
 
 
 def _in_units(curve, combination):
-    """Time [s], velocity [m/s], and (Ft/(hηL), vt/h) computed from them."""
+    """Time [s], velocity [m/s], and (X, vt/h) computed from them."""
     force, viscosity, length, rms = (combination[name] for name in ("force", "viscosity", "diameter", "rms"))
     time = 4 * curve.x * viscosity * rms * length / force
     velocity = curve.velocity * rms / time
-    return time, velocity, (force * time / (rms * viscosity * length), velocity * time / rms)
+    return time, velocity, (force * time / (4 * rms * viscosity * length), velocity * time / rms)
 
 
 def _mark_limits(axes, across):
-    """Limits (a) and (c), vt/h = X/κ of one element and of complete contact, over Ft/(hηL) = 4X."""
+    """Limits (a) and (c), vt/h = X/κ of one element and of a flat punch, over X."""
     bottom, top = axes.get_ylim()
     axes.autoscale(False)
     for stiffness, low, start, text, side in (
         (reference.one_element_stiffness(across), bottom, 0.6, "(a) one element in contact", "bottom"),
-        (reference.COMPLETE_CONTACT_STIFFNESS, 0.02, 0.1, "(c) complete contact", "top"),
+        (reference.COMPLETE_CONTACT_STIFFNESS, 0.02, 0.1, "(c) flat punch", "top"),
     ):
-        x_of_y = 4 * stiffness
-        axes.plot([x_of_y * low, x_of_y * top], [low, top], color=style.GREY, linestyle=":", linewidth=0.8)
+        axes.plot([stiffness * low, stiffness * top], [low, top], color=style.GREY, linestyle=":", linewidth=0.8)
         y = low * (top / low) ** start
-        angle = np.degrees(np.arctan(1 / x_of_y))  # of the line through the origin, which has slope 1 in the logarithms
+        angle = np.degrees(
+            np.arctan(1 / stiffness)
+        )  # of the line through the origin, which has slope 1 in the logarithms
         along = {"rotation": angle, "rotation_mode": "anchor", "transform_rotates_text": True}
-        axes.text(x_of_y * y, y, text, color=style.GREY, va=side, **along)
+        axes.text(stiffness * y, y, text, color=style.GREY, va=side, **along)
 
 
 def _mark_windows(axes, looks, scaling, conventions):
-    """Windows of region (b) as bars at the bottom, over Ft/(hηL) = 4X."""
+    """Windows of region (b) as bars at the bottom, over X."""
     bar = {"linewidth": 2.5, "solid_capstyle": "butt", "transform": axes.get_xaxis_transform()}
     for rank, (hurst, look) in enumerate(reversed(looks.items())):
         for row in fits(scaling, conventions, source="discs", case_group="base", hurst=hurst).itertuples():
-            axes.plot([4 * row.x_low, 4 * row.x_high], [0.03 + 0.025 * rank] * 2, color=look["color"], **bar)
+            axes.plot([row.x_low, row.x_high], [0.03 + 0.025 * rank] * 2, color=look["color"], **bar)
     axes.text(0.97, 0.025, "bars: region (b)", color=style.GREY, transform=axes.transAxes, ha="right")

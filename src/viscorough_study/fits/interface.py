@@ -10,16 +10,13 @@ mean of g over ln X on it. Lines of the MDR have κ_c = 1.
 
 import numpy as np
 import pandas as pd
-from scipy.optimize import least_squares
 
-from viscorough.calibrated_law import LARGEST_DEVIATION, X_LOW, interface_depth, interface_velocity
 from viscorough_study.ensembles.indentation import grid_and_punch
 from viscorough_study.ensembles.pool import ensembles, select
 from viscorough_study.fits.conventions import FITTED
 from viscorough_study.fits.intervals import described, described_ends, percentile_interval, three_columns, with_interval
 from viscorough_study.fits.power_law import log_means
 
-LAW_ELEMENTS_MIN = 5  # smallest median number of elements in contact at which the law is fitted
 ENSEMBLE = {
     "source": ("discs (boundary elements) or lines (method of dimensionality reduction)", ""),
     "case_group": ("base, sizes: grids from coarse to fine, or lines", ""),
@@ -33,23 +30,12 @@ COLUMNS = {
     "kappa_c": ("stiffness κ of the flat punch on this grid", "1"),
     **described("u0", "u₀/h: mean of the interface's part g of vt/h over the plateau"),
     **described_ends("plateau", "of the plateau of g in X"),
-    "exponent": ("exponent b of the law of g: g ∝ X^b at small X", "1"),
-    "peak": ("largest g of the law", "1"),
-    "peak_x": ("X at which the law of g is largest", "1"),
-    "law_low": ("lower end of the range of X in which the law of vt/h holds", "1"),
-    "law_high": ("upper end of this range", "1"),
-    "deviation": ("largest relative deviation of the law from the mean vt/h in this range", "1"),
-    "error": ("largest relative distance of the law from an end of the 95 % interval of the mean vt/h", "1"),
-    "depth_offset": ("mean u/h less the integral of the law from X = 0, at law_low", "1"),
-    **described_ends("depth", "of the 95 % interval of the offset"),
-    "depth_deviation": ("largest relative deviation of the law's depth from the mean u/h in the range of the law", "1"),
 }
 CURVES = {
     **ENSEMBLE,
     "x": ("X = F/(4GhL) = Ft/(4ηhL)", "1"),
     "velocity": ("mean vt/h", "1"),
     **described("interface", "g: vt/h less X/κ_c of the punch"),
-    "law": ("vt/h of the law", "1"),
 }
 
 
@@ -106,77 +92,28 @@ def fit_interface(ensemble, punch, *, plateau, fraction_min, average, resamples,
     punch : κ_c; plateau : fraction by which g is below its maximum at the ends of the plateau
     fraction_min : smallest fraction of defined realizations for which a mean is taken
     average, resamples, seed : of the mean and its bootstrap, as in viscorough_study.fits.power_law.fit_power_law
-    Abscissae at which one element is in contact, region (a), are omitted. The law describes curves on this grid,
-    including the onset of contact: it is fitted at X >= X_LOW with at least `LAW_ELEMENTS_MIN` elements in contact.
+    Abscissae at which one element is in contact, region (a), are omitted.
     """
     x, count = ensemble["x"].values, ensemble["contact_count_median"].values
     kept = (ensemble["fraction_defined"].values >= fraction_min) & (count > 1)
     velocity = ensemble["velocity"].values
-    samples, depths = (
-        np.exp(log_means(values, average, resamples, np.random.default_rng(seed)))[:, kept]
-        for values in (velocity, _depths(x, velocity))
-    )
-    x, count, size = x[kept], count[kept], len(velocity)
+    samples = np.exp(log_means(velocity, average, resamples, np.random.default_rng(seed)))[:, kept]
+    x, size = x[kept], len(velocity)
     interface, interval = samples - x / punch, percentile_interval(samples[1:], size)
     row = {"realizations": size, "kappa_c": punch} | _plateau(x, interface, plateau, size)
-    law = fit_law(x, samples[0], punch, (count >= LAW_ELEMENTS_MIN) & (x >= X_LOW))
-    row |= _law_columns(x, samples[0], interval, punch, law, depths=depths, size=size)
     curves = {"x": x, "velocity": samples[0], "interface": interface[0]}
     curves |= {f"interface_{end}": values - x / punch for end, values in zip(("low", "high"), interval, strict=True)}
-    curves["law"] = x / punch + interface_velocity(x, *law)
     return row, pd.DataFrame(curves)
-
-
-def _depths(x, velocity):
-    """u/h = ∫ vt/h d ln X of every realization at every abscissa; vt/h is proportional to X below the first one."""
-    steps = np.diff(np.log(x)) * (velocity[:, 1:] + velocity[:, :-1]) / 2
-    return velocity[:, :1] + np.concatenate([np.zeros((len(velocity), 1)), np.cumsum(steps, axis=1)], axis=1)
 
 
 def _plateau(x, interface, plateau, size):
     """Columns of u₀; interface : g of the ensemble and of its resamples, shape (resamples + 1, abscissae)."""
-    run = _run(interface[0] >= (1 - plateau) * interface[0].max(), int(np.argmax(interface[0])))
+    run = run_around(interface[0] >= (1 - plateau) * interface[0].max(), int(np.argmax(interface[0])))
     u0 = with_interval(interface[:, run].mean(axis=1), size)
     return three_columns("u0", u0) | {"plateau_low": x[run][0], "plateau_high": x[run][-1]}
 
 
-def fit_law(x, velocity, punch, allowed):
-    """(exponent, peak, peak_x) of viscorough.calibrated_law.interface_velocity, by least squares of ln(vt/h).
-
-    velocity : mean vt/h; punch : κ_c; allowed : abscissae of the fit, all of shape (abscissae,)
-    All are nan where fewer than four abscissae are allowed.
-    """
-    if allowed.sum() < 4:
-        return (np.nan,) * 3
-    x, log_velocity = x[allowed], np.log(velocity[allowed])
-
-    def residuals(logarithms):
-        return np.log(x / punch + interface_velocity(x, *np.exp(logarithms))) - log_velocity
-
-    return tuple(np.exp(least_squares(residuals, np.log([0.4, 0.5, 0.8])).x))
-
-
-def _law_columns(x, velocity, interval, punch, law, *, depths, size):
-    """Columns of the law: its constants, its range, its deviations within it, and the offset of its depth."""
-    columns = dict(zip(("exponent", "peak", "peak_x"), law, strict=True))
-    law_velocity = x / punch + interface_velocity(x, *law)
-    deviation = np.abs(law_velocity / velocity - 1)
-    holds = (deviation <= LARGEST_DEVIATION) & (x >= X_LOW)
-    place = int(np.argmin(np.abs(np.log(x / law[2])))) if np.isfinite(law[0]) else 0
-    if not holds[place]:
-        return columns
-    holds = _run(holds, place)
-    offsets = (depths - x / punch - interface_depth(x, *law))[:, holds][:, 0]
-    law_depth = x / punch + interface_depth(x, *law) + offsets[0]
-    low, high = percentile_interval(offsets[1:], size)
-    ends = [np.abs(law_velocity / end - 1)[holds].max() for end in interval]
-    columns |= {"law_low": x[holds][0], "law_high": x[holds][-1]}
-    columns |= {"deviation": deviation[holds].max(), "error": max(ends)}
-    columns |= {"depth_offset": offsets[0], "depth_low": low, "depth_high": high}
-    return columns | {"depth_deviation": np.abs(law_depth / depths[0] - 1)[holds].max()}
-
-
-def _run(allowed, place):
+def run_around(allowed, place):
     """Indices of the run of allowed abscissae that contains `place`, which is allowed."""
     outside = np.flatnonzero(~allowed)
     first = outside[outside < place].max(initial=-1) + 1

@@ -4,13 +4,8 @@ import json
 
 from markupsafe import Markup
 
-from viscorough.calibrated_law import X_HIGH, interface_calibration
-
-# {number of the law in the script: column of the calibration}
-_COLUMNS = {
-    **{name: name for name in ("hurst", "exponent", "peak", "peak_x", "error")},
-    **{"offset": "depth_offset", "offset_low": "depth_low", "offset_high": "depth_high", "x_low": "law_low"},
-}
+from viscorough.calibrated_law import ACROSS, interface_calibration
+from viscorough.reference import one_element_stiffness
 
 
 def calculator(section, script):
@@ -24,5 +19,5 @@ def calculator(section, script):
 
 def law_table():
     """{number of the law: its values over ascending H}."""
-    table = {name: interface_calibration()[column].tolist() for name, column in _COLUMNS.items()}
-    return table | {"x_high": [X_HIGH] * len(table["hurst"])}
+    table = {name: values.tolist() for name, values in interface_calibration().items()}
+    return table | {"of_one_element": [1 / one_element_stiffness(ACROSS) - 1] * len(table["hurst"])}

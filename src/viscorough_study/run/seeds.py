@@ -95,6 +95,11 @@ def periodic_key(hurst, realization):
     return _key(15, _millionths(hurst), realization)
 
 
+def law_disc_key(hurst, elements, realization):
+    """Discs of the penetration law, followed to complete contact; elements : across the disc."""
+    return _key(16, _millionths(hurst), elements, realization)
+
+
 def random_indenter_key(case):
     """Small indenter of the stability campaign; case : its number."""
     return _key(case)

@@ -23,7 +23,7 @@ def test_kinetics_are_those_of_the_curves_in_real_units(curves, discs, combinati
         time, velocity = moving[label]
         velocities = [kinetics(curve, at["force"], at["viscosity"], time).velocity for curve in curves[hurst, name]]
         np.testing.assert_allclose(velocity, np.sqrt(velocities[0] * velocities[1]), rtol=1e-9)
-        unit = at["rms"] * at["viscosity"] * at["diameter"]
+        unit = 4 * at["rms"] * at["viscosity"] * at["diameter"]
         np.testing.assert_allclose(scaled[label], [at["force"] * time / unit, velocity * time / at["rms"]], rtol=1e-12)
 
 
@@ -31,11 +31,11 @@ def test_kinetics_mark_the_regions(discs, combinations, scaling):
     axes = plot_kinetics(discs, combinations, scaling, SHOWN, fraction_min=0.95).axes[1]
     bars = [line.get_xdata() for line in axes.lines if line.get_transform() == axes.get_xaxis_transform()]
     fitted = fits(scaling, SHOWN, source="discs", case_group="base")
-    np.testing.assert_allclose(sorted(map(tuple, bars)), sorted(zip(4 * fitted.x_low, 4 * fitted.x_high, strict=True)))
+    np.testing.assert_allclose(sorted(map(tuple, bars)), sorted(zip(fitted.x_low, fitted.x_high, strict=True)))
     first, last = (line.get_xydata() for line in axes.lines if line.get_linestyle() == ":")
     kappa = reference.one_element_stiffness(ELEMENTS)
-    np.testing.assert_allclose(first[:, 1], first[:, 0] / 4 / kappa)
-    np.testing.assert_allclose(last[:, 1], last[:, 0] / 4)
+    np.testing.assert_allclose(first[:, 1], first[:, 0] / kappa)
+    np.testing.assert_allclose(last[:, 1], last[:, 0])
 
 
 @pytest.mark.parametrize(("fraction_min", "drawn"), [(0.5, True), (0.6, False)])

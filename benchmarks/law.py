@@ -1,0 +1,50 @@
+"""Calibrate the penetration law: curves of discs to complete contact, some of them to fit it, others to test it.
+
+    python benchmarks/law.py --cores 2 --output results/tables/law.csv
+
+For every Hurst exponent and grid, the law is fitted to so many discs and tested on as many others. The table has the
+columns of viscorough_study.fits.penetration_law.
+"""
+
+from functools import partial
+from multiprocessing import Pool
+from pathlib import Path
+
+import click
+import numpy as np
+import pandas as pd
+from tqdm import tqdm
+
+from viscorough_study.fits.penetration_law import COLUMNS, calibrate, complete_curve
+from viscorough_study.run.seeds import law_disc_key, realization_seed
+
+HURST, ACROSS, SEED, RESAMPLES = (0.1, 0.4, 0.6, 0.9, 1.0), (257, 129), 2013, 200
+
+
+def disc(hurst, across, number):
+    """The curve of one disc, and its control variates."""
+    return complete_curve(hurst, across, realization_seed(SEED, *law_disc_key(hurst, across, number)))
+
+
+@click.command(help=__doc__.splitlines()[0])
+@click.option("--discs", type=click.IntRange(2), default=150, show_default=True, help="Discs to fit, and to test.")
+@click.option("--cores", type=click.IntRange(1), default=1, show_default=True, help="Processes.")
+@click.option("--output", type=click.Path(path_type=Path), required=True, help="File to write, CSV.")
+def main(discs, cores, output):
+    rows = []
+    with Pool(cores) as pool:
+        for across in ACROSS:
+            for hurst in HURST:
+                done = pool.imap(partial(disc, hurst, across), range(2 * discs), chunksize=5)
+                parts, controls = zip(*tqdm(done, f"H = {hurst:g}, {across}", 2 * discs, mininterval=2), strict=True)
+                parts, controls = np.array(parts), np.array(controls)
+                fitted, unused = ((parts[half], controls[half]) for half in (slice(discs), slice(discs, None)))
+                row = calibrate(fitted, unused, across, resamples=RESAMPLES, seed=SEED)
+                rows.append({"hurst": hurst, "across": across} | row)
+    output.parent.mkdir(parents=True, exist_ok=True)
+    pd.DataFrame(rows, columns=list(COLUMNS)).to_csv(output, index=False)
+    click.echo(f"written to {output}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,161 @@
+"""Calibration of the penetration law, by loading curves of discs up to complete contact.
+
+The law of g, the interface's part of vt/h (viscorough.calibrated_law), has five constants for each Hurst exponent and
+grid. Two conditions are exact: its integrals over ln X and over X are the means of those of the discs, which follow
+from linear solutions (viscorough.complete_contact). The other three make it closest to the mean of g. How far the law
+is from g is measured on other discs, which also give the range in which it holds. Means over discs are arithmetic.
+
+Some properties of a disc are known exactly, without its curve: both integrals, and the distribution of its heights.
+They serve as control variates: by linear regression, the curves of the other discs are adjusted to the mean properties
+of the discs of the fit, which removes a good part of the chance difference between the two. The table also has the
+deviation without this.
+"""
+
+import numpy as np
+from scipy.integrate import simpson
+from scipy.optimize import least_squares
+
+from viscorough.calibrated_law import CONSTANTS, LARGEST_DEVIATION, interface_depth, interface_velocity
+from viscorough.contact.loading_path import indent
+from viscorough.sum_rules import complete_contact
+from viscorough.surfaces import self_affine_disc
+from viscorough_study.ensembles.averages import abscissa
+from viscorough_study.fits.interface import run_around
+from viscorough_study.fits.intervals import (
+    described,
+    mean_with_interval,
+    percentile_interval,
+    resampled_means,
+    three_columns,
+)
+
+X = abscissa(1e-6, 1e3, 10)
+TOLERANCE = 1e-5  # of the curves: at X = 30 few elements are left, and g is small
+# The law is fitted from this X on, up to where the relative standard error of the mean of g exceeds the second number;
+# deviations count in units of the standard error, or of the third number where this is larger.
+FIT_LOW, LARGEST_ERROR, LEAST_ERROR = 10**-2.7, 0.1, 0.02
+# Quantiles of the heights among the control variates.
+_QUANTILES = (0.5, 0.9, 0.99, 1.0)
+# Weight of the two integrals in the fit, so large that they are exact to 1e-6; abscissae of their quadrature, in ln X.
+_EXACT, _LOG_X = 1e5, np.linspace(np.log(1e-9), np.log(3e3), 1501)
+_START = (0.6, 0.3, 3.0, 1.0, 40.0)
+
+COLUMNS = {
+    "hurst": ("Hurst exponent H", "1"),
+    "across": ("elements across the discs", "1"),
+    "discs": ("discs to which the law is fitted", "1"),
+    "unused": ("other discs, on which it is tested", "1"),
+    **{key: value for name, text in CONSTANTS.items() for key, value in described(name, text).items()},
+    **described("mean_gap", "∫ g dX/X of the law: the mean over its discs"),
+    **described("energy", "∫ g dX of the law: the mean over its discs"),
+    "x_low": ("lower end of the range of X in which the law of g is within 5 % of the mean over other discs", "1"),
+    "x_high": ("upper end of this range", "1"),
+    "deviation": ("largest relative deviation of g there", "1"),
+    "unadjusted": ("the same without control variates", "1"),
+    "standard_error": ("largest relative standard error of the mean of g over other discs there", "1"),
+    "velocity_error": ("largest relative distance of vt/h there from an end of the 95 % interval of its mean", "1"),
+    "depth_error": ("largest relative distance of u/h there from an end of the 95 % interval of its mean", "1"),
+    "geometric_velocity": ("largest relative distance of the geometric mean of vt/h there, below the arithmetic", "1"),
+    "geometric_depth": ("the same of u/h", "1"),
+}
+
+
+def complete_curve(hurst, across, seed):
+    """g and the interface's part of u/h of a disc at the abscissae `X`, (2, abscissae), and its control variates.
+
+    hurst, across, seed : arguments of self_affine_disc
+
+    The control variates are both exact integrals, and quantiles, skewness and kurtosis of the heights.
+    """
+    disc = self_affine_disc(hurst, across, seed=seed)
+    heights, diameter, end = disc.heights[~np.isnan(disc.heights)], across * disc.spacing, complete_contact(disc)
+    rms = heights.std()
+    scaled = (heights - heights.mean()) / rms
+    force = 4 * rms * diameter * X
+    before = force[force < end.force]
+    depth, stiffness = indent(disc, tolerance=TOLERANCE, forces=before).at_force(before)
+    parts = np.zeros((2, X.size))
+    parts[:, : before.size] = before * (1 / stiffness - 1 / end.stiffness), depth - before / end.stiffness
+    parts[1, before.size :] = end.mean_gap
+    integrals = end.mean_gap / rms, end.energy / (4 * rms**2 * diameter)
+    return parts / rms, [*integrals, *np.quantile(scaled, _QUANTILES), np.mean(scaled**3), np.mean(scaled**4)]
+
+
+def fit_constants(interface, integrals, error, across):
+    """Constants of the law, in the order of `CONSTANTS`.
+
+    interface : mean of g at `X`; integrals : means of both; error : relative standard error of `interface`
+    """
+    fitted = (X >= FIT_LOW * (1 - 1e-9)) & (error <= LARGEST_ERROR)
+    weight = 1 / np.maximum(error[fitted], LEAST_ERROR)
+
+    def residuals(logarithms):
+        constants = np.exp(logarithms)
+        with np.errstate(divide="ignore"):
+            ratio = interface_velocity(X[fitted], *constants, across=across) / interface[fitted]
+            exact = np.divide(law_integrals(constants, across), integrals)
+            return np.nan_to_num(np.append(weight * np.log(ratio), _EXACT * np.log(exact)), neginf=-_EXACT)
+
+    return np.exp(least_squares(residuals, np.log(_START), x_scale="jac").x)
+
+
+def law_integrals(constants, across):
+    """∫ g dX/X and ∫ g dX of the law."""
+    law = interface_velocity(np.exp(_LOG_X), *constants, across=across)
+    return [simpson(values, _LOG_X) for values in (law, law * np.exp(_LOG_X))]
+
+
+def calibrate(fitted, unused, across, *, resamples, seed):
+    """Columns of `COLUMNS` from "discs" on.
+
+    fitted, unused : (parts of shape (discs, 2, abscissae), controls of shape (discs, variates)) of `complete_curve`
+    """
+    parts, controls = fitted
+    integrals = controls[:, :2]
+    error = relative_error(adjusted(parts[:, 0], controls, controls.mean(axis=0)))
+    means = resampled_means(np.hstack([parts[:, 0], integrals]), resamples, np.random.default_rng(seed))
+    constants = np.array([fit_constants(mean[:-2], mean[-2:], error, across) for mean in means])
+    ends = zip(*percentile_interval(constants[1:], len(parts)), strict=True)
+    row = {"discs": len(parts), "unused": len(unused[0])}
+    for name, value, interval in zip(CONSTANTS, constants[0], ends, strict=True):
+        row |= three_columns(name, (value, *interval))
+    for name, values in zip(("mean_gap", "energy"), integrals.T, strict=True):
+        row |= three_columns(name, mean_with_interval(values))
+    return row | tested(constants[0], *unused, controls.mean(axis=0), across)
+
+
+def relative_error(values):
+    """Relative standard error of the mean, infinite where the mean is 0; values : shape (discs, abscissae)."""
+    mean = values.mean(axis=0)
+    return np.where(mean > 0, values.std(axis=0, ddof=1) / np.sqrt(len(values)) / np.where(mean > 0, mean, 1), np.inf)
+
+
+def adjusted(values, controls, wanted):
+    """Values less what linear regression attributes to other controls than those wanted; first axis : discs."""
+    centred = controls - controls.mean(axis=0)
+    slopes = np.linalg.lstsq(centred, values.reshape(len(values), -1), rcond=None)[0]
+    return values - ((controls - wanted) @ slopes).reshape(values.shape)
+
+
+def tested(constants, parts, controls, wanted, across):
+    """Range of the law and its deviations in it, by discs that were not used for it: columns from "x_low" on.
+
+    wanted : mean controls of the discs of the fit
+    """
+    law = interface_velocity(X, *constants, across=across), interface_depth(X, *constants, across=across)
+    means = adjusted(parts, controls, wanted).mean(axis=0)[0], parts.mean(axis=0)[0]
+    deviation, unadjusted = (
+        np.abs(np.divide(law[0], mean, out=np.full(X.size, np.inf), where=mean > 0) - 1) for mean in means
+    )
+    within = (deviation <= LARGEST_DEVIATION) & (X >= FIT_LOW * (1 - 1e-9))
+    holds = run_around(within, int(np.argmin(np.abs(np.log(X)))))
+    x, kept = X[holds], parts[:, :, holds]
+    values = adjusted(kept, controls, wanted)
+    row = {"x_low": x[0], "x_high": x[-1], "deviation": deviation[holds].max(), "unadjusted": unadjusted[holds].max()}
+    row["standard_error"] = relative_error(values[:, 0]).max()
+    for i, name in enumerate(("velocity", "depth")):
+        _, *ends = mean_with_interval(x + values[:, i])
+        row[f"{name}_error"] = max(np.abs((x + law[i][holds]) / end - 1).max() for end in ends)
+        whole = x + kept[:, i]
+        row[f"geometric_{name}"] = (1 - np.exp(np.log(whole).mean(axis=0)) / whole.mean(axis=0)).max()
+    return row

@@ -203,7 +203,8 @@ QUOTED = {
         "at H = 0.4 and 0.1 it is {:.2f} and {:.2f} larger": lambda: above(fits("default")["beta"])[[0.4, 0.1]],
         "in region (b) to {:.0f} %": lambda: 100 * value("exact_correspondence").abs().max(),
         "F/({:.2f} h)": lambda: plateau_of_interface()["u0"].mean(),
-        "within 5 % from X = {:.1g} to {:.0f}": lambda: [LAW["x_low"].max(), LAW["x_high"].min()],
+        "within 5 % from X = {:.1g} to {:.0f} at every H": lambda: [LAW["x_low"].max(), LAW["x_high"].min()],
+        "and to {:.0f} at least but for H = 0.9": lambda: LAW["x_high"].drop(0.9).min(),
         "take {:.0f} to {:.0f}": lambda: [other_times().min(), 10 * round(other_times().max() / 10)],
         "{} minutes here": minutes_of_reproduction,
         "at about a fifth of the cost": lambda: 0.17 < line_over_disc() < 0.23,
@@ -264,7 +265,7 @@ QUOTED = {
             <= 0.02
         ),
         "it is {:.2f}, {:.2f} and {:.2f} at *H* = 0.1, 0.6 and 0.9": lambda: periodic(roll_off=False),
-        "a plateau of {:.2f} to {:.2f}. So": lambda: ends(plateau_of_interface()["u0"], 2),
+        "a plateau of {:.2f} to {:.2f}. So": lambda: plateau_of_interface()["u0"].agg(["min", "max"]),
         "period it is {:.2f}, {:.2f} and {:.2f}": lambda: periodic(roll_off=True),
         "softer by about 1.3/*n*": lambda: all(
             abs(number * (1 - punch_stiffness(number)) - 1.3) < 0.06 for number in (33, 257)

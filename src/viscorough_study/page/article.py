@@ -9,6 +9,7 @@ import numpy as np
 import typst
 import yaml
 
+from viscorough.calibrated_law import ACROSS
 from viscorough_study.page.results import Number, read_table, readable
 
 AUDITED, PLAIN = "1e-05", "1e-03"  # tolerances of the audits and curves whose sum rules are shown
@@ -30,16 +31,17 @@ def article(project, contents, *, paper, figures):
         paper=paper,
         sum_rules=json.loads(read(project / "docs/results/sum_rules.json")),
         outside=read_table(project / "docs/results/outside.csv"),
+        law=read_table(project / "docs/results/law.csv"),
         origins=json.loads(read(project / "docs/results/published.json")),
     )
     return typst.compile(text.encode(), root=figures, ignore_system_fonts=True)
 
 
-def filled(template, contents, *, citation, paper, sum_rules, outside, origins):
+def filled(template, contents, *, citation, paper, sum_rules, outside, law, origins):
     """Text of the article in Typst.
 
     template : text with placeholders; contents, paper : as of `article`; citation : content of CITATION.cff
-    sum_rules, outside : published results of measurements beside the workflow, content of a JSON file and a table
+    sum_rules, outside, law : published results of measurements beside the workflow, content of a JSON file and tables
     origins : content of docs/results/published.json
     """
     environment = jinja2.Environment(
@@ -55,7 +57,8 @@ def filled(template, contents, *, citation, paper, sum_rules, outside, origins):
         physics=counted_physics(contents["verdicts"]),
         titles=titles(contents["verdicts"]),
         validation=finest_grid(results),
-        springs=springs(results, contents["conventions"]["average"]),
+        springs=springs(results),
+        law=law[law["across"] == ACROSS].to_dict("records"),
         plateaus=results.tables["plateaus"].to_dict("records"),
         control=control(results),
         sum_rules=sum_rules_shown(sum_rules),
@@ -98,9 +101,9 @@ def finest_grid(results):
     return table[table["elements"] == table["elements"].max()].to_dict("records")
 
 
-def springs(results, average):
-    """Rows of the law of two springs, for each Hurst exponent of the base discs."""
-    rows = results.rows("interface", source="discs", case_group="base", average=average)
+def springs(results):
+    """Rows of the plateau of the interface, arithmetic means, for each Hurst exponent of the base discs."""
+    rows = results.rows("interface", source="discs", case_group="base", average="arithmetic")
     return rows.sort_values("hurst").to_dict("records")
 
 

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 import publish
 import pytest
+from scipy.special import ndtri
 
 from support.documentation import ROOT, read
 from support.study import CLAIMS
@@ -17,6 +18,7 @@ from viscorough_study.ensembles.indentation import punch_stiffness
 from viscorough_study.performance.costs import fit_cost, median_costs
 from viscorough_study.run.cases import disc_cases
 from viscorough_study.verdicts.claims import overall
+from viscorough_study.verdicts.evidence import FEW_WIDENED
 
 TABLE = pd.read_csv(ROOT / "docs/claims.csv")
 LAW = pd.read_csv(ROOT / "src/viscorough/data/law.csv").query("across == 257").set_index("hurst")
@@ -107,6 +109,18 @@ def below_expected():
 
 def trends():
     return published("sizes_trends.csv").query("source != 'controls'")
+
+
+def trends_at_fixed_x():
+    """Largest change of β with ten times as many elements, in the fixed window."""
+    return trends().query("window_rule == 'X = 0.01 to 0.1'")["slope"].abs().max()
+
+
+def default_path():
+    """Boundary elements at the default tolerance, on rough discs of 257 elements across."""
+    return published("methods.csv").query(
+        "method == 'path, automatic levels' and value == 1e-3 and elements == 257 and hurst.notna()", engine="python"
+    )
 
 
 def grid_factor(quantity):
@@ -208,6 +222,9 @@ QUOTED = {
         "take {:.0f} to {:.0f}": lambda: [other_times().min(), 10 * round(other_times().max() / 10)],
         "{} minutes here": minutes_of_reproduction,
         "at about a fifth of the cost": lambda: 0.17 < line_over_disc() < 0.23,
+        "to 0.1 % in about 0.1 s (257 elements": lambda: (
+            default_path()["error"].max() <= 1e-3 and default_path()["wall_s"].between(0.05, 0.15).all()
+        ),
     },
     "docs/getting_started.md": {"It takes {} minutes": minutes_of_reproduction},
     "docs/verdicts.md": {
@@ -231,6 +248,20 @@ QUOTED = {
             plateaus("roll_off")["decades_high"].max() >= 1.5 > plateaus("roll_off")["decades_low"].max()
         ),
         "own scale: {} discs and 50 500 lines": lambda: discs_of_paper()["base"],
+        "`make paper` has {} discs, twice the paper's {:.0f} |": lambda: [
+            discs_of_paper()["base"],
+            discs_of_paper()["base"] / 2,
+        ],
+        "than the paper: {:.0f} discs for every *H*, of which {:.0f} go on to region (c), and {} lines": lambda: [
+            9 * read_settings("config")["discs"]["realizations"],
+            9 * read_settings("config")["discs"]["whole_curves"],
+            read_settings("config")["lines"]["realizations"],
+        ],
+        "in less than {:.2f} % of all draws": lambda: 100 / (FEW_WIDENED * ndtri(0.975)) ** 2 + 0.005,
+        "`elements`: {:g} elements are allowed": lambda: CLAIMS["elements"]["tolerance"],
+        "`bodies_of_revolution`: {:g}, not": lambda: CLAIMS["bodies_of_revolution"]["tolerance"],
+        "`last_region`: {:g}, not": lambda: CLAIMS["last_region"]["tolerance"],
+        "`coincide_equal_windows`: {:g}, not": lambda: CLAIMS["coincide_equal_windows"]["tolerance"],
     },
     "docs/verification.md": {
         "factors of {:.2f}, {:.2f}, {:.2f} and {:.2f}": lambda: value("lambda_constant"),
@@ -246,9 +277,8 @@ QUOTED = {
         "up to {:.0f} below it": lambda: np.exp(reduction(inside=False)["stiffness_scatter"].max()),
         "above *H*/(1 + *H*), by {:.2f} and {:.2f}": lambda: departures(),
         "by {:.2f} and {:.2f}": lambda: value("coincide").abs()[["H = 0.1", "H = 0.4"]],
-        "as many elements change it by at most {:.3f}, at any": lambda: (
-            trends().query("window_rule == 'X = 0.01 to 0.1'")["slope"].abs().max()
-        ),
+        "as many elements change it by at most {:.3f}, at any": lambda: trends_at_fixed_x(),
+        "in `make paper`, where both are": lambda: 0.17 < line_over_disc() < 0.23,
         "by {} to {}": lambda: ends(early()["slope"].abs(), 3),
         "which would be {} to {}": lambda: ends(value("gamma", column="expected"), 2),
         "*u*/*h* = 1 by {:.2f} at *H* = 0.1 and by {:.2f} at": lambda: grid_factor("κ at u/h = 1")[[0.1, 0.4]],
@@ -300,6 +330,9 @@ QUOTED = {
     "docs/questions.md": {
         "4097 elements across takes {:.0f} s and {:.1f} GB": lambda: cost_of_large(4097, 1),
         "at about a fifth of the cost": lambda: 0.17 < line_over_disc() < 0.23,
+        "takes {:.2f} to {:.2f} s for a disc of 257": lambda: default_path()["wall_s"].agg(["min", "max"]),
+        "elements change it by at most {:.3f}. At": lambda: trends_at_fixed_x(),
+        "At smaller *X* and small *H* it falls": lambda: (early()["slope_high"] < 0).all(),
     },
     "docs/reproduce.md": {
         "50 500 lines: {} minutes": minutes_of_paper,

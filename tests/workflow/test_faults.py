@@ -32,23 +32,17 @@ def lines(tmp_path_factory, tmp_path):
     return shutil.copytree(made_once(tmp_path_factory, "lines", make), tmp_path / "lines")
 
 
-def failure(folder, *arguments, before=()):
-    """The output of a workflow that fails."""
-    options = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True, "timeout": HANGS}
-    arguments = [*before, *command(*SETTINGS, *arguments)]
-    done = subprocess.run(arguments, cwd=folder, env=environment(folder), check=False, **options)
-    assert done.returncode == 1, done.stdout
-    return done.stdout.rstrip()
-
-
 # ---- full disk
 
 
 def test_workflow_on_a_full_disk_goes_on_when_there_is_room(lines):
     """The sources, which Snakemake copies, are small enough, curves are not."""
     before = contents(lines / "results")
-    output = failure(lines, "--", NEW, before=[sys.executable, "-c", NO_LARGE_FILES, "40000"])
-    assert f"ERROR OSError: {NEW}: not written (" in output
+    arguments = [sys.executable, "-c", NO_LARGE_FILES, "40000", *command(*SETTINGS, "--", NEW)]
+    options = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True, "timeout": HANGS}
+    done = subprocess.run(arguments, cwd=lines, env=environment(lines), check=False, **options)
+    assert done.returncode == 1
+    assert f"ERROR OSError: {NEW}: not written (" in done.stdout
     assert contents(lines / "results") == before
     snakemake(lines, *SETTINGS, "--", NEW)
     assert netcdf.read(lines / NEW).variables["levels"].values.size == 2
@@ -61,7 +55,7 @@ def test_damaged_input_of_a_rule_is_named_and_can_be_made_again(lines):
     before = contents(lines)
     (lines / CURVES).write_bytes(DAMAGES["second half zeros"](before[CURVES]))
     damaged = contents(lines / "results/curves")
-    output = failure(lines, "--forcerun", "aggregate_curves", "--", TARGET)
+    output = snakemake(lines, *SETTINGS, "--forcerun", "aggregate_curves", "--", TARGET, fails=True)
     assert re.search("ERROR (.*)", output)[1].startswith(f"ValueError: {CURVES}: not readable (")
     assert contents(lines / "results/curves") == damaged
     assert not (lines / TARGET).exists()
@@ -86,7 +80,7 @@ def test_second_run_in_a_folder_ends_and_the_first_is_not_disturbed(lines):
                 assert time.monotonic() < deadline, "the first run does not lock its folder"
                 time.sleep(0.01)
             first.send_signal(signal.SIGSTOP)  # it holds its lock while the second run starts, however long that takes
-            output = failure(lines, "--forceall", "--", TARGET)
+            output = snakemake(lines, *SETTINGS, "--forceall", "--", TARGET, fails=True)
             first.send_signal(signal.SIGCONT)
             assert first.poll() is None, "else it had not been a second run"
             finished, _ = first.communicate(timeout=HANGS)

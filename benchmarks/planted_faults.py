@@ -23,7 +23,7 @@ from measuring import output_option, save
 
 ROOT = Path(__file__).resolve().parents[1]
 FAULTS = Path(__file__).with_suffix(".yaml")
-NOT_COPIED = shutil.ignore_patterns(".git", ".venv*", ".snakemake", "results", ".pytest_cache", ".hypothesis")
+NOT_COPIED = shutil.ignore_patterns(".git", ".venv*", ".snakemake", ".pytest_cache", ".hypothesis")
 TIME_LIMIT = 300.0  # seconds for the tests of one fault
 PASSED, FAILED = 0, 1  # exit codes of pytest; others mean that the tests could not run
 
@@ -106,9 +106,14 @@ def run_tests(tests, folder, time_limit):
     return run.returncode, (failed or lines)[-1], time.perf_counter() - began
 
 
+def not_copied(folder, names):
+    """Names in a folder that a copy does without; of folders called results, only that of runs."""
+    return NOT_COPIED(folder, names) | ({"results"} if Path(folder) == ROOT else set())
+
+
 def prepare(folder, tests, time_limit):
     """A copy of the project whose tests pass, with its functions compiled. Raises ClickException if they do not."""
-    shutil.copytree(ROOT, folder, ignore=NOT_COPIED)
+    shutil.copytree(ROOT, folder, ignore=not_copied)
     (folder / "results").mkdir()
     environment = os.environ | {"PYTHONPATH": str(folder / "src")}
     where = [sys.executable, "-c", "import viscorough; print(viscorough.__file__)"]

@@ -101,9 +101,11 @@ def _length_unit(rms: Quantity, diameter: Quantity, others: dict[str, Any]) -> s
 
 
 def _heading(law: PenetrationLaw) -> str:
+    from viscorough.calibrated_law import ACROSS
+
     (low, high), (least, most), region = law.beta_interval, law.zeta_interval, law.region
     return (
-        f"vt/h = X + g(X) for H = {law.hurst:g}, X from {law.x_low:.3g} to {law.x_high:.3g}; X^beta/zeta from "
-        f"{region[0]:.3g} to {region[1]:.3g}: beta {law.beta:.4g} [{low:.4g}, {high:.4g}], "
+        f"vt/h = X + g(X) for H = {law.hurst:g}, X from {law.x_low:.3g} to {law.x_high:.3g}, discs of {ACROSS} "
+        f"elements across; X^beta/zeta from {region[0]:.3g} to {region[1]:.3g}: beta {law.beta:.4g} [{low:.4g}, {high:.4g}], "
         f"zeta {law.zeta:.4g} [{least:.4g}, {most:.4g}]"
     )

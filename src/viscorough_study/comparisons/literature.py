@@ -40,7 +40,7 @@ def literature(scaling, interface, reduction, *, entries, conventions):
     entries : content of resources/literature/stiffness.yaml
     scaling, interface, reduction : the tables of these names; conventions : those of the figures
     """
-    u0 = _u0(interface, conventions["average"])
+    u0 = _u0(interface)
     ours = {
         "none": NONE,
         "alpha": _alpha(fits(scaling, conventions, source="discs", case_group="base")),
@@ -106,10 +106,10 @@ def _alpha(rows):
     return _or_none(rows.assign(value=1 - rows["beta"], low=1 - rows["beta_high"], high=1 - rows["beta_low"]))
 
 
-def _u0(interface, average):
-    """u₀/h and its interval of the base discs."""
+def _u0(interface):
+    """u₀/h and its interval of the base discs, arithmetic means, as compliances add."""
     rows = interface[(interface["source"] == "discs") & (interface["case_group"] == "base")]
-    return _or_none(_named_value(rows[rows["average"] == average], "u0"))
+    return _or_none(_named_value(rows[rows["average"] == "arithmetic"], "u0"))
 
 
 def _gamma(u0):

@@ -28,7 +28,7 @@ def test_table_on_standard_output(here, capsys):
     assert captured.err == ""
     law, head, *rows = captured.out.splitlines()
     low, high = WANTED.law.x_low, WANTED.law.x_high
-    assert law.startswith(f"vt/h = X + g(X) for H = 0.8, X from {low:.3g} to {high:.3g}; ")
+    assert law.startswith(f"vt/h = X + g(X) for H = 0.8, X from {low:.3g} to {high:.3g}, discs of 257 ")
     assert head.split() == ["time", "X", "depth", "from", "to", "velocity", "from", "to"]
     numbers = np.array([[float(cell) for cell in row.split()] for row in rows])
     np.testing.assert_allclose(numbers.T, [getattr(WANTED, name) for name in NAMES], rtol=1e-3)

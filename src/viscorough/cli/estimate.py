@@ -106,6 +106,6 @@ def _heading(law: PenetrationLaw) -> str:
     (low, high), (least, most), region = law.beta_interval, law.zeta_interval, law.region
     return (
         f"vt/h = X + g(X) for H = {law.hurst:g}, X from {law.x_low:.3g} to {law.x_high:.3g}, discs of {ACROSS} "
-        f"elements across; X^beta/zeta from {region[0]:.3g} to {region[1]:.3g}: beta {law.beta:.4g} [{low:.4g}, {high:.4g}], "
-        f"zeta {law.zeta:.4g} [{least:.4g}, {most:.4g}]"
+        f"elements across; X^beta/zeta from {region[0]:.3g} to {region[1]:.3g}: "
+        f"beta {law.beta:.4g} [{low:.4g}, {high:.4g}], zeta {law.zeta:.4g} [{least:.4g}, {most:.4g}]"
     )

@@ -37,14 +37,6 @@ def assert_same_curve(curve, other):
         assert type(value) is type(other_value), field.name
 
 
-def one_line(error):
-    """The message of a pytest.raises, which must be a single line."""
-    text = str(error.value)
-    assert text
-    assert "\n" not in text
-    return text
-
-
 def curve_of_levels(depth, force, stiffness, contact_count, tolerance=1e-9):
     """A LoadingCurve of these levels, made by hand."""
     levels = (np.asarray(values) for values in (depth, force, stiffness, contact_count))

@@ -38,9 +38,8 @@ def test_spacings_and_units_out_of_range_are_refused():
         ((1.0, 5.1), "differ by more than a factor of 5"),
         ((1.0, None, 3), "length_unit: must be a text"),
     ):
-        with pytest.raises(ValueError, match=what) as error:
+        with refused(what):
             Indenter(np.zeros((2, 2)), *arguments)
-        assert "\n" not in str(error.value)
     with pytest.raises(ValueError, match="a line has no rows"):
         Indenter(np.zeros(3), (2.0, 3.0))
 
@@ -88,9 +87,8 @@ def test_gaps_are_computed_in_double_precision(dtype):
     ],
 )
 def test_heights_that_make_no_indenter_are_refused(heights, what):
-    with pytest.raises(ValueError, match=what) as error:
+    with refused(what):
         Indenter(heights, 1.0)
-    assert "\n" not in str(error.value)
 
 
 # ---- units, comparison and mistaken types

@@ -6,6 +6,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
+from support.contract import refused
 from viscorough.indenter import Indenter
 from viscorough.mdr import _OCTAVES, _bin_gaps, _binned_gaps, line_of_map, line_of_surface, reduce, reduce_heights
 from viscorough.surfaces import cut_disc, self_affine_line, self_affine_square
@@ -121,7 +122,7 @@ def test_bad_options():
         ({"until_force": 0}, "reduce: until_force must be positive"),
         ({"bins_per_octave": 48}, "reduce: bins_per_octave must be a power of 2"),
     ):
-        with pytest.raises(ValueError, match=rf"^[^\n]*{message}[^\n]*$"):
+        with refused(message):
             reduce(self_affine_line(0.5, 10, seed=1), **options)
 
 

@@ -5,7 +5,7 @@ import tracemalloc
 import numpy as np
 import pytest
 
-from support.curves import one_line
+from support.contract import refused
 from viscorough.errors import AccuracyWarning
 from viscorough.indenter import Indenter
 from viscorough.io.heights import read_heights
@@ -78,9 +78,8 @@ def test_what_cannot_be_prepared_is_refused():
         ({"crop": ((0, 42), (0, 3))}, "crop to columns 0:42; within 0:41"),
         ({"nodata": 1.0}, "no height is left"),
     ):
-        with pytest.raises(ValueError, match=what) as error:
+        with refused(what):
             prepare(surface, **options)
-        one_line(error)
     assert prepare(surface) is surface
     with pytest.raises(ValueError, match="two-dimensional"):
         prepare(Indenter(np.arange(3.0), 1.0), flip=True)

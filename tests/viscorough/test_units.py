@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from support.curves import one_line
+from support.contract import refused
 from viscorough import units
 
 LENGTHS = {
@@ -31,9 +31,9 @@ DANGEROUS = ["9**9**9**9", "m**99999999", "__import__('os')", "a" * 10_000, "(" 
 
 @pytest.mark.parametrize("text", NO_LENGTHS + PICTURES + DANGEROUS)
 def test_what_is_no_unit_of_length_is_refused_at_once(text):
-    with pytest.raises(ValueError, match="unit") as error:
+    with refused("unit") as error:
         units.length_unit(text)
-    assert len(one_line(error)) < 200
+    assert len(str(error.value)) < 200
 
 
 @pytest.mark.parametrize(
@@ -51,9 +51,8 @@ def test_quantities_are_converted(text, unit, number):
 
 @pytest.mark.parametrize("text", ["", "mN", "5 5 x", "1,5", "5 m_m"])
 def test_what_is_no_quantity_is_refused(text):
-    with pytest.raises(ValueError, match=r"number|unit") as error:
+    with refused("number|unit"):
         units.quantity(text)
-    one_line(error)
     with pytest.raises(ValueError, match="cannot be converted to N"):
         units.quantity("5 mm").to("N")
 

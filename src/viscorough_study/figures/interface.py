@@ -14,8 +14,8 @@ def plot_interface(table, curves, literature, periodic):
 
     table, curves : of fits.interface; literature : of comparisons.literature, for u₀/h in (d)
     periodic : of comparisons.periodic_control
-    All means are arithmetic ones, as springs add. (a) to (c) show each Hurst exponent on the base grid only; (c) shows
-    those for which the library has a law.
+    All means are arithmetic ones, as springs add. (a) to (c) show each Hurst exponent on the base grid only; the
+    law of the library, in (a) and (c), only on its own grid and at its own Hurst exponents.
     """
     table, curves = (part[part["average"] == "arithmetic"] for part in (table, curves))
     figure = style.new_figure(130)
@@ -28,7 +28,8 @@ def plot_interface(table, curves, literature, periodic):
     for (hurst, roll_off), rows in periodic.groupby(["hurst", periodic["roll_off_wavelength"].notna()]):
         look = {"color": looks[hurst]["color"], "marker": "s" if roll_off else "o", "linestyle": ""}
         panels[0, 0].plot(rows["x"], rows["g"], **look, markersize=3, markerfacecolor="white" if roll_off else None)
-    for row in discs[discs["hurst"].isin(interface_calibration()["hurst"])].itertuples():
+    calibrated = discs["hurst"].isin(interface_calibration()["hurst"]) & (discs["across"] == ACROSS)
+    for row in discs[calibrated].itertuples():
         x, law = _law_of(_curve(curves, row), row.hurst)
         panels[0, 0].plot(x, law, color=style.BLACK, linewidth=0.6)
         interface = _curve(curves, row).set_index("x").loc[x, "interface"]
@@ -117,7 +118,6 @@ def _label(panels):
         axes.set(title=title, ylabel=r"$g = vt/h − X/\kappa_c$", ylim=(0, 0.6))
     ratio.axhspan(1 - LARGEST_DEVIATION, 1 + LARGEST_DEVIATION, color="0.92", linewidth=0, zorder=0)
     ratio.axhline(1, color=style.BLACK, linewidth=0.6)
-    title = f"(c) the law for {ACROSS} elements over boundary elements"
-    ratio.set(title=title, ylabel="$g$ of the law over the mean", ylim=(0.8, 1.2))
+    ratio.set(title="(c) the law over boundary elements", ylabel="$g$ of the law over the mean", ylim=(0.8, 1.2))
     style.logarithmic_ticks(discs, lines, ratio)
     plateaus.set(title="(d) plateau of $g$", xlabel="Hurst exponent $H$", ylabel="$u$₀$/h$", ylim=(0.2, 0.7))

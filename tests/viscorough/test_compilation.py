@@ -59,15 +59,6 @@ def test_where_compiled_code_cannot_be_kept_one_line_says_so(before, tmp_path):
     assert "set NUMBA_CACHE_DIR to a folder that is writable" in done.stderr
 
 
-def test_functions_are_kept_on_disk(tmp_path):
-    (tmp_path / "ours.py").write_text(
-        "from viscorough.compilation import njit\n@njit(fastmath=True)\ndef double(x):\n    return 2 * x\n"
-    )
-    script = "import ours; assert ours.double(2.0) == 4; print(sum(ours.double.stats.cache_hits.values()))"
-    options = {"PYTHONPATH": str(tmp_path), "NUMBA_CACHE_DIR": str(tmp_path / "cache")}
-    assert [run(script, **options).stdout for _ in range(2)] == ["0\n", "1\n"]
-
-
 class Interrupt(event.Listener):
     """Interrupts this process whenever numba starts to compile a function."""
 

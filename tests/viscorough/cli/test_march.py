@@ -54,14 +54,6 @@ def test_marching_agrees_with_kinetics(medium, method, tolerance):
         assert 0 < marched["overlap"].max() <= 1.001e-3
 
 
-def test_events_under_a_constant_force_are_those_of_the_curve():
-    assert run(f"{MARCH} --method events --force 2 --viscosity 4") == 0
-    events = values("march.nc")
-    curve = indent(Indenter(HEIGHTS, 1.0), tolerance=1e-11, depths=events["depth"][1::15])
-    np.testing.assert_allclose(events["time"][1::15], curve.force * 4 / 2, rtol=1e-9)
-    assert netcdf.read("march.nc").attributes["method"] == "events"
-
-
 @pytest.mark.parametrize(
     ("method", "tolerance"),
     [("events", 1e-9), ("implicit", 1e-5), ("explicit --overlap 1e-3", 5e-3), ("heun --overlap 1e-3", 5e-3)],

@@ -1,7 +1,5 @@
 """Loading curves in NetCDF files: every field is stored, units follow the length unit, invalid curves are refused."""
 
-import dataclasses
-
 import numpy as np
 import pytest
 
@@ -10,9 +8,8 @@ from support.curves import assert_same_curve, random_curve
 from viscorough.contact.loading_path import indent
 from viscorough.indenter import Indenter
 from viscorough.io import netcdf
-from viscorough.io.curves import PER_CURVE, STORED, curve_from_content, curve_to_content, stack_curves, unstack_curves
+from viscorough.io.curves import curve_from_content, curve_to_content, stack_curves, unstack_curves
 from viscorough.io.netcdf import Content
-from viscorough.loading_curve import LoadingCurve
 from viscorough.mdr import reduce
 from viscorough.surfaces import self_affine_disc, self_affine_line
 
@@ -54,10 +51,6 @@ def units(**texts):
 def attribute(name, value):
     """A change of a content: an attribute."""
     return lambda content: content.with_attributes(**{name: value})
-
-
-def test_every_field_of_a_curve_is_stored():
-    assert {field.name for field in dataclasses.fields(LoadingCurve)} == {*STORED, *PER_CURVE, "length_unit"}
 
 
 @pytest.mark.parametrize("levels", [1, netcdf.COMPRESSED_FROM])

@@ -1,7 +1,8 @@
 """Print the test files for what has changed since a commit: `python tests/changed.py [COMMIT]`, by default HEAD.
 
 A module has the test file of its name in the folder of tests of the same shape; without one, those that import it;
-without any, those of its folder. Changes of the workflow and of pages have the quick tests of their form.
+without any, those of its folder. What modules import decides what reruns, so that every change of them has the test of
+that. Changes of the workflow and of pages have the quick tests of their form.
 """
 
 import re
@@ -11,6 +12,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 BY_FOLDER = {
+    "src": ["tests/viscorough_study/run/test_source_digest.py"],
     "workflow": ["tests/workflow/test_form.py"],
     "config": ["tests/viscorough_study/run/test_settings.py"],
     "resources": ["tests/viscorough_study/verdicts/test_claims.py"],
@@ -48,4 +50,7 @@ def relevant_tests(name, root=ROOT):
 
 if __name__ == "__main__":
     commit = sys.argv[1] if len(sys.argv) > 1 else "HEAD"
-    print("\n".join(sorted({test for name in changed(commit) for test in relevant_tests(name)})))
+    names = changed(commit)
+    tests = {test for name in names for test in relevant_tests(name)}
+    tests |= {test for name in names if name.startswith("src/") for test in BY_FOLDER["src"]}
+    print("\n".join(sorted(tests)))

@@ -116,7 +116,7 @@ def _mark(draft, delimiter, mask):
     return mark
 
 
-# ---- remarks, comments, faults
+# ---- remarks, comments
 
 REMARKS = (
     *("Measured with a profilometer", "Messung vom Labor, Probe B", "Mesure de la surface, échantillon C"),
@@ -125,7 +125,6 @@ REMARKS = (
 ODD_REMARKS = ("Tip radius: 10 nm", "Scan rate: 1.0 Hz", "Scan speed: 2 um/s", "2024-05-01 10:11", "# 1 2 3", "Unit 7")
 COMMENTS = {"#": "# ", "#, no space": "#", "%": "% ", "//": "// ", "unmarked header": ""}
 ODD_COMMENTS = {"comments ;": "; ", "comments !": "! ", "comments *": "* "}
-FAULTS = ("two blocks", "two channels", "ragged", "too long", "misprint", "infinite", "axes", "row numbers")
 
 
 def with_header(draft, header, rows, delimiter, columns):
@@ -161,30 +160,6 @@ def _with_comments(draft, rows, mark):
     return [*rows[:at], *comment.get(form, ["", f"{mark}end of data"]), *rows[at:]]
 
 
-def spoiled(draft, rows, columns, delimiter, spacing):
-    """Rows of a file that holds no single map, with a row that is none, or with labelled positions beside the map."""
-    form, row = draft.one_of(FAULTS), delimiter.join(["7"] * columns)
-    if form in ("axes", "row numbers"):
-        draft.note(form, clear=False)
-        steps = spacing if form == "axes" else (1, 1)
-        x, y = ([f"{index * step:.6g}" for index in range(99)] for step in steps)
-        names = ["y\\x", *x[:columns]] if form == "axes" else ["row", *"ABCDEFGHIJKLMNOP"[:columns]]
-        return [delimiter.join(names), *(f"{at}{delimiter}{row}" for at, row in zip(y, rows, strict=False))]
-    draft.note(form, bad=True, faulty_line=form in ("ragged", "too long", "misprint"))
-    if form == "two blocks":
-        return [*rows, "", row, row]
-    if form == "two channels":
-        return [*rows, "", "# Channel: Phase", "# Value units: deg", row, row]
-    wrong = {
-        "ragged": delimiter.join(["7"] * (columns - 1)) if columns > 2 else delimiter.join(["7"] * 4),
-        "too long": row + 3 * f"{delimiter}7",
-        "misprint": f"{row}_x",
-        "infinite": f"{row[:-1]}inf",
-    }
-    at = int(draft.random.integers(len(rows)))
-    return [*rows[:at], wrong[form], *rows[at + 1 :]]
-
-
 # ---- whole files
 
 ENCODINGS = ("utf-8", "utf-8-sig", "latin-1", "cp1252", "utf-16 LE", "utf-16 BE")
@@ -218,8 +193,6 @@ def matrix(random):
     header, unit, spacing, options = header_lines(draft, shape, decimal_comma)
     if GWYDDION.keys() & set(draft.traits):
         draft.kind = "matrix, Gwyddion"
-    if draft.chance(0.05) and min(shape) > 1 and "leading delimiters" not in draft.traits:
-        lines = spoiled(draft, lines, columns, delimiter, np.array(spacing) / (unit or 1))
     lines = with_header(draft, header, lines, delimiter, columns)
     name = "map" + draft.one_of([".txt", ".txt", ".csv", ".dat", ".asc", ".TXT", ".tsv"])
     return draft.case(name, encoded(draft, lines), heights, unit, spacing, options | preparation)

@@ -21,33 +21,16 @@ TABLES = {name: table | rule for rule in RESULTS["tables"].values() for name, ta
 SHOWN = {name: table for name, table in TABLES.items() if "chapter" in table}  # in the report
 FIGURES = {figure.get("file", name): figure for name, figure in RESULTS["figures"].items()}  # by their files
 HANGS = 3000  # seconds after which a run is taken to hang: ten times the longest on a busy machine
-TARGETS = {
-    "all",
-    "article",
-    "curves",
-    "figures",
-    "tables",
-    "validation",
-    "speed",
-    "stability",
-    "sizes",
-    "large",
-    "costs",
-}
-TARGETS |= {"measured", *(f"figure_{number}" for number in range(1, 5))}
+TARGETS = {"all", "article", "curves", "figures", "tables", "validation", "speed", "stability", "sizes", "large"}
+TARGETS |= {"costs", "measured", *(f"figure_{number}" for number in range(1, 5))}
 
 
 def copy_project(folder):
     """A copy of the workflow, so that tests can run, edit and break it; it uses the packages of this project."""
     for name in ("workflow", "config", "profiles", "resources"):
         shutil.copytree(ROOT / name, folder / name)
-    (folder / "docs/results").mkdir(parents=True)
-    published = (
-        "claims.csv",
-        "rules.png",
-        *(f"results/{name}" for name in ("sum_rules.json", "outside.csv", "published.json")),
-    )
-    for name in ("Snakefile", "CITATION.cff", *(f"docs/{name}" for name in published)):  # for page and article
+    shutil.copytree(ROOT / "docs/results", folder / "docs/results")
+    for name in ("Snakefile", "CITATION.cff", "docs/claims.csv", "docs/rules.png"):  # the last ones for the page
         shutil.copy(ROOT / name, folder / name)
     return folder
 

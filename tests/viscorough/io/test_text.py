@@ -60,6 +60,12 @@ def test_headers(tmp_path, header, unit, spacing):
     assert indenter.length_unit == unit
 
 
+@pytest.mark.parametrize("encoding", ["utf-16-le", "utf-16-be"])
+def test_utf_16_without_a_mark(tmp_path, encoding):
+    (tmp_path / "a.txt").write_text("1\t2\t3\n4\t5\t6\n", encoding=encoding)
+    np.testing.assert_array_equal(read_text(tmp_path / "a.txt").heights, MATRIX)
+
+
 def test_points_in_any_order_with_gaps(tmp_path):
     """Positions rounded to a hundredth of their distance, one column and one more point missing."""
     random = np.random.default_rng(3)
@@ -90,6 +96,14 @@ def test_points_with_units_of_their_columns(tmp_path, text):
     indenter = read_heights(tmp_path / "a.xyz")
     np.testing.assert_array_equal(indenter.heights, [[1, 2], [3, 4]])
     assert (indenter.spacing, indenter.row_spacing, indenter.length_unit) == (500, 250, "nm")
+
+
+def test_points_below_a_header_that_agrees(tmp_path):
+    header = "# X pixel size: 0.5 um\n# Y pixel size: 0.25 um\n# unit: um\n"
+    (tmp_path / "a.xyz").write_text(header + POINTS)
+    indenter = read_heights(tmp_path / "a.xyz")
+    np.testing.assert_array_equal(indenter.heights, [[1, 2], [3, 4]])
+    assert (indenter.spacing, indenter.row_spacing) == (0.5, 0.25)
 
 
 ZYGO = """Zygo XYZ Data File - Format 1

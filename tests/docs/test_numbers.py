@@ -218,7 +218,7 @@ QUOTED = {
         "in region (b) to {:.0f} %": lambda: 100 * value("exact_correspondence").abs().max(),
         "F/({:.2f} h)": lambda: plateau_of_interface()["u0"].mean(),
         "within 5 % from X = {:.1g} to {:.0f} at every H": lambda: [LAW["x_low"].max(), LAW["x_high"].min()],
-        "and to {:.0f} at least but for H = 0.9": lambda: LAW["x_high"].drop(0.9).min(),
+        "and from {:.1g} to {:.0f} but for H = 1": lambda: [LAW["x_low"].drop(1).max(), LAW["x_high"].drop(1).min()],
         "take {:.0f} to {:.0f}": lambda: [other_times().min(), 10 * round(other_times().max() / 10)],
         "{} minutes here": minutes_of_reproduction,
         "at about a fifth of the cost": lambda: 0.17 < line_over_disc() < 0.23,

@@ -15,8 +15,8 @@ LAW = viscorough.penetration_law(0.6)
 @pytest.mark.parametrize("hurst", [0.7, 1.0])
 def test_estimate_is_the_mean_of_simulated_surfaces(hurst):
     """Arithmetic mean over 24 discs of 129 elements across; single ones scatter by about 30 % where few spots touch."""
-    start = max(5e-3, viscorough.penetration_law(hurst).x_low)
-    times = np.geomspace(start, 3, 6)  # force over viscosity is PER_X, so that X = t
+    times = np.geomspace(5e-3, 3, 6)  # force over viscosity is PER_X, so that X = t
+    times = times[times >= viscorough.penetration_law(hurst).x_low]
     estimated = estimate(hurst, RMS, DIAMETER, PER_X, 1.0, times)
     motions = []
     for seed in range(24):
@@ -30,7 +30,7 @@ def test_estimate_is_the_mean_of_simulated_surfaces(hurst):
     np.testing.assert_allclose(estimated.velocity[times > 0.5], velocity[times > 0.5], rtol=0.05)
     np.testing.assert_allclose(estimated.depth, depth, rtol=0.2)
     scatter = np.log(motions).std(axis=0)[0]
-    assert (scatter[times < 0.05] > 0.15).all()
+    assert (scatter[times < 0.1] > 0.15).all()
     assert (scatter < 0.45).all()
 
 

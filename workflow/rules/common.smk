@@ -196,7 +196,9 @@ def other_solvers_wanted():
 def article_digests():
     """Digests of the texts of the article, and of what it quotes, that are not results of the run."""
     texts = [*sorted((WORKFLOW / "article").iterdir()), PROJECT / "CITATION.cff"]
-    texts += [PROJECT / "docs/results" / name for name in ("sum_rules.json", "outside.csv", "law.csv", "published.json")]
+    texts += [
+        PROJECT / "docs/results" / name for name in ("sum_rules.json", "outside.csv", "law.csv", "published.json")
+    ]
     return [hashlib.sha256(path.read_bytes()).hexdigest()[:16] for path in texts]
 
 

@@ -3,8 +3,8 @@
 Snakemake compares the parameters of a rule with those of its last run, but ignores changes of the modules that a script
 imports. A digest of them as a parameter closes this gap. It covers the script and all modules of our packages that it
 imports, directly or through other modules, including imports inside functions. It is computed from syntax trees without
-docstrings, so that wording, comments and layout change no digest. The syntax tree, and with it the digest, may differ
-between versions of Python.
+docstrings, so that wording, comments and layout change no digest; tables (.csv) in the folder `data` beside a module
+that names them are part of it. The syntax tree, and with it the digest, may differ between versions of Python.
 
 Imports by names computed at run time are not followed. A name imported from a package itself, which may be looked up
 lazily, therefore counts as an import of all modules of the package.
@@ -12,6 +12,7 @@ lazily, therefore counts as an import of all modules of the package.
 
 import ast
 import hashlib
+import re
 from pathlib import Path
 
 PACKAGES = ("viscorough", "viscorough_study")
@@ -50,13 +51,16 @@ class SourceDigests:
     def _module(self, path):
         """(digest of the syntax tree, files of the modules that are imported) of a file."""
         if path not in self._modules:
-            tree, imported = ast.parse(path.read_text(encoding="utf-8")), set()
+            tree, imported, tables = ast.parse(path.read_text(encoding="utf-8")), set(), set()
             for node in ast.walk(tree):
                 if isinstance(node, _WITH_DOCSTRING) and ast.get_docstring(node, clean=False) is not None:
                     del node.body[0]
+                if isinstance(node, ast.Constant) and re.fullmatch(r"\w+\.csv", str(node.value)):
+                    tables.update(path.parent.glob(f"data/{node.value}"))
                 for name in _imported_names(node):
                     imported |= self._files(name.split("."))
-            self._modules[path] = _digest(ast.dump(tree)), imported
+            contents = [table.read_text(encoding="utf-8") for table in sorted(tables)]
+            self._modules[path] = _digest("\n".join([ast.dump(tree), *contents])), imported
         return self._modules[path]
 
     def _files(self, parts):

@@ -18,12 +18,15 @@ FILES = {
             return parts.first(x, 3)
         ''',
     "src/viscorough/deep/parts.py": """
+        TABLE = "table.csv"
+
         def first(x, limit):
             def inner():
                 'Of a function inside.'
                 return limit
             return inner() * x
         """,
+    "src/viscorough/deep/data/table.csv": "a,b\n1,2\n",
     "src/viscorough_study/__init__.py": "",
     "src/viscorough_study/handed_on.py": "from viscorough.deep.parts import first as other\nOWN = 1\n",
     "src/viscorough_study/everything.py": "from viscorough.deep.parts import *\n",
@@ -68,6 +71,7 @@ def changed_by(project, name, old, new, *functions):
     [
         ("viscorough/deep/solver.py", "(x, 3)", "(x, 4)", SOLVER),
         ("viscorough/deep/parts.py", "return limit", "return 2 * limit", PARTS),
+        ("viscorough/deep/data/table.csv", "1,2", "1,3", PARTS),
         ("viscorough_study/handed_on.py", "OWN = 1", "OWN = 2", {"inside", "again"}),
         ("viscorough/__init__.py", '"deep.solver"', '"deep.parts"', {"lazy", "attribute"}),
     ],

@@ -1,11 +1,14 @@
 """Interface and flat punch in series: g over X, the law of the library over it, and u₀/h over the Hurst exponent."""
 
+import numpy as np
+
 from viscorough.calibrated_law import ACROSS, LARGEST_DEVIATION, interface_calibration, penetration_law
 from viscorough_study.comparisons.literature import cited
 from viscorough_study.figures import style
 
 SHIFT = 0.008  # distance in H between markers of grids and methods
 X_SHOWN = (1e-4, 30.0)
+LEAST_SHARE = 0.01  # of g in vt/h for the ratio of the law to it: vt/h is known to the tolerance of the curves, 0.1 %
 
 
 @style.figure
@@ -32,8 +35,9 @@ def plot_interface(table, curves, literature, periodic):
     for row in discs[calibrated].itertuples():
         x, law = _law_of(_curve(curves, row), row.hurst)
         panels[0, 0].plot(x, law, color=style.BLACK, linewidth=0.6)
-        interface = _curve(curves, row).set_index("x").loc[x, "interface"]
-        panels[1, 0].plot(x, law / interface.to_numpy(), **looks[row.hurst] | {"marker": ""})
+        interface = _curve(curves, row).set_index("x").loc[x, "interface"].to_numpy()
+        ratio = np.where(interface >= LEAST_SHARE * x, law / interface, np.nan)
+        panels[1, 0].plot(x, ratio, **looks[row.hurst] | {"marker": ""})
     _draw_literature(panels[1, 1], literature)
     _draw_plateaus(panels[1, 1], table, looks)
     _label(panels)

@@ -142,8 +142,9 @@ def test_what_fails_or_is_not_known_looks_different(drawn):
 
 def test_laws_of_others_stand_beside_the_interface(drawn):
     _, _, law, plateaus = drawn["interface"].axes
-    for line in law.lines[:3]:
-        close(line.get_ydata(), 1.02)
+    x, ratio = (np.concatenate([getattr(line, f"get_{axis}data")() for line in law.lines[:3]]) for axis in "xy")
+    close(ratio[~np.isnan(ratio)], 1.02)
+    assert x[np.isnan(ratio)].min() > 1  # where g is too small a part of vt/h to be known
     (band,) = [collection for collection in plateaus.collections if len(collection.get_facecolor())]
     corners = {tuple(corner) for corner in band.get_paths()[0].vertices}
     assert corners == {(0.4, 0.5), (0.4, 0.56), (0.9, 0.41), (0.9, 0.46)}

@@ -13,6 +13,8 @@ from scipy.special import ndtri
 from support.documentation import ROOT, read
 from support.study import CLAIMS
 from support.workflow import merged, read_settings
+from viscorough.cli.surface_options import _STEEP_SLOPE
+from viscorough.contact.step_control import _RELAXED_BOUND
 from viscorough.reference import exponent_beta, zeta_elastic
 from viscorough_study.ensembles.indentation import punch_stiffness
 from viscorough_study.performance.costs import fit_cost, median_costs
@@ -297,6 +299,8 @@ QUOTED = {
         "it is {:.2f}, {:.2f} and {:.2f} at *H* = 0.1, 0.6 and 0.9": lambda: periodic(roll_off=False),
         "a plateau of {:.2f} to {:.2f}. So": lambda: plateau_of_interface()["u0"].agg(["min", "max"]),
         "period it is {:.2f}, {:.2f} and {:.2f}": lambda: periodic(roll_off=True),
+        "rms slope above about {}": lambda: str(_STEEP_SLOPE),
+        "Up to {} times the bound": lambda: str(_RELAXED_BOUND),
         "softer by about 1.3/*n*": lambda: all(
             abs(number * (1 - punch_stiffness(number)) - 1.3) < 0.06 for number in (33, 257)
         ),

@@ -46,6 +46,7 @@ MADE = {
     "stability": ("failure_map", "failure_map"),
     "sizes": ("sizes collapse", "sizes sizes_trends collapse collapse_curves infinite_grid"),
     "large": ("large", "large"),
+    "bench": ("", ""),
     "outside": ("", ""),
     "law": ("", "law"),
     "reproduce": ("", ""),
@@ -58,6 +59,7 @@ PUBLISHED = {
 }
 PUBLISHED["stability"] += ["campaign.json", "sum_rules.json"]
 PUBLISHED["outside"].append("outside.csv")
+PUBLISHED["bench"].append("benchmarks.json")
 # {command: {file in results/ that other parts of the project read: where they find it}}
 KEPT = {
     "paper": {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Sequence
 from html import escape
 from itertools import chain
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
 Summary = tuple[str, *tuple[Sequence[tuple[str, str]], ...]]
 
 
-class Summarised:
+class Summarised(ABC):
     """A result with the method `_summary`, which gives a title, and rows of (quantity, text), one for each line."""
 
     def __init_subclass__(cls, **options: Any) -> None:
@@ -22,8 +23,8 @@ class Summarised:
         # Else that of a dataclass, with all numbers of its arrays.
         cls.__repr__ = Summarised.__str__  # type: ignore[assignment, method-assign]  # defined for objects of all kinds
 
-    def _summary(self) -> Summary:
-        raise NotImplementedError
+    @abstractmethod
+    def _summary(self) -> Summary: ...
 
     def __str__(self) -> str:
         title, *lines = self._summary()

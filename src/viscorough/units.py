@@ -18,13 +18,15 @@ UNKNOWN = "1"
 # Units of length that are read without pint: spelling, and how files and results spell it.
 _COMMON_LENGTHS = {"m": "m", "mm": "mm", "um": "um", "µm": "um", "μm": "um", "nm": "nm"}
 _METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
-_ALLOWED = re.compile(r"[\w.()+\-*/^ µμÅ°\"'%]{1,60}")
-_POWER = re.compile(r"(?<![\w.])([^\W\d_]+|(?<=[(*/ ])[^\W\d_]+)([+-]?\d)(?![\w.])|\)([+-]?\d)(?![\w.])")
-_LONG_POWER = re.compile(r"(\*\*|\^)\s*(?![+-]?\d(?![\d.eE]|\s*(\*\*|\^)))")
-_POINTS = re.compile(r"(?:px|pix|pixels?|pts?|points?|dots?|samples?|punkte?|bildpunkte?)", re.IGNORECASE)
+# Patterns are compiled when they are first used: the command line starts faster.
+# Patterns are compiled at first use, so that the command line starts faster.
+_ALLOWED = r"[\w.()+\-*/^ µμÅ°\"'%]{1,60}"
+_POWER = r"(?<![\w.])([^\W\d_]+|(?<=[(*/ ])[^\W\d_]+)([+-]?\d)(?![\w.])|\)([+-]?\d)(?![\w.])"
+_LONG_POWER = r"(\*\*|\^)\s*(?![+-]?\d(?![\d.eE]|\s*(\*\*|\^)))"
+_POINTS = r"(?i:px|pix|pixels?|pts?|points?|dots?|samples?|punkte?|bildpunkte?)"
 # Lengths of printers that pint knows by names that elsewhere mean the points of a picture.
 _PRINTED = ("pixel", "point", "pica", "didot", "cicero")
-_QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.+?)\s*")
+_QUANTITY = r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.+?)\s*"
 
 
 @dataclass(frozen=True)
@@ -46,7 +48,7 @@ def quantity(text: str) -> Quantity:
     """The Quantity that a text such as "5 mN", "1e6 Pa s" or "2" states. Raises ValueError if it states none."""
     with contextlib.suppress(ValueError):
         return Quantity(float(text))
-    match = _QUANTITY.fullmatch(text)
+    match = re.fullmatch(_QUANTITY, text)
     if match is None:
         raise ValueError(f"{text!r} is not a number, with or without a unit")
     _parsed(match[2])
@@ -129,7 +131,7 @@ def factor(unit: str, to: str) -> float:
 
 def counts_points(unit: str) -> bool:
     """Whether a unit counts the points of a map, as px does, so that it is no length."""
-    return bool(_POINTS.fullmatch(unit.strip()))
+    return bool(re.fullmatch(_POINTS, unit.strip()))
 
 
 def metres(unit: str) -> float:
@@ -176,10 +178,10 @@ def _parsed(text: str) -> Any:
     Powers of more than one digit and powers of powers are refused: pint would compute them, however long that takes.
     """
     wanted = "a unit such as um, nm, N or Pa s is needed"
-    if not _ALLOWED.fullmatch(text):
+    if not re.fullmatch(_ALLOWED, text):
         raise ValueError(f"unit {text[:60]!r}: {wanted}")
-    spelled = _POWER.sub(lambda match: f"{match[1] or ')'}**{match[2] or match[3]}", text)
-    if _LONG_POWER.search(spelled) or spelled.count("**") > 6:
+    spelled = re.sub(_POWER, lambda match: f"{match[1] or ')'}**{match[2] or match[3]}", text)
+    if re.search(_LONG_POWER, spelled) or spelled.count("**") > 6:
         raise ValueError(f"unit {text!r}: {wanted}")
     try:
         parsed = _registry().parse_expression(spelled)

@@ -6,6 +6,7 @@ branches. For others every sample is summed over all before it, at a cost of sam
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
@@ -50,7 +51,7 @@ def creep_response(medium: Medium, history: ForceHistory) -> tuple[Array, Array]
     return response.creep, response.rate
 
 
-class _Intervals:
+class _Intervals(ABC):
     """The force between the samples of a history, and the times at which dΦ/dt is evaluated."""
 
     def __init__(self, medium: Medium, history: ForceHistory) -> None:
@@ -61,9 +62,9 @@ class _Intervals:
         self.jumps = np.append(self.force[0], np.where(step, increments, 0.0))  # just before each sample
         self.intervals = np.flatnonzero(~step)
 
+    @abstractmethod
     def parts(self, interval: Integers, offset: Array, *, left: bool) -> tuple[Array, Array, Array]:
         """Terms of dΦ/dt that rise and that fall with the time after the start of an interval, and their size."""
-        raise NotImplementedError
 
     def first_decrease(self) -> float:
         """The first time at which Φ decreases; infinite if it never does.

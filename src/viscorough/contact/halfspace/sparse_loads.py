@@ -10,7 +10,6 @@ import itertools
 
 import ducc0
 import numpy as np
-from scipy.special import erf, i0
 
 from viscorough.compilation import njit
 from viscorough.contact.halfspace.influence import influence_table
@@ -60,6 +59,8 @@ def add_deflection(
 
 def _interpolation_weights() -> Array:
     """Weights of the coarse points around an element, by its place between them, shape (_STRIDE, _POINTS)."""
+    from scipy.special import i0  # takes long to import
+
     place = np.arange(_STRIDE)[:, None] / _STRIDE - np.arange(1 - _POINTS // 2, _POINTS // 2 + 1)
     window = i0(_WINDOW * np.sqrt(np.maximum(1 - (2 * place / _POINTS) ** 2, 0.0))) / i0(_WINDOW)
     return np.sinc(place) * window
@@ -67,6 +68,8 @@ def _interpolation_weights() -> Array:
 
 def _smooth_kernel(row: Array, column: Array, sides: tuple[float, float], sigma: float) -> Array:
     """S at all pairs of distances: the mean of erf(r/σ)/r over an element, by two points of Gauss along each side."""
+    from scipy.special import erf  # takes long to import
+
     total = np.zeros((row.size, column.size))
     shifts = np.array([-1, 1]) / np.sqrt(12)
     for shift_y, shift_x in itertools.product(shifts, shifts):

@@ -16,7 +16,7 @@ import text_files
 import tifffile
 
 import viscorough
-from viscorough.cli import cli
+from viscorough.cli import COMMANDS, subcommand
 
 STARTED = "code-was-run"  # the file that code in a file would make
 
@@ -261,8 +261,8 @@ VALUES_OF = {
 }
 LEFT_OUT = {"-o", "--progress"}  # every command has the first, and the second may print
 OPTIONS = {
-    name: [option for option in command.params if option.opts[0][0] == "-" and option.opts[0] not in LEFT_OUT]
-    for name, command in cli.commands.items()
+    name: [option for option in subcommand(name).params if option.opts[0][0] == "-" and option.opts[0] not in LEFT_OUT]
+    for name in COMMANDS
 }
 # {command: options that it mostly has}
 USUAL = {

@@ -8,7 +8,7 @@ from docutils import nodes
 from docutils.parsers.rst import Directive
 from docutils.utils.math import latex2mathml
 
-from viscorough.cli import cli
+from viscorough.cli import subcommand
 
 project = "viscorough"
 author = "the authors of viscorough"
@@ -44,7 +44,7 @@ class CommandHelp(Directive):
     required_arguments = 1
 
     def run(self):
-        command = cli.commands[self.arguments[0]]
+        command = subcommand(self.arguments[0])
         context = click.Context(command, info_name=f"viscorough {command.name}", terminal_width=100)
         text = command.get_help(context)
         return [nodes.literal_block(text, text, language="none")]

@@ -5,7 +5,7 @@ import shlex
 
 import pytest
 
-from viscorough.cli import cli, main
+from viscorough.cli import COMMANDS, main
 
 
 def complaint(line, capsys, folder):
@@ -15,7 +15,7 @@ def complaint(line, capsys, folder):
     code = main(arguments)
     captured = capsys.readouterr()
     assert (code, captured.out) == (2, ""), captured
-    command = [argument for argument in arguments[:1] if argument in cli.commands]
+    command = [argument for argument in arguments[:1] if argument in COMMANDS]
     assert captured.err.startswith(f"{' '.join(['viscorough', *command])}: ")
     assert len(captured.err.splitlines()) == 1
     assert captured.err.endswith("\n")

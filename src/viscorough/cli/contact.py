@@ -19,7 +19,7 @@ from viscorough.summaries import unit_power, with_unit
 from viscorough.units import Quantity
 
 
-@click.command(short_help="Pressure, gap and contact at a given force or depth.")
+@click.command()
 @heights_input()
 @output_option("FIELDS.nc", table=False)
 @click.option("--force", type=Increasing("N"), help="Force, or several: F/G, or F with a modulus.")

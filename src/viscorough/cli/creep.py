@@ -14,7 +14,7 @@ from viscorough.summaries import with_unit
 from viscorough.units import Quantity
 
 
-@click.command(short_help="The medium from a measured depth over time.")
+@click.command()
 @click.argument("curve", type=FILE, metavar="CURVE.nc")
 @click.argument("record", type=FILE, metavar="RECORD.csv")
 @click.option("--force", type=QuantityOption("N"), help="Constant force F, applied at time 0.")

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from viscorough.viscous.medium import Medium
 
 
-@click.command(short_help="Depth and velocity of a self-affine surface by the calibrated law, without a simulation.")
+@click.command()
 @click.option("--hurst", type=PositiveNumber(1), required=True, help="Hurst exponent H, from 0.1 to 1.")
 @click.option("--rms", type=QuantityOption("m"), required=True, help="Rms height h of the surface.")
 @click.option("--diameter", type=QuantityOption("m"), required=True, help="Diameter L of the indenter.")

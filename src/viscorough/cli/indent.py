@@ -20,7 +20,7 @@ from viscorough.summaries import with_unit
 from viscorough.units import Quantity
 
 
-@click.command(short_help="Loading curve of an indenter on an elastic half-space.")
+@click.command()
 @heights_input()
 @output_option("CURVE.nc")
 @click.option(

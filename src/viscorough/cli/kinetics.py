@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 _EXACT = "exact for every topography, without 1/Gamma(2 - alpha)"
 
 
-@click.command(short_help="Penetration over time in any linear viscoelastic half-space.")
+@click.command()
 @click.argument("curve", type=FILE, metavar="CURVE.nc")
 @click.option("--force", type=QuantityOption("N"), help="Constant force F, applied at time 0.")
 @force_history_option

@@ -37,7 +37,7 @@ _OF_MEDIA = ("events", "implicit", "second_order")  # methods that integrate vis
 _METHODS_OF = {"overlap": ("explicit", "heun"), "until_fraction": ("events",)}  # {option: methods that have it}
 
 
-@click.command(short_help="Penetration over time by direct integration.")
+@click.command()
 @heights_input()
 @output_option("KIN.nc")
 @click.option(

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from viscorough.io.netcdf import Content
 
 
-@click.command(short_help="A figure of a surface, a curve, a motion or a contact.")
+@click.command()
 @heights_input("file")
 @click.option("-o", "--output", type=FILE, required=True, metavar="FIGURE", help="A .png, .pdf or .svg file.")
 def plot(surface: Surface, output: Path) -> None:

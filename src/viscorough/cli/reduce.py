@@ -25,7 +25,7 @@ _OF_A_MAP = (
 )
 
 
-@click.command(short_help="Loading curve by the method of dimensionality reduction (MDR).")
+@click.command()
 @heights_input("line_or_map")
 @click.option("--until-fraction", type=PositiveNumber(1), help="Contact fraction at which to stop  [default: 1]")
 @click.option("--realizations", type=click.IntRange(1, 100_000), help="Lines to make of a map  [default: 1]")

@@ -7,11 +7,9 @@ given depth are the first ones.
 from typing import NamedTuple
 
 import numpy as np
-import scipy.linalg
-from scipy.linalg.lapack import dposv
 
 from viscorough.compilation import njit
-from viscorough.contact.growing_cholesky import append_element, solve_flat_punch
+from viscorough.contact.growing_cholesky import append_element, solve_factored, solve_flat_punch
 from viscorough.contact.options import LATE
 from viscorough.contact.state import ContactState, Elements, MemberLoads, Units
 from viscorough.errors import ConvergenceError
@@ -138,10 +136,10 @@ def _last_contact(
     """The ContactState at the last event, solved again from the members and their Cholesky factor."""
     count, depth = events.count[-1], events.depth[-1]
     members, factor = members[:count], factor[:count, :count]
-    right = np.stack([depth - elements.initial_gap[members], np.ones(count)], axis=1)
-    solution = scipy.linalg.cho_solve((factor, True), right, overwrite_b=True, check_finite=False)
+    solution = np.stack([depth - elements.initial_gap[members], np.ones(count)])
+    solve_factored(factor, solution)
     order = np.argsort(members)
-    return _exact_contact(units, depth, members[order], *solution[order].T)
+    return _exact_contact(units, depth, members[order], *solution[:, order])
 
 
 def _deflections_at(elements: Elements, *loads_and_targets: Array | Integers) -> tuple[Array, Array]:
@@ -157,12 +155,13 @@ def _without(elements: Integers, members: Integers) -> Integers:
 def _pressure_and_tangent(elements: Elements, members: Integers, depth: float) -> tuple[Array, Array]:
     """P and q of a contact set at a depth, each of shape (count,)."""
     matrix = _influence_matrix(elements.influence, elements.row, elements.column, members)
-    right = np.stack([depth - elements.initial_gap[members], np.ones(members.size)])
-    # LAPACK stores matrices by columns, so that the lower triangle is the upper one there.
-    _, solution, failed = dposv(matrix.T, right.T, lower=False, overwrite_a=True, overwrite_b=True)
-    if failed:
-        raise ConvergenceError(f"contact of {members.size} elements: their influence matrix is not positive definite")
-    return solution[:, 0], solution[:, 1]
+    solution = np.stack([depth - elements.initial_gap[members], np.ones(members.size)])
+    try:
+        solve_factored(np.linalg.cholesky(matrix), solution)
+    except np.linalg.LinAlgError:
+        text = f"contact of {members.size} elements: their influence matrix is not positive definite"
+        raise ConvergenceError(text) from None
+    return solution[0], solution[1]
 
 
 def _exact_contact(units: Units, depth: float, members: Integers, pressure: Array, tangent: Array) -> ContactState:

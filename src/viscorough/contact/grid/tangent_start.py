@@ -7,7 +7,6 @@ combination of them.
 from typing import NamedTuple
 
 import numpy as np
-import scipy.linalg
 
 from viscorough.contact.grid import kernels
 from viscorough.contact.grid.loops import GridLoops, field_to_fill
@@ -59,7 +58,7 @@ def _weights(
         energy, sums = energy[:1, :1], sums[:1]
     scale = 1 / np.sqrt(np.maximum(np.diag(energy), np.finfo(float).tiny))
     # Least squares, since the loads may be multiples of each other.
-    _, weights, *_ = scipy.linalg.lapack.dgelss(scale[:, None] * energy * scale, scale * sums, cond=1e-10)
+    weights, *_ = np.linalg.lstsq(scale[:, None] * energy * scale, scale * sums, rcond=1e-10)
     weights *= scale
     return *weights, *[0.0] * (3 - weights.size)
 

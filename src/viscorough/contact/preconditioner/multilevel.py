@@ -25,9 +25,9 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-import scipy.linalg
 
 from viscorough.compilation import njit
+from viscorough.contact.growing_cholesky import solve_factored
 from viscorough.contact.halfspace.influence import influence_coefficient
 from viscorough.contact.parallel import run_blocks
 from viscorough.contact.preconditioner.factor_entries import BEFORE, NEIGHBOURS, REACH
@@ -258,10 +258,12 @@ class _FewBlocks:
         amplitude = np.sqrt(self.squares[places])
         matrix = self._coupling * amplitude * amplitude[:, None]
         matrix.flat[:: places.size + 1] += 1
-        self._factor, _ = scipy.linalg.lapack.dpotrf(matrix.T, overwrite_a=True)
+        self._factor = np.linalg.cholesky(matrix)
 
     def apply(self, residual: Array) -> Array:
-        return scipy.linalg.lapack.dpotrs(self._factor, residual[self.places])[0]
+        solution: Array = residual[None, self.places]
+        solve_factored(self._factor, solution)
+        return solution[0]
 
 
 class _NoCorrection:

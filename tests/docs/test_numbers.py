@@ -16,7 +16,7 @@ from support.workflow import merged, read_settings
 from viscorough.cli.surface_options import _STEEP_SLOPE
 from viscorough.contact.step_control import _RELAXED_BOUND
 from viscorough.reference import exponent_beta, zeta_elastic
-from viscorough_study.ensembles.indentation import punch_stiffness
+from viscorough_study.ensembles.flat_punch import punch_stiffness
 from viscorough_study.performance.costs import fit_cost, median_costs
 from viscorough_study.run.cases import disc_cases
 from viscorough_study.verdicts.claims import overall

@@ -11,7 +11,7 @@ mean of g over ln X on it. Lines of the MDR have κ_c = 1.
 import numpy as np
 import pandas as pd
 
-from viscorough_study.ensembles.indentation import grid_and_punch
+from viscorough_study.ensembles.flat_punch import grid_and_punch
 from viscorough_study.ensembles.pool import ensembles, select
 from viscorough_study.fits.conventions import FITTED
 from viscorough_study.fits.intervals import described, described_ends, percentile_interval, three_columns, with_interval

@@ -21,7 +21,7 @@ import pandas as pd
 from scipy.special import zeta
 
 from viscorough.reference import exponent_beta
-from viscorough_study.ensembles.indentation import grid_and_punch
+from viscorough_study.ensembles.flat_punch import grid_and_punch
 from viscorough_study.ensembles.pool import ensembles, select
 from viscorough_study.fits.power_law import log_means
 

@@ -8,7 +8,7 @@ from viscorough.contact.loading_path import indent
 from viscorough.io import netcdf
 from viscorough_study.ensembles.batches import Realization
 from viscorough_study.ensembles.discs import ensemble_disc
-from viscorough_study.ensembles.indentation import punch_stiffness
+from viscorough_study.ensembles.flat_punch import punch_stiffness
 from viscorough_study.ensembles.surface_files import write_surfaces
 from viscorough_study.run import cases
 

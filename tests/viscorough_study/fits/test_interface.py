@@ -7,7 +7,7 @@ import pytest
 from support.study import pool_of
 from viscorough.calibrated_law import interface_velocity
 from viscorough_study.ensembles.averages import abscissa, ensemble_dataset
-from viscorough_study.ensembles.indentation import punch_stiffness
+from viscorough_study.ensembles.flat_punch import punch_stiffness
 from viscorough_study.fits.interface import COLUMNS, CURVES, fit_interface, fit_interfaces, group_ensembles
 
 X = abscissa(1e-9, 30, 20)

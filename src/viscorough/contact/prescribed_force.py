@@ -1,8 +1,9 @@
 """Contacts at prescribed forces, found by solving as few depths as possible.
 
 The force is a convex function F(u) of the depth, and the contact solver gives F and its exact tangent k at any depth.
-Dense solutions at depths that grow by large ratios give the exponent of a power law, and this a first guess of the
-depth. On a grid the depth is then adjusted while the contact is solved (grid.depth_adjustment). Where that is not
+The depth for a large map is first estimated from a map of the highest points of its blocks, solved in the same way; for
+a smaller one, dense solutions at depths that grow by large ratios give the exponent of a power law, and this a first
+guess. On a grid the depth is then adjusted while the contact is solved (grid.depth_adjustment). Where that is not
 accurate enough, the next depth lies between a contact below and one above: that of the interpolant of a loading curve,
 in the triangle of chord and tangents, or where the tangents put it. The last, small correction follows the tangent.
 """
@@ -10,11 +11,13 @@ in the triangle of chord and tangents, or where the tangents put it. The last, s
 import numpy as np
 
 from viscorough.contact.dense import ROUNDING
+from viscorough.contact.parallel import BLOCK
 from viscorough.contact.solver import ContactSolver
 from viscorough.contact.state import ContactState
 from viscorough.contact.step_control import ContactsAhead, Level, interpolate
 from viscorough.errors import ConvergenceError
-from viscorough.types import Progress
+from viscorough.indenter import Indenter
+from viscorough.types import Array, Progress
 
 # Largest ratio of successive depths before the force is exceeded.
 _MAX_DEPTH_RATIO = 4.0
@@ -24,6 +27,24 @@ _UNCERTAINTY = 0.2
 # Elements in contact from which on the power law is trusted over larger ratios.
 _REPRESENTATIVE = 100
 _TINY = 1e-300
+# Elements above which the depth is estimated on a map of blocks, their sides in elements, the tolerance there, and the
+# ratio of forces from the last contact from which on it is.
+_LARGE, _SIDE, _COARSE_TOLERANCE, _FAR = BLOCK, 4, 1e-2, 4.0
+# Blocks in contact from which on they tell the depth. It is larger than theirs by the first of these over the square
+# root of their number, and by hardly more than the second: self-affine maps of every H had 0.6 to 2.4.
+_FEWEST_BLOCKS, _LIKELY, _LARGEST = 20, 1.2, 2.5
+
+
+def _highest_of_blocks(indenter: Indenter) -> Indenter:
+    """The indenter of the highest points of blocks of elements, which is nowhere lower."""
+
+    def along_columns(heights: Array) -> Array:
+        whole = len(heights) // _SIDE * _SIDE
+        blocks = np.fmax.reduce(heights[:whole].reshape(-1, _SIDE, heights.shape[1]), axis=1)
+        return np.vstack([blocks, np.fmax.reduce(heights[whole:], axis=0)]) if whole < len(heights) else blocks
+
+    heights = along_columns(along_columns(indenter.heights).T).T
+    return Indenter(heights, _SIDE * indenter.spacing, _SIDE * indenter.row_spacing)
 
 
 class ForceSearch:
@@ -52,8 +73,7 @@ class ForceSearch:
         while self._above and self._above[-1].pressure_sum <= target:
             self._below = self._above.pop()
         for attempt in range(_MAX_ATTEMPTS):
-            depth = self._next_depth(target, attempt)
-            largest_depth = depth * (depth / self._below.reduced_depth) ** _UNCERTAINTY
+            depth, largest_depth = (attempt == 0 and self._estimate(target)) or self._guess(target, attempt)
             force = None if self._above else (target, largest_depth)
             contact = self._solver.advance_reduced(self._below, depth, force)
             progress(1.0 if self._above else min(1.0, contact.pressure_sum / target))
@@ -70,6 +90,27 @@ class ForceSearch:
         raise ConvergenceError(
             f"contact at F/G = {force:g}: the force is not met within {_MAX_ATTEMPTS} depths; choose a larger tolerance"
         )
+
+    def _estimate(self, target: float) -> tuple[float, float] | None:
+        """Depth of the contact at a force, and one it hardly exceeds, from a map of blocks; None if that does not help.
+
+        An indenter that is nowhere lower carries a force at a smaller depth, so that this is estimated from below.
+        """
+        solver, force = self._solver, target * self._solver.units.force
+        if solver.elements.count <= _LARGE or self._above or target < _FAR * self._below.pressure_sum:
+            return None
+        blocks = _highest_of_blocks(solver.indenter)
+        coarse = ContactSolver(blocks, _COARSE_TOLERANCE, solver.options, solver.threads, whole=False)
+        contact = ForceSearch(coarse).contact_at(force)
+        if contact.count < _FEWEST_BLOCKS:
+            return None
+        depth, largest = (contact.depth * (1 + c / contact.count**0.5) for c in (_LIKELY, _LARGEST))
+        return (depth / solver.units.length, largest / solver.units.length) if depth > self._below.depth else None
+
+    def _guess(self, target: float, attempt: int) -> tuple[float, float]:
+        """Depth to solve next, and the largest one that is likely, from the contacts before."""
+        depth = self._next_depth(target, attempt)
+        return depth, depth * (depth / self._below.reduced_depth) ** _UNCERTAINTY
 
     def _next_depth(self, target: float, attempt: int) -> float:
         """Depth to solve next, between the nearest contacts below and above the force."""

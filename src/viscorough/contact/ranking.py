@@ -15,8 +15,8 @@ from viscorough.types import Array, Integers
 _SAMPLE, _MOST_RANGES = 1000, 8
 # The least number of elements to be ranked, and the share of them from which on all are.
 _LEAST, _MOST_SHARE = BLOCK, 0.5
-# Sample size for the depth up to which elements are ranked at first.
-_DEPTH_SAMPLE = 1 << 14
+# About how many elements are ranked at first where no depth is known, and the size of the sample that tells which.
+_FIRST, _DEPTH_SAMPLE = 1 << 14, 1 << 14
 # Depth up to which elements are ranked next where only those of the largest height are, over the largest initial gap.
 _SMALLEST_DEPTH = 1e-3
 
@@ -50,7 +50,7 @@ class Ranking:
             return self.up_to(elements, np.inf)
         sample = self._heights.ravel()[:: max(self._count // _DEPTH_SAMPLE, 1)]
         gap = np.subtract(self._highest, sample[np.isfinite(sample)], dtype=float) / self.units.length
-        least = np.quantile(gap, min(2 * _LEAST / self._count, 1.0)) if gap.size else np.inf
+        least = np.quantile(gap, min(_FIRST / self._count, 1.0)) if gap.size else np.inf
         return self.up_to(elements, depth if np.isfinite(depth) else least)
 
     def up_to(self, elements: Elements, depth: float) -> Elements:

@@ -33,8 +33,6 @@ from viscorough.types import Array
 # them, each of which takes two applications of the operator. A box that would cover more than this share of the whole
 # grid is replaced by the whole grid.
 _BOX_DEPTH_MARGIN, _LARGEST_BOX = 2.0, 0.8
-# Largest growth of the box, over that of the least depth, for which the contact at a force is solved at once.
-_LARGEST_GROWTH = 2.0
 # Contact only grows with depth. Within the accuracy of the solution an element may leave it, with a gap up to this
 # multiple of the tolerance times the depth; a larger gap is an error.
 _LOST_CONTACT = 3
@@ -78,7 +76,8 @@ class ContactSolver:
     whole : whether the whole map will be in contact, so that the memory must suffice for it; else it must for boxes
         around the elements that can touch, as they are needed
 
-    elements, units : state.Elements and state.Units of the indenter
+    indenter : as it was given
+    elements, units : its state.Elements and state.Units
 
     Raises MemoryError if the available memory does not suffice for the map.
     """
@@ -96,7 +95,7 @@ class ContactSolver:
         self._of_memory: dict[str, Any] = {"exact": tolerance < options.exact_gap_below, "threads": threads}
         if whole:
             require_for_contact(indenter.heights, **self._of_memory)
-        self._indenter, self._ranking = indenter, Ranking(indenter, threads)
+        self.indenter, self._ranking = indenter, Ranking(indenter, threads)
         self.units = self._ranking.units
         self.tolerance, self.options, self.threads, self._loops = tolerance, options, threads, GridLoops(threads)
         self._grid: GridSolver | None = None
@@ -166,10 +165,6 @@ class ContactSolver:
             solution = dense.solve(self.elements, contact, depth, candidates, self.options.dense_contacts)
             if solution is not None:
                 return self._checked(contact, solution)
-        if force:
-            deepest = self._depth_of_affordable_box(depth, deepest)
-            depth, force = min(depth, deepest), (force[0], deepest)
-            candidates = self._candidates(depth, deepest)
         grid, start = self._grid_up_to(max(candidates, 1), deepest), contact
         if not _has_fields_on(grid, contact):
             # The fields of a much shallower contact cost more than they save.
@@ -194,7 +189,7 @@ class ContactSolver:
 
         Raises ConvergenceError if any element overlaps the surface by more than the residual of the contact says.
         """
-        heights, (top, left), (rows, columns) = self._indenter.heights, self.elements.origin, self.elements.shape
+        heights, (top, left), (rows, columns) = self.indenter.heights, self.elements.origin, self.elements.shape
         gap = np.subtract(np.fmax.reduce(heights, axis=None), heights, dtype=float)
         part, grid = gap[top : top + rows, left : left + columns], self._grid
         on_grid = grid if grid and _has_fields_on(grid, contact) else None
@@ -205,7 +200,10 @@ class ContactSolver:
                 elements.shape, load.size, elements.aspect
             ):
                 load = load * self.units.length
-                sparse_loads.add_deflection(part, *place, load, aspect=elements.aspect, threads=self.threads)
+                box = on_grid.box if on_grid else (0, 0, 0, 0)
+                sparse_loads.add_deflection(
+                    part, *place, load, outside=box, aspect=elements.aspect, threads=self.threads
+                )
             else:
                 how: dict[str, Any] = {
                     "aspect": elements.aspect,
@@ -242,21 +240,6 @@ class ContactSolver:
             self.elements = self._ranking.up_to(self.elements, deepest)
         return int(np.searchsorted(self.elements.initial_gap, depth))
 
-    def _depth_of_affordable_box(self, guess: float, largest: float) -> float:
-        """The largest depth for which the box is not much larger than for one as far below the guess as possible.
-
-        Where elements far away come within reach, a contact at a smaller force costs less than the larger box, and it
-        tells the depth better.
-        """
-        least = self._candidates(guess**2 / largest, largest)
-        gap, row, column = self.elements.initial_gap, self.elements.row, self.elements.column
-        reach = int(np.searchsorted(gap, largest))
-        area = np.ones(reach)
-        for place in (row[:reach], column[:reach]):
-            area *= np.maximum.accumulate(place) - np.minimum.accumulate(place) + 1
-        beyond = int(np.searchsorted(area, _LARGEST_GROWTH * area[least - 1], side="right"))
-        return float(gap[beyond]) if beyond < reach else largest
-
     def _is_small(self, candidates: int, contact: ContactState) -> bool:
         """Whether a dense evaluation is cheaper than the grid."""
         return candidates * contact.count <= self.options.dense_interactions
@@ -283,7 +266,7 @@ class ContactSolver:
                 return self._grid
             self._former_applications = self.operator_applications
             self._grid = None  # its memory is free for the larger one
-            require_for_box(self._indenter.heights, box, **self._of_memory)
+            require_for_box(self.indenter.heights, box, **self._of_memory)
             if reach == self.elements.count:
                 self.elements.free_influence()  # contacts on the whole grid need no dense solutions
             self._grid = GridSolver(

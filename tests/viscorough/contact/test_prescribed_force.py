@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from viscorough import reference
+from viscorough.contact import prescribed_force
 from viscorough.contact.loading_path import indent
 from viscorough.contact.one_contact import contact_at
 from viscorough.contact.options import SolverOptions
@@ -91,13 +92,30 @@ def test_a_force_takes_hardly_more_operators_than_its_depth():
 
 
 def test_hills_that_are_not_reached_stay_outside_the_box():
-    """The first guess of the depth is above the second hill; the contact at the force is far below it."""
-    row, column = np.mgrid[:256, :256]
-    first, second = (np.exp(-((row - at) ** 2 + (column - at) ** 2) / 800) for at in (40, 215))
-    heights = np.maximum(first, 0.6 * second) + 0.1 * self_affine_square(0.8, 256, seed=2)
+    """The power law through the first contacts leads above the second hill; the contact is far below it."""
+    row, column = np.mgrid[:512, :512]
+    first, second = (np.exp(-((row - at) ** 2 + (column - at) ** 2) / 3200) for at in (80, 430))
+    heights = np.maximum(first, 0.6 * second) + 0.1 * self_affine_square(0.8, 512, seed=2)
     search = ForceSearch(ContactSolver(Indenter(heights, 1.0), 1e-6, SolverOptions(dense_interactions=0)))
-    inside = search.contact_at(20.0).fields.initial_gap < 1e9
+    inside = search.contact_at(40.0).fields.initial_gap < 1e9
     assert np.count_nonzero(inside) < 0.1 * heights.size
+
+
+@pytest.mark.parametrize("hurst", [0.2, 0.8])
+def test_depth_of_blocks_tells_that_of_the_contact(hurst):
+    """From few elements in contact to complete contact; blocks at the edges have fewer elements."""
+    rough = Indenter(self_affine_square(hurst, 403, seed=5)[:, :390], 1.0, 1.3)
+    for force in (200.0, 2e3, 2e4):
+        depth = contact_at(rough, force=force).depth
+        least, largest = _depth_bounds(rough, force)
+        assert 0.7 * depth < least < depth < largest < 1.4 * depth
+
+
+def _depth_bounds(indenter, force):
+    """Depth of the blocks, and the largest one that is estimated."""
+    solver = ContactSolver(indenter, 1e-3)
+    blocks = contact_at(prescribed_force._highest_of_blocks(indenter), force=force).depth
+    return blocks, ForceSearch(solver)._estimate(force / solver.units.force)[1] * solver.units.length
 
 
 def test_a_force_that_the_first_guess_meets_exactly():

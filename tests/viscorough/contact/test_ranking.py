@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from viscorough.contact import ranking
+from viscorough.contact import prescribed_force, ranking
 from viscorough.contact.halfspace import sparse_loads
 from viscorough.contact.loading_path import indent
 from viscorough.contact.one_contact import contact_at
@@ -47,8 +47,11 @@ def indenter(request):
 
 @pytest.fixture
 def few_ranked(monkeypatch):
-    """As on maps of millions of elements: few are ranked at first, and gaps far from the contact are interpolated."""
-    monkeypatch.setattr(ranking, "_LEAST", 50)
+    """As on maps of millions of elements: few are ranked at first, far gaps are interpolated, and depths estimated."""
+    for name in ("_LEAST", "_FIRST"):
+        monkeypatch.setattr(ranking, name, 50)
+    for name in ("_LARGE", "_FEWEST_BLOCKS"):
+        monkeypatch.setattr(prescribed_force, name, 1)
     monkeypatch.setattr(sparse_loads, "_LEAST", 0)
 
 

@@ -45,9 +45,11 @@ class ConjugateGradients:
         """Compute the preconditioned gap z = M e on the set."""
         self._preconditioned, self._gap = self._preconditioner.apply(gap), gap
 
-    def uniform_response(self) -> Array:
-        """M 1 on the set, in the order of its places: about the tangent. To be called before `precondition`."""
-        ones = np.ones(self._set.inside.size, np.float32)
+    def uniform_response(self, ones: Array) -> Array:
+        """M 1 on the set, in the order of its places: about the tangent. To be called before `precondition`.
+
+        ones : flat field
+        """
         return self._preconditioner.apply(ones)[self._set.places]
 
     def total_preconditioned(self) -> float:

@@ -30,11 +30,17 @@ class PrescribedForce:
         self._pressure_sum, self._largest_depth, self._loops = pressure_sum, largest_depth, loops
         self._places: Integers = np.empty(0, int)
         self._response: Array = np.empty(0)
+        self._ones: Array = np.empty(0)  # kept from set to set
         self._stiffness = _LEAST_STIFFNESS
 
-    def prepare(self, search: ConjugateGradients, places: Integers) -> None:
-        """Prepare for another contact set, that of the ConjugateGradients, with elements at these places."""
-        self._places, self._response = places, search.uniform_response()
+    def prepare(self, search: ConjugateGradients, places: Integers, size: int) -> None:
+        """Prepare for another contact set, that of the ConjugateGradients.
+
+        places : of its elements in flat fields, which have this size
+        """
+        if self._ones.size == 0:
+            self._ones = np.ones(size, np.float32)
+        self._places, self._response = places, search.uniform_response(self._ones)
         self._stiffness = float(self._response.sum(dtype=float))
 
     def is_met(self, pressure: Array, places: Integers, depth: float, limit: float) -> bool:

@@ -131,9 +131,11 @@ class GridSolver:
         fields, search, precision = contact.grid_fields, self._search, self._search.precision
         places = np.flatnonzero(fields.inside)
         share = (pressure_sum - self._loops.total(fields.pressure, places)) / self._loops.total(fields.tangent, places)
-        pressure = np.maximum(fields.pressure + precision(share) * fields.tangent, precision(0))
-        pressure *= precision(pressure_sum / self._loops.total(pressure, places))
-        change, inside = search.gap_change(pressure, depth), pressure > 0
+        loads = np.maximum(fields.pressure[places] + precision(share) * fields.tangent[places], precision(0))
+        pressure, inside = search.zeros(), search.zeros(bool)
+        pressure[places] = loads * precision(pressure_sum / loads.sum(dtype=float))
+        inside[places] = loads > 0
+        change = search.gap_change(pressure, depth)
         fields = replace(fields, inside=inside, pressure=pressure, gap_change=change)
         settled = self._state(contact.units, depth, fields, search.contact_set(inside))
         return replace(settled, pressure_sum=pressure_sum, tangent_sum=contact.tangent_sum)

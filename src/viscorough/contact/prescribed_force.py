@@ -74,8 +74,8 @@ class ForceSearch:
             self._below = self._above.pop()
         for attempt in range(_MAX_ATTEMPTS):
             depth, largest_depth = (attempt == 0 and self._estimate(target)) or self._guess(target, attempt)
-            force = None if self._above else (target, largest_depth)
-            contact = self._solver.advance_reduced(self._below, depth, force)
+            sought = None if self._above else (target, largest_depth)
+            contact = self._solver.advance_reduced(self._below, depth, sought)
             progress(1.0 if self._above else min(1.0, contact.pressure_sum / target))
             other = self._above[-1] if self._above else self._below
             if contact.pressure_sum <= target:
@@ -96,16 +96,20 @@ class ForceSearch:
 
         An indenter that is nowhere lower carries a force at a smaller depth, so that this is estimated from below.
         """
-        solver, force = self._solver, target * self._solver.units.force
-        if solver.elements.count <= _LARGE or self._above or target < _FAR * self._below.pressure_sum:
+        solver, below = self._solver, self._below
+        is_near = bool(self._above) or target < _FAR * below.pressure_sum or below.count == solver.elements.count
+        if solver.elements.count <= _LARGE or is_near:
             return None
         blocks = _highest_of_blocks(solver.indenter)
         coarse = ContactSolver(blocks, _COARSE_TOLERANCE, solver.options, solver.threads, whole=False)
-        contact = ForceSearch(coarse).contact_at(force)
+        try:
+            contact = ForceSearch(coarse).contact_at(target * solver.units.force)
+        except ConvergenceError:
+            return None
         if contact.count < _FEWEST_BLOCKS:
             return None
         depth, largest = (contact.depth * (1 + c / contact.count**0.5) for c in (_LIKELY, _LARGEST))
-        return (depth / solver.units.length, largest / solver.units.length) if depth > self._below.depth else None
+        return (depth / solver.units.length, largest / solver.units.length) if depth > below.depth else None
 
     def _guess(self, target: float, attempt: int) -> tuple[float, float]:
         """Depth to solve next, and the largest one that is likely, from the contacts before."""

@@ -10,6 +10,7 @@ from viscorough.contact.one_contact import contact_at
 from viscorough.contact.options import SolverOptions
 from viscorough.contact.prescribed_force import ForceSearch
 from viscorough.contact.solver import ContactSolver
+from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc, self_affine_square
 
@@ -125,6 +126,12 @@ def test_a_force_that_the_first_guess_meets_exactly():
     curve = indent(two, forces=[0.5, 4.0, 30.0], tolerance=1e-4, options=options)
     exact = indent(two, depths=curve.depth, tolerance=1e-12)
     np.testing.assert_allclose(exact.force, curve.force, rtol=1e-6)
+
+
+def test_a_force_that_is_not_met_is_named(monkeypatch):
+    monkeypatch.setattr(prescribed_force, "_MAX_ATTEMPTS", 2)
+    with pytest.raises(ConvergenceError, match=r"contact at F/G = 0\.5: the force is not met within 2 depths"):
+        contact_at(self_affine_disc(0.8, 65, seed=3), force=0.5)
 
 
 def test_progress_is_reported_up_to_the_end():

@@ -154,14 +154,15 @@ def _without(elements: Integers, members: Integers) -> Integers:
 
 def _pressure_and_tangent(elements: Elements, members: Integers, depth: float) -> tuple[Array, Array]:
     """P and q of a contact set at a depth, each of shape (count,)."""
+    from scipy.linalg.lapack import dposv  # takes long to import
+
     matrix = _influence_matrix(elements.influence, elements.row, elements.column, members)
-    solution = np.stack([depth - elements.initial_gap[members], np.ones(members.size)])
-    try:
-        solve_factored(np.linalg.cholesky(matrix), solution)
-    except np.linalg.LinAlgError:
-        text = f"contact of {members.size} elements: their influence matrix is not positive definite"
-        raise ConvergenceError(text) from None
-    return solution[0], solution[1]
+    right = np.stack([depth - elements.initial_gap[members], np.ones(members.size)])
+    # LAPACK stores matrices by columns, so that the lower triangle is the upper one there.
+    _, solution, failed = dposv(matrix.T, right.T, lower=False, overwrite_a=True, overwrite_b=True)
+    if failed:
+        raise ConvergenceError(f"contact of {members.size} elements: their influence matrix is not positive definite")
+    return solution[:, 0], solution[:, 1]
 
 
 def _exact_contact(units: Units, depth: float, members: Integers, pressure: Array, tangent: Array) -> ContactState:

@@ -3,9 +3,6 @@
 It serves the two methods that follow contact events: the dense elastic path and the direct integration of the viscous
 problem. The latter checks the former; all they share are the influence coefficients and this linear algebra, which is
 tested against a full factorisation. Compiled functions take plain arrays, hence their many arguments.
-
-Factors computed at once come from numpy, and their triangles are solved here: importing scipy.linalg takes longer than
-many a contact.
 """
 
 import numpy as np

@@ -13,6 +13,9 @@ from viscorough.contact.grid.loops import GridLoops, field_to_fill
 from viscorough.contact.state import BoundedField, ContactSet, GridFields
 from viscorough.types import Array
 
+# Eigenvalues of the energies of the loads, over the largest, that are zero but for rounding.
+_DEPENDENT = 1e-10
+
 
 class Loads(NamedTuple):
     """Pressure P and e − g = w − u, a BoundedField, of a contact at a reduced depth u; flat fields."""
@@ -58,8 +61,10 @@ def _weights(
         energy, sums = energy[:1, :1], sums[:1]
     scale = 1 / np.sqrt(np.maximum(np.diag(energy), np.finfo(float).tiny))
     # Least squares, since the loads may be multiples of each other.
-    weights, *_ = np.linalg.lstsq(scale[:, None] * energy * scale, scale * sums, rcond=1e-10)
-    weights *= scale
+    eigenvalues, vectors = np.linalg.eigh(scale[:, None] * energy * scale)
+    independent = eigenvalues > _DEPENDENT * eigenvalues[-1]
+    vectors = vectors[:, independent]
+    weights = scale * (vectors @ ((scale * sums) @ vectors / eigenvalues[independent]))
     return *weights, *[0.0] * (3 - weights.size)
 
 

@@ -30,8 +30,8 @@ _TINY = 1e-300
 # Elements above which the depth is estimated on a map of blocks, their sides in elements, the tolerance there, and the
 # ratio of forces from the last contact from which on it is.
 _LARGE, _SIDE, _COARSE_TOLERANCE, _FAR = BLOCK, 4, 1e-2, 4.0
-# Blocks in contact from which on they tell the depth. It is larger than theirs by the first of these over the square
-# root of their number, and by hardly more than the second: self-affine maps of every H had 0.6 to 2.4.
+# Least number of blocks in contact for an estimate. The depth of the map exceeds that of the blocks by a share of c
+# over the square root of their number; self-affine maps of all H had c from 0.6 to 2.4. A likely and a large c.
 _FEWEST_BLOCKS, _LIKELY, _LARGEST = 20, 1.2, 2.5
 
 

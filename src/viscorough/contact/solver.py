@@ -168,8 +168,8 @@ class ContactSolver:
         grid, start = self._grid_up_to(max(candidates, 1), deepest), contact
         if not _has_fields_on(grid, contact):
             # The fields of a much shallower contact cost more than they save.
-            start = contact if depth < _LARGEST_RATIO_OF_START * contact.reduced_depth else self.unloaded_state()
-            start = replace(start, fields=grid.fields(start))
+            is_start = depth < _LARGEST_RATIO_OF_START * contact.reduced_depth
+            start = replace(contact, fields=grid.fields(contact)) if is_start else self.unloaded_state()
         if force:
             force = force[0], min(force[1], self.elements.next_gap(self._reach))
         return self._checked(contact, grid.solve(start, depth, force))

@@ -4,16 +4,10 @@ import numpy as np
 import pytest
 
 from support.influence import influence_matrix
-from viscorough import reference
+from viscorough import Indenter, SolverOptions, contact_at, indent, march_events, reference, self_affine_disc
 from viscorough.contact.halfspace.influence import influence_coefficient
-from viscorough.contact.loading_path import indent
-from viscorough.contact.one_contact import contact_at
-from viscorough.contact.options import SolverOptions
 from viscorough.contact.solver import ContactSolver
 from viscorough.errors import ConvergenceError
-from viscorough.indenter import Indenter
-from viscorough.surfaces import self_affine_disc
-from viscorough.viscous.integration.events import march_events
 from viscorough_study.performance.other_solvers import contact_residual
 
 

@@ -4,14 +4,15 @@ import numpy as np
 import pytest
 
 from support.influence import influence_matrix
-from viscorough.contact.loading_path import indent
-from viscorough.contact.one_contact import contact_at
-from viscorough.contact.options import SolverOptions
-from viscorough.indenter import Indenter
-from viscorough.surfaces import self_affine_disc
+from viscorough import Indenter, SolverOptions, contact_at, indent, self_affine_disc
+from viscorough.contact.halfspace.influence import influence_coefficient
 
 DISC = self_affine_disc(0.7, 33, seed=4)
 GRID = SolverOptions(dense_contacts=0, dense_interactions=0)
+INDENTERS = {"squares": DISC, "rectangles": Indenter(DISC.heights, (0.2, 0.1))}
+# A few rows or columns of many elements, which the grid solver treats differently from squares.
+STRIPS = {(1, 170): 1.0, (2, 85): 1.0, (3, 57): (1.0, 4.0), (9, 38): 1.0, (170, 1): 1.0, (57, 3): (4.0, 1.0)}
+INDENTERS |= {f"strip {shape}": Indenter(np.random.default_rng(1).random(shape), d) for shape, d in STRIPS.items()}
 
 
 def deflection(indenter, pressure):
@@ -22,7 +23,7 @@ def deflection(indenter, pressure):
     return result
 
 
-@pytest.mark.parametrize("indenter", [DISC, Indenter(DISC.heights, (0.2, 0.1))], ids=["squares", "rectangles"])
+@pytest.mark.parametrize("indenter", INDENTERS.values(), ids=INDENTERS)
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-8])
 @pytest.mark.parametrize("given", [{"depth": 0.5}, {"force": 0.05}, {"force": 4.0}])
 @pytest.mark.parametrize("options", [SolverOptions(), GRID], ids=["default", "grid"])
@@ -45,6 +46,20 @@ def test_maps_solve_the_contact_problem(indenter, given, tolerance, options):
     assert contact.contact_area == pytest.approx(contact.contact_count * area)
     (name, value), *_ = given.items()
     assert getattr(contact, name) == value
+
+
+def test_a_long_strip_meets_complementarity():
+    """Its curve starts with contact events and goes on where blocks of blocks of the preconditioner are needed."""
+    strip = Indenter(np.random.default_rng(1).random((1, 6000)), 1.0)
+    curve = indent(strip, until_fraction=0.5)
+    assert curve.contact_fraction[-1] >= 0.5
+    contact = contact_at(strip, depth=curve.depth[-1], tolerance=1e-6, options=GRID)
+    influence = influence_coefficient(0.0, np.arange(-5999.0, 6000)) / (4 * np.pi)
+    gap = np.convolve(contact.pressure[0], influence)[5999:11999] - contact.depth + strip.initial_gap[0]
+    assert max(abs(gap[contact.contact[0]]).max(), -gap.min()) <= contact.residual * contact.depth
+    assert contact.residual <= 1e-6
+    assert curve.force[-1] == pytest.approx(contact.force, rel=1e-5)
+    assert curve.stiffness[-1] == pytest.approx(contact.stiffness, rel=1e-3)
 
 
 def test_a_contact_is_a_level_of_the_curve():

@@ -8,17 +8,14 @@ from functools import partial
 import numpy as np
 import pytest
 
-from viscorough.contact.loading_path import indent
-from viscorough.contact.one_contact import contact_at
+from viscorough import Indenter, contact_at, indent, self_affine_disc
 from viscorough.contact.parallel import Buffers, aligned_zeros, run_blocks
 from viscorough.contact.ranking import elements_of
-from viscorough.indenter import Indenter
-from viscorough.surfaces import self_affine_disc
 
-THREADS = (1, 3)
+DISC = self_affine_disc(0.8, 401, seed=1)  # a disc of several blocks
 
 
-@pytest.mark.parametrize("threads", [*THREADS, 1000])
+@pytest.mark.parametrize("threads", [1, 3, 1000])
 @pytest.mark.parametrize("size", [0, 1, 10, 11, 95])
 def test_blocks_cover_the_range_and_results_are_in_order(size, threads):
     blocks = run_blocks(lambda start, stop: (start, stop), size, threads, block=10)
@@ -91,30 +88,15 @@ def test_buffers_in_use_are_different_ones():
 def test_elements_are_ranked_by_their_gap_and_equal_ones_in_the_order_of_the_map(digits):
     heights = np.random.default_rng(1).random((400, 400)).round(digits)  # where some are equal, and where none are
     expected = np.argsort((heights.max() - heights).ravel(), kind="stable")
-    for threads in (*THREADS, 100):
+    for threads in (1, 3, 100):
         elements, _ = elements_of(Indenter(heights, 1.0), threads)
         np.testing.assert_array_equal(elements.row * 400 + elements.column, expected)
         assert np.all(np.diff(elements.initial_gap) >= 0)
 
 
-@pytest.fixture(scope="module")
-def disc():
-    """A disc of several blocks."""
-    return self_affine_disc(0.8, 401, seed=1)
-
-
-def test_a_curve_is_the_same(disc):
-    on_one_thread, *others = (indent(disc, until_fraction=0.1, threads=threads) for threads in THREADS)
-    for other in others:
-        for name in ("depth", "force", "stiffness", "contact_count", "residual"):
-            np.testing.assert_array_equal(getattr(other, name), getattr(on_one_thread, name))
-
-
-def test_a_contact_in_double_precision_is_the_same(disc):
-    on_one_thread, *others = (contact_at(disc, force=1.0, tolerance=1e-6, threads=threads) for threads in THREADS)
-    for other in others:
-        np.testing.assert_array_equal(other.pressure, on_one_thread.pressure)
-        np.testing.assert_array_equal(other.gap, on_one_thread.gap)
+def test_a_curve_and_a_contact_in_double_precision_are_the_same():
+    for compute in (partial(indent, until_fraction=0.1), partial(contact_at, force=1.0, tolerance=1e-6)):
+        assert compute(DISC, threads=1) == compute(DISC, threads=3)
 
 
 @pytest.mark.parametrize("threads", [0, 1.0, None, True, 1025])

@@ -3,15 +3,10 @@
 import numpy as np
 import pytest
 
-from viscorough import reference
+from viscorough import ConvergenceError, Indenter, SolverOptions, contact_at, indent, reference
 from viscorough.contact import prescribed_force
-from viscorough.contact.loading_path import indent
-from viscorough.contact.one_contact import contact_at
-from viscorough.contact.options import SolverOptions
 from viscorough.contact.prescribed_force import ForceSearch
 from viscorough.contact.solver import ContactSolver
-from viscorough.errors import ConvergenceError
-from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_disc, self_affine_square
 
 # From one element in contact to nearly all.
@@ -61,6 +56,18 @@ def test_a_lower_terrace_beside_the_contact_is_met(tolerance):
     np.testing.assert_allclose([contact.depth for contact in contacts], curve.depth, rtol=tolerance)
 
 
+def test_a_correction_that_leads_to_elements_outside_the_box_has_their_overlap_as_residual():
+    row, column = np.mgrid[:33, :33] - 16
+    gap = 1e-3 + 1e-9 * (row**2 + column**2)
+    steps = Indenter(-np.where(column > 0, 1e-9 * (row**2 + column**2), gap), 1.0)
+    options = SolverOptions(dense_contacts=0, dense_interactions=0)
+    solver = ContactSolver(steps, 1e-3, options, largest_depth=0.9e-3)
+    contact = solver.advance(solver.unloaded_state(), 0.9e-3)
+    depth, lowest = 1.1e-3 / solver.units.length, steps.initial_gap[column <= 0].min()
+    settled = solver.settled(contact, depth, contact.pressure_sum + contact.tangent_sum * 0.2e-3 / solver.units.length)
+    assert settled.residual == pytest.approx(1 - lowest / 1.1e-3, rel=1e-3)
+
+
 def test_the_last_correction_is_as_small_as_the_tolerance_asks():
     """The stiffness at a force is that of the last contact solved, before the correction that reaches the force."""
     sphere, tolerance = reference.sphere(2.0), 0.1
@@ -108,15 +115,10 @@ def test_depth_of_blocks_tells_that_of_the_contact(hurst):
     rough = Indenter(self_affine_square(hurst, 403, seed=5)[:, :390], 1.0, 1.3)
     for force in (200.0, 2e3, 2e4):
         depth = contact_at(rough, force=force).depth
-        least, largest = _depth_bounds(rough, force)
+        least = contact_at(prescribed_force._highest_of_blocks(rough), force=force).depth
+        solver = ContactSolver(rough, 1e-3)
+        largest = ForceSearch(solver)._estimate(force / solver.units.force)[1] * solver.units.length
         assert 0.7 * depth < least < depth < largest < 1.4 * depth
-
-
-def _depth_bounds(indenter, force):
-    """Depth of the blocks, and the largest one that is estimated."""
-    solver = ContactSolver(indenter, 1e-3)
-    blocks = contact_at(prescribed_force._highest_of_blocks(indenter), force=force).depth
-    return blocks, ForceSearch(solver)._estimate(force / solver.units.force)[1] * solver.units.length
 
 
 def test_a_force_that_the_first_guess_meets_exactly():

@@ -13,13 +13,8 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
 from support.influence import influence_matrix
-from viscorough.contact.loading_path import indent
-from viscorough.contact.options import SolverOptions
+from viscorough import Indenter, SolverOptions, indent, kinetics, march_events, self_affine_disc
 from viscorough.contact.solver import ContactSolver
-from viscorough.indenter import Indenter
-from viscorough.surfaces import self_affine_disc
-from viscorough.viscous.correspondence import kinetics
-from viscorough.viscous.integration.events import march_events
 
 TOLERANCE = 1e-9
 # The relative error of the force is of second order in the tolerance. That of the stiffness is of second order in the

@@ -3,36 +3,29 @@
 import numpy as np
 import pytest
 
+from viscorough import Indenter, contact_at, indent
 from viscorough.contact import prescribed_force, ranking
 from viscorough.contact.halfspace import sparse_loads
-from viscorough.contact.loading_path import indent
-from viscorough.contact.one_contact import contact_at
 from viscorough.contact.ranking import Ranking
-from viscorough.indenter import Indenter
 from viscorough.surfaces import self_affine_square
 
 HEIGHTS = self_affine_square(0.8, 200, seed=4)
+ROW, COLUMN = np.mgrid[:200, :200]
 
 
 def islands():
     """Few bumps far from each other, above a plate that nothing touches; one of them in a corner, one a spike."""
-    row, column = np.mgrid[:200, :200]
     heights = np.full((200, 200), -1.0)
     for number, (y, x) in enumerate([(0, 0), (30, 170), (120, 60), (199, 110)]):
-        heights = np.maximum(heights, -0.002 * ((row - y) ** 2 + (column - x) ** 2) - 0.01 * number)
+        heights = np.maximum(heights, -0.002 * ((ROW - y) ** 2 + (COLUMN - x) ** 2) - 0.01 * number)
     heights[150, 150] = 0.01
     return heights
-
-
-def with_hole(heights):
-    row, column = np.mgrid[:200, :200]
-    return np.where(np.hypot(row - 90, column - 110) < 60, np.nan, heights)
 
 
 MAPS = {
     "rough": (HEIGHTS, 1.0),
     "rough, rectangular elements": (HEIGHTS, (1.0, 1.7)),
-    "hole": (with_hole(HEIGHTS), 1.0),
+    "hole": (np.where(np.hypot(ROW - 90, COLUMN - 110) < 60, np.nan, HEIGHTS), 1.0),
     "strip": (HEIGHTS[80:83], 1.0),
     "islands": (islands(), 1.0),
     "terraces": (np.floor(3 * HEIGHTS) / 3, 1.0),

@@ -5,13 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from viscorough.contact.loading_path import indent
-from viscorough.contact.options import SolverOptions
+from viscorough import ConvergenceError, Indenter, SolverOptions, indent, self_affine_disc
 from viscorough.contact.solver import ContactSolver
 from viscorough.contact.state import MemberLoads
-from viscorough.errors import ConvergenceError
-from viscorough.indenter import Indenter
-from viscorough.surfaces import self_affine_disc
 
 ROUTES = {"dense": SolverOptions(dense_contacts=10**9, dense_interactions=10**9),
           "grid": SolverOptions(dense_contacts=0, dense_interactions=0)}  # fmt: skip

@@ -3,14 +3,11 @@
 import numpy as np
 import pytest
 
-from viscorough.contact.loading_path import indent
+from viscorough import Indenter, indent, march_events, self_affine_disc
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.solver import ContactSolver
 from viscorough.contact.step_control import Level, StepControl, division, interpolation_bound
-from viscorough.indenter import Indenter
 from viscorough.loading_curve import interpolate_levels
-from viscorough.surfaces import self_affine_disc
-from viscorough.viscous.integration.events import march_events
 
 
 def springs(gaps, depth):

@@ -26,7 +26,7 @@ from viscorough.contact.grid import kernels
 from viscorough.contact.grid.conjugate_gradients import ConjugateGradients
 from viscorough.contact.grid.depth_adjustment import PrescribedForce
 from viscorough.contact.grid.loops import GridLoops
-from viscorough.contact.halfspace.operator import Halfspace
+from viscorough.contact.halfspace.operator import Halfspace, spectrum_of_grid
 from viscorough.contact.options import SolverOptions
 from viscorough.contact.preconditioner.multilevel import LEAST_EIGENVALUE, REACH, Preconditioner
 from viscorough.contact.state import BoundedField, ContactSet
@@ -84,6 +84,7 @@ class ContactSearch:
     ) -> None:
         self._tolerance, self._options, self._loops = tolerance, options, GridLoops(threads)
         of_grid: dict[str, Any] = {"aspect": aspect, "padding": options.padding, "threads": threads}
+        of_grid["spectrum"] = spectrum_of_grid(rows, columns, **of_grid)
         self._halfspace = Halfspace(rows, columns, _PRECISIONS[options.precision], **of_grid)
         exact = tolerance < options.exact_gap_below
         self._exact = Halfspace(rows, columns, **of_grid) if exact else self._halfspace

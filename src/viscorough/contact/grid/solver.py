@@ -94,18 +94,19 @@ class GridSolver:
         return GridFields(inside, pressure, change, tangent, tangent_gap, self.initial_gap, self.place)
 
     def solve(self, contact: ContactState, depth: float, force: tuple[float, float] | None = None) -> ContactState:
-        """The ContactState at a larger reduced depth, from a contact with GridFields on this grid.
+        """The ContactState at a larger reduced depth, from a contact with GridFields on this grid or without any load.
 
         force : (ΣP, largest depth) where the depth is only a first guess of the one with this ΣP
 
         Raises ConvergenceError if the tolerance is not reached in max_iterations.
         """
-        search, before, last_depth = self._search, self._start_fields(contact), contact.reduced_depth
-        pressure, change, inside = self._predicted(before, last_depth, depth)
+        search, last_depth = self._search, contact.reduced_depth
+        before = self._start_fields(contact) if contact.count else None
+        pressure, change, inside = self._predicted(before, last_depth, depth) if before else self._unloaded(depth)
         prescribed = PrescribedForce(*force, self._loops) if force else None
         contact_set, depth = search.solve_pressure(pressure, change, inside, depth, prescribed)
-        now, last = Loads(pressure, change, depth), Loads(before.pressure, before.gap_change, last_depth)
-        tangent, tangent_gap = initial_tangent(now, last, before, contact_set, search.inner, self._loops)
+        now = Loads(pressure, change, depth)
+        tangent, tangent_gap = initial_tangent(now, last_depth, before, contact_set, search.inner, self._loops)
         search.solve_tangent(contact_set, tangent, tangent_gap)
         solution = contact_set.inside, pressure, change, tangent, tangent_gap
         fields = GridFields(*solution, self.initial_gap, self.place)
@@ -121,6 +122,15 @@ class GridSolver:
         rounding = before.gap_change.rounding + depth_step * before.tangent_gap.rounding
         pressure, change, inside = predicted
         return pressure, BoundedField(change, rounding + self._search.field_rounding * depth), inside
+
+    def _unloaded(self, depth: float) -> tuple[Array, BoundedField, Mask]:
+        """The same as predicted from no contact, whose fields, the largest part of the memory, are not needed."""
+        search = self._search
+        pressure, change, inside = search.zeros(), search.zeros(), search.zeros(bool)
+        self._loops.fill(change, -depth)
+        touches_at = search.precision(depth * (1 - LATE))
+        self._loops.each(lambda gap, out: np.less(gap, touches_at, out=out), (), self.initial_gap, inside)
+        return pressure, BoundedField(change, 2 * search.field_rounding * depth), inside
 
     def settled(self, contact: ContactState, depth: float, pressure_sum: float) -> ContactState:
         """The contact at a depth so near that its tangent leads there, with pressures of exactly the given sum.

@@ -31,6 +31,12 @@ def convolution_lengths(rows: int, columns: int) -> tuple[int, int]:
     return good_length(2 * (rows - 1)) if rows > 1 else 1, 2 * ducc0.fft.good_size(max(columns - 1, 1), True)
 
 
+def spectrum_of_grid(rows: int, columns: int, *, aspect: float = 1.0, padding: bool = True, threads: int = 1) -> Array:
+    """What a Halfspace multiplies transforms with, in double precision; its arguments are those of Halfspace."""
+    of_grid = convolution_lengths(rows, columns), None if padding else (rows, columns), aspect
+    return _kept_spectrum(*of_grid) if rows * columns <= _KEPT else _spectrum(*of_grid, threads)
+
+
 @lru_cache(maxsize=6)
 def _kept_spectrum(lengths: tuple[int, int], period: tuple[float, float] | None, aspect: float) -> Array:
     """The same as `_spectrum`, cached for grids with these lengths."""
@@ -153,6 +159,7 @@ class Halfspace:
     aspect : dy/dx of the elements
     padding : whether the grid is padded; if not, periodic images of the grid act on it
     threads : on which it is computed
+    spectrum : spectrum_of_grid of these arguments, where it is known from another precision
 
     load : the array to write P into, of shape (rows, stride ≥ columns); it must be zero wherever there is no pressure
         and in the columns beyond the grid
@@ -171,11 +178,11 @@ class Halfspace:
         aspect: float = 1.0,
         padding: bool = True,
         threads: int = 1,
+        spectrum: Array | None = None,
     ) -> None:
-        self.shape = (rows, columns)
-        of_grid = convolution_lengths(rows, columns), None if padding else (rows, columns), aspect
-        spectrum = _kept_spectrum(*of_grid) if rows * columns <= _KEPT else _spectrum(*of_grid, threads)
-        length = of_grid[0][1]
+        self.shape, length = (rows, columns), convolution_lengths(rows, columns)[1]
+        if spectrum is None:
+            spectrum = spectrum_of_grid(rows, columns, aspect=aspect, padding=padding, threads=threads)
         self._rows = _RowTransforms(rows, columns, length, precision, threads)
         frequency = self._rows.frequency
         if frequency.shape[1] > 1:

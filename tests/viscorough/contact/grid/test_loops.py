@@ -22,11 +22,7 @@ INSIDE = np.pad(np.random.default_rng(1).random((ROWS, COLUMNS)) < 0.7, REACH).r
 PLACES = np.flatnonzero(INSIDE).astype(np.uint32)
 SLOTS = ((PLACES // WIDTH - REACH) * STRIDE + PLACES % WIDTH - REACH).astype(np.uint32)
 assert PLACES.size > BLOCK + 1000
-
-
-@pytest.fixture
-def loops():
-    return GridLoops(3)
+LOOPS = GridLoops(3)
 
 
 @pytest.fixture
@@ -54,35 +50,35 @@ def test_places_of_a_set_wherever_rows_and_blocks_end(columns, share, random):
     np.testing.assert_array_equal(slots, (expected // width - REACH) * stride + expected % width - REACH)
 
 
-def test_indices_beyond_32_bits_are_64_bits_wide(loops):
+def test_indices_beyond_32_bits_are_64_bits_wide():
     inside = np.zeros(20 * 5, dtype=bool)
     inside[[42, 77]] = True
-    places, slots = loops.contact_places(inside, 5, 2**32 // 20 + 1)
+    places, slots = LOOPS.contact_places(inside, 5, 2**32 // 20 + 1)
     np.testing.assert_array_equal(places, [42, 77])
     np.testing.assert_array_equal(slots, [6 * (2**32 // 20 + 1), 13 * (2**32 // 20 + 1)])
 
 
-def test_sums_over_a_set(loops, field):
+def test_sums_over_a_set(field):
     pressure, gap, preconditioned = field(), field(), field()
     direction, deflection = field(ROWS * STRIDE), field(ROWS * STRIDE)
-    assert loops.total(pressure, PLACES) == pytest.approx(pressure[PLACES].sum(), rel=1e-9)
+    assert LOOPS.total(pressure, PLACES) == pytest.approx(pressure[PLACES].sum(), rel=1e-9)
     d, by_d = direction[SLOTS], deflection[SLOTS]
-    assert loops.inner_product(direction, deflection, SLOTS) == pytest.approx(d @ by_d, rel=1e-9)
-    sums = sum(loops.each(kernels.direction_sums, (direction, deflection, preconditioned, gap), PLACES, SLOTS))
+    assert LOOPS.inner_product(direction, deflection, SLOTS) == pytest.approx(d @ by_d, rel=1e-9)
+    sums = sum(LOOPS.each(kernels.direction_sums, (direction, deflection, preconditioned, gap), PLACES, SLOTS))
     np.testing.assert_allclose(sums, [preconditioned[PLACES] @ by_d, d @ gap[PLACES], d @ by_d], rtol=1e-9)
 
 
-def test_energies(loops, field):
+def test_energies(field):
     fields, depths = [field() for _ in range(6)], (0.3, 0.2)
     pressure, change, last, last_change, tangent, tangent_gap = (values[PLACES] for values in fields)
     loads = np.array([pressure, last, tangent])
     deflections = np.array([change + depths[0], last_change + depths[1], tangent_gap + 1])
-    energy, sums = map(sum, zip(*loops.each(kernels.energies, (depths, *fields), PLACES), strict=True))
+    energy, sums = map(sum, zip(*LOOPS.each(kernels.energies, (depths, *fields), PLACES), strict=True))
     np.testing.assert_allclose(energy, loads @ deflections.T, rtol=1e-9)
     np.testing.assert_allclose(sums, loads.sum(axis=1), rtol=1e-9)
 
 
-def test_sums_over_elements_that_join(loops, field):
+def test_sums_over_elements_that_join(field):
     change, initial_gap, tangent_gap = field(), field(), field()
     pressure, tangent, share = abs(field(PLACES.size)), abs(field(PLACES.size)), np.array([0.2, 0.7])
     slope, gap = np.minimum(tangent_gap, -1e-30)[PLACES], np.maximum(change + initial_gap, 0)[PLACES]
@@ -90,69 +86,69 @@ def test_sums_over_elements_that_join(loops, field):
     assert np.mean((touch > 0) & (touch < 1)) > 0.05
     expected = [slope @ slope, slope**2 @ (1 - touch), *(slope**2 @ np.maximum(s - touch, 0) for s in share)]
     fixed = change, initial_gap, tangent_gap, 0.4, share
-    sums = sum(loops.each(kernels.touch_sums, fixed, PLACES, pressure, tangent))
+    sums = sum(LOOPS.each(kernels.touch_sums, fixed, PLACES, pressure, tangent))
     np.testing.assert_allclose(sums, expected, rtol=1e-9)
 
 
 @pytest.mark.parametrize("which", [0, -1])
-def test_extremes_are_found_in_every_block(loops, field, which):
+def test_extremes_are_found_in_every_block(field, which):
     change, initial_gap, gap = field(), field(), np.zeros(SIZE)
     change[PLACES[which]] = -100.0
-    assert loops.largest_gap(change, initial_gap, gap, PLACES) == abs(-100.0 + initial_gap[PLACES[which]])
+    assert LOOPS.largest_gap(change, initial_gap, gap, PLACES) == abs(-100.0 + initial_gap[PLACES[which]])
     np.testing.assert_array_equal(gap[PLACES], (change + initial_gap)[PLACES])
-    assert max(loops.each(kernels.gather_on_set, (change, gap), PLACES)) == 100.0
+    assert max(LOOPS.each(kernels.gather_on_set, (change, gap), PLACES)) == 100.0
     np.testing.assert_array_equal(gap[PLACES], change[PLACES])
-    assert max(loops.each(kernels.largest_overlap, (), change, initial_gap)) == 100.0 - initial_gap[PLACES[which]]
+    assert max(LOOPS.each(kernels.largest_overlap, (), change, initial_gap)) == 100.0 - initial_gap[PLACES[which]]
 
     pressure, direction = abs(field()), np.zeros(ROWS * STRIDE)
-    assert loops.lowest(pressure) >= 0
+    assert LOOPS.lowest(pressure) >= 0
     for lowest in (0.0, -100.0):
         direction[SLOTS[which]] = lowest
         for kernel in (kernels.step_causes_tension, kernels.update_pressure):
-            assert any(loops.each(kernel, (0.5, direction, pressure), PLACES, SLOTS)) == (lowest < 0)
-    assert loops.lowest(pressure) == pressure[PLACES[which]] < 0
+            assert any(LOOPS.each(kernel, (0.5, direction, pressure), PLACES, SLOTS)) == (lowest < 0)
+    assert LOOPS.lowest(pressure) == pressure[PLACES[which]] < 0
 
 
 @pytest.mark.parametrize("which", [0, -1])
-def test_elements_that_left_are_found_in_every_block(loops, which):
+def test_elements_that_left_are_found_in_every_block(which):
     after = INSIDE.copy()
-    assert loops.difference(INSIDE, after).size == 0
+    assert LOOPS.difference(INSIDE, after).size == 0
     after[PLACES[which]] = False
-    assert loops.difference(INSIDE, after) == PLACES[which]
-    assert loops.difference(after, INSIDE).size == 0
+    assert LOOPS.difference(INSIDE, after) == PLACES[which]
+    assert LOOPS.difference(after, INSIDE).size == 0
 
 
-def test_steps(loops, field):
+def test_steps(field):
     direction, preconditioned, pressure = field(ROWS * STRIDE), field(), field()
     expected = direction.copy()
     expected[SLOTS] = 0.3 * direction[SLOTS] - preconditioned[PLACES]
-    loops.each(kernels.update_search_direction, (direction, preconditioned, 0.3), PLACES, SLOTS)
+    LOOPS.each(kernels.update_search_direction, (direction, preconditioned, 0.3), PLACES, SLOTS)
     np.testing.assert_allclose(direction, expected, rtol=1e-14, atol=1e-15)
 
     expected = pressure.copy()
     expected[PLACES] += 0.7 * direction[SLOTS]
-    loops.each(kernels.update_pressure, (0.7, direction, pressure), PLACES, SLOTS)
+    LOOPS.each(kernels.update_pressure, (0.7, direction, pressure), PLACES, SLOTS)
     np.testing.assert_allclose(pressure, expected, rtol=1e-14, atol=1e-15)
 
     gap, deflection = field(), direction.reshape(ROWS, STRIDE)[:, :COLUMNS]
     expected = gap.copy()
     expected.reshape(-1, WIDTH)[INNER] += 0.3 * deflection
-    loops.update_gap(0.3, deflection, gap)
+    LOOPS.update_gap(0.3, deflection, gap)
     np.testing.assert_allclose(gap, expected, rtol=1e-14, atol=1e-15)
 
 
-def test_unloaded_elements_under_tension_are_found_in_every_block(loops, field):
+def test_unloaded_elements_under_tension_are_found_in_every_block(field):
     direction, pressure = field(ROWS * STRIDE), field()
     pressure[::3] = 0
-    tensile = joined(loops.each(kernels.unloaded_under_tension, (direction, pressure), PLACES, SLOTS))
+    tensile = joined(LOOPS.each(kernels.unloaded_under_tension, (direction, pressure), PLACES, SLOTS))
     np.testing.assert_array_equal(tensile, PLACES[(pressure[PLACES] == 0) & (direction[SLOTS] < 0)])
     assert 0 < tensile.size < PLACES.size
 
 
-def test_a_field_is_filled_and_another_one_shifted_into_it(loops, field):
+def test_a_field_is_filled_and_another_one_shifted_into_it(field):
     grid, shifted = field(ROWS * STRIDE).reshape(ROWS, STRIDE)[:, :COLUMNS], field()
-    loops.fill(shifted, 3.0)
-    loops.shifted(grid, 0.3, shifted.reshape(-1, WIDTH)[INNER])
+    LOOPS.fill(shifted, 3.0)
+    LOOPS.shifted(grid, 0.3, shifted.reshape(-1, WIDTH)[INNER])
     np.testing.assert_array_equal(shifted, np.pad(grid - 0.3, REACH, constant_values=3.0).ravel())
 
 
@@ -163,16 +159,16 @@ def elements(random):
     return row, column, random.random(row.size)
 
 
-def grid_of(loops, box, elements):
+def grid_of(box, elements):
     """Indices of the elements on the grid of a box, and the flat field of their initial gaps."""
     field = np.full((box[2] + 2 * REACH) * (box[3] + 2 * REACH), 9.0)
-    return loops.place_elements(box, *elements, field), field
+    return LOOPS.place_elements(box, *elements, field), field
 
 
-def test_elements_are_placed_in_a_box(loops, elements):
+def test_elements_are_placed_in_a_box(elements):
     row, column, initial_gap = elements
     box = top, left, rows, columns = 30, 50, 350, 500
-    place, field = grid_of(loops, box, elements)
+    place, field = grid_of(box, elements)
     gap_map = np.empty((ROWS, COLUMNS))
     gap_map[row, column] = initial_gap
     in_box = gap_map[top : top + rows, left : left + columns]
@@ -182,8 +178,8 @@ def test_elements_are_placed_in_a_box(loops, elements):
     np.testing.assert_array_equal(field[place[placed]], initial_gap[placed])
 
 
-def test_a_contact_is_transferred_to_a_larger_grid(loops, elements, random):
-    small, large = (grid_of(loops, box, elements)[0] for box in ((30, 50, 350, 500), (0, 0, ROWS, COLUMNS)))
+def test_a_contact_is_transferred_to_a_larger_grid(elements, random):
+    small, large = (grid_of(box, elements)[0] for box in ((30, 50, 350, 500), (0, 0, ROWS, COLUMNS)))
     sizes = small.max() + 1, large.max() + 1
     source, target = ([np.zeros(size, bool), np.zeros(size), np.zeros(size)] for size in sizes)
     members = np.flatnonzero((small > 0) & (random.random(small.size) < 0.5))
@@ -191,7 +187,7 @@ def test_a_contact_is_transferred_to_a_larger_grid(loops, elements, random):
     for values in source[1:]:
         values[small[members]] = random.random(members.size)
     before = SimpleNamespace(place=small, inside=source[0], pressure=source[1], tangent=source[2])
-    loops.transfer(before, large, *target)
+    LOOPS.transfer(before, large, *target)
     for stored, values in zip(target, source, strict=True):
         np.testing.assert_array_equal(stored[large[members]], values[small[members]])
         assert np.count_nonzero(stored) == members.size
@@ -199,17 +195,17 @@ def test_a_contact_is_transferred_to_a_larger_grid(loops, elements, random):
     after = SimpleNamespace(place=large, inside=target[0].copy())
     joined = np.sort(random.choice(np.setdiff1d(np.arange(large.size), members), 100, replace=False))
     after.inside[large[joined]] = True
-    np.testing.assert_array_equal(loops.new_members(after, before), joined)
-    assert loops.new_members(before, after).size == 0
+    np.testing.assert_array_equal(LOOPS.new_members(after, before), joined)
+    assert LOOPS.new_members(before, after).size == 0
 
 
-def test_fields(loops, field):
+def test_fields(field):
     pressure, tangent, change, tangent_gap, last, last_change = (field() for _ in range(6))
     pressure[::7] = tangent[::7] = 0
     predicted, predicted_change, inside = np.zeros(SIZE), np.zeros(SIZE), np.zeros(SIZE, bool)
     initial_gap = field()
     fields = predicted, predicted_change, inside, pressure, tangent, change, tangent_gap, initial_gap
-    loops.each(kernels.predict, (0.2, 0.1), *fields)
+    LOOPS.each(kernels.predict, (0.2, 0.1), *fields)
     np.testing.assert_allclose(predicted, pressure + 0.2 * tangent, rtol=1e-14, atol=1e-15)
     np.testing.assert_allclose(predicted_change, change + 0.2 * tangent_gap, rtol=1e-14, atol=1e-15)
     touching = change + 0.1 * tangent_gap + initial_gap < 0
@@ -218,13 +214,13 @@ def test_fields(loops, field):
 
     before = inside.copy()
     joining = (change + initial_gap < -0.5) & ~before
-    added = loops.each(kernels.add_penetrating_elements, (0.5,), change, initial_gap, inside)
+    added = LOOPS.each(kernels.add_penetrating_elements, (0.5,), change, initial_gap, inside)
     assert sum(added) == np.count_nonzero(joining)
     np.testing.assert_array_equal(inside, before | joining)
 
     combined, combined_gap = np.zeros(SIZE), np.zeros(SIZE)
     fields = combined, combined_gap, pressure, change, last, last_change, tangent, tangent_gap
-    loops.each(kernels.combine, ((0.1, 0.2, 0.3), 0.4), *fields)
+    LOOPS.each(kernels.combine, ((0.1, 0.2, 0.3), 0.4), *fields)
     np.testing.assert_allclose(combined, 0.1 * pressure + 0.2 * last + 0.3 * tangent, atol=1e-14)
     np.testing.assert_allclose(combined_gap, 0.1 * change + 0.2 * last_change + 0.3 * tangent_gap + 0.4, atol=1e-14)
 

@@ -6,13 +6,11 @@ import numpy as np
 import pytest
 
 from support.influence import influence_matrix
+from viscorough import Indenter, indent, self_affine_disc
 from viscorough.contact.grid.solver import GridSolver
-from viscorough.contact.loading_path import indent
 from viscorough.contact.options import DEFAULT, SolverOptions
 from viscorough.contact.ranking import elements_of
 from viscorough.contact.solver import ContactSolver
-from viscorough.indenter import Indenter
-from viscorough.surfaces import self_affine_disc
 
 DOUBLE = SolverOptions(precision="double", exact_gap_below=0.0)
 

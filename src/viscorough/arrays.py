@@ -1,7 +1,7 @@
 """Arrays that an object keeps: copies that cannot be changed, in which masked entries are nan; increasing numbers."""
 
 import dataclasses
-from typing import Any, cast, get_origin
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -36,14 +36,12 @@ class ReadOnlyArrays:
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
             return NotImplemented
-        pairs = (
-            (getattr(self, field.name), getattr(other, field.name)) for field in dataclasses.fields(cast(Any, self))
-        )
-        return all(_are_equal(a, b) for a, b in pairs)
+        names = [field.name for field in dataclasses.fields(cast(Any, self))]
+        return all(_are_equal(getattr(self, name), getattr(other, name)) for name in names)
 
     def __post_init__(self) -> None:
         for field in dataclasses.fields(cast(Any, self)):
-            if np.ndarray in (field.type, get_origin(field.type)):
+            if field.type is np.ndarray:
                 object.__setattr__(self, field.name, read_only(getattr(self, field.name)))
 
 

@@ -164,9 +164,8 @@ def _read(name: str, chosen: Callable[[dict[str, str]], bool], numbers: Sequence
 @cache
 def calibration() -> dict[str, Array]:
     """The power law of discs in region (b), {column of COLUMNS but the source: array over ascending H}."""
-    return _read(
-        "calibration.csv", lambda row: row["source"] == "discs", [name for name in COLUMNS if name != "source"]
-    )
+    names = [name for name in COLUMNS if name != "source"]
+    return _read("calibration.csv", lambda row: row["source"] == "discs", names)
 
 
 @cache
@@ -224,13 +223,6 @@ def penetration_law(hurst: float) -> PenetrationLaw:
         zeta=linear("zeta"),
         zeta_interval=(linear("zeta_low"), linear("zeta_high")),
         region=(logarithmic("x_low"), logarithmic("x_high")),
-        amplitude=linear("amplitude", beyond),
-        exponent=linear("exponent", beyond),
-        bend=logarithmic("bend", beyond),
-        fall=linear("fall", beyond),
-        cutoff=logarithmic("cutoff", beyond),
-        velocity_error=linear("velocity_error", beyond),
-        depth_error=linear("depth_error", beyond),
-        x_low=logarithmic("x_low", beyond),
-        x_high=logarithmic("x_high", beyond),
+        **{name: linear(name, beyond) for name in ("amplitude", "exponent", "fall", "velocity_error", "depth_error")},
+        **{name: logarithmic(name, beyond) for name in ("bend", "cutoff", "x_low", "x_high")},
     )

@@ -7,11 +7,9 @@ import numpy as np
 
 from viscorough.arrays import ReadOnlyArrays
 from viscorough.saved import Saved
-from viscorough.summaries import Summarised, Summary, unit_power, with_unit
+from viscorough.summaries import Summarised, Summary, si_unit, unit_power, with_unit
 from viscorough.units import square_metres
 
-# Neighbours of an element that belong to its patch: those that share a side, or a corner too.
-_CONNECTIVITIES = (4, 8)
 # Mean area by which a whole element exceeds the contact, per change of contact between two elements, over dx dy.
 EXCESS_PER_CHANGE = (np.pi - 1 + np.log(2)) / 24
 
@@ -101,10 +99,9 @@ class Contact(ReadOnlyArrays, Saved, Summarised):
         ]
         lines = [motion, contact]
         if self.shear_modulus is not None:
-            newtons, pascals = ("1", "1") if unit == "1" else ("N", "Pa")
             mean, largest = (self.shear_modulus * each for each in (self.mean_pressure, self.largest_pressure))
-            names = ("force F", self.normal_force, newtons), ("mean p", mean, pascals), ("largest p", largest, pascals)
-            lines.append([(name, with_unit(cast(float, value), unit)) for name, value, unit in names])
+            names = ("force F", self.normal_force, "N"), ("mean p", mean, "Pa"), ("largest p", largest, "Pa")
+            lines.append([(name, with_unit(cast(float, value), si_unit(si, unit))) for name, value, si in names])
         return f"Contact of {self.contact_count} of {self.elements} elements", *lines
 
     @property
@@ -174,7 +171,7 @@ class Contact(ReadOnlyArrays, Saved, Summarised):
         """
         from scipy import ndimage  # takes long to import
 
-        if connectivity not in _CONNECTIVITIES:
+        if connectivity not in (4, 8):
             raise ValueError(f"patches: connectivity must be 4 or 8, not {connectivity!r}")
         labels, count = ndimage.label(self.contact, structure=ndimage.generate_binary_structure(2, connectivity // 4))
         sizes = np.bincount(labels.ravel(), minlength=count + 1)[1:]

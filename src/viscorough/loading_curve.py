@@ -176,12 +176,9 @@ def interpolate_between(
 
     # Tangents where at most one element joined; elsewhere the cubic, or the side of the triangle that it crosses.
     on_tangents = ((joined >= 0) & (joined <= 1)) | (cubic > tangents * (1 + 1e-12))
-    on_chord = cubic < chord * (1 - 1e-12)
-    chord_or_cubic = np.where(on_chord, chord, cubic), np.where(on_chord, (f1 - f0) / (u1 - u0), cubic_stiffness)
-    return (
-        np.where(on_tangents, tangents, chord_or_cubic[0]),
-        np.where(on_tangents, tangent_stiffness, chord_or_cubic[1]),
-    )
+    where = [on_tangents, cubic < chord * (1 - 1e-12)]
+    stiffness = np.select(where, [tangent_stiffness, (f1 - f0) / (u1 - u0)], cubic_stiffness)
+    return np.select(where, [tangents, chord], cubic), stiffness
 
 
 def _hermite_in_logarithms(force: Array, forces: Pair, depths: Pair, stiffnesses: Pair) -> tuple[Array, Array]:

@@ -87,7 +87,8 @@ def plot(result: Content | LoadingCurve | Kinetics | Contact | Indenter, path: F
     if path is not None and suffix not in FORMATS:
         raise ValueError(f"{path}: unknown kind of figure; allowed: {', '.join(FORMATS)}")
     with mpl.rc_context(_STYLE):
-        figure = figure_of(result if isinstance(result, Content) else to_content(result))
+        draw, numbers = kind_of(result if isinstance(result, Content) else to_content(result))
+        figure = draw(numbers)
         if path is not None:
             dates: dict[str, Any] = {".png": {}, ".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
             with atomic_write(path) as temporary:
@@ -95,14 +96,8 @@ def plot(result: Content | LoadingCurve | Kinetics | Contact | Indenter, path: F
     return figure
 
 
-def figure_of(content: Content) -> Figure:
-    """The matplotlib Figure of a Content; its kind follows from names and dimensions. Raises ValueError as `plot`."""
-    draw, numbers = kind_of(content)
-    return draw(numbers)
-
-
 def kind_of(content: Content) -> tuple[Callable[[Variables], Figure], Variables]:
-    """The function that draws a Content, and its numbers. Raises ValueError as `plot`."""
+    """The function that draws a Content, by its names and dimensions, and its numbers. Raises ValueError as `plot`."""
     if set(STORED) <= set(content.variables):  # of a loading curve, also in files of motions that follow from one
         (unstack_curves if "levels" in content.variables else curve_from_content)(content)
     numbers = {name: v for name, v in content.variables.items() if v.values.dtype.kind in "iuf" and v.values.size}

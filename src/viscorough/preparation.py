@@ -4,12 +4,11 @@ And warnings about defects of unprepared maps, which make the results of a conta
 """
 
 from collections.abc import Iterator, Sequence
-from typing import Any
 
 import numpy as np
 
 from viscorough.indenter import Indenter, check_indenter
-from viscorough.types import Array
+from viscorough.types import Array, Mask
 
 DETREND = ("none", "mean", "plane", "sphere")
 FILL = ("none", "harmonic")
@@ -243,25 +242,22 @@ def _spikes(heights: Array) -> Iterator[str]:
 # ---- holes
 
 
-def _enclosed(heights: Array) -> tuple[Any, int]:
-    """Labels of the nan regions that do not reach the edge, from 1 on, and their number; None if there is no nan."""
+def _enclosed(heights: Array) -> tuple[Mask, int]:
+    """Where nan regions are that do not reach the edge, and their number."""
     from scipy import ndimage
 
     missing = np.isnan(heights)
     if not missing.any():
-        return None, 0
+        return missing, 0
     labels, count = ndimage.label(missing)
     at_edge = np.unique(np.concatenate([labels[0], labels[-1], labels[:, 0], labels[:, -1]]))
-    new = np.arange(count + 1)
-    new[at_edge] = 0
-    kept = np.unique(new)
-    return np.searchsorted(kept, new)[labels], kept.size - 1
+    return missing & ~np.isin(labels, at_edge), count - np.count_nonzero(at_edge)
 
 
 def _holes(heights: Array) -> Iterator[str]:
-    labels, count = _enclosed(heights)
+    holes, count = _enclosed(heights)
     if count:
-        points = int(np.count_nonzero(labels))
+        points = np.count_nonzero(holes)
         regions, share = f"{count} enclosed region{'' if count == 1 else 's'}", 100 * points / heights.size
         yield (
             f"{regions} without heights ({points} points, {share:.2g} %) are holes that never touch; "
@@ -277,10 +273,9 @@ def _filled(heights: Array, aspect: float) -> Array:
     from scipy import sparse
     from scipy.sparse.linalg import spsolve
 
-    labels, count = _enclosed(heights)
+    holes, count = _enclosed(heights)
     if count == 0:
         return heights
-    holes = labels > 0
     number = np.full(heights.shape, -1)
     unknowns = int(np.count_nonzero(holes))
     number[holes] = np.arange(unknowns)

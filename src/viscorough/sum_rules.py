@@ -295,15 +295,9 @@ def integrals(curve: LoadingCurve, complete: CompleteContact) -> SumRules:
 
     Returns SumRules.
     """
-    depth, force, stiffness, count = (
-        np.append(first, values)
-        for first, values in (
-            (0.0, curve.depth),
-            (0.0, curve.force),
-            (curve.force[0] / curve.depth[0], curve.stiffness),
-            (curve.contact_count[0], curve.contact_count),
-        )
-    )
+    depth, force = np.append(0.0, curve.depth), np.append(0.0, curve.force)
+    stiffness = np.append(curve.force[0] / curve.depth[0], curve.stiffness)
+    count = np.append(curve.contact_count[0], curve.contact_count)
     rise, sink = np.diff(force), np.diff(depth)
     before, after = 1 / stiffness[:-1], 1 / stiffness[1:]
     drop, least = np.maximum(before - after, _TINY), 1 / complete.stiffness

@@ -56,9 +56,9 @@ def unit_power(unit: str, exponent: int) -> str:
     return f"{unit if unit.isascii() and unit.isalpha() else f'({unit})'}{exponent}"
 
 
-def time_unit(unit: str) -> str:
-    """The unit of times: s; "1" for "1", a unit of length that is not known."""
-    return "1" if unit == "1" else "s"
+def si_unit(unit: str, length_unit: str) -> str:
+    """An SI unit such as "s" or "Pa"; "1" where the unit of length is "1", so that all units are those of the user."""
+    return "1" if length_unit == "1" else unit
 
 
 def velocity_unit(unit: str) -> str:

@@ -151,10 +151,7 @@ def length_unit(text: str) -> str:
     if not unit.check("[length]"):
         raise ValueError(f"unit {text!r}: not a unit of length, such as um, nm or m")
     metres = _rounded(unit.to_base_units().magnitude)
-    for spelling, length in _METRES.items():
-        if metres == length:
-            return spelling
-    return f"{metres!r} m"
+    return next((spelling for spelling, length in _METRES.items() if length == metres), f"{metres!r} m")
 
 
 def _rounded(number: float) -> float:

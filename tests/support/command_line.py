@@ -1,6 +1,8 @@
-"""The installed command, the command line within this process, and the heights of a sphere."""
+"""The installed command, the command line within this process, Python in another one, and the heights of a sphere."""
 
+import os
 import shlex
+import subprocess
 import sys
 from pathlib import Path
 
@@ -15,6 +17,14 @@ RADIUS = 100.0
 def run(line):
     """The exit code of a line of arguments."""
     return main(shlex.split(line))
+
+
+def python(*arguments, **environment):
+    """A process of Python with these arguments and variables, which ends without an error."""
+    options = {"capture_output": True, "text": True, "timeout": 120, "env": os.environ | environment}
+    done = subprocess.run([sys.executable, *arguments], check=False, **options)
+    assert done.returncode == 0, done.stderr
+    return done
 
 
 def sphere_heights(points=61):

@@ -37,10 +37,10 @@ def assert_same_curve(curve, other):
         assert type(value) is type(other_value), field.name
 
 
-def curve_of_levels(depth, force, stiffness, contact_count, tolerance=1e-9):
+def curve_of_levels(depth, force, stiffness, contact_count):
     """A LoadingCurve of these levels, made by hand."""
     levels = (np.asarray(values) for values in (depth, force, stiffness, contact_count))
-    return LoadingCurve(*levels, 10**6, "by hand", tolerance, 0, np.zeros(len(depth)))
+    return LoadingCurve(*levels, 10**6, "by hand", 1e-9, 0, np.zeros(len(depth)))
 
 
 def curve_of_body(body, depth):

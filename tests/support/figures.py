@@ -148,6 +148,16 @@ def other_solvers_table():
     return pd.concat([table, pd.DataFrame([missed])])
 
 
+def light_contact_table():
+    """Two loads on maps of two sizes, a third and ASPHER on the larger one; the time grows as N^1.5."""
+    table = combinations_of(elements=(256, 1024), fraction=(5e-4, 5e-3), solver=("viscorough",), threads=(1, 2))
+    table = table.assign(wall_s=1e-9 * table["elements"] ** 3.0, ranking_s=1e-3, ratio=1.0, met=1)
+    largest = table[table["elements"] == 1024]
+    other = largest.assign(solver="ASPHER active set", ratio=4.0 * largest["threads"], wall_s=np.nan)
+    missed = other.assign(solver="Tamaas", met=0, ratio=np.nan)
+    return pd.concat([table, largest.assign(fraction=0.3), other, missed], ignore_index=True)
+
+
 def level_placement_table():
     """Three choices for a scene, of which the naive one does not reach the accuracy."""
     rows = [("full curve", "automatic", 1e-3, 1e-4, 1, 40, 1.0), ("full curve", "best by hand", 1e-3, 9e-4, 1, 16, 0.8)]
@@ -283,6 +293,7 @@ FROM_TABLES = {  # arguments of the figures that are drawn from tables alone
     "level_placement": (level_placement_table(),),
     "reduction": (mdr_table(),),
     "mdr_lambda": mdr_lambda_tables(),
+    "light_contact": (light_contact_table(),),
     "media": (media_table(),),
     "media_exponents": (media_table(),),
     "other_solvers": (other_solvers_table(),),

@@ -8,8 +8,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from viscorough import reference
-from viscorough.loading_curve import LoadingCurve
+from viscorough import LoadingCurve, reference
 from viscorough_study.comparisons.direct_integration import compare_direct
 from viscorough_study.comparisons.mdr_equivalence import WINDOWS
 from viscorough_study.ensembles.averages import abscissa, ensemble_dataset, on_abscissae

@@ -22,7 +22,7 @@ SHOWN = {name: table for name, table in TABLES.items() if "chapter" in table}  #
 FIGURES = {figure.get("file", name): figure for name, figure in RESULTS["figures"].items()}  # by their files
 HANGS = 3000  # seconds after which a run is taken to hang: ten times the longest on a busy machine
 TARGETS = {"all", "article", "curves", "figures", "tables", "validation", "speed", "stability", "sizes", "large"}
-TARGETS |= {"costs", "measured", *(f"figure_{number}" for number in range(1, 5))}
+TARGETS |= {"costs", "light_contact", "measured", *(f"figure_{number}" for number in range(1, 5))}
 
 
 def copy_project(folder):

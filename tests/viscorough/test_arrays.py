@@ -4,12 +4,8 @@ import numpy as np
 import pytest
 
 from support.curves import random_curve
+from viscorough import Indenter, contact_at, impulses, kinetics, march_events, march_steps
 from viscorough.arrays import read_only
-from viscorough.contact.one_contact import contact_at
-from viscorough.indenter import Indenter
-from viscorough.viscous.correspondence import impulses, kinetics
-from viscorough.viscous.integration.events import march_events
-from viscorough.viscous.integration.stepping import march_steps
 
 HILL = Indenter([[0.0, 1.0], [0.5, 0.2]], 1.0)
 

@@ -14,6 +14,7 @@ from viscorough_study.fits.fit_table import calibrated
 from viscorough_study.fits.penetration_law import COLUMNS
 
 HURST = [0.1, 0.4, 0.6, 0.9, 1.0]
+TABLE = pd.read_csv(ROOT / "src/viscorough/data/law.csv")
 LAW = (0.7, 0.35, 4.0, 2.0, 60.0)  # amplitude, exponent, bend, fall, cutoff
 
 
@@ -48,9 +49,9 @@ def test_numbers_are_the_calibrated_ones():
     assert table["hurst"].tolist() == beyond["hurst"].tolist() == HURST
     assert np.all(table["beta_low"] < table["beta"])
     assert np.all(table["beta"] < table["beta_high"])
-    fits, laws = (pd.read_csv(ROOT / f"src/viscorough/data/{name}.csv") for name in ("calibration", "law"))
-    assert list(laws) == list(COLUMNS)
-    fits, laws = (rows.set_index("hurst") for rows in (fits.query("source == 'discs'"), laws.query("across == 257")))
+    assert list(TABLE) == list(COLUMNS)
+    fits = pd.read_csv(ROOT / "src/viscorough/data/calibration.csv").query("source == 'discs'").set_index("hurst")
+    laws = TABLE.query("across == 257").set_index("hurst")
     for hurst in HURST:
         law, fit, row = viscorough.penetration_law(hurst), fits.loc[hurst], laws.loc[hurst]
         for name in ("beta", "zeta"):
@@ -64,12 +65,11 @@ def test_numbers_are_the_calibrated_ones():
 
 
 def test_law_has_both_integrals_and_holds_where_it_must_to_what_it_must():
-    table = pd.read_csv(ROOT / "src/viscorough/data/law.csv")
-    assert (table["deviation"] <= LARGEST_DEVIATION).all()
-    assert (table["x_low"] < 1).all()
-    assert (table["x_high"] > 1).all()
+    assert (TABLE["deviation"] <= LARGEST_DEVIATION).all()
+    assert (TABLE["x_low"] < 1).all()
+    assert (TABLE["x_high"] > 1).all()
     log_x = np.linspace(-20, 8, 4001)
-    for row in table.itertuples():
+    for row in TABLE.itertuples():
         law = interface_velocity(np.exp(log_x), *(getattr(row, name) for name in CONSTANTS), across=row.across)
         assert np.trapezoid(law, log_x) == pytest.approx(row.mean_gap, rel=1e-4)
         assert np.trapezoid(law * np.exp(log_x), log_x) == pytest.approx(row.energy, rel=1e-4)
@@ -77,7 +77,7 @@ def test_law_has_both_integrals_and_holds_where_it_must_to_what_it_must():
 
 def test_power_law_and_law_agree_in_region_b():
     """The power law is a straight line through geometric means; arithmetic ones are larger by what the table says."""
-    table = pd.read_csv(ROOT / "src/viscorough/data/law.csv").query("across == 257").set_index("hurst")
+    table = TABLE.query("across == 257").set_index("hurst")
     for hurst in HURST:
         law = viscorough.penetration_law(hurst)
         x = np.geomspace(*law.region, 20)

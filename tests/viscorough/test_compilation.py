@@ -2,22 +2,14 @@
 
 import os
 import signal
-import subprocess
-import sys
 
 import numba
 import pytest
 from numba.core import caching, event
 
+from support.command_line import python
 from viscorough.compilation import njit
 from viscorough.interrupts import uninterrupted
-
-
-def run(script, **environment):
-    options = {"capture_output": True, "text": True, "check": False, "env": os.environ | environment}
-    done = subprocess.run([sys.executable, "-c", script], **options)
-    assert done.returncode == 0, done.stderr
-    return done
 
 
 def test_compiled_functions_of_other_packages_are_left_alone():
@@ -37,7 +29,7 @@ def test_compiled_functions_of_other_packages_are_left_alone():
 def test_function_without_a_source_file_is_compiled_without_a_cache(environment):
     """numba itself refuses to compile such a function with a cache."""
     script = "from viscorough.compilation import njit; assert njit(fastmath=True)(lambda x: x + 1)(1.0) == 2"
-    assert run(script, **environment).stderr == ""
+    assert python("-c", script, **environment).stderr == ""
 
 
 SPHERE = """
@@ -52,7 +44,7 @@ NO_ROOM = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100)
 
 @pytest.mark.parametrize("before", ["", NO_ROOM], ids=["no folder", "full disk"])
 def test_where_compiled_code_cannot_be_kept_one_line_says_so(before, tmp_path):
-    done = run(before + SPHERE, **({"NUMBA_CACHE_DIR": str(tmp_path)} if before else NOWHERE))
+    done = python("-c", before + SPHERE, **({"NUMBA_CACHE_DIR": str(tmp_path)} if before else NOWHERE))
     assert float(done.stdout) > 0
     assert len(done.stderr.splitlines()) == 1, done.stderr
     assert "compiled code cannot be kept on disk" in done.stderr
@@ -112,5 +104,5 @@ def test_who_waits_at_a_terminal_is_told(tmp_path, terminal):
         "assert one(1) + two(1) == 5\n"
     )
     for expected in ("viscorough: compiling once, which takes about 20 s\n" if terminal else "", ""):
-        script = f"import runpy; runpy.run_path({str(tmp_path / 'script.py')!r})"
-        assert run(script, NUMBA_CACHE_DIR=str(tmp_path / "cache")).stderr == expected
+        done = python(str(tmp_path / "script.py"), NUMBA_CACHE_DIR=str(tmp_path / "cache"))
+        assert done.stderr == expected

@@ -1,27 +1,20 @@
-"""Packages that importing the library loads, and its public names."""
+"""Packages that importing the library loads, its public names, and annotations."""
 
 import ast
 import json
 import re
-import subprocess
-import sys
 import textwrap
 
 import pytest
 
 import viscorough
+from support.command_line import python
 from support.documentation import ROOT
 
 LIBRARY = ROOT / "src/viscorough"
 PAGE = (ROOT / "docs/reference/python.md").read_text()
 PUBLIC = {"reference", *re.findall(r"^\.\. auto(?:function|class|exception):: (\w+)$", PAGE, re.MULTILINE)}
 STUDY_ONLY = ("matplotlib", "pandas", "snakemake", "viscorough_study", "xarray")
-
-
-def python(*arguments):
-    done = subprocess.run([sys.executable, *arguments], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    return done
 
 
 def imported(script):
@@ -72,3 +65,17 @@ def test_functions_that_messages_name_are_public():
 def test_unknown_names_are_refused():
     with pytest.raises(AttributeError, match="no attribute 'indentation'"):
         viscorough.indentation  # noqa: B018
+
+
+def lacks_annotation(function):
+    arguments = [node for node in ast.iter_child_nodes(function.args) if isinstance(node, ast.arg)]
+    return function.returns is None or any(a.annotation is None and a.arg not in ("self", "cls") for a in arguments)
+
+
+def test_all_functions_but_kernels_are_annotated():
+    """Which the type checker does not ask for."""
+    nodes = [node for path in LIBRARY.rglob("*.py") for node in ast.walk(ast.parse(path.read_text()))]
+    functions = [node for node in nodes if isinstance(node, ast.FunctionDef)]
+    plain = [node for node in functions if not any("njit" in ast.dump(each) for each in node.decorator_list)]
+    assert [node.name for node in plain if lacks_annotation(node)] == []
+    assert len(plain) > 600

@@ -5,9 +5,7 @@ import pytest
 
 import viscorough
 from support.contract import refused
-from viscorough.contact.loading_path import indent
-from viscorough.indenter import Indenter
-from viscorough.mdr import reduce
+from viscorough import Indenter, indent, reduce
 
 
 def test_rms_slope_and_element_of_a_plane():

@@ -12,12 +12,6 @@ from viscorough.mdr import _OCTAVES, _bin_gaps, _binned_gaps, line_of_map, line_
 from viscorough.surfaces import cut_disc, self_affine_line, self_affine_square
 
 
-def force_and_count(gaps, spacing, depth):
-    """F/G and the number of points in contact at every depth, by adding up every point."""
-    pressed = depth[:, None] - gaps.astype(float)
-    return 4 * spacing * np.clip(pressed, 0, None).sum(axis=1), (pressed > 0).sum(axis=1)
-
-
 def depth_and_stiffness(gaps, spacing, force):
     """The exact curve between its kinks, from the order statistics of the gaps."""
     gaps = np.sort(gaps.astype(float))
@@ -28,7 +22,9 @@ def depth_and_stiffness(gaps, spacing, force):
 
 
 def assert_exact(curve, line):
-    force, count = force_and_count(line.initial_gap, line.spacing, curve.depth)
+    """Against F/G and the number of points in contact at every depth, by adding up every point."""
+    pressed = curve.depth[:, None] - line.initial_gap.astype(float)
+    count, force = (pressed > 0).sum(axis=1), 4 * line.spacing * np.clip(pressed, 0, None).sum(axis=1)
     np.testing.assert_array_equal(curve.contact_count, count)
     np.testing.assert_allclose(curve.stiffness, 4 * line.spacing * count, rtol=1e-15)
     # F is the difference of two sums that may cancel to a bin's width: 1e-16 x 64 x a safety of 100

@@ -14,9 +14,7 @@ import numpy as np
 import psutil
 import pytest
 
-from viscorough.contact.loading_path import indent
-from viscorough.indenter import Indenter
-from viscorough.surfaces import self_affine_disc, self_affine_line
+from viscorough import Indenter, indent, self_affine_disc, self_affine_line
 
 # What any contact requires, however small.
 CONSTANT = 6e6

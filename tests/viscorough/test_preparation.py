@@ -6,11 +6,8 @@ import numpy as np
 import pytest
 
 from support.contract import refused
-from viscorough.errors import AccuracyWarning
-from viscorough.indenter import Indenter
-from viscorough.io.heights import read_heights
+from viscorough import Indenter, self_affine_disc
 from viscorough.preparation import doubts, prepare
-from viscorough.surfaces import self_affine_disc
 
 DX, DY = 0.5, 0.7
 ROWS, COLUMNS = 31, 41
@@ -128,16 +125,6 @@ def test_spikes_are_told():
     heights[10, 31] += 30
     (text,) = doubts(Indenter(heights, 1.0))
     assert text.startswith("2 single points stand up to ")
-
-
-def test_read_heights_prepares_and_warns(tmp_path):
-    np.save(tmp_path / "a.npy", ROUGH + 9 * X)
-    with pytest.warns(AccuracyWarning, match=r"a\.npy: the map is tilted"):
-        read_heights(tmp_path / "a.npy", (DX, DY))
-    surface = read_heights(tmp_path / "a.npy", (DX, DY), detrend="plane")
-    np.testing.assert_array_equal(surface.heights, prepare(indenter(ROUGH + 9 * X), detrend="plane").heights)
-    with pytest.raises(ValueError, match=r"a\.npy: crop"):
-        read_heights(tmp_path / "a.npy", (DX, DY), crop=((0, 99), (0, 9)))
 
 
 def test_detrending_needs_little_memory_beside_the_map():

@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 from support.influence import influence_matrix
-from viscorough import Indenter, SolverOptions, audit, complete_contact, indent, reduce
+from viscorough import Indenter, SolverOptions, audit, complete_contact, indent, march_events, reduce
 from viscorough.reference import cone, sphere
 from viscorough.sum_rules import integrals
 from viscorough.surfaces import cut_disc, self_affine_disc, self_affine_line, self_affine_square
-from viscorough.viscous.integration.events import march_events
 
 SMALL = 18  # elements across, at most 400 in all: every contact event is a level
 ROUGH = cut_disc(self_affine_square(0.1, SMALL, seed=4), SMALL)

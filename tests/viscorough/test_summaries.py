@@ -4,8 +4,7 @@ import numpy as np
 
 from support.curves import random_curve
 from support.page import Page
-from viscorough.contact.one_contact import contact_at
-from viscorough.indenter import Indenter
+from viscorough import Indenter, contact_at
 from viscorough.summaries import html_table, span, unit_power, with_unit
 
 

@@ -1,10 +1,8 @@
 """Units as users and files write them."""
 
-import subprocess
-import sys
-
 import pytest
 
+from support.command_line import python
 from support.contract import refused
 from viscorough import units
 
@@ -59,6 +57,6 @@ def test_what_is_no_quantity_is_refused(text):
 
 def test_common_units_do_without_pint():
     program = "import sys; from viscorough import units; units.metres('µm'); units.quantity('5'); print(sys.modules)"
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
-    assert "viscorough.units" in done.stdout
-    assert "pint" not in done.stdout
+    modules = python("-c", program).stdout
+    assert "viscorough.units" in modules
+    assert "pint" not in modules

@@ -9,13 +9,13 @@ from typing import Any
 
 import click
 
-from viscorough.cli.elasticity import elastic_constants_options, elasticity, lengths
+from viscorough.cli.elasticity import elastic_constants_options, elasticity, forces_over_modulus, lengths
 from viscorough.cli.files import write_output
 from viscorough.cli.messages import announce
 from viscorough.cli.options import Increasing, PositiveNumber, output_option, threads_option
 from viscorough.cli.progress import progress_bar, progress_option
 from viscorough.cli.surface_options import Surface, heights_input, read_indenter
-from viscorough.summaries import unit_power, with_unit
+from viscorough.summaries import si_unit, unit_power, with_unit
 from viscorough.units import Quantity
 
 
@@ -34,12 +34,10 @@ def contact(
     *,
     force: Sequence[Quantity] | None,
     depth: Sequence[Quantity] | None,
-    shear_modulus: Quantity | None,
-    young: Quantity | None,
-    poisson: float | None,
     tolerance: float,
     threads: int,
     progress: bool,
+    **constants: Any,
 ) -> None:
     """Pressure, gap and contact of an indenter pressed into an elastic half-space, at a given force or depth.
 
@@ -63,29 +61,28 @@ def contact(
     if (force is None) == (depth is None):
         raise click.UsageError("one of --force and --depth is needed")
     indenter = read_indenter(surface, output)
-    medium = elasticity(shear_modulus, young, poisson, indenter.length_unit)
+    unit = indenter.length_unit
+    modulus, elastic_constants = elasticity(length_unit=unit, **constants)
     given: dict[str, Any]
     if depth is not None:
-        given = {"depth": lengths(depth, indenter.length_unit, "--depth")}
+        given = {"depth": lengths(depth, unit, "--depth")}
     elif force is not None:
-        given = {"force": medium.forces_over_modulus(force, "--force")}
+        given = {"force": forces_over_modulus(force, modulus, unit, "--force")}
 
     from viscorough.contact.one_contact import contact_at
     from viscorough.io.contacts import contacts_to_content
 
     with progress_bar("viscorough contact", progress) as report:
         contacts: Any = contact_at(indenter, tolerance=tolerance, progress=report, threads=threads, **given)
-    if medium.shear_modulus is not None:
-        contacts = [replace(each, shear_modulus=medium.shear_modulus) for each in contacts]
+    if modulus is not None:
+        contacts = [replace(each, shear_modulus=modulus) for each in contacts]
     content = contacts_to_content(contacts, indenter.heights)
-    write_output(content, output, **surface.attributes(indenter), **medium.attributes)
+    write_output(content, output, **surface.attributes(indenter), **elastic_constants)
     last, patches = contacts[-1], int(content.variables["patches"].values.flat[-1])
-    unit = last.length_unit
     depth, force = with_unit(last.depth, unit, 6), with_unit(last.force, unit_power(unit, 2), 6)
     text = f"depth {depth}, F/G {force}, contact fraction {last.contact_fraction:.4g}, "
     text += f"{patches} patch{'' if patches == 1 else 'es'}"
     if last.shear_modulus is not None:
-        newtons, pascals = ("1", "1") if unit == "1" else ("N", "Pa")
-        largest = with_unit(last.shear_modulus * last.largest_pressure, pascals)
-        text += f", F {with_unit(last.normal_force, newtons, 6)}, largest p {largest}"
+        largest = with_unit(last.shear_modulus * last.largest_pressure, si_unit("Pa", unit))
+        text += f", F {with_unit(last.normal_force, si_unit('N', unit), 6)}, largest p {largest}"
     announce(output, text if len(contacts) == 1 else f"{len(contacts)} levels, the last at {text}")

@@ -10,7 +10,7 @@ import click
 from viscorough.cli.files import check_output, printable_name, read_curve
 from viscorough.cli.messages import announce
 from viscorough.cli.options import FILE, QuantityOption, force_history_option, number_in
-from viscorough.summaries import with_unit
+from viscorough.summaries import si_unit, with_unit
 from viscorough.units import Quantity
 
 
@@ -66,6 +66,6 @@ def creep(
     about = {"curve": printable_name(curve), "record": printable_name(record), "force": stated}
     save_identified(identified, output, **about, scatter=identified.scatter)
     first, last = identified.compliance[[1, -1]]
-    inverse = "1" if unit == "1" else "1/Pa"
-    text = f"J {first:.4g} to {with_unit(last, inverse)} from time {identified.time[1]:.4g} to {times[-1]:.4g}"
+    largest = with_unit(last, si_unit("1/Pa", unit))
+    text = f"J {first:.4g} to {largest} from time {identified.time[1]:.4g} to {times[-1]:.4g}"
     announce(output, f"{text}, scatter of depth {with_unit(identified.scatter, unit, 3)}")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import click
@@ -22,36 +21,15 @@ def elastic_constants_options(command: Callable[..., Any]) -> Callable[..., Any]
     return click.option("--shear-modulus", type=QuantityOption("Pa"), help=text)(command)
 
 
-@dataclass(frozen=True)
-class Elasticity:
-    """The elastic half-space, as far as it was stated.
-
-    length_unit : unit of length of the indenter, "1" if it is not known
-    shear_modulus : G of the incompressible half-space with the same E* = E/(1 − ν²) = 4G [Pa, or consistent units];
-        None if no modulus was stated
-    attributes : what was stated, for files
-    """
-
-    length_unit: str
-    shear_modulus: float | None
-    attributes: dict
-
-    def forces_over_modulus(self, quantities: Sequence[Quantity], option: str) -> list[float]:
-        """F/G [length²] of forces, Quantities given with an option.
-
-        With a modulus, forces are in N, or in consistent units if the unit of length is not known; without one, they
-        are F/G. Raises UsageError for a force with a unit where no modulus or no unit of length is known.
-        """
-        try:
-            return list(units.forces_over_modulus(quantities, self.shear_modulus, self.length_unit, option))
-        except ValueError as error:
-            raise click.UsageError(str(error)) from error
-
-
 def elasticity(
     shear_modulus: Quantity | None, young: Quantity | None, poisson: float | None, length_unit: str
-) -> Elasticity:
-    """The Elasticity of the options. Raises UsageError if they contradict each other."""
+) -> tuple[float | None, dict[str, float]]:
+    """(G, what was stated, for files) of the options; G is None if no modulus was stated.
+
+    G is that of the incompressible half-space with the same E* = E/(1 − ν²) = 4G [Pa, or consistent units].
+
+    Raises UsageError if the options contradict each other.
+    """
     if shear_modulus is not None and young is not None:
         raise click.UsageError("--shear-modulus and --young exclude each other; one of them is allowed")
     if poisson is not None and young is None:
@@ -59,12 +37,25 @@ def elasticity(
     if young is not None:
         poisson = 0.5 if poisson is None else poisson
         modulus = number_in("Pa", young, length_unit, "--young")
-        stated = {"young_modulus": modulus, "poisson_ratio": poisson}
-        return Elasticity(length_unit, modulus / (1 - poisson**2) / 4, stated)
+        return modulus / (1 - poisson**2) / 4, {"young_modulus": modulus, "poisson_ratio": poisson}
     if shear_modulus is not None:
         modulus = number_in("Pa", shear_modulus, length_unit, "--shear-modulus")
-        return Elasticity(length_unit, modulus, {"shear_modulus": modulus})
-    return Elasticity(length_unit, None, {})
+        return modulus, {"shear_modulus": modulus}
+    return None, {}
+
+
+def forces_over_modulus(
+    quantities: Sequence[Quantity], shear_modulus: float | None, length_unit: str, option: str
+) -> list[float]:
+    """F/G [length²] of forces, Quantities given with an option.
+
+    With a modulus, forces are in N, or in consistent units if the unit of length is not known; without one, they are
+    F/G. Raises UsageError for a force with a unit where no modulus or no unit of length is known.
+    """
+    try:
+        return list(units.forces_over_modulus(quantities, shear_modulus, length_unit, option))
+    except ValueError as error:
+        raise click.UsageError(str(error)) from error
 
 
 def lengths(quantities: Sequence[Quantity], length_unit: str, option: str) -> list[float]:

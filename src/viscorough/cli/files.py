@@ -88,16 +88,15 @@ def read_curve(path: FilePath) -> LoadingCurve:
 
     The kinetics of a viscous half-space follow from the elastic curve of an incompressible one only.
     """
+    from viscorough.io.atomic import path_named
     from viscorough.io.curves import curve_from_content
 
     content = read_content(path)
     if (ratio := content.attributes.get("poisson_ratio", 0.5)) != 0.5:
         text = f"{path}: the curve is that of a half-space with Poisson ratio {ratio}"
         raise ValueError(f"{text}; kinetics need one of an incompressible half-space, 0.5")
-    try:
+    with path_named(path):
         return curve_from_content(content)
-    except ValueError as error:
-        raise ValueError(f"{path}: {error}") from error
 
 
 def write_output(content: Content, output: Path, **attributes: Any) -> None:

@@ -56,28 +56,20 @@ def generate(
     if plateau and roll_off is None:
         raise click.UsageError("--plateau is for use with --roll-off")
 
-    from dataclasses import replace
-
     from viscorough import surfaces, units
     from viscorough.io.surfaces import surface_to_content
 
     check_output(output)
     unit = unit if unit == units.UNKNOWN else units.length_unit(unit)
     rms, diameter = number_in(unit, rms, unit, "--rms"), number_in(unit, diameter, unit, "--diameter")
-    options: dict[str, Any] = {
-        "rms": rms,
-        "roll_off_wavelength": roll_off,
-        "roll_off_level": float(plateau),
-        "seed": seed,
-    }
+    long_waves = {"roll_off_wavelength": roll_off, "roll_off_level": float(plateau)}
+    options: dict[str, Any] = {"rms": rms, "length_unit": unit, "seed": seed, **long_waves}
     if elements:
         made = surfaces.self_affine_disc(hurst, elements, diameter=diameter, **options)
         what = f"disc of {elements} elements across, {made.elements} elements"
     elif points:
         made = surfaces.self_affine_line(hurst, points, length=diameter, **options)
         what = f"line of {points} points"
-    content = surface_to_content(replace(made, length_unit=unit))
-    about = {"hurst": hurst, "rms": rms, "diameter": diameter, "seed": seed}
-    about |= {} if roll_off is None else {"roll_off_wavelength": roll_off, "roll_off_level": float(plateau)}
-    write_output(content, output, **about)
+    about = {"hurst": hurst, "rms": rms, "diameter": diameter, "seed": seed} | (long_waves if roll_off else {})
+    write_output(surface_to_content(made), output, **about)
     announce(output, f"{what}, rms height {rms:g} {unit}, rms slope {made.rms_slope:.3g}")

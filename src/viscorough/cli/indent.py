@@ -9,7 +9,7 @@ from typing import Any
 
 import click
 
-from viscorough.cli.elasticity import elastic_constants_options, elasticity, lengths
+from viscorough.cli.elasticity import elastic_constants_options, elasticity, forces_over_modulus, lengths
 from viscorough.cli.files import write_output
 from viscorough.cli.messages import announce
 from viscorough.cli.options import Increasing, PositiveNumber, QuantityOption, output_option, threads_option
@@ -84,14 +84,15 @@ def indent(
     if len(stated) > 1 and stated[0] in levels:
         raise click.UsageError(f"{stated[0]} and {stated[1]} exclude each other; one of them is allowed")
     indenter = read_indenter(surface, output)
-    medium = elasticity(length_unit=indenter.length_unit, **constants)
+    unit = indenter.length_unit
+    modulus, elastic_constants = elasticity(length_unit=unit, **constants)
     given: dict[str, Any] = {}
     if depths is not None:
-        given["depths"] = lengths(depths, indenter.length_unit, "--depths")
+        given["depths"] = lengths(depths, unit, "--depths")
     if forces is not None:
-        given["forces"] = medium.forces_over_modulus(forces, "--forces")
+        given["forces"] = forces_over_modulus(forces, modulus, unit, "--forces")
     if until_force is not None:
-        (given["until_force"],) = medium.forces_over_modulus([until_force], "--until-force")
+        (given["until_force"],) = forces_over_modulus([until_force], modulus, unit, "--until-force")
         given["until_fraction"] = 1.0  # unless stated
     if until_fraction is not None:
         given["until_fraction"] = until_fraction
@@ -100,7 +101,7 @@ def indent(
     from viscorough.contact.loading_path import indent
     from viscorough.io.curves import curve_to_content, with_normal_force
 
-    attributes, lines = surface.attributes(indenter) | medium.attributes, []
+    attributes, lines = surface.attributes(indenter) | elastic_constants, []
     with progress_bar("viscorough indent", progress) as report:
         how: dict[str, Any] = {"tolerance": tolerance, "progress": report, "threads": threads, **given}
         if audit:
@@ -110,11 +111,11 @@ def indent(
                 warnings.warn(lines[0], AccuracyWarning, stacklevel=2)
         else:
             curve = indent(indenter, **how)
-    content, depth = curve_to_content(curve), with_unit(curve.depth[-1], curve.length_unit, 6)
-    if medium.shear_modulus is not None:
-        content = with_normal_force(content, medium.shear_modulus, curve.length_unit)
-        newtons = "1" if curve.length_unit == "1" else "N"
-        depth += f", F {with_unit(content.variables['normal_force'].values[-1], newtons, 6)},"
+    content, depth = curve_to_content(curve), with_unit(curve.depth[-1], unit, 6)
+    if modulus is not None:
+        content = with_normal_force(content, modulus, unit)
+        force = content.variables["normal_force"]
+        depth += f", F {with_unit(force.values[-1], force.attributes['units'], 6)},"
     write_output(content, output, **attributes)
     count = f"{curve.contact_count[-1]} of {curve.elements} elements in contact"
     announce(output, "\n".join([f"{curve.depth.size} levels, the last at depth {depth} with {count}", *lines]))

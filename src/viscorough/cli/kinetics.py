@@ -12,12 +12,11 @@ from viscorough.cli.files import check_output, printable_name, read_curve, write
 from viscorough.cli.messages import announce
 from viscorough.cli.options import FILE, Increasing, QuantityOption, force_history_option, number_in, output_option
 from viscorough.errors import AccuracyWarning
-from viscorough.summaries import time_unit, with_unit
+from viscorough.summaries import si_unit, with_unit
 from viscorough.units import Quantity
 
 if TYPE_CHECKING:
     from viscorough.io.netcdf import Content
-    from viscorough.loading_curve import LoadingCurve
     from viscorough.viscous.correspondence import ForceHistory, Kinetics
     from viscorough.viscous.medium import Medium
 
@@ -82,10 +81,9 @@ def kinetics(
     elif force is not None:
         history = about["force"] = number_in("N", force, loading.length_unit, "--force")
     motion = correspondence.kinetics(loading, history, law, times)
-    content, title = _content(motion, history, loading)
-    write_output(content, output, title=title, **about)
+    write_output(_content(motion, history), output, **about)
     depth = with_unit(motion.depth[-1], loading.length_unit, 6)
-    time = with_unit(motion.time[-1], time_unit(loading.length_unit), 6)
+    time = with_unit(motion.time[-1], si_unit("s", loading.length_unit), 6)
     announce(output, f"{motion.time.size} times, depth {depth} at time {time}")
 
 
@@ -112,8 +110,8 @@ def _medium(viscosity: Quantity | None, medium: Path | None, length_unit: str) -
     }
 
 
-def _content(motion: Kinetics, history: float | ForceHistory, loading: LoadingCurve) -> tuple[Content, str]:
-    """Content and title of the output; a warning for times at which depth or velocity are not known."""
+def _content(motion: Kinetics, history: float | ForceHistory) -> Content:
+    """Content of the output; a warning for times at which depth or velocity are not known."""
     import numpy as np
 
     from viscorough.io.motion import kinetics_to_content
@@ -130,4 +128,4 @@ def _content(motion: Kinetics, history: float | ForceHistory, loading: LoadingCu
         warnings.warn(f"{text}curve, or where a step moves a springpot without bound", AccuracyWarning, stacklevel=2)
     kind = "a force history" if np.ndim(history) > 0 else "a constant force"
     title = f"Penetration of a rigid indenter into a linear viscoelastic half-space under {kind}"
-    return kinetics_to_content(motion, force, loading.length_unit), title
+    return kinetics_to_content(motion, force).with_attributes(title=title)

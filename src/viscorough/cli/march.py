@@ -22,7 +22,7 @@ from viscorough.cli.options import (
 )
 from viscorough.cli.progress import progress_bar, progress_option
 from viscorough.cli.surface_options import Surface, heights_input, read_indenter
-from viscorough.summaries import time_unit, with_unit
+from viscorough.summaries import si_unit, with_unit
 from viscorough.units import Quantity
 
 if TYPE_CHECKING:
@@ -69,9 +69,8 @@ def march(
     medium: Path | None,
     times: list[float] | None,
     force_history: Path | None,
-    overlap: float | None,
-    until_fraction: float | None,
     progress: bool,
+    **of_method: float | None,
 ) -> None:
     """Integrate the viscous or viscoelastic problem directly in time, without its correspondence with the elastic one.
 
@@ -96,28 +95,28 @@ def march(
         raise click.UsageError("--force-history replaces --force and --times; they exclude each other")
     if medium and viscosity:
         raise click.UsageError("--medium replaces --viscosity; they exclude each other")
-    given = {"until_fraction": until_fraction, "overlap": overlap}
-    options: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
+    options: dict[str, Any] = {name: value for name, value in of_method.items() if value is not None}
     _check_options_of_method(method, bool(medium), bool(force_history), times, options)
     check_output(output, force_history=force_history, medium=medium)
     indenter = read_indenter(surface, output)
     unit = indenter.length_unit
-    force = 1.0 if force is None else number_in("N", force, unit, "--force")
+    load: Any = 1.0 if force is None else number_in("N", force, unit, "--force")
     viscosity = 1.0 if viscosity is None else number_in("Pa s", viscosity, unit, "--viscosity")
     about: dict[str, Any] = {"medium": printable_name(medium)} if medium else {"viscosity": viscosity}
-    about["force"] = printable_name(force_history) if force_history else force
-    history = _read_history(force_history, unit) if force_history else None
+    about["force"] = printable_name(force_history) if force_history else load
+    if force_history:
+        load = _read_history(force_history, unit)
     with progress_bar("viscorough march", progress) as report:
         if medium:
-            content = _in_medium(indenter, method, medium, force, times, history, progress=report, **options)
+            content = _in_medium(indenter, method, medium, load, times, progress=report, **options)
         else:
             options |= {} if method == "events" else {"progress": report}
-            content = _in_viscous_medium(indenter, method, viscosity, force, times, history, **options)
+            content = _in_viscous_medium(indenter, method, viscosity, load, times, **options)
     write_output(content, output, method=method, **about, **surface.attributes(indenter))
     time, depths, count = (content.variables[name].values for name in ("time", "depth", "contact_count"))
-    depth = with_unit(depths[-1], indenter.length_unit, 6)
+    depth = with_unit(depths[-1], unit, 6)
     contact = f"{count[-1]} of {indenter.elements} elements in contact"
-    last = with_unit(time[-1], time_unit(indenter.length_unit), 6)
+    last = with_unit(time[-1], si_unit("s", unit), 6)
     announce(output, f"{time.size} levels, depth {depth} at time {last} with {contact}")
 
 
@@ -139,13 +138,7 @@ def _check_options_of_method(
 
 
 def _in_viscous_medium(
-    indenter: Indenter,
-    method: str,
-    viscosity: float,
-    force: float,
-    times: list[float] | None,
-    history: ForceHistory | None,
-    **options: Any,
+    indenter: Indenter, method: str, viscosity: float, load: float | ForceHistory, times: Any, **options: Any
 ) -> Content:
     """Content of the output for a Newtonian medium; viscosity in Pa s where the unit of length is known."""
     import numpy as np
@@ -155,28 +148,21 @@ def _in_viscous_medium(
     from viscorough.viscous.integration.motion import under_constant_force, under_force_history
     from viscorough.viscous.integration.stepping import march_steps
 
-    if indenter.length_unit != units.UNKNOWN:
-        viscosity *= units.metres(indenter.length_unit) ** 2
-    per_time = force / viscosity
+    viscosity *= units.square_metres(indenter.length_unit)
     if method == "events":
         integrated = march_events(indenter, **options)
+    elif isinstance(load, float):
+        integrated = march_steps(indenter, load / viscosity * np.array(times), scheme=method, **options)
     else:
-        steps = np.unique(history.impulse[history.impulse > 0]) / viscosity if history else per_time * np.array(times)
+        steps = np.unique(load.impulse[load.impulse > 0]) / viscosity
         integrated = march_steps(indenter, steps, scheme=method, **options)
-    moved = (
-        under_force_history(integrated, history, viscosity) if history else under_constant_force(integrated, per_time)
-    )
-    return viscous_motion_to_content(moved)
+    if isinstance(load, float):
+        return viscous_motion_to_content(under_constant_force(integrated, load / viscosity))
+    return viscous_motion_to_content(under_force_history(integrated, load, viscosity))
 
 
 def _in_medium(
-    indenter: Indenter,
-    method: str,
-    medium: Path,
-    force: float,
-    times: list[float] | None,
-    history: ForceHistory | None,
-    **options: Any,
+    indenter: Indenter, method: str, medium: Path, load: float | ForceHistory, times: Any, **options: Any
 ) -> Content:
     """Content of the output for a viscoelastic medium."""
     from viscorough.io.media import read_medium
@@ -185,14 +171,12 @@ def _in_medium(
     from viscorough.viscous.integration.internal_variables import march_medium
 
     law = read_medium(medium, indenter.length_unit)
-    steps: Any = times
-    loads: Any
-    steps, loads = history[:2] if history else ([0.0, *steps], [force] * (1 + len(steps)))
+    steps, force = ([0.0, *times], [load] * (1 + len(times))) if isinstance(load, float) else load[:2]
     if method == "events":
-        moved: MediumMotion = march_medium_events(indenter, law, steps, force=loads, **options)
+        moved: MediumMotion = march_medium_events(indenter, law, steps, force=force, **options)
     else:
         scheme = "backward_euler" if method == "implicit" else method
-        moved = march_medium(indenter, law, steps, force=loads, scheme=scheme, **options)
+        moved = march_medium(indenter, law, steps, force=force, scheme=scheme, **options)
     return medium_motion_to_content(moved)
 
 

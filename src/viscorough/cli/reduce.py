@@ -79,9 +79,8 @@ def reduce(
         for line in lines:
             curves.append(mdr.reduce(line, until_fraction=until_fraction or 1.0))
             report(len(curves) / (realizations or 1))
-    content = curve_to_content(curves[0]) if len(curves) == 1 else stack_curves(curves)
-    write_output(content, output, **about)
     first = curves[0]
+    write_output(curve_to_content(first) if len(curves) == 1 else stack_curves(curves), output, **about)
     what = f"{len(curves)} curves, the first with " if len(curves) > 1 else ""
     depth = with_unit(first.depth[-1], first.length_unit, 6)
     count = f"{first.contact_count[-1]} of {first.elements} points in contact"

@@ -25,6 +25,16 @@ def reason(error: BaseException) -> str:
     return " ".join(str(getattr(error, "strerror", None) or error).split())
 
 
+@contextlib.contextmanager
+def path_named(path: FilePath) -> Iterator[None]:
+    """Context in which the message of a ValueError gets the path in front, unless it starts with it."""
+    try:
+        yield
+    except ValueError as error:
+        text = str(error)
+        raise ValueError(text if text.startswith(f"{path}: ") else f"{path}: {text}") from error
+
+
 def check_readable(path: FilePath) -> None:
     """Raise a one-line ValueError if a file to be read exists but is none whose bytes can be read to an end.
 
@@ -38,6 +48,21 @@ def check_readable(path: FilePath) -> None:
     if not stat.S_ISREG(mode):
         kind = "a pipe" if stat.S_ISFIFO(mode) else "a folder" if stat.S_ISDIR(mode) else "a device"
         raise ValueError(f"{path}: not readable (it is {kind}); a regular file is needed")
+
+
+@contextlib.contextmanager
+def reading(path: FilePath, needed: str, *faults: type[Exception]) -> Iterator[None]:
+    """Context in which a file is read: these faults of it become a one-line ValueError, which says what is needed.
+
+    Raises ValueError as check_readable. A lack of memory is no fault of the file.
+    """
+    check_readable(path)
+    try:
+        yield
+    except MemoryError:
+        raise
+    except faults as error:
+        raise ValueError(f"{path}: not readable ({reason(error)}); {needed}") from error
 
 
 def check_output(path: FilePath) -> Path:

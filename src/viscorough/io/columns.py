@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from viscorough import units
-from viscorough.io.atomic import check_readable, reason
+from viscorough.io.atomic import reading
 from viscorough.io.headers import explicit_unit
 from viscorough.io.heights import npy_array
 from viscorough.types import Array, FilePath
@@ -47,12 +47,8 @@ def read_columns(path: FilePath, what: str, columns: dict[str, str], length_unit
     if Path(path).suffix == ".npy":
         table = npy_array(path)
     else:
-        check_readable(path)
-        try:
+        with reading(path, f"two columns, {names}, are needed", OSError, ValueError):
             table, factors = _rows_and_factors(path, columns.values(), length_unit)
-        except (OSError, ValueError) as error:
-            text = f"{path}: not readable ({reason(error)}); two columns, {names}, are needed"
-            raise ValueError(text) from error
     if table.ndim != 2 or table.shape[1] != 2 or table.shape[0] < 2 or table.dtype.kind not in "iuf":
         raise ValueError(f"{path}: has the shape {table.shape}; two columns, {names}, and two rows are needed")
     return table[:, 0].astype(float) * factors[0], table[:, 1].astype(float) * factors[1]

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from viscorough.contact_maps import Contact
 from viscorough.io.curves import OVER_LEVELS
 from viscorough.io.netcdf import Content, Variable
-from viscorough.summaries import unit_power
+from viscorough.summaries import si_unit, unit_power
 from viscorough.types import Array
 
 COMMENT = (
@@ -89,13 +89,13 @@ def _with_modulus(
     contacts: Sequence[Contact], variables: dict[str, Variable], joined: Callable[[list[Any]], Array]
 ) -> dict[str, Variable]:
     """The force F and the pressures p of contacts whose shear modulus is known."""
-    known, modulus = contacts[0].length_unit != "1", contacts[0].shear_modulus
+    unit, modulus = contacts[0].length_unit, contacts[0].shear_modulus
     force = joined([contact.normal_force for contact in contacts])
-    about = {"long_name": "normal force F", "units": "N" if known else "1"}
+    about = {"long_name": "normal force F", "units": si_unit("N", unit)}
     added = {"normal_force": Variable(variables["force"].dimensions, force, about)}
     for name, text in {"": "", "mean_": "mean ", "largest_": "largest "}.items():
         dimensions, values, _ = variables[f"{name}pressure"]
-        about = {"long_name": f"{text}normal pressure p", "units": "Pa" if known else "1"}
+        about = {"long_name": f"{text}normal pressure p", "units": si_unit("Pa", unit)}
         added[f"{name}normal_pressure"] = Variable(dimensions, values * modulus, about)
     return added
 

@@ -9,7 +9,7 @@ import numpy as np
 from viscorough import units
 from viscorough.io.netcdf import Content, Variable
 from viscorough.loading_curve import LoadingCurve
-from viscorough.summaries import unit_power
+from viscorough.summaries import si_unit, unit_power
 
 COMMENT = (
     "Rigid indenter on an incompressible half-space, no friction, no adhesion. Depth is from first contact, "
@@ -57,7 +57,7 @@ def curve_to_content(curve: LoadingCurve) -> Content:
 def with_normal_force(content: Content, shear_modulus: float, length_unit: str) -> Content:
     """The Content of a curve with the force F [N] over its levels, or in consistent units if the unit is not known."""
     newtons = content.variables["force"].values * (shear_modulus * units.square_metres(length_unit))
-    about = {"long_name": "normal force F", "units": "1" if length_unit == units.UNKNOWN else "N"}
+    about = {"long_name": "normal force F", "units": si_unit("N", length_unit)}
     return Content(content.variables | {"normal_force": Variable(("level",), newtons, about)}, content.attributes)
 
 
@@ -95,11 +95,9 @@ def _length_unit(content: Content) -> str:
     length = _unit_of("depth", content)
     if length != units.UNKNOWN:
         units.metres(length)  # raises ValueError if it is not a length
-    for name in OVER_LEVELS:
-        if name not in content.variables:
-            continue
-        unit, needed = _unit_of(name, content), unit_power(length, OVER_LEVELS[name][1])
-        if not _are_same(unit, needed):
+    for name, (_, power) in OVER_LEVELS.items():
+        needed = unit_power(length, power)
+        if name in content.variables and not _are_same(unit := _unit_of(name, content), needed):
             raise ValueError(f"{name} is in {unit!r} and depth in {length!r}; {needed!r} is needed for {name}")
     attribute = str(content.attributes.get("length_unit", units.UNKNOWN))
     if attribute != units.UNKNOWN and not _are_same(attribute, length):
@@ -154,12 +152,10 @@ def _check_contact(curve: LoadingCurve) -> None:
 
 def _converted(name: str, value: Any, kind: type) -> Any:
     """A global attribute as int, float or str. Raises ValueError unless it is a whole number, a number or text."""
-    try:
+    with contextlib.suppress(TypeError, ValueError, OverflowError):
         converted = kind(value)
         if isinstance(value, str) if kind is str else np.ndim(value) == 0 and converted == value and value >= 0:
             return converted
-    except (TypeError, ValueError, OverflowError):
-        pass
     needed = {int: "a whole number from 0 on", float: "a number from 0 on", str: "text"}[kind]
     raise ValueError(f"attribute {name} is {value!r}; {needed} is needed")
 

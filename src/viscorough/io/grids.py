@@ -7,7 +7,6 @@ from viscorough.types import Array, Integers
 _MERGED = 1e-6  # positions closer than this, relative to their range, are one
 _OFF_GRID = 0.05  # largest distance from the grid, relative to its spacing
 _LEAST_SHARE, _LEAST_POINTS = 0.5, 9  # of the grid, that rows of unknown meaning need to be taken for its points
-_Axis = tuple[Integers, int, float]  # index of each position, number of indices, spacing
 
 
 def gridded(points: Array, required: bool) -> tuple[Array, tuple[float, float]] | None:
@@ -18,38 +17,39 @@ def gridded(points: Array, required: bool) -> tuple[Array, tuple[float, float]] 
 
     Where a point of the grid is missing, the height is nan. Raises ValueError for required points that form no grid.
     """
-    fault: str | None = None
-    axes: list[_Axis] = []
-    if points.shape[1] != 3:
-        fault = f"{points.shape[1]} columns; three, x, y and z, are needed"
-    elif not np.isfinite(points[:, :2]).all():
-        fault = "x and y must be finite"
-    else:
-        for column in (0, 1):
-            axis = _axis(points[:, column])
-            if isinstance(axis, str):
-                fault = fault or axis
-            else:
-                axes.append(axis)
-    if fault is None:
-        (column, columns, dx), (row, rows, dy) = axes
-        if columns * rows > max(4 * len(points), 100):
-            fault = f"{len(points)} points on a grid of {columns} by {rows}"
-        elif np.bincount(row * columns + column).max() > 1:
-            fault = "some points stand twice"
-        elif not required and len(points) < max(_LEAST_POINTS, _LEAST_SHARE * columns * rows):
-            fault = "few of its points"
-    if fault is not None:
+    try:
+        column, row, columns, rows, spacing = _places(points)
+        if not required and len(points) < max(_LEAST_POINTS, _LEAST_SHARE * columns * rows):
+            raise _NoGridError("few of its points")
+    except _NoGridError as fault:
         if required:
-            raise ValueError(f"points x, y, z form no grid of equal spacing ({fault}); a grid is needed")
+            raise ValueError(f"points x, y, z form no grid of equal spacing ({fault}); a grid is needed") from None
         return None
     heights = np.full((rows, columns), np.nan)
     heights[row, column] = points[:, 2]
-    return heights, (dx, dy)
+    return heights, spacing
 
 
-def _axis(positions: Array) -> _Axis | str:
-    """(index of each position, number of indices, spacing) along an axis of equal spacing; else an error message.
+class _NoGridError(ValueError):
+    """Points that form no grid."""
+
+
+def _places(points: Array) -> tuple[Integers, Integers, int, int, tuple[float, float]]:
+    """(column and row of each point, numbers of columns and rows, (dx, dy)). Raises _NoGridError."""
+    if points.shape[1] != 3:
+        raise _NoGridError(f"{points.shape[1]} columns; three, x, y and z, are needed")
+    if not np.isfinite(points[:, :2]).all():
+        raise _NoGridError("x and y must be finite")
+    (column, columns, dx), (row, rows, dy) = map(_axis, points[:, :2].T)
+    if columns * rows > max(4 * len(points), 100):
+        raise _NoGridError(f"{len(points)} points on a grid of {columns} by {rows}")
+    if np.bincount(row * columns + column).max() > 1:
+        raise _NoGridError("some points stand twice")
+    return column, row, columns, rows, (dx, dy)
+
+
+def _axis(positions: Array) -> tuple[Integers, int, float]:
+    """(index of each position, number of indices, spacing) along an axis of equal spacing. Raises _NoGridError.
 
     Positions may be rounded, and whole columns may be missing.
     """
@@ -57,7 +57,7 @@ def _axis(positions: Array) -> _Axis | str:
     with np.errstate(over="ignore"):
         extent = different[-1] - different[0]
     if not 0 < extent < np.inf:
-        return "at least two positions in each direction are needed"
+        raise _NoGridError("at least two positions in each direction are needed")
     different = different[np.diff(different, prepend=-np.inf) > _MERGED * extent]
     steps = np.diff(different)
     for step in (extent / steps.size, np.median(steps), steps.min()):
@@ -67,4 +67,4 @@ def _axis(positions: Array) -> _Axis | str:
         index = np.rint(places).astype(int)
         if np.abs(places - index).max() <= _OFF_GRID:
             return index, count + 1, float(f"{spacing:.12g}")
-    return f"steps lie between {steps.min():g} and {steps.max():g}"
+    raise _NoGridError(f"steps lie between {steps.min():g} and {steps.max():g}")

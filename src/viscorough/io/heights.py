@@ -13,7 +13,7 @@ from viscorough import units
 from viscorough.errors import AccuracyWarning
 from viscorough.indenter import Indenter
 from viscorough.io import netcdf
-from viscorough.io.atomic import check_readable, reason
+from viscorough.io.atomic import check_readable, path_named, reading
 from viscorough.io.scan import Distance, Scan, Spacing, to_indenter, uniform_spacing
 from viscorough.io.text import is_binary, read_text
 from viscorough.io.unpacking import unpacked
@@ -74,14 +74,11 @@ def read_heights(
     >>> surface.heights.shape, surface.spacing, surface.length_unit
     ((8, 8), 0.5, 'um')
     """
-    try:
+    with path_named(path):
         given = None if spacing is None else _pair(spacing)
         scan = _read_scan(path, channel)
         indenter = to_indenter(scan if scale is None else _scaled(scan, scale), given, unit)
         indenter = prepare(indenter, **preparation)
-    except ValueError as error:
-        text = str(error)
-        raise ValueError(text if text.startswith(f"{path}: ") else f"{path}: {text}") from error
     for text in doubts(indenter):
         warnings.warn(f"{path}: {text}", AccuracyWarning, stacklevel=2)
     return indenter
@@ -100,11 +97,10 @@ def _scaled(scan: Scan, scale: float | str | units.Quantity) -> Scan:
 
 def _pair(spacing: Any) -> Spacing:
     """A spacing as (dx, dy)."""
-    if not isinstance(spacing, tuple | list | np.ndarray):
-        return units.with_unit(spacing), units.with_unit(spacing)
-    if len(spacing) != 2:
+    pair = spacing if isinstance(spacing, tuple | list | np.ndarray) else (spacing, spacing)
+    if len(pair) != 2:
         raise ValueError(f"spacing {spacing!r}: one distance, or the two of columns and rows, is needed")
-    return units.with_unit(spacing[0]), units.with_unit(spacing[1])
+    return units.with_unit(pair[0]), units.with_unit(pair[1])
 
 
 def _read_scan(path: FilePath, channel: str | None) -> Scan:
@@ -132,14 +128,9 @@ def _read_scan(path: FilePath, channel: str | None) -> Scan:
 
 def npy_array(path: FilePath) -> NDArray[Any]:
     """The array in a .npy file. Raises a one-line ValueError if it cannot be read; pickled objects are refused."""
-    check_readable(path)
-    try:
-        with open(path, "rb") as file:
-            return np.lib.format.read_array(file, allow_pickle=False)
-    except MemoryError:
-        raise
-    except Exception as error:  # numpy parses the header as Python code, so damage raises errors of many kinds
-        raise ValueError(f"{path}: not readable ({reason(error)}); a .npy file of numbers is needed") from error
+    # numpy parses the header as Python code, so damage raises errors of many kinds.
+    with reading(path, "a .npy file of numbers is needed", Exception), open(path, "rb") as file:
+        return np.lib.format.read_array(file, allow_pickle=False)
 
 
 def _netcdf_scan(path: FilePath, channel: str | None) -> Scan:
@@ -147,14 +138,11 @@ def _netcdf_scan(path: FilePath, channel: str | None) -> Scan:
     with netcdf.opened(path) as file:
         maps = [name for name, variable in file.variables.items() if variable.ndim == 2]
         names = [channel] if channel else ["heights"] if "heights" in file.variables else maps
-        if len(names) == 1 and names[0] in file.variables:
+        if found := len(names) == 1 and names[0] in file.variables:
             variable = file.variables[names[0]]
-            heights, unit = unpacked(variable), unit_of(variable)
-            positions = [positions_along(file, dimension) for dimension in variable.dimensions]
-            dimensions = variable.dimensions
-        else:
-            heights = None
-    if heights is None:
+            heights, unit, dimensions = unpacked(variable), unit_of(variable), variable.dimensions
+            positions = [positions_along(file, dimension) for dimension in dimensions]
+    if not found:
         kind = f"two-dimensional variables {', '.join(maps)}" if maps else "no two-dimensional variable"
         needed = f"none of them is the channel {channel}" if channel else "exactly one, or one named heights, is needed"
         raise ValueError(f"{path}: {kind}; {needed}")

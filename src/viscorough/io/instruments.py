@@ -35,7 +35,9 @@ def read_instrument(path: FilePath, channel: str | None = None) -> Scan:
         try:
             with open_topography(str(path)) as file:
                 chosen, others = _choose(file, channel)
-                topography = chosen.topography(**_placeholders(chosen))
+                # A size is required also where the file states none; it is not used then.
+                size = {"physical_sizes": chosen.nb_grid_pts} if chosen.physical_sizes is None else {}
+                topography = chosen.topography(**size)
                 heights = np.ma.filled(np.ma.asarray(topography.heights()).astype(float), np.nan)
         except (MemoryError, _NoHeightsError):
             raise
@@ -86,8 +88,3 @@ def _holds_heights(channel: Any) -> bool:
         return channel.unit is None or bool(units.length_unit(channel.unit))
     except ValueError:
         return False
-
-
-def _placeholders(channel: Any) -> dict[str, Any]:
-    """What SurfaceTopography requires of files that state no size; the size of a pixel is not used then."""
-    return {"physical_sizes": channel.nb_grid_pts} if channel.physical_sizes is None else {}

@@ -8,12 +8,12 @@ from typing import Any
 
 import yaml
 
-from viscorough import units
 from viscorough.io import tables
-from viscorough.io.atomic import atomic_write, check_readable, reason
+from viscorough.io.atomic import atomic_write, check_readable, path_named, reason
 from viscorough.io.columns import read_columns
 from viscorough.io.netcdf import Content, Variable
 from viscorough.io.unique_keys import UniqueKeys
+from viscorough.summaries import si_unit
 from viscorough.types import FilePath
 from viscorough.viscous import media
 from viscorough.viscous.identification import IdentifiedMedium
@@ -65,11 +65,8 @@ def read_medium(path: FilePath, length_unit: str = "1") -> Medium:
     >>> medium
     Maxwell(shear_modulus=2.0, viscosity=5.0)
     """
-    mapping = _mapping(path)
-    try:
-        return medium_from_mapping(mapping, length_unit, folder=Path(path).parent)
-    except ValueError as error:
-        raise ValueError(f"{path}: {error}") from error
+    with path_named(path):
+        return medium_from_mapping(_mapping(path), length_unit, folder=Path(path).parent)
 
 
 def medium_from_mapping(mapping: Mapping[str, Any], length_unit: str = "1", *, folder: Path = Path()) -> Medium:
@@ -138,7 +135,7 @@ def save_identified(identified: IdentifiedMedium, path: FilePath, **attributes: 
         tables.write(_content_of_table(identified).with_attributes(**attributes), table)
         mapping["file"] = table.name
     else:
-        mapping |= {key: _plain(getattr(medium, key)) for key in _keys(kind)}
+        mapping |= {key: getattr(medium, key) for key in _keys(kind)}
     with atomic_write(path) as temporary:
         temporary.write_text(yaml.safe_dump(mapping, sort_keys=False, allow_unicode=True), encoding="utf-8")
 
@@ -155,16 +152,11 @@ def _keys(kind: str) -> list[str]:
     return ["file"] if make is media.CreepTable else [field.name for field in dataclasses.fields(make)]
 
 
-def _plain(value: Any) -> Any:
-    return list(value) if isinstance(value, tuple) else value
-
-
 def _content_of_table(identified: IdentifiedMedium) -> Content:
     """Creep compliance over time as a Content, with the ends of its interval."""
-    known = identified.length_unit != units.UNKNOWN
-    compliance = "1/Pa" if known else "1"
+    compliance = si_unit("1/Pa", identified.length_unit)
     about = {
-        "time": ("time since a step of the force", "s" if known else "1"),
+        "time": ("time since a step of the force", si_unit("s", identified.length_unit)),
         "compliance": ("creep compliance J", compliance),
         "low": ("creep compliance J, lower end of 95 %", compliance),
         "high": ("creep compliance J, upper end of 95 %", compliance),

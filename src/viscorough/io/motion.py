@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from viscorough.io.atomic import path_named
 from viscorough.io.columns import read_columns
 from viscorough.io.curves import level_attributes
 from viscorough.io.netcdf import Content, Variable
-from viscorough.summaries import velocity_unit
+from viscorough.summaries import si_unit, velocity_unit
 from viscorough.types import FilePath
-from viscorough.viscous.correspondence import impulses
+from viscorough.viscous.correspondence import ForceHistory, Kinetics, impulses
 
 if TYPE_CHECKING:
     from viscorough.estimates import Estimate
-    from viscorough.viscous.correspondence import ForceHistory, Kinetics
     from viscorough.viscous.integration.internal_variables import MediumMotion
     from viscorough.viscous.integration.motion import ViscousMotion
 
@@ -33,7 +33,7 @@ _LONG_NAMES = {
 
 def _over_levels(length_unit: str, **values: Any) -> dict[str, Variable]:
     """Variables over levels, by the names of quantities."""
-    units = {"time": "s", "velocity": velocity_unit(length_unit), "force": "1" if length_unit == "1" else "N"}
+    units = {"time": "s", "velocity": velocity_unit(length_unit), "force": si_unit("N", length_unit)}
     own = {name: {"long_name": text, "units": units.get(name, "1")} for name, text in _LONG_NAMES.items()}
     return {
         name: Variable(("level",), array, own.get(name) or level_attributes(name, length_unit))
@@ -48,15 +48,10 @@ def viscous_motion_to_content(motion: ViscousMotion) -> Content:
     """
     if not np.isfinite([motion.time, motion.velocity]).all():
         raise ValueError("times or velocities overflow; a force and a viscosity closer to each other are needed")
-    contact: dict[str, Any] = {"depth": motion.depth, "contact_count": motion.contact_count}
-    title = "Penetration of a rigid indenter, integrated directly in time"
-    if motion.force is None:
-        contact["overlap"] = motion.overlap
-    else:
-        contact["force"] = motion.force
-        title = "Penetration of a rigid indenter under a force history, integrated directly in time"
-    variables = _over_levels(motion.length_unit, time=motion.time, **contact, velocity=motion.velocity)
-    return Content(variables, {"title": title})
+    values = {name: value for name, value in motion._asdict().items() if value is not None}
+    load = "" if motion.force is None else " under a force history"
+    title = f"Penetration of a rigid indenter{load}, integrated directly in time"
+    return Content(_over_levels(**values), {"title": title})
 
 
 def medium_motion_to_content(motion: MediumMotion) -> Content:
@@ -111,21 +106,16 @@ def read_force_history(path: FilePath, length_unit: str = "1") -> ForceHistory:
     [0.0, 1.0]
     """
     times, force = read_columns(path, "a force history", {"time": "s", "force": "N"}, length_unit)
-    try:
+    with path_named(path):
         return impulses(force, times)
-    except ValueError as error:
-        raise ValueError(f"{path}: {error}") from error
 
 
-def kinetics_to_content(motion: Kinetics, force: ArrayLike | None, length_unit: str = "1") -> Content:
+def kinetics_to_content(motion: Kinetics, force: ArrayLike | None = None) -> Content:
     """A viscous.correspondence.Kinetics as a Content over its times; `force` is F there, or a constant; None for none.
 
     Where a depth is undetermined (before the curve's first level) or a velocity infinite, the value is missing.
     """
-    given = {}
-    if force is not None:
-        given["force"] = np.broadcast_to(np.asarray(force, dtype=float), motion.time.shape)
+    given = {} if force is None else {"force": np.broadcast_to(np.asarray(force, dtype=float), motion.time.shape)}
     velocity = np.where(np.isinf(motion.velocity), np.nan, motion.velocity)
-    variables = _over_levels(length_unit, time=motion.time, depth=motion.depth, **given, velocity=velocity)
-    title = {} if force is not None else {"title": "Penetration of a rigid indenter into a viscoelastic half-space"}
-    return Content(variables, title)
+    variables = _over_levels(motion.length_unit, time=motion.time, depth=motion.depth, **given, velocity=velocity)
+    return Content(variables, {"title": "Penetration of a rigid indenter into a viscoelastic half-space"})

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from viscorough import __version__
 from viscorough.arrays import read_only
-from viscorough.io.atomic import atomic_write, check_readable, reason
+from viscorough.io.atomic import atomic_write, reading
 from viscorough.io.unpacking import STORAGE, unpacked
 from viscorough.types import FilePath
 
@@ -87,12 +87,10 @@ def _write_variable(
 @contextmanager
 def faults_named(path: FilePath) -> Iterator[None]:
     """Context in which a file is read: any fault of it becomes a one-line ValueError that names it."""
-    check_readable(path)
-    try:
+    faults = OSError, RuntimeError, ValueError, LookupError, TypeError, AttributeError
+    with reading(path, "a whole NetCDF file is needed", *faults):
         open(path, "rb").close()  # its message is clearer than that of the NetCDF library
         yield
-    except (OSError, RuntimeError, ValueError, LookupError, TypeError, AttributeError) as error:
-        raise ValueError(f"{path}: not readable ({reason(error)}); a whole NetCDF file is needed") from error
 
 
 @contextmanager

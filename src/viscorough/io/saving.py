@@ -3,6 +3,7 @@
 from viscorough.contact_maps import Contact
 from viscorough.indenter import Indenter
 from viscorough.io import netcdf, tables
+from viscorough.io.atomic import path_named
 from viscorough.io.contacts import contacts_to_content
 from viscorough.io.curves import curve_from_content, curve_to_content
 from viscorough.io.media import save_identified
@@ -79,11 +80,8 @@ def load_curve(path: FilePath) -> LoadingCurve:
     >>> bool((loaded.force == curve.force).all())
     True
     """
-    content = (tables if tables.is_table(path) else netcdf).read(path)
-    try:
-        return curve_from_content(content)
-    except ValueError as error:
-        raise ValueError(f"{path}: {error}") from error
+    with path_named(path):
+        return curve_from_content((tables if tables.is_table(path) else netcdf).read(path))
 
 
 def to_content(result: Indenter | LoadingCurve | Contact | Kinetics) -> Content:
@@ -91,7 +89,7 @@ def to_content(result: Indenter | LoadingCurve | Contact | Kinetics) -> Content:
     if isinstance(result, LoadingCurve):
         return curve_to_content(result)
     if isinstance(result, Kinetics):
-        return kinetics_to_content(result, None, result.length_unit)
+        return kinetics_to_content(result)
     if isinstance(result, Contact):
         return contacts_to_content([result])
     if isinstance(result, Indenter):

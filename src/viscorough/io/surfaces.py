@@ -7,6 +7,7 @@ from netCDF4 import Dataset
 
 from viscorough import units
 from viscorough.indenter import Indenter
+from viscorough.io.atomic import path_named
 from viscorough.io.heights import are_indices, npy_array, positions_along, unit_of
 from viscorough.io.netcdf import Content, Variable, opened
 from viscorough.io.scan import Distance, Scan, to_indenter, uniform_spacing
@@ -61,12 +62,10 @@ def read_line(path: FilePath, spacing: Distance | str | None = None, unit: str |
     if scan.heights.dtype.kind not in "iuf" or scan.heights.ndim != 1:
         kind = f"type {scan.heights.dtype} and shape {scan.heights.shape}"
         raise ValueError(f"{path}: heights are of {kind}; a line is needed")
-    try:
+    with path_named(path):
         given = None if spacing is None else (units.with_unit(spacing),) * 2
         row = to_indenter(scan._replace(heights=scan.heights[None]), given, unit)
         return Indenter(row.heights[0], row.spacing, length_unit=row.length_unit)
-    except ValueError as error:
-        raise ValueError(f"{path}: {error}") from error
 
 
 def dimensions_of_heights(path: FilePath) -> int:
@@ -100,7 +99,5 @@ def _scan_of_netcdf(path: FilePath) -> Scan:
     if coordinate is None or coordinate[0] != axis or coordinate[1].size < 2 or are_indices(*coordinate[1:]):
         return Scan(heights, unit)
     _, positions, lateral_unit = coordinate
-    try:
+    with path_named(path):
         return Scan(heights, unit, (uniform_spacing(axis, positions),) * 2, lateral_unit)
-    except ValueError as error:
-        raise ValueError(f"{path}: {error}") from error

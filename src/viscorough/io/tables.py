@@ -19,7 +19,7 @@ import numpy as np
 
 from viscorough.arrays import read_only
 from viscorough.io import netcdf
-from viscorough.io.atomic import atomic_write, check_readable, reason
+from viscorough.io.atomic import atomic_write, reading
 from viscorough.io.netcdf import Content, Variable
 from viscorough.types import Array, FilePath
 
@@ -32,26 +32,21 @@ def is_table(path: FilePath) -> bool:
     return Path(path).suffix.lower() == ".csv"
 
 
-def check_columns(content: Content, path: FilePath) -> None:
-    """Raise ValueError unless all variables with dimensions stand along the same one."""
-    dimensions = {variable.dimensions for variable in content.variables.values() if variable.dimensions}
-    if len(dimensions) != 1 or len(*dimensions) != 1:
-        raise ValueError(f"{path}: what was computed is no table of one dimension; a NetCDF file (.nc) is needed")
-
-
 def write(content: Content, path: FilePath) -> None:
     """Write a Content, whose variables share one dimension, as CSV, atomically; numbers without one are attributes.
 
     Raises ValueError for other contents, missing attributes and a path that cannot be written, OSError if writing
     fails.
     """
-    check_columns(content, path)
+    columns = {name: variable for name, variable in content.variables.items() if variable.dimensions}
+    dimensions = {variable.dimensions for variable in columns.values()}
+    if len(dimensions) != 1 or len(*dimensions) != 1:
+        raise ValueError(f"{path}: what was computed is no table of one dimension; a NetCDF file (.nc) is needed")
     for name, variable in content.variables.items():
         netcdf.check_attributes(path, name, np.asarray(variable.values).dtype, variable.attributes)
-    columns = {name: variable for name, variable in content.variables.items() if variable.dimensions}
     scalars = {name: v.values[()] for name, v in content.variables.items() if not v.dimensions}
-    lines = [f"# {name}: {_as_text(value)}" for name, value in (content.attributes | scalars).items()]
-    lines += [f"# {name}: {_as_text(value)}" for name, value in netcdf.global_attributes().items()]
+    attributes = content.attributes | scalars | netcdf.global_attributes()
+    lines = [f"# {name}: {_as_text(value)}" for name, value in attributes.items()]
     lines += [f"# column {name}: {_as_text(variable.attributes['long_name'])}" for name, variable in columns.items()]
     text = io.StringIO()
     table = csv.writer(text, lineterminator="\n")
@@ -67,8 +62,7 @@ def read(path: FilePath) -> Content:
 
     Raises a one-line ValueError if the file is missing or is no such table.
     """
-    check_readable(path)
-    try:
+    with reading(path, "a whole table of viscorough is needed", OSError, ValueError, csv.Error):
         lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
         about = dict(filter(None, (_attribute(line) for line in lines if line.startswith("#"))))
         table = itertools.dropwhile(lambda line: line.startswith("#"), filter(str.strip, lines))
@@ -84,8 +78,6 @@ def read(path: FilePath) -> Content:
             attributes = {"long_name": about.pop(f"column {name}", name), "units": unit}
             variables[name] = Variable(("level",), _numbers(cells), attributes)
         return Content(variables, about)
-    except (OSError, ValueError, csv.Error) as error:
-        raise ValueError(f"{path}: not readable ({reason(error)}); a whole table of viscorough is needed") from error
 
 
 def _title(name: str, unit: str) -> str:

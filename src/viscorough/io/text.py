@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from viscorough import units
-from viscorough.io.atomic import reason
+from viscorough.io.atomic import reading, reason
 from viscorough.io.grids import gridded
 from viscorough.io.headers import Header, read_header, states
 from viscorough.io.scan import Scan
@@ -92,11 +92,8 @@ def _utf16(start: bytes) -> str | None:
 
 def _content(path: FilePath, size: int = -1) -> bytes:
     """The first bytes of a file."""
-    try:
-        with open(path, "rb") as file:
-            return file.read(size)
-    except OSError as error:
-        raise ValueError(f"{path}: not readable ({reason(error)}); a text file of heights is needed") from error
+    with reading(path, "a text file of heights is needed", OSError), open(path, "rb") as file:
+        return file.read(size)
 
 
 def _decoded(path: FilePath) -> str:

@@ -29,7 +29,7 @@ from viscorough import units
 from viscorough.arrays import ReadOnlyArrays, increasing, read_only, samples
 from viscorough.loading_curve import LoadingCurve
 from viscorough.saved import Saved
-from viscorough.summaries import Summarised, Summary, span, time_unit, velocity_unit
+from viscorough.summaries import Summarised, Summary, si_unit, span, velocity_unit
 from viscorough.types import Array, Integers
 from viscorough.viscous.creep_response import creep_response
 from viscorough.viscous.media import Newtonian, medium_of
@@ -64,11 +64,12 @@ class Kinetics(ReadOnlyArrays, Saved, Summarised):
 
     def _summary(self) -> Summary:
         """What it is; the first and last time, depth and velocity."""
-        known, unit = self.length_unit != units.UNKNOWN, self.length_unit
-        spans = ("time t", self.time, time_unit(unit)), ("depth u", self.depth, unit)
-        spans += (("velocity v", self.velocity, velocity_unit(unit) if known else unit),)
-        return f"Penetration at {self.time.size} times", *(
-            [(name, span(values, stated))] for name, values, stated in spans
+        unit = self.length_unit
+        return (
+            f"Penetration at {self.time.size} times",
+            [("time t", span(self.time, si_unit("s", unit)))],
+            [("depth u", span(self.depth, unit))],
+            [("velocity v", span(self.velocity, si_unit(velocity_unit(unit), unit)))],
         )
 
 

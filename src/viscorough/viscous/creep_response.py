@@ -6,6 +6,7 @@ branches. For others every sample is summed over all before it, at a cost of sam
 
 from __future__ import annotations
 
+import functools
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from typing import TYPE_CHECKING
@@ -101,10 +102,9 @@ class _Intervals(ABC):
 
     def rate_at_samples(self) -> Array:
         """dΦ/dt just after every sample; just before it at the last one and before a step."""
-        count = self.times.size
         after = np.append(self.lengths > 0, False)
         before = np.append(False, self.lengths > 0) & ~after
-        rate = np.zeros(count)
+        rate = np.zeros(self.times.size)
         for which, shift in ((after, 0), (before, 1)):
             interval = np.flatnonzero(which) - shift
             offset = self.lengths[interval] if shift else np.zeros(interval.size)
@@ -121,15 +121,13 @@ class _ByStates(_Intervals):
 
     def __init__(self, medium: Medium, retardation: RetardationSpectrum, history: ForceHistory) -> None:
         super().__init__(medium, history)
-        instantaneous, fluidity, self.compliances, self.retardation_times = retardation
-        self.instantaneous, self.fluidity = instantaneous, fluidity
-        delayed, self.left = branch_states(self.lengths, self.force, self.jumps, self.retardation_times)
-        self.creep = instantaneous * self.force + fluidity * history.impulse + delayed @ self.compliances
+        self.retardation = instantaneous, fluidity, compliances, times = retardation
+        delayed, self.left = branch_states(self.lengths, self.force, times)
+        self.creep = instantaneous * self.force + fluidity * history.impulse + delayed @ compliances
         self.rate = self.rate_at_samples()
 
     def parts(self, interval: Integers, offset: Array, *, left: bool) -> tuple[Array, Array, Array]:
-        own = self.instantaneous, self.fluidity, self.compliances, self.retardation_times
-        return _parts(interval, offset, self.slopes, self.force, self.left, *own)
+        return _parts(interval, offset, self.slopes, self.force, self.left, *self.retardation)
 
 
 class _BySums(_Intervals):
@@ -137,53 +135,49 @@ class _BySums(_Intervals):
 
     def __init__(self, medium: Medium, history: ForceHistory) -> None:
         super().__init__(medium, history)
-        sample = np.arange(self.times.size)
-        self.creep = self._over_the_past(sample, np.zeros(sample.size), self._creep_of, sample)[0]
+        self._sums = functools.partial(sums_over_the_past, self.times, self.jumps, self.slopes)
+        sample, offset = np.arange(self.times.size), np.zeros(self.times.size)
+        self.creep = np.add(*self._sums(sample, offset, medium.creep_compliance, medium.creep_integral))
         self.rate = self.rate_at_samples()
-
-    def _creep_of(self, time: Array, left: bool) -> tuple[Array, Array]:
-        jumps = self.medium.creep_compliance(np.maximum(time - self.times, 0))
-        return jumps, self._of_intervals(self.medium.creep_integral, time)
-
-    def _rate_of(self, time: Array, left: bool) -> tuple[Array, Array]:
-        jumps = self.medium.creep_rate(np.maximum(time - self.times, 0), left=left)
-        return jumps, self._of_intervals(self.medium.creep_increment, time)
-
-    def _of_intervals(self, function: Callable[[Array, Array], Array], time: Array) -> Array:
-        start, end = self.times[:-1], self.times[1:]
-        return function(np.maximum(time - end, 0), np.maximum(time - start, 0))
-
-    def _over_the_past(
-        self,
-        sample: Integers,
-        offset: Array,
-        kernels: Callable[[Array, bool], tuple[Array, Array]],
-        last_interval: Integers,
-        *,
-        left: bool = False,
-    ) -> tuple[Array, Array, Array]:
-        """Sums over jumps up to `sample` and intervals before `last_interval`: all, positive, negative terms."""
-        positive, negative = np.zeros(sample.size), np.zeros(sample.size)
-        rows = max(1, _CHUNK // self.times.size)
-        for first in range(0, sample.size, rows):
-            chunk = slice(first, first + rows)
-            time = (self.times[sample[chunk]] + offset[chunk])[:, None]
-            of_jumps, of_intervals = kernels(time, left)
-            place = np.arange(self.times.size)
-            past_jumps = (place <= sample[chunk, None]) & (self.jumps != 0)
-            past_intervals = (place[:-1] < last_interval[chunk, None]) & (self.slopes != 0)
-            jumps = np.where(past_jumps, self.jumps, 0.0) * np.where(past_jumps, of_jumps, 0.0)
-            intervals = np.where(past_intervals, self.slopes, 0.0) * np.where(past_intervals, of_intervals, 0.0)
-            for total, clip in ((positive, np.maximum), (negative, np.minimum)):
-                total[chunk] = clip(jumps, 0).sum(axis=1) + clip(intervals, 0).sum(axis=1)
-        return positive + negative, positive, negative
 
     def parts(self, interval: Integers, offset: Array, *, left: bool) -> tuple[Array, Array, Array]:
         """As of _ByStates; J is concave, so that positive contributions of the past decrease with time."""
-        _, falling, rising = self._over_the_past(interval, offset, self._rate_of, interval, left=left)
+        rate = functools.partial(self.medium.creep_rate, left=left)
+        falling, rising = self._sums(interval, offset, rate, self.medium.creep_increment)
         present = self.slopes[interval] * self.medium.creep_compliance(offset)
         terms = falling - rising + abs(present)
         return rising + np.maximum(present, 0), falling + np.minimum(present, 0), terms
+
+
+def sums_over_the_past(
+    times: Array,
+    jumps: Array,
+    slopes: Array,
+    sample: Integers,
+    offset: Array,
+    of_jump: Callable[[Array], Array],
+    of_interval: Callable[[Array, Array], Array],
+) -> tuple[Array, Array]:
+    """Sums of the positive and of the negative responses to a load, at times after samples; shape of `sample`.
+
+    times, jumps, slopes : of the load: its samples, its jumps just before them, its slopes from each to the next
+    sample, offset : indices of samples up to which the load counts, and times after them
+    of_jump : response to a unit jump, by the time since then
+    of_interval : response to a unit slope, by the times since its end and since its start
+    """
+    positive, negative = np.zeros(sample.size), np.zeros(sample.size)
+    rows, place = max(1, _CHUNK // times.size), np.arange(times.size)
+    for first in range(0, sample.size, rows):
+        chunk = slice(first, first + rows)
+        lag = np.maximum((times[sample[chunk]] + offset[chunk])[:, None] - times, 0)
+        past_jumps = (place <= sample[chunk, None]) & (jumps != 0)
+        past_intervals = (place[1:] <= sample[chunk, None]) & (slopes != 0)
+        at_jumps = np.where(past_jumps, jumps, 0.0) * np.where(past_jumps, of_jump(lag), 0.0)
+        responses = np.where(past_intervals, of_interval(lag[:, 1:], lag[:, :-1]), 0.0)
+        over_intervals = np.where(past_intervals, slopes, 0.0) * responses
+        for total, clip in ((positive, np.maximum), (negative, np.minimum)):
+            total[chunk] = clip(at_jumps, 0).sum(axis=1) + clip(over_intervals, 0).sum(axis=1)
+    return positive, negative
 
 
 @njit
@@ -217,10 +211,10 @@ def _parts(interval, offset, slopes, force, left, instantaneous, fluidity, compl
 
 
 @njit
-def branch_states(lengths, force, jumps, retardation_times):
+def branch_states(lengths, force, retardation_times):
     """y and z = F − y at every sample, shape (samples, times), with θ y' + y = F and F = 0 before the first sample.
 
-    lengths : of the intervals between samples; jumps : of F at every sample after an interval of length 0
+    lengths : of the intervals between samples; after one of length 0, F has jumped
     """
     samples, count = force.size, retardation_times.size
     delayed, left = np.zeros((samples, count)), np.zeros((samples, count))
@@ -229,7 +223,7 @@ def branch_states(lengths, force, jumps, retardation_times):
         for j in range(count):
             y, z = delayed[k, j], left[k, j]
             if lengths[k] == 0:
-                z += jumps[k + 1]
+                z += force[k + 1] - force[k]
             else:
                 x = lengths[k] / retardation_times[j]
                 kept, gone = _decay(x)

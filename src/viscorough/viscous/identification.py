@@ -14,11 +14,12 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.special import gamma, stdtrit
 
 from viscorough.arrays import ReadOnlyArrays, increasing
 from viscorough.loading_curve import LoadingCurve
 from viscorough.saved import Saved
-from viscorough.summaries import Summarised, Summary, span, with_unit
+from viscorough.summaries import Summarised, Summary, si_unit, span, with_unit
 from viscorough.types import Array, Integers
 from viscorough.units import UNKNOWN
 from viscorough.viscous.correspondence import ForceHistory, consistent_force, impulses, resampled
@@ -80,22 +81,16 @@ class IdentifiedMedium(ReadOnlyArrays, Saved, Summarised):
 
     def _summary(self) -> Summary:
         """What it is; J over time."""
-        time, compliance = ("s", "1/Pa") if self.length_unit != UNKNOWN else (UNKNOWN, UNKNOWN)
         return (
             f"{type(self.medium).__name__} identified from a record of depth",
-            [("time t", span(self.time, time))],
-            [("compliance J", span(self.compliance, compliance))],
+            [("time t", span(self.time, si_unit("s", self.length_unit)))],
+            [("compliance J", span(self.compliance, si_unit("1/Pa", self.length_unit)))],
             [("scatter of depth", with_unit(self.scatter, self.length_unit, 3))],
         )
 
 
 def identify_medium(
-    curve: LoadingCurve,
-    force: ArrayLike | ForceHistory,
-    times: ArrayLike,
-    depth: ArrayLike,
-    *,
-    kind: str = "table",
+    curve: LoadingCurve, force: ArrayLike | ForceHistory, times: ArrayLike, depth: ArrayLike, *, kind: str = "table"
 ) -> IdentifiedMedium:
     """The medium of a half-space from the measured depth of an indenter with the given loading curve.
 
@@ -152,12 +147,12 @@ def identify_medium(
     record = _Record(curve, depth, np.column_stack([history.force[place], _hinges(history, times, knots)]))
     coefficients = record.fit(record.responses)
     freedom = max(depth.size - int(np.count_nonzero(coefficients)), 1)
-    scatter = np.sqrt(record.squares(coefficients) / freedom)
+    scatter = np.sqrt(record.squares(record.responses @ coefficients) / freedom)
     time = np.append(0.0, knots)
     values = np.column_stack([np.ones(time.size), np.minimum(time[:, None], knots)])
     compliance = np.maximum.accumulate(values @ coefficients)  # where J is constant, its rounding is not
     if scatter > _ROUNDING * depth.max():
-        low, high = record.intervals(coefficients, values, scatter * _student(freedom))
+        low, high = record.intervals(coefficients, values, scatter * stdtrit(freedom, 0.975))
         # Before the first row that shows J, all that is known is that J does not decrease.
         before = time < (0.0 if lags[0] == 0 < history.force[0] else lags[lags > 0][0])
         low[before], high[before] = 0.0, high[~before][0]
@@ -246,7 +241,6 @@ class _Record:
 
     def __init__(self, curve: LoadingCurve, depth: Array, responses: Array) -> None:
         self.curve, self.depth, self.responses = curve, depth, responses
-        self.target: Array = depth  # of the last fit
 
     def fit(self, responses: Array) -> Array:
         """Amounts of compliances with these responses, shape (rows, amounts): Gauss-Newton, non-negative."""
@@ -254,17 +248,16 @@ class _Record:
         scale = abs(responses).max(axis=0)
         scale[scale == 0] = 1.0
         for _ in range(_ITERATIONS):
-            self.matrix, self.target = responses / scale / stiffness[:, None], creep / stiffness
-            amounts = _non_negative(self.matrix, self.target) / scale
+            amounts = _non_negative(responses / scale / stiffness[:, None], creep / stiffness) / scale
             last, (elastic_depth, stiffness) = creep, self._elastic(responses @ amounts)
             creep = responses @ amounts + stiffness * (self.depth - elastic_depth)
             if abs(creep - last).max() <= 1e-12 * abs(creep).max():
                 break
         return amounts
 
-    def squares(self, amounts: Array) -> float:
-        """Sum of the squares of the measured depth less that of the fit."""
-        return float((self.residual(self.responses @ amounts) ** 2).sum())
+    def squares(self, creep: Array) -> float:
+        """Sum of the squares of the measured depth less that of this creep."""
+        return float((self.residual(creep) ** 2).sum())
 
     def _elastic(self, creep: Array) -> tuple[Array, Array]:
         """Depth and k/G at F/G = creep; along the straight line from the origin before the first level."""
@@ -332,20 +325,12 @@ def _non_negative(matrix: Array, target: Array) -> Array:
     return nnls(matrix, target, maxiter=30 * matrix.shape[1])[0]
 
 
-def _student(freedom: int) -> float:
-    from scipy.stats import t  # takes long to import
-
-    return float(t.ppf(0.975, freedom))
-
-
 def _prony(record: _Record, history: ForceHistory, place: Integers, lags: Array) -> Prony:
     """The Prony series that fits best, with retardation times on a grid: of most of them there is none."""
     first, last = lags[lags > 0][0] / 3, 3 * lags[-1]
     count = 2 + int(_RETARDATION_TIMES_PER_DECADE * np.log10(last / first))
     times = np.geomspace(first, last, count)
-    lengths = np.diff(history.times)
-    jumps = np.append(history.force[0], np.where(lengths == 0, np.diff(history.force), 0.0))
-    delayed, _ = branch_states(lengths, history.force, jumps, times)
+    delayed, _ = branch_states(np.diff(history.times), history.force, times)
     responses = np.column_stack([history.force[place], history.impulse[place], delayed[place]])
     instantaneous, fluidity, *strengths = record.fit(responses)
     kept = np.array(strengths) > 0
@@ -363,11 +348,10 @@ def _series(instantaneous: float, fluidity: float, strengths: Array, rates: Arra
     The rates of relaxation are the eigenvalues of D + b bᵀ/J₀ with D = diag(0, ρ_j), b² = (φ, J_j ρ_j); the moduli are
     (b·q)²/(λ J₀²), q the eigenvectors.
     """
+    squares = strengths * rates
     if fluidity:
-        strengths_by_rates, rates = np.append(fluidity, strengths * rates), np.append(0.0, rates)
-    else:
-        strengths_by_rates = strengths * rates
-    b = np.sqrt(strengths_by_rates)
+        squares, rates = np.append(fluidity, squares), np.append(0.0, rates)
+    b = np.sqrt(squares)
     values, vectors = np.linalg.eigh(np.diag(rates) + np.outer(b, b) / instantaneous)
     moduli = (b @ vectors) ** 2 / (values * instantaneous**2)
     relaxed = 0.0 if fluidity else 1 / (instantaneous + strengths.sum())
@@ -377,7 +361,6 @@ def _series(instantaneous: float, fluidity: float, strengths: Array, rates: Arra
 def _springpot(record: _Record, knots: Array) -> Springpot:
     """The springpot that fits best; its J is sampled at the knots."""
     from scipy.optimize import minimize_scalar  # takes long to import
-    from scipy.special import gamma
 
     def response(exponent: float) -> Array:
         slopes = np.diff(np.append(0.0, knots**exponent)) / np.diff(knots, prepend=0.0)
@@ -385,8 +368,7 @@ def _springpot(record: _Record, knots: Array) -> Springpot:
 
     def squares(exponent: float) -> float:
         column = response(exponent)[:, None]
-        creep = column @ record.fit(column)
-        return float((record.residual(creep) ** 2).sum())
+        return record.squares(column @ record.fit(column))
 
     exponent = float(minimize_scalar(squares, bounds=(0.001, 0.999), method="bounded", options={"xatol": 1e-7}).x)
     (amount,) = record.fit(response(exponent)[:, None])

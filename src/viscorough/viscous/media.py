@@ -86,10 +86,9 @@ class _Exponential(Medium):
     def _check_spectra(self) -> None:
         """Raise ValueError if spectra cannot be held in double precision."""
         with np.errstate(all="ignore"):
-            values: list[Any] = [*self.relaxation, *self.retardation, self.relaxation.instantaneous_modulus]
+            rates = 1 / self.relaxation.times, 1 / self.retardation.times
+            values: list[Any] = [*self.relaxation, *self.retardation, self.relaxation.instantaneous_modulus, *rates]
             finite = all(np.isfinite(value).all() for value in values)
-            for spectrum in (self.relaxation, self.retardation):
-                finite = finite and (spectrum.times > 0).all() and np.isfinite(1 / spectrum.times).all()
         if not finite:
             name = type(self).__name__
             raise ValueError(f"{name}: its values are too far apart for double precision; closer ones are allowed")

@@ -13,12 +13,10 @@ from viscorough import units
 from viscorough.arrays import increasing, read_only, samples
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import Array, Integers
-from viscorough.viscous.creep_response import branch_states
+from viscorough.viscous.creep_response import branch_states, sums_over_the_past
 from viscorough.viscous.media import medium_of
 from viscorough.viscous.medium import Medium
 from viscorough.viscous.spectra import zero_of_increasing
-
-_CHUNK = 2**20  # pairs of times at a time
 
 
 class DepthHistory(NamedTuple):
@@ -82,10 +80,12 @@ def force_under_depth(curve: LoadingCurve, depth: ArrayLike, medium: Medium | fl
     lengths = np.diff(node_times)
     jumps = np.append(elastic[0], np.where(lengths == 0, np.diff(elastic), 0.0))
     if medium.relaxation is None:
-        force = _by_sums(medium, node_times, elastic, jumps, place)
-        return DepthHistory(*map(read_only, (times, depth, force * area)))
+        slopes = np.divide(np.diff(elastic), lengths, out=np.zeros_like(lengths), where=lengths > 0)
+        unit_loads = medium.relaxation_modulus, medium.relaxation_integral
+        positive, negative = sums_over_the_past(node_times, jumps, slopes, place, np.zeros(place.size), *unit_loads)
+        return DepthHistory(*map(read_only, (times, depth, (positive + negative) * area)))
     viscosity, relaxed, moduli, relaxation_times = medium.relaxation
-    _, left = branch_states(lengths, elastic, jumps, relaxation_times)
+    _, left = branch_states(lengths, elastic, relaxation_times)
     force = relaxed * elastic + left @ moduli
     if viscosity:
         if jumps.any():
@@ -152,18 +152,3 @@ def elastic_force(curve: LoadingCurve, depth: Array) -> tuple[Array, Array]:
         force[inside] = np.where(exact, curve.force[at_level], found)
     stiffness[inside] = curve.at_force(force[inside])[1]
     return force, stiffness
-
-
-def _by_sums(medium: Medium, node_times: Array, elastic: Array, jumps: Array, place: Integers) -> Array:
-    """∫ ψ(t − s) df(s) at the nodes `place`, summed over all nodes before each: the cost is times × nodes."""
-    lengths = np.diff(node_times)
-    slopes = np.divide(np.diff(elastic), lengths, out=np.zeros_like(lengths), where=lengths > 0)
-    force, rows, index = np.zeros(place.size), max(1, _CHUNK // node_times.size), np.arange(node_times.size)
-    for first in range(0, place.size, rows):
-        chunk = place[first : first + rows, None]
-        lag = np.maximum(node_times[chunk] - node_times, 0)
-        of_jumps = np.where((index <= chunk) & (jumps != 0), medium.relaxation_modulus(lag), 0.0)
-        of_ramps = np.where(index[1:] <= chunk, medium.relaxation_integral(lag[:, 1:], lag[:, :-1]), 0.0)
-        springs = np.where(jumps != 0, jumps, 1.0) * of_jumps  # infinite where a Springpot is hit
-        force[first : first + rows] = springs.sum(axis=1) + of_ramps @ slopes
-    return force

@@ -25,10 +25,12 @@ class ContactSolver:
         return dense_contact.displacement(p.reshape(self.shape), self.modulus, self.side).reshape(p.shape)
 
 
-def solve_nested(grid_size, gap, p_nominal, *, domain_size, E_star, coarsest, tol, backend, precision):
+def solve_nested(
+    grid_size, gap, p_nominal, *, domain_size, E_star, coarsest, tol, backend, precision, active_set=False
+):
     """The solution on the finest of the grids, whose numbers of points along a side are coarsest * 2^k."""
     assert (grid_size % coarsest, (grid_size // coarsest).bit_count()) == (0, 1)
-    assert precision == "float_then_double"
+    assert (backend, precision, active_set) in {("fft", "float_then_double", False), ("h2", "float", True)}
     start = np.ones(gap.size)
-    result = ContactSolver(grid_size, domain_size, E_star, backend=backend).solve(gap, p_nominal, tol, p_init=start)
+    result = ContactSolver(grid_size, domain_size, E_star, backend="fft").solve(gap, p_nominal, tol, p_init=start)
     return SimpleNamespace(pressure=result.pressure.ravel(), iterations=result.iterations)

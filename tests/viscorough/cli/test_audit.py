@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from support.command_line import run, sphere_heights
-from support.contract import complaint
 from viscorough import sum_rules
 from viscorough.io import netcdf
 
@@ -45,5 +44,5 @@ def test_disagreement_is_a_warning(here, capsys, monkeypatch):
 
 
 @pytest.mark.parametrize("levels", ["--depths 1,2", "--forces 1,2"])
-def test_given_levels_are_not_audited(here, capsys, levels):
-    assert f"{levels.split()[0]} and --audit exclude each other" in complaint(f"{INDENT} {levels}", capsys, here)
+def test_given_levels_are_not_audited(complaint, levels):
+    assert f"{levels.split()[0]} and --audit exclude each other" in complaint(f"{INDENT} {levels}")

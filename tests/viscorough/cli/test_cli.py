@@ -7,33 +7,18 @@ import sys
 import textwrap
 import time
 import warnings
-from pathlib import Path
 
 import click
 import numpy as np
 import pytest
-import xarray as xr
 
 import viscorough
-from support.command_line import run, sphere_heights
-from support.contract import complaint
-from viscorough import cli
-from viscorough.errors import ConvergenceError
-from viscorough.io.datasets import write_dataset
+from support.command_line import python, sphere_heights
+from support.curves import random_curve
+from viscorough import ConvergenceError, Indenter, cli
 
-FORCE, VISCOSITY = 2.0, 3.0
 INDENT = "indent heights.npy --spacing 1 -o out.nc"
 KINETICS = "kinetics curve.nc --force 1 --viscosity 1 -o out.nc"
-
-
-@pytest.fixture(scope="module")
-def sphere(tmp_path_factory):
-    """Folder with curve.nc and kinetics.nc of a sphere."""
-    folder = tmp_path_factory.mktemp("sphere")
-    np.save(folder / "heights.npy", sphere_heights(17))
-    assert run(f"indent {folder}/heights.npy --spacing 1 --until-fraction 0.5 -o {folder}/curve.nc") == 0
-    assert run(f"kinetics {folder}/curve.nc --force {FORCE} --viscosity {VISCOSITY} -o {folder}/kinetics.nc") == 0
-    return folder
 
 
 @pytest.fixture
@@ -41,9 +26,6 @@ def here(here):
     """A working folder that holds only a small heights.npy."""
     np.save("heights.npy", sphere_heights(9))
     return here
-
-
-# ---- contents of the files
 
 
 # ---- mistakes of the user
@@ -65,14 +47,12 @@ MISTAKES = [
 
 
 @pytest.mark.parametrize(("line", "what"), MISTAKES)
-def test_mistakes_are_one_line(here, sphere, capsys, line, what):
+def test_mistakes_are_one_line(complaint, line, what):
     np.save("huge.npy", sphere_heights(9) * 1e300)
-    Path("curve.nc").write_bytes((sphere / "curve.nc").read_bytes())
-    heights = xr.Dataset({"z": (("y", "x"), sphere_heights(9), {"long_name": "height", "units": "m"})})
-    write_dataset(heights, "map.nc")
-    Path("folder").mkdir()
+    random_curve(length_unit="1").save("curve.nc")
+    Indenter(sphere_heights(9), 1.0).save("map.nc")
     os.mkfifo("pipe")
-    assert what in complaint(line, capsys, here)
+    assert what in complaint(line)
 
 
 def run_indent_as(function):
@@ -152,7 +132,7 @@ def test_help_and_mistakes_do_not_wait_for_slow_imports():
         assert main(["indent", "--spacing", "x"]) == 2
         print(sorted({"numpy", "numba", "scipy", "xarray", "netCDF4"} & set(sys.modules)))
     """)
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    done = python("-c", script)
     assert done.stdout.splitlines()[-1] == "[]"
     assert f"viscorough {viscorough.__version__}\n" in done.stdout
     assert done.stdout.count("Example") == 3

@@ -6,21 +6,16 @@ import numpy as np
 import pytest
 
 from support.command_line import run
-from support.contract import complaint
-from viscorough.contact.one_contact import contact_at
-from viscorough.indenter import Indenter
+from viscorough import Indenter, contact_at, self_affine_disc
 from viscorough.io import netcdf
-from viscorough.surfaces import self_affine_disc
 
 
 @pytest.fixture
 def here(here):
     """A folder with heights.npy, a rough disc, and um.nc, the same in micrometres."""
-    disc = self_affine_disc(0.7, 25, rms=0.3, diameter=25, seed=2)
-    np.save("heights.npy", disc.heights)
-    unit = {"long_name": "height", "units": "um"}
-    variables = {"heights": netcdf.Variable(("y", "x"), disc.heights, unit)}
-    netcdf.write(netcdf.Content(variables, {"title": "disc"}), "um.nc")
+    heights = self_affine_disc(0.7, 25, rms=0.3, diameter=25, seed=2).heights
+    np.save("heights.npy", heights)
+    Indenter(heights, 1.0, length_unit="um").save("um.nc")
     return here
 
 
@@ -39,17 +34,21 @@ SCALARS += ("mean_pressure", "largest_pressure", "residual")
 
 
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-7])
-def test_file_holds_what_python_gives(here, tolerance):
+def test_files_hold_what_python_gives(here, tolerance):
     """Which solves the contact problem (tests/viscorough/contact/test_one_contact.py)."""
-    of, heights = values(contact(f"--force 30 --tolerance {tolerance}")), np.load("heights.npy")
+    written, heights = contact(f"--force 30 --tolerance {tolerance}"), np.load("heights.npy")
     wanted = contact_at(Indenter(heights, 1.0), force=30, tolerance=tolerance)
-    assert {name: of[name].item() for name in SCALARS} == {name: getattr(wanted, name) for name in SCALARS}
-    np.testing.assert_array_equal(of["heights"], heights)
-    np.testing.assert_array_equal(of["contact"], wanted.contact)
-    np.testing.assert_array_equal(of["patch_area"], wanted.patches()[1])
-    np.testing.assert_array_equal([of["x"], of["y"]], [np.arange(25) - 12] * 2)
-    for name in ("pressure", "gap"):
-        np.testing.assert_allclose(of[name], getattr(wanted, name), rtol=1e-6, atol=1e-6)
+    wanted.save("saved.nc")
+    saved = netcdf.read("saved.nc")
+    np.testing.assert_array_equal(values(written)["heights"], heights)
+    assert set(written.variables) - set(saved.variables) == {"heights"}
+    for of in (values(written), values(saved)):
+        assert {name: of[name].item() for name in SCALARS} == {name: getattr(wanted, name) for name in SCALARS}
+        np.testing.assert_array_equal(of["contact"], wanted.contact)
+        np.testing.assert_array_equal(of["patch_area"], wanted.patches()[1])
+        np.testing.assert_array_equal([of["x"], of["y"]], [np.arange(25) - 12] * 2)
+        for name in ("pressure", "gap"):
+            np.testing.assert_allclose(of[name], getattr(wanted, name), rtol=1e-6, atol=1e-6)
 
 
 def test_several_forces_have_a_dimension(here, capsys):
@@ -100,11 +99,11 @@ def test_curves_stand_at_forces_and_end_at_one(here):
     assert force[-1] >= 30 > force[-2]
 
 
-def test_kinetics_need_an_incompressible_half_space(here, capsys):
+def test_kinetics_need_an_incompressible_half_space(complaint):
     command = "indent heights.npy --spacing 1 -o curve.nc --young 1 --forces 1,30"
     kinetics = "kinetics curve.nc --force 1 --viscosity 1 -o kin.nc"
     assert run(f"{command} --poisson 0.3") == 0
-    assert "curve.nc: the curve is that of a half-space with Poisson ratio 0.3" in complaint(kinetics, capsys, here)
+    assert "curve.nc: the curve is that of a half-space with Poisson ratio 0.3" in complaint(kinetics)
     assert run(f"{command} --poisson 0.5") == 0
     assert run(kinetics) == 0
 
@@ -135,8 +134,8 @@ MISTAKES = [
 
 
 @pytest.mark.parametrize(("line", "message"), MISTAKES)
-def test_mistakes_are_one_line(here, capsys, line, message):
-    assert message in complaint(line, capsys, here)
+def test_mistakes_are_one_line(complaint, line, message):
+    assert message in complaint(line)
 
 
 def test_numbers_beyond_single_precision_are_kept(here):

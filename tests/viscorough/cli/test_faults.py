@@ -6,6 +6,7 @@ Full disks are tested where files are written, in tests/viscorough/io/test_netcd
 import logging
 import os
 import runpy
+import shlex
 import shutil
 import signal
 import subprocess
@@ -16,49 +17,33 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from support.command_line import VISCOROUGH, run, sphere_heights
-from support.contract import complaint
+from support.command_line import VISCOROUGH, python, run, sphere_heights
+from support.curves import random_curve
 from support.faults import DAMAGES, contents, no_privileges
+from viscorough import load_curve
 from viscorough.io import netcdf
-from viscorough.io.curves import curve_from_content
 
 INDENT = "indent heights.npy --spacing 1 -o out.nc"
 KINETICS = "kinetics curve.nc --force 1 --viscosity 1 -o out.nc"
 
 
-@pytest.fixture(scope="module")
-def indented(tmp_path_factory):
-    """Folder with heights.npy, curve.nc and an older out.nc, which must not be changed."""
-    folder = tmp_path_factory.mktemp("indented")
-    np.save(folder / "heights.npy", sphere_heights(9))
-    for name in ("curve.nc", "out.nc"):
-        assert run(f"indent {folder}/heights.npy --spacing 1 -o {folder}/{name}") == 0
-    return folder
-
-
 @pytest.fixture(autouse=True)
-def here(indented, here):
-    return shutil.copytree(indented, here, dirs_exist_ok=True)
-
-
-def complaint_of_process(*arguments):
-    """The one line on stderr of a command that fails and changes no file."""
-    before = contents(Path.cwd())
-    done = subprocess.run(arguments, capture_output=True, text=True, timeout=60, check=False)
-    assert (done.returncode, done.stdout) == (2, ""), done.stderr
-    assert len(done.stderr.splitlines()) == 1, done.stderr
-    assert contents(Path.cwd()) == before
-    return done.stderr
+def here(here):
+    """Folder with heights.npy, curve.nc and an older out.nc, which must not be changed."""
+    np.save("heights.npy", sphere_heights(9))
+    for name in ("curve.nc", "out.nc"):
+        random_curve(length_unit="1").save(name)
+    return here
 
 
 # ---- damaged files
 
 
 @pytest.mark.parametrize("damage", DAMAGES)
-def test_damaged_curve_is_named(here, capsys, damage):
+def test_damaged_curve_is_named(here, complaint, damage):
     whole = (here / "curve.nc").read_bytes()
     (here / "curve.nc").write_bytes(DAMAGES[damage](whole))
-    assert "viscorough kinetics: curve.nc: not readable (" in complaint(KINETICS, capsys, here)
+    assert "viscorough kinetics: curve.nc: not readable (" in complaint(KINETICS)
 
 
 @pytest.mark.parametrize("suffix", ["nbi", "nbc"])
@@ -89,12 +74,15 @@ def test_damaged_compiled_code_is_compiled_again(here, caplog, monkeypatch, suff
 
 
 def test_folder_that_may_not_be_written(here):
+    before = contents(here)
     here.chmod(0o555)
     try:
-        line = complaint_of_process(*no_privileges(), VISCOROUGH, *INDENT.split())
+        done = shell(f"{shlex.join(no_privileges())} viscorough {INDENT}")
     finally:
         here.chmod(0o755)
-    assert line == "viscorough indent: out.nc: the folder . is not writable; a writable folder is needed\n"
+    line = "viscorough indent: out.nc: the folder . is not writable; a writable folder is needed\n"
+    assert done == (2, line, "")
+    assert contents(here) == before
 
 
 # ---- standard output and standard error that cannot be written
@@ -111,8 +99,6 @@ def shell(line, **environment):
 
 
 WRITING = "viscorough indent heights.npy --spacing 1 -o new.nc"
-
-
 FULL = "standard output cannot be written (No space left on device)\n"
 UNREAD = f"viscorough indent: warning: new.nc is complete, but {FULL}"
 
@@ -123,7 +109,7 @@ UNREAD = f"viscorough indent: warning: new.nc is complete, but {FULL}"
 )
 def test_complete_output_is_success_whoever_reads_the_closing_line(redirection, warning):
     assert shell(f"{WRITING} {redirection}")[:2] == (0, warning)
-    assert curve_from_content(netcdf.read("new.nc")).depth.size
+    assert load_curve("new.nc").depth.size
 
 
 def test_names_that_the_encoding_of_standard_output_lacks(here):
@@ -140,8 +126,9 @@ def test_names_of_files_that_are_no_text(here):
     shutil.copy("curve.nc", f"{name}.nc")
     assert run(f"indent '{name}.npy' --spacing 1 -o new.nc") == 0
     assert netcdf.read("new.nc").attributes["heights"] == r"caf\udce9.npy"
-    line = complaint_of_process(VISCOROUGH, "kinetics", f"{name}.nc", *KINETICS.split()[2:])
-    assert line.startswith(r"viscorough kinetics: caf\udce9.nc: not readable (")
+    code, error, output = shell(f"viscorough {KINETICS.replace('curve', name)}")
+    assert (code, output, len(error.splitlines())) == (2, "", 1)
+    assert error.startswith(r"viscorough kinetics: caf\udce9.nc: not readable (")
 
 
 def test_help_for_a_reader_who_has_read_enough():
@@ -238,8 +225,7 @@ def test_what_is_no_regular_file_is_refused(here):
             Path(f"of_{name}.yaml").write_text(f"{{kind: creep_table, file: {name}}}")
             commands += [line.replace("FILE", name).split() for line in lines]
             wanted += [f"{name}: not readable (it is a {kind}); a regular file is needed"] * len(lines)
-    script = f"from viscorough.cli import main; assert {{main(line) for line in {commands}}} == {{2}}"
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120, check=False)
-    assert (done.returncode, done.stdout) == (0, ""), done.stderr
+    done = python("-c", f"from viscorough.cli import main; assert {{main(line) for line in {commands}}} == {{2}}")
+    assert done.stdout == ""
     for line, text in zip(done.stderr.splitlines(), wanted, strict=True):
         assert text in line

@@ -9,10 +9,9 @@ from PIL import Image
 import viscorough
 from support.cf import violations
 from support.command_line import run, sphere_heights
-from support.contract import complaint, refused
+from support.contract import refused
 from viscorough.io import netcdf
 from viscorough.io.netcdf import Content, Variable
-from viscorough.plotting import figure_of
 
 MAP = "FOLDER/heights.npy --spacing 1"
 SURFACE = "generate --hurst 0.7 --rms 1 --diameter 9 --seed 1"
@@ -78,7 +77,7 @@ def test_figures_are_reproducible_in_every_format(here, suffix, start):
 
 
 def axes_of(file):
-    axes = figure_of(netcdf.read(file)).axes
+    axes = viscorough.plot(netcdf.read(file)).axes
     return [text for panel in axes for text in (panel.get_xlabel(), panel.get_ylabel()) if text]
 
 
@@ -101,7 +100,7 @@ def test_axes_have_symbols_and_units(here):
         ("estimate.nc", "depth_high", "um", "depth and its interval have different units"),
     ],
 )
-def test_damaged_files_are_refused(here, capsys, file, name, change, what):
+def test_damaged_files_are_refused(here, complaint, file, name, change, what):
     content = netcdf.read(here / file)
     variable = content.variables[name]
     if isinstance(change, str):
@@ -109,13 +108,13 @@ def test_damaged_files_are_refused(here, capsys, file, name, change, what):
     else:
         variable = variable._replace(values=change(variable.values))
     netcdf.write(Content(content.variables | {name: variable}, content.attributes), here / "bad.nc")
-    assert what in complaint("plot bad.nc -o figure.png", capsys, here)
+    assert what in complaint("plot bad.nc -o figure.png")
 
 
-def test_without_matplotlib_one_line_says_what_to_install(here, capsys, monkeypatch):
+def test_without_matplotlib_one_line_says_what_to_install(monkeypatch, complaint):
     monkeypatch.delattr(viscorough, "plotting")
     monkeypatch.setitem(sys.modules, "viscorough.plotting", None)  # as if it could not be imported
-    line = complaint("plot curve.nc -o figure.png", capsys, here)
+    line = complaint("plot curve.nc -o figure.png")
     assert line == 'viscorough plot: matplotlib is not installed; pip install "viscorough[plot]" installs it\n'
 
 
@@ -128,31 +127,22 @@ def test_without_matplotlib_one_line_says_what_to_install(here, capsys, monkeypa
         ("picture.png -o picture.png", "would replace the results"),
     ],
 )
-def test_mistakes_are_one_line(here, capsys, arguments, what):
+def test_mistakes_are_one_line(here, complaint, arguments, what):
     other = {"a": Variable(("b",), np.arange(3.0), {"long_name": "a", "units": "1"})}
     netcdf.write(Content(other, {}), here / "other.nc")
     (here / "picture.png").write_bytes(b"")
-    assert what in complaint(f"plot {arguments}", capsys, here)
+    assert what in complaint(f"plot {arguments}")
 
 
 def test_lengths_are_drawn_in_readable_units():
-    """Positions up to 0.1 mm and heights of nanometres, both in m in the file; without a unit nothing changes."""
-    position = np.linspace(-1e-4, 1e-4, 5)
-    attributes = {"long_name": "position", "units": "m"}
-    content = Content(
-        {
-            "heights": Variable(("y", "x"), 5e-9 * np.eye(5), {"long_name": "height", "units": "m"}),
-            "x": Variable(("x",), position, attributes),
-            "y": Variable(("y",), 0.1 * position, attributes),
-        },
-        {},
-    )
-    axes, colours = figure_of(content).axes
+    """Positions up to 0.1 mm and heights of nanometres, both in m; without a unit nothing changes."""
+    surface = viscorough.Indenter(5e-9 * np.eye(5), 5e-5, 1e-5, length_unit="m")
+    axes, colours = viscorough.plot(surface).axes
     assert (axes.get_xlabel(), axes.get_ylabel(), colours.get_ylabel()) == ("$x$ (µm)", "$y$ (µm)", "height $z$ (nm)")
-    np.testing.assert_allclose(axes.images[0].get_extent(), [-125, 125, 12.5, -12.5])
+    np.testing.assert_allclose(axes.images[0].get_extent(), [-125, 125, 25, -25])
     assert axes.images[0].get_array().max() == pytest.approx(5)
-    plain = {name: variable._replace(attributes={"units": "1"}) for name, variable in content.variables.items()}
-    assert figure_of(Content(plain, {})).axes[0].images[0].get_array().max() == 5e-9
+    plain = viscorough.Indenter(surface.heights, 5e-5, 1e-5)
+    assert viscorough.plot(plain).axes[0].images[0].get_array().max() == 5e-9
 
 
 @pytest.mark.parametrize(
@@ -168,7 +158,7 @@ def test_positions_are_those_of_the_file_or_points(y, extent, label):
     attributes = {"long_name": "length", "units": "m"}
     heights = Variable(("y", "x"), np.arange(6.0).reshape(3, 2), attributes)
     content = Content({"heights": heights, "y": Variable(("y",), np.array(y), attributes)}, {})
-    axes = figure_of(content).axes[0]
+    axes = viscorough.plot(content).axes[0]
     np.testing.assert_allclose(axes.images[0].get_extent(), extent)
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("x, points", label)
 

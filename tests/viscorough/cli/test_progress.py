@@ -17,12 +17,11 @@ def shown(capsys, wanted, wait):
     return middle, capsys.readouterr().err
 
 
-@pytest.fixture
+@pytest.fixture(autouse=True)
 def short_delay(monkeypatch):
     monkeypatch.setattr(progress, "_DELAY", 0.1)
 
 
-@pytest.mark.usefixtures("short_delay")
 def test_after_a_while_share_and_time_left_are_shown_and_erased_at_the_end(capsys):
     middle, end = shown(capsys, True, 0.25)
     assert "viscorough indent:  50 % |" in middle
@@ -37,13 +36,11 @@ def test_what_is_quick_shows_nothing(capsys, monkeypatch):
 
 
 @pytest.mark.parametrize("wanted", [None, False])
-@pytest.mark.usefixtures("short_delay")
 def test_without_a_terminal_only_what_is_asked_for_is_shown(capsys, wanted):
     assert shown(capsys, wanted, 0.25) == ("", "")
 
 
 @pytest.mark.parametrize("wanted", [None, True])
-@pytest.mark.usefixtures("short_delay")
 def test_where_standard_error_is_closed_slow_work_goes_on(monkeypatch, wanted):
     monkeypatch.setattr("sys.stderr", None)
     with progress.progress_bar("viscorough indent", wanted) as report:

@@ -4,12 +4,9 @@ import numpy as np
 import pytest
 
 from support.command_line import run
-from support.contract import complaint
-from viscorough import mdr
-from viscorough.indenter import Indenter
+from viscorough import Indenter, load_curve, mdr, self_affine_disc, self_affine_line
 from viscorough.io import netcdf
-from viscorough.io.curves import curve_from_content, unstack_curves
-from viscorough.surfaces import self_affine_disc, self_affine_line
+from viscorough.io.curves import unstack_curves
 
 LINE = self_affine_line(0.6, 512, rms=0.2, length=128.0, seed=3)
 DISC = self_affine_disc(0.6, 17, rms=0.2, diameter=17.0, seed=3)
@@ -19,7 +16,6 @@ DISC = self_affine_disc(0.6, 17, rms=0.2, diameter=17.0, seed=3)
 def here(here):
     np.save("line.npy", LINE.heights)
     np.save("map.npy", DISC.heights)
-    np.save("flat.npy", np.zeros((5, 5)))
     np.save("text.npy", np.array(["a"]))
     return here
 
@@ -37,7 +33,7 @@ def line_file(units, x):
 
 def test_line_of_a_file():
     assert run("reduce line.npy --spacing 0.25 --until-fraction 0.5 -o curve.nc") == 0
-    curve = curve_from_content(netcdf.read("curve.nc"))
+    curve = load_curve("curve.nc")
     np.testing.assert_array_equal(curve.force, mdr.reduce(LINE, until_fraction=0.5).force)
     assert curve.contact_fraction[-2] < 0.5 <= curve.contact_fraction[-1]
 
@@ -62,14 +58,13 @@ def test_lines_of_a_map_are_many_and_say_what_they_are_not(capsys):
     [
         ("line.npy", "line.npy: the distance between neighbouring points is not stated; --spacing is needed"),
         ("line.npy --spacing 1 --realizations 2", "--realizations and --seed are for maps"),
-        ("flat.npy --spacing 1", "the map is flat"),
         ("text.npy --spacing 1", "a line is needed"),
         ("line.npy --spacing 1 -o line.npy", "would replace the heights"),
         ("map.npy --spacing 1 --realizations 2 -o a.csv", "several curves are no table"),
     ],
 )
-def test_mistakes_are_one_line(here, capsys, arguments, what):
-    assert what in complaint(f"reduce -o out.nc {arguments}", capsys, here)
+def test_mistakes_are_one_line(complaint, arguments, what):
+    assert what in complaint(f"reduce -o out.nc {arguments}")
 
 
 @pytest.mark.parametrize(
@@ -80,9 +75,9 @@ def test_mistakes_are_one_line(here, capsys, arguments, what):
         ([0, 1, 2], "um", "--spacing 2", "--spacing 2 um contradicts the file, in which columns are 1 um apart"),
     ],
 )
-def test_coordinates_that_contradict_are_refused(here, capsys, positions, unit, spacing, what):
+def test_coordinates_that_contradict_are_refused(complaint, positions, unit, spacing, what):
     line_file(("um", unit), positions)
-    assert what in complaint(f"reduce line.nc {spacing} -o out.nc", capsys, here)
+    assert what in complaint(f"reduce line.nc {spacing} -o out.nc")
 
 
 @pytest.mark.parametrize(
@@ -98,6 +93,6 @@ def test_coordinates_that_contradict_are_refused(here, capsys, positions, unit, 
 def test_spacing_of_a_line_is_in_the_unit_of_its_heights(units, x, options):
     heights = line_file(units, x)
     assert run(f"reduce line.nc {options} -o curve.nc") == 0
-    curve = curve_from_content(netcdf.read("curve.nc"))
+    curve = load_curve("curve.nc")
     assert curve.length_unit == "um"
     np.testing.assert_allclose(curve.force, mdr.reduce(Indenter(heights, 2.0)).force, rtol=1e-14)

@@ -5,13 +5,10 @@ import pytest
 
 from support.contract import refused
 from support.curves import assert_same_curve, random_curve
-from viscorough.contact.loading_path import indent
-from viscorough.indenter import Indenter
+from viscorough import Indenter, indent, load_curve, reduce, self_affine_disc, self_affine_line
 from viscorough.io import netcdf
 from viscorough.io.curves import curve_from_content, curve_to_content, stack_curves, unstack_curves
 from viscorough.io.netcdf import Content
-from viscorough.mdr import reduce
-from viscorough.surfaces import self_affine_disc, self_affine_line
 
 
 def values(name, change):
@@ -53,13 +50,11 @@ def attribute(name, value):
     return lambda content: content.with_attributes(**{name: value})
 
 
-@pytest.mark.parametrize("levels", [1, netcdf.COMPRESSED_FROM])
-def test_curve_survives_a_file_exactly(tmp_path, levels):
+@pytest.mark.parametrize(("name", "levels"), [("a.nc", 1), ("a.nc", netcdf.COMPRESSED_FROM), ("a.csv", 7)])
+def test_curve_survives_a_file_exactly(tmp_path, name, levels):
     curve = random_curve(levels)
-    netcdf.write(curve_to_content(curve), tmp_path / "curve.nc")
-    content = netcdf.read(tmp_path / "curve.nc")
-    assert_same_curve(curve_from_content(content), curve)
-    np.testing.assert_array_equal(content.variables["contact_fraction"].values, curve.contact_fraction)
+    curve.save(str(tmp_path / name))
+    assert_same_curve(load_curve(tmp_path / name), curve)
 
 
 def test_stacked_curves_survive_files_exactly(tmp_path):

@@ -7,9 +7,8 @@ import xarray as xr
 
 import viscorough
 from support.contract import refused
-from viscorough import units
+from viscorough import read_heights, units
 from viscorough.io.datasets import write_dataset
-from viscorough.io.heights import read_heights
 
 
 @pytest.mark.filterwarnings("ignore:.*the map is tilted")
@@ -67,7 +66,7 @@ def test_bad_files_of_heights_are_one_line(tmp_path):
     for name, content in cases.items():
         (tmp_path / name).write_bytes(content)
     (tmp_path / "folder.npy").mkdir()
-    for name in (*cases, "missing.npy", "missing.nc", "missing", "folder.npy"):
+    for name in (*cases, "missing.npy", "missing.nc", "missing.txt", "missing", "folder.npy"):
         with refused(name):
             read_heights(tmp_path / name, 1.0)
 
@@ -94,5 +93,5 @@ def test_a_spacing_may_be_a_text_with_a_unit(tmp_path):
         assert (indenter.spacing, indenter.row_spacing) == (500.0, 500.0)
     with refused("spacing '0.5 Pa'|unit 'Pa': cannot be converted to nm"):
         read_heights(tmp_path / "a.npy", "0.5 Pa", unit="nm")
-    with refused("the unit of the heights is not known"):
+    with refused(r"--spacing 0.5 um: the unit of the heights is not known; --unit is needed"):
         read_heights(tmp_path / "a.npy", "0.5 um")

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from support.contract import refused
-from viscorough.errors import AccuracyWarning
-from viscorough.io.heights import read_heights
+from viscorough import AccuracyWarning, read_heights
 
 SurfaceTopography = pytest.importorskip("SurfaceTopography", reason="the extra 'formats' is not installed")
 FILES = Path(__file__).with_name("instrument_files")

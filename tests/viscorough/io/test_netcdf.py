@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from support.cf import violations
 from support.contract import refused
 from support.curves import random_curve
 from viscorough.io import datasets, netcdf
@@ -41,6 +42,18 @@ def test_xarray_writes_and_reads_the_same(tmp_path, levels):
         for one, other in zip(ours.variables.values(), theirs.variables.values(), strict=True):
             assert (one.dtype, one.dimensions, one.filters()) == (other.dtype, other.dimensions, other.filters())
             assert set(one.ncattrs()) == set(other.ncattrs())
+
+
+def test_coordinates_have_no_fill_value_and_labels_of_a_dimension_are_no_coordinate(tmp_path):
+    about = {"long_name": "convention"}
+    ds = xr.Dataset({"beta": ("convention", [0.1, 0.2], about | {"units": "1"})}, {"convention": ["disc", "square"]})
+    ds["convention"].attrs = about
+    ds = ds.assign_coords(level=("level", [1.0, 2.0], {"long_name": "level", "units": "1"}))
+    datasets.write_dataset(ds.assign_attrs(title="Fits"), tmp_path / "labels.nc")
+    assert violations(tmp_path / "labels.nc") == []
+    read = datasets.read_dataset(tmp_path / "labels.nc")
+    assert read.sel(convention="square").beta == 0.2
+    xr.testing.assert_equal(read, ds)
 
 
 def test_content_survives_a_file_exactly(tmp_path):

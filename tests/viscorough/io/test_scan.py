@@ -1,31 +1,26 @@
 """Spacings and units: from the file where it states them, refused where file and arguments contradict each other."""
 
-import netCDF4
 import numpy as np
 import pytest
+import xarray as xr
 
 from support.contract import refused
-from viscorough import units
-from viscorough.io.heights import read_heights
-from viscorough.io.scan import Scan, to_indenter, uniform_spacing
+from viscorough import read_heights, units
+from viscorough.io.scan import uniform_spacing
 
 HEIGHTS = np.random.default_rng(0).random((3, 4))
 
 
 def netcdf_map(path, *, unit="um", x=(0, 0.5, 1.0, 1.5), y=(3, 2, 1), x_unit="um", y_unit="um", dimensions=("y", "x")):
     """A file with the map HEIGHTS, and coordinates where they are given."""
-    with netCDF4.Dataset(path, "w") as file:
-        for name, positions, axis_unit in (("x", x, x_unit), ("y", y, y_unit)):
-            file.createDimension(name, 4 if name == "x" else 3)
-            if positions is not None:
-                variable = file.createVariable(name, "f8", (name,))
-                variable[:] = positions
-                if axis_unit:
-                    variable.units = axis_unit
-        variable = file.createVariable("heights", "f8", dimensions)
-        variable[:] = HEIGHTS if dimensions == ("y", "x") else HEIGHTS.T
-        if unit:
-            variable.units = unit
+    heights = HEIGHTS if dimensions == ("y", "x") else HEIGHTS.T
+    parts = {"heights": (dimensions, heights, unit), "x": (("x",), x, x_unit), "y": (("y",), y, y_unit)}
+    variables = {
+        name: (names, np.array(values, float), {"units": unit} if unit else {})
+        for name, (names, values, unit) in parts.items()
+        if values is not None
+    }
+    xr.Dataset(variables).to_netcdf(path)
     return path
 
 
@@ -45,14 +40,6 @@ def test_coordinates_of_netcdf_give_the_spacings(tmp_path, content, arguments, s
     indenter = read_heights(netcdf_map(tmp_path / "a.nc", **content), **arguments)
     np.testing.assert_array_equal(indenter.heights, HEIGHTS)
     assert (indenter.spacing, indenter.row_spacing, indenter.length_unit) == (*spacings, unit)
-
-
-def test_spacings_with_a_unit_are_converted(tmp_path):
-    np.save(tmp_path / "a.npy", HEIGHTS)
-    indenter = read_heights(tmp_path / "a.npy", [units.quantity("2 um")] * 2, unit="nm")
-    assert (indenter.spacing, indenter.row_spacing, indenter.length_unit) == (2000, 2000, "nm")
-    with refused(r"--spacing 2 um: .* --unit is needed"):
-        to_indenter(Scan(HEIGHTS), [units.quantity("2 um")] * 2)
 
 
 def test_a_plain_spacing_is_not_taken_in_another_unit_than_that_of_x_and_y(tmp_path):

@@ -146,6 +146,7 @@ BAD = [
     (f"# pixel size = 1\n1e999 2\n{SQUARE}", "finite"),
     ("ncols 1e400\nnrows 2\n1 2\n", "inf columns"),
     (f"ncols 3\nnrows 2\ncellsize 1\n{SQUARE}5 6\n", "3 lines of 2 numbers contradict"),
+    ("1 2\n3\n", "line 2: 1 cells, 2 in line 1"),
     ("1;2;3\n4;<0.1;6\n", "line 2: '<0.1' is not a number"),
     ("1,5, 2,5\n3,5, 4,5\n", "line 1 .*with and without spaces"),
     ("0,5\n1,5\n", "one column with decimal commas"),

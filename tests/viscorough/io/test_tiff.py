@@ -10,15 +10,16 @@ from support.contract import refused
 from viscorough.io.heights import read_heights
 
 HEIGHTS = np.random.default_rng(0).random((5, 7)).astype("f4")
-SCALE, TRANSFORMATION, KEYS, NODATA = 33550, 34264, 34735, 42113
+METADATA, NODATA, KEYS = 42112, 42113, 34735
 PROJECTED, GEOGRAPHIC, METRES, VERTICAL_METRES = (1024, 1), (1024, 2), (3076, 9001), (4099, 9001)
+# The tags of pixels of 30 by 20, and of the place of the first of them.
+SPACINGS = [(33550, "d", 3, (30.0, 20.0, 0.0), True), (33922, "d", 6, (0.0,) * 6, True)]
 
 
-def geotiff(path, *keys, heights=HEIGHTS, scale=(30.0, 20.0, 0.0), nodata=None, **options):
+def geotiff(path, *keys, heights=HEIGHTS, tags=SPACINGS, nodata=None, **options):
     """A GeoTIFF with these (key, value) pairs in its directory of keys."""
     directory = [1, 1, 0, len(keys), *(number for key, value in keys for number in (key, 0, 1, value))]
-    tags = [(KEYS, "H", len(directory), directory, True)]
-    tags += [] if scale is None else [(SCALE, "d", 3, scale, True), (33922, "d", 6, (0.0,) * 6, True)]
+    tags = [*tags, (KEYS, "H", len(directory), directory, True)]
     tags += [] if nodata is None else [(NODATA, "s", 0, nodata, True)]
     tifffile.imwrite(path, heights, extratags=tags, **options)
     return path
@@ -48,15 +49,13 @@ def test_scale_and_offset_of_gdal_hold_for_heights_and_not_for_marks(tmp_path):
     stored = np.array([[10, 20, 30], [40, -99, 60]], dtype="i2")
     roles = {"scale": 0.5, "offset": -100, "unittype": "m"}
     items = "".join(f'<Item name="a" sample="0" role="{role}">{value}</Item>' for role, value in roles.items())
-    tags = [(42112, "s", 0, f"<GDALMetadata>{items}</GDALMetadata>", True), (NODATA, "s", 0, "-99", True)]
-    tifffile.imwrite(tmp_path / "a.tif", stored, extratags=tags)
-    indenter = read_heights(tmp_path / "a.tif", spacing=1)
+    of_gdal = {"heights": stored, "nodata": "-99"}
+    of_gdal |= {"tags": [(METADATA, "s", 0, f"<GDALMetadata>{items}</GDALMetadata>", True)]}
+    indenter = read_heights(geotiff(tmp_path / "a.tif", PROJECTED, **of_gdal), spacing=1)
     np.testing.assert_array_equal(indenter.heights, [[-95, -90, -85], [-80, np.nan, -70]])
     assert indenter.length_unit == "m"
-    keys = [1, 1, 0, 3, *(number for key, value in (PROJECTED, METRES, (4099, 9002)) for number in (key, 0, 1, value))]
-    tifffile.imwrite(tmp_path / "b.tif", stored, extratags=[*tags, (KEYS, "H", len(keys), keys, True)])
     with refused("heights are in foot and in m"):
-        read_heights(tmp_path / "b.tif", spacing=1)
+        read_heights(geotiff(tmp_path / "b.tif", PROJECTED, METRES, (4099, 9002), **of_gdal), spacing=1)
 
 
 @pytest.mark.parametrize("keys", [[(2048, 4326)], [(2054, 9102)], [(1024, 32767), (2048, 4326)], [GEOGRAPHIC]])
@@ -90,14 +89,11 @@ def test_units_and_calibration_of_imagej(tmp_path):
 
 
 def test_transformation_without_rotation(tmp_path):
-    for off, name in ((0.0, "a.tif"), (1.0, "b.tif")):
-        matrix = [2.0, off, 0, 0, 0, -3.0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1.0]
-        tags = [(TRANSFORMATION, "d", 16, matrix, True), (KEYS, "H", 8, [1, 1, 0, 1, *(1024, 0, 1, 1)], True)]
-        tifffile.imwrite(tmp_path / name, HEIGHTS, extratags=tags)
-    indenter = read_heights(tmp_path / "a.tif")
+    straight, rotated = ([2.0, off, 0, 0, 0, -3.0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1.0] for off in (0.0, 1.0))
+    indenter = read_heights(geotiff(tmp_path / "a.tif", PROJECTED, tags=[(34264, "d", 16, straight, True)]))
     assert (indenter.spacing, indenter.row_spacing) == (2, 3)
     with refused("rotated"):
-        read_heights(tmp_path / "b.tif")
+        read_heights(geotiff(tmp_path / "b.tif", PROJECTED, tags=[(34264, "d", 16, rotated, True)]))
 
 
 def test_pages_are_chosen_by_number(tmp_path):
@@ -108,23 +104,13 @@ def test_pages_are_chosen_by_number(tmp_path):
             read_heights(tmp_path / "a.tif", 1, channel=channel)
 
 
-BAD = [
-    ("colours.tif", "3 colours", np.zeros((5, 7, 3), "u1"), {"photometric": "rgb"}),
-    ("several.tif", "2 pages; --channel 0 to 1", np.zeros((2, 5, 7)), {"photometric": "minisblack"}),
-]
-
-
-@pytest.mark.parametrize(("name", "what", "stored", "options"), BAD)
-def test_pictures_that_are_no_map_are_refused(tmp_path, name, what, stored, options):
-    tifffile.imwrite(tmp_path / name, stored, **options)
-    with refused(f"{name}.*{what}"):
-        read_heights(tmp_path / name, 1)
-
-
 def test_bad_files_are_one_line(tmp_path):
     whole = geotiff(tmp_path / "fathoms.tif", PROJECTED, (3076, 9014), VERTICAL_METRES).read_bytes()
     (tmp_path / "cut.tif").write_bytes(whole[:-90])
-    for name, what in {"fathoms": "EPSG:9014", "cut": "not readable", "missing": "not readable"}.items():
+    tifffile.imwrite(tmp_path / "colours.tif", np.zeros((5, 7, 3), "u1"), photometric="rgb")
+    tifffile.imwrite(tmp_path / "several.tif", np.zeros((2, 5, 7)), photometric="minisblack")
+    complaints = {"fathoms": "EPSG:9014", "cut": "not readable", "missing": "not readable", "colours": "3 colours"}
+    for name, what in (complaints | {"several": "2 pages; --channel 0 to 1"}).items():
         with refused(f"{name}.tif.*{what}"):
             read_heights(tmp_path / f"{name}.tif", 1)
 

@@ -6,10 +6,8 @@ import pytest
 from support.contract import refused
 from support.curves import curve_of_body
 from support.media import MEDIA
+from viscorough import Prony, Springpot, identify_medium, impulses, kinetics
 from viscorough.reference import sphere
-from viscorough.viscous.correspondence import impulses, kinetics
-from viscorough.viscous.identification import identify_medium
-from viscorough.viscous.media import Prony, Springpot
 
 CURVE = curve_of_body(sphere(1.0), np.geomspace(1e-9, 10, 300))
 TIMES = np.geomspace(0.02, 60, 50)

@@ -9,15 +9,7 @@ from scipy.special import beta
 
 from support.contract import refused
 from support.media import SPRINGS_AND_DASHPOTS
-from viscorough.viscous.media import (
-    CreepTable,
-    KelvinVoigt,
-    Maxwell,
-    Newtonian,
-    Prony,
-    Springpot,
-    StandardLinearSolid,
-)
+from viscorough import CreepTable, KelvinVoigt, Maxwell, Newtonian, Prony, Springpot, StandardLinearSolid
 
 TIMES = np.append(0, np.geomspace(1e-9, 1e6, 60))
 

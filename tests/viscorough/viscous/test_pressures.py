@@ -5,33 +5,25 @@ import pytest
 
 from support.contract import refused
 from support.media import SPRINGS_AND_DASHPOTS as MEDIA
-from viscorough.surfaces import self_affine_disc
-from viscorough.viscous.correspondence import impulses
-from viscorough.viscous.integration.internal_variable_events import march_medium_events
+from viscorough import CreepTable, Maxwell, Springpot, impulses, march_medium_events, pressure_at, self_affine_disc
 from viscorough.viscous.integration.internal_variables import MEDIUM_SCHEMES, march_medium
-from viscorough.viscous.media import CreepTable, Maxwell, Springpot
-from viscorough.viscous.pressures import pressure_at
 
+DISC = self_affine_disc(0.7, 17, seed=3)
 DASHPOTS = ("newtonian", "kelvin-voigt")  # side by side with the rest of the medium
 
 
-@pytest.fixture(scope="module")
-def disc():
-    return self_affine_disc(0.7, 17, seed=3)
-
-
 @pytest.mark.parametrize("name", sorted(set(MEDIA) - set(DASHPOTS)))
-def test_pressures_of_a_ramp_and_a_step(disc, name):
+def test_pressures_of_a_ramp_and_a_step(name):
     medium, scale = MEDIA[name], 0.5
     times, force = np.array([0, 0.5, 0.5, 2.0]), scale * np.array([0.1, 0.5, 0.8, 1.0])
-    events = march_medium_events(disc, medium, times, force=force)
+    events = march_medium_events(DISC, medium, times, force=force)
     errors = []
     for contacts in (16, 64):
-        pressure = pressure_at(disc, medium, impulses(force, times), 2.0, contacts=contacts, tolerance=1e-8)
-        assert (np.isnan(pressure) == np.isnan(disc.heights)).all()
+        pressure = pressure_at(DISC, medium, impulses(force, times), 2.0, contacts=contacts, tolerance=1e-8)
+        assert (np.isnan(pressure) == np.isnan(DISC.heights)).all()
         errors.append(np.nanmax(abs(pressure - events.pressure)) / np.nanmax(events.pressure))
     assert errors[1] < min(0.02, errors[0])
-    assert np.nansum(pressure) * disc.spacing**2 == pytest.approx(force[-1], rel=1e-2)
+    assert np.nansum(pressure) * DISC.spacing**2 == pytest.approx(force[-1], rel=1e-2)
 
 
 HISTORIES = {
@@ -59,40 +51,40 @@ def test_pressures_of_dashpots_are_those_at_the_last_time(name, history):
 
 @pytest.mark.parametrize("scheme", MEDIUM_SCHEMES)
 @pytest.mark.parametrize("name", DASHPOTS)
-def test_force_of_a_dashpot_under_a_ramp_of_the_depth_is_that_at_each_time(disc, name, scheme):
+def test_force_of_a_dashpot_under_a_ramp_of_the_depth_is_that_at_each_time(name, scheme):
     times = np.linspace(0, 2, 21)
-    events = march_medium_events(disc, MEDIA[name], times, depth=0.15 * times)
-    steps = march_medium(disc, MEDIA[name], times, depth=0.15 * times, scheme=scheme)
+    events = march_medium_events(DISC, MEDIA[name], times, depth=0.15 * times)
+    steps = march_medium(DISC, MEDIA[name], times, depth=0.15 * times, scheme=scheme)
     np.testing.assert_allclose(steps.force[1:], events.force[1:], rtol=1e-10 if scheme == "second_order" else 0.1)
-    assert np.nansum(steps.pressure) * disc.spacing**2 == pytest.approx(steps.force[-1], rel=1e-12)
+    assert np.nansum(steps.pressure) * DISC.spacing**2 == pytest.approx(steps.force[-1], rel=1e-12)
 
 
-def test_pressures_at_a_step_within_the_history_are_those_after_it(disc):
+def test_pressures_at_a_step_within_the_history_are_those_after_it():
     force, times = [0.1, 0.5, 0.8, 1.0], [0, 0.5, 0.5, 2.0]
-    after = pressure_at(disc, MEDIA["newtonian"], impulses(force, times), 0.5)
-    up_to_it = march_medium(disc, MEDIA["newtonian"], times[:3], force=force[:3]).pressure
+    after = pressure_at(DISC, MEDIA["newtonian"], impulses(force, times), 0.5)
+    up_to_it = march_medium(DISC, MEDIA["newtonian"], times[:3], force=force[:3]).pressure
     np.testing.assert_allclose(after, up_to_it, rtol=0, atol=1e-3 * np.nanmax(up_to_it))
-    assert np.nansum(after) * disc.spacing**2 == pytest.approx(0.8, rel=1e-12)
+    assert np.nansum(after) * DISC.spacing**2 == pytest.approx(0.8, rel=1e-12)
 
 
 @pytest.mark.parametrize("name", DASHPOTS)
-def test_pressures_of_a_receding_contact_are_not_tensile(disc, name):
+def test_pressures_of_a_receding_contact_are_not_tensile(name):
     times, force = np.linspace(0, 2, 41), np.append(np.linspace(0, 1, 21), np.linspace(1, 0.05, 21)[1:])
     for scheme in MEDIUM_SCHEMES:
-        moved = march_medium(disc, MEDIA[name], times, force=force, scheme=scheme)
+        moved = march_medium(DISC, MEDIA[name], times, force=force, scheme=scheme)
         assert np.nanmin(moved.pressure) >= 0
-        assert np.nansum(moved.pressure) * disc.spacing**2 == pytest.approx(force[-1], rel=1e-12)
+        assert np.nansum(moved.pressure) * DISC.spacing**2 == pytest.approx(force[-1], rel=1e-12)
 
 
-def test_a_step_and_its_hold_are_exact_in_the_sum(disc):
+def test_a_step_and_its_hold_are_exact_in_the_sum():
     """The sum of the pressures is the force, in a springpot too, whose elastic part has no share in it at first."""
     for medium in (MEDIA["solid"], Springpot(2.0, 0.4)):
-        pressure = pressure_at(disc, medium, 0.5, 3.0, contacts=200)
-        assert np.nansum(pressure) * disc.spacing**2 == pytest.approx(0.5, rel=2e-2)
+        pressure = pressure_at(DISC, medium, 0.5, 3.0, contacts=200)
+        assert np.nansum(pressure) * DISC.spacing**2 == pytest.approx(0.5, rel=2e-2)
         assert np.nanmin(pressure) >= 0
 
 
-def test_refusals(disc):
+def test_refusals():
     medium, force = Maxwell(1.0, 2.0), impulses([1.0, 1.0], [0.0, 1.0])
     for arguments, message in (
         ((CreepTable([0, 1], [0, 1]), 1.0, 1.0), "CreepTable; allowed: media whose relaxation is known"),
@@ -100,4 +92,4 @@ def test_refusals(disc):
         ((medium, impulses([1.0, 0.0], [0.0, 1.0]), 1.0), "from time 0 on the contact would recede"),
     ):
         with refused(message):
-            pressure_at(disc, *arguments)
+            pressure_at(DISC, *arguments)

@@ -7,32 +7,26 @@ from scipy.integrate import quad
 from support.contract import refused
 from support.curves import curve_of_body
 from support.media import MEDIA, SPRINGS_AND_DASHPOTS
-from viscorough import reference
-from viscorough.viscous.media import CreepTable, KelvinVoigt
-from viscorough.viscous.relaxation import force_under_depth
+from viscorough import CreepTable, KelvinVoigt, force_under_depth, reference
 
 SPHERE = reference.sphere(1.7)
-
-
-@pytest.fixture(scope="module")
-def curve():
-    return curve_of_body(SPHERE, np.geomspace(1e-6, 1, 601))
+CURVE = curve_of_body(SPHERE, np.geomspace(1e-6, 1, 601))
 
 
 @pytest.mark.parametrize("name", ["maxwell", "solid", "prony", "springpot"])
-def test_a_step_relaxes_with_the_modulus(curve, name):
+def test_a_step_relaxes_with_the_modulus(name):
     times = np.array([1.0, 1.1, 2.0, 30.0])
-    result = force_under_depth(curve, np.full(4, 0.3), MEDIA[name], times)
+    result = force_under_depth(CURVE, np.full(4, 0.3), MEDIA[name], times)
     np.testing.assert_allclose(result.force, SPHERE.force(0.3) * MEDIA[name].relaxation_modulus(times - 1), rtol=1e-9)
 
 
 @pytest.mark.parametrize("name", SPRINGS_AND_DASHPOTS)
-def test_a_ramp_and_its_hold(curve, name):
+def test_a_ramp_and_its_hold(name):
     """F = ∫ψ(t − s) f'(u(s)) u' ds over the ramp, by quadrature; plus η k u' of a dashpot while it moves."""
     medium, speed, end = MEDIA[name], 0.2, 1.5
     times = np.array([0, 0.7, 1.2, 1.5, 1.5, 2.0, 9.0])
     depth = speed * np.minimum(times, end)
-    result = force_under_depth(curve, depth, medium, times)
+    result = force_under_depth(CURVE, depth, medium, times)
     for k in (1, 2, 5, 6):
 
         def integrand(s, time=times[k]):
@@ -44,7 +38,7 @@ def test_a_ramp_and_its_hold(curve, name):
         assert result.force[k] == pytest.approx(expected, rel=3e-4, abs=1e-12)
 
 
-def test_refusals(curve):
+def test_refusals():
     for arguments, message in (
         ({"medium": CreepTable([0, 1], [0, 1])}, "CreepTable; allowed: media whose relaxation is known"),
         ({"medium": KelvinVoigt(1.0, 1.0), "depth": [0, 0, 0.1]}, "steps at time 1, which takes an infinite force"),
@@ -55,4 +49,4 @@ def test_refusals(curve):
     ):
         call = {"depth": [0.1, 0.2, 0.3], "medium": MEDIA["solid"], "times": [0.0, 1.0, 1.0]} | arguments
         with refused(message):
-            force_under_depth(curve, **call)
+            force_under_depth(CURVE, **call)

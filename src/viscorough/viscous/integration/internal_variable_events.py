@@ -144,8 +144,7 @@ class _ByForce:
         elif viscosity:
             # η Y' = F − G∞ Y; a second unknown would be F itself, which is linear: F₀ comes from the state.
             slope = (end_load - load) / length
-            rates = [-relaxed / viscosity, 1 / viscosity, 0], [0, 0, slope / self._scale], [0, 0, 0]
-            self._matrix = np.array(rates)
+            self._matrix = np.array([[-relaxed / viscosity, 1 / viscosity, 0], [0, 0, slope / self._scale], [0, 0, 0]])
             self._augmented = np.array([self._state[0], (end_load - slope * length) / self._scale, 1.0])
         else:
             # From the derivative of ΣQ: G₀ Y' = F' + Σ G_i W_i/τ_i, and W_i' = Y' − W_i/τ_i.

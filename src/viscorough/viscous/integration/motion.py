@@ -16,17 +16,17 @@ if TYPE_CHECKING:
 class ViscousMotion(NamedTuple):
     """Penetration into a linearly viscous half-space; arrays of shape (times,).
 
-    time : t [s]; depth : u [length]; velocity : v = du/dt [length/s]; contact_count : elements in contact
-    force : F [N], or None if it is constant; overlap : the largest, over depth [1], or None under a force history
-    length_unit : of the indenter
+    time : t [s]; depth : u [length]; contact_count : elements in contact
+    overlap : the largest, over depth [1], or None under a force history; force : F [N], or None if it is constant
+    velocity : v = du/dt [length/s]; length_unit : of the indenter
     """
 
     time: np.ndarray
     depth: np.ndarray
-    velocity: np.ndarray
     contact_count: np.ndarray
-    force: np.ndarray | None
     overlap: np.ndarray | None
+    force: np.ndarray | None
+    velocity: np.ndarray
     length_unit: str
 
 
@@ -37,8 +37,8 @@ def under_constant_force(integration: Events | Steps, force_per_viscosity: float
     """
     time, velocity = integration.impulse / force_per_viscosity, force_per_viscosity / integration.resistance
     overlap = np.zeros_like(integration.depth) if isinstance(integration, Events) else integration.overlap
-    of_levels = time, integration.depth, velocity, integration.contact_count
-    return ViscousMotion(*of_levels, None, overlap, integration.length_unit)
+    of_levels = time, integration.depth, integration.contact_count, overlap
+    return ViscousMotion(*of_levels, None, velocity, integration.length_unit)
 
 
 def under_force_history(integration: Events | Steps, history: ForceHistory, viscosity: float) -> ViscousMotion:
@@ -59,5 +59,5 @@ def under_force_history(integration: Events | Steps, history: ForceHistory, visc
         i = np.searchsorted(integration.impulse, reached * (1 - 1e-12))
         depth = np.where(reached > 0, integration.depth[i], 0.0)
     velocity = history.force / (viscosity * integration.resistance[i])
-    of_times = history.times, depth, velocity, integration.contact_count[i]
-    return ViscousMotion(*of_times, history.force, None, integration.length_unit)
+    of_times = history.times, depth, integration.contact_count[i]
+    return ViscousMotion(*of_times, None, history.force, velocity, integration.length_unit)

@@ -20,7 +20,6 @@ from viscorough.errors import AccuracyWarning, ConvergenceError
 from viscorough.indenter import Indenter
 from viscorough.types import Progress
 
-SCHEMES = ("explicit", "heun", "implicit")
 # Overlap over the depth from which on a warning is given: the error of the depth is about as large.
 _WARN_OVERLAP = 0.01
 # Largest depth of explicit steps, over the largest number of the precision of their fields.
@@ -127,9 +126,7 @@ def march_steps(
     impulses = increasing("march_steps: impulses", np.atleast_1d(impulses), above_zero=True)
     if not overlap > 0:
         raise ValueError(f"march_steps: overlap must be positive, not {overlap!r}")
-    schemes: dict[str, type[_Explicit] | type[_Implicit]]
-    schemes = {"explicit": _Explicit, "heun": _Heun, "implicit": _Implicit}
-    integrator = schemes[scheme](indenter, tolerance)
+    integrator = _INTEGRATORS[scheme](indenter, tolerance)
     scale, rows = 4 * np.pi * indenter.element_side, []
     for remaining in np.diff(impulses / scale, prepend=0.0):
         while remaining > 0:
@@ -276,3 +273,8 @@ class _Implicit:
         self.resistance, self.count = contact.tangent_sum, contact.count
         self.overlap = contact.residual * depth_step / self.depth
         self.steps += 1
+
+
+_INTEGRATORS: dict[str, type[_Explicit] | type[_Implicit]]
+_INTEGRATORS = {"explicit": _Explicit, "heun": _Heun, "implicit": _Implicit}
+SCHEMES = tuple(_INTEGRATORS)

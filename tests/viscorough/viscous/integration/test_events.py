@@ -3,10 +3,7 @@
 import numpy as np
 import pytest
 
-from viscorough.contact.loading_path import indent
-from viscorough.indenter import Indenter
-from viscorough.surfaces import self_affine_disc
-from viscorough.viscous.integration.events import march_events
+from viscorough import Indenter, indent, march_events, self_affine_disc
 
 
 @pytest.mark.parametrize(("hurst", "spacings"), [(0.2, 1 / 33), (0.8, 1 / 33), (0.6, (1.0, 2.0)), (0.6, (5.0, 1.0))])

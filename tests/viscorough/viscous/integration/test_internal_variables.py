@@ -5,28 +5,22 @@ import pytest
 
 from support.contract import refused
 from support.media import SPRINGS_AND_DASHPOTS as MEDIA
-from viscorough import Indenter, indent, reference
+from viscorough import Indenter, force_under_depth, impulses, indent, kinetics, reference, self_affine_disc
 from viscorough.errors import ConvergenceError
-from viscorough.surfaces import self_affine_disc
-from viscorough.viscous.correspondence import impulses, kinetics
 from viscorough.viscous.integration.internal_variable_events import march_medium_events
 from viscorough.viscous.integration.internal_variables import MEDIUM_SCHEMES, march_medium
 from viscorough.viscous.media import Maxwell, Newtonian, Springpot
-from viscorough.viscous.relaxation import force_under_depth
 
+DISC = Indenter(self_affine_disc(0.7, 65, seed=3).heights, 0.01, 0.02)
+AREA = DISC.spacing * DISC.row_spacing
 SPRINGY = ["maxwell", "solid", "prony"]
 END = 2.0
 
 
 @pytest.fixture(scope="module")
-def disc():
-    return self_affine_disc(0.7, 65, seed=3)
-
-
-@pytest.fixture(scope="module")
-def curve(disc):
+def curve():
     """Every contact event is a level: exact in between."""
-    return indent(disc, until_fraction=0.05, tolerance=1e-10)
+    return indent(DISC, until_fraction=0.05, tolerance=1e-10)
 
 
 def largest_force(curve, medium, share=0.8):
@@ -37,11 +31,11 @@ def largest_force(curve, medium, share=0.8):
 
 
 @pytest.mark.parametrize("name", MEDIA)
-def test_events_under_a_ramp_a_step_and_a_hold(disc, curve, name):
+def test_events_under_a_ramp_a_step_and_a_hold(curve, name):
     medium = MEDIA[name]
     times, shape = np.array([0, 0.3, 0.3, 1.0, END]), np.array([0.3, 0.5, 0.6, 0.6, 0.9])
     force = largest_force(curve, medium) * shape
-    result = march_medium_events(disc, medium, times, force=force, until_fraction=0.1)
+    result = march_medium_events(DISC, medium, times, force=force, until_fraction=0.1)
     expected = kinetics(curve, impulses(force, times), medium)
     assert result.event_time.size > 80
     np.testing.assert_allclose(result.depth, expected.depth, rtol=1e-10, atol=0)
@@ -49,45 +43,30 @@ def test_events_under_a_ramp_a_step_and_a_hold(disc, curve, name):
     at_events = kinetics(curve, impulses(force, times), medium, result.event_time[between])
     assert between.sum() > 40
     np.testing.assert_allclose(result.event_depth[between], at_events.depth, rtol=1e-10)
-    area = disc.spacing**2
-    assert np.nansum(result.pressure) * area == pytest.approx(force[-1], rel=1e-12)
+    assert np.nansum(result.pressure) * AREA == pytest.approx(force[-1], rel=1e-12)
 
 
 @pytest.mark.parametrize("name", MEDIA)
-def test_events_at_given_depth_and_hold(disc, curve, name):
+def test_events_at_given_depth_and_hold(curve, name):
     """A ramp of depth and its hold, during which the force relaxes; a step first where the medium can follow it."""
     medium = MEDIA[name]
     times, depth = np.array([0, 1.0, 1.5, END]), curve.depth[-1] * np.array([0.4, 0.9, 0.9, 0.9])
     if name not in SPRINGY:
         depth[0] = 0
-    result = march_medium_events(disc, medium, times, depth=depth, until_fraction=0.1)
+    result = march_medium_events(DISC, medium, times, depth=depth, until_fraction=0.1)
     expected = force_under_depth(curve, depth, medium, times)
     which = slice(0, None) if name in SPRINGY else slice(2, None)  # a dashpot's force jumps at the ends of the ramp
     np.testing.assert_allclose(result.force[which], expected.force[which], rtol=1e-9)
-    assert np.nansum(result.pressure) * disc.spacing**2 == pytest.approx(result.force[-1], rel=1e-12)
+    assert np.nansum(result.pressure) * AREA == pytest.approx(result.force[-1], rel=1e-12)
 
 
-def test_events_end_where_contact_recedes(disc, curve):
+def test_events_end_where_contact_recedes(curve):
     medium = MEDIA["maxwell"]
     force = largest_force(curve, medium) * np.array([0.5, 0.1])
     with pytest.raises(ValueError, match="between 0 and 1 on the contact recedes"):
-        march_medium_events(disc, medium, [0.0, 1.0], force=force, until_fraction=0.1)
+        march_medium_events(DISC, medium, [0.0, 1.0], force=force, until_fraction=0.1)
     with pytest.raises(ConvergenceError, match="more than 4 elements touch"):
-        march_medium_events(disc, medium, [0.0, 1.0], force=force[[0, 0]], until_fraction=1e-3)
-
-
-def test_rectangular_elements():
-    """Spacings of 1 and 2: events and steps against the loading curve of the same elements."""
-    heights = self_affine_disc(0.7, 17, seed=3).heights
-    indenter = Indenter(heights, 0.1, 0.2)
-    medium, curve = MEDIA["solid"], indent(indenter, until_fraction=0.5, tolerance=1e-10)
-    force = np.full(3, largest_force(curve, medium))
-    expected = kinetics(curve, force[0], medium, [0.0, 1.0, END])
-    events = march_medium_events(indenter, medium, [0.0, 1.0, END], force=force)
-    np.testing.assert_allclose(events.depth, expected.depth, rtol=1e-10)
-    assert np.nansum(events.pressure) * 0.1 * 0.2 == pytest.approx(force[0], rel=1e-12)
-    steps = march_medium(indenter, medium, np.linspace(0, END, 41), force=np.full(41, force[0]))
-    np.testing.assert_allclose(steps.depth[::20], expected.depth, rtol=1e-3)
+        march_medium_events(DISC, medium, [0.0, 1.0], force=force[[0, 0]], until_fraction=1e-3)
 
 
 # ---- steps
@@ -100,14 +79,14 @@ def smooth_force(curve, medium, number):
 
 @pytest.mark.parametrize(("scheme", "order"), [("backward_euler", 1), ("second_order", 2)])
 @pytest.mark.parametrize("name", MEDIA)
-def test_orders(disc, curve, name, scheme, order):
+def test_orders(curve, name, scheme, order):
     """The largest error of the depth at ten times."""
     medium, errors = MEDIA[name], []
     times, force = smooth_force(curve, medium, 4000)
     exact = kinetics(curve, force, medium, times)
     for number in (10, 20, 40):
         times, force = smooth_force(curve, medium, number)
-        result = march_medium(disc, medium, times, force=force, scheme=scheme)
+        result = march_medium(DISC, medium, times, force=force, scheme=scheme)
         assert np.isnan(result.receding_from)
         every = number // 10
         errors.append(abs(result.depth[every::every] / exact.depth[400::400] - 1).max())
@@ -116,19 +95,19 @@ def test_orders(disc, curve, name, scheme, order):
 
 
 @pytest.mark.parametrize("name", SPRINGY)
-def test_a_step_is_elastic_and_relaxes_with_the_modulus(disc, curve, name):
+def test_a_step_is_elastic_and_relaxes_with_the_modulus(curve, name):
     """At once: the elastic problem with G₀; dead load in one long step of any scheme stays compressive.
 
     A step of depth and its hold: F = f(u) ψ(t), exactly where branches decay exactly.
     """
     medium, force, depth = MEDIA[name], largest_force(curve, MEDIA[name]), np.full(5, 0.7 * curve.depth[-1])
     for scheme in MEDIUM_SCHEMES:
-        result = march_medium(disc, medium, [0.0, 1.0], force=[force, force], scheme=scheme)
+        result = march_medium(DISC, medium, [0.0, 1.0], force=[force, force], scheme=scheme)
         at_once = curve.at_force(force / medium.relaxation.instantaneous_modulus)[0]
         assert result.depth[0] == pytest.approx(at_once, rel=1e-10)
         assert np.nanmin(result.pressure) >= 0
     times = np.linspace(0, END, 5)
-    result, expected = march_medium(disc, medium, times, depth=depth), force_under_depth(curve, depth, medium, times)
+    result, expected = march_medium(DISC, medium, times, depth=depth), force_under_depth(curve, depth, medium, times)
     np.testing.assert_allclose(result.force, expected.force, rtol=1e-10)
 
 

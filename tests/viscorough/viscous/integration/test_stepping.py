@@ -3,38 +3,21 @@
 import numpy as np
 import pytest
 
-from viscorough import reference
-from viscorough.errors import AccuracyWarning
-from viscorough.indenter import Indenter
-from viscorough.surfaces import self_affine_disc
-from viscorough.viscous.integration.events import march_events
-from viscorough.viscous.integration.stepping import march_steps
+from viscorough import AccuracyWarning, Indenter, march_events, march_steps, reference, self_affine_disc
+
+DISC = Indenter(self_affine_disc(0.6, 33, seed=3).heights, (1.0, 2.0))
 
 
 @pytest.fixture(scope="module")
-def disc():
-    return self_affine_disc(0.6, 33, seed=3)
-
-
-@pytest.fixture(scope="module")
-def events(disc):
-    return march_events(disc)
-
-
-@pytest.mark.parametrize(("scheme", "error"), [("implicit", 1e-7), ("heun", 2e-2), ("explicit", 1e-3)])
-def test_steps_on_rectangles_follow_the_events(scheme, error):
-    disc = Indenter(self_affine_disc(0.6, 17, seed=3).heights, (1.0, 3.0))
-    events = march_events(disc)
-    impulses = np.geomspace(events.impulse[3], events.impulse[100], 5)
-    result = march_steps(disc, impulses, scheme=scheme, overlap=1e-3, tolerance=1e-8)
-    np.testing.assert_allclose(result.depth, events.depth_at(impulses), rtol=error)
+def events():
+    return march_events(DISC)
 
 
 @pytest.mark.parametrize("steps", [1, 15])
-def test_implicit_steps_are_exact_whatever_their_size(disc, events, steps):
+def test_implicit_steps_are_exact_whatever_their_size(events, steps):
     last = events.impulse[700]
     impulses = np.geomspace(last / 300, last, steps) if steps > 1 else np.array([last])
-    result = march_steps(disc, impulses, scheme="implicit", tolerance=1e-8)
+    result = march_steps(DISC, impulses, scheme="implicit", tolerance=1e-8)
     np.testing.assert_allclose(result.depth, events.depth_at(impulses), rtol=1e-7)
     assert result.overlap.max() < 1e-7
     touching = np.searchsorted(events.impulse, impulses, side="right")
@@ -49,23 +32,23 @@ def test_implicit_steps_find_depths_where_loose_contacts_make_the_force_jump():
     np.testing.assert_allclose(steps.depth[-1], sphere.mdr_profile(0.45), rtol=1e-2)
 
 
-def test_explicit_steps_are_of_first_order_in_the_overlap_they_allow(disc, events):
+def test_explicit_steps_are_of_first_order_in_the_overlap_they_allow(events):
     impulses = np.geomspace(events.impulse[3], events.impulse[700], 5)
     allowed, errors = np.array([1e-1, 3e-2, 1e-2, 3e-3, 1e-3]), []
     for overlap in allowed:
-        result = march_steps(disc, impulses, overlap=overlap)
+        result = march_steps(DISC, impulses, overlap=overlap)
         assert result.overlap.max() <= overlap * (1 + 1e-9)
         errors.append(np.abs(result.depth / events.depth_at(impulses) - 1).max())
     assert errors[-1] < 2e-3
     assert np.polyfit(np.log(allowed), np.log(errors), 1)[0] == pytest.approx(1.0, abs=0.25)
 
 
-def test_mean_velocities_of_a_step_are_more_accurate_than_those_at_its_start(disc, events):
+def test_mean_velocities_of_a_step_are_more_accurate_than_those_at_its_start(events):
     errors = {"explicit": [], "heun": []}
     for steps in (32, 64, 128, 256):
         impulses = np.geomspace(events.impulse[1] / 10, events.impulse[700], steps)
         for scheme, of_scheme in errors.items():
-            result = march_steps(disc, impulses, scheme=scheme)
+            result = march_steps(DISC, impulses, scheme=scheme)
             of_scheme.append(np.sqrt(np.mean((result.depth / events.depth_at(impulses) - 1) ** 2)))
     ratio = np.array(errors["heun"]) / errors["explicit"]
     assert ratio.max() < 0.8
@@ -73,22 +56,22 @@ def test_mean_velocities_of_a_step_are_more_accurate_than_those_at_its_start(dis
     assert errors["heun"][-1] < 0.2 * errors["heun"][0]
 
 
-def test_long_explicit_steps_overlap_the_surface_deeply(disc, events):
+def test_long_explicit_steps_overlap_the_surface_deeply(events):
     """The known failure of the scheme occurs, warns, and is reported in `overlap`."""
     with pytest.warns(AccuracyWarning, match=r"overlaps the surface by up to \d"):
-        result = march_steps(disc, np.linspace(0, events.impulse[700], 11)[1:])
+        result = march_steps(DISC, np.linspace(0, events.impulse[700], 11)[1:])
     assert result.overlap[0] > 0.5
     assert result.depth[0] > 2 * events.depth_at(result.impulse[0])
 
 
-def test_refuses(disc):
+def test_refuses():
     for change, message in (
         ({"scheme": "magic"}, "scheme must be one of explicit, heun, implicit"),
         ({"impulses": [2.0, 1.0]}, "each larger than the one before"),
         ({"overlap": 0.0}, "overlap must be positive"),
         ({"indenter": Indenter(np.zeros(3), 1.0)}, "two-dimensional"),
     ):
-        arguments = {"indenter": disc, "impulses": [1.0], **change}
+        arguments = {"indenter": DISC, "impulses": [1.0], **change}
         with pytest.raises(ValueError, match=message):
             march_steps(arguments.pop("indenter"), arguments.pop("impulses"), **arguments)
 

@@ -10,6 +10,7 @@ import contextlib
 import pkgutil
 import time
 from functools import partial
+from unittest.mock import patch
 
 import numpy as np
 import pandas as pd
@@ -45,26 +46,23 @@ PARTS_OF_LINE = {
 }
 
 
-def curves(hursts, seeds, repeats):
-    """Loading curves of discs: cost, and errors against many levels solved to 1e-6."""
-    return [_curve(hurst, seed, repeats) for hurst in hursts for seed in seeds]
-
-
-def _curve(hurst, seed, repeats):
+def curve(hurst, seed, repeats):
+    """Loading curve of a disc: cost, and errors against many levels solved to 1e-6."""
     disc = self_affine_disc(hurst, ELEMENTS, seed=seed)
     compute = partial(indent, disc, until_fraction=UNTIL, until_force=4 * UNTIL_X)
-    curve, (wall, processor) = compute(), medians({"curve": compute}, repeats)["curve"]
-    at_levels = indent(disc, tolerance=1e-6, depths=curve.depth[curve.contact_count > 1])
-    fine = indent(disc, tolerance=1e-6, depths=np.geomspace(curve.depth[0], curve.depth[-1] * (1 - 1e-9), 300))
-    inside = fine.force <= curve.force[-1]
-    depth, _ = curve.at_force(fine.force[inside])
-    force_error = curve.force[curve.contact_count > 1] / at_levels.force - 1
+    computed, (wall, processor) = compute(), medians({"curve": compute}, repeats)["curve"]
+    several = computed.contact_count > 1
+    at_levels = indent(disc, tolerance=1e-6, depths=computed.depth[several])
+    fine = indent(disc, tolerance=1e-6, depths=np.geomspace(computed.depth[0], computed.depth[-1] * (1 - 1e-9), 300))
+    inside = fine.force <= computed.force[-1]
+    depth, _ = computed.at_force(fine.force[inside])
+    force_error = computed.force[several] / at_levels.force - 1
     return {
         "hurst": hurst,
         "seed": seed,
         "wall_s": wall,
         "processor_s": processor,
-        "operator_applications": curve.operator_applications,
+        "operator_applications": computed.operator_applications,
         "force_error": float(np.abs(force_error).max()),
         "interpolation_error": float(np.abs(depth / fine.depth[inside] - 1).max()),
     }
@@ -123,12 +121,10 @@ def stopwatch(parts):
 
         return call
 
-    with contextlib.ExitStack() as restore:
+    with contextlib.ExitStack() as patches:
         for part, names in parts.items():
             for name in names:
-                owner, function = pkgutil.resolve_name(name.rpartition(".")[0]), pkgutil.resolve_name(name)
-                restore.callback(setattr, owner, name.rpartition(".")[2], function)
-                setattr(owner, name.rpartition(".")[2], timed(part, function))
+                patches.enter_context(patch(name, timed(part, pkgutil.resolve_name(name))))
         yield seconds
 
 
@@ -145,8 +141,8 @@ def parts():
     rows = {}
     for across in (ELEMENTS, 1025):
         disc = self_affine_disc(0.6, across, seed=1)
-        curve = partial(indent, disc, until_fraction=UNTIL, until_force=4 * UNTIL_X)
-        rows[f"curve of a {across} disc"] = curve, PARTS_OF_CURVE
+        compute = partial(indent, disc, until_fraction=UNTIL, until_force=4 * UNTIL_X)
+        rows[f"curve of a {across} disc"] = compute, PARTS_OF_CURVE
     rows[f"line of {POINTS} points"] = partial(curve_of_line, SelfAffineLines(0.6, POINTS)), PARTS_OF_LINE
     result = {}
     for name, (function, timed_parts) in rows.items():
@@ -162,9 +158,9 @@ def over_operators(hursts, across, repeats):
     """
     rows = []
     for hurst in hursts:
-        curve = partial(indent, self_affine_disc(hurst, across, seed=3), until_fraction=UNTIL)
-        applications = curve().operator_applications
-        measured = [shares(curve, {"operator": PARTS_OF_CURVE["operator"]}) for _ in range(repeats)]
+        compute = partial(indent, self_affine_disc(hurst, across, seed=3), until_fraction=UNTIL)
+        applications = compute().operator_applications
+        measured = [shares(compute, {"operator": PARTS_OF_CURVE["operator"]}) for _ in range(repeats)]
         seconds, share = (np.median([row[name] for row in measured]) for name in ("processor_s", "operator"))
         rows.append({"hurst": hurst, "processor_s": seconds, "ratio": 1 / share, "operators": applications})
     return rows
@@ -190,7 +186,7 @@ def measured(repeats):
         "line": lines((0.1, 0.6, 0.9), 3 * repeats),
         "rectangles": rectangles((1.0, 2.0, 0.5, 5.0, 0.2), repeats),
         "large_map": large_map(2049),
-        "curve": curves((0.1, 0.4, 0.6, 0.9), (1, 2), repeats),
+        "curve": [curve(hurst, seed, repeats) for hurst in (0.1, 0.4, 0.6, 0.9) for seed in (1, 2)],
     }
 
 

@@ -95,15 +95,8 @@ def bodies():
         yield "free", f"F/(G L²) of a {name}", force, curve.force[0], second * force, SECOND_ORDER, source
         if name == "sphere":
             motion = kinetics(indent(indenter, tolerance=1e-5, until_force=1.01 * force), 1.0, 1.0, [force])
-            yield (
-                "free",
-                "u/L of a sphere, viscous",
-                depth,
-                motion.depth[0],
-                second * depth,
-                SECOND_ORDER,
-                "Lee and Radok 1960",
-            )
+            quantity = "u/L of a sphere, viscous", depth, motion.depth[0], second * depth
+            yield "free", *quantity, SECOND_ORDER, "Lee and Radok 1960"
     x = (np.arange(ELEMENTS) - ELEMENTS // 2) / ELEMENTS
     ellipse = Indenter(np.where((2 * x[:, None]) ** 2 + x**2 <= RADIUS**2, 0.0, np.nan), 1 / ELEMENTS)
     exact, ours = reference.flat_ellipse_stiffness(RADIUS, RADIUS / 2), indent(ellipse, tolerance=1e-5).stiffness[0]

@@ -85,12 +85,10 @@ def printed(*command):
 # ---- a cluster of one machine
 
 
-def free_ports(number):
-    with contextlib.ExitStack() as stack:
-        sockets = [stack.enter_context(socket.socket()) for _ in range(number)]
-        for free in sockets:
-            free.bind(("127.0.0.1", 0))
-        return [free.getsockname()[1] for free in sockets]
+def free_ports():
+    """Two free ports."""
+    with socket.create_server(("127.0.0.1", 0)) as first, socket.create_server(("127.0.0.1", 0)) as second:
+        return first.getsockname()[1], second.getsockname()[1]
 
 
 @contextlib.contextmanager
@@ -102,7 +100,7 @@ def cluster(folder):
     (folder / "munge.key").write_bytes(os.urandom(128))
     (folder / "munge.key").chmod(0o600)
     memory = psutil.virtual_memory().total // 2**20 * 3 // 4
-    settings = {"node": NODE, "folder": folder, "ports": free_ports(2), "cpus": os.cpu_count(), "memory": memory}
+    settings = {"node": NODE, "folder": folder, "ports": free_ports(), "cpus": os.cpu_count(), "memory": memory}
     conf.write_text(SLURM_CONF.format(**settings))
     (folder / "bin" / "srun").write_text(SRUN.format(conf=conf, srun=shutil.which("srun")))
     (folder / "bin" / "srun").chmod(0o755)

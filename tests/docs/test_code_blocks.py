@@ -11,6 +11,7 @@ import yaml
 from matplotlib.testing.compare import compare_images
 
 from support.documentation import PAGES, README, ROOT, blocks
+from support.workflow import merged, read_settings
 from viscorough.cli import main
 from viscorough_study.run.settings import check_settings
 
@@ -57,12 +58,8 @@ def test_readme_makes_the_picture_that_it_shows(tmp_path):
 
 
 def test_settings_shown_are_valid():
-    default = (ROOT / "config/config.yaml").read_text(encoding="utf-8")
     schema = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text(encoding="utf-8"))
     examples = [yaml.safe_load(block.text) for page in PAGES for block in blocks(page) if block.language == "yaml"]
     assert len(examples) >= 2
     for settings in examples:
-        merged = yaml.safe_load(default)
-        for section, keys in settings.items():
-            merged[section] = keys if isinstance(keys, list) else merged[section] | keys
-        check_settings(merged, schema)
+        check_settings(merged(read_settings("config"), settings), schema)

@@ -125,16 +125,10 @@ def default_path():
     )
 
 
-def grid_factor(quantity):
-    """Change of a quantity with ten times as many elements, by Hurst exponent."""
+def grid_change(quantity, column="factor"):
+    """Change of a quantity with ten times as many elements, or ends of its interval, by Hurst exponent."""
     table = published("grid_dependence.csv").drop_duplicates(["hurst", "quantity"])
-    return table[table["quantity"] == quantity].set_index("hurst")["factor"]
-
-
-def grid_bounds(quantity):
-    """Interval of `grid_factor`."""
-    table = published("grid_dependence.csv").drop_duplicates(["hurst", "quantity"])
-    return table[table["quantity"] == quantity].set_index("hurst")[["factor_low", "factor_high"]]
+    return table[table["quantity"] == quantity].set_index("hurst")[column]
 
 
 def periodic(roll_off):
@@ -207,13 +201,9 @@ def minutes_of_reproduction():
     return re.search(r"which shows them; ([\d.]+) minutes", words("docs/reproduce.md"))[1]
 
 
-def benchmarks(key, quantity):
-    """A quantity in all rows of a key of `make bench`."""
-    return [row[quantity] for row in json.loads(read(ROOT / "docs/results/benchmarks.json"))[key]]
-
-
-def large_map():
-    return json.loads(read(ROOT / "docs/results/benchmarks.json"))["large_map"]
+def benchmarks(key):
+    """A key of `make bench`: a column for every quantity, or for every problem."""
+    return pd.DataFrame(json.loads(read(ROOT / "docs/results/benchmarks.json"))[key])
 
 
 def other_times():
@@ -259,10 +249,9 @@ QUOTED = {
             plateaus("roll_off")["decades_high"].max() >= 1.5 > plateaus("roll_off")["decades_low"].max()
         ),
         "own scale: {} discs and 50 500 lines": lambda: discs_of_paper()["base"],
-        "`make paper` has {} discs, twice the paper's {:.0f} |": lambda: [
-            discs_of_paper()["base"],
-            discs_of_paper()["base"] / 2,
-        ],
+        "`make paper` has {:.0f} discs, twice the paper's {:.0f} |": lambda: (
+            discs_of_paper()["base"] / np.array([1, 2])
+        ),
         "than the paper: {:.0f} discs for every *H*, of which {:.0f} go on to region (c), and {} lines": lambda: [
             9 * read_settings("config")["discs"]["realizations"],
             9 * read_settings("config")["discs"]["whole_curves"],
@@ -292,12 +281,12 @@ QUOTED = {
         "in `make paper`, where both are": lambda: 0.17 < line_over_disc() < 0.23,
         "by {} to {}": lambda: ends(early()["slope"].abs(), 3),
         "which would be {} to {}": lambda: ends(value("gamma", column="expected"), 2),
-        "*u*/*h* = 1 by {:.2f} at *H* = 0.1 and by {:.2f} at": lambda: grid_factor("κ at u/h = 1")[[0.1, 0.4]],
+        "*u*/*h* = 1 by {:.2f} at *H* = 0.1 and by {:.2f} at": lambda: grid_change("κ at u/h = 1")[[0.1, 0.4]],
         "the same, within {:.0f} %, from": lambda: (
-            100 * abs(np.log(grid_bounds("κ at u/h = 1").loc[[0.9, 1.0]])).max(axis=None)
+            100 * abs(np.log(grid_change("κ at u/h = 1", ["factor_low", "factor_high"]).loc[[0.9, 1.0]])).max(axis=None)
         ),
-        "change *vt*/*h* by at most {:.0f} %": lambda: 100 * (grid_factor("vt/h at X = 0.1") - 1).abs().max(),
-        "*u*/*h* grows by {:.0f} % at": lambda: 100 * (grid_factor("u/h at X = 0.1")[0.1] - 1),
+        "change *vt*/*h* by at most {:.0f} %": lambda: 100 * (grid_change("vt/h at X = 0.1") - 1).abs().max(),
+        "*u*/*h* grows by {:.0f} % at": lambda: 100 * (grid_change("u/h at X = 0.1")[0.1] - 1),
     },
     "docs/theory.md": {
         "changes *ζ* by {} to {} %": lambda: percents(value("gamma", column="expected")),
@@ -308,7 +297,7 @@ QUOTED = {
         "it is {:.2f}, {:.2f} and {:.2f} at *H* = 0.1, 0.6 and 0.9": lambda: periodic(roll_off=False),
         "a plateau of {:.2f} to {:.2f}. So": lambda: plateau_of_interface()["u0"].agg(["min", "max"]),
         "period it is {:.2f}, {:.2f} and {:.2f}": lambda: periodic(roll_off=True),
-        "below 2e-5 at the default": lambda: max(benchmarks("curve", "force_error")) < 2e-5,
+        "below 2e-5 at the default": lambda: benchmarks("curve")["force_error"].max() < 2e-5,
         "rms slope above about {}": lambda: str(_STEEP_SLOPE),
         "Up to {} times the bound": lambda: str(_RELAXED_BOUND),
         "softer by about 1.3/*n*": lambda: all(
@@ -357,11 +346,9 @@ QUOTED = {
     },
     "docs/performance.md": {
         "Of {} min": minutes_of_paper,
-        "takes {:.1f} to {:.1f} times as long as its applications": lambda: [
-            pick(benchmarks("over_operators", "ratio")) for pick in (min, max)
-        ],
-        "the contact at one force {:.1f} s": lambda: large_map()["contact"]["wall_s"],
-        "50 % contact takes {:.0f} s, and": lambda: large_map()["curve"]["wall_s"],
+        "takes {} to {} times as long as its applications": lambda: ends(benchmarks("over_operators")["ratio"], 1),
+        "the contact at one force {:.1f} s": lambda: benchmarks("large_map")["contact"]["wall_s"],
+        "50 % contact takes {:.0f} s, and": lambda: benchmarks("large_map")["curve"]["wall_s"],
         "4097 elements across takes {:.0f} s up to 50 % contact and {:.1f} GB, on one": lambda: cost_of_large(4097, 1),
         "on one thread, {:.0f} s on two": lambda: large(4097, "wall_threads"),
         "{:.0f} minutes and {:.1f} GB, on two threads {:.1f} minutes": lambda: [
@@ -382,10 +369,7 @@ QUOTED = {
             100 * costs()[["reduce_lines", "indent_surfaces"]] / costs().sum()
         ),
         "the largest job took {:.0f} GB": lambda: costs("memory_mb").max() / 1000,
-        "takes {:.2g} to {:.2g} times as long for the single levels": lambda: [
-            two_threads().min(),
-            two_threads().max(),
-        ],
+        "takes {:.2g} to {:.2g} times as long for the single levels": lambda: two_threads().agg(["min", "max"]),
     },
 }
 

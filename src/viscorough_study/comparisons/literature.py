@@ -120,8 +120,8 @@ def _gamma(u0):
 
 def _ratio(reduction, name):
     """Ratio of lines to discs, and its interval, at X_COMPARED."""
-    rows = reduction.assign(distance=np.log(reduction["x"] / X_COMPARED).abs()).sort_values("distance")
-    return _or_none(_named_value(rows[rows["distance"] < 1e-6], f"{name}_ratio"))
+    rows = reduction[np.log(reduction["x"] / X_COMPARED).abs() < 1e-6]
+    return _or_none(_named_value(rows, f"{name}_ratio"))
 
 
 def _named_value(rows, name):

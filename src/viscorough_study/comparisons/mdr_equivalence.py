@@ -49,22 +49,22 @@ EXPONENT_COLUMNS = {
     **described("beta_lines", "exponent β of the lines"),
     **described("difference", "β of the lines minus β of the discs"),
 }
+TABLES = {"mdr_lambda": LAMBDA_COLUMNS, "mdr_summary": SUMMARY_COLUMNS, "mdr_exponents": EXPONENT_COLUMNS}
 
 
 def mdr_tables(discs, lines, *, seed, fit, conventions):
-    """{"mdr_lambda", "mdr_summary", "mdr_exponents": table} of `compare_ensembles`, of pools of base discs and lines.
+    """Tables of `compare_ensembles`, of pools of base discs and lines.
 
     fit : settings of region (b); conventions : average, and rms convention of the discs
     """
     lines = lines.isel(realization=np.flatnonzero(np.isin(lines["hurst"], discs["hurst"])))
     discs = ensembles(select(discs, group="base"), "hurst", rms_convention=conventions["rms_convention"])
     lines = ensembles(lines, "hurst", rms_convention="line")
-    tables = compare_ensembles(discs, lines, average=conventions["average"], seed=seed, **fit)
-    return dict(zip(("mdr_lambda", "mdr_summary", "mdr_exponents"), tables, strict=True))
+    return compare_ensembles(discs, lines, average=conventions["average"], seed=seed, **fit)
 
 
 def compare_ensembles(discs, lines, *, average, stiffness_range, resamples, seed, **limits):
-    """The three tables of discs and lines, with `LAMBDA_COLUMNS`, `SUMMARY_COLUMNS` and `EXPONENT_COLUMNS`.
+    """The three tables of discs and lines, {name in `TABLES`: table with its columns}.
 
     discs, lines : {H: ensemble (ensembles.averages) in one rms convention}, of equal abscissae; Hurst exponents that
         both have are compared
@@ -72,15 +72,14 @@ def compare_ensembles(discs, lines, *, average, stiffness_range, resamples, seed
     stiffness_range, limits : arguments of viscorough_study.fits.power_law.named_windows
     Without a region (b) there are no rows of λ, and the values of the other tables are nan.
     """
-    bootstrap, parts = {"average": average, "resamples": resamples}, ([], [], [])
+    bootstrap, rows = {"average": average, "resamples": resamples, "seed": seed}, {name: [] for name in TABLES}
     for hurst in sorted(set(discs) & set(lines)):
         pair = discs[hurst], lines[hurst]
-        lambda_rows, summary = _lambda_rows(*pair, limits, **bootstrap, seed=seed)
-        rows = [lambda_rows, [summary], _exponent_rows(*pair, stiffness_range, limits, **bootstrap, seed=seed)]
-        for part, more in zip(parts, rows, strict=True):
-            part += [{"hurst": hurst} | row for row in more]
-    columns = LAMBDA_COLUMNS, SUMMARY_COLUMNS, EXPONENT_COLUMNS
-    return [pd.DataFrame(part, columns=list(names)) for part, names in zip(parts, columns, strict=True)]
+        lambdas, summary = _lambda_rows(*pair, limits, **bootstrap)
+        made = lambdas, [summary], _exponent_rows(*pair, stiffness_range, limits, **bootstrap)
+        for name, members in zip(TABLES, made, strict=True):
+            rows[name] += [{"hurst": hurst} | row for row in members]
+    return {name: pd.DataFrame(rows[name], columns=list(columns)) for name, columns in TABLES.items()}
 
 
 def _lambda_rows(discs, lines, limits, **bootstrap):

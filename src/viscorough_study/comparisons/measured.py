@@ -1,7 +1,7 @@
 """Tables of measured surfaces: lengths, power laws of their groups, and kinetics."""
 
 import json
-from itertools import product
+from itertools import chain, product
 
 import pandas as pd
 
@@ -41,25 +41,20 @@ def measured_tables(pool, curves, *, names, forces, media, times, fit, seed):
     media : mappings with a name and the keys of a medium; times : low, high [s], per_decade
     fit : settings in section `scaling`
     """
-    loading = {"forces": forces, "media": named_media(media), "times": abscissa(**times)}
-    scans, motions = scans_and_kinetics(curves, names=names, **loading)
-    fits = group_fits(ensembles(pool, "group"), seed=seed, **fit)
-    return {"measured_scans": scans, "measured_fits": fits, "measured_kinetics": motions}
-
-
-def scans_and_kinetics(batches, *, names, forces, media, times):
-    """Tables with the columns of `COLUMNS` and of `KINETICS`.
-
-    batches : Content of the curve of each scan; names : of the scans; forces : of each scan [N]
-    media : {name: medium} in Pa and s; times : t > 0, increasing [s]
-    """
     scans, motions = [], [pd.DataFrame(columns=list(KINETICS))]
-    for name, batch, scan_forces in zip(names, batches, forces, strict=True):
+    media, times = named_media(media), abscissa(**times)
+    for name, batch, scan_forces in zip(names, curves, forces, strict=True):
         (curve,), (settings,) = unstack_curves(batch), json.loads(batch.attributes["settings"])["ensembles"]
         labels = {"scan": name, "group": settings["group"]}
         scans.append(labels | {"file": settings["file"]} | settings["lengths"])
         motions += [part.assign(**labels) for part in _motions(curve, media, scan_forces, times)]
-    return pd.DataFrame(scans), pd.concat(motions[1:] or motions, ignore_index=True)[list(KINETICS)]
+    groups = ensembles(pool, "group").items()
+    fits = [fit_rows(ensemble, source="measured", case_group=group, seed=seed, **fit) for group, ensemble in groups]
+    return {
+        "measured_scans": pd.DataFrame(scans),
+        "measured_fits": pd.DataFrame(chain.from_iterable(fits)),
+        "measured_kinetics": pd.concat(motions[1:] or motions, ignore_index=True)[list(KINETICS)],
+    }
 
 
 def _motions(curve, media, forces, times):
@@ -71,12 +66,3 @@ def _motions(curve, media, forces, times):
         if motion := motion_on_curve(curve, force, medium, times):
             columns = {"time": motion.time, "depth": motion.depth, "velocity": motion.velocity}
             yield pd.DataFrame(columns).assign(medium=name, force=force)
-
-
-def group_fits(groups, **fit):
-    """Table of the power laws of groups, with the columns of `fit_table`.
-
-    groups : {name: ensemble dataset of its scans}; fit : resamples, seed and limits of fit_table.fit_rows
-    """
-    rows = [fit_rows(ensemble, source="measured", case_group=group, **fit) for group, ensemble in groups.items()]
-    return pd.DataFrame([row for rows_of_group in rows for row in rows_of_group])

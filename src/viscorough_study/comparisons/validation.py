@@ -103,8 +103,7 @@ def _errors_on_grid(n):
             yield f"{name}_{history}_force", errors
         yield f"{name}_reduction", _reduction(body.mdr_line(n), body)
     yield "sphere_on_rectangles", _indentation(BODIES["sphere"].indenter(2 * n, rows=n), BODIES["sphere"])
-    for name, error in _flat_punches(n).items():
-        yield name, {"punch_stiffness": error}
+    yield from _flat_punches(n)
     yield WITHOUT_ORDER, {"correspondence": _correspondence(self_affine_disc(elements_across=n, **ROUGH))}
 
 
@@ -114,10 +113,9 @@ def _flat_punches(n):
     x = (np.arange(n) - (n - 1) / 2) / n
     ellipses = [Indenter(np.where((2 * x[:, None]) ** 2 + x**2 <= major**2, 0.0, np.nan), 1 / n) for major in ELLIPSES]
     stiffness = [indent(punch, tolerance=TOLERANCE).stiffness[0] for punch in (disc, *ellipses)]
-    return {
-        "disc": _error(stiffness[0], reference.flat_disc_stiffness(0.5)),
-        "ellipse": _error(np.array(stiffness[1:]), reference.flat_ellipse_stiffness(ELLIPSES, ELLIPSES / 2)),
-    }
+    exact = reference.flat_ellipse_stiffness(ELLIPSES, ELLIPSES / 2)
+    yield "disc", {"punch_stiffness": _error(stiffness[0], reference.flat_disc_stiffness(0.5))}
+    yield "ellipse", {"punch_stiffness": _error(np.array(stiffness[1:]), exact)}
 
 
 def _correspondence(disc):
@@ -149,7 +147,6 @@ def _penetration(indenter, body):
     exact = body.depth(loading)
     times = loading * VISCOSITY / FORCE
     constant = kinetics(curve, FORCE, VISCOSITY, times)
-
     rising_times = np.append(0, np.sqrt(times * times[-1]))
     rising_force = 2 * FORCE * rising_times / times[-1]
     rising = kinetics(curve, rising_force, VISCOSITY, rising_times)

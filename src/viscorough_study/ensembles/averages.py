@@ -21,8 +21,6 @@ def abscissa(low, high, per_decade):
     """
     if not (0 < low <= high < np.inf):
         raise ValueError(f"abscissa: low and high must be 0 < low <= high < inf, not {low} and {high}")
-    if per_decade != int(per_decade) or per_decade < 1:
-        raise ValueError(f"abscissa: per_decade must be a whole number >= 1, not {per_decade}")
     first = np.ceil(per_decade * np.log10(low) - ROUNDING)
     last = np.floor(per_decade * np.log10(high) + ROUNDING)
     if last < first:
@@ -39,10 +37,8 @@ def on_abscissae(curves, rms, diameter, x):
 
     κ = k/(4GL) at F/G = 4hLX (Eq. 3); nan beyond the last level of a curve. Between levels ln(count) is linear in
     ln F, and below the first level the count is that of the first level.
-    Raises ValueError for no curves, or rms heights out of range.
+    Raises ValueError for rms heights out of range.
     """
-    if not curves:
-        raise ValueError("on_abscissae: there is no loading curve; at least one is needed")
     diameters = np.broadcast_to(diameter, len(curves))
     heights = np.empty((len(rms), len(curves)))
     for row, (name, values) in zip(heights, rms.items(), strict=True):

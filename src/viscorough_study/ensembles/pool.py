@@ -79,23 +79,20 @@ def ensembles(pool, *names, rms_convention=None):
 
     The ensembles have averages over their realizations (ensembles.averages). Their case and diameter are scalars if all
     realizations agree, otherwise coordinates of the realizations.
-    Raises ValueError unless all realizations of an ensemble have one Hurst exponent.
     """
     result, pool = {}, pool if rms_convention is None else pool.sel(rms_convention=[rms_convention])
     for values in dict.fromkeys(zip(*(pool[name].values.tolist() for name in names), strict=True)):
         key = values if len(names) > 1 else values[0]
-        ensemble = _ensemble(select(pool, **dict(zip(names, values, strict=True))), key)
+        ensemble = _ensemble(select(pool, **dict(zip(names, values, strict=True))))
         result[key] = ensemble if rms_convention is None else ensemble.isel(rms_convention=0)
     return result
 
 
-def _ensemble(part, key):
+def _ensemble(part):
     coords = {}
     for name in ("hurst", "elements", "case", "diameter", "until_x"):
         values = part[name].values
         same = np.unique(values).size == 1  # nan, of measured surfaces, is equal to nan
-        if not same and name == "hurst":
-            raise ValueError(f"{key}: the realizations differ in {name}, it must be the same in all")
         coords[name] = values[0] if same else ("realization", values)
     arrays = (part[name].values for name in ("x", *VARIABLES))
     return ensemble_dataset(part["rms_convention"].values.tolist(), *arrays, coords)

@@ -41,12 +41,10 @@ def plot_conventions(scaling, conventions):
     """β and ζ of the discs, with 95 % intervals, as one convention or the surfaces change; four values of H per row.
 
     scaling : scaling table; conventions : {column of it: value}, of which one is changed at a time
-    All β axes span the same length, all ζ axes the same ratio. Raises ValueError for a table without discs.
+    All β axes span the same length, all ζ axes the same ratio.
     """
     discs = scaling[scaling["source"] == "discs"]
     exponents = sorted(discs["hurst"].unique())
-    if not exponents:
-        raise ValueError("plot_conventions: the table has no discs; at least one is needed")
     changes = _changes(discs, conventions)
     betas, zetas, figure = _panels(len(exponents), len(changes))
     looks = style.hurst_looks(exponents)

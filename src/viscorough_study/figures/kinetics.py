@@ -101,9 +101,8 @@ def _mark_limits(axes, across):
     ):
         axes.plot([stiffness * low, stiffness * top], [low, top], color=style.GREY, linestyle=":", linewidth=0.8)
         y = low * (top / low) ** start
-        angle = np.degrees(
-            np.arctan(1 / stiffness)
-        )  # of the line through the origin, which has slope 1 in the logarithms
+        # Angle of the line through the origin, which has slope 1 in the logarithms.
+        angle = np.degrees(np.arctan(1 / stiffness))
         along = {"rotation": angle, "rotation_mode": "anchor", "transform_rotates_text": True}
         axes.text(stiffness * y, y, text, color=style.GREY, va=side, **along)
 

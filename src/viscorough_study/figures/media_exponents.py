@@ -15,7 +15,8 @@ def plot_media_exponents(table):
     table : of viscorough_study.comparisons.media_kinetics
     """
     names, looks = list(dict.fromkeys(table["medium"])), style.hurst_looks(table["hurst"])
-    figure, panels = style.new_panels(len(names), 3, height=48, rest=18, sharey=True)
+    label = r"exponent of $vt/h$ in $t$"
+    figure, panels = style.new_panels(len(names), 3, height=48, rest=18, ylabel=label, sharey=True)
     for axes, name in zip(panels, names, strict=True):
         for hurst, part in table[table["medium"] == name].groupby("hurst"):
             color = looks[hurst]["color"]
@@ -25,8 +26,6 @@ def plot_media_exponents(table):
         axes.set(title=medium_label(name), xscale="log", xlabel="time $t$ (s)", ylim=_RANGE)
         style.logarithmic_ticks(axes)
         axes.xaxis.set_major_locator(LogLocator(numticks=5))
-    for axes in panels[::3]:
-        axes.set_ylabel(r"exponent of $vt/h$ in $t$")
     guides = {"by Eq. 10 and $J$": "--", "exponent of $J$": ":"}
     style.add_legend_of_means(figure, style.hurst_handles(looks, marker="", linestyle="-"), guides, table)
     return figure

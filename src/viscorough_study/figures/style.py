@@ -83,14 +83,17 @@ def new_figure(height, width=WIDE):
     return Figure(figsize=(width, height * MM))
 
 
-def new_panels(count, columns, height, rest, **sharing):
+def new_panels(count, columns, height, rest, ylabel="", **sharing):
     """Figure and the list of its `count` panels, in rows of `columns`.
 
-    height : of a row of panels; rest : of titles, labels and legends in all [mm]; sharing : as in Figure.subplots
+    height : of a row of panels; rest : of titles, labels and legends in all [mm]; ylabel : of the first panel of a row
+    sharing : as in Figure.subplots
     """
     rows = -(-count // columns)
     figure = new_figure(height * rows + rest)
     grid = figure.subplots(rows, columns, squeeze=False, **sharing)
+    for axes in grid[:, 0]:
+        axes.set_ylabel(ylabel)
     for axes in grid.flat[count:]:
         axes.remove()
     return figure, list(grid.flat[:count])

@@ -15,7 +15,7 @@ def plot_surfaces(examples):
     examples : list of (Hurst exponent, heights over rms height of shape (rows, columns), spacing over diameter)
     """
     columns = min(4, len(examples))
-    figure, panels = style.new_panels(len(examples), columns, height=47, rest=15, sharey=True)
+    figure, panels = style.new_panels(len(examples), columns, height=47, rest=15, ylabel="$y/L$", sharey=True)
     figure.set(figwidth=style.WIDE * max(columns, 2) / 4, layout_engine="compressed")
     limits = {
         "vmin": min(np.nanmin(heights) for _, heights, _ in examples),
@@ -26,8 +26,6 @@ def plot_surfaces(examples):
         extent = (-half[1], half[1], -half[0], half[0])
         image = axes.imshow(heights, cmap=COLORS, extent=extent, origin="lower", interpolation="nearest", **limits)
         axes.set(title=f"$H={hurst:g}$", xlabel="$x/L$", xticks=(-0.5, 0, 0.5), yticks=(-0.5, 0, 0.5))
-    for axes in panels[::columns]:
-        axes.set_ylabel("$y/L$")
     bar = figure.colorbar(image, ax=panels, location="bottom", shrink=0.5, aspect=40, pad=0.03)
     bar.set_label("height$/h$ (darker is higher)")
     bar.ax.xaxis.set_major_locator(MaxNLocator(8, integer=True))

@@ -22,11 +22,9 @@ def plot_validation(table):
     quantities, cases = table["quantity"].unique(), table["case"].unique()
     looks, grids = _case_looks(cases), sorted(table["elements"].unique())
     columns = min(4, len(quantities))
-    figure, panels = style.new_panels(len(quantities), columns, height=54, rest=22)
+    figure, panels = style.new_panels(len(quantities), columns, height=54, rest=22, ylabel="relative error")
     for axes, quantity in zip(panels, quantities, strict=True):
         _draw_errors(axes, quantity, table[table["quantity"] == quantity], looks, grids)
-    for axes in panels[::columns]:
-        axes.set_ylabel("relative error")
     for axes in panels[-columns:]:  # the bottom row
         axes.set_xlabel("elements across, $n$")
     handles = [style.handle(case.replace("_", " "), **looks[case]) for case in cases]

@@ -24,12 +24,7 @@ VALUES = FITTED | {"gamma": GAMMA}  # convention: its allowed values
 
 
 def zeta_scale(beta, gamma):
-    """ζ in a reading of the law over ζ in the plain reading; of the shape of β.
-
-    Raises ValueError unless gamma is one of `GAMMA`.
-    """
-    if gamma not in GAMMA:
-        raise ValueError(f"gamma: must be one of {', '.join(GAMMA)}, not {gamma!r}")
+    """ζ in a reading of the law over ζ in the plain reading; of the shape of β. gamma : one of `GAMMA`"""
     return 1 / gamma_function(1 + beta) if gamma == "with" else np.ones_like(beta)
 
 

@@ -5,7 +5,6 @@ are those of the plain reading of the law; fits.conventions has functions that s
 """
 
 import logging
-from contextlib import suppress
 from itertools import product
 
 import numpy as np
@@ -62,10 +61,8 @@ def fit_rows(ensemble, *, source, case_group, lines=None, resamples, seed, **lim
     ensemble, lines : ensemble datasets (ensembles.averages); lines of the same Hurst exponent and abscissae,
         for λ, which is nan without lines, or where they do not reach the stiffness of the discs
     resamples, seed : of the bootstrap; limits : arguments of viscorough_study.fits.power_law.named_windows
-    Raises ValueError if the abscissae differ, or if a window has fewer than three.
+    Raises ValueError if a window has fewer than three abscissae.
     """
-    if lines is not None and not np.array_equal(ensemble["x"].values, lines["x"].values):
-        raise ValueError("fit_rows: discs and lines must have the same abscissae")
     rows = []
     for rms_convention in ensemble["rms_convention"].values.tolist():
         selected = ensemble.sel(rms_convention=rms_convention)
@@ -90,9 +87,7 @@ def _fit(ensemble, lines, window, **options):
     for gamma in GAMMA:
         columns |= dict(zip(interval_columns(gamma), fit.zeta(gamma)[1:], strict=True))
     if lines is not None:
-        with suppress(ValueError):
-            values = match_lambda(x, velocity, lines["velocity"].values[0], window, **options)
-            columns |= three_columns("lambda", values)
+        columns |= three_columns("lambda", match_lambda(x, velocity, lines["velocity"].values[0], window, **options))
     return columns
 
 

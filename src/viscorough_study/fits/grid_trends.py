@@ -14,7 +14,7 @@ from viscorough.reference import exponent_beta
 from viscorough_study.ensembles.pool import ensembles, select
 from viscorough_study.fits import fit_table
 from viscorough_study.fits.conventions import FITTED, fits, source_values
-from viscorough_study.fits.intervals import UNDEFINED, described, interval, line_slope, three_columns
+from viscorough_study.fits.intervals import UNDEFINED, described, equivalence, interval, line_slope, three_columns
 from viscorough_study.fits.power_law import fit_power_law, in_window
 from viscorough_study.run.job_log import progress
 
@@ -137,10 +137,10 @@ def _slope(elements, beta, low, high, realizations):
 
 def _finding(departure, slope, tolerance):
     """One of `FINDINGS`; departure, slope : value, low, high."""
-    if departure[1] >= -tolerance and departure[2] <= tolerance:
+    agrees = equivalence(departure[1:], -tolerance, tolerance)
+    if agrees:
         return FINDINGS[0]
-    outside = departure[1] > tolerance or departure[2] < -tolerance
-    if not outside or not np.isfinite(slope[0]):
+    if agrees is None or not np.isfinite(slope[0]):
         return FINDINGS[3]
     towards_expected = slope[2] < 0 if departure[0] > 0 else slope[1] > 0
     return FINDINGS[1] if towards_expected else FINDINGS[2]

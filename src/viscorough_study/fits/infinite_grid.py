@@ -14,13 +14,13 @@ import numpy as np
 import pandas as pd
 
 from viscorough.reference import exponent_beta
-from viscorough_study.fits.intervals import described
+from viscorough_study.fits.intervals import described, equivalence
 from viscorough_study.fits.scaling_collapse import COLUMNS as COLLAPSE_COLUMNS
 from viscorough_study.fits.scaling_collapse import HEIGHTS, QUANTITIES, collapse_table, curve_table, grids
 
 OMEGA = np.round(np.arange(0.2, 1.51, 0.1), 1)  # trial exponents of the correction
 CURVES_END = 1.0  # X up to which curves are drawn
-FINDINGS = ("agrees", "departs", "undecided")
+FINDINGS = {True: "agrees", False: "departs", None: "undecided"}
 PLACES = ("inside the range tried", "interval reaches an end", "at an end")  # of ω in the range of OMEGA
 COLUMNS = {
     "source": ("discs by boundary elements, lines by the MDR", ""),
@@ -57,15 +57,11 @@ def place_in_range(omega, low, high):
 
 def points(hurst_grids, quantity, height, *, elements_min, x_high):
     """(ln X, ln of the quantity of ensemble and resamples, weights) of all grids in a row; None for fewer than two."""
-    parts = []
-    for grid in hurst_grids:
-        curve = grid.beginning_at(elements_min).curve(quantity, height, x_high)
-        if curve is not None:
-            log_x, log_y = curve
-            # The variance of a mean is n/(n − 1) times that of bootstrap means.
-            widened = log_y.copy()
-            widened[1:] = log_y[0] + (log_y[1:] - log_y[0]) * np.sqrt(grid.realizations / (grid.realizations - 1))
-            parts.append((log_x, widened, np.full(log_x.size, float(grid.realizations))))
+    parts = [
+        (*curve, np.full(curve[0].size, float(grid.realizations)))
+        for grid in hurst_grids
+        if (curve := grid.beginning_at(elements_min).curve(quantity, height, x_high))
+    ]
     if len(parts) < 2:
         return None
     return tuple(np.concatenate([part[i] for part in parts], axis=-1) for i in range(3))
@@ -75,18 +71,16 @@ def fit(log_x, log_y, weights, *, corrected):
     """(ln A, β, B, ω) of every row of log_y, shape (rows, 4), and the weighted rms deviation of the first row."""
     root = np.sqrt(weights)
     target = (log_y * root).T
-    best, explained = None, None
+    best, explained = np.zeros((len(log_y), 4)), np.full(len(log_y), -np.inf)
     for omega in OMEGA if corrected else OMEGA[:1]:
         columns = [root, log_x * root] + ([np.exp(omega * log_x) * root] if corrected else [])
         basis, triangle = np.linalg.qr(np.stack(columns, axis=1))
         parts = basis.T @ target
-        fitted = np.zeros((target.shape[1], 4))
-        fitted[:, : len(columns)] = np.linalg.solve(triangle, parts).T
-        fitted[:, 3] = omega
         squares = np.sum(parts**2, axis=0)
-        better = np.full(squares.size, True) if best is None else squares > explained
-        best = fitted if best is None else np.where(better[:, None], fitted, best)
-        explained = squares if explained is None else np.where(better, squares, explained)
+        better = squares > explained
+        best[better, : len(columns)] = np.linalg.solve(triangle, parts).T[better]
+        best[better, 3] = omega
+        explained[better] = squares[better]
     remainder = max(np.sum(target[:, 0] ** 2) - explained[0], 0.0)
     return best, np.sqrt(remainder / weights.sum())
 
@@ -107,9 +101,8 @@ def limit_table(grids_by_hurst, source, *, elements_min, x_high, tolerance):
                 for start, end in product(elements_min, x_high[law])
                 if (values := points(hurst_grids, quantity, height, elements_min=start, x_high=end)) is not None
             ]
-            if not fits:
-                continue
-            limits.append(labels | _columns(fits, hurst_grids, hurst, tolerance))
+            if fits:
+                limits.append(labels | _columns(fits, hurst_grids, hurst, tolerance))
     return pd.DataFrame(limits, columns=list(COLUMNS))
 
 
@@ -129,15 +122,10 @@ def _columns(fits, hurst_grids, hurst, tolerance):
     if coefficients[0, 2]:
         row |= {"correction": coefficients[0, 2], "omega": coefficients[0, 3]}
         row["omega_low"], row["omega_high"] = _interval(coefficients[1:, 3])
-    low, high = min(lows) - expected, max(highs) - expected
-    row["finding"] = FINDINGS[2]
+    agrees = equivalence((min(lows) - expected, max(highs) - expected), -tolerance, tolerance)
     if coefficients[0, 2] and place_in_range(row["omega"], row["omega_low"], row["omega_high"]) == PLACES[2]:
-        return row
-    if max(abs(low), abs(high)) <= tolerance:
-        row["finding"] = FINDINGS[0]
-    elif low > tolerance or high < -tolerance:
-        row["finding"] = FINDINGS[1]
-    return row
+        agrees = None
+    return row | {"finding": FINDINGS[agrees]}
 
 
 def collapse_tables(discs, lines, *, ranges, conventions, tolerance, **options):

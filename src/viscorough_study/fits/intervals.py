@@ -91,6 +91,20 @@ def deviation_interval(deviation, freedom):
     return deviation, *ends
 
 
+def equivalence(interval, low, high):
+    """Whether a quantity with this 95 % interval lies in the range from low to high.
+
+    True if the whole interval lies in the range, False if it lies wholly outside, None if it contains an end of the
+    range or is undefined: then the data do not decide. This is a test of equivalence by two one-sided tests at 2.5 %
+    each (Schuirmann, J. Pharmacokinet. Biopharm. 15, 657 (1987)).
+    """
+    if not np.all(np.isfinite(interval)):
+        return None
+    if low <= interval[0] and interval[1] <= high:
+        return True
+    return False if interval[1] < low or interval[0] > high else None
+
+
 def difference(first, second):
     """Difference second − first of two independent quantities, (value, low, high), from their intervals."""
     value = second[0] - first[0]

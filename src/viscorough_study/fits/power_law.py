@@ -155,10 +155,8 @@ def log_means(velocity, average, resamples, generator):
     """ln of the mean of vt/h over the defined realizations: of the ensemble, then of its bootstrap resamples.
 
     velocity : shape (realizations, abscissae), nan where undefined; average : "arithmetic" or "geometric"
-    Returns an array of shape (resamples + 1, abscissae). Raises ValueError for another average.
+    Returns an array of shape (resamples + 1, abscissae).
     """
-    if average not in FITTED["average"]:
-        raise ValueError(f"average: must be one of {', '.join(FITTED['average'])}, not {average!r}")
     n = len(velocity)
     # Multinomial counts of each realization, generated faster than by Generator.multinomial.
     drawn = generator.integers(n, size=(resamples, n)) + n * np.arange(resamples)[:, None]

@@ -85,7 +85,10 @@ class Grid:
         return replace(self, **parts)
 
     def curve(self, quantity, height, x_high):
-        """(ln X, ln of the quantity of ensemble and resamples) up to x_high; None for too few abscissae."""
+        """(ln X, ln of the quantity of ensemble and resamples) up to x_high; None for too few abscissae.
+
+        The variance of a mean is n/(n − 1) times that of bootstrap means, so that resamples are widened.
+        """
         log_x, values = self.log_x, self.log_velocity
         if quantity == "interface":
             values = np.exp(values) - np.exp(log_x) / self.punch
@@ -94,7 +97,9 @@ class Grid:
         kept = (log_x <= np.log(x_high) + 1e-9) & np.isfinite(values).all(axis=0)
         if kept.sum() < FEWEST["abscissae"]:
             return None
-        return log_x[kept] + shift, values[:, kept] + shift
+        values = values[:, kept] + shift
+        values[1:] = values[0] + (values[1:] - values[0]) * np.sqrt(self.realizations / (self.realizations - 1))
+        return log_x[kept] + shift, values
 
 
 def curve_table(grids_by_hurst, x_high):
@@ -202,8 +207,7 @@ def spread(curves, beta):
         before = int(np.ceil((start - first) / step - 1e-9))
         part = before - (start - first) / step  # fraction of a step between abscissae of the grid and common ones
         moved = (1 - part) * log_y[:, :-1] + part * log_y[:, 1:] + power * np.log(grid.number)
-        # Resamples of one common curve; the variance of a mean is n/(n − 1) times that of bootstrap means.
-        moved[1:] = (moved[1:] - moved[0]) * np.sqrt(grid.realizations / (grid.realizations - 1))
+        moved[1:] -= moved[0]  # resamples of one common curve
         weight = np.full(moved.shape[1], float(grid.realizations))
         place = slice(before, before + log_x.size - 1)
         parts.append((moved, weight, place))

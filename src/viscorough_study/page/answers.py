@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from viscorough_study.page.content import case
 from viscorough_study.page.results import Number
 from viscorough_study.performance.costs import fastest
 from viscorough_study.verdicts.claims import counted_verdicts
@@ -10,7 +11,6 @@ GROUPS = {"path": "elastic path", "marching": "direct integration in time", "mod
 ERRORS = (0.1, 1e-2, 1e-3, 1e-6)  # allowed errors of the velocity for which the fastest method is given
 ADVISED = 1e-2  # allowed error of the advice at the top of the page
 MODELS = ("MDR", "power law", "power law with Γ")
-CASE = ("value", "low", "high", "expected")
 
 
 def verdict_counts(results):
@@ -24,7 +24,7 @@ def answers(results):
     """{name: numbers} of the sentences that answer the questions at the top of the page."""
 
     def cases(claim):
-        return [_case(results, row) for row in results.rows("claims", claim=claim).index]
+        return [case(results, row) for row in results.rows("claims", claim=claim).index]
 
     def extremes(claim, column):
         rows = results.rows("claims", claim=claim)
@@ -35,15 +35,11 @@ def answers(results):
         "collapse": cases("collapse")[0],
         "decades": extremes("power_law", "value"),
         "beta": cases("beta"),
-        "coincide": _case(results, differences.idxmax()) if len(differences) else None,
+        "coincide": case(results, differences.idxmax()) if len(differences) else None,
         "elastic": _ends(cases("zeta_elastic")),
         "viscous": _ends(cases("zeta_viscous")),
         "gamma": [extremes("gamma", "least")[0], extremes("gamma", "largest")[1], *extremes("gamma", "expected")],
     }
-
-
-def _case(results, row):
-    return {"case": results.tables["claims"].at[row, "case"]} | results.numbers("claims", row, *CASE)
 
 
 def _ends(cases):

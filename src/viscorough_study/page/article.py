@@ -24,32 +24,13 @@ def article(project, contents, *, paper, figures):
     figures : folder of the figures
     """
     style, template = (read(project / "workflow/article" / name) for name in ("style.typ", "article.typ.jinja"))
-    text = style + filled(
-        template,
-        contents,
-        citation=yaml.safe_load(read(project / "CITATION.cff")),
-        paper=paper,
-        sum_rules=json.loads(read(project / "docs/results/sum_rules.json")),
-        outside=read_table(project / "docs/results/outside.csv"),
-        law=read_table(project / "docs/results/law.csv"),
-        origins=json.loads(read(project / "docs/results/published.json")),
-    )
-    return typst.compile(text.encode(), root=figures, ignore_system_fonts=True)
-
-
-def filled(template, contents, *, citation, paper, sum_rules, outside, law, origins):
-    """Text of the article in Typst.
-
-    template : text with placeholders; contents, paper : as of `article`; citation : content of CITATION.cff
-    sum_rules, outside, law : published results of measurements beside the workflow, content of a JSON file and tables
-    origins : content of docs/results/published.json
-    """
     environment = jinja2.Environment(
         undefined=jinja2.StrictUndefined, finalize=as_markup, trim_blocks=True, lstrip_blocks=True
     )
-    environment.filters |= {"percent": lambda number: f"{readable(100 * number.value)} %"}
-    results = contents["results"]
-    return environment.from_string(template).render(
+    published, results = project / "docs/results", contents["results"]
+    citation, law = yaml.safe_load(read(project / "CITATION.cff")), read_table(published / "law.csv")
+    sum_rules = json.loads(read(published / "sum_rules.json"))
+    text = environment.from_string(template).render(
         contents,
         citation=citation,
         original=citation["references"][0],
@@ -63,9 +44,10 @@ def filled(template, contents, *, citation, paper, sum_rules, outside, law, orig
         control=control(results),
         sum_rules=sum_rules_shown(sum_rules),
         audited={"plain": float(PLAIN), "audit": float(AUDITED), "across": sum_rules["across"]},
-        outside=outside.to_dict("records"),
-        origins=origins,
+        outside=read_table(published / "outside.csv").to_dict("records"),
+        origins=json.loads(read(published / "published.json")),
     )
+    return typst.compile((style + text).encode(), root=figures, ignore_system_fonts=True)
 
 
 def read(path):

@@ -1,46 +1,28 @@
-"""Assembly of the page: the content of its template, from tables, ensembles and figures."""
+"""Assembly of the contents of the page and of the article, from tables and ensembles."""
+
+from pathlib import Path
 
 from viscorough_study.page import answers, content
-from viscorough_study.page.calculator import calculator as with_law
 from viscorough_study.page.discussion import QUANTITIES, discussion
-from viscorough_study.page.render import embedded_png, render
 from viscorough_study.page.results import netcdf_of, read_results, read_table, readable
 from viscorough_study.robustness.failure_map import VERDICTS as OUTCOMES
 from viscorough_study.run.rule_costs import duration_text
 from viscorough_study.run.tables import read_recorded
 
 
-def page(template, style, contents, *, figures, captions, calculator, rules, alternative):
-    """HTML of the page.
-
-    template, style : text of the template and of the style sheet
-    contents : of the run, see `contents_of`; figures, captions : {name: path}, of PNG and reStructuredText
-    calculator : (section, script), its texts of HTML and JavaScript
-    rules : path of a picture of the workflow; alternative : {figure: alternative text}
-    """
-    return render(
-        template,
-        style,
-        figures,
-        captions,
-        calculator=with_law(*calculator),
-        rules=embedded_png(rules.read_bytes()),
-        alternative=alternative,
-        **contents,
-    )
-
-
-def contents_of(discs, lines, *, other_solvers, tables, claims, numbers, published):
+def contents_of(project, discs, lines, *, other_solvers, tables, claims, numbers):
     """{name: content} of a run, for the templates of page and article.
 
-    discs, lines : paths of the pools; other_solvers : path of a table of the workflow or of published numbers
-    tables : {name: path of the CSV}
+    project : folder of the project, which has published numbers and the verdicts of the full scale
+    discs, lines : paths of the pools; other_solvers : [] or [path of their table]
+    tables : paths of CSV files, whose stems name them
     claims, numbers : contents of resources/paper/claims.yaml and numbers.yaml
-    published : path of the table of verdicts of the full scale
     """
-    results = read_results(tables)
+    tables = {Path(path).stem: path for path in tables}
+    results, published = read_results(tables), read_table(project / "docs/claims.csv")
+    (others,) = other_solvers or [project / "resources/published/other_solvers.csv"]
     conventions = results.settings["claims"]["conventions"]
-    scale, verdicts = content.scale(discs, lines, numbers), content.verdicts(results, claims, read_table(published))
+    scale, verdicts = content.scale(discs, lines, numbers), content.verdicts(results, claims, published)
     fastest = answers.fastest_methods(results)
     costs_nc = netcdf_of(tables["rule_costs"])
     return {
@@ -61,7 +43,7 @@ def contents_of(discs, lines, *, other_solvers, tables, claims, numbers, publish
         "best_model": answers.best_model(results),
         "failures": answers.failures(results),
         "outcomes": OUTCOMES,
-        "other": content.other_solvers(other_solvers),
+        "other": content.other_solvers(others),
         "scenes": content.scenes(results),
         "media": content.media(results),
         "literature": discussion(results),

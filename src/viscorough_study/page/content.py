@@ -39,8 +39,8 @@ def verdicts(results, statements, published):
         full_scale = None
         if at_full_scale.get(name, verdict) != verdict:
             of_claim = published[published["claim"] == name]
-            case = of_claim.loc[deciding_case(of_claim)]
-            full_scale = {"verdict": at_full_scale[name], "case": f"{case['case']}: {value_text(case)}"}
+            deciding = of_claim.loc[deciding_case(of_claim)]
+            full_scale = {"verdict": at_full_scale[name], "case": f"{deciding['case']}: {value_text(deciding)}"}
         claims[KINDS[first["kind"]]].append(
             {
                 "name": name,
@@ -50,15 +50,15 @@ def verdicts(results, statements, published):
                 "verdict": verdict,
                 "full_scale": full_scale,
                 "undecided": undecided_cases(rows),
-                "deciding": _case(results, deciding_case(rows)),
-                "cases": [_case(results, i) for i in displayed.index],
+                "deciding": case(results, deciding_case(rows)),
+                "cases": [case(results, i) for i in displayed.index],
                 "left_out": len(rows) - len(displayed),
             }
         )
     return {heading: members for heading, members in claims.items() if members}
 
 
-def _case(results, row):
+def case(results, row):
     """Texts and numbers of a case of a claim."""
     texts = results.tables["claims"].loc[row, ["case", "verdict", "convention"]].to_dict()
     counts = ("conventions", "agreeing", "contradicting")

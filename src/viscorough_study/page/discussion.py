@@ -22,15 +22,13 @@ def discussion(results):
     """Sources by year, and for each quantity the values of this study and of the literature by Hurst exponent."""
     table = results.tables["literature"]
     return {
-        "sources": [_source(row) for _, row in table.drop_duplicates(["source", "year"]).iterrows()],
+        "sources": [
+            {name: row[name] for name in ("source", "place", "year", "when", "statement")}
+            | {"known": KNOWN[row["sure"]]}
+            for _, row in table.drop_duplicates(["source", "year"]).iterrows()
+        ],
         "quantities": {name: rows for name in QUANTITIES if (rows := _rows(results, name))},
     }
-
-
-def _source(row):
-    """Citation, place, statement, and the basis of the statement."""
-    source = {name: row[name] for name in ("source", "place", "year", "when", "statement")}
-    return source | {"cited": cited(row["source"], row["year"]), "known": KNOWN[row["sure"]]}
 
 
 def _credit(row):

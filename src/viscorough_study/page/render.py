@@ -23,7 +23,7 @@ def render(template, style, figures, captions, *, conventions, **content):
     content : variables of the template
     """
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, lstrip_blocks=True)
-    environment.filters |= {"number": number, "percent": percent, "readable": readable}
+    environment.filters |= {"number": number, "percent": percent}
     environment.globals |= {
         "image": {name: embedded_png(Path(path).read_bytes()) for name, path in figures.items()},
         "caption": {name: caption(Path(path).read_text("utf-8"), conventions) for name, path in captions.items()},

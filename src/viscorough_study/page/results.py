@@ -18,7 +18,7 @@ MAY_BE_EMPTY = ("convention", "reason")  # columns of texts
 class Number:
     """A number of the page and its place in a table of results/tables: column, and row of the CSV counted from 0.
 
-    counted : of a number of rows, the value that is counted in the column, or "different values"; then there is no row
+    counted : of a number of rows, the value that is counted in the column; then there is no row
     """
 
     value: float
@@ -76,11 +76,9 @@ class Results:
         """The largest number in a column of some rows of a table; None if there is none."""
         return self.number(table, rows[column].idxmax(), column) if rows[column].notna().any() else None
 
-    def count(self, table, column, counted=None):
-        """Number of rows with the value `counted` in a column; number of different values if it is None."""
-        values = self.tables[table][column]
-        number = int((values == counted).sum() if counted else values.nunique())
-        return Number(number, table, column, counted=counted or "different values")
+    def count(self, table, column, counted):
+        """Number of rows with the value `counted` in a column."""
+        return Number(int((self.tables[table][column] == counted).sum()), table, column, counted=counted)
 
 
 def read_results(tables):

@@ -121,31 +121,28 @@ def _joint_description(ensembles, batch, group):
 def line_cases(settings):
     """{line: its description} of every case of lines.
 
-    A description has the form of a case of discs, or of one of its ensembles, with points instead of elements, the
-    arguments of self_affine_line as surface, and until_x instead of indentation.
+    A description has the form of a case of discs, with points instead of elements, the arguments of self_affine_line as
+    surface, and until_x instead of indentation.
     """
     lines, sizes = settings["lines"], settings["sizes"]
-    shared = {name: settings["surface"][name] for name in ("amplitudes", "roll_off_wavelength", "roll_off_level")}
+    names = ("amplitudes", "roll_off_wavelength", "roll_off_level")
+    surface = {name: settings["surface"][name] for name in names} | UNIT_LINE
+
+    def ensemble(name, hurst, key, grid):
+        numbers = {"points": grid["points"], "realizations": grid["realizations"]}
+        return {"name": name, "spawn_key": key, "surface": surface | {"hurst": hurst}} | numbers
+
     cases = {}
     for hurst in lines["hurst"]:
-        cases[hurst_id(hurst)] = {
-            "pool": "lines",
-            "group": "lines",
-            "name": hurst_id(hurst),
-            "spawn_key": seeds.line_key(hurst),
-            "surface": shared | UNIT_LINE | {"hurst": hurst},
-            "points": lines["points"],
-            "realizations": lines["realizations"],
-            "batch": lines["batch"],
-            "until_x": settings["indentation"]["until_x"],
-        }
+        line = ensemble(hurst_id(hurst), hurst, seeds.line_key(hurst), lines)
+        cases[line["name"]] = {"pool": "lines", "until_x": settings["indentation"]["until_x"]}
+        cases[line["name"]] |= _joint_description([line], lines["batch"], "lines")
     powers = [
-        grid
-        | {"spawn_key": seeds.size_line_key(hurst, grid["points"]), "surface": shared | UNIT_LINE | {"hurst": hurst}}
+        ensemble("sizes", hurst, seeds.size_line_key(hurst, grid["points"]), grid)
         for hurst, grid in itertools.product(sizes["hurst"], sizes["lines"])
     ]
     cases["sizes"] = {"pool": "size_lines", "until_x": sizes["until_x"]}
-    cases["sizes"] |= _joint_description([{"name": "sizes"} | power for power in powers], sizes["batch"], "sizes")
+    cases["sizes"] |= _joint_description(powers, sizes["batch"], "sizes")
     return cases
 
 
@@ -213,7 +210,7 @@ def batch_ensembles(case, batch):
     """
     first, end = realizations(batch)
     parts, before = [], 0
-    for ensemble in case.get("ensembles", [case]):
+    for ensemble in case["ensembles"]:
         after = before + ensemble["realizations"]
         if before < end and first < after:
             parts.append(_in_batch(ensemble, [max(first - before, 0), min(end, after) - before]))
@@ -259,7 +256,7 @@ def measured_memory(case):
 
 def line_memory(case):
     """Memory for spectrum, heights and gaps of a line."""
-    return round(BASE_MEMORY + 40 * max(ensemble["points"] for ensemble in case.get("ensembles", [case])) / 1e6)
+    return round(BASE_MEMORY + 40 * max(ensemble["points"] for ensemble in case["ensembles"]) / 1e6)
 
 
 def pool_memory(cases, pool, ensemble):

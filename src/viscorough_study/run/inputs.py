@@ -1,17 +1,9 @@
-"""Functions by name, and their input files, for scripts that serve many rules."""
-
-from importlib import import_module
+"""Input files of scripts that serve many rules."""
 
 import pandas as pd
 
 from viscorough.io import netcdf
 from viscorough.io.datasets import read_dataset
-
-
-def named(name):
-    """A function or constant by its dotted name, such as "viscorough_study.fits.plateau.COLUMNS"."""
-    module, _, attribute = name.rpartition(".")
-    return getattr(import_module(module), attribute)
 
 
 def read_input(path):

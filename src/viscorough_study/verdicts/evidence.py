@@ -10,7 +10,7 @@ from scipy.special import ndtri
 
 from viscorough_study.ensembles import pool
 from viscorough_study.fits.conventions import FITTED, as_text, select, source_values
-from viscorough_study.fits.intervals import NO_INTERVAL
+from viscorough_study.fits.intervals import NO_INTERVAL, equivalence
 from viscorough_study.fits.power_law import find_region
 from viscorough_study.run.paper_data import number
 
@@ -139,20 +139,6 @@ class Conventions:
     own: str = ""
 
 
-def equivalence(interval, low, high):
-    """Whether a quantity with this 95 % interval lies in the range from low to high.
-
-    True if the whole interval lies in the range, False if it lies wholly outside, None if it contains an end of the
-    range or is undefined: then the data do not decide. This is a test of equivalence by two one-sided tests at 2.5 %
-    each (Schuirmann, J. Pharmacokinet. Biopharm. 15, 657 (1987)).
-    """
-    if not np.all(np.isfinite(interval)):
-        return None
-    if low <= interval[0] and interval[1] <= high:
-        return True
-    return False if interval[1] < low or interval[0] > high else None
-
-
 def widened(values, factor):
     """Ends of an interval with their distances from the value multiplied by a factor; values : value, low, high."""
     value, low, high = values
@@ -162,11 +148,6 @@ def widened(values, factor):
 def hurst_name(hurst):
     """Name of the case of a Hurst exponent."""
     return f"H = {hurst:g}"
-
-
-def opposite(met):
-    """Outcome of the opposite claim; None stays None."""
-    return None if met is None else not met
 
 
 @dataclass(frozen=True)

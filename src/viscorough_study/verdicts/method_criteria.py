@@ -4,7 +4,7 @@ import numpy as np
 
 from viscorough.surfaces import cut_disc
 from viscorough_study.fits.intervals import NO_INTERVAL, UNDEFINED, difference
-from viscorough_study.verdicts.evidence import judged, opposite
+from viscorough_study.verdicts.evidence import judged
 
 WEEKS_IN_MINUTES = 7 * 24 * 60  # ratio of "several weeks" to "a few minutes"
 SMALL_ERROR = 0.01  # of the velocity, at which contact problems are counted
@@ -31,7 +31,8 @@ def line_spectrum(evidence, tolerance):
     logarithms = np.log(fits.drop(columns="realizations").to_numpy())
     logarithmic, widest = difference(logarithms[0], logarithms[-1]), np.log1p(tolerance)
     number = min(fits["realizations"].min(), evidence.fits("lines")["realizations"].min())
-    met = opposite(evidence.within(logarithmic, -widest, widest, realizations=number))
+    constant = evidence.within(logarithmic, -widest, widest, realizations=number)
+    met = None if constant is None else not constant
     name = f"λ at H = {fits.index[-1]:g} over λ at H = {fits.index[0]:g}; least and largest λ/π"
     extremes = fits["lambda"].min() / np.pi, fits["lambda"].max() / np.pi
     yield judged(name, np.exp(logarithmic), np.nan, met, extremes=extremes)

@@ -4,13 +4,7 @@ import numpy as np
 import pytest
 
 from support.study import LIMITS, ensemble_of
-from viscorough_study.comparisons.mdr_equivalence import (
-    EXPONENT_COLUMNS,
-    LAMBDA_COLUMNS,
-    SUMMARY_COLUMNS,
-    WINDOWS,
-    compare_ensembles,
-)
+from viscorough_study.comparisons.mdr_equivalence import TABLES, WINDOWS, compare_ensembles
 from viscorough_study.ensembles.averages import abscissa
 
 x = abscissa(1e-7, 30, 20)
@@ -26,13 +20,13 @@ def ensemble(alpha, seed, *, factor=1.0, elements=10**5, hurst=0.7, spread=0.0):
 
 
 def tables(discs, lines):
-    return compare_ensembles({0.7: discs}, {0.5: lines, 0.7: lines}, **HOW)
+    return compare_ensembles({0.7: discs}, {0.5: lines, 0.7: lines}, **HOW).values()
 
 
 def test_equal_ensembles_have_the_lambda_pi():
     discs = ensemble(0.6, seed=1)
     lambdas, summary, exponents = all_tables = tables(discs, discs)
-    assert list(map(list, all_tables)) == list(map(list, (LAMBDA_COLUMNS, SUMMARY_COLUMNS, EXPONENT_COLUMNS)))
+    assert list(map(list, all_tables)) == list(map(list, TABLES.values()))
     inside = lambdas[lambdas["in_region"] == 1]
     np.testing.assert_allclose(inside["lambda"], np.pi, rtol=1e-6)
     np.testing.assert_allclose(lambdas["velocity_ratio"], 1, rtol=1e-6)
@@ -52,7 +46,7 @@ def test_equal_ensembles_have_the_lambda_pi():
 def test_discs_and_lines_are_drawn_independently():
     """Even if they are the same curves: the variances of both exponents add up."""
     same = {0.7: ensemble(0.6, seed=1, spread=0.01)}
-    _, _, exponents = compare_ensembles(same, same, **HOW | {"resamples": 500})
+    exponents = compare_ensembles(same, same, **HOW | {"resamples": 500})["mdr_exponents"]
     widths = {name: exponents[f"{name}_high"] - exponents[f"{name}_low"] for name in ("beta_discs", "difference")}
     np.testing.assert_allclose(widths["difference"], np.sqrt(2) * widths["beta_discs"], rtol=0.15)
 

@@ -16,15 +16,13 @@ ENDS = {"until_x": 3.0, "short_until_x": 0.1, "whole_curves": 1}
 INDENTATION = {"tolerance": 1e-3, "until_fraction": 1.0} | ENDS
 
 
-def curves_of_discs(folder, batch):
-    """{name: values} in the file of curves that scripts make of a batch, by way of the file of its surfaces."""
-    load_script("generate_discs").main(folder / "surfaces.nc", ensembles=batch, seed=7)
-    load_script("indent_surfaces").main(folder / "surfaces.nc", folder / "curves.nc", indentation=INDENTATION)
-    return {name: variable.values for name, variable in netcdf.read(folder / "curves.nc").variables.items()}
-
-
-def curves_of_lines(folder, batch):
-    load_script("reduce_lines").main(folder / "curves.nc", ensembles=batch, seed=7, until_x=30.0)
+def curves_of(kind, folder, batch):
+    """{name: values} in the file of curves that scripts make of a batch, of discs by way of the file of surfaces."""
+    if kind == "lines":
+        load_script("reduce_lines").main(folder / "curves.nc", ensembles=batch, seed=7, until_x=30.0)
+    else:
+        load_script("generate_discs").main(folder / "surfaces.nc", ensembles=batch, seed=7)
+        load_script("indent_surfaces").main(folder / "surfaces.nc", folder / "curves.nc", indentation=INDENTATION)
     return {name: variable.values for name, variable in netcdf.read(folder / "curves.nc").variables.items()}
 
 
@@ -32,12 +30,11 @@ def curves_of_lines(folder, batch):
 def test_a_realization_is_the_same_in_every_batch(tmp_path, kind):
     settings = read_settings("config")
     table, size = (cases.disc_cases, {"elements": 17}) if kind == "discs" else (cases.line_cases, {"points": 512})
-    make = {"discs": curves_of_discs, "lines": curves_of_lines}
     ensembles = [ensemble | size for ensemble in cases.batch_ensembles(table(settings)["h04000"], "0000-0002")[-2:]]
     curves = {}
     for first in (0, 2):
         batch = [ensemble | {"numbers": [first, 3]} for ensemble in ensembles]
-        values = make[kind](tmp_path, batch)
+        values = curves_of(kind, tmp_path, batch)
         names, numbers = values["case"].tolist(), values["number"].tolist()
         force = [row[np.isfinite(row)] for row in values["force"]]
         curves[first] = dict(zip(zip(names, numbers, strict=True), force, strict=True))
@@ -50,7 +47,7 @@ def test_the_first_curves_of_every_ensemble_go_further(tmp_path):
     settings = read_settings("config")
     ensembles = cases.batch_ensembles(cases.disc_cases(settings)["h09000"], "0000-0002")[:2]
     batch = [ensemble | {"elements": 17} for ensemble in ensembles]
-    values = curves_of_discs(tmp_path, batch)
+    values = curves_of("discs", tmp_path, batch)
     assert values["until_x"].tolist() == [3.0, 0.1, 0.1] * 2
     largest_rms = np.maximum(values["rms_disc"], values["rms_square"])
     ends = np.nanmax(values["force"], axis=1) / (4 * largest_rms * values["diameter"])

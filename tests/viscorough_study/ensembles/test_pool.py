@@ -65,12 +65,6 @@ def test_ensemble_of_a_hurst_exponent_is_one_large_ensemble(curves, pool):
     np.testing.assert_allclose(by_case["a_c2"]["velocity_geometric"], second["velocity_geometric"], rtol=1e-12)
 
 
-def test_unlike_realizations_make_no_ensemble(pool):
-    mixed = pool.assign_coords(group=("realization", ["all"] * pool.sizes["realization"]))
-    with pytest.raises(ValueError, match="all: the realizations differ in hurst"):
-        ensembles(mixed, "group")
-
-
 def test_a_batch_of_several_ensembles(curves):
     """Realizations on two grids and with two Hurst exponents in one file."""
     short = line_curve([0.0, 0.5, 1.0])

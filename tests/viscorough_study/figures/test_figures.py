@@ -181,8 +181,6 @@ def test_conventions_have_a_row_for_each_change(scaling):
     empty, other = plot("conventions", without_region(scaling, 0.4), SHOWN).axes[:2]
     assert [text.get_text() for text in empty.texts] == ["no region (b)"] * 8
     assert len(markers(other)) + len(other.texts) == 8
-    with pytest.raises(ValueError, match="no discs"):
-        plot("conventions", scaling[scaling["source"] == "lines"], SHOWN)
 
 
 def test_measured_scans_stand_beside_the_generated_discs(drawn, pooled, scaling):
@@ -237,6 +235,14 @@ def test_exponents_of_the_cost_of_one_disc_are_those_of_the_larger_half(drawn):
     slope = np.log(table["processor"].iloc[3] / table["processor"].iloc[2]) / np.log(10)
     assert time == ["measured (elements across)", "wall time on 2 threads", f"exponent {slope:.2f}"]
     assert memory == ["measured (elements across)", "exponent 1.00"]
+
+
+def test_growth_under_light_loads_is_that_of_maps_of_all_sizes(drawn):
+    growth, ratios = drawn["light_contact"].axes
+    labels = legend_texts(growth.get_legend())
+    assert labels == ["contact of 0.05 %, $N^{1.50}$", "contact of 0.5 %, $N^{1.50}$", "reading and ranking the map"]
+    points = {tuple(line.get_ydata()) for line in ratios.lines if line.get_linestyle() == "None"}
+    assert points == {(4.0, 4.0), (8.0, 8.0)}, "ratios of what meets the residual"
 
 
 def test_ratios_of_other_solvers_on_two_threads_are_hollow(drawn):

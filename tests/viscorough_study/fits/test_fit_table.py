@@ -9,8 +9,9 @@ from viscorough import calibrated_law, reference
 from viscorough.mdr import reduce
 from viscorough.surfaces import self_affine_line
 from viscorough_study.ensembles.averages import abscissa
-from viscorough_study.fits.conventions import FITTED
+from viscorough_study.fits.conventions import FITTED, GAMMA, select
 from viscorough_study.fits.fit_table import COLUMNS, calibrated, fit_rows
+from viscorough_study.fits.power_law import fit_power_law
 from viscorough_study.run.seeds import realization_seed
 
 X = abscissa(1e-7, 10, 20)
@@ -46,12 +47,23 @@ def test_a_row_for_every_fit(discs, lines):
     assert row["lambda"] == pytest.approx(np.pi * (1.3 * 1.2 / zeta) ** (2 / 0.6), rel=1e-9)
 
 
+@pytest.mark.parametrize("gamma", GAMMA)
+def test_a_reading_is_a_fit_in_it(discs, gamma):
+    """ζ and its interval against a fit in that reading; of two groups of surfaces one is selected."""
+    table = pd.DataFrame(fitted(discs) + fitted(discs, case_group="corners"))
+    wanted = SHOWN | {"gamma": gamma, "case_group": "corners"}
+    (row,) = select(table, wanted).to_dict("records")
+    assert {name: row[name] for name in wanted} == wanted
+    window = row["x_low"], row["x_high"]
+    fit = fit_power_law(X, discs["velocity"].values[0], window, average="geometric", **BOOTSTRAP)
+    zeta = row["zeta"], row["zeta_low"], row["zeta_high"]
+    assert (row["beta"], *zeta) == pytest.approx((fit.beta, *fit.zeta(gamma)), rel=1e-12)
+
+
 def test_lines_that_do_not_reach_give_no_lambda(discs, lines):
     short = lines.copy(deep=True)
     short["velocity"][0, 0, X > 3e-7] = np.nan
     assert all(np.isnan(row["lambda"]) and np.isfinite(row["beta"]) for row in fitted(discs, lines=short))
-    with pytest.raises(ValueError, match="same abscissae"):
-        fitted(discs, lines=ensemble_of(X[1:], three_regions(X[1:])))
 
 
 def test_without_a_region_rows_have_no_numbers():

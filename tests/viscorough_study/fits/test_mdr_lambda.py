@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from support.study import three_regions
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.fits.mdr_lambda import match_lambda, match_lines
 
@@ -35,18 +34,6 @@ def test_lambda_of_a_line_stretched_in_height():
     np.testing.assert_allclose(match.deviation(best, inner)[0], 0, atol=1e-9)
 
 
-def test_lambda_over_x_of_different_exponents():
-    """y3 = X^a and y1 = X^b: s^(1 − b) = X^(a − b), and a single λ leaves half of it at either end."""
-    a, b, window = 0.45, 0.4, (x[60], x[100])
-    match = match_lines(x, x[None] ** a, x[None] ** b, **GEOMETRIC)
-    inner = (x > 1e-6) & (x < 1)
-    np.testing.assert_allclose(match.lambda_at(x[inner])[0], np.pi * x[inner] ** (2 * (a - b) / (1 - b)), rtol=1e-9)
-    chosen = (x >= window[0]) & (x <= window[1])
-    deviation = match.deviation(match.best_stretch(window), chosen)[0]
-    half = (a - b) * np.log(window[1] / window[0]) / 2
-    assert deviation[[0, -1]] == pytest.approx([half, -half], rel=1e-6)
-
-
 def test_nothing_is_known_beyond_the_lines():
     lines = scattered(0.4, 3, seed=1)
     lines[0, x > 1e-2] = np.nan
@@ -54,11 +41,3 @@ def test_nothing_is_known_beyond_the_lines():
     deviation = match.deviation(np.full(201, np.log(0.5)), np.full(x.size, True))[0]  # of the lines at 2X
     assert np.isfinite(deviation[x < 4.9e-3]).all()
     assert np.isnan(deviation[x > 5.1e-3]).all()
-
-
-def test_lambda_refuses_lines_that_do_not_reach():
-    discs = np.tile(x / three_regions(x), (3, 1))
-    lines = discs.copy()
-    lines[0, x > 1e-5] = np.nan
-    with pytest.raises(ValueError, match="do not reach"):
-        match_lambda(x, discs, lines, (1e-3, 1e-2), **GEOMETRIC)

@@ -10,7 +10,6 @@ from viscorough_study.fits.penetration_law import (
     COLUMNS,
     FIT_LOW,
     X,
-    adjusted,
     calibrate,
     complete_curve,
     fit_constants,
@@ -60,15 +59,6 @@ def test_law_does_not_hold_where_other_discs_differ():
     changed = parts * np.where((X < 0.01) | (X > 5), 1.1, 1.0)
     row = calibrate((parts, integrals), (changed, integrals), ACROSS, resamples=2, seed=1)
     assert 0.01 <= row["x_low"] < row["x_high"] <= 5.1
-
-
-def test_adjusted_values_are_those_at_the_integrals_wanted():
-    random = np.random.default_rng(1)
-    integrals, noise = random.standard_normal((200, 2)), 0.1 * random.standard_normal((200, 3))
-    values = integrals @ [[1.0, 2.0, 0.0], [0.0, 1.0, 3.0]] + noise
-    wanted = adjusted(values, integrals, np.array([1.0, 2.0]))
-    np.testing.assert_allclose(wanted.mean(axis=0), [1.0, 4.0, 6.0], atol=0.05)
-    np.testing.assert_allclose(wanted.std(axis=0), 0.1, rtol=0.2)
 
 
 def test_curve_of_a_disc_has_its_integrals():

@@ -120,11 +120,6 @@ def test_fit_refuses_and_has_no_interval_for_one_realization():
     assert np.isnan(fit_power_law(x, velocity[:1], (1e-4, 1e-2), average="geometric", **BOOTSTRAP).beta_interval).all()
     with pytest.raises(ValueError, match="at least 3"):
         fit_power_law(x, velocity, (1.0e-4, 1.1e-4), average="geometric", **BOOTSTRAP)
-    with pytest.raises(ValueError, match="average"):
-        fit_power_law(x, velocity, (1e-4, 1e-2), average="harmonic", **BOOTSTRAP)
-    fit = fit_power_law(x, velocity, (1e-4, 1e-2), average="geometric", **BOOTSTRAP)
-    with pytest.raises(ValueError, match="gamma"):
-        fit.zeta("half")
 
 
 def test_both_readings_describe_the_same_curve():

@@ -22,7 +22,7 @@ def test_numbers_of_others_stand_beside_ours():
 
 def test_every_source_is_listed_once_with_how_it_is_known():
     sources = shown()["sources"]
-    assert [source["cited"] for source in sources] == ["One 2007", "One et al. 2013", "Five 2011"]
+    assert [source["year"] for source in sources] == [2007, 2013, 2011]
     assert {source["known"] for source in sources} == {KNOWN["abstract"]}
     assert shown(sure="quoted")["quantities"]["u0"][0]["theirs"][0][0] == "One 2007, as quoted"
     assert shown(hurst=float("nan"))["quantities"] == {}

@@ -21,12 +21,6 @@ def table():
     return failure_map([case for case in cases if case.steps <= 256])
 
 
-def cells(table, **wanted):
-    for column, value in wanted.items():
-        table = table[table[column] == value]
-    return table
-
-
 def test_every_cell_has_a_number_and_a_verdict(table):
     assert len(table) == len(table[["group", "case"]].drop_duplicates()) * len(METHODS)
     assert np.isfinite(table["error"]).all()
@@ -40,7 +34,7 @@ def test_nothing_fails_unnoticed(table):
 
 @pytest.mark.parametrize("method", NUMERICAL)
 def test_numerical_methods_hold_or_refuse(table, method):
-    rows = cells(table, method=method)
+    rows = table.query("method == @method")
     others = rows[rows["verdict"] != "holds"]
     # Beyond the last level nothing is interpolated.
     refused = REFUSED | ({"past all elements"} if method == "path, interpolated" else set())
@@ -51,8 +45,8 @@ def test_numerical_methods_hold_or_refuse(table, method):
 @pytest.mark.parametrize("group", CONCERNED)
 def test_what_the_figure_leaves_blank_cannot_matter(table, group):
     """Methods that a difficulty does not concern have the error of the same indenter without it."""
-    usual = cells(table, case="256 steps").set_index("method")["error"]
-    rows = cells(table, group=group)
+    usual = table.query("case == '256 steps'").set_index("method")["error"]
+    rows = table.query("group == @group")
     rows = rows[(rows["verdict"] != "refused") & (rows["case"] != "2 to 20 elements")]
     blank = rows[~rows["method"].str.startswith(CONCERNED[group])]
     assert len(blank) > 5
@@ -60,7 +54,7 @@ def test_what_the_figure_leaves_blank_cannot_matter(table, group):
 
 
 def test_failures_of_explicit_steps_are_warned_of(table):
-    steps = cells(table, group="step size", method="explicit steps").set_index("case")
+    steps = table.query("group == 'step size' and method == 'explicit steps'").set_index("case")
     assert steps.loc["one step", "verdict"] == "warned"
     assert steps.loc["one step", "error"] > 0.1
     assert "overlaps the surface" in steps.loc["one step", "reason"]
@@ -68,13 +62,13 @@ def test_failures_of_explicit_steps_are_warned_of(table):
 
 
 def test_reduction_is_exact_for_bodies_of_revolution_and_stated_not_to_be_for_others(table):
-    reduction = cells(table, method="MDR", group="shape").set_index("case")
+    reduction = table.query("method == 'MDR' and group == 'shape'").set_index("case")
     assert reduction.loc[["sphere", "cone"], "error"].max() < 0.2  # of so few elements; validation has the order
     assert set(reduction.loc[["ridge", "wedge", "two spheres", "elongated"], "verdict"]) == {"stated"}
 
 
 def test_forces_that_pull_are_refused_with_the_reason(table):
-    pulling = cells(table, case="negative for a while")
+    pulling = table.query("case == 'negative for a while'")
     assert set(pulling["verdict"]) == {"refused"}
     assert pulling["reason"].str.contains("without adhesion a pull opens the contact").all()
 

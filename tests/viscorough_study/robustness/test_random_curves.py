@@ -81,7 +81,6 @@ def thinned(indenter, **arguments):
 
 def test_a_wrong_curve_is_found():
     assert curve_failure(CASE) == ""
-    assert curve_failure(CASE, altered(depth=lambda depth: 1.001 * depth)).startswith("depth")
     assert "of a level off by 0.001" in curve_failure(CASE, altered(depth=lambda depth: 1.001 * depth))
     assert curve_failure(CASE, thinned).startswith("depth at force")
     short = replace(CASE, arguments=CASE.arguments | {"until_fraction": 1.0})

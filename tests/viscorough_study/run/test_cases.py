@@ -14,7 +14,7 @@ def settings():
 def test_spawn_keys_do_not_depend_on_order(settings):
     discs, lines = cases.disc_cases(settings), cases.line_cases(settings)
     all_cases = [*discs.values(), *lines.values()]
-    keys = [ensemble["spawn_key"] for case in all_cases for ensemble in case.get("ensembles", [case])]
+    keys = [ensemble["spawn_key"] for case in all_cases for ensemble in case["ensembles"]]
     assert len(set(keys)) == len(keys) == 4 * 10 + 21 + 5 * (4 + 3) + 4
     assert cases.combined_ensembles(settings)["h01000_c3"]["spawn_key"] == (1, 100000, 3)
     assert discs["h01000_roll_off"]["ensembles"][0]["spawn_key"][:2] == (2, 100000)

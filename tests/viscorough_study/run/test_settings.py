@@ -6,6 +6,8 @@ import pytest
 import yaml
 
 from support.workflow import ROOT, merged, read_settings
+from viscorough_study.figures.conventions import CONVENTION_LABELS
+from viscorough_study.fits.conventions import VALUES
 from viscorough_study.run.settings import SettingsError, check_settings
 
 SCHEMA = yaml.safe_load((ROOT / "workflow/schemas/config.schema.yaml").read_text())
@@ -82,6 +84,12 @@ def test_other_scales_hold_only_what_differs(settings, name):
                 yield path + key
 
     assert list(same(settings, read_settings(name))) == []
+
+
+def test_settings_and_figures_know_the_same_conventions():
+    figures = SCHEMA["properties"]["figures"]["properties"]
+    for name, values in VALUES.items():
+        assert sorted(figures[name]["enum"]) == sorted(CONVENTION_LABELS[name]) == sorted(values)
 
 
 def leaves(rule, definitions, path=""):

@@ -1,7 +1,6 @@
 """Verdicts: on ensembles that obey a law exactly, that miss it, and that obey it under one convention only."""
 
 import dataclasses
-from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -9,10 +8,9 @@ import pytest
 import xarray as xr
 from scipy.special import gamma as gamma_function
 
-from support.study import CLAIMS, LIMITS, NUMBERS, evidence
+from support.study import CLAIMS, LIMITS, evidence
 from support.workflow import FIGURES
 from viscorough import reference
-from viscorough_study.run.paper_data import number
 from viscorough_study.verdicts.claims import (
     JUDGES,
     KINDS,
@@ -181,13 +179,9 @@ def test_unknown_claim_is_named():
 
 @pytest.mark.parametrize(("across", "trial"), [(129, 0), (127, 1)])
 def test_scale_attributes(across, trial):
-    evidence = SimpleNamespace(
-        across=across,
-        pooled={hurst: xr.Dataset(coords={"realization": range(count)}) for hurst, count in {0.1: 60, 0.9: 54}.items()},
-        paper_value=lambda section, name: number(NUMBERS, section, name),
-    )
-    attributes = scale_attributes(evidence)
+    fewer = evidence().discs.isel(realization=slice(6, None))  # of the first Hurst exponent
+    attributes = scale_attributes(dataclasses.replace(evidence(), across=across, discs=fewer))
     names = ("elements_across", "paper_elements_across", "realizations")
-    assert [attributes[name] for name in names] == [across, 257, 54]
+    assert [attributes[name] for name in names] == [across, 257, 74]
     assert attributes["trial"] == trial
     assert ("mean nothing" in attributes["scale"]) == trial

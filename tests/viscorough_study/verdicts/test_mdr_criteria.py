@@ -12,14 +12,18 @@ from viscorough_study.verdicts import mdr_criteria
 GOOD = evidence()
 
 
-def verdicts(claim, tolerance, **tables):
-    """Verdicts of a claim by tables of `mdr_tables`, or by these."""
+def cases(claim, tolerance, **tables):
+    """Cases of a claim by tables of `mdr_tables`, or by these."""
     made = dataclasses.replace(GOOD, tables=GOOD.tables | tables)
-    return [case.verdict for case in getattr(mdr_criteria, claim)(made, tolerance)]
+    return list(getattr(mdr_criteria, claim)(made, tolerance))
+
+
+def verdicts(*claim, **tables):
+    return [case.verdict for case in cases(*claim, **tables)]
 
 
 @pytest.mark.parametrize(
-    ("claim", "cases", "drift", "ratio"),
+    ("claim", "windows", "drift", "ratio"),
     [
         ("lambda_constant", 1, 1.3, 1.0),
         ("exact_correspondence", 1, 0.5, 1.0),
@@ -30,10 +34,10 @@ def verdicts(claim, tolerance, **tables):
         ("single_surface", 1, 1.0, 1.5),
     ],
 )
-def test_equal_quantities_are_reproduced_and_unlike_ones_are_not(claim, cases, drift, ratio):
+def test_equal_quantities_are_reproduced_and_unlike_ones_are_not(claim, windows, drift, ratio):
     single = {"ratio": 1.02} if claim == "single_surface" else {}
-    assert verdicts(claim, 0.1, **mdr_tables(**single)) == ["reproduced"] * cases * len(HURST)
-    assert verdicts(claim, 0.1, **mdr_tables(drift, ratio)) == ["not reproduced"] * cases * len(HURST)
+    assert verdicts(claim, 0.1, **mdr_tables(**single)) == ["reproduced"] * windows * len(HURST)
+    assert verdicts(claim, 0.1, **mdr_tables(drift, ratio)) == ["not reproduced"] * windows * len(HURST)
 
 
 def test_intervals_that_reach_over_the_tolerance_are_undecided():
@@ -54,8 +58,6 @@ def test_quantities_are_taken_inside_region_b():
 def test_interval_of_the_scatter_covers_it_at_the_stated_rate():
     """(n − 1) s²/σ² of normal samples has the distribution of χ²: its 97.5 % and 2.5 % points are the ends of s/σ."""
     reduction = mdr_tables(ratio=1.5)["reduction"].assign(realizations=30)
-    (case, *_) = mdr_criteria.single_surface(
-        dataclasses.replace(GOOD, tables=GOOD.tables | {"reduction": reduction}), 0.1
-    )
+    case = cases("single_surface", 0.1, reduction=reduction)[0]
     probabilities = [stats.chi2.cdf(29 * (np.log(1.5) / np.log(end)) ** 2, 29) for end in (case.low, case.high)]
     assert probabilities == pytest.approx([0.975, 0.025])

@@ -42,7 +42,11 @@ MADE = {
         "scaling interface validation direct reduction rule_costs mdr_lambda mdr_summary mdr_exponents plateaus "
         "literature zeta_laws grid_dependence periodic",
     ),
-    "speed": ("speed growth other_solvers level_placement", "methods other_solvers level_placement"),
+    "speed": (
+        "speed growth other_solvers light_contact level_placement",
+        "methods other_solvers light_contact level_placement",
+    ),
+    "light_contact": ("light_contact", "light_contact"),  # a part of it
     "stability": ("failure_map", "failure_map"),
     "sizes": ("sizes collapse", "sizes sizes_trends collapse collapse_curves infinite_grid"),
     "large": ("large", "large"),
@@ -92,17 +96,13 @@ def verdict_lines():
     """
     claims, full, default = read_claims(), overall(published_claims()), overall(published_claims(DEFAULT_CLAIMS))
     physics = [name for name in full if claims[name]["kind"] == "physics"]
-    differ = [claims[name]["title"] for name in physics if full[name] != default[name]]
-    lines = ["| verdict | claims on physics |", "|---|---|"]
-    for verdict in VERDICTS:
-        titles = [claims[name]["title"] for name in physics if full[name] == verdict]
-        lines += [f"| {verdict} | {'; '.join(titles)} |"] if titles else []
+    differ = "; ".join(claims[name]["title"] for name in physics if full[name] != default[name])
+    titles = {verdict: [claims[name]["title"] for name in physics if full[name] == verdict] for verdict in VERDICTS}
+    rows = [(verdict, "; ".join(members)) for verdict, members in titles.items() if members]
     note = "Of the default run, `make reproduce`; those of `make paper` are the same."
     if differ:
-        note = (
-            f"Of `make paper`. Those of the default run, which has fewer conventions, differ in: {'; '.join(differ)}."
-        )
-    return "\n".join(lines) + "\n\n" + paragraph(note)
+        note = f"Of `make paper`. Those of the default run, which has fewer conventions, differ in: {differ}."
+    return markdown_table(("verdict", "claims on physics"), rows) + "\n" + paragraph(note)
 
 
 def time_sentence():
@@ -125,6 +125,12 @@ def read_claims():
 def paragraph(text):
     """A paragraph in lines of at most 120 characters."""
     return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False) + "\n"
+
+
+def markdown_table(head, rows):
+    """A table in Markdown of these texts."""
+    first, *others = (f"|{'|'.join(f' {cell} ' if cell else ' ' for cell in cells)}|\n" for cells in (head, *rows))
+    return "".join([first, "|---" * len(head) + "|\n", *others])
 
 
 def own_scale(published, default):
@@ -154,39 +160,52 @@ def other_seeds(published, runs):
 def other_solver_times():
     """Times of other solvers over that of the loading path, as a table in Markdown, by task and Hurst exponent."""
     table = pd.read_csv(ROOT / OTHER_SOLVERS)
-    solvers = list(dict.fromkeys(table["solver"]))
-    lines = [f"| task | elements across | H | {' | '.join(solvers)} |", "|---|---|---" + len(solvers) * "|---" + "|"]
+    solvers, lines = list(dict.fromkeys(table["solver"])), []
     for (task, across, hurst), rows in table.groupby(["task", "elements", "hurst"], sort=False):
         ratios = rows.set_index("solver")["ratio"]
         cells = [f"{ratios[name]:.3g}" if name in ratios else "–" for name in solvers]
-        lines.append(f"| {task} | {across} | {hurst:g} | {' | '.join(cells)} |")
-    return "\n".join(lines) + "\n"
+        lines.append((task, f"{across}", f"{hurst:g}", *cells))
+    return markdown_table(("task", "elements across", "H", *solvers), lines)
+
+
+def light_loads():
+    """Time of one light load on large maps, and those of other solvers over it, as a table in Markdown."""
+    table = pd.read_csv(ROOT / "docs/results/light_contact.csv")
+    own, others = (rows for _, rows in table.groupby(table["solver"] != "viscorough"))
+    looks, lines = list(others.groupby(["solver", "threads"]).groups), []
+    for (across, fraction), rows in others.groupby(["elements", "fraction"]):
+        same = own[(own["elements"] == across) & (own["fraction"] == fraction)].set_index("threads")["wall_s"]
+        ratios = rows.groupby(["solver", "threads"])["ratio"].median()
+        cells = ["–" if pd.isna(ratios.get(look)) else f"{ratios[look]:.3g}" for look in looks]
+        lines.append((f"{across}²", f"{100 * fraction:g} %", f"{same.groupby(level=0).median()[1]:.2g} s", *cells))
+    head = [f"{name}, {threads} thread{'s' * (threads > 1)}" for name, threads in looks]
+    return markdown_table(("map", "contact", "viscorough", *head), lines)
 
 
 def sum_rules():
     """Relative deviations of both integrals of curves and audits, as a table in Markdown."""
     names = ("first, 1e-3", "second, 1e-3", "first, 1e-8", "second, 1e-8", "levels of the audit")
     names += ("first, last level alone", "first, audit", "second, audit")
-    lines = [f"| | {' | '.join(names)} |", "|---" * 9 + "|"]
-    content = json.loads((ROOT / "docs/results/sum_rules.json").read_text(encoding="utf-8"))
+    content, lines = json.loads((ROOT / "docs/results/sum_rules.json").read_text(encoding="utf-8")), []
     for indenter, rules in content["indenters"].items():
         loose, tight, audit = rules["plain"]["1e-03"], rules["plain"]["1e-08"], rules["audit"]["1e-05"]
         both = [curve[rule]["by levels"] for curve in (loose, tight) for rule in ("first", "second")]
         last = [audit["first"]["last level"], *(audit[rule]["by levels"] for rule in ("first", "second"))]
-        before, after = (" | ".join(f"{abs(number):.0e}" for number in numbers) for numbers in (both, last))
-        lines.append(f"| {indenter} | {before} | {audit['levels']} | {after} |")
-    return "\n".join(lines) + "\n"
+        before, after = ([f"{abs(number):.0e}" for number in numbers] for numbers in (both, last))
+        lines.append((indenter, *before, f"{audit['levels']}", *after))
+    return markdown_table(("", *names), lines)
 
 
 def outside_numbers():
     """Numbers of others beside ours, of docs/results/outside.csv, as a table in Markdown."""
-    lines = ["| half-space | quantity | published | ours | deviation | allowed | reason, source |", "|---" * 7 + "|"]
+    lines = []
     for row in pd.read_csv(ROOT / "docs/results/outside.csv").itertuples():
-        numbers = f"{row.published:.4g} | {row.ours:.4g} | {row.deviation:+.2g}"
+        numbers = f"{row.published:.4g}", f"{row.ours:.4g}", f"{row.deviation:+.2g}"
         allowed = f"{row.tolerance:.2g}" + ("" if row.met else ", **exceeded**")
         quantity = row.quantity.replace("*", r"\*")
-        lines.append(f"| {row.half_space} | {quantity} | {numbers} | {allowed} | {row.reason}; {row.source} |")
-    return "\n".join(lines) + "\n"
+        lines.append((row.half_space, quantity, *numbers, allowed, f"{row.reason}; {row.source}"))
+    head = ("half-space", "quantity", "published", "ours", "deviation", "allowed", "reason, source")
+    return markdown_table(head, lines)
 
 
 def infinite_grid():
@@ -197,13 +216,12 @@ def infinite_grid():
     """
     table = pd.read_csv(ROOT / "docs/results/infinite_grid.csv").query("law == 'corrected' and height == 'spectrum'")
     columns = list(table.groupby(["source", "quantity"], sort=False))
-    names = [f"{source}, {INTERFACE_QUANTITIES[quantity]}" for (source, quantity), _ in columns]
-    lines = [f"| *H* | *H*/(1 + *H*) | {' | '.join(names)} |", "|---" * (2 + len(names)) + "|"]
+    names, lines = [f"{source}, {INTERFACE_QUANTITIES[quantity]}" for (source, quantity), _ in columns], []
     for hurst, expected in table.drop_duplicates("hurst")[["hurst", "expected"]].itertuples(index=False):
         fits = [rows.set_index("hurst").loc[hurst] for _, rows in columns]
         cells = [f"{fit['beta']:.3f} [{fit['ranges_low']:.3f}, {fit['ranges_high']:.3f}]" for fit in fits]
-        lines.append(f"| {hurst:g} | {expected:.3f} | {' | '.join(cells)} |")
-    return "\n".join(lines) + "\n\n" + correction_exponents(table)
+        lines.append((f"{hurst:g}", f"{expected:.3f}", *cells))
+    return markdown_table(("*H*", "*H*/(1 + *H*)", *names), lines) + "\n" + correction_exponents(table)
 
 
 def correction_exponents(table):
@@ -230,20 +248,18 @@ def interface_law():
     table = pd.read_csv(ROOT / KEPT["law"]["tables/law.csv"]).sort_values(["across", "hurst"], ascending=[False, True])
     symbols = dict(zip(CONSTANTS, ("*A*", "*b*", "*s*", "*m*", "*d*"), strict=True))
     symbols |= {"mean_gap": "∫*g* d ln *X*", "energy": "∫*g* d*X*"}
-    head = ("*H*", "elements across", *symbols.values())
-    lines = [f"| {' | '.join(head)} |", "|---" * len(head) + "|"]
+    constants, ranges = [], []
     for _, row in table.iterrows():
+        grid = f"{row['hurst']:g}", f"{row['across']:g}"
         cells = [f"{row[name]:.3g} [{row[f'{name}_low']:.3g}, {row[f'{name}_high']:.3g}]" for name in symbols]
-        lines.append(f"| {row['hurst']:g} | {row['across']:g} | {' | '.join(cells)} |")
-    head = ("*H*", "elements across", "discs, other discs", "law of *g* within 5 % for *X*", "largest deviation of *g*")
-    head += ("without control variates", "standard error", "geometric mean of *vt*/*h* lower by", "of *u*/*h*")
-    lines += ["", f"| {' | '.join(head)} |", "|---" * len(head) + "|"]
-    names = ("deviation", "unadjusted", "standard_error", "geometric_velocity", "geometric_depth")
-    for _, row in table.iterrows():
+        constants.append((*grid, *cells))
+        names = ("deviation", "unadjusted", "standard_error", "geometric_velocity", "geometric_depth")
         cells = [f"{row['discs']:g}, {row['unused']:g}", f"{row['x_low']:.2g} to {row['x_high']:.3g}"]
-        cells += [f"{100 * row[name]:.1f} %" for name in names]
-        lines.append(f"| {row['hurst']:g} | {row['across']:g} | {' | '.join(cells)} |")
-    return "\n".join(lines) + "\n"
+        ranges.append((*grid, *cells, *(f"{100 * row[name]:.1f} %" for name in names)))
+    grid = ("*H*", "elements across")
+    head = ("discs, other discs", "law of *g* within 5 % for *X*", "largest deviation of *g*")
+    head += ("without control variates", "standard error", "geometric mean of *vt*/*h* lower by", "of *u*/*h*")
+    return markdown_table((*grid, *symbols.values()), constants) + "\n" + markdown_table((*grid, *head), ranges)
 
 
 def published_results(records):
@@ -276,6 +292,7 @@ def tables():
         ("README.md", "time"): time_sentence(),
         ("docs/verdicts.md", "verdicts"): verdicts(),
         ("docs/performance.md", "other solvers"): other_solver_times(),
+        ("docs/performance.md", "light loads"): light_loads(),
         ("docs/outside.md", "outside"): outside_numbers(),
         ("docs/verification.md", "sum rules"): sum_rules(),
         ("docs/scaling.md", "infinite grid"): infinite_grid(),

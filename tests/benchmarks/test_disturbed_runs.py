@@ -9,21 +9,16 @@ import pytest
 import slurm
 
 
-@pytest.fixture
-def results(tmp_path):
+def test_measured_times_may_differ_and_nothing_else(tmp_path):
     """Two folders with equal results, whose measured times differ."""
-    for folder, seconds in (("one", "1.0"), ("two", "2.0")):
-        for name in ("tables/claims.csv", "figures/fig1.pdf"):
-            (tmp_path / folder / "results" / name).parent.mkdir(parents=True)
-            (tmp_path / folder / "results" / name).write_text(name)
-        for name in ("tables/equal_error.csv", "index.html", "logs/a/b.log", "benchmarks/a.tsv", "methods/rough.csv"):
-            (tmp_path / folder / "results" / name).parent.mkdir(parents=True, exist_ok=True)
-            (tmp_path / folder / "results" / name).write_text(seconds)
-    return tmp_path / "one", tmp_path / "two"
-
-
-def test_measured_times_may_differ_and_nothing_else(results):
-    first, second = results
+    same = ["tables/claims.csv", "figures/fig1.pdf"]
+    measured = ["tables/equal_error.csv", "index.html", "logs/a/b.log", "benchmarks/a.tsv", "methods/rough.csv"]
+    first, second = tmp_path / "one", tmp_path / "two"
+    for folder, seconds in ((first, "1.0"), (second, "2.0")):
+        for name in same + measured:
+            path = folder / "results" / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(name if name in same else seconds)
     expected = chaos.contents(first)
     assert len(expected) == 7
     assert chaos.compare(chaos.contents(second), expected) == []
@@ -34,22 +29,17 @@ def test_measured_times_may_differ_and_nothing_else(results):
     assert chaos.compare(chaos.contents(second), expected) == lines
 
 
-@pytest.fixture
-def run(tmp_path, monkeypatch):
+@pytest.mark.parametrize(("seed", "what"), [(1, "whole run"), (3, "interrupt")])
+def test_a_run_is_killed_or_interrupted(tmp_path, monkeypatch, seed, what):
     """Snakemake in a folder whose only rule waits, for ever."""
     (tmp_path / "Snakefile").write_text('rule wait:\n    output: "never"\n    shell: "sleep 600"\n')
     (tmp_path / "src").mkdir()
     monkeypatch.setattr(chaos, "SNAKEMAKE", [sys.executable, "-m", "snakemake", "--cores", "1"])
     with chaos.started(tmp_path) as run:
         chaos.wait_for(lambda: "rule wait" in (tmp_path / "chaos.log").read_text(), "start of the job")
-        yield run
-
-
-@pytest.mark.parametrize(("seed", "what"), [(1, "whole run"), (3, "interrupt")])
-def test_a_run_is_killed_or_interrupted(tmp_path, run, seed, what):
-    assert chaos.disturb(run, np.random.default_rng(seed)) == what
-    assert run.wait(60) != 0
-    assert "ends with" in chaos.verdict(tmp_path, run)
+        assert chaos.disturb(run, np.random.default_rng(seed)) == what
+        assert run.wait(60) != 0
+        assert "ends with" in chaos.verdict(tmp_path, run)
 
 
 def test_processes_of_a_cluster_are_ended():

@@ -38,16 +38,11 @@ def test_every_kind_of_file_is_tried_and_many_are_unambiguous_or_bad(some_cases)
         assert (again.traits, again.options) == (some_cases[number].traits, some_cases[number].options)
 
 
-def reader(case, *, shift=0.0, wider=1.0, unit=None, rows=None):
+def reader(case, *, shift=0.0, wider=1.0, unit="m", rows=None):
     """A reader that returns the truth of a case, in metres, or something else."""
-
-    def read(path, **_):
-        heights = case.heights * case.unit
-        heights = heights + shift * np.nanmax(abs(heights))
-        dx, dy = case.spacing
-        return Indenter(heights[:rows], dx * wider, dy, length_unit=unit or "m")
-
-    return read
+    heights, (dx, dy) = case.heights * case.unit, case.spacing
+    heights = heights + shift * np.nanmax(abs(heights))
+    return lambda path, **_: Indenter(heights[:rows], dx * wider, dy, length_unit=unit)
 
 
 @pytest.mark.parametrize(
@@ -63,7 +58,7 @@ def reader(case, *, shift=0.0, wider=1.0, unit=None, rows=None):
 def test_another_map_spacing_or_unit_is_noticed(case, tmp_path, monkeypatch, change, what):
     monkeypatch.setattr("viscorough.read_heights", reader(case, **change))
     outcome, why = campaign.outcome(case, tmp_path)
-    assert outcome == (campaign.WRONG if what else campaign.READ)
+    assert outcome == campaign.WRONG
     assert why.startswith(what)
 
 

@@ -6,9 +6,7 @@ import numpy as np
 import pytest
 from file_cases import generators
 
-from viscorough.io import netcdf
-from viscorough.io.curves import curve_to_content
-from viscorough.loading_curve import LoadingCurve
+from support.curves import curve_of_levels
 
 
 @pytest.fixture(scope="module")
@@ -45,9 +43,7 @@ COMMANDS = {
 @pytest.mark.parametrize("name", fuzz_cases.FILES)
 def test_every_kind_of_file_can_be_right(folder, tmp_path, name):
     """Otherwise the readers would only be tried with what they refuse."""
-    one_level = [np.array([value]) for value in (1e100, 1e100, 1.0, 1)]  # a straight curve, for any force
-    curve = LoadingCurve(*one_level, 1, "by hand", 1e-9, 0, np.zeros(1))
-    netcdf.write(curve_to_content(curve), tmp_path / "whole.nc")
+    curve_of_levels([1e100], [1e100], [1.0], [1]).save(tmp_path / "whole.nc")  # a straight curve, for any force
     others = {
         "one.npy": fuzz_cases.npy_bytes(np.zeros((1, 1))),
         "whole.nc": (tmp_path / "whole.nc").read_bytes(),

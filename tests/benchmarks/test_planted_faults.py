@@ -3,7 +3,6 @@
 from dataclasses import replace
 
 import planted_faults as planted
-import pytest
 
 
 def test_every_fault_can_be_planted_and_has_its_tests():
@@ -12,23 +11,19 @@ def test_every_fault_can_be_planted_and_has_its_tests():
     assert [line for fault in faults for line in planted.problems(fault)] == []
 
 
-@pytest.fixture
-def fault(tmp_path):
+def test_a_fault_is_caught_missed_or_undecided(tmp_path, monkeypatch):
     """A fault in a project of one module and one test."""
     (tmp_path / "clean").mkdir()
     (tmp_path / "clean/half.py").write_text("def half(x):\n    return x / 2\n")
     (tmp_path / "clean/test_half.py").write_text("from half import half\n\ndef test_half():\n    assert half(4) == 2\n")
-    return planted.Fault("half", "half.py", "x / 2", "x / 3", ("test_half.py::test_half",), "halves are thirds")
-
-
-def verdict(fault, tmp_path):
-    return planted.outcome(fault, tmp_path / "clean", tmp_path / "planted", 60)["verdict"]
-
-
-def test_a_fault_is_caught_missed_or_undecided(fault, tmp_path, monkeypatch):
+    fault = planted.Fault("half", "half.py", "x / 2", "x / 3", ("test_half.py::test_half",), "halves are thirds")
     monkeypatch.setenv("PYTEST_ADDOPTS", "--rootdir .")
-    assert verdict(fault, tmp_path) == "caught"
-    assert verdict(replace(fault, new="x / 2.0"), tmp_path) == "missed"
-    assert verdict(replace(fault, tests=("absent.py",)), tmp_path) == "tests did not run"
+    for changes, verdict in (
+        ({}, "caught"),
+        ({"new": "x / 2.0"}, "missed"),
+        ({"tests": ("absent.py",)}, "tests did not run"),
+    ):
+        outcome = planted.outcome(replace(fault, **changes), tmp_path / "clean", tmp_path / "planted", 60)
+        assert outcome["verdict"] == verdict
     assert (tmp_path / "clean/half.py").read_text() == "def half(x):\n    return x / 2\n"
     assert not (tmp_path / "planted").exists()

@@ -34,7 +34,7 @@ def test_scripts_are_short_and_named_like_their_rules():
 def test_short_rules_run_where_snakemake_runs():
     """Only what computes for long goes through a cluster's queue."""
     queued = {name for name, text in rules().items() if "localrule: True" not in text} | tabulations("queued")
-    timed = {"measure_large", "measure_methods", "time_other_solvers", "compare_level_placement"}
+    timed = {"measure_large", "measure_methods"} | tabulations("alone")
     curves = {"generate_discs", "prepare_measured", "indent_surfaces", "reduce_lines"}
     assert queued == timed | curves | {"validate", "compare_reduction", "compare_periodic", "map_failures"}
 
@@ -42,7 +42,8 @@ def test_short_rules_run_where_snakemake_runs():
 def test_timed_jobs_run_alone():
     """With all cores of a machine or, on a cluster, with a node that they do not share."""
     timed = {name for name, text in rules().items() if "threads: ALL_CORES" in text} | tabulations("alone")
-    assert timed == {"measure_large", "measure_methods", "time_other_solvers", "compare_level_placement"}
+    own = {"time_other_solvers", "time_light_contact", "compare_level_placement"}
+    assert timed == {"measure_large", "measure_methods"} | own
     profile = yaml.safe_load((ROOT / "profiles/slurm/config.yaml").read_text())
     assert timed == set(profile["set-threads"])
     for name in timed:

@@ -120,30 +120,23 @@ def test_combinations_are_in_real_units(finished_once):
         assert "spawn_key" in curves.attrs["settings"]
 
 
-def test_deleted_curves_are_made_again_by_a_target(finished):
-    (finished / "results/curves/discs/h04000/0000-0001.nc").unlink()
-    assert plan(finished, *TEST, "--", "curves") == {"generate_discs": 1, "indent_surfaces": 1}
-
-
 def test_report(finished):
-    """Without a number of cores, as --unlock and --summary."""
+    """Without a number of cores, as --unlock and --summary; with other settings it is refused in one line."""
+    output = snakemake(finished, "--report", "report.html", cores=None, fails=True)
+    assert output.splitlines()[-1].startswith("Error: results were not made with these settings and sources; run the")
+    assert "Traceback" not in output
+    assert not (finished / "report.html").exists()
     snakemake(finished, *TEST, "--report", "report.html", cores=None)
     page = (finished / "report.html").read_text()
     for text in ("fig4_exponent.png", "scaling.html", "4 Conventions and validation", "collapse"):
         assert text in page
 
 
-def test_report_with_other_settings_is_refused_in_one_line(finished):
-    output = snakemake(finished, "--report", "report.html", cores=None, fails=True)
-    assert output.splitlines()[-1].startswith("Error: results were not made with these settings and sources; run the")
-    assert "Traceback" not in output
-    assert not (finished / "report.html").exists()
-
-
-def test_a_figure_by_its_name_leaves_the_others(finished):
-    for name in ("fig4_exponent", "fig1_surfaces"):
-        (finished / f"results/figures/{name}.png").unlink()
+def test_deleted_files_are_made_again_by_their_targets_alone(finished):
+    for name in ("figures/fig4_exponent.png", "figures/fig1_surfaces.png", "curves/discs/h04000/0000-0001.nc"):
+        (finished / "results" / name).unlink()
     assert plan(finished, *TEST, "--", "figure_4") == {"plot_exponent": 1}
+    assert plan(finished, *TEST, "--", "curves") == {"generate_discs": 1, "indent_surfaces": 1}
 
 
 def test_a_failed_comparison_stops_the_workflow_and_is_named(finished, tmp_path):

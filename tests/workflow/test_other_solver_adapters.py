@@ -21,6 +21,7 @@ from viscorough_study.performance import other_solvers
 ADAPTERS, SUPPORT = ROOT / "workflow/peers", ROOT / "tests/support"
 DISTRIBUTIONS = {
     "aspher_adapter": "aspher",
+    "aspher_active_set_adapter": "aspher",
     "aspher_nested_adapter": "aspher",
     "contactmechanics_adapter": "ContactMechanics",
     "slippy_adapter": "slippy",
@@ -68,6 +69,7 @@ def test_adapter_solves_the_problem_of_the_request(name, indenter):
     assert (coarse.residual < 1e-3).all()
     assert fine.total_iterations == {
         "aspher_adapter": 15,
+        "aspher_active_set_adapter": 15,
         "aspher_nested_adapter": 15,
         "contactmechanics_adapter": 21,
     }.get(name, -1)

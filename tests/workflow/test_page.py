@@ -17,13 +17,8 @@ LARGEST = 4e6  # bytes
 
 
 @pytest.fixture(scope="module")
-def folder(finished_once):
-    return finished_once
-
-
-@pytest.fixture(scope="module")
-def html(folder):
-    return (folder / "results/index.html").read_text(encoding="utf-8")
+def html(finished_once):
+    return (finished_once / "results/index.html").read_text(encoding="utf-8")
 
 
 @pytest.fixture(scope="module")
@@ -32,14 +27,14 @@ def page(html):
 
 
 @pytest.fixture(scope="module")
-def tables(folder):
+def tables(finished_once):
     texts = {"keep_default_na": False, "na_values": [""]}
-    return {path.stem: pd.read_csv(path, **texts) for path in (folder / "results/tables").glob("*.csv")}
+    return {path.stem: pd.read_csv(path, **texts) for path in (finished_once / "results/tables").glob("*.csv")}
 
 
-def test_every_image_is_embedded_and_described(folder, page):
+def test_every_image_is_embedded_and_described(finished_once, page):
     described = {name for name, figure in FIGURES.items() if "alternative" in figure}
-    made = described & {path.stem for path in (folder / "results/figures").glob("*.png")}
+    made = described & {path.stem for path in (finished_once / "results/figures").glob("*.png")}
     images = page.attributes("img")
     assert len(images) == len(made) + 1 > 15, "and the picture of the rules"
     for image in images:
@@ -71,8 +66,6 @@ def test_every_number_stands_in_a_table(page, tables):
         table = tables[place["data-table"]]
         if "data-row" in place:
             value = float(table.at[int(place["data-row"]), place["data-column"]])
-        elif place["data-counted"] == "different values":
-            value = table[place["data-column"]].nunique()
         elif place["data-column"] in table:
             value = (table[place["data-column"]] == place["data-counted"]).sum()
         else:
@@ -93,8 +86,8 @@ def test_settings_are_no_dumps_and_a_trial_run_says_that_it_is_one(page):
     assert not re.search(r"\{['\"]|spawn_key|None|nan\b|dtype|<[a-z]", page.text.replace("nan marks points", ""))
 
 
-def test_the_time_is_that_in_which_jobs_ran_beside_the_papers(folder, page):
-    costs = pd.read_csv(folder / "results/tables/rule_costs.csv")
+def test_the_time_is_that_in_which_jobs_ran_beside_the_papers(finished_once, page):
+    costs = pd.read_csv(finished_once / "results/tables/rule_costs.csv")
     assert costs["longest_s"].max() < costs["share_s"].sum() < costs["seconds"].sum()
     assert f"The paper: several weeks. Here: {duration_text(costs['share_s'].sum())} on this machine" in page.text
 
@@ -125,9 +118,11 @@ def test_captions_are_those_of_the_report(page):
 
 @pytest.mark.skipif(BROWSER is None, reason="no Chromium is installed")
 @pytest.mark.parametrize(("width", "highest"), [(1440, 9000), (400, 18000)])
-def test_a_browser_shows_it_without_complaints_and_without_horizontal_scrolling(folder, tmp_path, width, highest):
+def test_a_browser_shows_it_without_complaints_and_without_horizontal_scrolling(
+    finished_once, tmp_path, width, highest
+):
     """In a frame, since the windows of Chromium are at least 500 pixels wide."""
-    (tmp_path / "page.html").write_bytes((folder / "results/index.html").read_bytes())
+    (tmp_path / "page.html").write_bytes((finished_once / "results/index.html").read_bytes())
     size = "document.title = this.contentDocument.documentElement.scrollWidth + ' ' + "
     size += "this.contentDocument.documentElement.scrollHeight"
     frame = (

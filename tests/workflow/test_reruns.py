@@ -1,12 +1,13 @@
 """What a changed setting or a changed source reruns, and what it leaves."""
 
 import ast
+import base64
 import re
 
 import pytest
 import xarray as xr
 
-from support.workflow import TEST, copy_sources, jobs, plan, read_settings, settings_file, snakemake
+from support.workflow import TEST, copy_project, copy_sources, jobs, plan, read_settings, settings_file, snakemake
 from viscorough_study.ensembles.surface_files import Surfaces
 
 FITS_AND_FIGURES = {"match_lines", "fit_scaling", "judge_claims", "compare_zeta_laws"}
@@ -122,6 +123,18 @@ def test_what_is_added_keeps_the_curves_that_are_there(finished_once, tmp_path, 
 def test_another_seed_reruns_the_curves_of_all_random_surfaces(finished_once, tmp_path):
     planned = plan(finished_once, *TEST, settings_file(tmp_path, "seed", seed=5), "--", "curves")
     assert planned == dict.fromkeys(("generate_discs", "indent_surfaces", "reduce_lines"), 4)
+
+
+def test_surfaces_that_must_be_made_again_do_not_hide_what_depends_on_them(tmp_path):
+    """Kept ones after a change of the seed, and ones that a killed run marked as incomplete when they were there."""
+    project, surfaces = copy_project(tmp_path), "results/surfaces/discs/h09000/0000-0001.nc"
+    planned = plan(project, *TEST)
+    snakemake(project, *TEST, "--notemp", "--", surfaces)
+    assert plan(project, *TEST, "--config", "seed=77") == planned
+    marker = project / ".snakemake/incomplete" / base64.urlsafe_b64encode(surfaces.encode()).decode()
+    marker.parent.mkdir(exist_ok=True)
+    marker.touch()
+    assert plan(project, *TEST) == planned
 
 
 def test_kept_surfaces_are_those_that_curves_are_made_from(finished):

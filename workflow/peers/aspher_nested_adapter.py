@@ -21,6 +21,9 @@ class AspherNested:
         self.operator = aspher.ContactSolver(self.side, domain_size=float(self.side), E_star=4.0, backend="fft")
 
     def solve(self, level, tolerance, start):
+        return self.nested(level, tolerance, backend="fft", precision="float_then_double")
+
+    def nested(self, level, tolerance, **mode):
         gap, depth = self.problem.gap, self.problem.depths[level]
         result = aspher.solve_nested(
             self.side,
@@ -30,8 +33,7 @@ class AspherNested:
             E_star=4.0,
             coarsest=self.coarsest,
             tol=tolerance * depth / np.ptp(gap),  # ASPHER's is relative to the range of the gap
-            backend="fft",
-            precision="float_then_double",
+            **mode,
         )
         return np.reshape(result.pressure, gap.shape), result.iterations
 
@@ -39,4 +41,5 @@ class AspherNested:
         return np.asarray(self.operator.matvec(pressure.ravel())).reshape(pressure.shape)
 
 
-answer_request("aspher", AspherNested)
+if __name__ == "__main__":
+    answer_request("aspher", AspherNested)

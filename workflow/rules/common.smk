@@ -58,40 +58,36 @@ def read_yaml(path):
     return yaml.safe_load((PROJECT / path).read_text(encoding="utf-8"))
 
 
-def require_readable(paths):
-    """End with one line about the first file of settings that cannot be read."""
+def complete(settings, files):
+    """The default settings with these in their place, and the cases of the measured surfaces that they name.
+
+    settings : of files, of the command line, or of a workflow that uses this one as a module
+    files : of settings, which must be readable
+    Ends with one line about the first file that cannot be read or is missing, or the first wrong setting.
+    """
     try:
-        for path in paths:
+        completed = read_settings_file(PROJECT / "config" / "config.yaml")
+        for path in files:
             read_settings_file(path)
+        update_config(completed, settings)
+        check_settings(completed, read_yaml("workflow/schemas/config.schema.yaml"))
+        return completed, cases.measured_cases(scans(completed["measured"]), completed["indentation"])
     except SettingsError as error:
         # A WorkflowError would show three more lines, about this file.
         raise SystemExit(f"Error in the settings: {error}")
 
 
-def with_defaults(settings):
-    """The default settings, with those of a workflow that uses this one as a module where it gives any."""
-    defaults = read_settings_file(PROJECT / "config" / "config.yaml")
-    update_config(defaults, settings)
-    return defaults
-
-
-def require_valid(settings):
-    """End with one line about the first wrong setting."""
-    try:
-        check_settings(settings, read_yaml("workflow/schemas/config.schema.yaml"))
-    except SettingsError as error:
-        raise SystemExit(f"Error in the settings: {error}")
-
-
-def measured_cases(settings):
-    """Cases of the measured surfaces; ends with one line about a missing file."""
-    try:
-        return cases.measured_cases(scans(settings["measured"]), settings["indentation"])
-    except SettingsError as error:
-        raise SystemExit(f"Error in the settings: {error}")
-
-
 # ---- inputs and params
+
+
+def chosen(section, *names):
+    """{name: setting} of these settings of a section."""
+    return {name: config[section][name] for name in names}
+
+
+def without(section, *names):
+    """{name: setting} of a section without these settings."""
+    return {name: value for name, value in config[section].items() if name not in names}
 
 
 def scan_value(name):
@@ -102,16 +98,6 @@ def scan_value(name):
 def disc_ensembles(wildcards):
     """Ensembles of discs in a batch."""
     return cases.batch_ensembles(DISCS[wildcards.case], wildcards.batch)
-
-
-def origin_of_surfaces(wildcards):
-    """Params by which the surfaces of a batch are made, and a digest of the source code."""
-    if wildcards.kind == "discs":
-        script, params = "generate_discs", [disc_ensembles(wildcards), config["seed"]]
-    else:
-        shaping = ("digest", "group", "spacing", "unit", "preparation")
-        script, params = "prepare_measured", [MEASURED[wildcards.case][name] for name in shaping]
-    return [*params, SOURCES.digest(WORKFLOW / "scripts" / f"{script}.py")]
 
 
 def kind_of_pool(pool):
@@ -144,11 +130,6 @@ def paper(name):
     return read_paper(PROJECT / "resources" / "paper", name)
 
 
-def region_limits():
-    """Settings that determine region (b): those of the fits without the ones that only fits need."""
-    return {name: value for name, value in config["scaling"].items() if name not in ("stiffness_range", "resamples")}
-
-
 def plateau_settings():
     """Settings of the test for a power law; its control is the first variant whose spectrum has a roll-off."""
     variants = (case["name"] for case in config["variants"]["cases"] if case.get("roll_off_wavelength"))
@@ -165,15 +146,12 @@ def plateau_settings():
     }
 
 
-def interface_limits():
-    """Arguments of fits.interface.interface_tables: its settings, and those of the fits that it shares."""
-    shared = ("fraction_min", "resamples")
-    return config["interface"] | {name: config["scaling"][name] for name in shared} | {"seed": config["seed"]}
-
-
 def combinations():
     """{name: force [N], viscosity [Pa s], diameter [m], rms [m]} of the ensembles of all combinations."""
     return {name: ensemble["combination"] for name, ensemble in cases.combined_ensembles(config).items()}
+
+
+LIGHT_ONLY = ("ASPHER active set",)  # solvers, or their modes, for maps on which few elements touch
 
 
 def other_solvers():
@@ -181,7 +159,7 @@ def other_solvers():
     adapters = WORKFLOW / "peers"
     modern, slippy = (str(PROJECT / name / "bin" / "python") for name in (".venv-peers", ".venv-slippy"))
     pythons = {"ASPHER": modern, "ASPHER nested": modern, "ContactMechanics": modern, "SlipPY": slippy}
-    pythons["Tamaas"] = modern
+    pythons |= dict.fromkeys(("Tamaas", *LIGHT_ONLY), modern)
     return {
         name: [python, str(adapters / f"{name.lower().replace(' ', '_')}_adapter.py")]
         for name, python in pythons.items()
@@ -217,17 +195,17 @@ def adapter_digests():
 # ---- report
 
 # Categories of the report, which sorts them by name.
-CHAPTERS = (
-    ("summary", "1 Summary"),
-    ("figures", "2 Figures of the paper"),
-    ("verdicts", "3 Verdicts"),
-    ("choices", "4 Conventions and validation"),
-    ("fits", "5 Fits"),
-    ("speed", "6 Speed and accuracy"),
-    ("failures", "7 Where methods fail"),
-    ("beyond", "8 Beyond the paper"),
-    ("costs", "9 Costs"),
-)
+CHAPTERS = {
+    "summary": "1 Summary",
+    "figures": "2 Figures of the paper",
+    "verdicts": "3 Verdicts",
+    "choices": "4 Conventions and validation",
+    "fits": "5 Fits",
+    "speed": "6 Speed and accuracy",
+    "failures": "7 Where methods fail",
+    "beyond": "8 Beyond the paper",
+    "costs": "9 Costs",
+}
 
 
 RESULTS = read_yaml("workflow/results.yaml")
@@ -282,7 +260,7 @@ def chapter(name):
 
     def category(wildcards):
         require_current()
-        return dict(CHAPTERS)[name]
+        return CHAPTERS[name]
 
     return category
 

@@ -3,8 +3,9 @@
 
 rule indent_surfaces:
     input:
-        # Changes of the surfaces are tracked by params: the files are temporary, and ancient here.
-        surfaces=ancient("results/surfaces/{kind}/{case}/{batch}.nc"),
+        # Temporary files. A change of how they are made reruns this rule, although they are not there; as ancient ones
+        # that are there they would not, and Snakemake would end without an error and without what depends on them.
+        surfaces="results/surfaces/{kind}/{case}/{batch}.nc",
     output:
         curves="results/curves/{kind}/{case}/{batch}.nc",
     log:
@@ -17,7 +18,6 @@ rule indent_surfaces:
     resources:
         mem_mb=indentation_memory,
     params:
-        origin_of_surfaces,
         indentation=lambda wildcards: CASES[wildcards.kind][wildcards.case]["indentation"],
     message:
         "Boundary elements, {wildcards.kind} {wildcards.case}, realizations {wildcards.batch}"

@@ -24,7 +24,7 @@ rule measure_methods:
         longest=config["methods"]["longest"],
         # For pairs of close levels, a solution without a start value cannot win.
         peers=(
-            {name: paths for name, paths in other_solvers().items() if name != "ASPHER nested"}
+            {name: paths for name, paths in other_solvers().items() if name not in ("ASPHER nested", *LIGHT_ONLY)}
             if other_solvers_wanted()
             else {}
         ),

@@ -7,93 +7,77 @@ TABLE_INPUTS = {
     "curves_of_combinations": curves_of_combinations(),
     "measured_curves": curves_of_pool("measured"),
 }
-FIT_OF_REGION = {name: value for name, value in config["scaling"].items() if name != "resamples"}
+SEED = {"seed": config["seed"]}
 # {rule: further arguments of its function}
 TABLE_PARAMS = {
-    "fit_scaling": {"seed": config["seed"], **config["scaling"]},
+    "fit_scaling": config["scaling"] | SEED,
     "tabulate_calibration": {"conventions": config["figures"], "across": config["discs"]["elements"]},
-    "fit_interface": {"fit": interface_limits(), "rms_convention": config["figures"]["rms_convention"]},
-    "compare_periodic": {
-        **{name: value for name, value in config["periodic"].items() if name != "hurst"},
-        "hursts": config["periodic"]["hurst"],
-        "seed": config["seed"],
+    "fit_interface": {
+        "fit": config["interface"] | chosen("scaling", "fraction_min", "resamples") | SEED,
+        **chosen("figures", "rms_convention"),
     },
+    "compare_periodic": without("periodic", "hurst") | {"hursts": config["periodic"]["hurst"]} | SEED,
     "validate": config["validation"],
-    "match_lines": {
-        "seed": config["seed"],
-        "fit": config["scaling"],
-        "conventions": {name: config["figures"][name] for name in ("rms_convention", "average")},
-    },
-    "compare_reduction": {
-        **config["reduction"],
-        "hursts": config["discs"]["hurst"],
-        **{name: config["discs"][name] for name in ("elements", "realizations", "tolerance")},
-        "seed": config["seed"],
-    },
-    "compare_direct": {**config["direct"], "hursts": config["discs"]["hurst"], "seed": config["seed"]},
+    "match_lines": {"fit": config["scaling"], "conventions": chosen("figures", "rms_convention", "average")} | SEED,
+    "compare_reduction": config["reduction"]
+    | chosen("discs", "elements", "realizations", "tolerance")
+    | {"hursts": config["discs"]["hurst"]}
+    | SEED,
+    "compare_direct": config["direct"] | {"hursts": config["discs"]["hurst"]} | SEED,
     "measure_plateaus": plateau_settings(),
     "compare_zeta_laws": {
-        "conventions": {name: config["figures"][name] for name in ("average", "rms_convention")},
+        "conventions": chosen("figures", "average", "rms_convention"),
         "hurst_mins": [0.0, number(paper("numbers"), "agreement", "beta_hurst_min")],
-        "fit": FIT_OF_REGION,
-        "resamples": config["scaling"]["resamples"],
-        "seed": config["seed"],
+        "fit": without("scaling", "resamples"),
+        **chosen("scaling", "resamples"),
+        **SEED,
     },
     "tabulate_literature": {
         "entries": read_yaml("resources/literature/stiffness.yaml"),
         "conventions": config["figures"],
     },
-    "tabulate_methods": {
-        name: value for name, value in config["methods"].items() if name not in ("tasks", "scenes", "pairs")
-    }
-    | {"seed": config["seed"]},
-    "compare_level_placement": {
-        **config["methods"]["scenes"],
-        "seed": config["seed"],
-        "repeats": config["methods"]["repeats"],
-    },
+    "tabulate_methods": without("methods", "tasks", "light", "scenes", "pairs") | SEED,
+    "compare_level_placement": config["methods"]["scenes"] | chosen("methods", "repeats") | SEED,
     "time_other_solvers": {
         **{name: config["methods"][name] for name in ("pairs", "longest", "tasks")},
         "hursts": config["methods"]["hurst"],
         "seed": config["seed"],
-        "peers": other_solvers(),
+        "peers": {name: paths for name, paths in other_solvers().items() if name not in LIGHT_ONLY},
     },
-    "map_failures": {
-        **config["stability"],
-        "seed": config["seed"],
-        "hurst_min": number(paper("numbers"), "agreement", "beta_hurst_min"),
+    "time_light_contact": {
+        **config["methods"]["light"],
+        **SEED,
+        "peers": {name: other_solvers()[name] for name in ("Tamaas", "ContactMechanics", *LIGHT_ONLY)},
     },
+    "map_failures": config["stability"] | {"hurst_min": number(paper("numbers"), "agreement", "beta_hurst_min")} | SEED,
     "fit_sizes": {
-        "seed": config["seed"],
         "fit": config["scaling"],
-        "windows": config["sizes"]["windows"],
         "tolerance": paper("claims")["beta"]["tolerance"],
         "conventions": config["figures"],
+        **chosen("sizes", "windows"),
+        **SEED,
     },
-    "compare_grids": {
-        "elements_min": config["scaling"]["elements_min"],
-        "rms_convention": config["figures"]["rms_convention"],
-    },
+    "compare_grids": chosen("scaling", "elements_min") | chosen("figures", "rms_convention"),
     "fit_collapse": {
         "ranges": config["collapse"],
         "conventions": config["figures"],
-        "fraction_min": config["scaling"]["fraction_min"],
         "tolerance": paper("claims")["beta"]["tolerance"],
-        "seed": config["seed"],
+        **chosen("scaling", "fraction_min"),
+        **SEED,
     },
     "compute_media": {
         **config["media"],
-        "rms_convention": config["figures"]["rms_convention"],
+        **chosen("figures", "rms_convention"),
+        **chosen("indentation", "until_x"),
         "discs": cases.first_combination(config),
-        "until_x": config["indentation"]["until_x"],
     },
     "evaluate_measured": {
         "names": list(MEASURED),
         "forces": [scan["forces"] for scan in MEASURED.values()],
         "media": config["media"]["cases"],
-        "times": config["media"]["times"],
         "fit": config["scaling"],
-        "seed": config["seed"],
+        **chosen("media", "times"),
+        **SEED,
     },
 }
 
@@ -118,7 +102,7 @@ for name, made in TABULATIONS.items():
         resources:
             mem_mb=made["memory"],
         params:
-            adapter_digests() if name == "time_other_solvers" else [],
+            adapter_digests() if name in ("time_other_solvers", "time_light_contact") else [],
             functions=table_functions(made),
             tables={
                 table: {key: entry[key] for key in ("label", "dimension")} for table, entry in made["tables"].items()

@@ -54,6 +54,12 @@ rule speed:
         rules.show_tables_of_speed.output,
 
 
+rule light_contact:
+    """One light load on large maps, by this and other solvers: a part of `speed`."""
+    input:
+        rules.plot_light_contact.output,
+
+
 rule stability:
     """Failure map of all methods."""
     input:

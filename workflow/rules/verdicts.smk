@@ -52,7 +52,7 @@ rule judge_claims:
         conventions=config["figures"],
         surfaces=cases.surfaces_left_open(config),
         across=config["discs"]["elements"],
-        limits=region_limits(),
+        limits=without("scaling", "stiffness_range", "resamples"),  # those of region (b)
         resamples=config["scaling"]["resamples"],
         seed=config["seed"],
     message:

@@ -8,18 +8,13 @@ from viscorough_study.page.assembly import contents_of
 from viscorough_study.run.job_log import log_to
 
 
-def main(project, discs, lines, other_solvers, tables, figures, article_file, *, claims, numbers):
+def main(project, figures, article_file, **run):
     """Write the article.
 
     project : folder of the project, which has template, style, citation, published numbers and verdicts
-    other_solvers : [] or [path of their table]; tables : paths, whose stems name them
-    figures : paths, which the template names from their folder
+    figures : paths, which the template names from their folder; run : further arguments of `contents_of`
     """
-    tables = {Path(path).stem: path for path in tables}
-    (others,) = other_solvers or [project / "resources/published/other_solvers.csv"]
-    published = {"other_solvers": others, "published": project / "docs/claims.csv"}
-    contents = contents_of(discs, lines, tables=tables, claims=claims, numbers=numbers, **published)
-    pdf = article(project, contents, paper=numbers, figures=Path(figures[0]).parent)
+    pdf = article(project, contents_of(project, **run), paper=run["numbers"], figures=Path(figures[0]).parent)
     with atomic_write(article_file) as temporary:
         temporary.write_bytes(pdf)
 

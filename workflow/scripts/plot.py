@@ -1,9 +1,10 @@
 """A figure of workflow/results.yaml."""
 
+from pkgutil import resolve_name
+
 import pandas as pd
 
 from viscorough_study.figures.style import save_figure
-from viscorough_study.run.inputs import named
 from viscorough_study.run.job_log import log_to
 
 
@@ -14,8 +15,11 @@ def main(files, png, pdf, *, functions, **params):
     functions : dotted names of the function that draws ("draw") and, under the arguments, of their readers, which take
         `files`; other arguments are tables
     """
-    inputs = {name: named(functions[name])(files) if name in functions else pd.read_csv(files[name]) for name in files}
-    save_figure(named(functions["draw"])(**inputs, **params), png, pdf)
+    inputs = {
+        name: resolve_name(functions[name])(files) if name in functions else pd.read_csv(path)
+        for name, path in files.items()
+    }
+    save_figure(resolve_name(functions["draw"])(**inputs, **params), png, pdf)
 
 
 if job := globals().get("snakemake"):

@@ -1,9 +1,11 @@
 """Tables of workflow/results.yaml."""
 
+from pkgutil import resolve_name
+
 import pandas as pd
 
 from viscorough_study.performance import timing
-from viscorough_study.run.inputs import named, read_input
+from viscorough_study.run.inputs import read_input
 from viscorough_study.run.job_log import log_to
 from viscorough_study.run.tables import recorded, write_table
 
@@ -14,12 +16,13 @@ def main(files, csv, nc, *, functions, tables, timed, arguments):
     functions : dotted names of the function that makes the tables ("tabulate"), and of the columns of each of them
     tables : {table: label and dimension}; timed : whether they hold measured times, so that the machine is recorded
     """
-    made = named(functions["tabulate"])(**{name: read_input(path) for name, path in files.items()}, **arguments)
+    inputs = {name: read_input(path) for name, path in files.items()}
+    made = resolve_name(functions["tabulate"])(**inputs, **arguments)
     made = dict.fromkeys(tables, made) if isinstance(made, pd.DataFrame) else made
     attributes = recorded(settings=arguments, **({"machine": timing.machine()} if timed else {}))
     for (name, entry), *paths in zip(tables.items(), csv, nc, strict=True):
         title = entry["label"][0].upper() + entry["label"][1:]
-        description = {"columns": named(functions[name]), "dimension": entry["dimension"], "title": title}
+        description = {"columns": resolve_name(functions[name]), "dimension": entry["dimension"], "title": title}
         write_table(made[name], *paths, **description, attributes=attributes)
 
 

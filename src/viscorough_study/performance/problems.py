@@ -56,16 +56,14 @@ def rough_problem(hurst, elements, levels, root):
     return Problem(name, disc, depth, exact.force, exact.force / exact.stiffness, hurst=hurst, seed=seed)
 
 
-def body_problem(name, body, elements, levels):
-    """A sphere or a cone, at contact radii from 0.1 to 0.45 L, with the velocities of the exact solution."""
-    indenter = body.indenter(elements)
-    depth = body.mdr_profile(np.geomspace(0.1, 0.45, levels))
-    force = body.force(depth)
-    return Problem(f"{name}, {elements}", indenter, depth, force, force / body.stiffness(depth), body=body)
-
-
 def named_problem(name, elements, levels, *, root=None, hurst=None):
-    """A problem by the name of its body, "sphere", "cone" or "rough disc"; root, hurst : of a rough disc."""
+    """A problem by the name of its body, "sphere", "cone" or "rough disc"; root, hurst : of a rough disc.
+
+    Sphere and cone are at contact radii from 0.1 to 0.45 L, with the velocities of the exact solution.
+    """
     if name == "rough disc":
         return rough_problem(hurst, elements, levels, root)
-    return body_problem(name, BODIES[name], elements, levels)
+    body = BODIES[name]
+    depth = body.mdr_profile(np.geomspace(0.1, 0.45, levels))
+    force, indenter = body.force(depth), body.indenter(elements)
+    return Problem(f"{name}, {elements}", indenter, depth, force, force / body.stiffness(depth), body=body)

@@ -8,6 +8,7 @@ import logging
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -64,6 +65,19 @@ class Task:
     residual: float
     threads: tuple = (1,)
 
+    def exact_forces(self):
+        """F/G at the depths, for solvers at given force, and to compare forces with."""
+        return indent(self.indenter, tolerance=REFERENCE_TOLERANCE, depths=self.depths).force
+
+    def solve(self, threads):
+        """What is timed: the solution of this package."""
+        return indent(self.indenter, tolerance=self.residual, depths=self.depths, threads=threads)
+
+    def outcome(self, solution):
+        """Residual, force and total_iterations of that solution, by level; not timed."""
+        applications = solution.operator_applications
+        return SimpleNamespace(residual=solution.residual, force=solution.force, total_iterations=applications)
+
 
 def time_other_solvers(*, seed, hursts, pairs, longest, tasks, peers):
     """`compare_solvers` on every task for every Hurst exponent, with the installed solvers.
@@ -71,12 +85,8 @@ def time_other_solvers(*, seed, hursts, pairs, longest, tasks, peers):
     tasks : setting of that name; peers : {solver: [Python of its environment, its adapter]}
     longest : seconds after which a run of another solver is abandoned
     """
-    solvers = [other_solvers.OtherSolver(name, *map(Path, paths)) for name, paths in peers.items()]
-    for solver in solvers:
-        if not solver.installed:
-            logging.warning("%s is not installed and is omitted (make peers installs it)", solver.name)
     common = {"pairs": pairs, "time_limit": longest}
-    tables, installed = [], [solver for solver in solvers if solver.installed]
+    tables, installed = [], installed_solvers(peers)
     threadpool_limits(1)  # of linear algebra; Snakemake gives the job all cores, so that no other job runs
     for number, task in enumerate(tasks):
         fractions = np.geomspace(*task["fractions"], task["levels"]) if task["levels"] > 1 else task["fractions"][:1]
@@ -85,6 +95,15 @@ def time_other_solvers(*, seed, hursts, pairs, longest, tasks, peers):
             levels = disc_task(task["name"], hurst, task["elements"], fractions, task["residual"], **disc)
             tables.append(compare_solvers(levels, installed, **common))
     return pd.concat(tables)
+
+
+def installed_solvers(peers):
+    """The OtherSolvers that are installed; a warning names those that are not."""
+    solvers = [other_solvers.OtherSolver(name, *map(Path, paths)) for name, paths in peers.items()]
+    for solver in solvers:
+        if not solver.installed:
+            logging.warning("%s is not installed and is omitted (make peers installs it)", solver.name)
+    return [solver for solver in solvers if solver.installed]
 
 
 def disc_task(name, hurst, elements, fractions, residual, *, seed, threads=(1,)):
@@ -105,16 +124,13 @@ def compare_solvers(task, solvers, *, pairs, time_limit):
     Solutions that miss the residual are not timed. Returns a pandas.DataFrame with the columns of `COLUMNS`: the path
     on each number of threads, then one row per solver and number of threads.
     """
-    exact = indent(task.indenter, tolerance=REFERENCE_TOLERANCE, depths=task.depths)
-    paths = {
-        threads: partial(indent, task.indenter, tolerance=task.residual, depths=task.depths, threads=threads)
-        for threads in task.threads
-    }
+    exact = task.exact_forces()
+    paths = {threads: partial(task.solve, threads) for threads in task.threads}
     rows = [_row_of_path(task, path, threads, exact) for threads, path in paths.items()]
     races, fastest = [], np.inf
     for solver in solvers:
         logging.info("%s, H = %g: %s, search for its tolerance", task.name, task.hurst, solver.name)
-        ask = partial(other_solvers.solve, solver, task.indenter, task.depths, exact.force, time_limit=time_limit)
+        ask = partial(other_solvers.solve, solver, task.indenter, task.depths, exact, time_limit=time_limit)
         tolerance, solution = _loosest_tolerance(ask, task.residual, fastest)
         if solution is None:
             continue
@@ -122,8 +138,7 @@ def compare_solvers(task, solvers, *, pairs, time_limit):
         fastest = min(fastest, solution.wall_s) if met else fastest
         for threads, path in paths.items():
             named = {"solver": solver.name, "version": solution.version, "threads": threads, "tolerance": tolerance}
-            cost = {"iterations": solution.total_iterations, "memory": solution.memory}
-            rows.append(_row(task, exact, solution) | named | cost)
+            rows.append(_row(task, exact, solution, solution.memory) | named)
             if met:
                 own_times = (solution.wall_s, solution.processor_s) if threads == 1 else None
                 races.append(_Race(path, partial(ask, tolerance, threads=threads), own_times, rows[-1]))
@@ -135,7 +150,9 @@ def compare_solvers(task, solvers, *, pairs, time_limit):
     for race in races:
         race.record()
     for row, path in zip(rows, paths.values(), strict=False):
-        seconds = [own for race in races if race.path is path for own, _ in race.seconds] or [timing.timed(path)[1:]]
+        seconds = [own for race in races if race.path is path for own, _ in race.seconds]
+        while not seconds or (len(seconds) < pairs and sum(wall for wall, _ in seconds) < MAX_REPEATED):
+            seconds.append(timing.timed(path)[1:])
         row["wall_s"], row["processor_s"] = np.median(seconds, axis=0)
         row |= dict.fromkeys(("ratio", "ratio_low", "ratio_high"), 1.0)
     return pd.DataFrame(rows, columns=list(COLUMNS))
@@ -175,14 +192,14 @@ class _Race:
 
 
 def _row_of_path(task, path, threads, exact):
-    curve, memory = timing.with_memory(path)
+    solution, memory = timing.with_memory(path)
     named = {"solver": "viscorough", "version": __version__, "threads": threads, "tolerance": task.residual}
-    return _row(task, exact, curve) | named | {"iterations": curve.operator_applications, "memory": memory}
+    return _row(task, exact, task.outcome(solution), memory) | named
 
 
-def _row(task, exact, solution):
-    """Task and accuracy of a solution; solution : LoadingCurve of the path, or Solution of another solver."""
-    residual = solution.residual.max()
+def _row(task, exact, outcome, memory):
+    """Task, accuracy and cost of an outcome; exact : forces of the levels."""
+    residual = outcome.residual.max()
     return {
         "task": task.name,
         "hurst": task.hurst,
@@ -190,7 +207,9 @@ def _row(task, exact, solution):
         "levels": len(task.depths),
         "residual": residual,
         "met": int(residual <= task.residual),
-        "force_error": np.abs(solution.force / exact.force - 1).max(),
+        "force_error": np.abs(outcome.force / exact - 1).max(),
+        "iterations": outcome.total_iterations,
+        "memory": memory,
     }
 
 

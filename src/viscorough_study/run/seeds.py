@@ -100,6 +100,11 @@ def law_disc_key(hurst, elements, realization):
     return _key(16, _millionths(hurst), elements, realization)
 
 
+def light_map_key(hurst, elements, number):
+    """Square maps under a light load; elements : across the map."""
+    return _key(17, _millionths(hurst), elements, number)
+
+
 def random_indenter_key(case):
     """Small indenter of the stability campaign; case : its number."""
     return _key(case)

@@ -13,7 +13,7 @@ import numpy as np
 from viscorough.contact.dense import ROUNDING
 from viscorough.contact.parallel import BLOCK
 from viscorough.contact.solver import ContactSolver
-from viscorough.contact.state import ContactState
+from viscorough.contact.state import ContactState, Elements, MemberLoads
 from viscorough.contact.step_control import ContactsAhead, Level, interpolate
 from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
@@ -33,6 +33,8 @@ _LARGE, _SIDE, _COARSE_TOLERANCE, _FAR = BLOCK, 4, 1e-2, 4.0
 # Least number of blocks in contact for an estimate. The depth of the map exceeds that of the blocks by a share of c
 # over the square root of their number; self-affine maps of all H had c from 0.6 to 2.4. A likely and a large c.
 _FEWEST_BLOCKS, _LIKELY, _LARGEST = 20, 1.2, 2.5
+# Deflection of the centre of a square under a uniform pressure, over P.
+_OWN_DEFLECTION = 4 * np.arcsinh(1.0)
 
 
 def _highest_of_blocks(indenter: Indenter) -> Indenter:
@@ -45,6 +47,27 @@ def _highest_of_blocks(indenter: Indenter) -> Indenter:
 
     heights = along_columns(along_columns(indenter.heights).T).T
     return Indenter(heights, _SIDE * indenter.spacing, _SIDE * indenter.row_spacing)
+
+
+def _loads_in_blocks(elements: Elements, pressure: Array) -> MemberLoads:
+    """The loads of blocks divided among their elements.
+
+    pressure : P of blocks, in reduced units of the elements, shape of the map of blocks
+
+    Those elements are loaded that lie no deeper below the highest one of their block than it deflects itself, as if
+    with the ellipse of pressures of a Hertzian contact.
+    """
+    row, column = elements.map_place
+    block = row // _SIDE * pressure.shape[1] + column // _SIDE
+    members = np.flatnonzero(pressure.ravel()[block])
+    block, gap = block[members], elements.initial_gap[members]
+    highest = np.empty(pressure.size)
+    highest[block[::-1]] = gap[::-1]  # the highest element of a block, the first by rank, is written last
+    pressure = pressure.ravel()[block]
+    share = np.sqrt(np.maximum(highest[block] + _OWN_DEFLECTION * pressure - gap, 0))
+    loads = _SIDE * pressure * share / np.bincount(block, share)[block]
+    is_loaded = share > 0
+    return MemberLoads(members[is_loaded], loads[is_loaded], np.zeros(np.count_nonzero(is_loaded)))
 
 
 class ForceSearch:
@@ -73,9 +96,10 @@ class ForceSearch:
         while self._above and self._above[-1].pressure_sum <= target:
             self._below = self._above.pop()
         for attempt in range(_MAX_ATTEMPTS):
-            depth, largest_depth = (attempt == 0 and self._estimate(target)) or self._guess(target, attempt)
+            guess, largest_depth = self._estimate(target) if attempt == 0 else (None, np.inf)
+            depth, largest_depth = (guess.reduced_depth, largest_depth) if guess else self._guess(target, attempt)
             sought = None if self._above else (target, largest_depth)
-            contact = self._solver.advance_reduced(self._below, depth, sought)
+            contact = self._solver.advance_reduced(self._below, depth, sought, guess)
             progress(1.0 if self._above else min(1.0, contact.pressure_sum / target))
             other = self._above[-1] if self._above else self._below
             if contact.pressure_sum <= target:
@@ -91,25 +115,30 @@ class ForceSearch:
             f"contact at F/G = {force:g}: the force is not met within {_MAX_ATTEMPTS} depths; choose a larger tolerance"
         )
 
-    def _estimate(self, target: float) -> tuple[float, float] | None:
-        """Depth of the contact at a force, and one it hardly exceeds, from a map of blocks; None if that does not help.
+    def _estimate(self, target: float) -> tuple[ContactState | None, float]:
+        """A guess of the contact at a force, and a depth it hardly exceeds, from a map of blocks, if that helps.
 
         An indenter that is nowhere lower carries a force at a smaller depth, so that this is estimated from below.
         """
-        solver, below = self._solver, self._below
+        solver, below, nothing = self._solver, self._below, (None, np.inf)
         is_near = bool(self._above) or target < _FAR * below.pressure_sum or below.count == solver.elements.count
         if solver.elements.count <= _LARGE or is_near:
-            return None
+            return nothing
         blocks = _highest_of_blocks(solver.indenter)
         coarse = ContactSolver(blocks, _COARSE_TOLERANCE, solver.options, solver.threads, whole=False)
         try:
             contact = ForceSearch(coarse).contact_at(target * solver.units.force)
         except ConvergenceError:
-            return None
-        if contact.count < _FEWEST_BLOCKS:
-            return None
-        depth, largest = (contact.depth * (1 + c / contact.count**0.5) for c in (_LIKELY, _LARGEST))
-        return (depth / solver.units.length, largest / solver.units.length) if depth > below.depth else None
+            return nothing
+        unit = coarse.units.length / solver.units.length
+        likely, largest = (unit * contact.reduced_depth * (1 + c / contact.count**0.5) for c in (_LIKELY, _LARGEST))
+        if contact.count < _FEWEST_BLOCKS or likely <= below.reduced_depth:
+            return nothing
+        pressure = np.zeros(blocks.heights.shape)
+        pressure[coarse.elements.places_on_map(contact.members)] = unit * contact.reduced_pressure
+        solver.candidates(largest, largest)  # ranks them
+        loads = _loads_in_blocks(solver.elements, pressure)
+        return ContactState(solver.units, likely, loads.members.size, target, 0.0, loads=loads), largest
 
     def _guess(self, target: float, attempt: int) -> tuple[float, float]:
         """Depth to solve next, and the largest one that is likely, from the contacts before."""

@@ -149,18 +149,23 @@ class ContactSolver:
         return self.advance_reduced(contact, depth / self.units.length)
 
     def advance_reduced(
-        self, contact: ContactState, depth: float, force: tuple[float, float] | None = None
+        self,
+        contact: ContactState,
+        depth: float,
+        force: tuple[float, float] | None = None,
+        guess: ContactState | None = None,
     ) -> ContactState:
         """The ContactState at a larger depth in units of the largest initial gap. Raises what `advance` raises.
 
         force : (ΣP, largest depth) where the depth is a first guess of the one with this ΣP: on the grid the contact is
             the one at this force, within the tolerance, or else at the largest depth; a dense solution is at the guess
+        guess : with loads like those at the larger depth, from which the iteration on a grid starts instead
         """
         if depth > _LARGEST_DEPTH:
             text = f"contact at depth {depth * self.units.length:g}: larger than {_LARGEST_DEPTH:g} times the largest"
             raise ValueError(f"{text} initial gap, up to which depths are allowed")
         deepest = force[1] if force else max(min(_BOX_DEPTH_MARGIN * depth, self._largest_depth), depth)
-        candidates = self._candidates(depth, deepest)
+        candidates = self.candidates(depth, deepest)
         if contact.fields is None and self._is_small(candidates, contact):
             solution = dense.solve(self.elements, contact, depth, candidates, self.options.dense_contacts)
             if solution is not None:
@@ -169,7 +174,7 @@ class ContactSolver:
         if not _has_fields_on(grid, contact):
             # The fields of a much shallower contact cost more than they save.
             is_start = depth < _LARGEST_RATIO_OF_START * contact.reduced_depth
-            start = replace(contact, fields=grid.fields(contact)) if is_start else self.unloaded_state()
+            start = replace(contact, fields=grid.fields(contact)) if is_start else guess or self.unloaded_state()
         if force:
             force = force[0], min(force[1], self.elements.next_gap(self._reach))
         return self._checked(contact, grid.solve(start, depth, force))
@@ -231,7 +236,7 @@ class ContactSolver:
             )
         return gap
 
-    def _candidates(self, depth: float, deepest: float) -> int:
+    def candidates(self, depth: float, deepest: float) -> int:
         """Number of elements whose initial gaps are below a reduced depth: only these can touch there.
 
         deepest : depth up to which elements are ranked if they are not up to the first one
@@ -253,7 +258,7 @@ class ContactSolver:
         """
         if self._grid is None or rank > self._reach:
             # The box allows for larger depths to come, or is the whole grid where it would save little.
-            reach = max(rank, self._candidates(deepest, deepest))
+            reach = max(rank, self.candidates(deepest, deepest))
             gap, row, column = self.elements.initial_gap, self.elements.row, self.elements.column
             first, last = ([pick(place[:reach]) for place in (row, column)] for pick in (np.min, np.max))
             box = tuple(int(n) for n in (*first, *np.subtract(last, first) + 1))

@@ -114,11 +114,14 @@ def test_depth_of_blocks_tells_that_of_the_contact(hurst):
     """From few elements in contact to complete contact; blocks at the edges have fewer elements."""
     rough = Indenter(self_affine_square(hurst, 403, seed=5)[:, :390], 1.0, 1.3)
     for force in (200.0, 2e3, 2e4):
-        depth = contact_at(rough, force=force).depth
+        contact = contact_at(rough, force=force)
         least = contact_at(prescribed_force._highest_of_blocks(rough), force=force).depth
         solver = ContactSolver(rough, 1e-3)
-        largest = ForceSearch(solver)._estimate(force / solver.units.force)[1] * solver.units.length
-        assert 0.7 * depth < least < depth < largest < 1.4 * depth
+        guess, largest = ForceSearch(solver)._estimate(force / solver.units.force)
+        assert 0.7 * contact.depth < least < contact.depth < largest * solver.units.length < 1.4 * contact.depth
+        assert guess.pressure.sum() * rough.spacing * rough.row_spacing == pytest.approx(force)
+        exact = contact.pressure[solver.elements.places_on_map(guess.members)]
+        assert np.abs(guess.pressure - exact).sum() < 0.6 * contact.pressure.sum()
 
 
 def test_a_force_that_the_first_guess_meets_exactly():

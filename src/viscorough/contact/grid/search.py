@@ -137,12 +137,12 @@ class ContactSearch:
             close_enough = max(limit - change.rounding, change.rounding)
             is_close = largest <= close_enough and not tension
             if is_close and (not force or force.is_met(pressure, contact_set.places, depth, limit)):
-                changed = self._add_penetrating_elements(change, inside, close_enough) > 0
+                changed = self.add_penetrating_elements(change, inside, close_enough) > 0
                 if not changed:
                     if change.rounding <= 0.5 * limit:
                         return contact_set, depth
                     self._deflect(pressure, depth, change)
-                    self._add_penetrating_elements(change, inside, limit)
+                    self.add_penetrating_elements(change, inside, limit)
                     changed, search = True, None  # the load array holds another load now
                 continue
             if changed or search is None:
@@ -169,7 +169,7 @@ class ContactSearch:
                     search.update_gap(change.values)
             else:
                 tension = search.step(pressure, change.values)
-            changed = self._add_penetrating_elements(change, inside, close_enough) > 0 or changed
+            changed = self.add_penetrating_elements(change, inside, close_enough) > 0 or changed
         raise self._not_converged(contact_set, largest, limit)
 
     def solve_tangent(self, contact_set: ContactSet, tangent: Array, tangent_gap: BoundedField) -> None:
@@ -257,7 +257,8 @@ class ContactSearch:
         self._loops.shifted(deflection, depth, self.interior(change.values))
         change.rounding = (self._exact_rounding + self.field_rounding) * depth
 
-    def _add_penetrating_elements(self, change: BoundedField, inside: Mask, limit: float) -> int:
+    def add_penetrating_elements(self, change: BoundedField, inside: Mask, limit: float) -> int:
+        """Add the elements that overlap the surface by more than the limit to a set; returns their number."""
         fields = (field[self.inner] for field in (change.values, self.initial_gap, inside))
         return sum(self._loops.each(kernels.add_penetrating_elements, (limit,), *fields))
 

@@ -94,15 +94,17 @@ class GridSolver:
         return GridFields(inside, pressure, change, tangent, tangent_gap, self.initial_gap, self.place)
 
     def solve(self, contact: ContactState, depth: float, force: tuple[float, float] | None = None) -> ContactState:
-        """The ContactState at a larger reduced depth, from a contact with GridFields on this grid or without any load.
+        """The ContactState at a reduced depth, from a contact at a smaller one with GridFields on this grid.
 
+        contact : without GridFields its loads are a first guess of those at the new depth
         force : (ΣP, largest depth) where the depth is only a first guess of the one with this ΣP
 
         Raises ConvergenceError if the tolerance is not reached in max_iterations.
         """
         search, last_depth = self._search, contact.reduced_depth
-        before = self._start_fields(contact) if contact.count else None
-        pressure, change, inside = self._predicted(before, last_depth, depth) if before else self._unloaded(depth)
+        before = self._start_fields(contact) if contact.fields else None
+        predicted = self._predicted(before, last_depth, depth) if before else self._guessed(contact, depth)
+        pressure, change, inside = predicted
         prescribed = PrescribedForce(*force, self._loops) if force else None
         contact_set, depth = search.solve_pressure(pressure, change, inside, depth, prescribed)
         now = Loads(pressure, change, depth)
@@ -123,14 +125,15 @@ class GridSolver:
         pressure, change, inside = predicted
         return pressure, BoundedField(change, rounding + self._search.field_rounding * depth), inside
 
-    def _unloaded(self, depth: float) -> tuple[Array, BoundedField, Mask]:
-        """The same as predicted from no contact, whose fields, the largest part of the memory, are not needed."""
-        search = self._search
-        pressure, change, inside = search.zeros(), search.zeros(), search.zeros(bool)
-        self._loops.fill(change, -depth)
-        touches_at = search.precision(depth * (1 - LATE))
-        self._loops.each(lambda gap, out: np.less(gap, touches_at, out=out), (), self.initial_gap, inside)
-        return pressure, BoundedField(change, 2 * search.field_rounding * depth), inside
+    def _guessed(self, contact: ContactState, depth: float) -> tuple[Array, BoundedField, Mask]:
+        """The same from the loads of a contact alone, without fields of its own, which are most of the memory."""
+        search, loads = self._search, contact.member_loads()
+        pressure, inside, place = search.zeros(), search.zeros(bool), self.place[loads.members]
+        pressure[place] = loads.pressure
+        change = search.gap_change(pressure, depth)
+        search.add_penetrating_elements(change, inside, LATE * depth)
+        inside[place] = True
+        return pressure, change, inside
 
     def settled(self, contact: ContactState, depth: float, pressure_sum: float) -> ContactState:
         """The contact at a depth so near that its tangent leads there, with pressures of exactly the given sum.

@@ -8,6 +8,8 @@ accurate enough, the next depth lies between a contact below and one above: that
 in the triangle of chord and tangents, or where the tangents put it. The last, small correction follows the tangent.
 """
 
+from functools import cached_property
+
 import numpy as np
 
 from viscorough.contact.dense import ROUNDING
@@ -75,8 +77,12 @@ class ForceSearch:
 
     def __init__(self, solver: ContactSolver) -> None:
         self._solver = solver
-        self._first = self._below = solver.first_contact()
-        self._above = ContactsAhead()
+        self._below, self._above = solver.unloaded_state(), ContactsAhead()
+
+    @cached_property
+    def _first(self) -> ContactState:
+        """The first contact, for which dense solutions tabulate influence coefficients for the whole map."""
+        return self._solver.first_contact()
 
     def contact_at(self, force: float, progress: Progress = lambda share: None) -> ContactState:
         """The ContactState at F/G [length²], a larger one than at the last call.
@@ -88,16 +94,21 @@ class ForceSearch:
         to represent.
         """
         target = force / self._solver.units.force
-        if target <= self._first.pressure_sum or self._solver.is_flat:
+        while self._above and self._above[-1].pressure_sum <= target:
+            self._below = self._above.pop()
+        guess, largest_depth = self._estimate(target)
+        if not guess and (target <= self._first.pressure_sum or self._solver.is_flat):
             # Only the highest elements are in contact: the curve is straight.
             depth = self._first.reduced_depth * (target / self._first.pressure_sum)
             contact = self._solver.advance_reduced(self._solver.unloaded_state(), depth)
             return self._solver.settled(contact, depth, target)
-        while self._above and self._above[-1].pressure_sum <= target:
-            self._below = self._above.pop()
         for attempt in range(_MAX_ATTEMPTS):
-            guess, largest_depth = self._estimate(target) if attempt == 0 else (None, np.inf)
-            depth, largest_depth = (guess.reduced_depth, largest_depth) if guess else self._guess(target, attempt)
+            if guess and attempt == 0:
+                depth = guess.reduced_depth
+            else:
+                guess = None
+                self._below = self._below if self._below.count else self._first
+                depth, largest_depth = self._guess(target, attempt)
             sought = None if self._above else (target, largest_depth)
             contact = self._solver.advance_reduced(self._below, depth, sought, guess)
             progress(1.0 if self._above else min(1.0, contact.pressure_sum / target))
@@ -122,7 +133,7 @@ class ForceSearch:
         """
         solver, below, nothing = self._solver, self._below, (None, np.inf)
         is_near = bool(self._above) or target < _FAR * below.pressure_sum or below.count == solver.elements.count
-        if solver.elements.count <= _LARGE or is_near:
+        if solver.elements.count <= _LARGE or is_near or solver.is_flat:
             return nothing
         blocks = _highest_of_blocks(solver.indenter)
         coarse = ContactSolver(blocks, _COARSE_TOLERANCE, solver.options, solver.threads, whole=False)

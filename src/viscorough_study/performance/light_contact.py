@@ -50,7 +50,8 @@ class LightLoad(solver_comparison.Task):
 
     def rank(self):
         """What no solution can do without: the elements that can touch, in order."""
-        return Ranking(self.indenter).first(self.depths[0])
+        ranking = Ranking(self.indenter)
+        return ranking.first(self.depths[0] / ranking.units.length)
 
     def outcome(self, solution):
         """Residual, by the measure of all solvers, force and total_iterations."""

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from viscorough.contact import ranking
 from viscorough.contact.one_contact import contact_at
 from viscorough_study.performance import light_contact
 
@@ -23,7 +24,7 @@ def test_maps_of_the_growth_and_of_the_race_are_all_in_the_table(table):
     assert (table["residual"] > 0).all()
 
 
-def test_a_load_gives_the_contact_fraction_that_it_was_chosen_for():
+def test_a_load_gives_the_contact_fraction_that_it_was_chosen_for(monkeypatch):
     heights = np.random.default_rng(3).standard_normal((48, 48))
     indenter = light_contact.Indenter(heights, 0.5)
     load = light_contact.light_load(0.8, indenter, 0.03, 1e-5, [1])
@@ -33,3 +34,5 @@ def test_a_load_gives_the_contact_fraction_that_it_was_chosen_for():
     outcome = load.outcome(load.solve(1))
     assert 0 < outcome.residual.max() <= 1e-5
     np.testing.assert_allclose(outcome.force, load.exact_forces(), rtol=1e-12)
+    monkeypatch.setattr(ranking, "_LEAST", 1)
+    assert load.rank().initial_gap.size == np.count_nonzero(indenter.initial_gap <= load.depths[0]) < heights.size

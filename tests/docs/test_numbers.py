@@ -181,6 +181,11 @@ def two_threads():
     return two.groupby(["task", "hurst"])["ratio"].min()
 
 
+def light_loads():
+    """Other solvers under one light load, those that finished."""
+    return published("light_contact.csv").query("solver != 'viscorough'")
+
+
 def discs_of_paper():
     """Number of discs of the paper's scale, by group."""
     cases = disc_cases(merged(read_settings("config"), read_settings("paper"))).values()
@@ -370,6 +375,9 @@ QUOTED = {
         ),
         "the largest job took {:.0f} GB": lambda: costs("memory_mb").max() / 1000,
         "takes {:.2g} to {:.2g} times as long for the single levels": lambda: two_threads().agg(["min", "max"]),
+        "Tamaas and ContactMechanics everywhere, and all at 30 % contact": lambda: (
+            set(light_loads()["solver"]) == {"ASPHER active set"} and light_loads()["fraction"].max() < 0.3
+        ),
     },
 }
 

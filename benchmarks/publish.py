@@ -43,10 +43,10 @@ MADE = {
         "literature zeta_laws grid_dependence periodic",
     ),
     "speed": (
-        "speed growth other_solvers light_contact level_placement",
-        "methods other_solvers light_contact level_placement",
+        "speed growth other_solvers level_placement",
+        "methods other_solvers level_placement",
     ),
-    "light_contact": ("light_contact", "light_contact"),  # a part of it
+    "light_contact": ("light_contact", "light_contact"),  # a part of `make speed`
     "stability": ("failure_map", "failure_map"),
     "sizes": ("sizes collapse", "sizes sizes_trends collapse collapse_curves infinite_grid"),
     "large": ("large", "large"),

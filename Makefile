@@ -9,7 +9,7 @@ SNAKEMAKE = $(BIN)/snakemake --cores $(CORES) $(if $(SETTINGS),--configfile $(SE
 # One line of progress; all that is printed is in results/run.log.
 WITH_PROGRESS = $(BIN)/python -m viscorough_study.page.terminal --
 
-.PHONY: help environment environment-slurm settings reproduce paper report check test docs test-slurm bench speed light_contact stability \
+.PHONY: help environment environment-slurm settings reproduce paper report check test docs test-slurm bench speed light stability \
 	sizes law large article outside fuzz faults seeds publish chaos dist peers lock lock-peers lock-slurm clean
 
 help:
@@ -21,7 +21,7 @@ help:
 	@echo "make docs        the documentation as a website, in build/docs/index.html"
 	@echo "make bench       cost and errors of curves, lines, operators and members of ensembles, in results/benchmarks.json"
 	@echo "make speed       speed against accuracy of every method, in results/figures/speed.png; 80 minutes"
-	@echo "make light_contact  of this, one light load on large maps; 45 minutes"
+	@echo "make light       of this, one light load on large maps; 45 minutes"
 	@echo "make stability   where each method fails, and random small indenters against dense solutions"
 	@echo "make sizes       exponents on grids from 33 to 4097 elements across and on lines, and their collapse"
 	@echo "make law         the calibrated law of the interface, from discs to complete contact; 10 minutes"
@@ -38,7 +38,7 @@ help:
 	@echo "make lock        renew requirements.lock from pyproject.toml; needs uv, as do lock-peers and lock-slurm"
 	@echo "make dist        sdist and wheel in build/dist; README's Python lines and all examples run from the wheel"
 	@echo "make clean       remove results and caches, keep the environment"
-	@echo "Variables: CORES=$(CORES), PYTHON=$(PYTHON); SETTINGS=mine.yaml for reproduce, report, article, speed, light_contact, stability, sizes, large."
+	@echo "Variables: CORES=$(CORES), PYTHON=$(PYTHON); SETTINGS=mine.yaml for reproduce, report, article, speed, light, stability, sizes, large."
 
 environment: .venv/package-installed
 
@@ -107,14 +107,14 @@ bench: environment
 	$(BIN)/python benchmarks/curves.py --output results/benchmarks.json
 	$(BIN)/python benchmarks/members.py --output results/members.json
 
-speed light_contact stability: SETTINGS = config/methods.yaml
+speed light stability: SETTINGS = config/methods.yaml
 sizes: SETTINGS = config/sizes.yaml
 large: SETTINGS = config/large.yaml
 
 speed: settings
 	$(SNAKEMAKE) -- speed
 
-light_contact: settings
+light: settings
 	$(SNAKEMAKE) -- light_contact
 
 stability: settings

@@ -46,7 +46,7 @@ MADE = {
         "speed growth other_solvers level_placement",
         "methods other_solvers level_placement",
     ),
-    "light_contact": ("light_contact", "light_contact"),  # a part of `make speed`
+    "light": ("light_contact", "light_contact"),  # a part of `make speed`
     "stability": ("failure_map", "failure_map"),
     "sizes": ("sizes collapse", "sizes sizes_trends collapse collapse_curves infinite_grid"),
     "large": ("large", "large"),

@@ -25,12 +25,13 @@ class Ranking:
     """Ranks the elements of an indenter from the highest one on.
 
     units : Units in which initial gaps are expressed
+    highest : the largest height
     """
 
     def __init__(self, indenter: Indenter, threads: int = 1) -> None:
         self._heights, self._threads, self._aspect = indenter.heights, threads, indenter.aspect
-        self._highest, lowest = np.fmax.reduce(self._heights, axis=None), np.fmin.reduce(self._heights, axis=None)
-        span = float(np.subtract(self._highest, lowest, dtype=float))
+        self.highest, lowest = np.fmax.reduce(self._heights, axis=None), np.fmin.reduce(self._heights, axis=None)
+        span = float(np.subtract(self.highest, lowest, dtype=float))
         self.units = Units(span or indenter.element_side, indenter.element_side)
         inside = np.isfinite(self._heights)
         self._count, (rows, columns) = int(np.count_nonzero(inside)), self._heights.shape
@@ -49,7 +50,7 @@ class Ranking:
         if self._count <= _LEAST:
             return self.up_to(elements, np.inf)
         sample = self._heights.ravel()[:: max(self._count // _DEPTH_SAMPLE, 1)]
-        gap = np.subtract(self._highest, sample[np.isfinite(sample)], dtype=float) / self.units.length
+        gap = np.subtract(self.highest, sample[np.isfinite(sample)], dtype=float) / self.units.length
         least = np.quantile(gap, min(_FIRST / self._count, 1.0)) if gap.size else np.inf
         return self.up_to(elements, depth if np.isfinite(depth) else least)
 
@@ -83,7 +84,7 @@ class Ranking:
         heights, length = self._heights.ravel(), self.units.length
 
         def find(i: int, j: int) -> tuple[Integers, Array]:
-            gap = np.subtract(self._highest, heights[i:j], dtype=float)
+            gap = np.subtract(self.highest, heights[i:j], dtype=float)
             gap /= length
             chosen = np.flatnonzero((gap > above) & (gap <= up_to))
             return i + chosen, gap[chosen]

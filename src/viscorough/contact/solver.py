@@ -18,10 +18,10 @@ from viscorough.contact.dense import ContactEvents
 from viscorough.contact.grid.loops import GridLoops
 from viscorough.contact.grid.memory_demand import require_for_box, require_for_contact
 from viscorough.contact.grid.solver import GridSolver
-from viscorough.contact.halfspace import sparse_loads
+from viscorough.contact.halfspace import tiles
 from viscorough.contact.halfspace.operator import Halfspace
 from viscorough.contact.options import DEFAULT, SolverOptions
-from viscorough.contact.parallel import require_threads
+from viscorough.contact.parallel import BLOCK, require_threads, run_blocks
 from viscorough.contact.ranking import Ranking
 from viscorough.contact.state import ContactState, MemberLoads
 from viscorough.errors import AccuracyWarning, ConvergenceError
@@ -195,40 +195,39 @@ class ContactSolver:
         Raises ConvergenceError if any element overlaps the surface by more than the residual of the contact says.
         """
         heights, (top, left), (rows, columns) = self.indenter.heights, self.elements.origin, self.elements.shape
-        gap = np.subtract(np.fmax.reduce(heights, axis=None), heights, dtype=float)
+        gap, highest = np.empty(heights.shape), self._ranking.highest
+
+        def undeformed(i: int, j: int) -> None:
+            np.subtract(highest, heights[i:j], out=gap[i:j], dtype=float)
+            gap[i:j] -= contact.depth
+
+        run_blocks(undeformed, len(gap), self.threads, -(-BLOCK // heights.shape[1]))
         part, grid = gap[top : top + rows, left : left + columns], self._grid
-        on_grid = grid if grid and _has_fields_on(grid, contact) else None
-        if not on_grid or on_grid.box != (0, 0, rows, columns):
+        # A grid without restrictions knows the gap in its box to the residual.
+        known = grid if grid and _has_fields_on(grid, contact) and not grid.is_restricted else None
+        if not known or known.box != (0, 0, rows, columns):
             loads, elements = contact.member_loads(), self.elements
             place, load = (elements.row[loads.members], elements.column[loads.members]), loads.pressure
-            if self.tolerance > sparse_loads.ACCURACY and sparse_loads.is_suitable(
-                elements.shape, load.size, elements.aspect
-            ):
-                load = load * self.units.length
-                box = on_grid.box if on_grid else (0, 0, 0, 0)
-                sparse_loads.add_deflection(
-                    part, *place, load, outside=box, aspect=elements.aspect, threads=self.threads
-                )
+            of_map: dict[str, Any] = {"aspect": elements.aspect, "threads": self.threads}
+            if self.options.padding and tiles.is_suitable(elements.shape, elements.aspect, self.tolerance):
+                restricted = tiles.TiledHalfspace(rows, columns, tiles.tiles_with(*place, elements.shape), **of_map)
+                restricted.load[place] = load * self.units.length
+                restricted.add_to(part, tiles.tiles_beyond(known.box if known else (0, 0, 0, 0), elements.shape))
             else:
-                how: dict[str, Any] = {
-                    "aspect": elements.aspect,
-                    "padding": self.options.padding,
-                    "threads": self.threads,
-                }
                 # Dense solutions are exact to the rounding of double precision.
                 exact = contact.fields is None or self.tolerance < self.options.exact_gap_below
-                halfspace = Halfspace(rows, columns, np.float64 if exact else np.float32, **how)
+                precision = np.float64 if exact else np.float32
+                halfspace = Halfspace(rows, columns, precision, padding=self.options.padding, **of_map)
                 halfspace.load[place] = load * self.units.length
                 part += halfspace.apply()[:, :columns]
-            part -= contact.depth
             if contact.fields is None:
                 part[place] = 0.0
-        if on_grid:  # which knows the gap in its box to the residual
-            first_row, first_column, rows, columns = on_grid.box
+        if known:
+            first_row, first_column, rows, columns = known.box
             in_box = slice(first_row, first_row + rows), slice(first_column, first_column + columns)
             initial = heights[top : top + self.elements.shape[0], left : left + self.elements.shape[1]][in_box]
-            np.subtract(np.fmax.reduce(heights, axis=None), initial, out=part[in_box], dtype=float)
-            part[in_box] += on_grid.in_box(contact.grid_fields.gap_change.values) * self.units.length
+            np.subtract(highest, initial, out=part[in_box], dtype=float)
+            part[in_box] += known.in_box(contact.grid_fields.gap_change.values) * self.units.length
         overlap = -np.fmin.reduce(gap, axis=None) / contact.depth
         if overlap > contact.residual + self.tolerance:
             raise ConvergenceError(
@@ -265,9 +264,9 @@ class ContactSolver:
             rows, columns = self.elements.shape
             if box[2] * box[3] > _LARGEST_BOX * rows * columns:
                 reach, box = gap.size, (0, 0, rows, columns)
-            self._reach = reach
-            if self._grid and self._grid.box == box:
-                self._grid.place_elements(row, column, gap)
+            self._reach, placed = reach, (row[:reach], column[:reach], gap[:reach])
+            if self._grid and self._grid.box == box and not self._grid.is_restricted:
+                self._grid.place_elements(*placed)
                 return self._grid
             self._former_applications = self.operator_applications
             self._grid = None  # its memory is free for the larger one
@@ -275,7 +274,7 @@ class ContactSolver:
             if reach == self.elements.count:
                 self.elements.free_influence()  # contacts on the whole grid need no dense solutions
             self._grid = GridSolver(
-                box, row, column, gap, self.tolerance, self.options, aspect=self.elements.aspect, threads=self.threads
+                box, *placed, self.tolerance, self.options, aspect=self.elements.aspect, threads=self.threads
             )
         return self._grid
 

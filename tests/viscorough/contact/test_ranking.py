@@ -5,7 +5,7 @@ import pytest
 
 from viscorough import Indenter, contact_at, indent
 from viscorough.contact import prescribed_force, ranking
-from viscorough.contact.halfspace import sparse_loads
+from viscorough.contact.halfspace import tiles
 from viscorough.contact.ranking import Ranking
 from viscorough.surfaces import self_affine_square
 
@@ -40,12 +40,13 @@ def indenter(request):
 
 @pytest.fixture
 def few_ranked(monkeypatch):
-    """As on maps of millions of elements: few are ranked at first, far gaps are interpolated, and depths estimated."""
+    """As on maps of millions of elements: few are ranked at first, operators restricted, and depths estimated."""
     for name in ("_LEAST", "_FIRST"):
         monkeypatch.setattr(ranking, name, 50)
     for name in ("_LARGE", "_FEWEST_BLOCKS"):
         monkeypatch.setattr(prescribed_force, name, 1)
-    monkeypatch.setattr(sparse_loads, "_LEAST", 0)
+    for name, number in {"_LEAST": 0, "_LARGEST_SHARE": 1, "SIDE": 8}.items():
+        monkeypatch.setattr(tiles, name, number)
 
 
 def test_elements_ranked_step_by_step_are_those_of_all_at_once(indenter, few_ranked):
@@ -72,7 +73,7 @@ def test_contacts_are_those_with_all_elements_ranked(indenter, given, few_ranked
     tolerance = 1e-6
     contacts = contact_at(indenter, tolerance=tolerance, **given)
     monkeypatch.setattr(ranking, "_LEAST", 10**6)
-    monkeypatch.setattr(sparse_loads, "_LEAST", 10**6)
+    monkeypatch.setattr(tiles, "_LEAST", 10**6)
     for contact, expected in zip(contacts, contact_at(indenter, tolerance=tolerance, **given), strict=True):
         assert contact.force == pytest.approx(expected.force, rel=tolerance)
         assert contact.depth == pytest.approx(expected.depth, rel=tolerance)

@@ -8,6 +8,7 @@ import numpy as np
 from viscorough.contact.grid import kernels
 from viscorough.contact.grid.loops import GridLoops, joined
 from viscorough.contact.halfspace.operator import Halfspace
+from viscorough.contact.halfspace.tiles import TiledHalfspace
 from viscorough.contact.preconditioner.multilevel import Preconditioner
 from viscorough.contact.state import ContactSet
 from viscorough.types import Array, Integers
@@ -26,7 +27,11 @@ class ConjugateGradients:
     """
 
     def __init__(
-        self, halfspace: Halfspace, preconditioner: Preconditioner, contact_set: ContactSet, loops: GridLoops
+        self,
+        halfspace: Halfspace | TiledHalfspace,
+        preconditioner: Preconditioner,
+        contact_set: ContactSet,
+        loops: GridLoops,
     ) -> None:
         self._halfspace, self._preconditioner, self._loops = halfspace, preconditioner, loops
         self._direction = halfspace.load.ravel()  # a view: the direction is the operator's load

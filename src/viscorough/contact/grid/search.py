@@ -17,6 +17,8 @@ precision where the tolerance needs it, when the bound nears the tolerance: if p
 which the operator is applied anyway.
 """
 
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -27,6 +29,7 @@ from viscorough.contact.grid.conjugate_gradients import ConjugateGradients
 from viscorough.contact.grid.depth_adjustment import PrescribedForce
 from viscorough.contact.grid.loops import GridLoops
 from viscorough.contact.halfspace.operator import Halfspace, spectrum_of_grid
+from viscorough.contact.halfspace.tiles import TiledHalfspace
 from viscorough.contact.options import SolverOptions
 from viscorough.contact.preconditioner.multilevel import LEAST_EIGENVALUE, REACH, Preconditioner
 from viscorough.contact.state import BoundedField, ContactSet
@@ -64,6 +67,7 @@ class ContactSearch:
     options : SolverOptions
     aspect : dy/dx of the elements
     threads : on which it computes
+    tiles : halfspace.tiles with elements that can touch, on which the operator is then restricted
 
     initial_gap : flat field, to be set where there are elements
     residual : e or e_q on the set, as last computed, flat field
@@ -81,15 +85,21 @@ class ContactSearch:
         *,
         aspect: float = 1.0,
         threads: int = 1,
+        tiles: Mask | None = None,
     ) -> None:
         self._tolerance, self._options, self._loops = tolerance, options, GridLoops(threads)
-        of_grid: dict[str, Any] = {"aspect": aspect, "padding": options.padding, "threads": threads}
-        of_grid["spectrum"] = spectrum_of_grid(rows, columns, **of_grid)
-        self._halfspace = Halfspace(rows, columns, _PRECISIONS[options.precision], **of_grid)
+        of_grid: dict[str, Any] = {"aspect": aspect, "threads": threads}
+        operator: Callable[..., Halfspace | TiledHalfspace]
+        if tiles is None:
+            of_grid["padding"] = options.padding
+            operator = partial(Halfspace, spectrum=spectrum_of_grid(rows, columns, **of_grid))
+        else:
+            operator = partial(TiledHalfspace, tiles=tiles)
+        self._halfspace = operator(rows, columns, precision=_PRECISIONS[options.precision], **of_grid)
         exact = tolerance < options.exact_gap_below
-        self._exact = Halfspace(rows, columns, **of_grid) if exact else self._halfspace
+        self._exact = operator(rows, columns, **of_grid) if exact else self._halfspace
         self._rounding, self._exact_rounding = (
-            options.operator_rounding * np.finfo(halfspace.load.dtype).eps
+            options.operator_rounding * np.finfo(halfspace.load.dtype).eps + halfspace.accuracy
             for halfspace in (self._halfspace, self._exact)
         )
         self.precision = self._exact.load.dtype.type

@@ -17,6 +17,7 @@ from viscorough.contact.grid.depth_adjustment import PrescribedForce
 from viscorough.contact.grid.loops import GridLoops, field_to_fill
 from viscorough.contact.grid.search import ContactSearch
 from viscorough.contact.grid.tangent_start import Loads, initial_tangent
+from viscorough.contact.halfspace.tiles import tiles_of_part
 from viscorough.contact.options import LATE, SolverOptions
 from viscorough.contact.state import BoundedField, ContactSet, ContactState, GridFields, Units
 from viscorough.types import Array, Integers, Mask
@@ -38,6 +39,7 @@ class GridSolver:
     threads : on which it computes
 
     box : as it was given
+    is_restricted : whether the operator is restricted to tiles with elements, since these are a small part of the box
     place : index of every element in flat fields, by rank (0: not in the box)
     initial_gap : flat field
     """
@@ -54,21 +56,27 @@ class GridSolver:
         aspect: float = 1.0,
         threads: int = 1,
     ) -> None:
-        self.box, (_, _, rows, columns) = box, box
-        self._is_transposed = rows > _TALL * columns
-        if self._is_transposed:
-            rows, columns, aspect = columns, rows, 1 / aspect
+        self.box, self._is_transposed = box, box[2] > _TALL * box[3]
+        aspect = 1 / aspect if self._is_transposed else aspect
+        at = row, column
+        (top, left, rows, columns), row, column = self._oriented(*at)
+        shape = rows, columns
+        tiles = tiles_of_part(row - top, column - left, shape, aspect, tolerance) if options.padding else None
+        self.is_restricted = tiles is not None
         self._options, self._loops = options, GridLoops(threads)
-        self._search = ContactSearch(rows, columns, tolerance, options, aspect=aspect, threads=threads)
+        self._search = ContactSearch(rows, columns, tolerance, options, aspect=aspect, threads=threads, tiles=tiles)
         self.initial_gap = self._search.initial_gap
-        self.place_elements(row, column, initial_gap)
+        self.place_elements(*at, initial_gap)
 
     def place_elements(self, row: Integers, column: Integers, initial_gap: Array) -> None:
         """Place the elements of the arrays, which begin with those placed before."""
-        box = self.box
-        if self._is_transposed:
-            row, column, box = column, row, (*box[1::-1], *box[:1:-1])
+        box, row, column = self._oriented(row, column)
         self.place = self._loops.place_elements(box, row, column, initial_gap, self.initial_gap)
+
+    def _oriented(self, row: Integers, column: Integers) -> tuple[tuple[int, ...], Integers, Integers]:
+        """Box, rows and columns of elements, exchanged in a transposed grid."""
+        box = self.box
+        return ((*box[1::-1], *box[:1:-1]), column, row) if self._is_transposed else (box, row, column)
 
     def in_box(self, field: Array) -> Array:
         """View of a flat field in the rows and columns of the box."""

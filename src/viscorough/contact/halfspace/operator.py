@@ -1,5 +1,6 @@
 """The elastic half-space under uniform pressure on rectangular elements: the operator of influence coefficients."""
 
+from collections.abc import Callable
 from functools import lru_cache
 
 import ducc0
@@ -46,20 +47,31 @@ def _kept_spectrum(lengths: tuple[int, int], period: tuple[float, float] | None,
 def _spectrum(lengths: tuple[int, int], period: tuple[float, float] | None, aspect: float, threads: int) -> Array:
     """Real spectrum of K on a periodic grid of these lengths, divided by their product.
 
-    K and its spectrum are even, so that a cosine transform over distances up to half the lengths gives the spectrum at
-    all frequencies.
-
     period : rows and columns after which a grid without padding repeats: there the distance is that to the nearest
         image; None with padding
     """
+
+    def kernel(row: Array, column: Array) -> Array:
+        if period:
+            row, column = (np.minimum(d, abs(n - d)) for d, n in zip((row, column), period, strict=True))
+        return influence_table(row, column, aspect)
+
+    return spectrum_of_kernel(lengths, kernel, threads)
+
+
+def spectrum_of_kernel(lengths: tuple[int, ...], kernel: Callable[[Array, Array], Array], threads: int = 1) -> Array:
+    """Real spectrum of an even kernel on a periodic grid of these even lengths, divided by their product.
+
+    It is even, too, so that a cosine transform over distances up to half the lengths gives it at all frequencies.
+
+    kernel : function that gives its values at all pairs of distances in rows and columns
+    """
     row, column = (np.arange(m // 2 + 1.0) for m in lengths)
-    if period:
-        row, column = (np.minimum(d, abs(n - d)) for d, n in zip((row, column), period, strict=True))
     spectrum = np.empty((row.size, column.size))
 
     def transform_columns(start: int, stop: int) -> None:
         part = spectrum[:, start:stop]
-        part[:] = influence_table(row, column[start:stop], aspect)
+        part[:] = kernel(row, column[start:stop])
         if row.size > 1:
             ducc0.fft.dct(part, axes=[0], type=1, out=part)
 
@@ -164,10 +176,13 @@ class Halfspace:
     load : the array to write P into, of shape (rows, stride ≥ columns); it must be zero wherever there is no pressure
         and in the columns beyond the grid
     count : number of applications so far
+    accuracy : bound on the error beside rounding, over the largest deflection
 
     `apply()` returns w in an array of the layout of `load`, overwritten by the next call; its columns beyond the grid
     are undefined.
     """
+
+    accuracy = 0.0
 
     def __init__(
         self,

@@ -21,7 +21,7 @@ def everywhere(shape):
 @pytest.mark.parametrize("precision", [np.float64, np.float32])
 @pytest.mark.parametrize(("shape", "aspect"), [((401, 402), 1.0), ((613, 230), 1.9), ((90, 1500), 0.55), ((5, 7), 1.0)])
 def test_deflections_are_those_of_the_whole_grid(shape, aspect, precision):
-    """Loads in a corner, in a dense patch, scattered, and of both signs; every place between the points of the coarse grid."""
+    """Loads in a corner, in a dense patch, and of both signs; every place between the points of the coarse grid."""
     generator, load = np.random.default_rng(1), np.zeros(shape)
     load[:3, :2] = 1.0
     load[shape[0] // 2 : shape[0] // 2 + 30, 50:90] = generator.random(load[shape[0] // 2 :, 50:90][:30].shape)

@@ -158,22 +158,3 @@ def test_transform_of_eq_8_is_eq_7():
 def test_impossible_shapes_and_exponents_are_refused(build):
     with pytest.raises(ValueError, match=r"^[^\n]*(?:allowed: |must be positive)[^\n]*$"):
         build()
-
-
-def test_sphere_in_and_out_of_a_relaxing_half_space():
-    """Maxwell, by hand: t₁ from exp(−(t − t₁)/τ) = 2 exp(−(t − t_m)/τ) − 1 (Ting 1966)."""
-    radius, speed, turn, tau = 1.3, 0.2, 1.0, 0.7
-
-    def relaxation(t):
-        return np.exp(-t / tau)
-
-    for time in (0.4, 1.1, 1.25):
-        force, contact = reference.sphere_approach_and_retreat(time, radius, speed, turn, relaxation)
-        earlier = time + tau * np.log(2 * np.exp(-(time - turn) / tau) - 1) if time > turn else time
-        assert contact == pytest.approx(np.sqrt(radius * speed * earlier), rel=1e-9)
-        rate = speed * reference.sphere(radius).stiffness(
-            speed
-        )  # of the elastic force at depth 1 · speed; it grows as √s
-        expected = rate * quad(lambda s, time=time: relaxation(time - s) * np.sqrt(s), 0, earlier)[0]
-        assert force == pytest.approx(expected, rel=1e-7)
-    assert reference.sphere_approach_and_retreat(1.9, radius, speed, turn, relaxation) == (0.0, 0.0)

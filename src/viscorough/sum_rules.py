@@ -33,8 +33,8 @@ from viscorough.loading_curve import LoadingCurve
 from viscorough.summaries import Summarised, Summary, unit_power, with_unit
 from viscorough.types import Array, Progress
 
-# Elements up to which the linear problem is solved densely; of larger ones, largest residual over the right-hand side
-# of the last iteration, and iterations after which ConvergenceError is raised.
+# Elements up to which the linear problem is solved densely; of larger ones, norm of the residual over that of the
+# right-hand side, and iterations after which ConvergenceError is raised.
 _DENSE_ELEMENTS, _RESIDUAL, _MAX_ITERATIONS = 400, 1e-12, 500
 # Relative difference of chord and tangent below which the curve is straight between two levels.
 _STRAIGHT = 1e-9
@@ -469,6 +469,8 @@ def _dense_solution(elements: Elements, right_sides: list[Array], _threads: int)
 
 def _grid_solution(elements: Elements, right_sides: list[Array], threads: int) -> list[Array]:
     """The same by conjugate gradients in double precision."""
+    from scipy.sparse.linalg import LinearOperator, cg  # takes long to import
+
     rows, columns = elements.shape
     height, width = rows + 2 * REACH, columns + 2 * REACH
     halfspace = Halfspace(rows, columns, aspect=elements.aspect, threads=threads)
@@ -477,24 +479,23 @@ def _grid_solution(elements: Elements, right_sides: list[Array], threads: int) -
     inside, field = np.zeros(height * width, dtype=bool), np.zeros(height * width)
     inside[place] = True
     preconditioner.prepare(inside, place.size)
+
+    def deflection(load: Array) -> Array:
+        halfspace.load[elements.row, elements.column] = load
+        return halfspace.apply()[elements.row, elements.column]
+
+    def precondition(residual: Array) -> Array:
+        field[place] = residual
+        return preconditioner.apply(field)[place]
+
+    shape = place.size, place.size
+    influence, inverse = (LinearOperator(shape, function, dtype=float) for function in (deflection, precondition))
     solutions = []
     for right in right_sides:
-        solution, residual, direction, last = np.zeros(right.size), right, 0.0, np.inf
-        for _ in range(_MAX_ITERATIONS):
-            if abs(residual).max() <= _RESIDUAL * abs(right).max():
-                break
-            field[place] = residual
-            preconditioned = preconditioner.apply(field)[place]
-            product = preconditioned @ residual
-            direction = preconditioned + product / last * direction
-            halfspace.load[elements.row, elements.column] = direction
-            deflection = halfspace.apply()[elements.row, elements.column]
-            length, last = product / (direction @ deflection), product
-            solution, residual = solution + length * direction, residual - length * deflection
-        else:
+        solution, failed = cg(influence, right, rtol=_RESIDUAL, maxiter=_MAX_ITERATIONS, M=inverse)
+        if failed:
             raise ConvergenceError(
-                f"complete contact: the residual {abs(residual).max():.1e} does not fall below {_RESIDUAL:.0e} in "
-                f"{_MAX_ITERATIONS} steps"
+                f"complete contact: the residual does not fall below {_RESIDUAL:.0e} in {_MAX_ITERATIONS} steps"
             )
         solutions.append(solution)
     return solutions

@@ -405,19 +405,14 @@ class CreepTable(ReadOnlyArrays, Medium):
         return self._slopes[np.clip(place, 0, self._slopes.size - 1)]
 
     def creep_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
-        """∫J dt from start ≥ 0 to end ≥ start, without differences of large numbers."""
-        start, end = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
-        first = np.searchsorted(self.times, start, side="right")  # the first point after the start
-        last = np.searchsorted(self.times, end, side="left") - 1  # the last point before the end
-        at_start, at_end = self.creep_compliance(start), self.creep_compliance(end)
-        within = 0.5 * (end - start) * (at_start + at_end)
-        a, b = np.minimum(first, self.times.size - 1), np.maximum(last, 0)
-        across = (
-            0.5 * (self.times[a] - start) * (at_start + self.compliances[a])
-            + (self._integrals[b] - self._integrals[a])
-            + 0.5 * (end - self.times[b]) * (self.compliances[b] + at_end)
-        )
-        return np.where(first > last, within, across)
+        """∫J dt from start ≥ 0 to end ≥ start."""
+        return self._integral_up_to(end) - self._integral_up_to(start)
+
+    def _integral_up_to(self, time: ArrayLike) -> Array:
+        time = np.asarray(time, dtype=float)
+        place = np.clip(np.searchsorted(self.times, time) - 1, 0, self._slopes.size - 1)
+        after = time - self.times[place]
+        return self._integrals[place] + after * (self.compliances[place] + 0.5 * self._slopes[place] * after)
 
 
 def medium_of(medium: Medium | float | str, length_unit: str = units.UNKNOWN) -> Medium:

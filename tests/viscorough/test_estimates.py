@@ -31,9 +31,6 @@ def test_estimate_is_the_mean_of_simulated_surfaces(hurst):
     np.testing.assert_allclose(estimated.velocity, velocity, rtol=0.2)
     np.testing.assert_allclose(estimated.velocity[times > 0.5], velocity[times > 0.5], rtol=0.05)
     np.testing.assert_allclose(estimated.depth, depth, rtol=0.2)
-    scatter = np.log(motions).std(axis=0)[0]
-    assert (scatter[times < 0.1] > 0.15).all()
-    assert (scatter < 0.45).all()
 
 
 def test_newtonian_media_follow_the_law():

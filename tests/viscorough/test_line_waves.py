@@ -6,6 +6,7 @@ from scipy import stats
 
 from viscorough import line_waves
 from viscorough.line_waves import key_of, random_words, shortest_wave, waves
+from viscorough_study.run.seeds import line_key, realization_seed
 
 KEY = key_of(np.random.SeedSequence(7))
 MANY = 2**18
@@ -30,6 +31,11 @@ def test_waves_depend_on_their_number_and_key_alone():
         np.testing.assert_array_equal(alone, together[first - 1 : last])
     other = waves(1, key_of(np.random.SeedSequence(8)), np.ones(50), fixed=False)
     assert len(np.intersect1d(together, other)) == 0
+
+
+def test_realizations_of_the_study_have_keys_of_their_own():
+    seeds = (realization_seed(2013, *line_key(0.5), number) for number in range(1000))
+    assert len({tuple(key_of(seed)) for seed in seeds}) == 1000
 
 
 def drawn(count, *, fixed):

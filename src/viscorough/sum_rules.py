@@ -53,7 +53,7 @@ _TINY = 1e-300
 
 
 @dataclass(frozen=True)
-class CompleteContact(Summarised):
+class CompleteContact:
     """Where the loading curve of an indenter ends, and its two integrals, from linear solutions alone.
 
     Attributes
@@ -80,13 +80,6 @@ class CompleteContact(Summarised):
     def force(self) -> float:
         """F/G = k_c (u − ⟨g₀⟩_q)/G from which on all elements touch [length²]."""
         return self.stiffness * (self.depth - self.mean_gap)
-
-    def _summary(self) -> Summary:
-        unit = self.length_unit
-        return (
-            f"Complete contact: from depth {with_unit(self.depth, unit)} on",
-            [("mean gap", with_unit(self.mean_gap, unit)), ("stiffness k/G", with_unit(self.stiffness, unit))],
-        )
 
 
 @dataclass(frozen=True)

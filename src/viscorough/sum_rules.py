@@ -170,9 +170,9 @@ class Audit(Summarised):
     interpolation_error: float
 
     @property
-    def is_accurate(self) -> bool:
-        """Whether the estimated error is within the tolerance; if not, added levels did not reduce it."""
-        return self.rules.error <= self.tolerance
+    def integrals_agree(self) -> bool:
+        """Whether the estimated error and all deviations from the exact integrals are within the tolerance."""
+        return max(self.rules.error, self.rules.largest_deviation) <= self.tolerance
 
     @property
     def is_interpolated(self) -> bool:
@@ -181,16 +181,13 @@ class Audit(Summarised):
 
     @property
     def agrees(self) -> bool:
-        """Whether estimated error and all deviations from the exact integrals are within the tolerance, and the
-        interpolated depth is as accurate as promised.
-        """
-        return self.is_accurate and self.rules.largest_deviation <= self.tolerance and self.is_interpolated
+        """Whether the integrals agree, and the interpolated depth is as accurate as promised."""
+        return self.integrals_agree and self.is_interpolated
 
     def _summary(self) -> Summary:
         """Verdict; exact value, deviations and estimated error of both integrals."""
         curve = self.curve
-        is_right = self.is_accurate and self.rules.largest_deviation <= self.tolerance
-        verdict = "agree" if is_right else "do not agree"
+        verdict = "agree" if self.integrals_agree else "do not agree"
         title = f"Audit over {curve.depth.size} levels: both integrals {verdict} to {self.tolerance:g}"
         if not self.is_interpolated:
             title += f", and depths between levels are off by {self.interpolation_error:.1e}"

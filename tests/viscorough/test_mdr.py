@@ -8,7 +8,7 @@ from hypothesis.extra.numpy import arrays
 
 from support.contract import refused
 from viscorough.indenter import Indenter
-from viscorough.mdr import _OCTAVES, _bin_gaps, _binned_gaps, line_of_map, line_of_surface, reduce, reduce_heights
+from viscorough.mdr import _binned_gaps, line_of_map, line_of_surface, reduce, reduce_heights
 from viscorough.surfaces import cut_disc, self_affine_line, self_affine_square
 
 
@@ -44,12 +44,6 @@ def test_compiled_binning_agrees_with_numpy(dtype):
     place = np.searchsorted(edges[1:-1], gaps, side="right")
     np.testing.assert_array_equal(counts, np.bincount(place, minlength=counts.size))
     np.testing.assert_allclose(sums, np.bincount(place, weights=gaps, minlength=counts.size), rtol=1e-13)
-
-    compiled, plain = np.zeros((2, counts.size, 4, 2))
-    key = (gaps.max().view(np.uint64) >> np.uint64(46)) - np.uint64(_OCTAVES * 64)
-    _bin_gaps(heights[:500], highest, np.uint64(46), key, compiled)
-    _bin_gaps.py_func(heights[:500], highest, np.uint64(46), key, plain)
-    np.testing.assert_array_equal(compiled, plain)
 
 
 @pytest.mark.parametrize("points", [100, 20_000])

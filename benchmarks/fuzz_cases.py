@@ -324,7 +324,7 @@ def arguments_of(random):
 def method_of_march(random):
     """The method of a direct integration, mostly with the options that it needs."""
     method = one_of(random, METHODS)
-    in_medium = method == "second_order" or (method in ("events", "implicit") and random.random() < 0.5)
+    in_medium = method == "second_order" or (method == "events" and random.random() < 0.5)
     stepping = in_medium or method not in ("events", "")
     given = [["--method", method]] + [["--medium", "medium.yaml"]] * in_medium
     return given + ([["--times", drawn(random, SERIES)]] if stepping and random.random() < 0.8 else [])

@@ -121,23 +121,10 @@ class PenetrationLaw:
         x = self._inside(x)
         return x + interface_velocity(x, *self._constants)
 
-    def velocity_interval(self, x: Numbers) -> tuple[Array, Array]:
-        """(lower, upper) ends of vt/h, by the relative error of the law: arrays.
-
-        This is the uncertainty of the mean of many surfaces; single ones scatter more. Raises ValueError as `velocity`.
-        """
-        velocity = self.velocity(x)
-        return velocity * (1 - self.velocity_error), velocity * (1 + self.velocity_error)
-
     def depth(self, x: Numbers) -> Array:
         """u/h = ∫ vt/h dX/X at X, any shape. Raises ValueError as `velocity`."""
         x = self._inside(x)
         return x + interface_depth(x, *self._constants)
-
-    def depth_interval(self, x: Numbers) -> tuple[Array, Array]:
-        """(lower, upper) ends of u/h, by the relative error of the law; see `velocity_interval`."""
-        depth = self.depth(x)
-        return depth * (1 - self.depth_error), depth * (1 + self.depth_error)
 
     @property
     def _constants(self) -> tuple[float, ...]:

@@ -20,10 +20,9 @@ from viscorough.types import Array, Complex, Integers, Seed
 
 _ROOM = 1000  # between the rms height and the limits of the floating-point type
 _BLOCK = 16384  # waves computed at a time in double precision
-# Memory that must be available, in multiples of the heights of a line, since the Fourier transform copies them. If the
-# number n of points has prime factors above 5, more is needed, and still more in proportion to p/n for the largest
-# factor p (tests/viscorough/test_memory.py).
-_COPIES, _COPIES_OF_OTHER, _MORE_PER_SHARE, _MOST_COPIES = 2.6, 3.3, 28, 17
+# Memory that must be available, in multiples of the heights of a line, since the Fourier transform copies them; and if
+# the number of points has large prime factors, for which more is needed, up to this (tests/viscorough/test_memory.py).
+_COPIES, _MOST_COPIES = 2.6, 17
 
 
 class SelfAffineLines:
@@ -58,7 +57,8 @@ class SelfAffineLines:
         low, high = _ROOM * np.finfo(self._dtype).tiny, np.finfo(self._dtype).max / _ROOM
         if not low <= self._rms <= high:
             raise ValueError(f"rms: must be from {low:.2g} to {high:.2g} for {self._dtype}, not {self._rms:g}")
-        memory.require(_copies(points) * self._dtype.itemsize * points, f"a line of {points} points")
+        copies = _COPIES if fft.good_size(points, True) == points else _MOST_COPIES
+        memory.require(copies * self._dtype.itemsize * points, f"a line of {points} points")
         if points // 2 > line_waves.MOST_WAVES:
             raise ValueError(f"points: must be at most {2 * line_waves.MOST_WAVES + 1}, not {points}")
         self.spacing = length / points
@@ -128,16 +128,3 @@ class SelfAffineLines:
 def _divisor_near_root(number: int) -> int:
     """The largest divisor that is at most √number."""
     return next(d for d in range(math.isqrt(number), 0, -1) if number % d == 0)
-
-
-def _copies(points: int) -> float:
-    """Memory for the generation of a line of that many points, over that of its heights."""
-    if fft.good_size(points, True) == points:
-        return _COPIES
-    left, factor = points, 2
-    while factor * factor <= left:
-        if left % factor:
-            factor += 1
-        else:
-            left //= factor
-    return min(_COPIES_OF_OTHER + _MORE_PER_SHARE * left / points, _MOST_COPIES)

@@ -17,15 +17,14 @@ from viscorough.indenter import Indenter, check_indenter
 from viscorough.loading_curve import LoadingCurve
 from viscorough.types import Array, Integers, Seed
 
+_BINS_PER_OCTAVE = 64  # a power of 2; bins are 0.8 to 1.6 % wide
 _OCTAVES = 128  # octaves below the largest gap that are divided into bins; smaller gaps share one bin
 _SPOILED = 3  # longest waves of a map that a window changes
 _LANES = 4  # neighbouring points often fall into one bin: separate counters avoid waiting for the last update
 _BLOCK = 512  # points whose bins are found at a time
 
 
-def reduce(
-    line: Indenter, *, until_fraction: float = 1.0, until_force: float | None = None, bins_per_octave: int = 64
-) -> LoadingCurve:
+def reduce(line: Indenter, *, until_fraction: float = 1.0, until_force: float | None = None) -> LoadingCurve:
     """Loading curve of a line by the method of dimensionality reduction (MDR).
 
     Levels are the edges of the bins in which contact grows. There force and stiffness::
@@ -34,7 +33,7 @@ def reduce(
 
     are exact, up to the rounding of gaps and sums in double precision.
     From one level to the next either at most one point comes into contact, and LoadingCurve.at_force is exact, or the
-    levels are one bin apart, and its depth has an error that is a small part of the bin's width.
+    levels are one bin apart, 0.8 to 1.6 % in depth, and its depth has an error that is a small part of the bin's width.
     At the first level only the highest points touch. The last level is the first to reach `until_fraction` or
     `until_force`, but at least the second. A flat line, which sets no scale of depth, has levels at half a spacing and
     at one spacing.
@@ -48,8 +47,6 @@ def reduce(
     until_force : float, optional
         F/G at which to stop [length²]; if the line is in full contact before, one more level is added at exactly this
         force, unless `until_fraction` stops the curve.
-    bins_per_octave : int, optional
-        Levels per factor of two in depth, a power of 2; with 64, bins are 0.8 to 1.6 % wide.
 
     Returns
     -------
@@ -77,7 +74,6 @@ def reduce(
         line.spacing,
         until_fraction=until_fraction,
         until_force=until_force,
-        bins_per_octave=bins_per_octave,
         length_unit=line.length_unit,
     )
 
@@ -88,7 +84,6 @@ def reduce_heights(
     *,
     until_fraction: float = 1.0,
     until_force: float | None = None,
-    bins_per_octave: int = 64,
     length_unit: str = "1",
 ) -> LoadingCurve:
     """As `reduce`, for heights in any order: springs are independent, so that the order does not matter.
@@ -103,10 +98,8 @@ def reduce_heights(
         raise ValueError(f"reduce: until_fraction must lie in (0, 1], not {until_fraction!r}")
     if until_force is not None and not 0 < until_force < np.inf:
         raise ValueError(f"reduce: until_force must be positive and finite, not {until_force!r}")
-    if bins_per_octave not in 2 ** np.arange(11):
-        raise ValueError(f"reduce: bins_per_octave must be a power of 2 up to 1024, not {bins_per_octave!r}")
 
-    depth, force, stiffness, contact_count = _levels(heights, spacing, int(bins_per_octave))
+    depth, force, stiffness, contact_count = _levels(heights, spacing)
     if until_force is not None and force[-1] < until_force:
         depth = np.append(depth, depth[-1] + (until_force - force[-1]) / stiffness[-1])
         force = np.append(force, until_force)
@@ -129,9 +122,9 @@ def reduce_heights(
     )
 
 
-def _levels(heights: Array, spacing: float, bins_per_octave: int) -> tuple[Array, Array, Array, Integers]:
+def _levels(heights: Array, spacing: float) -> tuple[Array, Array, Array, Integers]:
     """Depth, force F/G, stiffness k/G and contact count at the edges of the bins in which contact grows."""
-    edges, counts, sums = _binned_gaps(heights, bins_per_octave)
+    edges, counts, sums = _binned_gaps(heights)
     grown = 1 + np.flatnonzero(counts[1:])
     levels = np.union1d(grown, grown + 1)  # edge r is the lower one of bin r
     depth, below = edges[levels], levels - 1
@@ -265,7 +258,7 @@ def _random_line(power: Array, points: int, seed: Seed) -> Array:
     return fft.c2r(spectrum, lastsize=points, forward=False)
 
 
-def _binned_gaps(heights: Array, bins_per_octave: int) -> tuple[Array, Integers, Array]:
+def _binned_gaps(heights: Array) -> tuple[Array, Integers, Array]:
     """Initial gaps sorted into bins: the edges of the bins, and the number and the sum of the gaps in every bin.
 
     Bin r holds edges[r] <= g < edges[r + 1], bin 0 all g < edges[1]. The leading bits of a floating-point number
@@ -275,9 +268,9 @@ def _binned_gaps(heights: Array, bins_per_octave: int) -> tuple[Array, Integers,
     if not np.isfinite([highest, lowest]).all():  # their bins would lie outside of the table
         raise ValueError("reduce: heights must be finite")
     highest += 0.0  # turns -0.0 into 0.0; else gaps could have their sign bit set
-    shift = np.uint64(52 - (bins_per_octave.bit_length() - 1))
+    shift = np.uint64(52 - (_BINS_PER_OCTAVE.bit_length() - 1))
     top = int((highest - lowest).view(np.uint64) >> shift)
-    base = max(0, top - _OCTAVES * bins_per_octave)
+    base = max(0, top - _OCTAVES * _BINS_PER_OCTAVE)
     table = np.zeros((top - base + 1, _LANES, 2))
     _bin_gaps(heights, highest, shift, np.uint64(base), table)
     edges = (np.arange(base, top + 2, dtype=np.uint64) << shift).view(np.float64)

@@ -9,16 +9,12 @@ result of integrating Eq. 1 with Eq. 3, with `gamma=True` the law as printed, wh
 of a relation that is nonlinear in F/G.
 
 Sources: Hertz 1882; Love 1929 and 1939 (square element, cone); Sneddon 1965 (bodies of revolution);
-Johnson 1985, Contact Mechanics (flat ellipse); Lee and Radok 1960 (viscous sphere); Ting 1966 (sphere on the way out);
-Popov and Heß 2015 (method of dimensionality reduction, MDR).
+Johnson 1985, Contact Mechanics (flat ellipse); Popov and Heß 2015 (method of dimensionality reduction, MDR).
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.integrate import quad
-from scipy.optimize import brentq
 from scipy.special import ellipk
 from scipy.special import gamma as gamma_function
 
@@ -165,54 +161,6 @@ def flat_disc_stiffness(radius: float) -> float:
     8.0
     """
     return flat_ellipse_stiffness(radius, radius)
-
-
-# ---- a sphere in a viscoelastic half-space, whose contact grows and recedes
-
-
-def sphere_approach_and_retreat(
-    time: float, radius: float, speed: float, turning_time: float, relaxation: Callable[[float], float]
-) -> tuple[float, float]:
-    """Force and contact radius of a sphere moved into a viscoelastic half-space and out again at one speed (Ting 1966).
-
-    The depth is vt up to the turning time t_m and v(2t_m − t) after it. While the contact grows, a² = Ru and F =
-    (16/3)√R ∫₀ᵗ ψ(t − s) d(u^(3/2)) (Lee and Radok 1960). While it recedes, a is that of the earlier time t₁ with
-    ∫_{t₁}^t ψ(t − s) u′(s) ds = 0, and the integral of the force ends there; contact ends when t₁ is 0.
-
-    Parameters
-    ----------
-    time : float
-        t > 0.
-    radius, speed, turning_time : float
-        R, v and t_m.
-    relaxation : function
-        ψ(t) of the medium.
-
-    Returns
-    -------
-    tuple of float
-        F and a, both 0 once contact has ended.
-
-    Examples
-    --------
-    >>> from viscorough import reference
-    >>> force, radius = reference.sphere_approach_and_retreat(1.0, 1.0, 0.01, 2.0, lambda t: 1.0)
-    >>> round(float(radius), 12)  # √(Ru) with u = 0.01
-    0.1
-    """
-
-    def integral(duration: float) -> float:
-        return quad(relaxation, 0, duration, epsrel=1e-12, epsabs=0)[0]
-
-    end = time
-    if time > turning_time:
-        back = 2 * integral(time - turning_time)
-        if integral(time) <= back:
-            return 0.0, 0.0
-        end = brentq(lambda earlier: integral(time - earlier) - back, 0, turning_time, xtol=1e-14 * turning_time)
-    # With s = x² the integrand is smooth.
-    relaxed = quad(lambda x: 3 * x**2 * relaxation(time - x**2), 0, np.sqrt(end), epsrel=1e-12, epsabs=0)[0]
-    return 16 / 3 * np.sqrt(radius) * speed**1.5 * relaxed, np.sqrt(radius * speed * end)
 
 
 # ---- the paper's laws

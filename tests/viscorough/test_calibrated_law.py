@@ -98,7 +98,7 @@ def test_interpolation_between_calibrated_exponents():
 def test_values_outside_the_calibrated_range_are_refused():
     law = viscorough.penetration_law(0.6)
     for x in (0.9 * law.x_low, 1.1 * law.x_high, np.nan):
-        for function in (law.velocity, law.velocity_interval, law.depth, law.depth_interval):
+        for function in (law.velocity, law.depth):
             with pytest.raises(ValueError, match=rf"X of the law for H = 0.6: .* allowed: {law.x_low:.3g} to"):
                 function([1.0, x])
     for hurst in (0.05, 1.01):
@@ -114,17 +114,6 @@ def test_depth_is_the_published_one():
         centre = np.sqrt(np.prod(law.region))
         assert law.depth(centre) * law.beta / law.velocity(centre) == pytest.approx(row.value, rel=0.045)
     assert len(claims) == 4
-
-
-def test_intervals_contain_the_law_and_follow_from_their_ends():
-    law = viscorough.penetration_law(0.4)
-    x = np.geomspace(law.x_low, law.x_high, 7)
-    for function, interval in ((law.velocity, law.velocity_interval), (law.depth, law.depth_interval)):
-        low, high = interval(x)
-        assert (low < function(x)).all()
-        assert (function(x) < high).all()
-    assert law.velocity_interval(x)[1] == pytest.approx((1 + law.velocity_error) * law.velocity(x))
-    assert law.depth_interval(x)[0] == pytest.approx((1 - law.depth_error) * law.depth(x))
 
 
 def test_calibration_takes_rows_in_the_conventions_shown():

@@ -31,9 +31,6 @@ def test_estimate_is_the_mean_of_simulated_surfaces(hurst):
     np.testing.assert_allclose(estimated.velocity, velocity, rtol=0.2)
     np.testing.assert_allclose(estimated.velocity[times > 0.5], velocity[times > 0.5], rtol=0.05)
     np.testing.assert_allclose(estimated.depth, depth, rtol=0.2)
-    scatter = np.log(motions).std(axis=0)[0]
-    assert (scatter[times < 0.1] > 0.15).all()
-    assert (scatter < 0.45).all()
 
 
 def test_newtonian_media_follow_the_law():
@@ -42,8 +39,8 @@ def test_newtonian_media_follow_the_law():
     np.testing.assert_allclose(estimated.x, times)
     for name, scale in (("velocity", RMS / times), ("depth", RMS)):
         values = [getattr(estimated, name), getattr(estimated, f"{name}_low"), getattr(estimated, f"{name}_high")]
-        expected = [getattr(LAW, name)(times), *getattr(LAW, f"{name}_interval")(times)]
-        np.testing.assert_allclose(values, scale * np.array(expected), rtol=1e-14)
+        expected, error = scale * getattr(LAW, name)(times), getattr(LAW, f"{name}_error")
+        np.testing.assert_allclose(values, [expected, (1 - error) * expected, (1 + error) * expected], rtol=1e-14)
 
 
 @pytest.mark.parametrize("medium", [Maxwell(100.0, 1.0), StandardLinearSolid(100.0, 20.0, 0.3)])

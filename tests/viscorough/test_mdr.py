@@ -8,7 +8,7 @@ from hypothesis.extra.numpy import arrays
 
 from support.contract import refused
 from viscorough.indenter import Indenter
-from viscorough.mdr import _OCTAVES, _bin_gaps, _binned_gaps, line_of_map, line_of_surface, reduce, reduce_heights
+from viscorough.mdr import _binned_gaps, line_of_map, line_of_surface, reduce, reduce_heights
 from viscorough.surfaces import cut_disc, self_affine_line, self_affine_square
 
 
@@ -36,7 +36,7 @@ def assert_exact(curve, line):
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 def test_compiled_binning_agrees_with_numpy(dtype):
     heights = self_affine_line(0.6, 5001, seed=6, dtype=dtype).heights
-    edges, counts, sums = _binned_gaps(heights, 64)
+    edges, counts, sums = _binned_gaps(heights)
     ratio = edges[1:] / edges[:-1]
     assert 1 + 0.99 / 128 < ratio[edges[:-1] > 0].min() <= ratio.max() <= 1 + 1 / 64
     highest = float(heights.max())
@@ -45,16 +45,10 @@ def test_compiled_binning_agrees_with_numpy(dtype):
     np.testing.assert_array_equal(counts, np.bincount(place, minlength=counts.size))
     np.testing.assert_allclose(sums, np.bincount(place, weights=gaps, minlength=counts.size), rtol=1e-13)
 
-    compiled, plain = np.zeros((2, counts.size, 4, 2))
-    key = (gaps.max().view(np.uint64) >> np.uint64(46)) - np.uint64(_OCTAVES * 64)
-    _bin_gaps(heights[:500], highest, np.uint64(46), key, compiled)
-    _bin_gaps.py_func(heights[:500], highest, np.uint64(46), key, plain)
-    np.testing.assert_array_equal(compiled, plain)
-
 
 @pytest.mark.parametrize("points", [100, 20_000])
 def test_between_levels(points):
-    """The error of the depth is a small part of the bins' width of 1.6 %, and smaller with narrower bins."""
+    """The error of the depth is a small part of the bins' width of 1.6 %."""
     line = self_affine_line(0.7, points, seed=3, dtype=np.float64)
     curve = reduce(line)
     force = np.geomspace(curve.force[0] / 100, curve.force[-1], 3000)
@@ -62,8 +56,6 @@ def test_between_levels(points):
     exact_depth, exact_stiffness = depth_and_stiffness(line.initial_gap, line.spacing, force)
     np.testing.assert_allclose(depth, exact_depth, rtol=1e-3)
     assert np.mean(np.abs(stiffness / exact_stiffness - 1)) < 3e-3
-    finer = np.abs(reduce(line, bins_per_octave=512).at_force(force[:-100])[0] / exact_depth[:-100] - 1)
-    assert finer.max() < 1e-4
 
 
 @given(
@@ -116,7 +108,6 @@ def test_bad_options():
     for options, message in (
         ({"until_fraction": 0}, "reduce: until_fraction must lie in"),
         ({"until_force": 0}, "reduce: until_force must be positive"),
-        ({"bins_per_octave": 48}, "reduce: bins_per_octave must be a power of 2"),
     ):
         with refused(message):
             reduce(self_affine_line(0.5, 10, seed=1), **options)

@@ -89,18 +89,6 @@ def test_audit_of_a_body_finds_interpolation_as_accurate_as_promised(body):
     assert 0.1 < result.interpolation_error / result.curve.tolerance < 1
 
 
-def test_curve_that_stops_before_complete_contact_lacks_what_convexity_allows():
-    result = audit(INDENTERS["H = 0.4"], tolerance=1e-7, until_fraction=0.3)
-    whole = audit(INDENTERS["H = 0.4"], tolerance=1e-9)
-    assert result.agrees
-    for rule, of_whole in ((result.rules.first, whole.rules.first), (result.rules.second, whole.rules.second)):
-        rest = of_whole.values["by levels"] - rule.values["by levels"]
-        assert 0.02 * rule.exact < rest < 0.9 * rule.exact
-        assert rule.missing[0] <= rest <= rule.missing[1]
-    assert "up to" in str(result)
-    assert "up to" not in str(whole)
-
-
 WRONG = {
     "stiffness": lambda curve: {"stiffness": curve.stiffness * 1.001},
     "stiffness of one level": lambda curve: {"stiffness": curve.stiffness * (1 + 0.1 * (np.arange(197) == 50))},
@@ -131,10 +119,10 @@ def test_error_that_levels_do_not_reduce_is_no_agreement():
 
 def test_line_of_independent_springs():
     line = self_affine_line(0.7, 3000, seed=3, dtype=np.float64)
-    curve, end = reduce(line, bins_per_octave=1024), complete_contact(line)
-    np.testing.assert_allclose([curve.stiffness[-1], curve.depth[-1]], [end.stiffness, end.depth], rtol=1e-3)
+    curve, end = reduce(line), complete_contact(line)
+    np.testing.assert_allclose([curve.stiffness[-1], curve.depth[-1]], [end.stiffness, end.depth], rtol=0.016)
     rules = integrals(curve, end)
-    assert rules.largest_deviation < 1e-4
+    assert rules.largest_deviation < 1e-3
     assert abs(rules.first.deviations["last level"]) < 1e-12
 
 

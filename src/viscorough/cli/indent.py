@@ -68,10 +68,10 @@ def indent(
     incompressible half-space with the same E/(1 - nu^2) = 4 G. The curve ends at the contact fraction or at the
     force, whichever comes first, or where all elements are in contact.
 
-    With --audit the curve is followed to complete contact, unless an end is stated, and two integrals of it are
-    compared with exact values from linear problems, in which no contact is solved. Contacts are solved to a hundredth
-    of the tolerance, and levels are added until the estimated errors of the integrals are within the tolerance. If the
-    integrals do not agree, a warning says so; of a curve that stops before, what it lacks is stated.
+    With --audit the curve is followed to complete contact, and two integrals of it are compared with exact values from
+    linear problems, in which no contact is solved. Contacts are solved to a hundredth of the tolerance, and levels are
+    added until the estimated errors of the integrals are within the tolerance. If the integrals do not agree, a warning
+    says so.
 
     \b
     Example:
@@ -81,8 +81,8 @@ def indent(
     levels = {"--depths": depths, "--forces": forces}
     others = {"--until-fraction": until_fraction, "--until-force": until_force, "--audit": audit or None}
     stated = [name for name, value in (levels | others).items() if value is not None]
-    if len(stated) > 1 and stated[0] in levels:
-        raise click.UsageError(f"{stated[0]} and {stated[1]} exclude each other; one of them is allowed")
+    if len(stated) > 1 and (stated[0] in levels or audit):
+        raise click.UsageError(f"{stated[0]} and {stated[-1]} exclude each other; one of them is allowed")
     indenter = read_indenter(surface, output)
     unit = indenter.length_unit
     modulus, elastic_constants = elasticity(length_unit=unit, **constants)

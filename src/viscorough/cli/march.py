@@ -30,10 +30,9 @@ if TYPE_CHECKING:
     from viscorough.io.netcdf import Content
     from viscorough.types import FilePath
     from viscorough.viscous.correspondence import ForceHistory
-    from viscorough.viscous.integration.internal_variables import MediumMotion
 
 METHODS = ("events", "explicit", "heun", "implicit", "second_order")
-_OF_MEDIA = ("events", "implicit", "second_order")  # methods that integrate viscoelastic media
+_OF_MEDIA = ("events", "second_order")  # methods that integrate viscoelastic media
 _METHODS_OF = {"overlap": ("explicit", "heun"), "until_fraction": ("events",)}  # {option: methods that have it}
 
 
@@ -78,10 +77,10 @@ def march(
     and the variables time, depth, velocity, contact_count and overlap (of the indenter with the surface, relative to
     the depth; only explicit and heun allow it). Under a force history a level is one of its times. This is slow and
     serves to check the other commands: the events of 3000 elements take seconds, and memory grows with the square of
-    their number. Without --medium, events show no progress.
+    their number. Events show no progress.
 
-    With --medium, springs and dashpots are integrated with internal variables, for small maps. The steps of implicit
-    and second_order go on where the force falls and the contact recedes, for which kinetics has no answer. KIN.nc then
+    With --medium, springs and dashpots are integrated with internal variables, for small maps. The steps of
+    second_order go on where the force falls and the contact recedes, for which kinetics has no answer. KIN.nc then
     holds time, depth, force and contact_count.
 
     \b
@@ -107,10 +106,10 @@ def march(
     if force_history:
         load = _read_history(force_history, unit)
     with progress_bar("viscorough march", progress) as report:
+        options |= {} if method == "events" else {"progress": report}
         if medium:
-            content = _in_medium(indenter, method, medium, load, times, progress=report, **options)
+            content = _in_medium(indenter, method, medium, load, times, **options)
         else:
-            options |= {} if method == "events" else {"progress": report}
             content = _in_viscous_medium(indenter, method, viscosity, load, times, **options)
     write_output(content, output, method=method, **about, **surface.attributes(indenter))
     time, depths, count = (content.variables[name].values for name in ("time", "depth", "contact_count"))
@@ -172,12 +171,8 @@ def _in_medium(
 
     law = read_medium(medium, indenter.length_unit)
     steps, force = ([0.0, *times], [load] * (1 + len(times))) if isinstance(load, float) else load[:2]
-    if method == "events":
-        moved: MediumMotion = march_medium_events(indenter, law, steps, force=force, **options)
-    else:
-        scheme = "backward_euler" if method == "implicit" else method
-        moved = march_medium(indenter, law, steps, force=force, scheme=scheme, **options)
-    return medium_motion_to_content(moved)
+    integrate = march_medium_events if method == "events" else march_medium
+    return medium_motion_to_content(integrate(indenter, law, steps, force=force, **options))
 
 
 def _read_history(path: FilePath, length_unit: str) -> ForceHistory:

@@ -32,7 +32,7 @@ from viscorough.saved import Saved
 from viscorough.summaries import Summarised, Summary, si_unit, span, velocity_unit
 from viscorough.types import Array, Integers
 from viscorough.viscous.creep_response import creep_response
-from viscorough.viscous.media import Newtonian, medium_of
+from viscorough.viscous.media import medium_of
 from viscorough.viscous.medium import Medium
 from viscorough.viscous.spectra import zero_of_increasing
 
@@ -154,12 +154,10 @@ def kinetics(
         if not constant:
             raise ValueError("times: missing; a force given as samples needs the time of each sample")
         times = _spread_times(curve, load, medium)
-    if isinstance(medium, Newtonian):
-        return _newtonian_kinetics(curve, load, medium.viscosity, times)
     times, creep, rate = _creep(load, medium, times)
     depth, stiffness = _at_elastic_force(curve, creep, times)
-    with np.errstate(invalid="ignore"):
-        velocity = np.where(creep == 0, 0.0, np.maximum(rate, 0) / stiffness)
+    # Where nothing moves the velocity is 0 even before the first level, where the stiffness is nan.
+    velocity = np.where(rate <= 0, 0.0, rate / stiffness)
     return Kinetics(times, depth, velocity, curve.length_unit)
 
 
@@ -172,16 +170,6 @@ def consistent_force(force: Any, length_unit: str) -> Any:
     if isinstance(force, ForceHistory):
         return ForceHistory(force.times, read_only(force.force / area), read_only(force.impulse / area))
     return units.number(force, "N", length_unit, "force") / area if np.ndim(force) == 0 else read_only(force) / area
-
-
-def _newtonian_kinetics(curve: LoadingCurve, force: ForceHistory | Any, viscosity: float, times: ArrayLike) -> Kinetics:
-    """Kinetics in a Newtonian medium, of which the impulse is the state."""
-    history, place = resampled(force, times)
-    times, force, impulse = (values[place] for values in history)
-    depth, stiffness = _at_impulse(curve, impulse / viscosity, viscosity)
-    # Without a force the velocity is 0 even before the first level, where the stiffness is nan.
-    velocity = np.where(force == 0, 0.0, force / (viscosity * stiffness))
-    return Kinetics(times, depth, velocity, curve.length_unit)
 
 
 def _spread_times(curve: LoadingCurve, force: float, medium: Medium) -> Array:
@@ -282,40 +270,17 @@ def impulses(force: Any, times: ArrayLike) -> ForceHistory:
     return ForceHistory(*map(read_only, (times, force, impulse)))
 
 
-def _at_impulse(curve: LoadingCurve, elastic_force: Array, viscosity: float) -> tuple[Array, Array]:
-    """Depth and k/G at the impulse over viscosity I/η: those of the loading curve at F/G = `elastic_force` = I/η."""
-    last, largest = curve.force[-1], elastic_force.max()
-    if largest > last * (1 + _ROUNDING):
-        impulse = viscosity * units.square_metres(curve.length_unit)
-        raise ValueError(
-            f"impulse: {largest * impulse:.6g} is beyond the curve's last level; "
-            f"allowed: up to {last * impulse:.6g}; {_remedy(largest)}"
-        )
-    return _on_curve(curve, elastic_force)
-
-
 def _at_elastic_force(curve: LoadingCurve, creep: Array, times: Array) -> tuple[Array, Array]:
     """Depth and k/G at F/G = Φ = `creep`, at the given times."""
-    beyond = creep > curve.force[-1] * (1 + _ROUNDING)
-    if beyond.any() or not np.isfinite(creep).all():
-        where = int(np.argmax(beyond | ~np.isfinite(creep)))
+    first, last = curve.force[0], curve.force[-1]
+    beyond = ~(creep <= last * (1 + _ROUNDING))
+    if beyond.any():
+        where, enough = int(np.argmax(beyond)), 1.01 * creep[np.isfinite(creep)].max()
         raise ValueError(
             f"force: at time {times[where]:g} the creep ∫J dF is {creep[where]:.6g}, beyond the curve's last level; "
-            f"allowed: up to {curve.force[-1]:.6g}; {_remedy(creep[np.isfinite(creep)].max())}"
+            f"allowed: up to {last:.6g}; indent further, with until_fraction=1 or a level at F/G = {enough:.3g} "
+            "(forces)"
         )
-    return _on_curve(curve, creep)
-
-
-def _remedy(force: float) -> str:
-    """What makes a curve long enough for this F/G."""
-    return f"indent further, with until_fraction=1 or a level at F/G = {1.01 * force:.3g} (forces)"
-
-
-def _on_curve(curve: LoadingCurve, elastic_force: Array) -> tuple[Array, Array]:
-    """Depth and k/G of the loading curve at F/G not beyond its last level."""
-    first, last = curve.force[0], curve.force[-1]
     # A force that equals that of the first or last level up to rounding must not fall outside the curve.
-    elastic_force = np.minimum(elastic_force, last)
-    elastic_force = np.where(np.abs(elastic_force - first) <= _ROUNDING * first, first, elastic_force)
-    depth, stiffness = curve.at_force(elastic_force)
-    return np.where(elastic_force == 0, 0.0, depth), stiffness
+    creep = np.where(np.abs(creep - first) <= _ROUNDING * first, first, np.minimum(creep, last))
+    return curve.at_force(creep)

@@ -23,8 +23,7 @@ if TYPE_CHECKING:
 _ROUNDING = 1e-12  # relative to the terms of dΦ/dt, which may be negative by as much
 _HALVINGS = 60  # of an interval in which dΦ/dt may change its sign
 _CHUNK = 2**20  # pairs of samples at a time
-# The series of (exp(−x) − 1 + x)/x and its number of terms, for small x and for smaller ones.
-_SERIES_BELOW, _SERIES_TERMS, _FEWER_BELOW, _FEWER_TERMS = 0.3, 12, 0.01, 6
+_SERIES_BELOW, _SERIES_TERMS = 0.3, 12  # the series of (exp(−x) − 1 + x)/x, and its number of terms
 
 
 def creep_response(medium: Medium, history: ForceHistory) -> tuple[Array, Array]:
@@ -127,7 +126,15 @@ class _ByStates(_Intervals):
         self.rate = self.rate_at_samples()
 
     def parts(self, interval: Integers, offset: Array, *, left: bool) -> tuple[Array, Array, Array]:
-        return _parts(interval, offset, self.slopes, self.force, self.left, *self.retardation)
+        instantaneous, fluidity, compliances, times = self.retardation
+        slope, x = self.slopes[interval], offset[:, None] / times
+        decaying = compliances / times * self.left[interval] * np.exp(-x)
+        growing = compliances * slope[:, None] * -np.expm1(-x)
+        flow, drift, steady = fluidity * self.force[interval], fluidity * slope * offset, instantaneous * slope
+        terms = flow + abs(steady) + abs(drift) + (abs(decaying) + abs(growing)).sum(axis=1)
+        rising = np.maximum(drift, 0) + (np.minimum(decaying, 0) + np.maximum(growing, 0)).sum(axis=1)
+        falling = np.minimum(drift, 0) + (np.maximum(decaying, 0) + np.minimum(growing, 0)).sum(axis=1)
+        return flow + steady + rising, falling, terms
 
 
 class _BySums(_Intervals):
@@ -181,36 +188,6 @@ def sums_over_the_past(
 
 
 @njit
-def _decay(x):
-    """exp(−x) and 1 − exp(−x), both to rounding."""
-    if x < 0.5:
-        gone = -np.expm1(-x)
-        return 1 - gone, gone
-    kept = np.exp(-x)
-    return kept, 1 - kept
-
-
-@njit
-def _parts(interval, offset, slopes, force, left, instantaneous, fluidity, compliances, retardation_times):
-    rising, falling, terms = np.empty(interval.size), np.empty(interval.size), np.empty(interval.size)
-    for i in range(interval.size):
-        k, time = interval[i], offset[i]
-        flow, drift, steady = fluidity * force[k], fluidity * slopes[k] * time, instantaneous * slopes[k]
-        up, down, size = flow + steady + max(drift, 0.0), min(drift, 0.0), flow + abs(steady) + abs(drift)
-        for j in range(compliances.size):
-            kept, gone = 1.0, 0.0
-            if time > 0:
-                kept, gone = _decay(time / retardation_times[j])
-            decaying = compliances[j] / retardation_times[j] * left[k, j] * kept
-            growing = compliances[j] * slopes[k] * gone
-            up += min(decaying, 0.0) + max(growing, 0.0)
-            down += max(decaying, 0.0) + min(growing, 0.0)
-            size += abs(decaying) + abs(growing)
-        rising[i], falling[i], terms[i] = up, down, size
-    return rising, falling, terms
-
-
-@njit
 def branch_states(lengths, force, retardation_times):
     """y and z = F − y at every sample, shape (samples, times), with θ y' + y = F and F = 0 before the first sample.
 
@@ -226,11 +203,11 @@ def branch_states(lengths, force, retardation_times):
                 z += force[k + 1] - force[k]
             else:
                 x = lengths[k] / retardation_times[j]
-                kept, gone = _decay(x)
+                kept, gone = np.exp(-x), -np.expm1(-x)
                 # Weights of the forces at both ends in y: a + b = 1 − exp(−x), b = 1 − (1 − exp(−x))/x.
                 if x < _SERIES_BELOW:
                     b = 0.0
-                    for n in range(_SERIES_TERMS if x > _FEWER_BELOW else _FEWER_TERMS, 0, -1):
+                    for n in range(_SERIES_TERMS, 0, -1):
                         b = (1 - b) * x / (n + 1)
                     a, mean = gone - b, 1 - b
                 else:

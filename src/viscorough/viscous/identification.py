@@ -332,14 +332,15 @@ def _prony(record: _Record, history: ForceHistory, place: Integers, lags: Array)
     times = np.geomspace(first, last, count)
     delayed, _ = branch_states(np.diff(history.times), history.force, times)
     responses = np.column_stack([history.force[place], history.impulse[place], delayed[place]])
-    instantaneous, fluidity, *strengths = record.fit(responses)
-    kept = np.array(strengths) > 0
-    if instantaneous * history.force[place].max() <= _ROUNDING * record.curve.force[0] or not (fluidity or kept.any()):
+    amounts = record.fit(responses)
+    instantaneous, fluidity, strengths = amounts[0], amounts[1], amounts[2:]
+    kept, at_once = strengths > 0, instantaneous * history.force[place].max()
+    if at_once <= _ROUNDING * (responses @ amounts).max() or not (fluidity or kept.any()):
         raise ValueError(
             "kind prony: the record shows no compliance at once, or no creep, which a Prony series needs; allowed: "
             "table or springpot"
         )
-    return _series(instantaneous, fluidity, np.array(strengths)[kept], 1 / times[kept])
+    return _series(instantaneous, fluidity, strengths[kept], 1 / times[kept])
 
 
 def _series(instantaneous: float, fluidity: float, strengths: Array, rates: Array) -> Prony:

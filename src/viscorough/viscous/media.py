@@ -41,9 +41,9 @@ class _Exponential(Medium):
     @abstractmethod
     def relaxation(self) -> RelaxationSpectrum: ...
 
-    @property
-    @abstractmethod
-    def retardation(self) -> RetardationSpectrum: ...
+    @cached_property
+    def retardation(self) -> RetardationSpectrum:
+        return retardation_spectrum(self.relaxation)
 
     def __post_init__(self) -> None:
         _keep_positive(self)
@@ -116,20 +116,11 @@ class Newtonian(_Exponential):
     def relaxation(self) -> RelaxationSpectrum:
         return RelaxationSpectrum(self.viscosity, 0.0, _NONE, _NONE)
 
-    @cached_property
-    def retardation(self) -> RetardationSpectrum:
-        return RetardationSpectrum(0.0, _inverse(self.viscosity), _NONE, _NONE)
-
 
 @dataclass(frozen=True)
 class _SpringAndDashpot(_Exponential):
     shear_modulus: float
     viscosity: float
-
-    @property
-    def _time(self) -> Array:
-        """η/G, shape (1,)."""
-        return np.array([self.viscosity]) / self.shear_modulus
 
 
 class Maxwell(_SpringAndDashpot):
@@ -151,11 +142,8 @@ class Maxwell(_SpringAndDashpot):
 
     @cached_property
     def relaxation(self) -> RelaxationSpectrum:
-        return RelaxationSpectrum(0.0, 0.0, np.array([self.shear_modulus]), self._time)
-
-    @cached_property
-    def retardation(self) -> RetardationSpectrum:
-        return RetardationSpectrum(_inverse(self.shear_modulus), _inverse(self.viscosity), _NONE, _NONE)
+        modulus = np.array([self.shear_modulus])
+        return RelaxationSpectrum(0.0, 0.0, modulus, self.viscosity / modulus)
 
 
 class KelvinVoigt(_SpringAndDashpot):
@@ -178,10 +166,6 @@ class KelvinVoigt(_SpringAndDashpot):
     @cached_property
     def relaxation(self) -> RelaxationSpectrum:
         return RelaxationSpectrum(self.viscosity, self.shear_modulus, _NONE, _NONE)
-
-    @cached_property
-    def retardation(self) -> RetardationSpectrum:
-        return RetardationSpectrum(0.0, 0.0, np.array([_inverse(self.shear_modulus)]), self._time)
 
 
 @dataclass(frozen=True)
@@ -227,14 +211,6 @@ class StandardLinearSolid(_Exponential):
     def relaxation(self) -> RelaxationSpectrum:
         branch = self.instantaneous_modulus - self.relaxed_modulus
         return RelaxationSpectrum(0.0, self.relaxed_modulus, np.array([branch]), np.array([self.relaxation_time]))
-
-    @cached_property
-    def retardation(self) -> RetardationSpectrum:
-        instantaneous, relaxed = self.instantaneous_modulus, self.relaxed_modulus
-        with np.errstate(over="ignore", invalid="ignore"):
-            delayed = np.array([instantaneous - relaxed]) / instantaneous / relaxed
-            times = np.array([self.relaxation_time]) * (instantaneous / relaxed)
-        return RetardationSpectrum(_inverse(instantaneous), 0.0, delayed, times)
 
 
 @dataclass(frozen=True)
@@ -286,15 +262,11 @@ class Prony(_Exponential):
     @cached_property
     def relaxation(self) -> RelaxationSpectrum:
         times = np.array(self.relaxation_times)
-        with np.errstate(over="ignore"):
-            # Branches of one rate are one branch.
-            _, first, branch = np.unique(1 / times, return_index=True, return_inverse=True)
-            moduli = np.bincount(branch, self.moduli).astype(float)
-        return RelaxationSpectrum(0.0, self.relaxed_modulus, moduli, times[first])
-
-    @cached_property
-    def retardation(self) -> RetardationSpectrum:
-        return retardation_spectrum(self.relaxation)
+        # Branches of one rate are one branch.
+        _, first, branch = np.unique(1 / times, return_index=True, return_inverse=True)
+        return RelaxationSpectrum(
+            0.0, self.relaxed_modulus, np.bincount(branch, self.moduli).astype(float), times[first]
+        )
 
 
 @dataclass(frozen=True)
@@ -328,7 +300,7 @@ class Springpot(Medium):
         if not self.exponent < 1:
             text = "allowed: above 0 and below 1 (1 is a Newtonian medium)"
             raise ValueError(f"Springpot: exponent {self.exponent:g}; {text}")
-        if not np.isfinite(_inverse(self.modulus)):
+        if np.isinf(1 / self.modulus):
             raise ValueError(f"Springpot: modulus {self.modulus:g}; allowed: numbers whose inverse is finite")
 
     def creep_compliance(self, time: ArrayLike) -> Array:
@@ -433,19 +405,14 @@ class CreepTable(ReadOnlyArrays, Medium):
         return self._slopes[np.clip(place, 0, self._slopes.size - 1)]
 
     def creep_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
-        """∫J dt from start ≥ 0 to end ≥ start, without differences of large numbers."""
-        start, end = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
-        first = np.searchsorted(self.times, start, side="right")  # the first point after the start
-        last = np.searchsorted(self.times, end, side="left") - 1  # the last point before the end
-        at_start, at_end = self.creep_compliance(start), self.creep_compliance(end)
-        within = 0.5 * (end - start) * (at_start + at_end)
-        a, b = np.minimum(first, self.times.size - 1), np.maximum(last, 0)
-        across = (
-            0.5 * (self.times[a] - start) * (at_start + self.compliances[a])
-            + (self._integrals[b] - self._integrals[a])
-            + 0.5 * (end - self.times[b]) * (self.compliances[b] + at_end)
-        )
-        return np.where(first > last, within, across)
+        """∫J dt from start ≥ 0 to end ≥ start."""
+        return self._integral_up_to(end) - self._integral_up_to(start)
+
+    def _integral_up_to(self, time: ArrayLike) -> Array:
+        time = np.asarray(time, dtype=float)
+        place = np.clip(np.searchsorted(self.times, time) - 1, 0, self._slopes.size - 1)
+        after = time - self.times[place]
+        return self._integrals[place] + after * (self.compliances[place] + 0.5 * self._slopes[place] * after)
 
 
 def medium_of(medium: Medium | float | str, length_unit: str = units.UNKNOWN) -> Medium:
@@ -491,8 +458,3 @@ def _number(medium: Medium, name: str, value: Any, *, zero: bool = False) -> flo
         allowed = "0 or a finite number above 0" if zero else "a finite number above 0"
         raise ValueError(f"{type(medium).__name__}: {name} {repr(value)[:60]}; allowed: {allowed}")
     return float(value)
-
-
-def _inverse(value: float) -> float:
-    with np.errstate(over="ignore", divide="ignore"):
-        return float(1 / np.float64(value))

@@ -117,24 +117,12 @@ def _depth_samples(curve: LoadingCurve, depth: ArrayLike, times: ArrayLike) -> t
 
 def _with_levels(curve: LoadingCurve, times: Array, depth: Array) -> tuple[Array, Array, Integers]:
     """Times and depths with the levels of the curve on every ramp added, and the indices of the times given."""
-    new_times, new_depths, before = [], [], []
-    for k in np.flatnonzero((np.diff(depth) > 0) & (np.diff(times) > 0)):
-        levels = curve.depth[(curve.depth > depth[k]) & (curve.depth < depth[k + 1])]
-        new_times.append(times[k] + (levels - depth[k]) / (depth[k + 1] - depth[k]) * (times[k + 1] - times[k]))
-        new_depths.append(levels)
-        before.append(np.full(levels.size, k + 1))
-    if not new_times:
-        return times, depth, np.arange(times.size)
-    before = np.concatenate(before)
-    place = np.arange(times.size) + np.searchsorted(before, np.arange(times.size), side="right")
-    nodes = (np.insert(of, before, np.concatenate(new)) for of, new in ((times, new_times), (depth, new_depths)))
-    # A level next to a sample may fall on its time by rounding, which would be a step.
-    node_times, node_depths = nodes
-    kept = np.ones(node_times.size, bool)
-    kept[1:] &= np.diff(node_times) > 0
-    kept[:-1] &= np.diff(node_times) > 0
-    kept[place] = True
-    return node_times[kept], node_depths[kept], (np.cumsum(kept) - 1)[place]
+    levels = curve.depth[(curve.depth > depth[0]) & (curve.depth < depth[-1])]
+    # Levels within a step are at its time; that of a level next to a sample may be the sample's by rounding.
+    new = np.setdiff1d(np.interp(levels, depth, times), times)
+    place = np.searchsorted(times, new)
+    nodes = np.insert(times, place, new), np.insert(depth, place, np.interp(new, times, depth))
+    return *nodes, np.arange(times.size) + np.searchsorted(new, times)
 
 
 def elastic_force(curve: LoadingCurve, depth: Array) -> tuple[Array, Array]:
@@ -142,13 +130,7 @@ def elastic_force(curve: LoadingCurve, depth: Array) -> tuple[Array, Array]:
     stiffness = np.full(depth.shape, curve.force[0] / curve.depth[0])
     force = depth * stiffness
     inside = depth >= curve.depth[0]
-    level = np.clip(np.searchsorted(curve.depth, depth[inside]), 1, max(curve.depth.size - 1, 1))
-    if curve.depth.size > 1:
-        low, high = curve.force[level - 1], curve.force[level]
-        wanted = depth[inside]
-        found = zero_of_increasing(lambda force: curve.at_force(force)[0] - wanted, low, high)
-        at_level = np.searchsorted(curve.depth, wanted)
-        exact = curve.depth[at_level] == wanted
-        force[inside] = np.where(exact, curve.force[at_level], found)
+    wanted, ends = depth[inside], (np.full(np.count_nonzero(inside), end) for end in curve.force[[0, -1]])
+    force[inside] = zero_of_increasing(lambda force: curve.at_force(force)[0] - wanted, *ends)
     stiffness[inside] = curve.at_force(force[inside])[1]
     return force, stiffness

@@ -15,16 +15,19 @@ _BISECTIONS = 80  # ten halve the exponent of any bracket to a factor of 2; the 
 
 
 def retardation_spectrum(relaxation: RelaxationSpectrum) -> RetardationSpectrum:
-    """The RetardationSpectrum of a RelaxationSpectrum without a dashpot (viscosity 0) and with a branch.
+    """The RetardationSpectrum of a RelaxationSpectrum: of a dashpot beside a spring or nothing, or with a branch.
 
     The zeros of Q(−λ) = G∞ + Σ G_i λ/(λ − r_i), r_i = 1/τ_i, lie one between neighbouring poles and, if G∞ > 0, one
     below the first; with G∞ = 0 the zero at λ = 0 is a dashpot with φ = 1/Σ G_i τ_i. Every zero is found as its
     distance from the nearest pole, so that zeros close to poles, as of moduli many decades apart, lose no digits.
     The strengths are J_j = 1/(λ_j Σ_i G_i r_i/(r_i − λ_j)²).
     """
-    order = np.argsort(-relaxation.times)
-    rates, moduli = 1 / relaxation.times[order], relaxation.moduli[order]
-    relaxed = relaxation.relaxed_modulus
+    viscosity, relaxed, moduli, times = relaxation
+    if viscosity:
+        compliance = np.array([1 / relaxed] if relaxed else [])
+        return RetardationSpectrum(0.0, 0.0 if relaxed else 1 / viscosity, compliance, viscosity * compliance)
+    order = np.argsort(-times)
+    rates, moduli = 1 / times[order], moduli[order]
     below = rates[:-1] if relaxed == 0 else np.append(0.0, rates[:-1])  # the pole, or 0, below each zero
     above = rates[rates.size - below.size :]
     from_rates = rates[:, None]  # relaxation rates down, zeros across

@@ -57,8 +57,8 @@ def random_curve(generator, with_start=None, at_forces=False):
 def random_audit(generator):
     """A RandomCurve whose arguments are those of `audit`, from a numpy Generator."""
     case = random_curve(generator)
-    arguments = {name: case.arguments[name] for name in ("until_fraction", "options")}
-    return RandomCurve(case.indenter, arguments | {"tolerance": 10.0 ** -generator.uniform(2, 4)})
+    arguments = {"options": case.arguments["options"], "tolerance": 10.0 ** -generator.uniform(2, 4)}
+    return RandomCurve(case.indenter, arguments)
 
 
 def audit_failure(case):

@@ -30,12 +30,6 @@ def test_integrals_are_printed_and_stored(here, capsys):
     assert netcdf.read("out.nc").attributes["audit"] == "\n".join([verdict, *integrals])
 
 
-def test_what_a_curve_lacks_is_said(here, capsys):
-    assert run(f"{INDENT} --until-fraction 0.4") == 0
-    assert "of the force of complete contact, mean gap beyond " in capsys.readouterr().out
-    assert netcdf.read("out.nc").variables["contact_fraction"].values[-1] < 0.6
-
-
 def test_disagreement_is_a_warning(here, capsys, monkeypatch):
     monkeypatch.setattr(sum_rules.Audit, "agrees", False)
     assert run(INDENT) == 0
@@ -43,6 +37,6 @@ def test_disagreement_is_a_warning(here, capsys, monkeypatch):
     assert netcdf.read("out.nc").attributes["warnings"].startswith("Audit over")
 
 
-@pytest.mark.parametrize("levels", ["--depths 1,2", "--forces 1,2"])
-def test_given_levels_are_not_audited(complaint, levels):
+@pytest.mark.parametrize("levels", ["--depths 1,2", "--forces 1,2", "--until-fraction 0.4"])
+def test_given_levels_and_ends_are_not_audited(complaint, levels):
     assert f"{levels.split()[0]} and --audit exclude each other" in complaint(f"{INDENT} {levels}")

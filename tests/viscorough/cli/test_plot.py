@@ -21,7 +21,7 @@ FILES = {
     "motion.nc": "kinetics FOLDER/curve.nc --force 1 --viscosity 1",
     "march.nc": f"march {MAP} --method events",
     "history.nc": f"march {MAP} --method explicit --force-history FOLDER/force.csv",
-    "medium.nc": f"march {MAP} --method implicit --times 1,2,3 --medium FOLDER/medium.yaml",
+    "medium.nc": f"march {MAP} --method second_order --times 1,2,3 --medium FOLDER/medium.yaml",
     "disc.nc": f"{SURFACE} --elements 9 --unit um",
     "line.nc": f"{SURFACE} --points 64",
     "contact.nc": f"contact {MAP} --depth 0.01 --young 2",

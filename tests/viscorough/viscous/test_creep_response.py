@@ -1,12 +1,11 @@
-"""The creep under force histories against quadrature and closed forms, and where it is refused."""
+"""The rate of the creep under force histories against closed forms, and where it is refused; Φ: test_correspondence."""
 
 from itertools import pairwise
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
 
-from support.media import MEDIA, TABLE_TIMES
+from support.media import MEDIA
 from viscorough import KelvinVoigt, Maxwell, Newtonian, Prony, StandardLinearSolid, impulses
 from viscorough.viscous.creep_response import _ByStates, creep_response
 
@@ -14,28 +13,6 @@ MEDIA = MEDIA | {"prony liquid": Prony(0.0, [1e6, 1.0], [1e-5, 4.0])}
 # A ramp, a step up, a hold and a slower ramp.
 TIMES = np.array([0.5, 1.0, 2.5, 2.5, 4.0, 9.0])
 FORCE = np.array([0.2, 1.0, 1.0, 1.8, 1.8, 2.5])
-
-
-def creep_by_quadrature(medium, time):
-    """∫ J(time − s) dF(s) from the definition."""
-    total = FORCE[0] * medium.creep_compliance(time - TIMES[0])
-    for k in range(TIMES.size - 1):
-        start, end = TIMES[k], min(TIMES[k + 1], time)
-        if TIMES[k] == TIMES[k + 1] <= time:
-            total += (FORCE[k + 1] - FORCE[k]) * medium.creep_compliance(time - start)
-        elif start < end:
-            slope = (FORCE[k + 1] - FORCE[k]) / (TIMES[k + 1] - TIMES[k])
-            options = {"points": time - TABLE_TIMES, "limit": 200, "epsrel": 1e-13, "epsabs": 0}
-            total += slope * quad(lambda s: medium.creep_compliance(time - s), start, end, **options)[0]
-    return total
-
-
-@pytest.mark.parametrize("name", MEDIA)
-def test_creep_is_the_convolution(name):
-    creep, _ = creep_response(MEDIA[name], impulses(FORCE, TIMES))
-    expected = [creep_by_quadrature(MEDIA[name], time) for time in TIMES]
-    expected[2] -= 0.8 * MEDIA[name].creep_compliance(0.0)  # of the sample before the step
-    np.testing.assert_allclose(creep, expected, rtol=1e-8 if name == "springpot" else 1e-12)
 
 
 def rate_from_closed_forms(medium, time, *, after):

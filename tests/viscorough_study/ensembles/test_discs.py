@@ -22,12 +22,13 @@ def test_both_rms_heights_are_those_of_the_surface(rms_over):
     assert disc.spacing == pytest.approx(1e-2 / 33)
 
 
-def test_rms_height_of_the_ensemble_is_that_of_the_spectrum():
+@pytest.mark.parametrize("across", [16, 17])
+def test_rms_height_of_the_ensemble_is_that_of_the_spectrum(across):
     """In its unit the mean square height over the square is 1 on average; with fixed amplitudes, in each."""
     surface = {"hurst": 0.9, "rms": 1.0, "diameter": 1.0, "rms_over": "disc"}
 
     def squares(amplitudes, number):
-        drawn = [ensemble_disc(16, surface | {"amplitudes": amplitudes}, seed)[1] for seed in range(number)]
+        drawn = [ensemble_disc(across, surface | {"amplitudes": amplitudes}, seed)[1] for seed in range(number)]
         return np.array([(rms["square"] / rms["ensemble"]) ** 2 for rms in drawn])
 
     np.testing.assert_allclose(squares("fixed", 3), 1, rtol=1e-12)

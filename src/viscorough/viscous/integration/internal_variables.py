@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 from scipy.linalg import cho_factor, cho_solve
 
 from viscorough import units
-from viscorough.arrays import ReadOnlyArrays, increasing, samples
+from viscorough.arrays import ReadOnlyArrays, increasing, read_only, samples
 from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
 from viscorough.types import Array, Integers, Progress
@@ -26,7 +26,6 @@ from viscorough.viscous.integration.elements import MapElements, elements_of_map
 from viscorough.viscous.media import medium_of
 from viscorough.viscous.medium import Medium, RelaxationSpectrum
 
-MEDIUM_SCHEMES = ("backward_euler", "second_order")
 _MAX_ITERATIONS, _ADDED_AT_ONCE = 300, 8
 _ROUNDING = 1e-12  # of gaps, relative to the depth
 
@@ -45,9 +44,9 @@ class MediumMotion(ReadOnlyArrays):
         Force F.
     contact_count : array
         Elements in contact.
-    elements : int
-        Number of elements of the indenter.
-    pressure : array
+    length_unit : str
+        Unit of the lengths, as UDUNITS spells it; "1" if it is not known.
+    pressure : array or None
         p at the last time, after a step of the force there, on the grid of the heights, nan outside the indenter.
     receding_from : float
         The first time at which an element had left the contact, so that the correspondence with the elastic
@@ -58,9 +57,8 @@ class MediumMotion(ReadOnlyArrays):
     depth: np.ndarray
     force: np.ndarray
     contact_count: np.ndarray
-    elements: int
-    pressure: np.ndarray
     length_unit: str = "1"
+    pressure: np.ndarray | None = None
     receding_from: float = np.nan
 
 
@@ -71,14 +69,13 @@ def march_medium(
     *,
     force: ArrayLike | None = None,
     depth: ArrayLike | None = None,
-    scheme: str = "second_order",
     progress: Progress | None = None,
 ) -> MediumMotion:
     """Motion of a rigid indenter on a viscoelastic half-space, one contact problem per step in time.
 
-    "backward_euler" is of first order in the steps. "second_order" integrates the branches exactly for surfaces that
-    move linearly within a step; a parallel dashpot (Newtonian, Kelvin-Voigt) exactly for pressures that are constant
-    within it. Both keep pressures positive where the exact ones are, and neither needs short steps to be stable.
+    Branches are integrated exactly for surfaces that move linearly within a step; a parallel dashpot (Newtonian,
+    Kelvin-Voigt) exactly for pressures that are constant within it: the method is of second order in the steps. It
+    keeps pressures positive where the exact ones are, and needs no short steps to be stable.
 
     Parameters
     ----------
@@ -92,8 +89,6 @@ def march_medium(
         One of them, a load at these times, of shape (times,), F ≥ 0 and linear in between; before times[0] there is
         none, so that its first value is a step. A force may decrease, and so may a depth: the contact recedes. Forces
         are in N and moduli in Pa if the unit of length is known.
-    scheme : str, optional
-        "second_order" or "backward_euler".
     progress : Progress, optional
         Function that is called at each of the times with the share of them that is done.
 
@@ -118,8 +113,6 @@ def march_medium(
     >>> bool(motion.depth[1] < motion.depth[2])
     True
     """
-    if scheme not in MEDIUM_SCHEMES:
-        raise ValueError(f"march_medium: scheme must be one of {', '.join(MEDIUM_SCHEMES)}, not {scheme!r}")
     relaxation = spectrum_of("march_medium", medium, indenter.length_unit)
     area = units.square_metres(indenter.length_unit)
     times, load = load_samples("march_medium", times, force, depth, area)
@@ -132,9 +125,9 @@ def march_medium(
         rate = (load[k] - load[k - 1]) / length if length else rate
         before = contact.members
         if length > 0 or relaxation.viscosity == 0:
-            mean = by_depth or length == 0 or scheme == "backward_euler" or relaxation.viscosity == 0
-            value = load[k] if mean else 0.5 * (load[k - 1] + load[k])
-            state.advance(contact, length, scheme, value, by_depth=by_depth)
+            at_end = by_depth or relaxation.viscosity == 0
+            value = load[k] if at_end else 0.5 * (load[k - 1] + load[k])
+            state.advance(contact, length, value, by_depth=by_depth)
             if np.isnan(receding) and not np.isin(before, contact.members).all():
                 receding = times[k]
         elif by_depth and load[k] != state.depth:
@@ -148,8 +141,8 @@ def march_medium(
         if progress:
             progress(len(rows) / times.size)
     depths, forces, counts = np.array(rows).T
-    moved = times, depths, forces * area, counts.astype(int), elements.count, elements.pressure_map(pressure)
-    return MediumMotion(*moved, indenter.length_unit, float(receding))
+    moved = times, depths, forces * area, counts.astype(int), indenter.length_unit
+    return MediumMotion(*moved, read_only(elements.pressure_map(pressure)), float(receding))
 
 
 def spectrum_of(caller: str, medium: Medium | float | str, length_unit: str) -> RelaxationSpectrum:
@@ -174,7 +167,7 @@ def load_samples(
 class _State:
     """Motion y, pressures Q and internal variables w of all elements.
 
-    With a parallel dashpot Q is that which a step assumes, its mean over the step in the second-order scheme.
+    With a parallel dashpot Q is that which a step assumes, its mean over the step.
     """
 
     def __init__(self, elements: MapElements, relaxation: RelaxationSpectrum) -> None:
@@ -184,11 +177,13 @@ class _State:
         self.pressure: Array = np.zeros(elements.count)
         self._branches: Array = np.zeros((relaxation.moduli.size, elements.count))
 
-    def advance(self, contact: "_ContactProblem", length: float, scheme: str, load: float, *, by_depth: bool) -> None:
+    def advance(self, contact: "_ContactProblem", length: float, load: float, *, by_depth: bool) -> None:
         """One step, at whose end Q = `kept` + c (y − y₀): a contact problem in Q alone."""
         relaxed, moduli = self._relaxation.relaxed_modulus, self._relaxation.moduli[:, None]
-        decay, gain = branch_factors(length / self._relaxation.times, scheme)
-        stiffness = (moduli[:, 0] * gain).sum() + _dashpot_stiffness(self._relaxation, length, scheme)
+        x = length / self._relaxation.times
+        # Factors of w₀ and of y − y₀ in the internal variables at the end of the step.
+        decay, gain = np.exp(-x), np.divide(-np.expm1(-x), x, out=np.ones_like(x), where=x > 0)
+        stiffness = (moduli[:, 0] * gain).sum() + _dashpot_stiffness(self._relaxation, length)
         kept = relaxed * self.motion + (moduli * decay[:, None] * self._branches).sum(axis=0)
         # c times the gap is e + K Q − c u, with e that of a surface which nothing presses from now on.
         free = self._elements.deflection(stiffness * self.motion - kept)
@@ -217,23 +212,14 @@ class _State:
         return contact.solve_among(members, -self._elements.deflection(kept), wanted, by_depth=by_depth)
 
 
-def branch_factors(x: Array, scheme: str) -> tuple[Array, Array]:
-    """Factors of w₀ and of y − y₀ in the internal variables w at the end of a step of x = h/τ."""
-    if scheme == "backward_euler":
-        return 1 / (1 + x), 1 / (1 + x)
-    return np.exp(-x), np.divide(-np.expm1(-x), x, out=np.ones_like(x), where=x > 0)
-
-
-def _dashpot_stiffness(relaxation: RelaxationSpectrum, length: float, scheme: str) -> float:
-    """The factor of y − y₀ in the pressure of spring and dashpot at the end of a step, or in its mean over the step.
+def _dashpot_stiffness(relaxation: RelaxationSpectrum, length: float) -> float:
+    """The factor of y − y₀ in the pressure of spring and dashpot; with a dashpot, in its mean over the step.
 
     Under a constant pressure y − y₀ = (Q/G∞ − y₀)(1 − exp(−h G∞/η)), exactly.
     """
     relaxed, viscosity = relaxation.relaxed_modulus, relaxation.viscosity
     if viscosity == 0:
         return relaxed
-    if scheme == "backward_euler":
-        return relaxed + viscosity / length
     return viscosity / length if relaxed == 0 else relaxed / -np.expm1(-length * relaxed / viscosity)
 
 

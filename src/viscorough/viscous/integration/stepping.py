@@ -19,6 +19,7 @@ from viscorough.contact.solver import ContactSolver
 from viscorough.errors import AccuracyWarning, ConvergenceError
 from viscorough.indenter import Indenter
 from viscorough.types import Progress
+from viscorough.viscous.integration.elements import elements_of_map
 
 # Overlap over the depth from which on a warning is given: the error of the depth is about as large.
 _WARN_OVERLAP = 0.01
@@ -45,8 +46,6 @@ class Steps(ReadOnlyArrays):
         Elements in contact.
     overlap : array
         Largest overlap of indenter and surface, over the depth [1].
-    steps : int
-        Number of steps taken, those into which steps were divided included.
     length_unit : str
         Unit of the lengths, as UDUNITS spells it; "1" if it is not known.
     """
@@ -56,7 +55,6 @@ class Steps(ReadOnlyArrays):
     resistance: np.ndarray
     contact_count: np.ndarray
     overlap: np.ndarray
-    steps: int
     length_unit: str = "1"
 
 
@@ -145,27 +143,24 @@ def march_steps(
             AccuracyWarning,
             stacklevel=2,
         )
-    return Steps(
-        impulses, depth, scale * resistance, count.astype(int), overlaps, integrator.steps, indenter.length_unit
-    )
+    return Steps(impulses, depth, scale * resistance, count.astype(int), overlaps, indenter.length_unit)
 
 
 class _Explicit:
     """Surface and indenter in the explicit scheme; impulses are over 4π d, fields are flat as those of GridSolver."""
 
     def __init__(self, indenter: Indenter, tolerance: float) -> None:
-        row, column = np.nonzero(np.isfinite(indenter.heights))
-        gap = indenter.initial_gap[row, column].astype(float)
+        elements = elements_of_map(indenter, "march_steps")
+        of_elements = elements.row, elements.column, elements.initial_gap
         # The error of Σq is the square of that of q.
-        box = (0, 0, *indenter.heights.shape)
-        self._grid = GridSolver(box, row, column, gap, tolerance**2, DEFAULT, aspect=indenter.aspect)
+        self._grid = GridSolver((0, 0, *elements.shape), *of_elements, tolerance**2, DEFAULT, aspect=elements.aspect)
         self._tolerance = tolerance
         self._gap = np.full_like(self._grid.initial_gap, np.inf)  # where there is no element, at every depth
-        self._gap[self._grid.place] = gap
+        self._gap[self._grid.place] = elements.initial_gap
         self._largest_depth = _LARGEST_SHARE * np.finfo(self._gap.dtype).max
         self._inside = self._gap <= 0
         self._tangent, self._tangent_gap = np.zeros_like(self._gap), np.full_like(self._gap, -1.0)
-        self.depth, self.steps = 0.0, 0
+        self.depth = 0.0
         self._solve_flat_punch()
 
     def longest_step(self, overlap: float) -> float:
@@ -187,7 +182,6 @@ class _Explicit:
         self._check_depth(self.depth + depth_step)
         self._gap += depth_step * self._tangent_gap
         self.depth += depth_step
-        self.steps += 1
         touching = self._gap <= 0
         if np.any(touching & ~self._inside):
             self._inside |= touching
@@ -233,7 +227,6 @@ class _Heun(_Explicit):
         self._solve_flat_punch()
         self.depth += 0.5 * impulse * (start_velocity + 1 / self.resistance)
         self._gap += 0.5 * impulse * (start_gap + self._tangent_gap / self.resistance)
-        self.steps += 1
         touching = inside | (self._gap <= 0)
         if np.any(predicted & ~touching):  # too many were predicted: q carries load where there is no contact
             self._tangent, self._tangent_gap, self.resistance = start
@@ -246,9 +239,9 @@ class _Implicit:
     """Surface and indenter in the implicit scheme; impulses are over 4π d."""
 
     def __init__(self, indenter: Indenter, tolerance: float) -> None:
-        self._gap, self._tolerance = indenter.initial_gap.astype(float), tolerance
+        self._gap, self._tolerance = indenter.initial_gap, tolerance
         self._spacings = indenter.spacing, indenter.row_spacing
-        self.depth, self.resistance, self.count, self.overlap, self.steps = 0.0, 0.0, 0, 0.0, 0
+        self.depth, self.resistance, self.count, self.overlap = 0.0, 0.0, 0, 0.0
 
     def longest_step(self, _overlap: float) -> float:
         """A step of any length is exact."""
@@ -272,7 +265,6 @@ class _Implicit:
         self._gap = np.maximum(solver.gap_map(contact), 0.0)
         self.resistance, self.count = contact.tangent_sum, contact.count
         self.overlap = contact.residual * depth_step / self.depth
-        self.steps += 1
 
 
 _INTEGRATORS: dict[str, type[_Explicit] | type[_Implicit]]

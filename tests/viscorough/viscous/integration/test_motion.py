@@ -5,9 +5,8 @@ Motions under force histories are tested with the command that writes them, in t
 
 import numpy as np
 
-from support.contract import refused
-from viscorough import impulses, indent, kinetics, march_events, self_affine_disc
-from viscorough.viscous.integration.motion import under_constant_force, under_force_history
+from viscorough import indent, kinetics, march_events, self_affine_disc
+from viscorough.viscous.integration.motion import under_constant_force
 
 DISC = self_affine_disc(0.7, 9, seed=1)
 FORCE, VISCOSITY = 3.0, 7.0
@@ -24,13 +23,3 @@ def test_constant_force():
     np.testing.assert_allclose(motion.velocity[i], np.diff(motion.depth)[i] / np.diff(motion.time)[i], rtol=1e-9)
     assert (motion.overlap == 0).all()
     assert motion.force is None
-
-
-def test_an_impulse_beyond_the_last_event_is_refused():
-    events = march_events(DISC, until_fraction=0.2)
-    end = events.impulse[-1]
-    under_force_history(events, impulses([1.0, 1.0], [0.0, end]), 1.0)
-    with refused(
-        f"impulse: {1.5 * end:.6g} is beyond the contact fraction at which events end; allowed: up to {end:.6g}"
-    ):
-        under_force_history(events, impulses([1.0, 1.0], [0.0, 1.5 * end]), 1.0)

@@ -48,7 +48,7 @@ MADE = {
     ),
     "light": ("light_contact", "light_contact"),  # a part of `make speed`
     "stability": ("failure_map", "failure_map"),
-    "sizes": ("sizes collapse", "sizes sizes_trends collapse collapse_curves infinite_grid"),
+    "sizes": ("sizes collapse", "sizes collapse collapse_curves infinite_grid"),
     "large": ("large", "large"),
     "bench": ("", ""),
     "outside": ("", ""),

@@ -56,13 +56,15 @@ def find_region(mean, *, elements_min, stiffness_max, slope_max, slope_half_widt
     return _longest_run(mean, allowed, (0, stiffness_max), fraction_min, decades_min)
 
 
-def named_windows(mean, *, stiffness_range, fraction_min, decades_min, **limits):
+def named_windows(mean, *, stiffness_range, fraction_min, decades_min, fixed=(), **limits):
     """The windows to be compared, {name: (X_low, X_high), or None where there is none}.
 
     - default: find_region with the limits;
     - lower_half, upper_half: its halves in ln X; the difference of their β reveals curvature that a single fit hides;
     - kappa: stiffness_range[0] <= κ <= stiffness_range[1], the same state of contact on any grid, whereas default
-      begins at much smaller X for lines than for discs.
+      begins at much smaller X for lines than for discs;
+    - "X = ... to ...": those of `fixed`, [(X_low, X_high)], with elements_min elements in contact at the lower end, as
+      in region (b), and enough realizations defined throughout; others are omitted.
 
     All windows are determined from the geometric mean, also for fits to the arithmetic one.
     """
@@ -72,6 +74,11 @@ def named_windows(mean, *, stiffness_range, fraction_min, decades_min, **limits)
         middle = np.sqrt(np.prod(region))
         windows |= {"default": region, "lower_half": (region[0], middle), "upper_half": (middle, region[1])}
     windows["kappa"] = _longest_run(mean, True, stiffness_range, **run_limits)
+    for low, high in fixed:
+        inside = in_window(mean["x"].values, (low, high))
+        enough = mean["contact_count_median"].values[inside][:1] >= limits["elements_min"]
+        if enough.all() and (mean["fraction_defined"].values[inside] >= fraction_min).all():
+            windows[f"X = {low:g} to {high:g}"] = low, high
     return windows
 
 

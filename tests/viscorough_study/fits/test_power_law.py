@@ -8,6 +8,7 @@ from scipy.stats import binom
 from support.study import LIMITS, ensemble_of, three_regions
 from viscorough import reference
 from viscorough_study.ensembles.averages import abscissa
+from viscorough_study.fits.conventions import FITTED
 from viscorough_study.fits.power_law import find_region, fit_power_law, named_windows
 
 x = abscissa(1e-7, 10, 20)
@@ -65,6 +66,17 @@ def test_named_windows():
     assert (windows["lower_half"], windows["upper_half"]) == ((low, middle), (middle, high))
     inside = x[(three_regions(x) >= 0.03) & (three_regions(x) <= 0.3)]
     assert windows["kappa"] == (inside[0], inside[-1])
+
+
+def test_windows_of_fixed_x_need_elements_in_contact_and_realizations():
+    stiffness = np.tile(three_regions(x), (20, 1))
+    stiffness[:2, x > 2e-2] = np.nan
+    fixed = [(1e-5, 1e-4), (1e-3, 1e-2), (1e-2, 1e-1)]
+    windows = named_windows(
+        one(ensemble_of(x, stiffness, elements=10**3)), stiffness_range=(0.03, 0.3), fixed=fixed, **LIMITS
+    )
+    assert windows.pop("X = 0.001 to 0.01") == fixed[1]
+    assert set(windows) == set(FITTED["window_rule"])
 
 
 def test_fit_is_least_squares_in_logarithms():

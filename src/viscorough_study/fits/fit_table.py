@@ -102,7 +102,7 @@ def _fit(ensemble, lines, window, **options):
     x, velocity = ensemble["x"].values, ensemble["velocity"].values
     fit = fit_power_law(x, velocity, window, **options)
     columns = {"x_low": window[0], "x_high": window[1], "decades": np.log10(window[1] / window[0])}
-    columns |= three_columns("beta", (fit.beta, *fit.beta_interval))
+    columns |= three_columns("beta", fit.beta())
     columns |= {"zeta": fit.zeta()[0], "residual": fit.residual}
     for gamma in GAMMA:
         columns |= dict(zip(interval_columns(gamma), fit.zeta(gamma)[1:], strict=True))

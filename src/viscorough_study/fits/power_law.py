@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscorough_study.fits.conventions import FITTED, zeta_scale
-from viscorough_study.fits.intervals import percentile_interval
+from viscorough_study.fits.intervals import with_interval
 
 ROUNDING = 1e-9  # relative difference up to which abscissae and numbers of decades count as equal
 
@@ -106,30 +106,25 @@ def in_window(x, window):
 
 @dataclass(frozen=True)
 class PowerLaw:
-    """vt/h = prefactor · X^beta, fitted over a window of an ensemble.
+    """vt/h = X^β/ζ, fitted over a window of an ensemble.
 
-    beta, prefactor : of the ensemble; beta_samples, prefactor_samples : of its resamples, shape (resamples,)
+    betas, zetas : of the ensemble, then of its resamples, shape (resamples + 1,)
     realizations : number in the ensemble
     residual : rms deviation of ln(vt/h) of the mean curve from the power law
     """
 
-    beta: float
-    prefactor: float
-    beta_samples: np.ndarray
-    prefactor_samples: np.ndarray
+    betas: np.ndarray
+    zetas: np.ndarray
     realizations: int
     residual: float
 
-    @property
-    def beta_interval(self):
-        """95 % interval (low, high) of β."""
-        return percentile_interval(self.beta_samples, self.realizations)
+    def beta(self):
+        """β and its 95 % interval, (value, low, high)."""
+        return with_interval(self.betas, self.realizations)
 
     def zeta(self, gamma="without"):
         """ζ and its 95 % interval, (value, low, high), in a reading of the law (viscorough_study.fits.conventions)."""
-        samples = zeta_scale(self.beta_samples, gamma) / self.prefactor_samples
-        value = zeta_scale(self.beta, gamma) / self.prefactor
-        return value, *percentile_interval(samples, self.realizations)
+        return with_interval(zeta_scale(self.betas, gamma) * self.zetas, self.realizations)
 
 
 def fit_power_law(x, velocity, window, *, average, resamples, seed):
@@ -155,7 +150,7 @@ def fit_power_law(x, velocity, window, *, average, resamples, seed):
     beta = mean @ offset / (offset @ offset)
     intercept = mean.mean(axis=1) - beta * log_x.mean()
     residual = np.sqrt(np.mean((mean[0] - intercept[0] - beta[0] * log_x) ** 2))
-    return PowerLaw(beta[0], np.exp(intercept[0]), beta[1:], np.exp(intercept[1:]), len(velocity), residual)
+    return PowerLaw(beta, np.exp(-intercept), len(velocity), residual)
 
 
 def log_means(velocity, average, resamples, generator):

@@ -11,7 +11,7 @@ import pandas as pd
 
 from viscorough import reference
 from viscorough_study.fits.conventions import FITTED, as_text, select, source_values
-from viscorough_study.fits.intervals import UNDEFINED, deviation_interval, difference, interval, percentile_interval
+from viscorough_study.fits.intervals import UNDEFINED, deviation_interval, difference, interval, with_interval
 from viscorough_study.fits.power_law import fit_power_law, in_window, log_means
 from viscorough_study.verdicts.evidence import Conventions, hurst_name, judged
 from viscorough_study.verdicts.region_criteria import combinations_case
@@ -167,8 +167,7 @@ def depth(evidence, tolerance):
         ratios = (depths / (x[end - 1] * softness[:, end - 1]))[:, None]
         # The seed of the fit draws the same realizations, so the interval includes the scatter of both factors.
         random = np.random.default_rng(bootstrap["seed"])
-        means = np.exp(log_means(ratios, "arithmetic", bootstrap["resamples"], random))[:, 0]
-        return fit.beta * means[0], fit.beta_samples * means[1:]
+        return fit.betas * np.exp(log_means(ratios, "arithmetic", bootstrap["resamples"], random))[:, 0]
 
     return _cases_at_centre(evidence, tolerance, ratio)
 
@@ -177,8 +176,7 @@ def master_curve(evidence, tolerance):
     """vt/h over the right side of Eq. 12 as printed."""
 
     def ratio(hurst, ensemble, fit, centre, bootstrap):
-        law = reference.rate_law(centre, hurst, gamma=True)
-        return fit.prefactor * centre**fit.beta / law, fit.prefactor_samples * centre**fit.beta_samples / law
+        return centre**fit.betas / fit.zetas / reference.rate_law(centre, hurst, gamma=True)
 
     return _cases_at_centre(evidence, tolerance, ratio)
 
@@ -186,13 +184,13 @@ def master_curve(evidence, tolerance):
 def _cases_at_centre(evidence, tolerance, ratio):
     """Cases of a ratio that should be 1 at the geometric centre of region (b); undecided without a region.
 
-    ratio : function of H, ensemble, fit of region (b), centre and bootstrap; returns the value and its samples
+    ratio : function of H, ensemble, fit of region (b), centre and bootstrap; returns it and its resamples
     """
     bootstrap = {"average": evidence.conventions["average"], "resamples": evidence.resamples, "seed": evidence.seed}
 
     def evaluate(hurst, ensemble, window):
         fit = fit_power_law(ensemble["x"].values, ensemble["velocity"].values, window, **bootstrap)
-        value, samples = ratio(hurst, ensemble, fit, np.sqrt(np.prod(window)), bootstrap)
-        return (value, *percentile_interval(samples, fit.realizations)), fit.realizations
+        ratios = ratio(hurst, ensemble, fit, np.sqrt(np.prod(window)), bootstrap)
+        return with_interval(ratios, fit.realizations), fit.realizations
 
     return _cases_in_regions(evidence, evaluate, 1.0, (1 - tolerance, 1 + tolerance))

@@ -13,11 +13,12 @@ it. Each is tested with two heights: h over the waves that the grid resolves, as
 the spectrum, its limit for N → ∞.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
 import pandas as pd
+from scipy.interpolate import make_interp_spline
 from scipy.special import zeta
 
 from viscorough.reference import exponent_beta
@@ -40,8 +41,6 @@ COLUMNS = {
     "height": ("; ".join(f"{name}: {text}" for name, text in HEIGHTS.items()), ""),
     "x_high": ("X up to which curves are compared, from elements_min elements in contact on", "1"),
     "grids": ("grids compared", "1"),
-    "coarsest": ("elements across discs, or points of lines, on the coarsest grid", "1"),
-    "finest": ("elements across discs, or points of lines, on the finest grid", "1"),
     "expected": ("H/(1 + H), Eq. 10", "1"),
     "spread": ("rms deviation of ln(vt/h) from the common curve with H/(1 + H), weighted", "1"),
     "spread_null": ("95 % quantile of the spread of independent realizations of one curve", "1"),
@@ -78,15 +77,10 @@ class Grid:
     punch: float
     share: float
 
-    def beginning_at(self, elements_min):
-        """The grid from the first abscissa on at which elements_min elements are in contact."""
-        kept = np.logical_or.accumulate(self.count >= elements_min)
-        parts = {"log_x": self.log_x[kept], "count": self.count[kept], "log_velocity": self.log_velocity[:, kept]}
-        return replace(self, **parts)
+    def curve(self, quantity, height, x_high, elements_min=0):
+        """(ln X, ln of the quantity of ensemble and resamples), None for too few abscissae.
 
-    def curve(self, quantity, height, x_high):
-        """(ln X, ln of the quantity of ensemble and resamples) up to x_high; None for too few abscissae.
-
+        From the first abscissa on at which elements_min elements are in contact, up to x_high.
         The variance of a mean is n/(n − 1) times that of bootstrap means, so that resamples are widened.
         """
         log_x, values = self.log_x, self.log_velocity
@@ -95,6 +89,7 @@ class Grid:
             values = np.log(np.where(values > 0, values, np.nan))
         shift = np.log(self.share) / 2 if height == "spectrum" else 0.0
         kept = (log_x <= np.log(x_high) + 1e-9) & np.isfinite(values).all(axis=0)
+        kept &= np.logical_or.accumulate(self.count >= elements_min)
         if kept.sum() < FEWEST["abscissae"]:
             return None
         values = values[:, kept] + shift
@@ -181,7 +176,6 @@ def collapse(hurst_grids, hurst, quantity, height, x_high, *, tolerance):
     tried = expected + np.arange(-TRIED, TRIED + STEP / 2, STEP)
     accepted = [beta for beta in tried if 0 <= beta < 0.9 and spread(curves, beta)[2] >= 0.05]
     row["spread"], row["spread_null"], row["p_value"] = spread(curves, expected)
-    row["coarsest"], row["finest"] = curves[0][0].number, curves[-1][0].number
     if accepted:
         row["beta_low"], row["beta_high"] = min(accepted), max(accepted)
     if row["p_value"] < 0.05:
@@ -197,26 +191,21 @@ def spread(curves, beta):
     curves : list of (Grid, (ln X, ln of the quantity, shape (resamples + 1, abscissae)))
     """
     power = beta / (1 - beta)  # H'
-    step = np.diff(curves[0][1][0][:2]).item()
-    starts = [log_x[0] + (1 + power) * np.log(grid.number) for grid, (log_x, _) in curves]
-    first = min(starts)
-    last = max(start + step * (curve[0].size - 1) for start, (_, curve) in zip(starts, curves, strict=True))
-    size = int((last - first) / step) + 2
-    total, weights, parts = np.zeros((curves[0][1][1].shape[0], size)), np.zeros((2, size)), []
-    for (grid, (log_x, log_y)), start in zip(curves, starts, strict=True):
-        before = int(np.ceil((start - first) / step - 1e-9))
-        part = before - (start - first) / step  # fraction of a step between abscissae of the grid and common ones
-        moved = (1 - part) * log_y[:, :-1] + part * log_y[:, 1:] + power * np.log(grid.number)
-        moved[1:] -= moved[0]  # resamples of one common curve
-        weight = np.full(moved.shape[1], float(grid.realizations))
-        place = slice(before, before + log_x.size - 1)
-        parts.append((moved, weight, place))
-        total[:, place] += weight * moved
-        weights[:, place] += weight, np.ones(weight.size)
-    shared = weights[1] > 1
-    if not shared.any():
+    scaled = [log_x + (1 + power) * np.log(grid.number) for grid, (log_x, _) in curves]
+    step = scaled[0][1] - scaled[0][0]
+    common_x = np.arange(min(x[0] for x in scaled), max(x[-1] for x in scaled), step)
+    moved, weights = [], []
+    for x, (grid, (_, log_y)) in zip(scaled, curves, strict=True):
+        inside = (common_x >= x[0] - 1e-9 * step) & (common_x < x[-1] - 1e-9 * step)
+        values = make_interp_spline(x, log_y, k=1, axis=1)(common_x) + power * np.log(grid.number)
+        values[1:] -= values[0]  # resamples of one common curve
+        moved.append(np.where(inside, values, 0.0))
+        weights.append(grid.realizations * inside)
+    moved, weights = np.array(moved), np.array(weights, dtype=float)
+    weights[:, np.count_nonzero(weights, axis=0) < 2] = 0.0
+    if not weights.any():
         return np.nan, np.nan, np.nan
-    common = total / np.where(shared, weights[0], 1)
-    squares = sum(((moved - common[:, place]) ** 2) @ (weight * shared[place]) for moved, weight, place in parts)
-    spreads = np.sqrt(squares / weights[0, shared].sum())
+    total = weights.sum(axis=0)
+    common = np.sum(weights[:, None] * moved, axis=0) / np.where(total > 0, total, 1)
+    spreads = np.sqrt(np.sum(weights[:, None] * (moved - common) ** 2, axis=(0, 2)) / total.sum())
     return spreads[0], np.quantile(spreads[1:], 0.95), np.mean(spreads[1:] >= spreads[0])

@@ -37,7 +37,7 @@ def test_a_known_law_is_found_exactly():
     np.testing.assert_allclose(coefficients[1], [np.log(A) + 0.1, BETA, B, OMEGA], atol=1e-9)
     assert deviation < 1e-7
     plain, deviation = fit(log_x, log_y[None], np.ones(80), corrected=False)
-    assert plain[0, 2] == 0
+    assert np.isnan(plain[0, 2:]).all()
     assert deviation > 1e-2
 
 

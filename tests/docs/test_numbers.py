@@ -68,8 +68,8 @@ def above(betas):
 
 
 def plateau_of_interface():
-    """u₀/h of discs on the paper's grid, by Hurst exponent: arithmetic means."""
-    rows = published("interface.csv").query("source == 'discs' and across == 257 and average == 'arithmetic'")
+    """u₀/h of discs on the paper's grid, by Hurst exponent."""
+    rows = published("interface.csv").query("source == 'discs' and across == 257")
     return rows.drop_duplicates("hurst").set_index("hurst")
 
 

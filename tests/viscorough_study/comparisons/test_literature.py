@@ -15,12 +15,11 @@ from viscorough_study.page.discussion import KNOWN, QUANTITIES
 ENTRIES = yaml.safe_load((ROOT / "resources/literature/stiffness.yaml").read_text(encoding="utf-8"))
 INTERFACE = pd.DataFrame(
     [
-        (source, group, hurst, 257, average, u0 - less, u0 - 0.1 - less, u0 + 0.1 - less)
+        (source, group, hurst, 257, u0, u0 - 0.1, u0 + 0.1)
         for source, group, u0 in (("discs", "base", 0.5), ("discs", "sizes", 0.6), ("lines", "lines", 0.7))
         for hurst in HURST
-        for average, less in (("arithmetic", 0.0), ("geometric", 0.02))
     ],
-    columns=["source", "case_group", "hurst", "across", "average", "u0", "u0_low", "u0_high"],
+    columns=["source", "case_group", "hurst", "across", "u0", "u0_low", "u0_high"],
 )
 
 

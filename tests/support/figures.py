@@ -200,7 +200,7 @@ def curves_of_sizes():
 
 def collapse_tables():
     """Tables of the collapse and of the infinitely fine grid for discs of two Hurst exponents."""
-    labels = {"source": "discs", "height": "spectrum", "x_high": 0.03}
+    labels = {"source": "discs", "x_high": 0.03}
     collapse, infinite = [], []
     for hurst, quantity in product((0.4, 0.9), QUANTITIES):
         row = labels | {"hurst": hurst, "quantity": quantity, "expected": hurst / (1 + hurst)}

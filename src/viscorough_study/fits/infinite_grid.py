@@ -16,7 +16,7 @@ import pandas as pd
 from viscorough.reference import exponent_beta
 from viscorough_study.fits.intervals import described, equivalence, interval, three_columns
 from viscorough_study.fits.scaling_collapse import COLUMNS as COLLAPSE_COLUMNS
-from viscorough_study.fits.scaling_collapse import HEIGHTS, QUANTITIES, collapse_table, curve_table, grids
+from viscorough_study.fits.scaling_collapse import QUANTITIES, collapse_table, curve_table, grids
 
 OMEGA = np.round(np.arange(0.2, 1.51, 0.1), 1)  # trial exponents of the correction
 CURVES_END = 1.0  # X up to which curves are drawn
@@ -24,7 +24,7 @@ FINDINGS = {True: "agrees", False: "departs", None: "undecided"}
 PLACES = ("inside the range tried", "interval reaches an end", "at an end")  # of ω in the range of OMEGA
 COLUMNS = {
     "source": ("discs by boundary elements, lines by the MDR", ""),
-    **{name: COLLAPSE_COLUMNS[name] for name in ("hurst", "quantity", "height")},
+    **{name: COLLAPSE_COLUMNS[name] for name in ("hurst", "quantity")},
     "law": ("power: A X^β; corrected: A X^β exp(B X^ω)", ""),
     "grids": ("grids fitted together", "1"),
     "elements_min": ("elements in contact at which the fit begins", "1"),
@@ -54,12 +54,12 @@ def place_in_range(omega, low, high):
     return PLACES[1] if low <= ends[0] or high >= ends[1] else PLACES[0]
 
 
-def points(hurst_grids, quantity, height, *, elements_min, x_high):
+def points(hurst_grids, quantity, *, elements_min, x_high):
     """(ln X, ln of the quantity of ensemble and resamples, weights) of all grids in a row; None for fewer than two."""
     parts = [
         (*curve, np.full(curve[0].size, float(grid.realizations)))
         for grid in hurst_grids
-        if (curve := grid.curve(quantity, height, x_high, elements_min))
+        if (curve := grid.curve(quantity, x_high, elements_min))
     ]
     if len(parts) < 2:
         return None
@@ -94,17 +94,15 @@ def limit_table(grids_by_hurst, source, *, elements_min, x_high, tolerance):
         those of the fit itself; tolerance : of β
     """
     rows = []
-    for (hurst, hurst_grids), quantity, height, law in product(grids_by_hurst.items(), QUANTITIES, HEIGHTS, x_high):
-        if height == "spectrum" and hurst == 0:
-            continue
+    for (hurst, hurst_grids), quantity, law in product(grids_by_hurst.items(), QUANTITIES, x_high):
         fits = []
         for start, end in product(elements_min, x_high[law]):
-            values = points(hurst_grids, quantity, height, elements_min=start, x_high=end)
+            values = points(hurst_grids, quantity, elements_min=start, x_high=end)
             if values is not None:
                 fitted = _columns(*fit(*values, corrected=law == "corrected"))
                 fits.append({"elements_min": start, "x_high": end} | fitted)
         if fits:
-            labels = {"source": source, "hurst": hurst, "quantity": quantity, "height": height, "law": law}
+            labels = {"source": source, "hurst": hurst, "quantity": quantity, "law": law}
             over_ranges = _over_ranges(fits, exponent_beta(hurst), tolerance)
             rows.append(labels | {"grids": len(hurst_grids)} | fits[0] | over_ranges)
     return pd.DataFrame(rows, columns=list(COLUMNS))

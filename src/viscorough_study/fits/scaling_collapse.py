@@ -9,8 +9,8 @@ bootstrap samples of every grid, shifted to the common curve (a test with the nu
 weight of its number of realizations: weights from the scatter of few realizations would be too uncertain.
 
 Two quantities are tested: vt/h itself, and the part of the interface, vt/h − X/κ_c with κ_c of the punch in series with
-it. Each is tested with two heights: h over the waves that the grid resolves, as in the paper, and h over all waves of
-the spectrum, its limit for N → ∞.
+it. Their height h is that over all waves of the spectrum, the limit of the paper's h, that over the waves of the grid,
+for N → ∞; at small H the part that a grid lacks is large on any grid.
 """
 
 from dataclasses import dataclass
@@ -27,7 +27,6 @@ from viscorough_study.ensembles.pool import ensembles, select
 from viscorough_study.fits.power_law import log_means
 
 QUANTITIES = {"whole": "vt/h", "interface": "vt/h less X/κ_c of the punch"}
-HEIGHTS = {"resolved": "h over the waves of the grid", "spectrum": "h over all waves of the spectrum"}
 FINDINGS = ("collapses", "does not collapse", "undecided")
 STEP = 0.01  # of the trial exponents
 LATTICE = 256  # wave number up to which the waves of a disc are summed; beyond it the sum is an integral
@@ -38,7 +37,6 @@ COLUMNS = {
     "source": ("discs by boundary elements, lines by the MDR, controls: discs whose spectrum has a roll-off", ""),
     "hurst": ("Hurst exponent", "1"),
     "quantity": ("; ".join(f"{name}: {text}" for name, text in QUANTITIES.items()), ""),
-    "height": ("; ".join(f"{name}: {text}" for name, text in HEIGHTS.items()), ""),
     "x_high": ("X up to which curves are compared, from elements_min elements in contact on", "1"),
     "grids": ("grids compared", "1"),
     "expected": ("H/(1 + H), Eq. 10", "1"),
@@ -77,7 +75,7 @@ class Grid:
     punch: float
     share: float
 
-    def curve(self, quantity, height, x_high, elements_min=0):
+    def curve(self, quantity, x_high, elements_min=0):
         """(ln X, ln of the quantity of ensemble and resamples), None for too few abscissae.
 
         From the first abscissa on at which elements_min elements are in contact, up to x_high.
@@ -87,7 +85,7 @@ class Grid:
         if quantity == "interface":
             values = np.exp(values) - np.exp(log_x) / self.punch
             values = np.log(np.where(values > 0, values, np.nan))
-        shift = np.log(self.share) / 2 if height == "spectrum" else 0.0
+        shift = np.log(self.share) / 2
         kept = (log_x <= np.log(x_high) + 1e-9) & np.isfinite(values).all(axis=0)
         kept &= np.logical_or.accumulate(self.count >= elements_min)
         if kept.sum() < FEWEST["abscissae"]:
@@ -102,20 +100,20 @@ def curve_table(grids_by_hurst, x_high):
     parts = [pd.DataFrame(columns=list(CURVES))]
     for hurst, hurst_grids in grids_by_hurst.items():
         for grid, quantity in product(hurst_grids, QUANTITIES):
-            if curve := grid.curve(quantity, "spectrum" if hurst > 0 else "resolved", x_high):
+            if curve := grid.curve(quantity, x_high):
                 values = {"x": np.exp(curve[0]), "velocity": np.exp(curve[1][0])}
                 parts.append(pd.DataFrame({"hurst": hurst, "number": grid.number, "quantity": quantity, **values}))
     return pd.concat(parts[1:] or parts, ignore_index=True)
 
 
 def variance_share(hurst, number, source):
-    """Fraction of the mean square height of a self-affine spectrum that the waves of a grid have; 0 for H = 0.
+    """Fraction of the mean square height of a self-affine spectrum that the waves of a grid have.
 
-    Waves of a disc have wave vectors k with 1 <= |k| <= N/2 in the plane and weight |k|^(−2−2H), those of a line
-    1 <= k <= N/2 and k^(−1−2H).
+    1 where it has no limit, for H = 0, and for controls, which have no self-affine spectrum. Waves of a disc have wave
+    vectors k with 1 <= |k| <= N/2 in the plane and weight |k|^(−2−2H), those of a line 1 <= k <= N/2 and k^(−1−2H).
     """
-    if hurst == 0:
-        return 0.0
+    if hurst == 0 or source == "controls":
+        return 1.0
     if source == "lines":
         return 1 - zeta(1 + 2 * hurst, number // 2 + 1) / zeta(1 + 2 * hurst)
     square = np.arange(-LATTICE, LATTICE + 1)[:, None] ** 2 + np.arange(-LATTICE, LATTICE + 1) ** 2
@@ -146,28 +144,27 @@ def grids(pool, source, *, average, rms_convention, elements_min, fraction_min, 
         number, punch = grid_and_punch(source, elements)
         velocity = ensemble["velocity"].values[:, kept]
         means = log_means(velocity, average, resamples, generator)
-        share = 1.0 if source == "controls" else variance_share(hurst, number, source)
+        share = variance_share(hurst, number, source)
         x, count = (ensemble[name].values[kept] for name in ("x", "contact_count_median"))
         grids_by_hurst.setdefault(hurst, []).append(Grid(number, len(velocity), np.log(x), means, count, punch, share))
     return grids_by_hurst
 
 
 def collapse_table(grids_by_hurst, source, *, x_high, tolerance):
-    """Rows of `COLUMNS` for every Hurst exponent, quantity, height and end of the range.
+    """Rows of `COLUMNS` for every Hurst exponent, quantity and end of the range.
 
     grids_by_hurst : of `grids`; x_high : ends of the range, X; tolerance : of β
     """
     rows = []
-    for (hurst, hurst_grids), quantity, height, end in product(grids_by_hurst.items(), QUANTITIES, HEIGHTS, x_high):
-        if height == "resolved" or (hurst > 0 and source != "controls"):
-            labels = {"source": source, "hurst": hurst, "quantity": quantity, "height": height, "x_high": end}
-            rows.append(labels | collapse(hurst_grids, hurst, quantity, height, end, tolerance=tolerance))
+    for (hurst, hurst_grids), quantity, end in product(grids_by_hurst.items(), QUANTITIES, x_high):
+        labels = {"source": source, "hurst": hurst, "quantity": quantity, "x_high": end}
+        rows.append(labels | collapse(hurst_grids, hurst, quantity, end, tolerance=tolerance))
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
-def collapse(hurst_grids, hurst, quantity, height, x_high, *, tolerance):
+def collapse(hurst_grids, hurst, quantity, x_high, *, tolerance):
     """Columns of one collapse; hurst_grids : grids of one Hurst exponent."""
-    curves = [(grid, grid.curve(quantity, height, x_high)) for grid in hurst_grids]
+    curves = [(grid, grid.curve(quantity, x_high)) for grid in hurst_grids]
     curves = [(grid, tuple(values[..., ::THINNED] for values in curve)) for grid, curve in curves if curve is not None]
     expected = exponent_beta(hurst)
     row = {"grids": len(curves), "expected": expected, "finding": FINDINGS[2]}

@@ -15,6 +15,7 @@ from viscorough_study.fits.mdr_lambda import match_lines
 from viscorough_study.fits.power_law import fit_power_law, in_window, named_windows
 
 FRACTION_KEPT = 1 - 1e-9  # fraction of realizations that must be defined at an X of the whole curve
+REALIZATIONS = ("realizations: the smaller of the numbers of discs and lines", "1")
 
 LAMBDA_COLUMNS = {
     "hurst": ("Hurst exponent H", "1"),
@@ -30,8 +31,7 @@ SUMMARY_COLUMNS = {
     **described("lambda_best", "λ that minimizes the largest error of vt/h over region (b)"),
     **described("error_trend", "error of ln(vt/h) at the upper end of region (b) with this λ, by a power law"),
     **described("error_whole", "largest error of ln(vt/h) from the start of region (b) to the end of the curve"),
-    "discs": ("number of discs", "1"),
-    "lines": ("number of lines", "1"),
+    "realizations": REALIZATIONS,
 }
 WINDOWS = ("own region", "same X", "same κ")
 EXPONENT_COLUMNS = {
@@ -43,6 +43,7 @@ EXPONENT_COLUMNS = {
     **described("beta_discs", "exponent β of the discs"),
     **described("beta_lines", "exponent β of the lines"),
     **described("difference", "β of the lines minus β of the discs"),
+    "realizations": REALIZATIONS,
 }
 TABLES = {"mdr_lambda": LAMBDA_COLUMNS, "mdr_summary": SUMMARY_COLUMNS, "mdr_exponents": EXPONENT_COLUMNS}
 
@@ -73,17 +74,17 @@ def compare_ensembles(discs, lines, *, resamples, seed, average, **limits):
         windows = [named_windows(ensemble, **limits) for ensemble in pair]
         lambdas, summary = _lambda_rows(*pair, windows[0]["default"], **bootstrap)
         made = lambdas, [summary], _exponent_rows(*pair, windows, **bootstrap)
+        labels = {"hurst": hurst, "realizations": min(ensemble.sizes["realization"] for ensemble in pair)}
         for name, members in zip(TABLES, made, strict=True):
-            rows[name] += [{"hurst": hurst} | row for row in members]
+            rows[name] += [labels | row for row in members]
     return {name: pd.DataFrame(rows[name], columns=list(columns)) for name, columns in TABLES.items()}
 
 
 def _lambda_rows(discs, lines, window, **bootstrap):
     """Rows of λ over X and the row of the summary, of one Hurst exponent; window : region (b) of the discs, or None."""
-    x = discs["x"].values
-    summary = {"discs": discs.sizes["realization"], "lines": lines.sizes["realization"]}
     if window is None:
-        return [], summary
+        return [], {}
+    x = discs["x"].values
     match = match_lines(x, discs["velocity"].values, lines["velocity"].values, **bootstrap)
     best, region = match.best_stretch(window), in_window(x, window)
     chosen = (x >= window[0] / 10) & (discs["fraction_defined"].values >= FRACTION_KEPT)
@@ -93,7 +94,7 @@ def _lambda_rows(discs, lines, window, **bootstrap):
         row = {"x": abscissa, "in_region": int(in_window(abscissa, window))}
         row |= three_columns("lambda", match.with_interval(lambdas[:, i]))
         rows.append(row | three_columns("velocity_ratio", match.with_interval(np.exp(errors[:, i]))))
-    summary |= {"x_low": window[0], "x_high": window[1]}
+    summary = {"x_low": window[0], "x_high": window[1]}
     for name, values in (
         ("drift", np.exp(2 * _rise(x[region], match.stretch_at(x[region])))),
         ("lambda_best", np.pi * np.exp(2 * best)),

@@ -136,11 +136,10 @@ def grids(pool, source, *, average, rms_convention, elements_min, fraction_min, 
     convention = "line" if source == "lines" else rms_convention
     on_grids = ensembles(select(pool, group=group), "hurst", "elements", rms_convention=convention)
     for (hurst, elements), ensemble in sorted(on_grids.items()):
-        enough = np.flatnonzero(ensemble["contact_count_median"].values >= elements_min)
-        defined = ensemble["fraction_defined"].values >= fraction_min
-        if ensemble.sizes["realization"] < FEWEST["realizations"] or not enough.size:
+        enough = np.logical_or.accumulate(ensemble["contact_count_median"].values >= elements_min)
+        if ensemble.sizes["realization"] < FEWEST["realizations"] or not enough.any():
             continue
-        kept = defined & (np.arange(defined.size) >= enough[0])
+        kept = enough & (ensemble["fraction_defined"].values >= fraction_min)
         number, punch = grid_and_punch(source, elements)
         velocity = ensemble["velocity"].values[:, kept]
         means = log_means(velocity, average, resamples, generator)

@@ -28,12 +28,15 @@ from viscorough_study.verdicts import (
 from viscorough_study.verdicts.evidence import VERDICTS
 
 MODULES = form_criteria, region_criteria, law_criteria, zeta_criteria, method_criteria, mdr_criteria
-JUDGES = {  # {claim: criterion}: the public functions of evidence and tolerance
-    name: function
-    for module in MODULES
-    for name, function in getmembers(module, isfunction)
-    if not name.startswith("_") and [*signature(function).parameters][:2] == ["evidence", "tolerance"]
-}
+
+
+def _criteria(module):
+    """{claim: criterion} of a module: its public functions of evidence and tolerance."""
+    public = {name: function for name, function in getmembers(module, isfunction) if not name.startswith("_")}
+    return {name: f for name, f in public.items() if [*signature(f).parameters][:2] == ["evidence", "tolerance"]}
+
+
+JUDGES = {claim: criterion for module in MODULES for claim, criterion in _criteria(module).items()}
 KINDS = {
     "physics": "Physics",
     "identity": "Identities, which hold by the method or by construction",

@@ -48,7 +48,7 @@ MADE = {
     ),
     "light": ("light_contact", "light_contact"),  # a part of `make speed`
     "stability": ("failure_map", "failure_map"),
-    "sizes": ("sizes collapse", "sizes sizes_trends collapse collapse_curves infinite_grid"),
+    "sizes": ("sizes collapse", "sizes collapse collapse_curves infinite_grid"),
     "large": ("large", "large"),
     "bench": ("", ""),
     "outside": ("", ""),
@@ -214,7 +214,7 @@ def infinite_grid():
     By Hurst exponent, with the correction to scaling, h over all waves of the spectrum; in brackets the least and the
     largest end of the 95 % intervals in all ranges of X.
     """
-    table = pd.read_csv(ROOT / "docs/results/infinite_grid.csv").query("law == 'corrected' and height == 'spectrum'")
+    table = pd.read_csv(ROOT / "docs/results/infinite_grid.csv").query("law == 'corrected'")
     columns = list(table.groupby(["source", "quantity"], sort=False))
     names, lines = [f"{source}, {INTERFACE_QUANTITIES[quantity]}" for (source, quantity), _ in columns], []
     for hurst, expected in table.drop_duplicates("hurst")[["hurst", "expected"]].itertuples(index=False):

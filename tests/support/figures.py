@@ -200,7 +200,7 @@ def curves_of_sizes():
 
 def collapse_tables():
     """Tables of the collapse and of the infinitely fine grid for discs of two Hurst exponents."""
-    labels = {"source": "discs", "height": "spectrum", "x_high": 0.03}
+    labels = {"source": "discs", "x_high": 0.03}
     collapse, infinite = [], []
     for hurst, quantity in product((0.4, 0.9), QUANTITIES):
         row = labels | {"hurst": hurst, "quantity": quantity, "expected": hurst / (1 + hurst)}
@@ -270,16 +270,14 @@ def interface_tables_drawn():
     ensembles += [("discs", "sizes", h, n) for h in (0.4, 1.0) for n in (65, 257)]
     ensembles += [("lines", "lines", 0.4, 4096), ("lines", "sizes", 0.4, 64)]
     for source, group, hurst, across in ensembles:
-        for average in ("arithmetic", "geometric"):
-            labels = {"source": source, "case_group": group, "hurst": hurst, "across": across, "average": average}
-            constants = (getattr(penetration_law(hurst), name) for name in CONSTANTS)
-            interface = interface_velocity(x, *constants) / 1.02
-            plateau = {"u0": 0.48 + across / 1e4, "u0_low": 0.47, "u0_high": 0.53}
-            plateau |= {"plateau_low": 0.4, "plateau_high": 1.2}
-            rows.append(labels | plateau | {"kappa_c": 1.0})
-            parts = {"x": x, "velocity": x + interface, "interface": interface}
-            parts |= {"interface_low": 0.9 * interface, "interface_high": 1.1 * interface}
-            curves.append(pd.DataFrame(parts).assign(**labels))
+        labels = {"source": source, "case_group": group, "hurst": hurst, "across": across}
+        constants = (getattr(penetration_law(hurst), name) for name in CONSTANTS)
+        interface = interface_velocity(x, *constants) / 1.02
+        plateau = {"u0": 0.48 + across / 1e4, "u0_low": 0.47, "u0_high": 0.53}
+        plateau |= {"plateau_low": 0.4, "plateau_high": 1.2}
+        rows.append(labels | plateau | {"kappa_c": 1.0})
+        parts = {"x": x, "interface": interface, "interface_low": 0.9 * interface, "interface_high": 1.1 * interface}
+        curves.append(pd.DataFrame(parts).assign(**labels))
     return pd.DataFrame(rows).reindex(columns=list(INTERFACE)), pd.concat(curves, ignore_index=True)
 
 

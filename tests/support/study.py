@@ -155,7 +155,7 @@ def mdr_tables(drift=1.0, ratio=1.0):
         return three_columns(name, (value, value - half, value + half))
 
     summary = interval("drift", drift, 0.01) | interval("error_trend", np.log(drift) / 4, 0.005)
-    summary |= interval("error_whole", np.abs(np.log(drift)), 0.005) | {"discs": 1000, "lines": 1000}
+    summary |= interval("error_whole", np.abs(np.log(drift)), 0.005) | {"realizations": 1000}
     difference = [interval("difference", np.log(drift) / 10, 0.002) | {"window": name} for name in WINDOWS]
     compared = interval("area_ratio", ratio, 0.01) | {"realizations": 1000, "stiffness_scatter": np.log(ratio)}
     x = np.geomspace(1e-4, 1, 9)
@@ -163,7 +163,7 @@ def mdr_tables(drift=1.0, ratio=1.0):
     every = pd.DataFrame({"hurst": HURST})
     return {
         "mdr_summary": every.assign(**summary),
-        "mdr_exponents": every.merge(pd.DataFrame(difference), how="cross"),
+        "mdr_exponents": every.merge(pd.DataFrame(difference).assign(realizations=1000), how="cross"),
         "reduction": every.merge(pd.DataFrame({"x": x} | compared | gap), how="cross"),
     }
 

@@ -50,13 +50,7 @@ TABLE_PARAMS = {
         "peers": {name: other_solvers()[name] for name in ("Tamaas", "ContactMechanics", *LIGHT_ONLY)},
     },
     "map_failures": config["stability"] | {"hurst_min": number(paper("numbers"), "agreement", "beta_hurst_min")} | SEED,
-    "fit_sizes": {
-        "fit": config["scaling"],
-        "tolerance": paper("claims")["beta"]["tolerance"],
-        "conventions": config["figures"],
-        **chosen("sizes", "windows"),
-        **SEED,
-    },
+    "fit_sizes": config["scaling"] | chosen("sizes", "windows") | SEED,
     "compare_grids": chosen("scaling", "elements_min") | chosen("figures", "rms_convention"),
     "fit_collapse": {
         "ranges": config["collapse"],

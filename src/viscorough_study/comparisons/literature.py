@@ -30,7 +30,7 @@ COLUMNS = {
 }
 KNOWN = ("year", "source", "place", "when", "statement", "sure", "read")
 OURS = ["hurst", "value", "low", "high", "across"]  # across: elements across the discs, for quantities that need it
-NONE = pd.DataFrame([dict.fromkeys(OURS, np.nan)])
+NONE = dict.fromkeys(OURS, np.nan)
 X_COMPARED = 0.01  # X in region (b) at which lines are compared with their discs
 
 
@@ -40,23 +40,32 @@ def literature(scaling, interface, reduction, *, entries, conventions):
     entries : content of resources/literature/stiffness.yaml
     scaling, interface, reduction : the tables of these names; conventions : those of the figures
     """
-    u0 = _u0(interface)
+    fitted = fits(scaling, conventions, source="discs", case_group="base")
+    alpha = {"alpha": 1 - fitted["beta"], "alpha_low": 1 - fitted["beta_high"], "alpha_high": 1 - fitted["beta_low"]}
+    discs = interface[(interface["source"] == "discs") & (interface["case_group"] == "base")]
+    u0 = _values(discs, "u0")
+    at_x = reduction[np.log(reduction["x"] / X_COMPARED).abs() < 1e-6]
     ours = {
-        "none": NONE,
-        "alpha": _alpha(fits(scaling, conventions, source="discs", case_group="base")),
+        "alpha": _values(fitted.assign(**alpha), "alpha"),
         "u0": u0,
-        "gamma": _gamma(u0),
-        "area": _ratio(reduction, "area"),
-        "gap": _ratio(reduction, "gap"),
+        "gamma": [row | {name: row[name] / _persson(row) for name in ("value", "low", "high")} for row in u0],
+        "area": _values(at_x, "area_ratio"),
+        "gap": _values(at_x, "gap_ratio"),
     }
     rows = []
     for entry in sorted(entries, key=lambda entry: entry["year"]):
         known = {name: entry[name] for name in KNOWN}
         for quantity in entry["ours"] or ["none"]:
-            for row in ours[quantity].to_dict("records"):
+            for row in ours.get(quantity) or [NONE]:
                 theirs = dict(zip(("theirs_low", "theirs_high"), _theirs(entry, row), strict=True))
                 rows.append(known | {"quantity": quantity} | theirs | row)
     return pd.DataFrame(rows)[list(COLUMNS)]
+
+
+def _values(table, name):
+    """Rows (dicts with the keys of OURS) of a quantity of a table and its interval, by ascending H."""
+    table = table.rename(columns={name: "value", f"{name}_low": "low", f"{name}_high": "high"})
+    return table.reindex(columns=OURS).sort_values("hurst").to_dict("records")
 
 
 def cited(source, year):
@@ -99,36 +108,3 @@ def _theirs(entry, row):
 def _persson(row):
     """u₀/h of Persson's law, without a factor, for waves from the diameter down to two elements."""
     return persson_u0(row["hurst"], row["across"] / 2) if np.isfinite(row["hurst"]) else np.nan
-
-
-def _alpha(rows):
-    """1 − β and its interval of every fit."""
-    return _or_none(rows.assign(value=1 - rows["beta"], low=1 - rows["beta_high"], high=1 - rows["beta_low"]))
-
-
-def _u0(interface):
-    """u₀/h and its interval of the base discs, arithmetic means, as compliances add."""
-    rows = interface[(interface["source"] == "discs") & (interface["case_group"] == "base")]
-    return _or_none(_named_value(rows[rows["average"] == "arithmetic"], "u0"))
-
-
-def _gamma(u0):
-    """Factor γ with which Persson's law gives these u₀/h."""
-    without = u0.apply(_persson, axis=1)
-    return u0.assign(**{name: u0[name] / without for name in ("value", "low", "high")})
-
-
-def _ratio(reduction, name):
-    """Ratio of lines to discs, and its interval, at X_COMPARED."""
-    rows = reduction[np.log(reduction["x"] / X_COMPARED).abs() < 1e-6]
-    return _or_none(_named_value(rows, f"{name}_ratio"))
-
-
-def _named_value(rows, name):
-    """The rows with a quantity and its interval as value, low and high."""
-    return rows.rename(columns={name: "value", f"{name}_low": "low", f"{name}_high": "high"})
-
-
-def _or_none(rows):
-    """The columns of OURS by ascending H; one row of nan for an empty table."""
-    return NONE if rows.empty else rows.reindex(columns=OURS).sort_values("hurst")

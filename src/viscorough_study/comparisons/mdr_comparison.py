@@ -25,7 +25,6 @@ from viscorough_study.run.seeds import mdr_comparison_key, realization_seed
 COLUMNS = {
     "hurst": ("Hurst exponent H", "1"),
     "x": ("dimensionless force F/(4GhL) or time Ft/(4ηhL)", "1"),
-    "stiffness": ("geometric mean of κ of the discs", "1"),
     **described("stiffness_ratio", "geometric mean of κ of the lines over that of the discs"),
     "stiffness_scatter": ("standard deviation of ln κ of a line over its disc", "1"),
     **described("area_ratio", "geometric mean of the contact fraction of the lines over that of the discs"),
@@ -33,8 +32,7 @@ COLUMNS = {
         "geometric mean of X of a line over that of its disc, at equal u/h, where the disc has this X",
         "1",
     ),
-    "gap": ("mean gap of a disc over h, geometric mean; at integer powers of ten only", "1"),
-    **described("gap_ratio", "geometric mean of the mean gap of the lines over that of the discs"),
+    **described("gap_ratio", "geometric mean of the mean gap of the lines over that of the discs, at powers of ten"),
     "correlation": ("correlation of ln κ of discs and their lines over the realizations", "1"),
     "chance": ("bound within which 95 % of the correlations of as many unrelated pairs lie, ±", "1"),
     "realizations": ("realizations", "1"),
@@ -59,11 +57,11 @@ def compare_reduction(*, hursts, elements, realizations, tolerance, seed, x_low,
         for number in progress(range(realizations), realizations, "surfaces"):
             seed_of_both = realization_seed(seed, *mdr_comparison_key(hurst, number))
             disc, line = _disc_and_line(hurst, elements, *seed_of_both.spawn(2))
-            disc_curve = indent(disc, tolerance=tolerance, until_force=FORCE_MARGIN * force[-1])
-            line_curve, gaps = reduce(line), np.full((2, x.size), np.nan)
-            for row, pair in zip(gaps, ((disc, disc_curve), (line, line_curve)), strict=True):
-                row[with_gap] = np.log(mean_gaps(*pair, force[with_gap], tolerance))
-            compared.append([*_compare(disc_curve, line_curve, force), gaps])
+            curves = indent(disc, tolerance=tolerance, until_force=FORCE_MARGIN * force[-1]), reduce(line)
+            gaps = np.full((2, x.size), np.nan)
+            for row, indenter, curve in zip(gaps, (disc, line), curves, strict=True):
+                row[with_gap] = np.log(mean_gaps(indenter, curve, force[with_gap], tolerance))
+            compared.append([*_compare(*curves, force), gaps[1] - gaps[0]])
         tables.append(_table(hurst, x, np.array(compared)))
     return pd.concat(tables, ignore_index=True)
 
@@ -77,16 +75,16 @@ def _disc_and_line(hurst, elements, surface_seed, line_seed):
 
 
 def _compare(disc, line, force):
-    """ln of κ, of contact fraction and of force at the disc's depth: shape (3 quantities, disc and line, abscissae)."""
-    depth, disc_stiffness = disc.at_force(force)
-    _, line_stiffness = line.at_force(force)
+    """ln of κ of disc and line, of the ratio of their contact fractions, and of that of their forces at equal depth."""
+    depth, stiffness = disc.at_force(force)
     fractions = [
         np.interp(np.log(force), np.log(curve.force), np.log(curve.contact_fraction)) for curve in (disc, line)
     ]
     # The curve of the line is straight up to the first level.
     straight = np.minimum(np.log(depth / line.depth[0]), 0)
     line_force = straight + np.interp(np.log(depth), np.log(line.depth), np.log(line.force))
-    return np.log([disc_stiffness / 4, line_stiffness / 4]), fractions, [np.log(force), line_force]
+    logarithms = np.log([stiffness / 4, line.at_force(force)[1] / 4])
+    return *logarithms, fractions[1] - fractions[0], line_force - np.log(force)
 
 
 def is_power_of_ten(x):
@@ -116,24 +114,22 @@ def mean_gaps(indenter, curve, force, tolerance):
 def _table(hurst, x, compared):
     """Rows of one Hurst exponent where all quantities except the gaps are defined.
 
-    compared : results of _compare and ln of the mean gaps, shape (realizations, 4, disc and line, abscissae)
+    compared : results of _compare and ln of the ratio of the mean gaps, shape (realizations, 5, abscissae)
     """
-    stiffness, fraction, force, gap = np.moveaxis(compared, 1, 0)
+    disc, line, fraction, force, gap = np.moveaxis(compared, 1, 0)
     number = len(compared)
     with np.errstate(invalid="ignore", divide="ignore"):  # nan where all realizations have the same κ
-        correlation = [np.corrcoef(stiffness[:, 0, i], stiffness[:, 1, i])[0, 1] for i in range(x.size)]
+        correlation = [np.corrcoef(pair)[0, 1] for pair in zip(disc.T, line.T, strict=True)]
     columns = {
         "hurst": hurst,
         "x": x,
-        "stiffness": np.exp(stiffness[:, 0].mean(axis=0)),
-        "stiffness_scatter": (stiffness[:, 1] - stiffness[:, 0]).std(axis=0, ddof=1),
-        "force_ratio": np.exp((force[:, 1] - force[:, 0]).mean(axis=0)),
-        "gap": np.exp(gap[:, 0].mean(axis=0)),
+        "stiffness_scatter": (line - disc).std(axis=0, ddof=1),
+        "force_ratio": np.exp(force.mean(axis=0)),
         "correlation": correlation,
         "chance": np.tanh(1.96 / np.sqrt(number - 3)) if number > 3 else 1.0,  # by Fisher's transform
         "realizations": number,
     }
-    for name, values in (("stiffness_ratio", stiffness), ("area_ratio", fraction), ("gap_ratio", gap)):
-        columns |= three_columns(name, np.exp(mean_with_interval(values[:, 1] - values[:, 0])))
+    for name, ratios in (("stiffness_ratio", line - disc), ("area_ratio", fraction), ("gap_ratio", gap)):
+        columns |= three_columns(name, np.exp(mean_with_interval(ratios)))
     table = pd.DataFrame(columns)[list(COLUMNS)]
-    return table[np.isfinite(table.loc[:, "stiffness":"force_ratio"]).all(axis=1)]
+    return table[np.isfinite(table.loc[:, "stiffness_ratio":"force_ratio"]).all(axis=1)]

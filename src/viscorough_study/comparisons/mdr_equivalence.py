@@ -10,11 +10,12 @@ import numpy as np
 import pandas as pd
 
 from viscorough_study.ensembles.pool import ensembles, select
-from viscorough_study.fits.intervals import described, described_ends, percentile_interval, three_columns
+from viscorough_study.fits.intervals import described, described_ends, three_columns, with_interval
 from viscorough_study.fits.mdr_lambda import match_lines
-from viscorough_study.fits.power_law import find_region, fit_power_law, in_window, named_windows
+from viscorough_study.fits.power_law import fit_power_law, in_window, named_windows
 
 FRACTION_KEPT = 1 - 1e-9  # fraction of realizations that must be defined at an X of the whole curve
+REALIZATIONS = ("realizations: the smaller of the numbers of discs and lines", "1")
 
 LAMBDA_COLUMNS = {
     "hurst": ("Hurst exponent H", "1"),
@@ -28,11 +29,9 @@ SUMMARY_COLUMNS = {
     **described_ends("x", "of region (b) of the discs in X"),
     **described("drift", "λ at the upper over λ at the lower end of region (b), by a power law through λ(X)"),
     **described("lambda_best", "λ that minimizes the largest error of vt/h over region (b)"),
-    "error_region": ("largest error of ln(vt/h) over region (b) with this λ", "1"),
     **described("error_trend", "error of ln(vt/h) at the upper end of region (b) with this λ, by a power law"),
     **described("error_whole", "largest error of ln(vt/h) from the start of region (b) to the end of the curve"),
-    "discs": ("number of discs", "1"),
-    "lines": ("number of lines", "1"),
+    "realizations": REALIZATIONS,
 }
 WINDOWS = ("own region", "same X", "same κ")
 EXPONENT_COLUMNS = {
@@ -41,13 +40,10 @@ EXPONENT_COLUMNS = {
         "own region: region (b) of each; same X: that of the discs; same κ: scaling.stiffness_range",
         None,
     ),
-    "x_low_discs": ("lower end of the window of the discs in X", "1"),
-    "x_high_discs": ("upper end of the window of the discs in X", "1"),
-    "x_low_lines": ("lower end of the window of the lines in X", "1"),
-    "x_high_lines": ("upper end of the window of the lines in X", "1"),
     **described("beta_discs", "exponent β of the discs"),
     **described("beta_lines", "exponent β of the lines"),
     **described("difference", "β of the lines minus β of the discs"),
+    "realizations": REALIZATIONS,
 }
 TABLES = {"mdr_lambda": LAMBDA_COLUMNS, "mdr_summary": SUMMARY_COLUMNS, "mdr_exponents": EXPONENT_COLUMNS}
 
@@ -63,66 +59,50 @@ def mdr_tables(discs, lines, *, seed, fit, conventions):
     return compare_ensembles(discs, lines, average=conventions["average"], seed=seed, **fit)
 
 
-def compare_ensembles(discs, lines, *, average, stiffness_range, resamples, seed, **limits):
+def compare_ensembles(discs, lines, *, resamples, seed, average, **limits):
     """The three tables of discs and lines, {name in `TABLES`: table with its columns}.
 
     discs, lines : {H: ensemble (ensembles.averages) in one rms convention}, of equal abscissae; Hurst exponents that
         both have are compared
     average, resamples, seed : of the bootstrap, as in viscorough_study.fits.power_law.fit_power_law
-    stiffness_range, limits : arguments of viscorough_study.fits.power_law.named_windows
+    limits : arguments of viscorough_study.fits.power_law.named_windows
     Without a region (b) there are no rows of λ, and the values of the other tables are nan.
     """
     bootstrap, rows = {"average": average, "resamples": resamples, "seed": seed}, {name: [] for name in TABLES}
     for hurst in sorted(set(discs) & set(lines)):
         pair = discs[hurst], lines[hurst]
-        lambdas, summary = _lambda_rows(*pair, limits, **bootstrap)
-        made = lambdas, [summary], _exponent_rows(*pair, stiffness_range, limits, **bootstrap)
+        windows = [named_windows(ensemble, **limits) for ensemble in pair]
+        lambdas, summary = _lambda_rows(*pair, windows[0]["default"], **bootstrap)
+        made = lambdas, [summary], _exponent_rows(*pair, windows, **bootstrap)
+        labels = {"hurst": hurst, "realizations": min(ensemble.sizes["realization"] for ensemble in pair)}
         for name, members in zip(TABLES, made, strict=True):
-            rows[name] += [{"hurst": hurst} | row for row in members]
+            rows[name] += [labels | row for row in members]
     return {name: pd.DataFrame(rows[name], columns=list(columns)) for name, columns in TABLES.items()}
 
 
-def _lambda_rows(discs, lines, limits, **bootstrap):
-    """Rows of λ over X and the row of the summary, of one Hurst exponent."""
-    x = discs["x"].values
-    number = {"discs": discs.sizes["realization"], "lines": lines.sizes["realization"]}
-    window = find_region(discs, **limits)
+def _lambda_rows(discs, lines, window, **bootstrap):
+    """Rows of λ over X and the row of the summary, of one Hurst exponent; window : region (b) of the discs, or None."""
     if window is None:
-        return [], number
+        return [], {}
+    x = discs["x"].values
     match = match_lines(x, discs["velocity"].values, lines["velocity"].values, **bootstrap)
-    best = match.best_stretch(window)
+    best, region = match.best_stretch(window), in_window(x, window)
     chosen = (x >= window[0] / 10) & (discs["fraction_defined"].values >= FRACTION_KEPT)
-    ratio = np.exp(match.deviation(best, chosen))
-    chosen[chosen] = np.isfinite(ratio[0])
-    return _abscissa_rows(match, best, window, chosen), number | _summary(match, best, window, chosen)
-
-
-def _abscissa_rows(match, best, window, chosen):
-    """Rows of the chosen abscissae."""
-    x = match.x[chosen]
-    lambdas, ratio = match.lambda_at(x), np.exp(match.deviation(best, chosen))
-    rows = []
-    for i, abscissa in enumerate(x):
+    chosen[chosen] = np.isfinite(match.deviation(best, chosen)[0])
+    lambdas, errors, rows = match.lambda_at(x[chosen]), match.deviation(best, chosen), []
+    for i, abscissa in enumerate(x[chosen]):
         row = {"x": abscissa, "in_region": int(in_window(abscissa, window))}
         row |= three_columns("lambda", match.with_interval(lambdas[:, i]))
-        rows.append(row | three_columns("velocity_ratio", match.with_interval(ratio[:, i])))
-    return rows
-
-
-def _summary(match, best, window, chosen):
-    """Columns of the summary."""
-    region, whole = in_window(match.x, window), chosen & (match.x >= window[0])
-    stretch = match.stretch_at(match.x[region])
-    error, whole_error = (match.deviation(best, part) for part in (region, whole))
-    return {
-        "x_low": window[0],
-        "x_high": window[1],
-        **three_columns("drift", match.with_interval(np.exp(2 * _rise(match.x[region], stretch)))),
-        **three_columns("lambda_best", match.with_interval(np.pi * np.exp(2 * best))),
-        "error_region": np.abs(error[0]).max(),
-        **three_columns("error_trend", match.with_interval(_rise(match.x[region], error) / 2)),
-        **three_columns("error_whole", match.with_interval(np.abs(whole_error).max(axis=1))),
-    }
+        rows.append(row | three_columns("velocity_ratio", match.with_interval(np.exp(errors[:, i]))))
+    summary = {"x_low": window[0], "x_high": window[1]}
+    for name, values in (
+        ("drift", np.exp(2 * _rise(x[region], match.stretch_at(x[region])))),
+        ("lambda_best", np.pi * np.exp(2 * best)),
+        ("error_trend", _rise(x[region], match.deviation(best, region)) / 2),
+        ("error_whole", np.abs(errors[:, x[chosen] >= window[0]]).max(axis=1)),
+    ):
+        summary |= three_columns(name, match.with_interval(values))
+    return rows, summary
 
 
 def _rise(x, values):
@@ -131,26 +111,25 @@ def _rise(x, values):
     return values @ offset / (offset @ offset) * np.ptp(offset)
 
 
-def _exponent_rows(discs, lines, stiffness_range, limits, *, seed, **bootstrap):
-    """Rows of the exponents of one Hurst exponent; those without a window have nan."""
-    windows = [named_windows(ensemble, stiffness_range=stiffness_range, **limits) for ensemble in (discs, lines)]
+def _exponent_rows(discs, lines, windows, *, seed, **bootstrap):
+    """Rows of the exponents of one Hurst exponent; those without a window have nan.
+
+    windows : named windows of discs and of lines
+    """
     regions, kappa = ([rules[rule] for rules in windows] for rule in ("default", "kappa"))
-    pairs = dict(zip(WINDOWS, (regions, [regions[0], regions[0]], kappa), strict=True))
-    return [{"window": name} | _fits(discs, lines, pair, seed, bootstrap) for name, pair in pairs.items()]
-
-
-def _fits(discs, lines, windows, seed, bootstrap):
-    """Columns of the fits of discs and lines in their windows; {} if one of them has none."""
-    if None in windows:
-        return {}
-    fits, columns = [], {}
-    # Separate seeds make the bootstrap samples of discs and lines independent.
-    names = zip(("discs", "lines"), (discs, lines), windows, np.random.SeedSequence(seed).spawn(2), strict=True)
-    for name, ensemble, window, sample_seed in names:
-        fit = fit_power_law(ensemble["x"].values, ensemble["velocity"].values, window, **bootstrap, seed=sample_seed)
-        columns |= {f"x_low_{name}": window[0], f"x_high_{name}": window[1]}
-        columns |= three_columns(f"beta_{name}", (fit.beta, *fit.beta_interval))
-        fits.append(fit)
-    samples, number = fits[1].beta_samples - fits[0].beta_samples, min(fit.realizations for fit in fits)
-    value = fits[1].beta - fits[0].beta
-    return columns | three_columns("difference", (value, *percentile_interval(samples, number)))
+    rows = []
+    for name, pair in zip(WINDOWS, (regions, [regions[0], regions[0]], kappa), strict=True):
+        rows.append({"window": name})
+        if None in pair:
+            continue
+        # Separate seeds make the bootstrap samples of discs and lines independent.
+        first, second = (
+            fit_power_law(ensemble["x"].values, ensemble["velocity"].values, window, **bootstrap, seed=sample_seed)
+            for ensemble, window, sample_seed in zip(
+                (discs, lines), pair, np.random.SeedSequence(seed).spawn(2), strict=True
+            )
+        )
+        rows[-1] |= three_columns("beta_discs", first.beta()) | three_columns("beta_lines", second.beta())
+        number = min(first.realizations, second.realizations)
+        rows[-1] |= three_columns("difference", with_interval(second.betas - first.betas, number))
+    return rows

@@ -6,7 +6,8 @@ from itertools import chain, product
 import pandas as pd
 
 from viscorough.io.curves import unstack_curves
-from viscorough_study.comparisons.media_kinetics import motion_on_curve, named_media
+from viscorough.viscous.correspondence import kinetics
+from viscorough_study.comparisons.media_kinetics import named_media, reached_times
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.ensembles.pool import ensembles
 from viscorough_study.fits.fit_table import fit_rows
@@ -63,6 +64,7 @@ def _motions(curve, media, forces, times):
     Times at which the depth lies beyond the end of the curve are omitted.
     """
     for (name, medium), force in product(media.items(), forces):
-        if motion := motion_on_curve(curve, force, medium, times):
+        if (reached := reached_times(curve.force[-1], force, medium, times)).size:
+            motion = kinetics(curve, force, medium, reached)
             columns = {"time": motion.time, "depth": motion.depth, "velocity": motion.velocity}
             yield pd.DataFrame(columns).assign(medium=name, force=force)

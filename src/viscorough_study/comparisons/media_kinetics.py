@@ -6,6 +6,8 @@ of J. With the paper's J = t/η this is its vt/h = X/κ. Where X/κ = X^β/ζ, t
 β a + d ln a/d ln t: a power law in X is a power law in time only while J is one.
 """
 
+from itertools import product
+
 import numpy as np
 import pandas as pd
 
@@ -62,47 +64,34 @@ def media_table(ensembles, media, *, force, times):
     times : t > 0, logarithmically uniform [s]
     Times at which a depth lies beyond the end of its curve are omitted. X is that of the mean rms height.
     """
-    parts = []
-    for name, medium in media.items():
-        creep = medium.creep_compliance(times), times * medium.creep_rate(times) / medium.creep_compliance(times)
-        for hurst, (curves, rms, diameter) in ensembles.items():
-            depth, velocity = _motions(curves, rms, medium, force, times)
-            x = force * creep[0] / (4 * np.mean(rms) * diameter)
-            defined = np.isfinite(depth).all(axis=0) & (velocity > 0).all(axis=0)
-            motion = [values[..., defined] for values in (times, x, creep[1], depth, velocity)]
-            parts.append(_means(*motion, exponent_beta(hurst)).assign(medium=name, hurst=hurst))
+    parts, half_width = [], HALF_WIDTH * np.log(10)
+    for (name, medium), (hurst, (curves, rms, diameter)) in product(media.items(), ensembles.items()):
+        time = reached_times(min(curve.force[-1] for curve in curves), force, medium, times)
+        if not time.size:
+            continue
+        motions = [kinetics(curve, force, medium, time) for curve in curves]
+        depth = np.array([motion.depth / height for motion, height in zip(motions, rms, strict=True)])
+        velocity = np.array([motion.velocity * time / height for motion, height in zip(motions, rms, strict=True)])
+        moving = (velocity > 0).all(axis=0)
+        time, mean = time[moving], np.log(velocity[:, moving]).mean(axis=0)
+        creep = medium.creep_compliance(time)
+        x, creep_exponent = force * creep / (4 * np.mean(rms) * diameter), time * medium.creep_rate(time) / creep
+        columns = {
+            "medium": name,
+            "hurst": hurst,
+            "time": time,
+            "x": x,
+            "depth": np.exp(np.log(depth[:, moving]).mean(axis=0)),
+            "velocity": np.exp(mean),
+            "exponent": local_slopes(np.log(time), mean, half_width),
+            "creep_exponent": creep_exponent,
+            "expected": local_slopes(np.log(time), np.log(creep_exponent * x ** exponent_beta(hurst)), half_width),
+            "realizations": len(curves),
+        }
+        parts.append(pd.DataFrame(columns))
     return pd.concat(parts, ignore_index=True)[list(COLUMNS)]
 
 
-def _motions(curves, rms, medium, force, times):
-    """u/h and vt/h of all realizations, shape (realizations, times); nan where a curve has ended."""
-    depth, velocity = np.full((2, len(curves), times.size), np.nan)
-    for i, (curve, height) in enumerate(zip(curves, rms, strict=True)):
-        if motion := motion_on_curve(curve, force, medium, times):
-            end = motion.time.size  # the first times, because the creep compliance grows with time
-            depth[i, :end] = motion.depth / height
-            velocity[i, :end] = motion.velocity * motion.time / height
-    return depth, velocity
-
-
-def motion_on_curve(curve, force, medium, times):
-    """Kinetics under a constant force at the times whose depth is on the loading curve; None if there are none."""
-    reached = times[force * medium.creep_compliance(times) <= curve.force[-1]]
-    return kinetics(curve, force, medium, reached) if reached.size else None
-
-
-def _means(time, x, creep_exponent, depth, velocity, beta):
-    """Table of geometric means; depth, velocity : shape (realizations, times), defined and with velocity > 0."""
-    mean, log_time, half_width = np.log(velocity).mean(axis=0), np.log(time), HALF_WIDTH * np.log(10)
-    return pd.DataFrame(
-        {
-            "time": time,
-            "x": x,
-            "depth": np.exp(np.log(depth).mean(axis=0)),
-            "velocity": np.exp(mean),
-            "exponent": local_slopes(log_time, mean, half_width),
-            "creep_exponent": creep_exponent,
-            "expected": local_slopes(log_time, np.log(creep_exponent * x**beta), half_width),
-            "realizations": len(velocity),
-        }
-    )
+def reached_times(last, force, medium, times):
+    """The times at which the creep under a constant force is at most the last F/G of a loading curve."""
+    return times[force * medium.creep_compliance(times) <= last]

@@ -59,29 +59,28 @@ def validation_table(elements, limits, order_margin):
     fine. `passed` is 1 if the error on the finest grid is within its limit and, for three grids or more, the order is
     within the margin.
     """
-    grids, errors = sorted(elements), {}
-    for n in grids:
-        for case, quantities in _errors_on_grid(n):
-            for quantity, error in quantities.items():
-                errors.setdefault((case, quantity), []).append(error)
-    return judge_errors(grids, errors, limits, order_margin)
+    errors = [
+        (case, quantity, n, error)
+        for n in sorted(elements)
+        for case, quantities in _errors_on_grid(n)
+        for quantity, error in quantities.items()
+    ]
+    return judge_errors(pd.DataFrame(errors, columns=list(COLUMNS)[:4]), limits, order_margin)
 
 
-def judge_errors(grids, errors, limits, order_margin):
-    """The validation table of errors on grids from coarse to fine; limits, order_margin : as in validation_table.
+def judge_errors(errors, limits, order_margin):
+    """The validation table of errors; limits, order_margin : as in validation_table.
 
-    errors : {(case, quantity): list of its errors, one for each grid}
+    errors : the columns of it up to the error, grids from coarse to fine
     """
-    rows = []
-    for (case, quantity), on_grids in errors.items():
+    judged = []
+    for (case, quantity), rows in errors.groupby(["case", "quantity"], sort=False):
         order, expected = np.nan, ORDERS[quantity]
-        if len(grids) >= GRIDS_FOR_ORDER and case != WITHOUT_ORDER:
-            order = -np.polyfit(np.log(grids), np.log(on_grids), 1)[0]
-        limit = limits[quantity]
-        passed = on_grids[-1] <= limit and not order < expected - order_margin
-        for n, error in zip(grids, on_grids, strict=True):
-            rows.append((case, quantity, n, error, order, expected, limit, int(passed)))
-    return pd.DataFrame(rows, columns=list(COLUMNS))
+        if len(rows) >= GRIDS_FOR_ORDER and case != WITHOUT_ORDER:
+            order = -np.polyfit(np.log(rows["elements"]), np.log(rows["error"]), 1)[0]
+        passed = rows["error"].iloc[-1] <= limits[quantity] and not order < expected - order_margin
+        judged.append(rows.assign(order=order, expected_order=expected, limit=limits[quantity], passed=int(passed)))
+    return pd.concat(judged, ignore_index=True)
 
 
 def failures(table, order_margin):

@@ -46,13 +46,13 @@ def _exponents(axes, collapse, infinite):
     looks = {"whole": {"color": style.BLUE, "marker": "o"}, "interface": {"color": style.VERMILION, "marker": "s"}}
     discs = collapse[(collapse["source"] == "discs") & (collapse["x_high"] == collapse["x_high"].iloc[0])]
     for offset, (quantity, look) in zip((-0.012, 0.012), looks.items(), strict=True):
-        for row in _with_spectrum_height(discs[discs["quantity"] == quantity]).dropna(subset="beta_low").itertuples():
+        for row in discs[discs["quantity"] == quantity].dropna(subset="beta_low").itertuples():
             ends = np.array([row.beta_low, row.beta_high]) - row.expected
             axes.plot([row.hurst + offset] * 2, ends, color=look["color"], linewidth=4, alpha=0.3)
         limits = infinite[(infinite["source"] == "discs") & (infinite["quantity"] == quantity)]
         for law, shift in (("power", 0.0), ("corrected", np.sign(offset) * 0.01)):
             marker_look = look | ({"markerfacecolor": "none"} if law == "corrected" else {})
-            for row in _with_spectrum_height(limits[limits["law"] == law]).itertuples():
+            for row in limits[limits["law"] == law].itertuples():
                 ends = np.array([row.beta_low, row.beta_high]) - row.expected
                 style.mark_with_interval(axes, row.hurst + offset + shift, row.beta - row.expected, ends, marker_look)
     axes.set(xlabel="Hurst exponent $H$", ylabel=r"$\beta$ less $H/(1+H)$", ylim=(-0.2, 0.5))
@@ -64,8 +64,3 @@ def _exponents(axes, collapse, infinite):
         handles += [style.handle(f"{name}: power law", **look, linestyle="")]
         handles += [style.handle(f"{name}: with correction", **look, markerfacecolor="none", linestyle="")]
     axes.legend(handles=handles, ncols=2, loc="upper right")
-
-
-def _with_spectrum_height(table):
-    """Rows with h of all waves of the spectrum; for H = 0, where that diverges, with h of the grid."""
-    return table[(table["height"] == "spectrum") | (table["hurst"] == 0)]

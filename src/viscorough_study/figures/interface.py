@@ -20,7 +20,6 @@ def plot_interface(table, curves, literature, periodic):
     All means are arithmetic ones, as springs add. (a) to (c) show each Hurst exponent on the base grid only; the
     law of the library, in (a) and (c), only on its own grid and at its own Hurst exponents.
     """
-    table, curves = (part[part["average"] == "arithmetic"] for part in (table, curves))
     figure = style.new_figure(130)
     panels = figure.subplots(2, 2)
     discs, lines = _on_base_grid(table, "discs"), _on_base_grid(table, "lines")

@@ -2,8 +2,7 @@
 
 from viscorough.reference import exponent_beta
 from viscorough_study.figures import style
-from viscorough_study.fits.conventions import fits
-from viscorough_study.fits.grid_trends import fixed_rules
+from viscorough_study.fits.conventions import FITTED, fits
 
 CONTROL = {"color": style.GREY, "marker": "x", "linestyle": ""}
 
@@ -12,11 +11,12 @@ CONTROL = {"color": style.GREY, "marker": "x", "linestyle": ""}
 def plot_sizes(table, conventions):
     """β over the number of elements, of discs (a) and lines (b) in region (b), and in a fixed window (c), (d).
 
-    table : sizes, of fits.grid_trends; conventions : {column of it: value}
+    table : of fits.fit_table.sizes_table; conventions : {column of it: value}
     The fixed window is the one at the largest X. Colours distinguish Hurst exponents; dotted lines are H/(1 + H),
     Eq. 10; crosses are controls, discs whose spectrum has a roll-off.
     """
-    rules = [conventions["window_rule"], *fixed_rules(table)[-1:]]
+    fixed = table[~table["window_rule"].isin(FITTED["window_rule"])].sort_values("x_low", kind="stable")
+    rules = [conventions["window_rule"], *fixed["window_rule"].tail(1)]
     figure = style.new_figure(25 + 60 * len(rules))
     panels = figure.subplots(len(rules), 2, sharex="col", sharey=True, squeeze=False)
     looks = style.hurst_looks(table.loc[table["case_group"] == "sizes", "hurst"])

@@ -16,6 +16,7 @@ from viscorough_study.fits.conventions import FITTED, GAMMA, fits, interval_colu
 from viscorough_study.fits.intervals import described, described_ends, three_columns
 from viscorough_study.fits.mdr_lambda import match_lambda
 from viscorough_study.fits.power_law import fit_power_law, named_windows
+from viscorough_study.run.job_log import progress
 
 # column: (long_name, units), in the order of the table; units None for text
 COLUMNS = {
@@ -35,6 +36,7 @@ COLUMNS = {
     "residual": ("rms deviation of ln(vt/h) from the power law in the window", "1"),
     **described("lambda", "λ in C1D = λ q C2D, line matched to surface (Eq. 13)", ends="of the 95 % interval of λ"),
 }
+SIZES = COLUMNS | {"elements": ("elements of an indenter: of a disc, points of a line", "1")}
 
 
 def scaling_table(discs, lines, *, seed, **fit):
@@ -53,6 +55,24 @@ def scaling_table(discs, lines, *, seed, **fit):
         logging.info("lines, H = %g", hurst)
         rows += fit_rows(ensemble, source="lines", case_group="base", seed=seed, **fit)
     return pd.DataFrame(rows, columns=list(COLUMNS))
+
+
+def sizes_table(discs, lines, *, windows, **fit):
+    """Fits of ensembles on grids from coarse to fine, each separately, also in windows of fixed X.
+
+    The window of region (b) moves with the grid: a finer grid resolves smaller X. In windows of fixed X only the grid
+    changes. A deviation from H/(1 + H) that becomes smaller in the moving window but not in the fixed ones depends on
+    the X of the window, not on the grid.
+    discs, lines : pools; windows : [(X_low, X_high)]; fit : further arguments of `fit_rows`
+    Returns a pandas.DataFrame with the columns of `SIZES`.
+    """
+    rows = []
+    for source, group, pool in (("discs", "sizes", discs), ("discs", "controls", discs), ("lines", "sizes", lines)):
+        grids = ensembles(select(pool, group=group), "hurst", "elements").values()
+        for ensemble in progress(grids, len(grids), f"{source}, {group}"):
+            fitted = fit_rows(ensemble, source=source, case_group=group, fixed=windows, **fit)
+            rows += [row | {"elements": ensemble["elements"].item()} for row in fitted]
+    return pd.DataFrame(rows, columns=list(SIZES))
 
 
 def fit_rows(ensemble, *, source, case_group, lines=None, resamples, seed, **limits):
@@ -82,7 +102,7 @@ def _fit(ensemble, lines, window, **options):
     x, velocity = ensemble["x"].values, ensemble["velocity"].values
     fit = fit_power_law(x, velocity, window, **options)
     columns = {"x_low": window[0], "x_high": window[1], "decades": np.log10(window[1] / window[0])}
-    columns |= three_columns("beta", (fit.beta, *fit.beta_interval))
+    columns |= three_columns("beta", fit.beta())
     columns |= {"zeta": fit.zeta()[0], "residual": fit.residual}
     for gamma in GAMMA:
         columns |= dict(zip(interval_columns(gamma), fit.zeta(gamma)[1:], strict=True))

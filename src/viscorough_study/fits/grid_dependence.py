@@ -22,7 +22,7 @@ COLUMNS = {
     "across": ("elements across the discs", "1"),
     "realizations": ("discs", "1"),
     "touching": ("median of the elements in contact", "1"),
-    **described("value", "geometric mean over the discs"),
+    "value": ("geometric mean over the discs", "1"),
     "compared": ("1 if enough elements touch for the grid to count in the trend, else 0", "1"),
     **described("factor", "by which a tenfold number of elements changes the quantity, over the grids compared"),
 }
@@ -32,25 +32,22 @@ def grid_dependence(discs, *, elements_min, rms_convention):
     """A row for every Hurst exponent, quantity and grid; a pandas.DataFrame with the columns of `COLUMNS`.
 
     discs : pool of grids from coarse to fine; elements_min : in contact, from which on a grid is compared
-    The logarithm of a quantity scatters over the discs of all grids alike: its variance is pooled over the grids
-    compared, since a few discs do not tell it, and intervals are those of Student's t with the pooled degrees of
-    freedom.
     """
-    grids = {}
-    pool = ensembles(select(discs, group="sizes"), "hurst", "elements", rms_convention=rms_convention)
-    for (hurst, elements), ensemble in pool.items():
-        for quantity, (values, touching) in _quantities(ensemble).items():
-            grids.setdefault((hurst, quantity), []).append((elements, np.log(values), np.median(touching)))
     rows = []
-    for (hurst, quantity), members in grids.items():
-        members.sort(key=lambda grid: grid[0])
-        trend = _trend([grid for grid in members if grid[2] >= elements_min])
-        for elements, logarithms, touching in members:
-            values = np.exp(_mean(logarithms, trend["scatter"], trend["freedom"]))
-            row = {"hurst": hurst, "quantity": quantity, "across": elements_across(elements), "touching": touching}
-            row |= {"realizations": logarithms.size, "compared": int(touching >= elements_min)}
-            rows.append(row | three_columns("value", values) | three_columns("factor", trend["factor"]))
-    return pd.DataFrame(rows, columns=list(COLUMNS))
+    pool = ensembles(select(discs, group="sizes"), "hurst", "elements", rms_convention=rms_convention)
+    for (hurst, elements), ensemble in sorted(pool.items()):
+        labels = {"hurst": hurst, "elements": elements, "across": elements_across(elements)}
+        for quantity, (values, touching) in _quantities(ensemble).items():
+            row = {"quantity": quantity, "realizations": values.size, "touching": np.median(touching)}
+            row |= {"value": np.exp(np.log(values).mean()), "variance": np.log(values).var()}
+            rows.append(labels | row)
+    table = pd.DataFrame(rows)
+    table["compared"] = (table["touching"] >= elements_min).astype(int)
+    groups = [
+        grids.assign(**three_columns("factor", _factor(grids[grids["compared"] == 1])))
+        for _, grids in table.groupby(["hurst", "quantity"], sort=False)
+    ]
+    return pd.concat(groups)[list(COLUMNS)]
 
 
 def _quantities(ensemble):
@@ -76,26 +73,19 @@ def _at(abscissa, curve, given):
     return [np.interp(np.log(given), abscissa, ordinate, left=np.nan, right=np.nan) for ordinate in curve]
 
 
-def _trend(members):
-    """Factor for ten times as many elements, with its interval; pooled scatter of a disc, and its degrees of freedom.
+def _factor(grids):
+    """Factor for ten times as many elements, with its interval; nan for fewer than three grids.
 
-    members : (elements, logarithms, ...) of each grid
     A line is fitted to the means, weighted by the number of discs; its interval is widened where the means scatter
-    about it more than the discs explain. The factor is nan for fewer than three grids.
+    about it more than the discs explain. The logarithm of a quantity scatters over the discs of all grids alike: its
+    variance is pooled over the grids, since a few discs do not tell it, and the interval is that of Student's t with
+    the pooled degrees of freedom.
     """
-    freedom = sum(logarithms.size - 1 for _, logarithms, _ in members)
-    scatter = np.sqrt(sum(logarithms.var() * logarithms.size for _, logarithms, _ in members) / max(freedom, 1))
-    scatter, factor = max(scatter, ROUNDING), UNDEFINED
-    if len(members) > 2:
-        x = np.log10([elements for elements, _, _ in members])
-        means = np.array([logarithms.mean() for _, logarithms, _ in members])
-        slope, error = line_slope(x, means, scatter / np.sqrt([logarithms.size for _, logarithms, _ in members]))
-        half = stdtrit(freedom, 0.975) * error
-        factor = tuple(np.exp(slope + np.array([0.0, -half, half])))
-    return {"factor": factor, "scatter": scatter, "freedom": freedom}
-
-
-def _mean(logarithms, scatter, freedom):
-    """Mean and its 95 % interval by the pooled scatter."""
-    half = stdtrit(freedom, 0.975) * scatter / np.sqrt(logarithms.size) if freedom else np.nan
-    return logarithms.mean() + np.array([0.0, -half, half])
+    if len(grids) < 3:
+        return UNDEFINED
+    number, logarithms = grids["realizations"].to_numpy(), np.log(grids["value"])
+    freedom = np.sum(number - 1)
+    scatter = max(np.sqrt(np.sum(grids["variance"] * number) / max(freedom, 1)), ROUNDING)
+    slope, error = line_slope(np.log10(grids["elements"]), logarithms, scatter / np.sqrt(number))
+    half = stdtrit(freedom, 0.975) * error
+    return np.exp(slope + np.array([0.0, -half, half]))

@@ -14,9 +14,9 @@ import numpy as np
 import pandas as pd
 
 from viscorough.reference import exponent_beta
-from viscorough_study.fits.intervals import described, equivalence
+from viscorough_study.fits.intervals import described, equivalence, interval, three_columns
 from viscorough_study.fits.scaling_collapse import COLUMNS as COLLAPSE_COLUMNS
-from viscorough_study.fits.scaling_collapse import HEIGHTS, QUANTITIES, collapse_table, curve_table, grids
+from viscorough_study.fits.scaling_collapse import QUANTITIES, collapse_table, curve_table, grids
 
 OMEGA = np.round(np.arange(0.2, 1.51, 0.1), 1)  # trial exponents of the correction
 CURVES_END = 1.0  # X up to which curves are drawn
@@ -24,10 +24,9 @@ FINDINGS = {True: "agrees", False: "departs", None: "undecided"}
 PLACES = ("inside the range tried", "interval reaches an end", "at an end")  # of ω in the range of OMEGA
 COLUMNS = {
     "source": ("discs by boundary elements, lines by the MDR", ""),
-    **{name: COLLAPSE_COLUMNS[name] for name in ("hurst", "quantity", "height")},
+    **{name: COLLAPSE_COLUMNS[name] for name in ("hurst", "quantity")},
     "law": ("power: A X^β; corrected: A X^β exp(B X^ω)", ""),
     "grids": ("grids fitted together", "1"),
-    "finest": ("elements across discs, or points of lines, on the finest grid", "1"),
     "elements_min": ("elements in contact at which the fit begins", "1"),
     "x_high": ("X at which the fit ends", "1"),
     "expected": ("H/(1 + H), Eq. 10", "1"),
@@ -55,12 +54,12 @@ def place_in_range(omega, low, high):
     return PLACES[1] if low <= ends[0] or high >= ends[1] else PLACES[0]
 
 
-def points(hurst_grids, quantity, height, *, elements_min, x_high):
+def points(hurst_grids, quantity, *, elements_min, x_high):
     """(ln X, ln of the quantity of ensemble and resamples, weights) of all grids in a row; None for fewer than two."""
     parts = [
         (*curve, np.full(curve[0].size, float(grid.realizations)))
         for grid in hurst_grids
-        if (curve := grid.beginning_at(elements_min).curve(quantity, height, x_high))
+        if (curve := grid.curve(quantity, x_high, elements_min))
     ]
     if len(parts) < 2:
         return None
@@ -68,10 +67,13 @@ def points(hurst_grids, quantity, height, *, elements_min, x_high):
 
 
 def fit(log_x, log_y, weights, *, corrected):
-    """(ln A, β, B, ω) of every row of log_y, shape (rows, 4), and the weighted rms deviation of the first row."""
+    """(ln A, β, B, ω) of every row of log_y, shape (rows, 4), and the weighted rms deviation of the first row.
+
+    B and ω are nan without a correction.
+    """
     root = np.sqrt(weights)
     target = (log_y * root).T
-    best, explained = np.zeros((len(log_y), 4)), np.full(len(log_y), -np.inf)
+    best, explained = np.full((len(log_y), 4), np.nan), np.full(len(log_y), -np.inf)
     for omega in OMEGA if corrected else OMEGA[:1]:
         columns = [root, log_x * root] + ([np.exp(omega * log_x) * root] if corrected else [])
         basis, triangle = np.linalg.qr(np.stack(columns, axis=1))
@@ -79,7 +81,7 @@ def fit(log_x, log_y, weights, *, corrected):
         squares = np.sum(parts**2, axis=0)
         better = squares > explained
         best[better, : len(columns)] = np.linalg.solve(triangle, parts).T[better]
-        best[better, 3] = omega
+        best[better, 3] = omega if corrected else np.nan
         explained[better] = squares[better]
     remainder = max(np.sum(target[:, 0] ** 2) - explained[0], 0.0)
     return best, np.sqrt(remainder / weights.sum())
@@ -91,41 +93,38 @@ def limit_table(grids_by_hurst, source, *, elements_min, x_high, tolerance):
     grids_by_hurst : of fits.scaling_collapse.grids; elements_min, x_high : of the ranges, of which the first are
         those of the fit itself; tolerance : of β
     """
-    limits = []
-    for hurst, hurst_grids in grids_by_hurst.items():
-        heights = list(HEIGHTS) if hurst > 0 else ["resolved"]
-        for quantity, height, law in product(QUANTITIES, heights, ("power", "corrected")):
-            labels = {"source": source, "hurst": hurst, "quantity": quantity, "height": height, "law": law}
-            fits = [
-                (start, end, values, fit(*values, corrected=law == "corrected"))
-                for start, end in product(elements_min, x_high[law])
-                if (values := points(hurst_grids, quantity, height, elements_min=start, x_high=end)) is not None
-            ]
-            if fits:
-                limits.append(labels | _columns(fits, hurst_grids, hurst, tolerance))
-    return pd.DataFrame(limits, columns=list(COLUMNS))
+    rows = []
+    for (hurst, hurst_grids), quantity, law in product(grids_by_hurst.items(), QUANTITIES, x_high):
+        fits = []
+        for start, end in product(elements_min, x_high[law]):
+            values = points(hurst_grids, quantity, elements_min=start, x_high=end)
+            if values is not None:
+                fitted = _columns(*fit(*values, corrected=law == "corrected"))
+                fits.append({"elements_min": start, "x_high": end} | fitted)
+        if fits:
+            labels = {"source": source, "hurst": hurst, "quantity": quantity, "law": law}
+            over_ranges = _over_ranges(fits, exponent_beta(hurst), tolerance)
+            rows.append(labels | {"grids": len(hurst_grids)} | fits[0] | over_ranges)
+    return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
-def _interval(samples):
-    return np.nanquantile(samples, [0.025, 0.975])
+def _columns(coefficients, deviation):
+    """Columns of one fit."""
+    _, beta, (correction, *_), omega = zip(
+        coefficients[0], *np.quantile(coefficients[1:], [0.025, 0.975], axis=0), strict=True
+    )
+    row = {"amplitude": np.exp(coefficients[0, 0]), "correction": correction, "deviation": deviation}
+    return row | three_columns("beta", beta) | three_columns("omega", omega)
 
 
-def _columns(fits, hurst_grids, hurst, tolerance):
-    """Columns of one quantity, height and law; fits : of every range, the first being that of the table."""
-    start, end, _, (coefficients, deviation) = fits[0]
-    lows, highs = zip(*(_interval(fitted[3][0][1:, 1]) for fitted in fits), strict=True)
-    expected = exponent_beta(hurst)
-    row = {"grids": len(hurst_grids), "finest": hurst_grids[-1].number, "elements_min": start, "x_high": end}
-    row |= {"expected": expected, "beta": coefficients[0, 1], "beta_low": lows[0], "beta_high": highs[0]}
-    row |= {"ranges": len(fits), "ranges_low": min(lows), "ranges_high": max(highs), "deviation": deviation}
-    row |= {"amplitude": np.exp(coefficients[0, 0])}
-    if coefficients[0, 2]:
-        row |= {"correction": coefficients[0, 2], "omega": coefficients[0, 3]}
-        row["omega_low"], row["omega_high"] = _interval(coefficients[1:, 3])
-    agrees = equivalence((min(lows) - expected, max(highs) - expected), -tolerance, tolerance)
-    if coefficients[0, 2] and place_in_range(row["omega"], row["omega_low"], row["omega_high"]) == PLACES[2]:
+def _over_ranges(fits, expected, tolerance):
+    """Columns of the fits in all ranges, of which the first is that of the table."""
+    low, high = min(row["beta_low"] for row in fits), max(row["beta_high"] for row in fits)
+    agrees = equivalence((low - expected, high - expected), -tolerance, tolerance)
+    if place_in_range(*interval(fits[0], "omega")) == PLACES[2]:
         agrees = None
-    return row | {"finding": FINDINGS[agrees]}
+    ends = {"expected": expected, "ranges": len(fits), "ranges_low": low, "ranges_high": high}
+    return ends | {"finding": FINDINGS[agrees]}
 
 
 def collapse_tables(discs, lines, *, ranges, conventions, tolerance, **options):

@@ -13,8 +13,7 @@ import pandas as pd
 
 from viscorough_study.ensembles.flat_punch import grid_and_punch
 from viscorough_study.ensembles.pool import ensembles, select
-from viscorough_study.fits.conventions import FITTED
-from viscorough_study.fits.intervals import described, described_ends, percentile_interval, three_columns, with_interval
+from viscorough_study.fits.intervals import described, described_ends, three_columns, with_interval
 from viscorough_study.fits.power_law import log_means
 
 ENSEMBLE = {
@@ -22,7 +21,6 @@ ENSEMBLE = {
     "case_group": ("base, sizes: grids from coarse to fine, or lines", ""),
     "hurst": ("Hurst exponent H", "1"),
     "across": ("elements across the disc, or points of the line", "1"),
-    "average": ("mean over the realizations at fixed X", ""),
 }
 COLUMNS = {
     **ENSEMBLE,
@@ -34,24 +32,8 @@ COLUMNS = {
 CURVES = {
     **ENSEMBLE,
     "x": ("X = F/(4GhL) = Ft/(4ηhL)", "1"),
-    "velocity": ("mean vt/h", "1"),
-    **described("interface", "g: vt/h less X/κ_c of the punch"),
+    **described("interface", "g: arithmetic mean of vt/h less X/κ_c of the punch"),
 }
-
-
-def group_ensembles(pool, source, case_group, rms_convention, hursts=None):
-    """List of (columns of `ENSEMBLE` except the average, ensemble, κ_c) for every Hurst exponent and grid of a group.
-
-    pool : of viscorough_study.ensembles.pool; hursts : Hurst exponents to select, None for all
-    """
-    result, pool = [], select(pool, group=case_group)
-    if hursts is not None:
-        pool = pool.isel(realization=np.flatnonzero(np.isin(pool["hurst"], list(hursts))))
-    for (hurst, elements), ensemble in ensembles(pool, "hurst", "elements", rms_convention=rms_convention).items():
-        number, punch = grid_and_punch(source, elements)
-        labels = {"source": source, "case_group": case_group, "hurst": hurst, "across": number}
-        result.append((labels, ensemble, punch))
-    return result
 
 
 def interface_tables(discs, lines, size_discs, size_lines, *, fit, rms_convention):
@@ -59,58 +41,44 @@ def interface_tables(discs, lines, size_discs, size_lines, *, fit, rms_conventio
 
     discs, lines, size_discs, size_lines : pools, the last two of grids from coarse to fine
     fit : further arguments of `fit_interface`; rms_convention : of the discs
+    Returns pandas.DataFrames with the columns of `COLUMNS` and `CURVES`.
     """
-    cases = group_ensembles(discs, "discs", "base", rms_convention)
-    cases += group_ensembles(size_discs, "discs", "sizes", rms_convention)
-    hursts = {labels["hurst"] for labels, _, _ in cases}
-    cases += group_ensembles(lines, "lines", "lines", "line", hursts)
-    cases += group_ensembles(size_lines, "lines", "sizes", "line")
-    return dict(zip(("interface", "interface_curves"), fit_interfaces(cases, **fit), strict=True))
-
-
-def fit_interfaces(cases, **options):
-    """Tables with the columns of `COLUMNS` and `CURVES` (pandas.DataFrame), of every ensemble and average.
-
-    cases : as of `group_ensembles`; options : further arguments of `fit_interface`
-    """
+    pools = {("discs", "base"): discs, ("discs", "sizes"): size_discs, ("lines", "lines"): lines}
+    pools |= {("lines", "sizes"): size_lines}
+    pools = {(source, group): select(pool, group=group) for (source, group), pool in pools.items()}
+    hursts = np.concatenate([pools["discs", group]["hurst"].values for group in ("base", "sizes")])
     rows, curves = [], []
-    for labels, ensemble, punch in cases:
-        for average in FITTED["average"]:
-            row, curve = fit_interface(ensemble, punch, average=average, **options)
-            named = labels | {"average": average}
-            rows.append(named | row)
-            curves.append(curve.assign(**named))
-    return (
-        pd.DataFrame(rows, columns=list(COLUMNS)),
-        pd.concat(curves)[list(CURVES)] if curves else pd.DataFrame(columns=list(CURVES)),
-    )
+    for (source, group), pool in pools.items():
+        pool = pool.isel(realization=np.flatnonzero(np.isin(pool["hurst"], hursts)))
+        convention = "line" if source == "lines" else rms_convention
+        for (hurst, elements), ensemble in ensembles(pool, "hurst", "elements", rms_convention=convention).items():
+            number, punch = grid_and_punch(source, elements)
+            labels = {"source": source, "case_group": group, "hurst": hurst, "across": number}
+            row, curve = fit_interface(ensemble, punch, **fit)
+            rows.append(labels | row)
+            curves.append(curve.assign(**labels))
+    curves = pd.concat(curves, ignore_index=True)[list(CURVES)]
+    return {"interface": pd.DataFrame(rows, columns=list(COLUMNS)), "interface_curves": curves}
 
 
-def fit_interface(ensemble, punch, *, plateau, fraction_min, average, resamples, seed):
+def fit_interface(ensemble, punch, *, plateau, fraction_min, resamples, seed):
     """Interface of one ensemble in one rms convention: columns of `COLUMNS`, table of `CURVES`.
 
     punch : κ_c; plateau : fraction by which g is below its maximum at the ends of the plateau
-    fraction_min : smallest fraction of defined realizations for which a mean is taken
-    average, resamples, seed : of the mean and its bootstrap, as in viscorough_study.fits.power_law.fit_power_law
+    fraction_min : smallest fraction of defined realizations for which an arithmetic mean is taken, as springs add
+    resamples, seed : of its bootstrap, as in viscorough_study.fits.power_law.fit_power_law
     Abscissae at which one element is in contact, region (a), are omitted.
     """
-    x, count = ensemble["x"].values, ensemble["contact_count_median"].values
+    x, count, velocity = (ensemble[name].values for name in ("x", "contact_count_median", "velocity"))
     kept = (ensemble["fraction_defined"].values >= fraction_min) & (count > 1)
-    velocity = ensemble["velocity"].values
-    samples = np.exp(log_means(velocity, average, resamples, np.random.default_rng(seed)))[:, kept]
+    samples = np.exp(log_means(velocity, "arithmetic", resamples, np.random.default_rng(seed)))[:, kept]
     x, size = x[kept], len(velocity)
-    interface, interval = samples - x / punch, percentile_interval(samples[1:], size)
-    row = {"realizations": size, "kappa_c": punch} | _plateau(x, interface, plateau, size)
-    curves = {"x": x, "velocity": samples[0], "interface": interface[0]}
-    curves |= {f"interface_{end}": values - x / punch for end, values in zip(("low", "high"), interval, strict=True)}
-    return row, pd.DataFrame(curves)
-
-
-def _plateau(x, interface, plateau, size):
-    """Columns of u₀; interface : g of the ensemble and of its resamples, shape (resamples + 1, abscissae)."""
-    run = run_around(interface[0] >= (1 - plateau) * interface[0].max(), int(np.argmax(interface[0])))
-    u0 = with_interval(interface[:, run].mean(axis=1), size)
-    return three_columns("u0", u0) | {"plateau_low": x[run][0], "plateau_high": x[run][-1]}
+    interface = samples - x / punch
+    largest = int(np.argmax(interface[0]))
+    run = run_around(interface[0] >= (1 - plateau) * interface[0, largest], largest)
+    row = {"realizations": size, "kappa_c": punch, "plateau_low": x[run][0], "plateau_high": x[run][-1]}
+    row |= three_columns("u0", with_interval(interface[:, run].mean(axis=1), size))
+    return row, pd.DataFrame({"x": x} | three_columns("interface", with_interval(interface, size)))
 
 
 def run_around(allowed, place):

@@ -43,26 +43,21 @@ def resampled_means(values, resamples, random):
 
 
 def with_interval(samples, realizations):
-    """(value, low, high): the first sample, that of the ensemble, and the `percentile_interval` of the resamples."""
-    return samples[0], *percentile_interval(samples[1:], realizations)
+    """Value and 95 % interval, (value, low, high), of bootstrap samples: percentiles, widened for few realizations.
 
-
-def percentile_interval(samples, realizations):
-    """95 % interval (low, high) of bootstrap samples: percentiles, widened for few realizations.
-
-    samples : shape (resamples,), or (resamples, quantities) for one interval per quantity; resamples with undefined
-        (nan) values are omitted
+    samples : of the ensemble, then of its resamples, shape (resamples + 1,), or (resamples + 1, quantities) for one
+        interval per quantity; resamples with undefined (nan) values are omitted
 
     Plain percentiles are too narrow for small n. The levels Φ(∓√(n/(n−1)) t), t the 97.5 % point of Student's
     t with n − 1 degrees of freedom, make them the t interval for a mean (Hesterberg, The American
     Statistician 69, 371 (2015): expanded percentile interval). Nan for a single realization.
     """
+    value, samples = samples[0], samples[1:]
     samples = samples[np.isfinite(samples).reshape(len(samples), -1).all(axis=1)]
     if realizations < 2 or samples.size == 0:
-        return np.nan, np.nan
+        return value, *NO_INTERVAL
     tail = ndtr(-np.sqrt(realizations / (realizations - 1)) * stdtrit(realizations - 1, 0.975))
-    low, high = np.quantile(samples, [tail, 1 - tail], axis=0)
-    return low, high
+    return value, *np.quantile(samples, [tail, 1 - tail], axis=0)
 
 
 def mean_with_interval(samples):

@@ -24,9 +24,9 @@ from viscorough_study.fits.interface import run_around
 from viscorough_study.fits.intervals import (
     described,
     mean_with_interval,
-    percentile_interval,
     resampled_means,
     three_columns,
+    with_interval,
 )
 
 X = abscissa(1e-6, 1e3, 10)
@@ -115,10 +115,9 @@ def calibrate(fitted, unused, across, *, resamples, seed):
     error = relative_error(adjusted(parts[:, 0], controls, controls.mean(axis=0)))
     means = resampled_means(np.hstack([parts[:, 0], integrals]), resamples, np.random.default_rng(seed))
     constants = np.array([fit_constants(mean[:-2], mean[-2:], error, across) for mean in means])
-    ends = zip(*percentile_interval(constants[1:], len(parts)), strict=True)
     row = {"discs": len(parts), "unused": len(unused[0])}
-    for name, value, interval in zip(CONSTANTS, constants[0], ends, strict=True):
-        row |= three_columns(name, (value, *interval))
+    for name, samples in zip(CONSTANTS, constants.T, strict=True):
+        row |= three_columns(name, with_interval(samples, len(parts)))
     for name, values in zip(("mean_gap", "energy"), integrals.T, strict=True):
         row |= three_columns(name, mean_with_interval(values))
     return row | tested(constants[0], *unused, controls.mean(axis=0), across)

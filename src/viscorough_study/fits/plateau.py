@@ -14,7 +14,7 @@ import logging
 import numpy as np
 import pandas as pd
 
-from viscorough_study.ensembles.pool import ensembles, select
+from viscorough_study.ensembles.pool import ensembles
 from viscorough_study.fits.intervals import described, described_ends, resampled_means, three_columns, with_interval
 from viscorough_study.fits.power_law import local_slopes
 from viscorough_study.run.seeds import plateau_key, realization_seed
@@ -113,54 +113,40 @@ def plateau_table(discs, *, control, rms_convention, seed, **options):
     discs : pool (viscorough_study.ensembles.pool); control : group without a power law, or None
     options : further arguments of `plateau_row`
     """
-    groups = {
-        name: ensembles(select(discs, group=name), "hurst", rms_convention=rms_convention)
-        for name in ("base", control)
-        if name
-    }
+    pool = ensembles(discs, "group", "hurst", rms_convention=rms_convention)
     rows = []
-    for group, members in groups.items():
-        for hurst, ensemble in sorted(members.items()):
+    for group in ("base", control) if control else ("base",):
+        for hurst, ensemble in sorted((h, ensemble) for (name, h), ensemble in pool.items() if name == group):
             logging.info("%s, H = %g", group, hurst)
             random = np.random.default_rng(realization_seed(seed, *plateau_key(hurst, group)))
-            compared = groups[control][hurst] if control else None
-            row = plateau_row(ensemble, compared, random=random, **options)
+            row = plateau_row(ensemble, pool.get((control, hurst)), random=random, **options)
             rows.append({"case_group": group, **row})
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
 def plateau_row(ensemble, control, *, x_range, half_width, tolerance, decades_min, resamples, draws, random):
-    """Row of one ensemble, with the keys of `COLUMNS` except case_group.
+    """Row of one ensemble, with the keys of `COLUMNS` except case_group; those of results are missing if undefined.
 
     ensemble : ensemble dataset (viscorough_study.ensembles.averages) of one rms convention
     control : dataset of the control of the same Hurst exponent, or None
     x_range : range of X of the plateau; half_width : of local slopes, in decades, which extend beyond x_range
     tolerance : of the local slope; decades_min : length for which an ensemble passes; random : numpy.random.Generator
-    The results are nan if a realization does not reach all abscissae.
+    The results are undefined if a realization does not reach all abscissae.
     """
-    chosen = _near(ensemble["x"].values, x_range, half_width)
-    log_x, log_y = np.log(ensemble["x"].values[chosen]), _log_velocity(ensemble, chosen)
+    x, margin = ensemble["x"].values, 10 ** (half_width * (1 + 1e-9))
+    chosen = (x >= x_range[0] / margin) & (x <= x_range[1] * margin)
+    log_x, log_y = np.log(x[chosen]), np.log(ensemble["velocity"].values[:, chosen])
     row = {"hurst": ensemble["hurst"].item(), "realizations": len(log_y), "draws": draws}
     if not np.isfinite(log_y).all():
-        return dict.fromkeys((name for name in COLUMNS if name != "case_group"), np.nan) | row
+        return row
     options = {"half_width": half_width * np.log(10), "tolerance": tolerance, "random": random}
     row |= plateau(log_x, log_y, resamples=resamples, **options)
     residuals = log_y - log_y.mean(axis=0)
     bend = 4 * tolerance / (decades_min * np.log(10))  # slope per unit of ln X
     means = {"power_law": 0 * log_x, "bent": bend * (log_x - log_x.mean()) ** 2 / 2}  # a common slope has no effect
     if control is not None:
-        means["control"] = _log_velocity(control, chosen).mean(axis=0)
-    draw_options = {"draws": draws, "decades_min": decades_min, "resamples": RESAMPLES_OF_DRAWS}
-    passing = {name: shares(log_x, mean, residuals, **draw_options, **options) for name, mean in means.items()}
-    row |= {f"{name}_passes": passing.get(name, (np.nan,))[0] for name in ("power_law", "bent", "control")}
+        means["control"] = np.log(control["velocity"].values[:, chosen]).mean(axis=0)
+    options |= {"draws": draws, "decades_min": decades_min, "resamples": RESAMPLES_OF_DRAWS}
+    passing = {name: shares(log_x, mean, residuals, **options) for name, mean in means.items()}
+    row |= {f"{name}_passes": passed for name, (passed, _) in passing.items()}
     return row | {"power_law_fails": passing["power_law"][1]}
-
-
-def _near(x, x_range, half_width):
-    """Mask of the abscissae in the range and of those within half_width beyond it, for local slopes."""
-    margin = 10 ** (half_width * (1 + 1e-9))
-    return (x >= x_range[0] / margin) & (x <= x_range[1] * margin)
-
-
-def _log_velocity(ensemble, chosen):
-    return np.log(ensemble["velocity"].values[:, chosen])

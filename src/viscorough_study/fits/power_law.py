@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscorough_study.fits.conventions import FITTED, zeta_scale
-from viscorough_study.fits.intervals import percentile_interval
+from viscorough_study.fits.intervals import with_interval
 
 ROUNDING = 1e-9  # relative difference up to which abscissae and numbers of decades count as equal
 
@@ -56,13 +56,15 @@ def find_region(mean, *, elements_min, stiffness_max, slope_max, slope_half_widt
     return _longest_run(mean, allowed, (0, stiffness_max), fraction_min, decades_min)
 
 
-def named_windows(mean, *, stiffness_range, fraction_min, decades_min, **limits):
+def named_windows(mean, *, stiffness_range, fraction_min, decades_min, fixed=(), **limits):
     """The windows to be compared, {name: (X_low, X_high), or None where there is none}.
 
     - default: find_region with the limits;
     - lower_half, upper_half: its halves in ln X; the difference of their β reveals curvature that a single fit hides;
     - kappa: stiffness_range[0] <= κ <= stiffness_range[1], the same state of contact on any grid, whereas default
-      begins at much smaller X for lines than for discs.
+      begins at much smaller X for lines than for discs;
+    - "X = ... to ...": those of `fixed`, [(X_low, X_high)], with elements_min elements in contact at the lower end, as
+      in region (b), and enough realizations defined throughout; others are omitted.
 
     All windows are determined from the geometric mean, also for fits to the arithmetic one.
     """
@@ -72,6 +74,11 @@ def named_windows(mean, *, stiffness_range, fraction_min, decades_min, **limits)
         middle = np.sqrt(np.prod(region))
         windows |= {"default": region, "lower_half": (region[0], middle), "upper_half": (middle, region[1])}
     windows["kappa"] = _longest_run(mean, True, stiffness_range, **run_limits)
+    for low, high in fixed:
+        inside = in_window(mean["x"].values, (low, high))
+        enough = mean["contact_count_median"].values[inside][:1] >= limits["elements_min"]
+        if enough.all() and (mean["fraction_defined"].values[inside] >= fraction_min).all():
+            windows[f"X = {low:g} to {high:g}"] = low, high
     return windows
 
 
@@ -99,30 +106,25 @@ def in_window(x, window):
 
 @dataclass(frozen=True)
 class PowerLaw:
-    """vt/h = prefactor · X^beta, fitted over a window of an ensemble.
+    """vt/h = X^β/ζ, fitted over a window of an ensemble.
 
-    beta, prefactor : of the ensemble; beta_samples, prefactor_samples : of its resamples, shape (resamples,)
+    betas, zetas : of the ensemble, then of its resamples, shape (resamples + 1,)
     realizations : number in the ensemble
     residual : rms deviation of ln(vt/h) of the mean curve from the power law
     """
 
-    beta: float
-    prefactor: float
-    beta_samples: np.ndarray
-    prefactor_samples: np.ndarray
+    betas: np.ndarray
+    zetas: np.ndarray
     realizations: int
     residual: float
 
-    @property
-    def beta_interval(self):
-        """95 % interval (low, high) of β."""
-        return percentile_interval(self.beta_samples, self.realizations)
+    def beta(self):
+        """β and its 95 % interval, (value, low, high)."""
+        return with_interval(self.betas, self.realizations)
 
     def zeta(self, gamma="without"):
         """ζ and its 95 % interval, (value, low, high), in a reading of the law (viscorough_study.fits.conventions)."""
-        samples = zeta_scale(self.beta_samples, gamma) / self.prefactor_samples
-        value = zeta_scale(self.beta, gamma) / self.prefactor
-        return value, *percentile_interval(samples, self.realizations)
+        return with_interval(zeta_scale(self.betas, gamma) * self.zetas, self.realizations)
 
 
 def fit_power_law(x, velocity, window, *, average, resamples, seed):
@@ -148,7 +150,7 @@ def fit_power_law(x, velocity, window, *, average, resamples, seed):
     beta = mean @ offset / (offset @ offset)
     intercept = mean.mean(axis=1) - beta * log_x.mean()
     residual = np.sqrt(np.mean((mean[0] - intercept[0] - beta[0] * log_x) ** 2))
-    return PowerLaw(beta[0], np.exp(intercept[0]), beta[1:], np.exp(intercept[1:]), len(velocity), residual)
+    return PowerLaw(beta, np.exp(-intercept), len(velocity), residual)
 
 
 def log_means(velocity, average, resamples, generator):

@@ -9,15 +9,16 @@ bootstrap samples of every grid, shifted to the common curve (a test with the nu
 weight of its number of realizations: weights from the scatter of few realizations would be too uncertain.
 
 Two quantities are tested: vt/h itself, and the part of the interface, vt/h − X/κ_c with κ_c of the punch in series with
-it. Each is tested with two heights: h over the waves that the grid resolves, as in the paper, and h over all waves of
-the spectrum, its limit for N → ∞.
+it. Their height h is that over all waves of the spectrum, the limit of the paper's h, that over the waves of the grid,
+for N → ∞; at small H the part that a grid lacks is large on any grid.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
 import pandas as pd
+from scipy.interpolate import make_interp_spline
 from scipy.special import zeta
 
 from viscorough.reference import exponent_beta
@@ -26,7 +27,6 @@ from viscorough_study.ensembles.pool import ensembles, select
 from viscorough_study.fits.power_law import log_means
 
 QUANTITIES = {"whole": "vt/h", "interface": "vt/h less X/κ_c of the punch"}
-HEIGHTS = {"resolved": "h over the waves of the grid", "spectrum": "h over all waves of the spectrum"}
 FINDINGS = ("collapses", "does not collapse", "undecided")
 STEP = 0.01  # of the trial exponents
 LATTICE = 256  # wave number up to which the waves of a disc are summed; beyond it the sum is an integral
@@ -37,11 +37,8 @@ COLUMNS = {
     "source": ("discs by boundary elements, lines by the MDR, controls: discs whose spectrum has a roll-off", ""),
     "hurst": ("Hurst exponent", "1"),
     "quantity": ("; ".join(f"{name}: {text}" for name, text in QUANTITIES.items()), ""),
-    "height": ("; ".join(f"{name}: {text}" for name, text in HEIGHTS.items()), ""),
     "x_high": ("X up to which curves are compared, from elements_min elements in contact on", "1"),
     "grids": ("grids compared", "1"),
-    "coarsest": ("elements across discs, or points of lines, on the coarsest grid", "1"),
-    "finest": ("elements across discs, or points of lines, on the finest grid", "1"),
     "expected": ("H/(1 + H), Eq. 10", "1"),
     "spread": ("rms deviation of ln(vt/h) from the common curve with H/(1 + H), weighted", "1"),
     "spread_null": ("95 % quantile of the spread of independent realizations of one curve", "1"),
@@ -78,23 +75,19 @@ class Grid:
     punch: float
     share: float
 
-    def beginning_at(self, elements_min):
-        """The grid from the first abscissa on at which elements_min elements are in contact."""
-        kept = np.logical_or.accumulate(self.count >= elements_min)
-        parts = {"log_x": self.log_x[kept], "count": self.count[kept], "log_velocity": self.log_velocity[:, kept]}
-        return replace(self, **parts)
+    def curve(self, quantity, x_high, elements_min=0):
+        """(ln X, ln of the quantity of ensemble and resamples), None for too few abscissae.
 
-    def curve(self, quantity, height, x_high):
-        """(ln X, ln of the quantity of ensemble and resamples) up to x_high; None for too few abscissae.
-
+        From the first abscissa on at which elements_min elements are in contact, up to x_high.
         The variance of a mean is n/(n − 1) times that of bootstrap means, so that resamples are widened.
         """
         log_x, values = self.log_x, self.log_velocity
         if quantity == "interface":
             values = np.exp(values) - np.exp(log_x) / self.punch
             values = np.log(np.where(values > 0, values, np.nan))
-        shift = np.log(self.share) / 2 if height == "spectrum" else 0.0
+        shift = np.log(self.share) / 2
         kept = (log_x <= np.log(x_high) + 1e-9) & np.isfinite(values).all(axis=0)
+        kept &= np.logical_or.accumulate(self.count >= elements_min)
         if kept.sum() < FEWEST["abscissae"]:
             return None
         values = values[:, kept] + shift
@@ -107,20 +100,20 @@ def curve_table(grids_by_hurst, x_high):
     parts = [pd.DataFrame(columns=list(CURVES))]
     for hurst, hurst_grids in grids_by_hurst.items():
         for grid, quantity in product(hurst_grids, QUANTITIES):
-            if curve := grid.curve(quantity, "spectrum" if hurst > 0 else "resolved", x_high):
+            if curve := grid.curve(quantity, x_high):
                 values = {"x": np.exp(curve[0]), "velocity": np.exp(curve[1][0])}
                 parts.append(pd.DataFrame({"hurst": hurst, "number": grid.number, "quantity": quantity, **values}))
     return pd.concat(parts[1:] or parts, ignore_index=True)
 
 
 def variance_share(hurst, number, source):
-    """Fraction of the mean square height of a self-affine spectrum that the waves of a grid have; 0 for H = 0.
+    """Fraction of the mean square height of a self-affine spectrum that the waves of a grid have.
 
-    Waves of a disc have wave vectors k with 1 <= |k| <= N/2 in the plane and weight |k|^(−2−2H), those of a line
-    1 <= k <= N/2 and k^(−1−2H).
+    1 where it has no limit, for H = 0, and for controls, which have no self-affine spectrum. Waves of a disc have wave
+    vectors k with 1 <= |k| <= N/2 in the plane and weight |k|^(−2−2H), those of a line 1 <= k <= N/2 and k^(−1−2H).
     """
-    if hurst == 0:
-        return 0.0
+    if hurst == 0 or source == "controls":
+        return 1.0
     if source == "lines":
         return 1 - zeta(1 + 2 * hurst, number // 2 + 1) / zeta(1 + 2 * hurst)
     square = np.arange(-LATTICE, LATTICE + 1)[:, None] ** 2 + np.arange(-LATTICE, LATTICE + 1) ** 2
@@ -143,36 +136,34 @@ def grids(pool, source, *, average, rms_convention, elements_min, fraction_min, 
     convention = "line" if source == "lines" else rms_convention
     on_grids = ensembles(select(pool, group=group), "hurst", "elements", rms_convention=convention)
     for (hurst, elements), ensemble in sorted(on_grids.items()):
-        enough = np.flatnonzero(ensemble["contact_count_median"].values >= elements_min)
-        defined = ensemble["fraction_defined"].values >= fraction_min
-        if ensemble.sizes["realization"] < FEWEST["realizations"] or not enough.size:
+        enough = np.logical_or.accumulate(ensemble["contact_count_median"].values >= elements_min)
+        if ensemble.sizes["realization"] < FEWEST["realizations"] or not enough.any():
             continue
-        kept = defined & (np.arange(defined.size) >= enough[0])
+        kept = enough & (ensemble["fraction_defined"].values >= fraction_min)
         number, punch = grid_and_punch(source, elements)
         velocity = ensemble["velocity"].values[:, kept]
         means = log_means(velocity, average, resamples, generator)
-        share = 1.0 if source == "controls" else variance_share(hurst, number, source)
+        share = variance_share(hurst, number, source)
         x, count = (ensemble[name].values[kept] for name in ("x", "contact_count_median"))
         grids_by_hurst.setdefault(hurst, []).append(Grid(number, len(velocity), np.log(x), means, count, punch, share))
     return grids_by_hurst
 
 
 def collapse_table(grids_by_hurst, source, *, x_high, tolerance):
-    """Rows of `COLUMNS` for every Hurst exponent, quantity, height and end of the range.
+    """Rows of `COLUMNS` for every Hurst exponent, quantity and end of the range.
 
     grids_by_hurst : of `grids`; x_high : ends of the range, X; tolerance : of β
     """
     rows = []
-    for (hurst, hurst_grids), quantity, height, end in product(grids_by_hurst.items(), QUANTITIES, HEIGHTS, x_high):
-        if height == "resolved" or (hurst > 0 and source != "controls"):
-            labels = {"source": source, "hurst": hurst, "quantity": quantity, "height": height, "x_high": end}
-            rows.append(labels | collapse(hurst_grids, hurst, quantity, height, end, tolerance=tolerance))
+    for (hurst, hurst_grids), quantity, end in product(grids_by_hurst.items(), QUANTITIES, x_high):
+        labels = {"source": source, "hurst": hurst, "quantity": quantity, "x_high": end}
+        rows.append(labels | collapse(hurst_grids, hurst, quantity, end, tolerance=tolerance))
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
-def collapse(hurst_grids, hurst, quantity, height, x_high, *, tolerance):
+def collapse(hurst_grids, hurst, quantity, x_high, *, tolerance):
     """Columns of one collapse; hurst_grids : grids of one Hurst exponent."""
-    curves = [(grid, grid.curve(quantity, height, x_high)) for grid in hurst_grids]
+    curves = [(grid, grid.curve(quantity, x_high)) for grid in hurst_grids]
     curves = [(grid, tuple(values[..., ::THINNED] for values in curve)) for grid, curve in curves if curve is not None]
     expected = exponent_beta(hurst)
     row = {"grids": len(curves), "expected": expected, "finding": FINDINGS[2]}
@@ -181,7 +172,6 @@ def collapse(hurst_grids, hurst, quantity, height, x_high, *, tolerance):
     tried = expected + np.arange(-TRIED, TRIED + STEP / 2, STEP)
     accepted = [beta for beta in tried if 0 <= beta < 0.9 and spread(curves, beta)[2] >= 0.05]
     row["spread"], row["spread_null"], row["p_value"] = spread(curves, expected)
-    row["coarsest"], row["finest"] = curves[0][0].number, curves[-1][0].number
     if accepted:
         row["beta_low"], row["beta_high"] = min(accepted), max(accepted)
     if row["p_value"] < 0.05:
@@ -197,26 +187,21 @@ def spread(curves, beta):
     curves : list of (Grid, (ln X, ln of the quantity, shape (resamples + 1, abscissae)))
     """
     power = beta / (1 - beta)  # H'
-    step = np.diff(curves[0][1][0][:2]).item()
-    starts = [log_x[0] + (1 + power) * np.log(grid.number) for grid, (log_x, _) in curves]
-    first = min(starts)
-    last = max(start + step * (curve[0].size - 1) for start, (_, curve) in zip(starts, curves, strict=True))
-    size = int((last - first) / step) + 2
-    total, weights, parts = np.zeros((curves[0][1][1].shape[0], size)), np.zeros((2, size)), []
-    for (grid, (log_x, log_y)), start in zip(curves, starts, strict=True):
-        before = int(np.ceil((start - first) / step - 1e-9))
-        part = before - (start - first) / step  # fraction of a step between abscissae of the grid and common ones
-        moved = (1 - part) * log_y[:, :-1] + part * log_y[:, 1:] + power * np.log(grid.number)
-        moved[1:] -= moved[0]  # resamples of one common curve
-        weight = np.full(moved.shape[1], float(grid.realizations))
-        place = slice(before, before + log_x.size - 1)
-        parts.append((moved, weight, place))
-        total[:, place] += weight * moved
-        weights[:, place] += weight, np.ones(weight.size)
-    shared = weights[1] > 1
-    if not shared.any():
+    scaled = [log_x + (1 + power) * np.log(grid.number) for grid, (log_x, _) in curves]
+    step = scaled[0][1] - scaled[0][0]
+    common_x = np.arange(min(x[0] for x in scaled), max(x[-1] for x in scaled), step)
+    moved, weights = [], []
+    for x, (grid, (_, log_y)) in zip(scaled, curves, strict=True):
+        inside = (common_x >= x[0] - 1e-9 * step) & (common_x < x[-1] - 1e-9 * step)
+        values = make_interp_spline(x, log_y, k=1, axis=1)(common_x) + power * np.log(grid.number)
+        values[1:] -= values[0]  # resamples of one common curve
+        moved.append(np.where(inside, values, 0.0))
+        weights.append(grid.realizations * inside)
+    moved, weights = np.array(moved), np.array(weights, dtype=float)
+    weights[:, np.count_nonzero(weights, axis=0) < 2] = 0.0
+    if not weights.any():
         return np.nan, np.nan, np.nan
-    common = total / np.where(shared, weights[0], 1)
-    squares = sum(((moved - common[:, place]) ** 2) @ (weight * shared[place]) for moved, weight, place in parts)
-    spreads = np.sqrt(squares / weights[0, shared].sum())
+    total = weights.sum(axis=0)
+    common = np.sum(weights[:, None] * moved, axis=0) / np.where(total > 0, total, 1)
+    spreads = np.sqrt(np.sum(weights[:, None] * (moved - common) ** 2, axis=(0, 2)) / total.sum())
     return spreads[0], np.quantile(spreads[1:], 0.95), np.mean(spreads[1:] >= spreads[0])

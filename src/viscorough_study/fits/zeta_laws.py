@@ -14,6 +14,8 @@ biased to large values.
 Eq. 4 is a law of the elastic contact, without the factor; the paper compares it with Eq. 11 with the factor.
 """
 
+from itertools import product
+
 import numpy as np
 import pandas as pd
 
@@ -29,6 +31,7 @@ LAWS = {  # {name: (ζ as a function of H, whether the law has the factor 1/Γ(2
     "Eq. 11, with Γ": (reference.zeta_viscous, True),
 }
 LAST = list(LAWS)[-1]  # the law with which the others are compared
+UNCOMPARED = dict.fromkeys(LAWS, np.full((2, 1, 1), np.nan))  # ratios where there is nothing to compare
 COLUMNS = {
     "hurst_min": ("lowest Hurst exponent allowed", "1"),
     "quantity": ("what is compared with the law: zeta, or curve", ""),
@@ -37,9 +40,6 @@ COLUMNS = {
     "value": ("value of the measure", "1"),
     "low": ("lower end of its 95 % interval", "1"),
     "high": ("upper end of its 95 % interval", "1"),
-    "x_low": ("of curves, lowest X that lies in region (b) of every Hurst exponent", "1"),
-    "x_high": ("of curves, highest such X", "1"),
-    "hurst_exponents": ("number of Hurst exponents compared", "1"),
     "realizations": ("fewest discs of a Hurst exponent", "1"),
 }
 
@@ -65,29 +65,18 @@ def zeta_laws(ensembles, windows, hurst_mins=(0.0,), *, average, resamples, seed
     Values are nan where a Hurst exponent has no region (b) or, of curves, where the regions have no X in common.
     """
     bootstrap, rows = {"average": average, "resamples": resamples, "seed": seed}, []
-    for hurst_min in hurst_mins:
+    for hurst_min, (quantity, ratios) in product(hurst_mins, (("zeta", _zeta_ratios), ("curve", _curve_ratios))):
         chosen = {hurst: ensemble for hurst, ensemble in ensembles.items() if hurst >= hurst_min}
-        chosen_windows = {hurst: windows[hurst] for hurst in chosen}
-        rows += [(hurst_min, *row) for row in _rows(chosen, chosen_windows, **bootstrap)]
-    return pd.DataFrame(rows, columns=list(COLUMNS))
-
-
-def _rows(ensembles, windows, **bootstrap):
-    """Rows of the table for these Hurst exponents."""
-    number = min((ensemble.sizes["realization"] for ensemble in ensembles.values()), default=0)
-    common, rows = _common_window(windows), []
-    for quantity, ratios in (("zeta", _zeta_ratios), ("curve", _curve_ratios)):
-        samples = ratios(ensembles, windows, **bootstrap) or dict.fromkeys(LAWS, np.full((2, 1, 1), np.nan))
-        ends = common if quantity == "curve" and common is not None else (np.nan, np.nan)
-        measures = {law: _measures(samples[law]) for law in LAWS}
+        number = min((ensemble.sizes["realization"] for ensemble in chosen.values()), default=0)
+        samples = ratios(chosen, {hurst: windows[hurst] for hurst in chosen}, **bootstrap)
+        measures = {law: _measures(values) for law, values in samples.items()}
         for law in list(LAWS)[:-1]:
             less = {name: measures[law][name] - measures[LAST][name] for name in ("deviation", "spread")}
             measures[difference(law)] = less
         for law, law_measures in measures.items():
             for measure, values in law_measures.items():
-                value = with_interval(values, number)
-                rows.append((quantity, law, measure, *value, *ends, len(ensembles), number))
-    return rows
+                rows.append((hurst_min, quantity, law, measure, *with_interval(values, number), number))
+    return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
 def measure_value(table, quantity, law, measure, hurst_min=0.0):
@@ -113,40 +102,32 @@ def _measures(logarithms):
 
 
 def _zeta_ratios(ensembles, windows, *, average, resamples, seed):
-    """{law: ln of ζ over the law}, shape (resamples + 1, Hurst exponents, 1); empty without a region (b)."""
-    if not windows or any(window is None for window in windows.values()):
-        return {}
+    """{law: ln of ζ over the law}, shape (resamples + 1, Hurst exponents, 1); nan without a region (b)."""
+    if not windows or None in windows.values():
+        return UNCOMPARED
     ratios = {law: [] for law in LAWS}
     for i, (hurst, ensemble) in enumerate(ensembles.items()):
-        x, velocity = ensemble["x"].values, ensemble["velocity"].values
         own = {"average": average, "resamples": resamples, "seed": [seed, i]}
-        fit = fit_power_law(x, velocity, windows[hurst], **own)
-        beta = np.append(fit.beta, fit.beta_samples)
-        zeta = 1 / np.append(fit.prefactor, fit.prefactor_samples)
+        fit = fit_power_law(ensemble["x"].values, ensemble["velocity"].values, windows[hurst], **own)
         for law, (function, gamma) in LAWS.items():
-            scale = zeta_scale(beta, "with" if gamma else "without")
-            ratios[law].append(np.log(zeta * scale / function(hurst)))
+            scale = zeta_scale(fit.betas, "with" if gamma else "without")
+            ratios[law].append(np.log(fit.zetas * scale / function(hurst)))
     return {law: np.stack(values, axis=1)[..., None] for law, values in ratios.items()}
 
 
 def _curve_ratios(ensembles, windows, *, average, resamples, seed):
-    """{law: ln of vt/h over the law}, shape (resamples + 1, Hurst exponents, X); empty without common abscissae."""
-    if (common := _common_window(windows)) is None:
-        return {}
+    """{law: ln of vt/h over the law}, shape (resamples + 1, Hurst exponents, X); nan without common abscissae."""
+    if not windows or None in windows.values():
+        return UNCOMPARED
+    lows, highs = zip(*windows.values(), strict=True)
+    if max(lows) >= min(highs):
+        return UNCOMPARED
     ratios = {law: [] for law in LAWS}
     for i, (hurst, ensemble) in enumerate(ensembles.items()):
         x = ensemble["x"].values
-        chosen, generator = in_window(x, common), np.random.default_rng([seed, i])
+        chosen, generator = in_window(x, (max(lows), min(highs))), np.random.default_rng([seed, i])
         means = log_means(ensemble["velocity"].values[:, chosen], average, resamples, generator)
         for law, (function, gamma) in LAWS.items():
             alpha = reference.exponent_alpha(hurst)
             ratios[law].append(means - np.log(reference.velocity_law(x[chosen], function(hurst), alpha, gamma=gamma)))
     return {law: np.stack(values, axis=1) for law, values in ratios.items()}
-
-
-def _common_window(windows):
-    """Intersection of all windows, None if it is empty."""
-    if not windows or any(window is None for window in windows.values()):
-        return None
-    low, high = (edge(ends) for edge, ends in zip((max, min), zip(*windows.values(), strict=True), strict=True))
-    return (low, high) if low < high else None

@@ -84,8 +84,8 @@ def finest_grid(results):
 
 
 def springs(results):
-    """Rows of the plateau of the interface, arithmetic means, for each Hurst exponent of the base discs."""
-    rows = results.rows("interface", source="discs", case_group="base", average="arithmetic")
+    """Rows of the plateau of the interface for each Hurst exponent of the base discs."""
+    rows = results.rows("interface", source="discs", case_group="base")
     return rows.sort_values("hurst").to_dict("records")
 
 

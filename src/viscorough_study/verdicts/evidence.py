@@ -10,7 +10,7 @@ from scipy.special import ndtri
 
 from viscorough_study.ensembles import pool
 from viscorough_study.fits.conventions import FITTED, as_text, select, source_values
-from viscorough_study.fits.intervals import NO_INTERVAL, equivalence
+from viscorough_study.fits.intervals import NO_INTERVAL, equivalence, interval
 from viscorough_study.fits.power_law import find_region
 from viscorough_study.run.paper_data import number
 
@@ -123,6 +123,29 @@ class Evidence:
         if met and counts[2]:
             met, holds_in = False, others.own or as_text({one: self.conventions[one] for one in FITTED})
         return judged(name, values, expected, met, holds_in, extremes=extremes, counts=counts)
+
+    def cases_in_conventions(self, own, every, column, law, tolerance, *, names, compared=True, relative=False):
+        """Cases of a quantity that must be near the law, one for each H, with its values in all conventions.
+
+        own, every : rows by H in the conventions of the figures, and in every combination, with `hurst` and names
+        column : of the quantity; law : function of H; relative : whether the tolerance is that of the ratio to the law
+        names : columns that name a combination; compared : mask of the rows in whose combinations the claim may hold
+        """
+        columns = [column, f"{column}_low", f"{column}_high"]
+        allowed = law(every["hurst"]).abs() * tolerance if relative else tolerance + 0 * every["hurst"]
+        distance = (
+            every[columns[1:]].sub(law(every["hurst"]), axis=0).div(allowed, axis=0).abs().max(axis=1, skipna=False)
+        )
+        mask, holds_in = compared & every["hurst"].isin(own.index), ""
+        largest = distance.fillna(np.inf)[mask].groupby([every[name] for name in names], sort=False).max()
+        if largest.min() <= 1:
+            holds_in = as_text(dict(zip(names, largest.idxmin(), strict=True)))
+        for hurst, row in own.iterrows():
+            values = every.loc[every["hurst"] == hurst, columns].dropna().to_numpy()
+            more = {"realizations": row["realizations"], "cases": len(own), "others": Conventions(values, holds_in)}
+            half = law(hurst) * tolerance if relative else tolerance
+            ends = law(hurst) - half, law(hurst) + half
+            yield self.case(hurst_name(hurst), interval(row, column), law(hurst), ends, **more)
 
 
 @dataclass(frozen=True)

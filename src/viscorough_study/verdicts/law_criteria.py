@@ -4,16 +4,13 @@ Where a claim holds in some of the conventions that the paper leaves open and fa
 whether those of the figures are among the former or the latter, and names the convention.
 """
 
-from itertools import product
-
 import numpy as np
-import pandas as pd
 
 from viscorough import reference
-from viscorough_study.fits.conventions import FITTED, as_text, select, source_values
-from viscorough_study.fits.intervals import UNDEFINED, deviation_interval, difference, interval, percentile_interval
+from viscorough_study.fits.conventions import FITTED, select, source_values
+from viscorough_study.fits.intervals import UNDEFINED, deviation_interval, difference, interval, with_interval
 from viscorough_study.fits.power_law import fit_power_law, in_window, log_means
-from viscorough_study.verdicts.evidence import Conventions, hurst_name, judged
+from viscorough_study.verdicts.evidence import hurst_name, judged
 from viscorough_study.verdicts.region_criteria import combinations_case
 
 SHARE_OF_SQUARE = 0.75  # lower bound of the fraction of a square's elements that its disc has
@@ -24,16 +21,10 @@ SHARE_OF_SQUARE = 0.75  # lower bound of the fraction of a square's elements tha
 
 def beta(evidence, tolerance, source="discs"):
     """β against H/(1 + H), for the Hurst exponents for which the paper says that it holds."""
-    fits = evidence.fits(source)
+    fits, every = evidence.fits(source), evidence.every_fit(source)
     fits = fits[fits.index > evidence.paper_value("agreement", "beta_hurst_min")]
-    every = evidence.every_fit(source).dropna(subset="beta")
-    holds_in = _nearest_convention(every[every["case_group"] == "base"], fits.index, tolerance)
-    for hurst, fit in fits.iterrows():
-        law = reference.exponent_beta(hurst)
-        values = every.loc[every["hurst"] == hurst, ["beta", "beta_low", "beta_high"]].to_numpy()
-        others = {"cases": len(fits), "others": Conventions(values, holds_in), "realizations": fit.realizations}
-        ends = law - tolerance, law + tolerance
-        yield evidence.case(hurst_name(hurst), interval(fit, "beta"), law, ends, **others)
+    named = {"names": list(FITTED), "compared": every["case_group"] == "base"}
+    return evidence.cases_in_conventions(fits, every, "beta", reference.exponent_beta, tolerance, **named)
 
 
 def beta_lines(evidence, tolerance):
@@ -41,45 +32,20 @@ def beta_lines(evidence, tolerance):
     return beta(evidence, tolerance, "lines")
 
 
-def _nearest_convention(fits, hursts, tolerance):
-    """Conventions in words in which the interval of β of every Hurst exponent lies within the tolerance; "" if none.
-
-    "" if there are none.
-    """
-    nearest, smallest = "", tolerance
-    for values, group in fits.groupby(list(FITTED), sort=False):
-        ends = group.set_index("hurst").reindex(hursts)[["beta_low", "beta_high"]].to_numpy()
-        deviations = np.abs(ends - reference.exponent_beta(hursts.to_numpy())[:, None])
-        if np.isfinite(deviations).all() and deviations.max() <= smallest:
-            nearest, smallest = as_text(dict(zip(FITTED, values, strict=True))), deviations.max()
-    return nearest
-
-
 def coincide(evidence, tolerance):
     """β of lines minus β of discs, with the conventions in which the difference is smallest."""
-    nearest, smallest, every = "", tolerance, []
-    for values in product(*(FITTED[name] for name in FITTED)):
-        conventions = dict(zip(FITTED, values, strict=True))
-        differences = _differences(evidence, conventions)
-        ends = np.abs(differences[["low", "high"]].to_numpy())
-        if ends.size and np.isfinite(ends).all() and ends.max() <= smallest:
-            nearest, smallest = as_text(conventions), ends.max()
-        every.append(differences)
-    every, differences = pd.concat(every).dropna(), _differences(evidence, {})
-    for hurst, row in differences.iterrows():
-        *values, number = row.tolist()
-        others = Conventions(every.loc[every.index == hurst, ["value", "low", "high"]].to_numpy(), nearest)
-        context = {"realizations": number, "cases": len(differences), "others": others}
-        yield evidence.case(hurst_name(hurst), values, 0.0, (-tolerance, tolerance), **context)
+    discs, lines = (evidence.every_fit(source).query("case_group == 'base'") for source in ("discs", "lines"))
+    both = discs.merge(lines, on=["hurst", "average", "window_rule"], how="left", suffixes=("", "_of_lines"))
+    of_lines = tuple(both[f"{name}_of_lines"] for name in ("beta", "beta_low", "beta_high"))
+    columns = ["difference", "difference_low", "difference_high"]
+    both = both.assign(**dict(zip(columns, difference(interval(both, "beta"), of_lines), strict=True)))
+    both["realizations"] = both[["realizations", "realizations_of_lines"]].min(axis=1)
+    own = select(both, evidence.conventions).set_index("hurst")
+    return evidence.cases_in_conventions(own, both, "difference", _no_difference, tolerance, names=list(FITTED))
 
 
-def _differences(evidence, conventions):
-    """β of lines minus β of discs with its 95 % interval: value, low, high and realizations by H."""
-    discs, lines = (evidence.fits(source, **conventions) for source in ("discs", "lines"))
-    lines = lines.reindex(discs.index)
-    values = difference(interval(discs, "beta"), interval(lines, "beta"))
-    number = np.minimum(lines["realizations"], discs["realizations"])
-    return pd.DataFrame(dict(zip(("value", "low", "high"), values, strict=True)) | {"realizations": number})
+def _no_difference(hurst):
+    return 0.0 * hurst
 
 
 def hurst_only(evidence, tolerance):
@@ -167,8 +133,7 @@ def depth(evidence, tolerance):
         ratios = (depths / (x[end - 1] * softness[:, end - 1]))[:, None]
         # The seed of the fit draws the same realizations, so the interval includes the scatter of both factors.
         random = np.random.default_rng(bootstrap["seed"])
-        means = np.exp(log_means(ratios, "arithmetic", bootstrap["resamples"], random))[:, 0]
-        return fit.beta * means[0], fit.beta_samples * means[1:]
+        return fit.betas * np.exp(log_means(ratios, "arithmetic", bootstrap["resamples"], random))[:, 0]
 
     return _cases_at_centre(evidence, tolerance, ratio)
 
@@ -177,8 +142,7 @@ def master_curve(evidence, tolerance):
     """vt/h over the right side of Eq. 12 as printed."""
 
     def ratio(hurst, ensemble, fit, centre, bootstrap):
-        law = reference.rate_law(centre, hurst, gamma=True)
-        return fit.prefactor * centre**fit.beta / law, fit.prefactor_samples * centre**fit.beta_samples / law
+        return centre**fit.betas / fit.zetas / reference.rate_law(centre, hurst, gamma=True)
 
     return _cases_at_centre(evidence, tolerance, ratio)
 
@@ -186,13 +150,13 @@ def master_curve(evidence, tolerance):
 def _cases_at_centre(evidence, tolerance, ratio):
     """Cases of a ratio that should be 1 at the geometric centre of region (b); undecided without a region.
 
-    ratio : function of H, ensemble, fit of region (b), centre and bootstrap; returns the value and its samples
+    ratio : function of H, ensemble, fit of region (b), centre and bootstrap; returns it and its resamples
     """
     bootstrap = {"average": evidence.conventions["average"], "resamples": evidence.resamples, "seed": evidence.seed}
 
     def evaluate(hurst, ensemble, window):
         fit = fit_power_law(ensemble["x"].values, ensemble["velocity"].values, window, **bootstrap)
-        value, samples = ratio(hurst, ensemble, fit, np.sqrt(np.prod(window)), bootstrap)
-        return (value, *percentile_interval(samples, fit.realizations)), fit.realizations
+        ratios = ratio(hurst, ensemble, fit, np.sqrt(np.prod(window)), bootstrap)
+        return with_interval(ratios, fit.realizations), fit.realizations
 
     return _cases_in_regions(evidence, evaluate, 1.0, (1 - tolerance, 1 + tolerance))

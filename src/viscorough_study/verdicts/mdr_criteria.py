@@ -32,7 +32,7 @@ def _summary_cases(evidence, column, expected, allowed):
     """Cases of a column of the summary."""
     table = evidence.tables["mdr_summary"]
     for row in table.to_dict("records"):
-        context = {"realizations": _fewest(row), "cases": len(table)}
+        context = {"realizations": row["realizations"], "cases": len(table)}
         yield evidence.case(hurst_name(row["hurst"]), interval(row, column), expected, allowed, **context)
 
 
@@ -40,11 +40,10 @@ def coincide_equal_windows(evidence, tolerance):
     """β of lines minus β of discs, both fitted in the same range of X, and both in the same range of κ."""
     table = evidence.tables["mdr_exponents"]
     table = table[table["window"].isin(EQUAL_WINDOWS)]
-    number = {row["hurst"]: _fewest(row) for row in evidence.tables["mdr_summary"].to_dict("records")}
     for row in table.to_dict("records"):
-        name = f"{hurst_name(row['hurst'])}, {row['window']}"
-        counts = {"realizations": number[row["hurst"]], "cases": len(table)}
-        yield evidence.case(name, interval(row, "difference"), 0.0, (-tolerance, tolerance), **counts)
+        name, context = f"{hurst_name(row['hurst'])}, {row['window']}", {"cases": len(table)}
+        context |= {"realizations": row["realizations"]}
+        yield evidence.case(name, interval(row, "difference"), 0.0, (-tolerance, tolerance), **context)
 
 
 def line_area(evidence, tolerance):
@@ -94,8 +93,3 @@ def _at_centre(rows):
     """The row in the middle of the rows in ln X."""
     offset = np.log(rows["x"]) - np.log(rows["x"].iloc[[0, -1]]).mean()
     return rows.loc[offset.abs().idxmin()]
-
-
-def _fewest(row):
-    """Realizations of a row of the summary: the smaller of the numbers of discs and lines."""
-    return min(row["discs"], row["lines"])

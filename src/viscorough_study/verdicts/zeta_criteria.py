@@ -8,10 +8,9 @@ verdict names the conventions with the smallest deviation.
 import numpy as np
 
 from viscorough import reference
-from viscorough_study.fits.conventions import VALUES, as_text, in_reading
-from viscorough_study.fits.intervals import interval
+from viscorough_study.fits.conventions import VALUES, in_reading
 from viscorough_study.fits.zeta_laws import difference, measure_value
-from viscorough_study.verdicts.evidence import Conventions, hurst_name
+from viscorough_study.verdicts.evidence import Conventions
 
 # By which one law fits better than another (fits.zeta_laws): the one of the criterion, and others.
 MEASURES = (("curve", "deviation"), ("curve", "spread"), ("zeta", "deviation"), ("zeta", "spread"))
@@ -27,28 +26,11 @@ def zeta_viscous(evidence, tolerance):
     return _absolute(evidence, tolerance, reference.zeta_viscous, "with")
 
 
-def _absolute(evidence, tolerance, zeta_law, gamma):
+def _absolute(evidence, tolerance, law, gamma):
     """Cases of ζ against a law, a function of H, one for each Hurst exponent."""
-    table = in_reading(evidence.every_fit("discs"), gamma).dropna(subset="zeta")
-    holds_in, fits = _nearest_convention(table, zeta_law, tolerance), evidence.fits("discs", gamma=gamma)
-    for hurst, fit in fits.iterrows():
-        values = table.loc[table["hurst"] == hurst, ["zeta", "zeta_low", "zeta_high"]].to_numpy()
-        others = {"cases": len(fits), "others": Conventions(values, holds_in), "realizations": fit.realizations}
-        law = zeta_law(hurst)
-        ends = law * (1 - tolerance), law * (1 + tolerance)
-        yield evidence.case(hurst_name(hurst), interval(fit, "zeta"), law, ends, **others)
-
-
-def _nearest_convention(table, zeta_law, tolerance):
-    """Conventions in words in which every interval lies within the tolerance; "" if none."""
-    law = zeta_law(table["hurst"])
-    ends = np.maximum(np.abs(table["zeta_low"] / law - 1), np.abs(table["zeta_high"] / law - 1))
-    combined = ["case_group", *VALUES]
-    largest = ends.fillna(np.inf).groupby([table[column] for column in combined], sort=False).max()
-    if largest.empty or largest.min() > tolerance:
-        return ""
-    surfaces, *conventions = largest.idxmin()
-    return as_text(dict(zip(VALUES, conventions, strict=True)) | {"surfaces": surfaces})
+    every = in_reading(evidence.every_fit("discs"), gamma).rename(columns={"case_group": "surfaces"})
+    own, named = evidence.fits("discs", gamma=gamma), {"names": [*VALUES, "surfaces"], "relative": True}
+    return evidence.cases_in_conventions(own, every, "zeta", law, tolerance, **named)
 
 
 def zeta_elastic_shape(evidence, tolerance):

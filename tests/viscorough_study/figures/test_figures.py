@@ -115,7 +115,7 @@ def shown_columns(scaling):
         yield "validation", panel, validation[validation["quantity"] == name], "elements", ["error"]
     for panel, name in enumerate(("sphere", "rough disc, H = 0.4")):
         yield "direct", panel, direct[direct["case"] == name], "contact_count", ["depth_ratio"]
-    base = curves[(curves["average"] == "arithmetic") & (curves["across"] == 257)]
+    base = curves[curves["across"] == 257]
     yield "interface", 0, base[base["hurst"] == 0.9], "x", ["interface", "interface_low", "interface_high"]
     yield "interface", 3, interface[(interface["case_group"] == "base")], "hurst", ["u0", "u0_low", "u0_high"]
 

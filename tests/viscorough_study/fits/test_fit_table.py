@@ -4,13 +4,13 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from support.study import LIMITS, SHOWN, aggregate, ensemble_of, three_regions
+from support.study import ELEMENTS, HURST, LIMITS, SHOWN, aggregate, ensemble, ensemble_of, pool_of, three_regions
 from viscorough import calibrated_law, reference
 from viscorough.mdr import reduce
 from viscorough.surfaces import self_affine_line
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.fits.conventions import FITTED, GAMMA, select
-from viscorough_study.fits.fit_table import COLUMNS, calibrated, fit_rows
+from viscorough_study.fits.fit_table import COLUMNS, SIZES, calibrated, fit_rows, sizes_table
 from viscorough_study.fits.power_law import fit_power_law
 from viscorough_study.run.seeds import realization_seed
 
@@ -57,7 +57,7 @@ def test_a_reading_is_a_fit_in_it(discs, gamma):
     window = row["x_low"], row["x_high"]
     fit = fit_power_law(X, discs["velocity"].values[0], window, average="geometric", **BOOTSTRAP)
     zeta = row["zeta"], row["zeta_low"], row["zeta_high"]
-    assert (row["beta"], *zeta) == pytest.approx((fit.beta, *fit.zeta(gamma)), rel=1e-12)
+    assert (row["beta"], *zeta) == pytest.approx((fit.betas[0], *fit.zeta(gamma)), rel=1e-12)
 
 
 def test_lines_that_do_not_reach_give_no_lambda(discs, lines):
@@ -72,6 +72,18 @@ def test_without_a_region_rows_have_no_numbers():
     for row in rows:
         assert row["decades"] == 0
         assert all(np.isnan(row[name]) for name in ("x_low", "x_high", "beta", "zeta", "residual", "lambda"))
+
+
+def test_every_grid_is_fitted_also_in_windows_of_fixed_x():
+    pool = pool_of([ensemble(hurst, "c", 1.2, scatter=0.0) for hurst in HURST], "sizes")
+    options = {"stiffness_range": (0.03, 0.3), **LIMITS, **BOOTSTRAP, "windows": [(1e-5, 1e-4), (1e-3, 1e-2)]}
+    table = sizes_table(pool, pool, **options)
+    assert list(table) == list(SIZES)
+    assert set(zip(table["source"], table["case_group"], strict=True)) == {("discs", "sizes"), ("lines", "sizes")}
+    assert set(table["elements"]) == {ELEMENTS}
+    fixed = table[table["window_rule"] == "X = 0.001 to 0.01"]
+    assert fixed.groupby("hurst").size().to_dict() == {0.6: 8, 0.9: 8}  # discs, lines; rms conventions; averages
+    np.testing.assert_allclose(fixed["beta"], reference.exponent_beta(fixed["hurst"]))
 
 
 def test_calibration_has_base_discs_and_lines_in_the_conventions_shown(discs, lines):

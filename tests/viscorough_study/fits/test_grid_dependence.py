@@ -37,11 +37,12 @@ def test_values_and_factor_of_a_known_trend():
 
 
 def test_interval_is_that_of_the_scatter_of_all_discs():
-    """Three discs on the finest grid do not decide how much they count."""
+    """Of means over 8, 6, 4 and 3 discs on a line in log₁₀ n, with the 17 degrees of freedom of all of them."""
     found = table(lambda elements: 0.5, scatter=0.1).loc["vt/h at X = 0.1"]
-    half = np.log(found["value_high"] / found["value"]).to_numpy()
-    np.testing.assert_allclose(half * np.sqrt(list(GRIDS.values())), half[0] * np.sqrt(8))
-    assert half[0] == pytest.approx(2.11 * 0.1 / np.sqrt(8), rel=0.5)
+    elements, number = np.log10([round(np.pi / 4 * across**2) for across in GRIDS]), np.array(list(GRIDS.values()))
+    offset = elements - np.average(elements, weights=number)
+    error = 0.1 / np.sqrt(np.sum(number * offset**2))
+    assert np.log(found["factor_high"] / found["factor_low"]).iloc[0] == pytest.approx(2 * 2.11 * error, rel=0.5)
     assert found["factor_low"].iloc[0] < 1 < found["factor_high"].iloc[0]
 
 

@@ -25,8 +25,8 @@ def ensembles(*, scatter=0.1, punch=0.0, factor=np.exp, omega=OMEGA, seed=1):
     return {HURST: grids}
 
 
-def row(limits, quantity, law, height="resolved"):
-    (row,) = limits[(limits[["quantity", "law", "height"]] == [quantity, law, height]).all(axis=1)].itertuples()
+def row(limits, quantity, law):
+    (row,) = limits[(limits[["quantity", "law"]] == [quantity, law]).all(axis=1)].itertuples()
     return row
 
 
@@ -37,7 +37,7 @@ def test_a_known_law_is_found_exactly():
     np.testing.assert_allclose(coefficients[1], [np.log(A) + 0.1, BETA, B, OMEGA], atol=1e-9)
     assert deviation < 1e-7
     plain, deviation = fit(log_x, log_y[None], np.ones(80), corrected=False)
-    assert plain[0, 2] == 0
+    assert np.isnan(plain[0, 2:]).all()
     assert deviation > 1e-2
 
 
@@ -61,7 +61,7 @@ def test_resamples_scatter_as_means_of_independent_realizations():
     logarithms = generator.standard_normal((3, 1))
     means = log_means(np.exp(logarithms) * x**BETA, "geometric", 4000, generator)
     grids = [Grid(number, 3, np.log(x), means, np.full(x.size, 10), 1.0, 1.0) for number in (65, 257)]
-    _, log_y, _ = points(grids, "whole", "resolved", elements_min=10, x_high=1.0)
+    _, log_y, _ = points(grids, "whole", elements_min=10, x_high=1.0)
     assert log_y[1:, 0].std() == pytest.approx(logarithms.std(ddof=1) / np.sqrt(3), rel=0.05)
 
 

@@ -1,14 +1,13 @@
 """The interface and the punch in series, on curves whose interface is known."""
 
 import numpy as np
-import pandas as pd
 import pytest
 
 from support.study import pool_of
 from viscorough.calibrated_law import interface_velocity
 from viscorough_study.ensembles.averages import abscissa, ensemble_dataset
 from viscorough_study.ensembles.flat_punch import punch_stiffness
-from viscorough_study.fits.interface import COLUMNS, CURVES, fit_interface, fit_interfaces, group_ensembles
+from viscorough_study.fits.interface import COLUMNS, CURVES, fit_interface, interface_tables
 
 X = abscissa(1e-9, 30, 20)
 PUNCH = 0.98
@@ -28,9 +27,8 @@ def ensemble(interface, *, scatter=0.05, realizations=40, punch=PUNCH, elements=
     return ensemble_dataset(["disc"], X, 1 / softness[None], count[None], coordinates)
 
 
-def examined(interface, average="arithmetic", **changes):
-    options = HOW | {"average": average}
-    return fit_interface(ensemble(interface, **changes).sel(rms_convention="disc"), PUNCH, **options)
+def examined(interface, **changes):
+    return fit_interface(ensemble(interface, **changes).sel(rms_convention="disc"), PUNCH, **HOW)
 
 
 def test_plateau_is_given_back():
@@ -42,28 +40,27 @@ def test_plateau_is_given_back():
     assert row["plateau_high"] == pytest.approx(X[-1])
 
 
-@pytest.mark.parametrize("average", ["arithmetic", "geometric"])
-def test_curves_are_those_of_the_interface(average):
-    row, curves = examined(lambda x: interface_velocity(x, *LAW), average, scatter=0.0)
+def test_curves_are_those_of_the_interface():
+    row, curves = examined(lambda x: interface_velocity(x, *LAW), scatter=0.0)
     assert row["kappa_c"] == PUNCH
     np.testing.assert_allclose(curves["interface"], interface_velocity(curves["x"], *LAW), rtol=1e-4)
-    np.testing.assert_allclose(curves["interface"] + curves["x"] / PUNCH, curves["velocity"])
     assert curves["x"].min() == X[X >= 1e-5][0], "where more than one element touches"
 
 
-def test_tables_of_every_grid_and_average():
-    members = [
+def test_tables_of_every_grid():
+    """Lines are those of the Hurst exponents of the discs."""
+    grids = ((33, 797, 0.5), (33, 797, 0.7), (65, 3209, 0.5), (65, 3209, 0.9))
+    sizes = [
         ensemble(lambda x: interface_velocity(x, *LAW), punch=punch_stiffness(n), elements=elements, hurst=h)
-        for n, elements, h in ((33, 797, 0.5), (33, 797, 0.7), (65, 3209, 0.5))
+        for n, elements, h in grids
     ]
-    pool = pool_of(members)
-    cases = group_ensembles(pool, "discs", "base", "disc")
-    assert [(labels["across"], labels["hurst"]) for labels, _, _ in cases] == [(33, 0.5), (33, 0.7), (65, 0.5)]
-    assert len(group_ensembles(pool, "discs", "base", "disc", {0.7})) == 1
-    table, curves = fit_interfaces(cases, **HOW)
+    lines = [ensemble(lambda x: interface_velocity(x, *LAW), punch=1.0, elements=64, hurst=h) for h in (0.3, 0.7)]
+    lines = pool_of(lines, "lines").assign_coords(rms_convention=["line"])
+    pools = {"discs": pool_of(sizes[:2]), "size_discs": pool_of(sizes, "sizes"), "size_lines": lines, "lines": lines}
+    table, curves = interface_tables(**pools, fit=HOW, rms_convention="disc").values()
     assert (list(table), list(curves)) == (list(COLUMNS), list(CURVES))
-    assert table["average"].tolist() == ["arithmetic", "geometric"] * 3
+    assert table["case_group"].tolist() == ["base"] * 2 + ["sizes"] * 4 + ["lines"]
+    assert table["hurst"].tolist() == [0.5, 0.7, 0.5, 0.7, 0.5, 0.9, 0.7]
     assert np.ptp(table["u0"]) < 0.01
-    assert table["kappa_c"].tolist() == [punch_stiffness(n) for n in (33, 33, 33, 33, 65, 65)]
-    assert len(curves.groupby(["across", "hurst", "average"])) == len(table)
-    assert isinstance(curves, pd.DataFrame)
+    assert table["kappa_c"].tolist() == [punch_stiffness(n) for n in (33, 33, 33, 33, 65, 65)] + [1.0]
+    assert len(curves.groupby(["case_group", "source", "across", "hurst"])) == len(table)

@@ -8,6 +8,7 @@ from scipy.stats import binom
 from support.study import LIMITS, ensemble_of, three_regions
 from viscorough import reference
 from viscorough_study.ensembles.averages import abscissa
+from viscorough_study.fits.conventions import FITTED
 from viscorough_study.fits.power_law import find_region, fit_power_law, named_windows
 
 x = abscissa(1e-7, 10, 20)
@@ -67,6 +68,17 @@ def test_named_windows():
     assert windows["kappa"] == (inside[0], inside[-1])
 
 
+def test_windows_of_fixed_x_need_elements_in_contact_and_realizations():
+    stiffness = np.tile(three_regions(x), (20, 1))
+    stiffness[:2, x > 2e-2] = np.nan
+    fixed = [(1e-5, 1e-4), (1e-3, 1e-2), (1e-2, 1e-1)]
+    windows = named_windows(
+        one(ensemble_of(x, stiffness, elements=10**3)), stiffness_range=(0.03, 0.3), fixed=fixed, **LIMITS
+    )
+    assert windows.pop("X = 0.001 to 0.01") == fixed[1]
+    assert set(windows) == set(FITTED["window_rule"])
+
+
 def test_fit_is_least_squares_in_logarithms():
     """Against numpy's polynomial fit, of the averages taken by numpy; window ends belong to it."""
     velocity = scattered(0.4, 0.7, 9, seed=2)
@@ -75,7 +87,7 @@ def test_fit_is_least_squares_in_logarithms():
     for average, mean in averages.items():
         fit = fit_power_law(x, velocity, (x[60], x[100]), average=average, resamples=20, seed=1)
         slope, height = np.polyfit(np.log(x[inside]), mean[inside], 1)
-        assert (fit.beta, fit.zeta()[0]) == pytest.approx((slope, np.exp(-height)), rel=1e-10)
+        assert (fit.betas[0], fit.zetas[0]) == pytest.approx((slope, np.exp(-height)), rel=1e-10)
         deviation = mean[inside] - height - slope * np.log(x[inside])
         assert fit.residual == pytest.approx(np.sqrt(np.mean(deviation**2)), rel=1e-8)
 
@@ -90,10 +102,9 @@ def test_intervals_cover_the_truth_95_times_in_100(realizations):
     for seed in range(200):
         velocity = scattered(0.4, 0.7, realizations, seed=(realizations, seed))
         fit = fit_power_law(x, velocity, (1e-5, 1e-1), average="geometric", resamples=200, seed=seed)
-        _, zeta_low, zeta_high = fit.zeta()
-        plain = np.quantile(fit.beta_samples, [0.025, 0.975])
+        plain = np.quantile(fit.betas[1:], [0.025, 0.975])
         truth = (0.4, 1 / 0.7, 0.4)
-        intervals = (fit.beta_interval, (zeta_low, zeta_high), plain)
+        intervals = (fit.beta()[1:], fit.zeta()[1:], plain)
         hits += [low <= value <= high for value, (low, high) in zip(truth, intervals, strict=True)]
     fewest, most = binom.interval(0.999, 200, 0.95)
     assert fewest <= hits[0] <= most
@@ -106,10 +117,9 @@ def test_partly_defined_realizations_count_where_they_are_defined():
     velocity = np.vstack([x**0.4, 3 * x**0.4])
     velocity[1, x > 1e-3] = np.nan
     fit = fit_power_law(x, velocity, (2e-3, 1e-1), average="arithmetic", **BOOTSTRAP)
-    assert fit.beta == pytest.approx(0.4, abs=1e-12)
-    assert fit.prefactor == pytest.approx(1, rel=1e-12)
-    assert np.isnan(fit.beta_samples).any()  # resamples of nothing but the second curve
-    assert fit.beta_interval == pytest.approx((0.4, 0.4), abs=1e-12)
+    assert fit.beta() == pytest.approx((0.4, 0.4, 0.4), abs=1e-12)
+    assert fit.zetas[0] == pytest.approx(1, rel=1e-12)
+    assert np.isnan(fit.betas).any()  # resamples of nothing but the second curve
     velocity[0, x > 1e-2] = np.nan
     with pytest.raises(ValueError, match="no realization"):
         fit_power_law(x, velocity, (2e-3, 1e-1), average="arithmetic", **BOOTSTRAP)
@@ -117,7 +127,7 @@ def test_partly_defined_realizations_count_where_they_are_defined():
 
 def test_fit_refuses_and_has_no_interval_for_one_realization():
     velocity = np.tile(x**0.4, (3, 1))
-    assert np.isnan(fit_power_law(x, velocity[:1], (1e-4, 1e-2), average="geometric", **BOOTSTRAP).beta_interval).all()
+    assert np.isnan(fit_power_law(x, velocity[:1], (1e-4, 1e-2), average="geometric", **BOOTSTRAP).beta()[1:]).all()
     with pytest.raises(ValueError, match="at least 3"):
         fit_power_law(x, velocity, (1.0e-4, 1.1e-4), average="geometric", **BOOTSTRAP)
 
@@ -127,7 +137,7 @@ def test_both_readings_describe_the_same_curve():
     velocity = scattered(0.375, 0.7, 6, seed=6, slope_scatter=0)
     fit = fit_power_law(x, velocity, (1e-4, 1e-2), average="geometric", **BOOTSTRAP)
     for gamma in ("without", "with"):
-        law = reference.velocity_law(x, fit.zeta(gamma=gamma)[0], 1 - fit.beta, gamma=gamma == "with")
-        np.testing.assert_allclose(law, fit.prefactor * x**fit.beta, rtol=1e-12)
+        law = reference.velocity_law(x, fit.zeta(gamma=gamma)[0], 1 - fit.betas[0], gamma=gamma == "with")
+        np.testing.assert_allclose(law, x ** fit.betas[0] / fit.zetas[0], rtol=1e-12)
     ratio = fit.zeta(gamma="with")[0] / fit.zeta()[0]
-    assert ratio == pytest.approx(1 / gamma_function(1 + fit.beta))
+    assert ratio == pytest.approx(1 / gamma_function(1 + fit.betas[0]))

@@ -70,7 +70,6 @@ def test_spread_of_curves_is_that_at_equal_abscissae():
 def test_exponents_from_the_lowest_on():
     sample = evidence(lambda hurst: reference.zeta_elastic(hurst) * (1.5 if hurst < 0.5 else 1.0))
     table = compared(sample, 0.0, 0.6)
-    assert set(table["hurst_exponents"]) == {2, 3}
     assert measures(table, "zeta", FOUR, 0.6) == pytest.approx([0, 1, 0], abs=0.02)
     assert measures(table, "zeta", FOUR)[2] > 0.15
 
@@ -82,5 +81,5 @@ def test_what_cannot_be_compared_is_undefined():
     assert compared(sample, 2.0)["value"].isna().all()
     apart = dict(zip(HURST, ((1e-5, 1e-4), (1e-4, 1e-3), (1e-3, 1e-2)), strict=True))
     table = zeta_laws(sample.pooled, apart, average="geometric", **BOOTSTRAP).set_index("quantity")
-    assert table.loc["curve", ["value", "low", "x_low"]].isna().all(axis=None)
+    assert table.loc["curve", ["value", "low"]].isna().all(axis=None)
     assert table.loc["zeta", "value"].notna().all()

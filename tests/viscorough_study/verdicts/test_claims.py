@@ -120,18 +120,8 @@ def test_interval_decides():
 
 def test_the_worst_case_decides_and_undecided_is_not_dropped(table):
     rows = table[table["claim"] == "zeta_elastic"].head(3)
-    for verdicts, worst in (
-        (("reproduced", "undecided", "reproduced"), "undecided"),
-        (("reproduced", "undecided", "not reproduced"), "not reproduced"),
-    ):
-        assert overall(rows.assign(verdict=verdicts)) == {"zeta_elastic": worst}
-    lines = markdown(rows.assign(verdict=("undecided", "not reproduced", "undecided")), CLAIMS).splitlines()[4:]
-    assert [line.split("| ")[-1].removesuffix(" |").split(";")[0] for line in lines if line] == [
-        "**not reproduced**",
-        "undecided",
-        "not reproduced",
-        "undecided",
-    ]
+    for last, worst in (("reproduced", "undecided"), ("not reproduced", "not reproduced")):
+        assert overall(rows.assign(verdict=["reproduced", "undecided", last])) == {"zeta_elastic": worst}
 
 
 def test_without_region_nothing_is_claimed():

@@ -166,11 +166,6 @@ def other_solvers():
     }
 
 
-def other_solvers_wanted():
-    """Whether the measured methods include other solvers; otherwise the page quotes published times."""
-    return "other solver" in config["methods"]["groups"]
-
-
 def article_digests():
     """Digests of the texts of the article, and of what it quotes, that are not results of the run."""
     texts = [*sorted((WORKFLOW / "article").iterdir()), PROJECT / "CITATION.cff"]

@@ -9,11 +9,7 @@ from viscorough_study.performance.costs import fit_cost, median_costs
 METHODS = {
     ("path, automatic levels", 1e-3): "automatic levels, 1e-3",
     ("path, at the depths", 1e-6): "given depths, 1e-6",
-    ("path, each depth alone", 1e-6): "each depth alone, 1e-6",
-    ("path, uniform levels", 32): "32 uniform levels",
     ("explicit, logarithmic steps", 256): "256 explicit steps",
-    ("SlipPY", 1e-6): "SlipPY, 1e-6",
-    ("ASPHER", 1e-6): "ASPHER, 1e-6",
 }
 
 

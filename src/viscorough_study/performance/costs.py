@@ -20,10 +20,9 @@ def median_costs(table, method, value):
 
     table : of viscorough_study.performance.measurement; value : of the method's parameter
     number is that of the elements of the disc. Medians are over the discs of one size, on grids down to one eighth of
-    the finest in elements across. Discs that the method did not solve in time, which have an error of 1, are omitted.
+    the finest in elements across.
     """
-    rows = table[table["hurst"].notna() & (table["error"] < 1) & (table["method"] == method)]
-    rows = rows[np.isclose(rows["value"], value, rtol=1e-9, atol=0)]
+    rows = table[table["hurst"].notna() & (table["method"] == method) & (table["value"] == value)]
     medians = rows.groupby("elements", as_index=False)[["wall_s", "operator_applications"]].median()
     medians = medians[medians["elements"] >= medians["elements"].max() / 8]
     return medians.assign(number=np.pi / 4 * medians["elements"] ** 2)

@@ -9,7 +9,7 @@ import pytest
 from support import dense_contact
 from viscorough.contact.loading_path import indent
 from viscorough.surfaces import self_affine_disc
-from viscorough_study.performance import methods, other_solvers, problems, solver_comparison
+from viscorough_study.performance import other_solvers, solver_comparison
 
 ADAPTER = '''
 """A stand-in for another solver: the pressures that a file holds, times 1 + tolerance; none in time for large ones."""
@@ -121,22 +121,3 @@ def test_a_task_is_at_the_contact_fractions_asked_for():
     task = solver_comparison.disc_task("few", 0.7, 33, [0.05, 0.3], 1e-4, seed=2, threads=[1, 2])
     curve = indent(task.indenter, tolerance=1e-6, depths=task.depths)
     np.testing.assert_allclose(curve.contact_fraction, [0.05, 0.3], rtol=0.1)
-
-
-def test_another_solver_as_a_method_has_the_stiffness_by_differences(tmp_path):
-    """An adapter for which force is 3 depth²: the velocity is depth/2."""
-    adapter = tmp_path / "square.py"
-    adapter.write_text("""
-import sys, numpy as np
-request = np.load(sys.argv[1])
-depths = request["depths"]
-pressures = np.zeros((*depths.shape, *request["gap"].shape))
-pressures[:, 4, 4] = 3 * depths**2
-about = {"version": "1", "wall": 1.0, "cpu": 1.0, "memory_mb": 1.0, "iterations": np.full(depths.shape, 2)}
-np.savez(sys.argv[2], pressures=pressures, depth=depths, **about)
-""")
-    method = methods.other_solver_method(other_solvers.OtherSolver("square", Path(sys.executable), adapter), 20)
-    problem = problems.named_problem("sphere", 9, 4)
-    answer = method.run(problem, 1e-4)
-    np.testing.assert_allclose(answer.velocity, problem.depth / 2, rtol=1e-3)
-    assert (answer.steps, answer.seconds) == (16, (1.0, 1.0))

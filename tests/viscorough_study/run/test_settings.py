@@ -46,7 +46,7 @@ WRONG = [
     ({"variants": {"cases": [{"name": "wider\n", "period": 2.0}]}}, r"variants.cases[0].name is 'wider\n'; allowed"),
     ({"methods": {"tasks": [TASK | {"fractions": [0.5, 0.5]}]}}, "fractions of few in methods.tasks are too close"),
     ({"methods": {"tasks": [TASK | {"fractions": [0.5, 0.4]}]}}, "fractions of few in methods.tasks decrease"),
-    ({"methods": {"groups": ["path", "path"]}}, "methods.groups: path occurs twice; allowed: once"),
+    ({"methods": {"elements": [33, 33]}}, "methods.elements: 33 occurs twice; allowed: once"),
     ({"media": {"cases": [FLUID | {"kind": "maxwell"}]}}, "fluid in media.cases: lacks shear_modulus; maxwell needs"),
     ({"media": {"cases": [FLUID | {"exponent": 0.5}]}}, "fluid in media.cases: unknown key 'exponent'; allowed for"),
     ({"media": {"times": {"low": 1.0, "high": 2.0}}}, "media.times.low and high: 1.0 and 2.0 are less than a decade"),

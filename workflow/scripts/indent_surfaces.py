@@ -7,7 +7,7 @@ from viscorough.io import netcdf
 from viscorough_study.ensembles.batches import batch_of_curves
 from viscorough_study.ensembles.indentation import end_of_curve, indent_surface
 from viscorough_study.ensembles.surface_files import Surfaces
-from viscorough_study.run.job_log import log_to, progress
+from viscorough_study.run.job_log import log_to
 
 
 def main(surfaces, curves, *, indentation):
@@ -19,7 +19,7 @@ def main(surfaces, curves, *, indentation):
     accuracy = {name: indentation[name] for name in ("tolerance", "until_fraction")}
     with Surfaces(surfaces) as batch:
         settings = {"indentation": indentation, "ensembles": batch.settings}
-        for realization, indenter in progress(batch, len(batch), "indentations"):
+        for realization, indenter in batch:
             start, end = time.perf_counter(), end_of_curve(realization.number, indentation)
             curve = indent_surface(indenter, realization.rms, realization.diameter, until_x=end, **accuracy)
             cost = curve.depth.size, curve.operator_applications, time.perf_counter() - start

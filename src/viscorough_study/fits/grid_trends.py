@@ -16,7 +16,6 @@ from viscorough_study.fits import fit_table
 from viscorough_study.fits.conventions import FITTED, fits, source_values
 from viscorough_study.fits.intervals import UNDEFINED, described, equivalence, interval, line_slope, three_columns
 from viscorough_study.fits.power_law import fit_power_law, in_window
-from viscorough_study.run.job_log import progress
 
 FINDINGS = (
     "agrees on the finest grid",
@@ -51,8 +50,7 @@ def sizes_tables(discs, lines, *, seed, fit, windows, conventions, tolerance):
     rows = []
     for source, group, pool in (("discs", "sizes", discs), ("discs", "controls", discs), ("lines", "sizes", lines)):
         labels = {"source": source, "case_group": group}
-        grids = ensembles(select(pool, group=group), "hurst", "elements").values()
-        for ensemble in progress(grids, len(grids), f"{source}, {group}"):
+        for ensemble in ensembles(select(pool, group=group), "hurst", "elements").values():
             fitted = fit_table.fit_rows(ensemble, **labels, seed=seed, **fit)
             fitted += fixed_window_rows(ensemble, windows, labels, **fixed)
             rows += [row | {"elements": ensemble["elements"].item()} for row in fitted]

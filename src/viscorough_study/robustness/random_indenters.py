@@ -9,8 +9,8 @@ from viscorough.contact.solver import ContactSolver
 from viscorough.errors import ConvergenceError
 from viscorough.indenter import Indenter
 from viscorough.viscous.integration.events import march_events
-from viscorough_study.performance.ablations import GRID_ONLY
 from viscorough_study.robustness.random_heights import random_heights, with_random_aspect
+from viscorough_study.robustness.stress_solutions import GRID_ONLY
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ def silent_failure(case, solver_type=ContactSolver):
     shares only the influence coefficients with the path. The rounding of the heights at small depths is allowed for.
     A ConvergenceError is not a silent failure; a level solved before it can be one.
     """
-    options = GRID_ONLY["single"] if case.on_grid else DEFAULT
+    options = GRID_ONLY if case.on_grid else DEFAULT
     solver, events = solver_type(case.indenter, case.tolerance, options), march_events(case.indenter)
     row, column = solver.elements.row, solver.elements.column
     influence = solver.elements.influence[abs(row[:, None] - row), abs(column[:, None] - column)]

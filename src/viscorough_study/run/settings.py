@@ -12,7 +12,7 @@ from itertools import chain
 import jsonschema
 
 # Keywords of a schema that an error message quotes.
-_LIMITS = "type enum minimum exclusiveMinimum maximum minItems maxItems minProperties decimals".split()
+_LIMITS = ("type", "enum", "minimum", "exclusiveMinimum", "maximum", "minItems", "maxItems", "decimals")
 
 
 class SettingsError(ValueError):

@@ -12,7 +12,6 @@ import pandas as pd
 from viscorough_study.performance import timing
 from viscorough_study.performance.methods import METHODS
 
-LARGEST_COMPARED = 513  # elements across the indenter above which only the growth of the cost is measured
 MAX_REPEATED = 10.0  # longest run that is repeated [s]
 TIMES = ("wall_s", "processor_s")
 COLUMNS = {
@@ -50,7 +49,7 @@ def measure(problem, repeats, *, longest, methods=METHODS):
     for method in methods:
         if problem.elements_across > method.largest or (method.rough_only and problem.hurst is None):
             continue
-        for value in method.values if problem.elements_across <= LARGEST_COMPARED else method.growth:
+        for value in method.values:
             logging.info("%s: %s, %s %g", problem.name, method.name, method.parameter, value)
             function = partial(method.run, problem, value)
             (answer, memory), *seconds = timing.timed(partial(timing.with_memory, function))

@@ -36,7 +36,6 @@ class Method:
 
     group : of methods in tables and figures; largest : elements across the indenter up to which it is measured
     rough_only : whether it applies to rough discs only
-    growth : values of the parameter for indenters too large for a comparison of errors
     """
 
     name: str
@@ -44,9 +43,8 @@ class Method:
     parameter: str
     values: tuple
     run: Callable
-    largest: int = 4097
+    largest: int = 1025
     rough_only: bool = False
-    growth: tuple = ()
 
 
 # ---- the elastic loading path
@@ -109,8 +107,8 @@ FINE_TOLERANCES = (*TOLERANCES, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)
 STEPS = (16, 64, 256, 1024)
 
 METHODS = (
-    Method("path, automatic levels", "path", "tolerance", TOLERANCES, _automatic, growth=(1e-3,)),
-    Method("path, at the depths", "path", "tolerance", FINE_TOLERANCES, _at_levels, growth=(1e-6,)),
+    Method("path, automatic levels", "path", "tolerance", TOLERANCES, _automatic),
+    Method("path, at the depths", "path", "tolerance", FINE_TOLERANCES, _at_levels),
     Method("events", "marching", "contact fraction", (1.0,), _events, 65),
     *(
         Method(f"{scheme}, logarithmic steps", "marching", "steps", STEPS, partial(_steps, scheme), 257)

@@ -219,12 +219,6 @@ def test_sizes_have_a_marker_for_every_ensemble_with_a_fit(drawn):
     assert len(plot("sizes", table[table["window_rule"] == "default"], SHOWN).axes) == 2
 
 
-def test_growth_has_the_exponents_of_the_discs():
-    figure = plot("growth", tables.methods_table())
-    assert legend_texts(figure.legends[0])[0] == "automatic levels, 1e-3: $N^{1.20}$"
-    close(coordinates(figure.axes[1])[0][:, 1], [65, 257, 513])
-
-
 def test_exponents_of_the_cost_of_one_disc_are_those_of_the_larger_half(drawn):
     table = tables.large_table()
     time, memory = (legend_texts(axes.get_legend()) for axes in drawn["large"].axes)

@@ -75,7 +75,7 @@ paper: settings
 # Includes the targets beside `all` that were made.
 report: settings
 	$(SNAKEMAKE) --report results/report.html -- all \
-		$(if $(wildcard results/figures/growth.png),speed) \
+		$(if $(wildcard results/figures/other_solvers.png),speed) \
 		$(patsubst results/figures/%.png,%,$(wildcard $(patsubst %,results/figures/%.png,sizes large)))
 
 # Written in full each time (-E): pages that are kept would hide the warnings of an earlier run.

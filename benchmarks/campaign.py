@@ -18,13 +18,19 @@ import numpy as np
 from measuring import save
 from tqdm import tqdm
 
-from viscorough_study.robustness.random_curves import audit_failure, curve_failure, random_audit, random_curve
-from viscorough_study.robustness.random_indenters import random_case, silent_failure
+from viscorough_study.robustness.random_curves import (
+    audit_failure,
+    curve_failure,
+    levels_failure,
+    random_audit,
+    random_curve,
+    random_levels,
+)
 from viscorough_study.run.seeds import random_indenter_key, realization_seed
 
 # {family: (function that draws a case, function that checks it, fraction of the number of cases)}
 FAMILIES = {
-    "levels": (random_case, silent_failure, 1.0),
+    "levels": (random_levels, levels_failure, 1.0),
     "curves": (random_curve, curve_failure, 1.0),
     "starts": (partial(random_curve, with_start=True), curve_failure, 0.1),
     "forces": (partial(random_curve, at_forces=True), curve_failure, 1.0),

@@ -16,7 +16,7 @@ def runs(tmp_path):
             (tmp_path / name / folder).mkdir(parents=True)
         claims = pd.DataFrame({"claim": ["beta"], "value": [0.3], "note": [np.nan]})
         claims.to_csv(tmp_path / name / "tables/claims.csv", index=False)
-        pd.DataFrame({"wall_s": [seconds]}).to_csv(tmp_path / name / "tables/equal_error.csv", index=False)
+        pd.DataFrame({"wall_s": [seconds]}).to_csv(tmp_path / name / "tables/methods.csv", index=False)
         curves = xr.Dataset({"force": (("realization", "level"), np.ones((2, 3)))})
         curves.to_netcdf(tmp_path / name / "curves/discs/h04000_c1/0000-0001.nc")
     return tmp_path / "old", tmp_path / "new"

@@ -12,7 +12,7 @@ import slurm
 def test_measured_times_may_differ_and_nothing_else(tmp_path):
     """Two folders with equal results, whose measured times differ."""
     same = ["tables/claims.csv", "figures/fig1.pdf"]
-    measured = ["tables/equal_error.csv", "index.html", "logs/a/b.log", "benchmarks/a.tsv", "methods/rough.csv"]
+    measured = ["tables/methods.csv", "index.html", "logs/a/b.log", "benchmarks/a.tsv", "methods/rough.csv"]
     first, second = tmp_path / "one", tmp_path / "two"
     for folder, seconds in ((first, "1.0"), (second, "2.0")):
         for name in same + measured:

@@ -17,7 +17,7 @@ from viscorough.cli.surface_options import _STEEP_SLOPE
 from viscorough.contact.step_control import _RELAXED_BOUND
 from viscorough.reference import exponent_beta, zeta_elastic
 from viscorough_study.ensembles.flat_punch import punch_stiffness
-from viscorough_study.performance.costs import fit_cost, median_costs
+from viscorough_study.performance.costs import fit_cost
 from viscorough_study.run.cases import disc_cases
 from viscorough_study.verdicts.claims import overall
 from viscorough_study.verdicts.evidence import FEW_WIDENED
@@ -162,12 +162,6 @@ def cost_of_large(across, seconds):
 
 def growth_of_large(across, column):
     return fit_cost(large(across, "elements"), large(across, column))[0]
-
-
-def growth_of_path(hurst):
-    methods = published("methods.csv").query(f"hurst == {hurst}")
-    costs = median_costs(methods, "path, automatic levels", 1e-3)
-    return fit_cost(costs["number"], costs["wall_s"])[0]
 
 
 def beyond(column):
@@ -375,7 +369,6 @@ QUOTED = {
             large(2049, "wall") / large(2049, "wall_threads")
         ),
         "to the power {:.2f} from 129 to 4097 (`make large`)": lambda: growth_of_large(slice(129, 4097), "wall"),
-        "to the power {:.2f} (H = 0.4) and {:.2f} (H = 0.8)": lambda: [growth_of_path(hurst) for hurst in (0.4, 0.8)],
         "at most {:.3g} times the time of the best levels placed by hand": lambda: 1 / placed("best by hand").iloc[0],
         "at most {:.3g} times in the others": lambda: 1 / placed("best by hand").iloc[1],
         "at least {:.2g} times the time of the automatic ones": lambda: placed("naive").iloc[0],

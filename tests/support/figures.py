@@ -285,7 +285,6 @@ FROM_TABLES = {  # arguments of the figures that are drawn from tables alone
     "collapse": (curves_of_sizes(), *collapse_tables()),
     "direct": (direct_table(),),
     "failure_map": (failure_table(LETTERS),),
-    "growth": (methods_table(),),
     "interface": (*interface_tables_drawn(), literature_table(), periodic_table()),
     "large": (large_table(),),
     "level_placement": (level_placement_table(),),

@@ -101,7 +101,7 @@ def test_second_run_in_a_folder_ends_and_the_first_is_not_disturbed(lines):
     [
         ("# nothing\n", "Config file must be given as JSON or YAML with keys at top level."),
         ("discs: {hurst: [0.4\n", "Config file is not valid JSON or YAML."),
-        ("discs: {elemnts: 33}\n", "unknown key elemnts in discs; did you mean elements?"),
+        ("discs: {elemnts: 33}\n", "unknown key 'elemnts' in discs; did you mean elements?"),
     ],
     ids=["empty", "broken", "misspelt"],
 )

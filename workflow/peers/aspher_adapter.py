@@ -1,36 +1,48 @@
-"""ASPHER: projected conjugate gradients with a spectral preconditioner, at given force (Polonsky & Keer 1999).
+"""ASPHER at given force: conjugate gradients from the level before, or a cascade from coarse grids at every level.
 
-Called as: python aspher_adapter.py request.npz answer.npz (see exchange.py).
+Called as: python aspher_adapter.py MODE request.npz answer.npz (see exchange.py), with one of these modes:
+    levels : projected conjugate gradients (Polonsky & Keer 1999), preconditioned by transforms of the whole grid
+    nested : a cascade in single and then double precision; it starts from zero pressure at every level
+    active_set : a cascade of hierarchical operators on what can touch, in single precision: the fastest mode where few
+        elements touch; sides of a power of two give the deepest cascade
 """
+
+import sys
 
 import aspher
 import numpy as np
 from exchange import answer_request
 
+COARSEST = 32  # least number of points along a side of the coarsest grid
+CASCADES = {
+    "nested": {"backend": "fft", "precision": "float_then_double"},
+    "active_set": {"backend": "h2", "precision": "float", "active_set": True},
+}
+MODE = sys.argv[1]
+
 
 class Aspher:
-    """Exact convolution ("fft"), with the preconditioner by transforms of the whole grid."""
+    """Exact convolution ("fft"), except for the hierarchical operators."""
 
     def __init__(self, problem):
         self.problem = problem
-        side = problem.gap.shape[0]
-        self.solver = aspher.ContactSolver(grid_size=side, domain_size=float(side), E_star=4.0, backend="fft")
+        self.side = self.coarsest = problem.gap.shape[0]
+        while self.coarsest % 2 == 0 and self.coarsest // 2 >= COARSEST:
+            self.coarsest //= 2
+        self.domain = {"domain_size": float(self.side), "E_star": 4.0}
+        self.solver = aspher.ContactSolver(grid_size=self.side, **self.domain, backend="fft")
 
     def solve(self, level, tolerance, start):
         gap, depth = self.problem.gap, self.problem.depths[level]
-        if start is None:
-            start = np.maximum(depth - gap, 0)
-        result = self.solver.solve(
-            gap.ravel(),
-            p_nominal=self.problem.forces[level] / gap.size,
-            tol=tolerance * depth / np.ptp(gap),  # ASPHER's is relative to the range of the gap
-            precond="fourier-fft",
-            p_init=start.ravel(),
-        )
-        return np.array(result.pressure), result.iterations
-
-    def displacement(self, pressure):
-        return np.asarray(self.solver.matvec(pressure.ravel())).reshape(pressure.shape)
+        load = {"p_nominal": self.problem.forces[level] / gap.size}
+        load["tol"] = tolerance * depth / np.ptp(gap)  # ASPHER's is relative to the range of the gap
+        if MODE == "levels":
+            start = np.maximum(depth - gap, 0) if start is None else start
+            result = self.solver.solve(gap.ravel(), **load, precond="fourier-fft", p_init=start.ravel())
+        else:
+            mode = {"coarsest": self.coarsest} | CASCADES[MODE]
+            result = aspher.solve_nested(self.side, gap.ravel(), **self.domain, **load, **mode)
+        return np.reshape(result.pressure, gap.shape), result.iterations
 
 
 answer_request("aspher", Aspher)

@@ -18,8 +18,8 @@ class ContactMechanics:
     def __init__(self, problem):
         self.problem = problem
         sizes = tuple(float(n) for n in problem.gap.shape)
-        self.substrate = FreeFFTElasticHalfSpace(problem.gap.shape, 4.0, sizes)
-        self.system = NonSmoothContactSystem(self.substrate, Topography(-problem.gap, sizes))
+        substrate = FreeFFTElasticHalfSpace(problem.gap.shape, 4.0, sizes)
+        self.system = NonSmoothContactSystem(substrate, Topography(-problem.gap, sizes))
 
     def solve(self, level, tolerance, start):
         depth = self.problem.depths[level]
@@ -32,9 +32,6 @@ class ContactMechanics:
                 maxiter=20_000,
             )
         return result.x.reshape(self.problem.gap.shape), result.nit
-
-    def displacement(self, pressure):
-        return self.substrate.evaluate_disp(-pressure)
 
 
 answer_request("ContactMechanics", ContactMechanics)

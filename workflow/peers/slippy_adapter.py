@@ -37,9 +37,5 @@ class Slippy:
             )
         return pressure, -1
 
-    def displacement(self, pressure):
-        self.convolve.change_domain(np.ones(pressure.shape, dtype=bool))
-        return self.convolve(pressure.ravel(), True)
-
 
 answer_request("slippy", Slippy)

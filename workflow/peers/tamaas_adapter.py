@@ -33,10 +33,5 @@ class Tamaas:
         solver.solve(self.problem.forces[level] / start.size)
         return np.array(self.model.traction), -1
 
-    def displacement(self, pressure):
-        displacement = np.zeros_like(pressure)
-        self.model.operators["dcfft"](pressure, displacement)
-        return displacement
-
 
 answer_request("tamaas", Tamaas)

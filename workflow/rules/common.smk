@@ -155,20 +155,20 @@ LIGHT_ONLY = ("ASPHER active set",)  # solvers, or their modes, for maps on whic
 
 
 def other_solvers():
-    """{solver: [Python of its environment, its adapter]}, whether or not `make peers` has built the environments."""
-    adapters = WORKFLOW / "peers"
+    """{solver: command that runs its adapter}, whether or not `make peers` has built the environments."""
     modern, slippy = (str(PROJECT / name / "bin" / "python") for name in (".venv-peers", ".venv-slippy"))
-    pythons = {"ASPHER": modern, "ASPHER nested": modern, "ContactMechanics": modern, "SlipPY": slippy}
-    pythons |= dict.fromkeys(("Tamaas", *LIGHT_ONLY), modern)
-    return {
-        name: [python, str(adapters / f"{name.lower().replace(' ', '_')}_adapter.py")]
-        for name, python in pythons.items()
+    commands = {
+        "ASPHER": (modern, "aspher", "levels"),
+        "ASPHER nested": (modern, "aspher", "nested"),
+        "ContactMechanics": (modern, "contactmechanics"),
+        "SlipPY": (slippy, "slippy"),
+        "Tamaas": (modern, "tamaas"),
+        "ASPHER active set": (modern, "aspher", "active_set"),
     }
-
-
-def other_solvers_wanted():
-    """Whether the measured methods include other solvers; otherwise the page quotes published times."""
-    return "other solver" in config["methods"]["groups"]
+    return {
+        name: [python, str(WORKFLOW / "peers" / f"{adapter}_adapter.py"), *mode]
+        for name, (python, adapter, *mode) in commands.items()
+    }
 
 
 def article_digests():

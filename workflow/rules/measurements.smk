@@ -1,5 +1,5 @@
-# Measured times: every method on every indenter, and one disc on grids from coarse to fine. `make speed` measures more
-# methods on more indenters, and other solvers, which takes over an hour.
+# Measured times: every method on every indenter, and one disc on grids from coarse to fine. `make speed` measures them
+# on more indenters, and other solvers, which takes over an hour.
 
 
 rule measure_methods:
@@ -15,19 +15,11 @@ rule measure_methods:
     resources:
         mem_mb=8000,
     params:
-        adapter_digests(),
         problem=lambda wildcards: PROBLEMS[wildcards.problem],
-        groups=config["methods"]["groups"],
         seed=config["seed"],
         levels=config["methods"]["levels"],
         repeats=config["methods"]["repeats"],
         longest=config["methods"]["longest"],
-        # For pairs of close levels, a solution without a start value cannot win.
-        peers=(
-            {name: paths for name, paths in other_solvers().items() if name not in ("ASPHER nested", *LIGHT_ONLY)}
-            if other_solvers_wanted()
-            else {}
-        ),
     message:
         "Cost and error of every method: {wildcards.problem}"
     script:

@@ -14,7 +14,6 @@ rule make_page:
     input:
         discs="results/ensembles/discs.nc",
         lines="results/ensembles/lines.nc",
-        other_solvers=rules.time_other_solvers.output.csv if other_solvers_wanted() else [],
         tables=expand("results/tables/{table}.csv", table=PAGE_TABLES),
         figures=expand("results/figures/{file}.png", file=PAGE_FIGURES),
     output:
@@ -58,7 +57,6 @@ rule make_article:
     input:
         discs="results/ensembles/discs.nc",
         lines="results/ensembles/lines.nc",
-        other_solvers=rules.make_page.input.other_solvers,
         tables=expand("results/tables/{table}.csv", table=PAGE_TABLES + ARTICLE_TABLES),
         figures=expand("results/figures/{file}.pdf", file=ARTICLE_FIGURES),
     output:

@@ -4,7 +4,7 @@ from viscorough.io import netcdf
 from viscorough.io.datasets import write_dataset
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.ensembles.pool import pool_batches
-from viscorough_study.run.job_log import log_to, progress
+from viscorough_study.run.job_log import log_to
 
 
 def main(curves, pool, *, groups, conventions, ensemble):
@@ -14,7 +14,7 @@ def main(curves, pool, *, groups, conventions, ensemble):
     conventions : of the rms heights, side by side; ensemble : x_low, x_high and per_decade of the abscissae
     """
     x = abscissa(ensemble["x_low"], ensemble["x_high"], ensemble["per_decade"])
-    batches = zip(groups, map(netcdf.read, progress(curves, len(curves), "batches")), strict=True)
+    batches = zip(groups, map(netcdf.read, curves), strict=True)
     write_dataset(pool_batches(batches, conventions, x), pool)
 
 

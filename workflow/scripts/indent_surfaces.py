@@ -6,8 +6,8 @@ import time
 from viscorough.io import netcdf
 from viscorough_study.ensembles.batches import batch_of_curves
 from viscorough_study.ensembles.indentation import end_of_curve, indent_surface
-from viscorough_study.ensembles.surface_files import Surfaces
-from viscorough_study.run.job_log import log_to, progress
+from viscorough_study.ensembles.surface_files import read_surfaces
+from viscorough_study.run.job_log import log_to
 
 
 def main(surfaces, curves, *, indentation):
@@ -15,18 +15,19 @@ def main(surfaces, curves, *, indentation):
 
     indentation : tolerance and until_fraction, as in `indent_surface`, and where curves end, as in `end_of_curve`
     """
-    indented, realizations, until_x = [], [], []
+    indented, realizations, until_x, ensembles = [], [], [], []
     accuracy = {name: indentation[name] for name in ("tolerance", "until_fraction")}
-    with Surfaces(surfaces) as batch:
-        settings = {"indentation": indentation, "ensembles": batch.settings}
-        for realization, indenter in progress(batch, len(batch), "indentations"):
-            start, end = time.perf_counter(), end_of_curve(realization.number, indentation)
-            curve = indent_surface(indenter, realization.rms, realization.diameter, until_x=end, **accuracy)
-            cost = curve.depth.size, curve.operator_applications, time.perf_counter() - start
-            logging.info("realization %d: %d levels, %d operator applications, %.2f s", realization.number, *cost)
-            indented.append(curve)
-            realizations.append(realization)
-            until_x.append(end)
+    for ensemble, realization, indenter in read_surfaces(surfaces):
+        start, end = time.perf_counter(), end_of_curve(realization.number, indentation)
+        curve = indent_surface(indenter, realization.rms, realization.diameter, until_x=end, **accuracy)
+        cost = curve.depth.size, curve.operator_applications, time.perf_counter() - start
+        logging.info("realization %d: %d levels, %d operator applications, %.2f s", realization.number, *cost)
+        indented.append(curve)
+        realizations.append(realization)
+        until_x.append(end)
+        if ensemble not in ensembles:
+            ensembles.append(ensemble)
+    settings = {"indentation": indentation, "ensembles": ensembles}
     netcdf.write(batch_of_curves(indented, realizations, until_x=until_x, settings=settings), curves)
 
 

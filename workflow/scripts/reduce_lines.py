@@ -3,8 +3,8 @@
 from viscorough.io import netcdf
 from viscorough.lines import SelfAffineLines
 from viscorough.mdr import reduce_heights
-from viscorough_study.ensembles.batches import Realization, batch_of_curves, numbered, without_numbers
-from viscorough_study.run.job_log import log_to, progress
+from viscorough_study.ensembles.batches import Realization, batch_of_curves, without_numbers
+from viscorough_study.run.job_log import log_to
 from viscorough_study.run.seeds import realization_seed
 
 
@@ -13,16 +13,16 @@ def main(curves, *, ensembles, seed, until_x):
 
     ensembles : of `viscorough_study.run.cases.batch_ensembles`; surface : arguments of SelfAffineLines
     """
-    batch, reduced, realizations, before = numbered(ensembles), [], [], None
-    for ensemble, number in progress(batch, len(batch), "lines"):
+    reduced, realizations = [], []
+    for ensemble in ensembles:
         surface = ensemble["surface"]
-        if ensemble is not before:  # quantities common to the realizations are computed once
-            lines, before = SelfAffineLines(points=ensemble["points"], **surface), ensemble
-        heights = lines.heights_in_any_order(realization_seed(seed, *ensemble["spawn_key"], number))
+        lines = SelfAffineLines(points=ensemble["points"], **surface)  # what all its realizations share
         until_force = 4 * surface["rms"] * surface["length"] * until_x
-        reduced.append(reduce_heights(heights, lines.spacing, until_force=until_force, length_unit="m"))
         lengths = surface["length"], lines.spacing, {"line": surface["rms"]}  # every line has the nominal rms height
-        realizations.append(Realization(ensemble["name"], number, surface["hurst"], *lengths))
+        for number in range(*ensemble["numbers"]):
+            heights = lines.heights_in_any_order(realization_seed(seed, *ensemble["spawn_key"], number))
+            reduced.append(reduce_heights(heights, lines.spacing, until_force=until_force, length_unit="m"))
+            realizations.append(Realization(ensemble["name"], number, surface["hurst"], *lengths))
     settings = {"seed": seed, "until_x": until_x, "ensembles": without_numbers(ensembles)}
     netcdf.write(batch_of_curves(reduced, realizations, until_x=until_x, settings=settings), curves)
 

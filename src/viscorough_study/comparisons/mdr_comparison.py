@@ -19,7 +19,6 @@ from viscorough.mdr import line_of_surface, reduce
 from viscorough.surfaces import cut_disc, self_affine_square
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.fits.intervals import described, mean_with_interval, three_columns
-from viscorough_study.run.job_log import progress
 from viscorough_study.run.seeds import mdr_comparison_key, realization_seed
 
 COLUMNS = {
@@ -54,7 +53,7 @@ def compare_reduction(*, hursts, elements, realizations, tolerance, seed, x_low,
     with_gap = is_power_of_ten(x)
     for hurst in hursts:
         compared = []
-        for number in progress(range(realizations), realizations, "surfaces"):
+        for number in range(realizations):
             seed_of_both = realization_seed(seed, *mdr_comparison_key(hurst, number))
             disc, line = _disc_and_line(hurst, elements, *seed_of_both.spawn(2))
             curves = indent(disc, tolerance=tolerance, until_force=FORCE_MARGIN * force[-1]), reduce(line)

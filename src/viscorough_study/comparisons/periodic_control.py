@@ -20,7 +20,6 @@ from viscorough.errors import ConvergenceError
 from viscorough.surfaces import self_affine_square
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.fits.intervals import described, mean_with_interval, three_columns
-from viscorough_study.run.job_log import progress
 from viscorough_study.run.seeds import periodic_key, realization_seed
 
 TOLERANCE = 1e-3  # of the gap, over the rms height; a tenth of it changes g by less than 1e-4
@@ -47,7 +46,7 @@ def periodic_control(*, hursts, points, surfaces, roll_off, x_low, x_high, per_d
     spectra[roll_off["wavelength"]]["roll_off_level"] = roll_off["level"]
     for hurst, (wavelength, waves) in product(hursts, spectra.items()):
         found = []
-        for number in progress(range(surfaces), surfaces, f"periodic surfaces, H = {hurst:g}"):
+        for number in range(surfaces):
             key = periodic_key(hurst, number)
             heights = self_affine_square(hurst, points, seed=realization_seed(seed, *key), **waves)
             found.append(mean_separations(heights, 4 / np.pi * x))

@@ -57,11 +57,6 @@ def batch_of_curves(curves, realizations, *, until_x, settings):
     return content.with_attributes(settings=json.dumps(settings))
 
 
-def numbered(ensembles):
-    """[(ensemble, number)] of every realization of a batch (viscorough_study.run.cases.batch_ensembles)."""
-    return [(ensemble, number) for ensemble in ensembles for number in range(*ensemble["numbers"])]
-
-
 def without_numbers(ensembles):
     """The ensembles of a batch as recorded in the settings of a file, independent of the realizations in the batch."""
     return [{name: value for name, value in ensemble.items() if name != "numbers"} for ensemble in ensembles]

@@ -14,8 +14,7 @@ def measured_indenter(file, *, spacing, unit, preparation):
     unit : of the heights, None for that in the file; preparation : further arguments of read_heights
     Raises ValueError if the unit of length is unknown.
     """
-    both = {0: None, 1: spacing[:1], 2: spacing}[len(spacing)]
-    spacing = both[0] if both and len(both) == 1 else both
+    spacing = spacing[0] if len(spacing) == 1 else spacing or None
     indenter = read_heights(file, spacing, unit=unit, **preparation)
     if indenter.length_unit == "1":
         raise ValueError(f"{file}: states no unit of length; measured.unit in the settings is needed")

@@ -1,7 +1,6 @@
 """Files of surfaces: a NetCDF group for each ensemble, written and read one realization at a time."""
 
 import json
-from collections.abc import Sequence
 
 import netCDF4
 import numpy as np
@@ -55,37 +54,18 @@ def _define(group, realization, indenter):
     variable("heights", ("realization", "y", "x"), "height", kind=indenter.heights.dtype, fill_value=np.nan)
 
 
-class Surfaces(Sequence):
-    """Sequence of the (Realization, Indenter) in a file, read on access; a context manager that closes the file.
+def read_surfaces(path):
+    """Iterator over the (settings of its ensemble, Realization, Indenter) of every surface in a file, read one by one.
 
-    settings : list of the settings of each ensemble
-    Raises a one-line ValueError, here and in reading, if the file is missing or damaged.
+    Raises a one-line ValueError if the file is missing or damaged.
     """
-
-    def __init__(self, path):
-        self._path = path
-        with netcdf.faults_named(path):
-            self._file = netCDF4.Dataset(path)
-            self._file.set_auto_mask(False)
-            groups = list(self._file.groups.values())
-            self.settings = [json.loads(group.settings) for group in groups]
-            self._places = [(group, i) for group in groups for i in range(len(group.dimensions["realization"]))]
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self._file.close()
-
-    def __len__(self):
-        return len(self._places)
-
-    def __getitem__(self, position):
-        group, i = self._places[position]
-        with netcdf.faults_named(self._path):
-            spacing, row_spacing, hurst, diameter = (
-                group[name][...].item() for name in ("spacing_x", "spacing_y", "hurst", "diameter")
-            )
-            rms = {name: group[f"rms_{name}"][i].item() for name in RMS if f"rms_{name}" in group.variables}
-            realization = Realization(group.title, group["number"][i].item(), hurst, diameter, spacing, rms)
-            return realization, Indenter(group["heights"][i], spacing, row_spacing, length_unit="m")
+    with netcdf.opened(path) as file:
+        file.set_auto_mask(False)
+        for group in file.groups.values():
+            names = ("hurst", "diameter", "spacing_x", "spacing_y")
+            hurst, diameter, spacing, row_spacing = (group[name][...].item() for name in names)
+            for i, number in enumerate(group["number"][...].tolist()):
+                rms = {name: group[f"rms_{name}"][i].item() for name in RMS if f"rms_{name}" in group.variables}
+                realization = Realization(group.title, number, hurst, diameter, spacing, rms)
+                indenter = Indenter(group["heights"][i], spacing, row_spacing, length_unit="m")
+                yield json.loads(group.settings), realization, indenter

@@ -14,7 +14,6 @@ MEANINGS = {
     "stated": "model outside its stated range",
     "warned": "wrong, with a warning",
     "refused": "refused, with a reason",
-    "not offered": "not offered to users",
     "unnoticed": "wrong without notice",
 }
 LETTERS = {verdict: verdict[0].upper() for verdict in MEANINGS}
@@ -29,7 +28,6 @@ OTHER_KIND = "other methods"
 CONCERNED = {
     "step size": ("explicit steps",),
     "force in time": ("explicit steps",),
-    "no padding": ("path, grid",),
     "tolerance": ("path",),
     "medium": ("media",),
 }

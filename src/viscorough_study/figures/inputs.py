@@ -3,13 +3,13 @@
 from viscorough.io.datasets import read_dataset
 from viscorough_study.ensembles.pool import ensembles as ensembles_by
 from viscorough_study.ensembles.pool import select
-from viscorough_study.ensembles.surface_files import Surfaces
+from viscorough_study.ensembles.surface_files import read_surfaces
 
 
 def examples(files):
     """List of (Hurst exponent, heights, spacing) of the example discs."""
-    with Surfaces(files["examples"]) as surfaces:
-        return [(realization.hurst, indenter.heights, indenter.spacing) for realization, indenter in surfaces]
+    surfaces = read_surfaces(files["examples"])
+    return [(realization.hurst, indenter.heights, indenter.spacing) for _, realization, indenter in surfaces]
 
 
 def ensembles(files):

@@ -18,7 +18,6 @@ METHODS = {
 ELEMENTS_ACROSS = 257  # largest grid drawn
 FLOOR = 1e-13  # smaller errors are drawn at this value
 HEADLINE = 0.01  # error at which the fastest methods are compared
-COMPARED = {"marching": "time steps", "other solver": "other solvers"}  # groups compared with the path
 RING = {"color": style.BLACK, "marker": "o", "markersize": 9, "markerfacecolor": "none", "linestyle": ""}
 RING |= {"label": "fastest of its kind to an error of 1 %"}
 PARETO = {"color": style.GREY, "linewidth": 3, "alpha": 0.35, "drawstyle": "steps-post"}
@@ -27,16 +26,16 @@ PARETO |= {"label": "Pareto front of all methods"}
 
 @style.figure
 def plot_speed(table):
-    """Error of v against wall time: the elastic path, time steps, a model and the fastest of other solvers.
+    """Error of v against wall time: the elastic path, time steps and a model.
 
     table : of viscorough_study.performance.measurement; drawn are its first rough disc (a) and the sphere (b), as far
         as it has them, otherwise its first problem
-    The staircase is the Pareto front of all methods of the table. Rings mark the fastest solutions by the path, by time
-    steps and by other solvers with an error of at most 1 %; a box compares their times.
+    The staircase is the Pareto front of all methods of the table. Rings mark the fastest solutions by the path and by
+    time steps with an error of at most 1 %; a box compares their times.
     """
     rough = sorted(name for name in table["problem"].unique() if name.startswith("rough"))
     problems = [*rough[:1], *({"sphere"} & set(table["problem"]))] or [table["problem"].iloc[0]]
-    looks = style.series_looks([*METHODS, "other"])
+    looks = style.series_looks(METHODS)
     figure = style.new_figure(95)
     panels = figure.subplots(1, len(problems), squeeze=False)[0]
     labels = []
@@ -67,32 +66,28 @@ def _finest_grid(table, problem):
 
 def _draw_methods(axes, costs, looks):
     """Draw the lines of the methods; returns their labels, placed at the most accurate points."""
-    others = costs[costs["group"] == "other solver"]
-    drawn = [(looks[name], label, costs[costs["method"] == name]) for name, label in METHODS.items()]
-    if len(others):
-        name = fastest(others, max(HEADLINE, others["error"].min()))["other solver"]["method"]
-        drawn.append((looks["other"], f"{name}\n(other solver)", others[others["method"] == name]))
     labels = []
-    for look, label, rows in drawn:
+    for name, label in METHODS.items():
+        rows = costs[costs["method"] == name]
         if len(rows):
-            axes.plot(rows["wall_s"], rows["error"], **look, markersize=3.5)
+            axes.plot(rows["wall_s"], rows["error"], **looks[name], markersize=3.5)
             end = rows.loc[rows["error"].idxmin()]
-            labels.append((label, end["wall_s"], end["error"], look["color"]))
+            labels.append((label, end["wall_s"], end["error"], looks[name]["color"]))
     return labels
 
 
 def _draw_headline(axes, costs):
-    """Draw rings around the fastest solution of each group within the error `HEADLINE`, and a box with their times."""
+    """Draw rings around the fastest path and time steps within the error `HEADLINE`, and a box with their times."""
     best = fastest(costs, HEADLINE)
     if "path" not in best:
         return
-    compared = {group: name for group, name in COMPARED.items() if group in best}
     axes.axhline(HEADLINE, color=style.PALE, linewidth=0.6, zorder=0)
-    for group in ("path", *compared):
-        axes.plot(best[group]["wall_s"], best[group]["error"], **RING)
     wall = best["path"]["wall_s"]
     lines = [f"elastic path {style.number_text(1e3 * wall, 2)} ms"]
-    lines += [f"{name} ×{style.number_text(best[group]['wall_s'] / wall, 2)}" for group, name in compared.items()]
+    axes.plot(wall, best["path"]["error"], **RING)
+    if "marching" in best:
+        axes.plot(best["marching"]["wall_s"], best["marching"]["error"], **RING)
+        lines.append(f"time steps ×{style.number_text(best['marching']['wall_s'] / wall, 2)}")
     handles = [style.handle(line, linestyle="") for line in lines]
     look = {"handlelength": 0, "handletextpad": 0, "alignment": "left", "frameon": True}
     axes.legend(handles=handles, title=f"to an error of {100 * HEADLINE:g} %:", **look)

@@ -10,17 +10,16 @@ from viscorough_study.run.rule_costs import duration_text
 from viscorough_study.run.tables import read_recorded
 
 
-def contents_of(project, discs, lines, *, other_solvers, tables, claims, numbers):
+def contents_of(project, discs, lines, *, tables, claims, numbers):
     """{name: content} of a run, for the templates of page and article.
 
     project : folder of the project, which has published numbers and the verdicts of the full scale
-    discs, lines : paths of the pools; other_solvers : [] or [path of their table]
+    discs, lines : paths of the pools
     tables : paths of CSV files, whose stems name them
     claims, numbers : contents of resources/paper/claims.yaml and numbers.yaml
     """
     tables = {Path(path).stem: path for path in tables}
     results, published = read_results(tables), read_table(project / "docs/claims.csv")
-    (others,) = other_solvers or [project / "resources/published/other_solvers.csv"]
     conventions = results.settings["claims"]["conventions"]
     scale, verdicts = content.scale(discs, lines, numbers), content.verdicts(results, claims, published)
     fastest = answers.fastest_methods(results)
@@ -43,7 +42,7 @@ def contents_of(project, discs, lines, *, other_solvers, tables, claims, numbers
         "best_model": answers.best_model(results),
         "failures": answers.failures(results),
         "outcomes": OUTCOMES,
-        "other": content.other_solvers(others),
+        "other": content.other_solvers(project / "resources/published/other_solvers.csv"),
         "scenes": content.scenes(results),
         "media": content.media(results),
         "literature": discussion(results),

@@ -66,22 +66,19 @@ def case(results, row):
 
 
 def other_solvers(path):
-    """Time of other solvers over that of the elastic path: solvers, versions, rows, and the origin of published ratios.
+    """Time of other solvers over that of the elastic path: solvers, versions, rows, date and machine of measurement.
 
-    path : table of the workflow, or of published numbers, which states date and machine of the measurement
+    path : table of published ratios
     """
     table = pd.read_csv(path)
-    table = table[(table["solver"] != "viscorough") & (table["threads"] == 1)].dropna(subset="ratio")
     solvers = list(dict.fromkeys(table["solver"]))
     names = ["task", "hurst", "elements", "levels"]
     rows = [
         {**dict(zip(names, values, strict=True)), "ratios": dict(zip(group["solver"], group["ratio"], strict=True))}
-        for values, group in table.groupby(names, sort=False, dropna=False)
+        for values, group in table.groupby(names, sort=False)
     ]
-    published = "measured" in table
     versions = dict(zip(table["solver"], table["version"], strict=True))
-    origin = {"measured": table["measured"].iloc[0], "machine": table["machine"].iloc[0]} if published else None
-    return {"solvers": solvers, "versions": versions, "rows": rows, "published": origin}
+    return {"solvers": solvers, "versions": versions, "rows": rows, **table[["measured", "machine"]].iloc[0]}
 
 
 def scenes(results):
@@ -209,7 +206,6 @@ def settings_list(results, scale):
         ("figures, mean over realizations", conventions["average"]),
         ("figures, rms height h of the", conventions["rms_convention"]),
         ("figures, window of the fit", conventions["window_rule"]),
-        ("speed, groups of methods", listed(methods["groups"])),
         ("speed, repeats of every time", methods["repeats"]),
         ("failure map, elements across", failure["across"]),
         ("scenes, elements across", scenes["elements"]),

@@ -15,20 +15,6 @@ def fastest(table, error):
     return {group: rows.loc[rows["wall_s"].idxmin()] for group, rows in reached.groupby("group", sort=False)}
 
 
-def median_costs(table, method, value):
-    """Cost of a method over the elements of rough discs: a pandas.DataFrame with number, wall_s, operator_applications.
-
-    table : of viscorough_study.performance.measurement; value : of the method's parameter
-    number is that of the elements of the disc. Medians are over the discs of one size, on grids down to one eighth of
-    the finest in elements across. Discs that the method did not solve in time, which have an error of 1, are omitted.
-    """
-    rows = table[table["hurst"].notna() & (table["error"] < 1) & (table["method"] == method)]
-    rows = rows[np.isclose(rows["value"], value, rtol=1e-9, atol=0)]
-    medians = rows.groupby("elements", as_index=False)[["wall_s", "operator_applications"]].median()
-    medians = medians[medians["elements"] >= medians["elements"].max() / 8]
-    return medians.assign(number=np.pi / 4 * medians["elements"] ** 2)
-
-
 def fit_cost(number, cost):
     """(a, c) of cost = c·number^a, by least squares of the logarithms; nan for fewer than two sizes."""
     if len(number) < 2:

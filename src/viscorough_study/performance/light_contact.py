@@ -25,10 +25,8 @@ from viscorough_study.run.seeds import light_map_key, realization_seed
 SLOWER, SHORTEST = 20, 2.0  # [s]
 # Corrections of the force towards a contact fraction, and the tolerance of the contacts that tell it.
 CORRECTIONS, TOLERANCE = 3, 1e-2
-NOT_REPORTED = -1
 COLUMNS = {
     "fraction": ("contact fraction that the load was chosen for", "1"),
-    "map": ("number of the map", "1"),
     **{name: text for name, text in solver_comparison.COLUMNS.items() if name not in ("task", "levels", "force_error")},
     "ranking_s": ("time of reading the map and ranking the elements that can touch, median", "s"),
 }
@@ -54,40 +52,37 @@ class LightLoad(solver_comparison.Task):
         return ranking.first(self.depths[0] / ranking.units.length)
 
     def outcome(self, solution):
-        """Residual, by the measure of all solvers, force and total_iterations."""
-        side, pressure = self.indenter.spacing, np.nan_to_num(solution.pressure)
-        residual = contact_residual(self.indenter.initial_gap / side, pressure, solution.depth / side)
-        return SimpleNamespace(
-            residual=np.array([residual]), force=np.array([solution.force]), total_iterations=NOT_REPORTED
-        )
+        """Residual, by the measure of all solvers, and force; the number of iterations is not reported."""
+        gap = self.indenter.initial_gap / self.indenter.spacing
+        residual = contact_residual(gap, np.nan_to_num(solution.pressure))
+        return SimpleNamespace(residual=np.array([residual]), force=np.array([solution.force]), iterations=-1)
 
 
 def time_light_contact(*, seed, hurst, residual, elements, fractions, threads, race, pairs, peers):
     """Table of the columns `COLUMNS` of one load for every map and contact fraction.
 
     elements, fractions : of the growth of the cost, one map for each number of elements across
-    race : {elements, fractions, maps} of the comparison with other solvers
+    race : {elements, fractions} of the comparison with other solvers
     threads : numbers of threads; residual : to be reached; peers : as of solver_comparison.time_other_solvers
     """
     solvers, stopped, tables = solver_comparison.installed_solvers(peers), set(), []
     threadpool_limits(1)  # of linear algebra; Snakemake gives the job all cores, so that no other job runs
     for across in sorted({*elements, *race["elements"]}):
         is_raced = across in race["elements"]
-        for number in range(race["maps"] if is_raced else 1):
-            key = light_map_key(hurst, across, number)
-            indenter = Indenter(self_affine_square(hurst, across, seed=realization_seed(seed, *key)), 1.0)
-            for fraction in sorted({*(fractions if across in elements else ()), *(race["fractions"] * is_raced)}):
-                logging.info("%d x %d elements, map %d, contact of %g", across, across, number, fraction)
-                load = light_load(hurst, indenter, fraction, residual, threads)
-                _, seconds, _ = timing.timed(partial(load.solve, 1))
-                of_race = {"pairs": pairs, "time_limit": max(SHORTEST, SLOWER * seconds)}
-                is_race = is_raced and fraction in race["fractions"]
-                taking_part = [solver for solver in solvers if is_race and (solver, fraction) not in stopped]
-                table = solver_comparison.compare_solvers(load, taking_part, **of_race)
-                # One that did not finish is not waited for again on another map, which is as large or larger.
-                stopped |= {(solver, fraction) for solver in taking_part if solver.name not in set(table["solver"])}
-                ranking = [timing.timed(load.rank)[1] for _ in range(pairs)]
-                tables.append(table.assign(fraction=fraction, map=number, ranking_s=np.median(ranking)))
+        seed_of_map = realization_seed(seed, *light_map_key(hurst, across, 0))
+        indenter = Indenter(self_affine_square(hurst, across, seed=seed_of_map), 1.0)
+        for fraction in sorted({*(fractions if across in elements else ()), *(race["fractions"] if is_raced else ())}):
+            logging.info("%d x %d elements, contact of %g", across, across, fraction)
+            load = light_load(hurst, indenter, fraction, residual, threads)
+            _, seconds, _ = timing.timed(partial(load.solve, 1))
+            is_race = is_raced and fraction in race["fractions"]
+            racing = {name: command for name, command in solvers.items() if is_race and (name, fraction) not in stopped}
+            limits = {"pairs": pairs, "time_limit": max(SHORTEST, SLOWER * seconds)}
+            table = solver_comparison.compare_solvers(load, racing, **limits)
+            # One that did not finish is not waited for again on a larger map.
+            stopped |= {(name, fraction) for name in racing if name not in set(table["solver"])}
+            ranking = [timing.timed(load.rank)[1] for _ in range(pairs)]
+            tables.append(table.assign(fraction=fraction, ranking_s=np.median(ranking)))
     return pd.concat(tables)[list(COLUMNS)]
 
 
@@ -97,12 +92,10 @@ def light_load(hurst, indenter, fraction, residual, threads):
     The first guess is that of light contact between rough surfaces, F = ½ E* h′ A with E* = 4G, contact area A and rms
     slope h′ (Persson 2001, Hyun et al. 2004).
     """
-    heights = indenter.heights
-    slope = np.sqrt(np.mean(np.diff(heights, axis=0) ** 2) + np.mean(np.diff(heights, axis=1) ** 2)) / indenter.spacing
-    force = 2 * slope * fraction * heights.size * indenter.spacing**2
+    force = 2 * indenter.rms_slope * fraction * indenter.elements * indenter.spacing**2
     for _ in range(CORRECTIONS):
         contact = contact_at(indenter, force=force, tolerance=TOLERANCE)
         force *= fraction / contact.contact_fraction
     depth = contact_at(indenter, force=force, tolerance=TOLERANCE).depth
-    name = f"{100 * fraction:g} % at {len(heights)}"
+    name = f"{100 * fraction:g} % at {len(indenter.heights)}"
     return LightLoad(name, hurst, indenter, np.array([depth]), residual, tuple(threads), force=force)

@@ -1,11 +1,9 @@
 """Cost and error of every method on one problem.
 
-The error of a method is the root mean square of the relative deviation of its velocities from the reference solution;
-where a method gives no velocity, the deviation counts as 1.
+The error of a method is the root mean square of the relative deviation of its velocities from the reference solution.
 """
 
 import logging
-import math
 from functools import partial
 
 import numpy as np
@@ -14,7 +12,6 @@ import pandas as pd
 from viscorough_study.performance import timing
 from viscorough_study.performance.methods import METHODS
 
-LARGEST_COMPARED = 513  # elements across the indenter above which only the growth of the cost is measured
 MAX_REPEATED = 10.0  # longest run that is repeated [s]
 TIMES = ("wall_s", "processor_s")
 COLUMNS = {
@@ -29,12 +26,17 @@ COLUMNS = {
     "processor_s": ("processor time, median of interleaved repeats", "s"),
     "error": ("relative error of the velocity, root mean square over all depths", "1"),
     "operator_applications": ("applications of the half-space operator on the grid", "1"),
-    "steps": ("levels, events, time steps, points of a line, or iterations of another solver", "1"),
+    "steps": ("levels, events, time steps or points of a line", "1"),
     "memory": ("peak memory of its arrays", "byte"),
 }
 
 
-def measure(problem, repeats, methods=METHODS, *, longest=math.inf):
+def methods_table(tables, **settings):
+    """One table of the tables of all indenters; settings : of the measurements, to be recorded."""
+    return pd.concat(tables, ignore_index=True)
+
+
+def measure(problem, repeats, *, longest, methods=METHODS):
     """Cost and error of every method that can solve a problem, at every value of its parameter.
 
     repeats : number of interleaved repeats after the first run, which gives errors and memory, and the time of runs
@@ -47,18 +49,17 @@ def measure(problem, repeats, methods=METHODS, *, longest=math.inf):
     for method in methods:
         if problem.elements_across > method.largest or (method.rough_only and problem.hurst is None):
             continue
-        for value in method.values if problem.elements_across <= LARGEST_COMPARED else method.growth:
+        for value in method.values:
             logging.info("%s: %s, %s %g", problem.name, method.name, method.parameter, value)
             function = partial(method.run, problem, value)
             (answer, memory), *seconds = timing.timed(partial(timing.with_memory, function))
-            seconds = answer.seconds or seconds
             key = method.name, value
-            rows[key] = errors_and_costs(problem, method, value, answer, memory)
+            rows[key] = _errors_and_costs(problem, method, value, answer, memory)
             rows[key] |= dict(zip(TIMES, seconds, strict=True))
             spent = min(seconds)  # on a busy machine only the wall time grows
             if spent < min(longest, MAX_REPEATED):
                 functions[key] = function
-            if spent >= longest:  # including runs that were stopped
+            if spent >= longest:
                 break
     logging.info("%s: %d repeats", problem.name, repeats)
     for key, seconds in timing.interleaved(functions, repeats).items():
@@ -66,11 +67,11 @@ def measure(problem, repeats, methods=METHODS, *, longest=math.inf):
     return pd.DataFrame(rows.values(), columns=list(COLUMNS))
 
 
-def errors_and_costs(problem, method, value, answer, memory):
+def _errors_and_costs(problem, method, value, answer, memory):
     """Entries of `COLUMNS` for one Answer of a method, without the times."""
-    deviation = np.nan_to_num(np.abs(answer.velocity / problem.velocity - 1), nan=1.0)
+    deviation = answer.velocity / problem.velocity - 1
     return {
-        "problem": problem.name.rsplit(",", 1)[0],
+        "problem": problem.name,
         "hurst": np.nan if problem.hurst is None else problem.hurst,
         "elements": problem.elements_across,
         "method": method.name,

@@ -14,14 +14,15 @@ The request holds
 The answer holds
     version : of the solver
     pressures : p/G, shape (levels, rows, columns)
-    depth : mean of deflection + initial gap over the contact, by the solver's own operator, shape (levels,)
-    iterations : -1 if not reported, shape (levels,)
-    wall, cpu : seconds without set-up, nan beyond the time limit
+    iterations : of all levels, -1 if not reported
+    wall, cpu : seconds without set-up
     memory_mb : peak memory of the process in MB
 
 Convergence is judged here, by the residual of the pressures, in the same way for every solver.
 """
 
+import os
+import signal
 import subprocess
 import tempfile
 import warnings
@@ -33,50 +34,34 @@ from scipy.fft import next_fast_len
 
 from viscorough.contact.halfspace.operator import Halfspace
 
-
-@dataclass(frozen=True)
-class OtherSolver:
-    """A solver: its name, the Python of its environment, and its adapter."""
-
-    name: str
-    python: Path
-    adapter: Path
-
-    @property
-    def installed(self):
-        """Whether its environment exists."""
-        return self.python.is_file()
+# Variables of the number of threads, which libraries read on loading.
+THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
 @dataclass(frozen=True)
 class Solution:
-    """Levels solved by another solver; arrays of shape (levels,), lengths in the user's unit.
+    """Levels solved by another solver; arrays of shape (levels,), forces in the user's unit of length.
 
-    depth, force : u and F/G of its pressures
+    force : F/G of its pressures
     residual : largest |gap| in contact or overlap outside it, over the depth, computed from its pressures
-    iterations : -1 if not reported
+    iterations : of all levels, -1 if not reported
     wall_s, processor_s : for all levels, without set-up; memory : peak memory of its process [bytes]
     version : of the solver
     """
 
     version: str
-    depth: np.ndarray
     force: np.ndarray
     residual: np.ndarray
-    iterations: np.ndarray
+    iterations: int
     wall_s: float
     processor_s: float
     memory: float
 
-    @property
-    def total_iterations(self):
-        """Iterations of all levels, -1 if not reported."""
-        return int(self.iterations.sum()) if (self.iterations >= 0).all() else -1
 
-
-def solve(solver, indenter, depths, forces, tolerance, *, threads=1, time_limit=60.0):
+def solve(name, command, indenter, depths, forces, tolerance, *, time_limit, threads=1):
     """Solution by another solver at the given levels, each started from the level before.
 
+    name, command : of the solver, and that runs its adapter
     depths, forces : u and F/G of the levels, in the indenter's unit of length; a solver uses one or the other
     tolerance : the solver's own; time_limit : seconds after which the run is abandoned
 
@@ -93,63 +78,46 @@ def solve(solver, indenter, depths, forces, tolerance, *, threads=1, time_limit=
         "threads": threads,
         "maximum_seconds": time_limit,
     }
-    answer = _run_adapter(solver, request, time_limit + 60)
-    return _solution(answer, gap, indenter.spacing) if answer and np.isfinite(answer["wall"]) else None
-
-
-def _run_adapter(solver, request, seconds):
-    """The answer of the solver's adapter to a request, as a dictionary; None, with a warning, if there is none."""
     with tempfile.TemporaryDirectory() as folder:
         paths = Path(folder) / "request.npz", Path(folder) / "answer.npz"
         np.savez(paths[0], **request)
-        command = [solver.python, solver.adapter, *paths]
-        try:
-            done = subprocess.run(command, capture_output=True, text=True, timeout=seconds)
-        except subprocess.TimeoutExpired:
-            warnings.warn(f"{solver.name}: no answer within {seconds:g} s", stacklevel=3)
+        variables = os.environ | dict.fromkeys(THREADS, str(threads))
+        done = subprocess.run([*command, *paths], env=variables, capture_output=True, text=True)
+        if done.returncode == -signal.SIGALRM:  # the time was over
             return None
-        if done.returncode or not paths[1].is_file():
-            reason = (done.stderr.strip() or "no answer").splitlines()[-1]
-            warnings.warn(f"{solver.name}: {reason}", stacklevel=3)
+        if not paths[1].is_file():
+            warnings.warn(f"{name}: {(done.stderr.strip() or 'no answer').splitlines()[-1]}", stacklevel=2)
             return None
         with np.load(paths[1]) as answer:
-            return {name: answer[name] for name in answer.files}
+            pressures = answer["pressures"]
+            return Solution(
+                version=str(answer["version"]),
+                force=pressures.sum(axis=(1, 2)) * indenter.spacing**2,
+                residual=np.array([contact_residual(gap, pressure) for pressure in pressures]),
+                iterations=int(answer["iterations"]),
+                wall_s=float(answer["wall"]),
+                processor_s=float(answer["cpu"]),
+                memory=float(answer["memory_mb"]) * 1e6,
+            )
 
 
-def _solution(answer, gap, spacing):
-    """Solution in the unit of the spacing."""
-    # The answer holds the depth, which solvers at given force determine and solvers at given depth keep.
-    pressures, depths = answer["pressures"], answer["depth"]
-    residual = [contact_residual(gap, pressure, depth) for pressure, depth in zip(pressures, depths, strict=True)]
-    return Solution(
-        version=str(answer["version"]),
-        depth=depths * spacing,
-        force=pressures.sum(axis=(1, 2)) * spacing**2,
-        residual=np.array(residual),
-        iterations=answer["iterations"],
-        wall_s=float(answer["wall"]),
-        processor_s=float(answer["cpu"]),
-        memory=float(answer["memory_mb"]) * 1e6,
-    )
-
-
-def contact_residual(gap, pressure, depth):
+def contact_residual(gap, pressure):
     """Largest |gap of the deformed surfaces| under pressure, or overlap elsewhere, over the depth.
 
     gap : initial gap to the highest point, nan outside the indenter; pressure : p/G; lengths in element sides
 
-    Returns infinity for pressure outside the indenter, and if there is no pressure.
+    The depth is the mean of deflection and initial gap under pressure. Returns infinity for pressure outside the
+    indenter, and if there is no pressure.
     """
     rows, columns = gap.shape
     halfspace = Halfspace(rows, columns)
     halfspace.load[:, :columns] = pressure / (4 * np.pi)
-    deformed_gap = halfspace.apply()[:, :columns] - depth + gap
-    inside = np.isfinite(gap)
-    contact = inside & (pressure > 0)
-    pressed_outside = np.abs(pressure[~inside]).max(initial=0.0) > 0
-    if pressed_outside or not contact.any():
+    position = halfspace.apply()[:, :columns] + gap
+    inside, contact = np.isfinite(gap), pressure > 0
+    if not contact.any() or pressure[~inside].any():
         return np.inf
-    return max(np.abs(deformed_gap[contact]).max(), -deformed_gap[inside].min(), 0.0) / depth
+    depth = position[contact].mean()
+    return max(np.abs(position[contact] - depth).max(), depth - position[inside].min()) / depth
 
 
 def padded_size(elements):

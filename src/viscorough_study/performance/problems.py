@@ -52,8 +52,8 @@ def rough_problem(hurst, elements, levels, root):
     first = coarse.depth[np.argmax(coarse.contact_count > 1)]
     depth = np.geomspace(1.5 * first, coarse.depth[-1], levels)
     exact = indent(disc, tolerance=REFERENCE_TOLERANCE, depths=depth)
-    name = f"rough disc, H = {hurst:g}, {elements}"
-    return Problem(name, disc, depth, exact.force, exact.force / exact.stiffness, hurst=hurst, seed=seed)
+    velocity = exact.force / exact.stiffness
+    return Problem(f"rough disc, H = {hurst:g}", disc, depth, exact.force, velocity, hurst=hurst, seed=seed)
 
 
 def named_problem(name, elements, levels, *, root=None, hurst=None):
@@ -66,4 +66,4 @@ def named_problem(name, elements, levels, *, root=None, hurst=None):
     body = BODIES[name]
     depth = body.mdr_profile(np.geomspace(0.1, 0.45, levels))
     force, indenter = body.force(depth), body.indenter(elements)
-    return Problem(f"{name}, {elements}", indenter, depth, force, force / body.stiffness(depth), body=body)
+    return Problem(name, indenter, depth, force, force / body.stiffness(depth), body=body)

@@ -5,7 +5,7 @@ neither. Other solvers start every level from the previous one, if they can.
 """
 
 import logging
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
@@ -22,11 +22,9 @@ from viscorough_study.performance import other_solvers, timing
 from viscorough_study.run.seeds import realization_seed, solver_race_key
 
 # Tolerances of other solvers, over the residual required, from loose to tight: each solver defines its own measure of
-# the tolerance. The search for the loosest one that meets the residual begins at FIRST_RATIO.
+# the tolerance.
 TOLERANCE_RATIOS = (30, 10, 3, 1, 1 / 3, 1 / 10, 1 / 30, 1 / 100)
-FIRST_RATIO = 3
-# Ratio to the time of the fastest other solver that neither a looser tolerance nor noise of the machine can make up.
-HOPELESS = 4
+HOPELESS = 4  # ratio to the time of the fastest other solver that noise of the machine cannot make up
 MAX_REPEATED = 20.0  # longest run that is repeated [s]
 REFERENCE_TOLERANCE = 1e-10  # of the reference forces
 COLUMNS = {
@@ -74,18 +72,17 @@ class Task:
         return indent(self.indenter, tolerance=self.residual, depths=self.depths, threads=threads)
 
     def outcome(self, solution):
-        """Residual, force and total_iterations of that solution, by level; not timed."""
+        """Residual and force of that solution by level, and iterations; not timed."""
         applications = solution.operator_applications
-        return SimpleNamespace(residual=solution.residual, force=solution.force, total_iterations=applications)
+        return SimpleNamespace(residual=solution.residual, force=solution.force, iterations=applications)
 
 
 def time_other_solvers(*, seed, hursts, pairs, longest, tasks, peers):
     """`compare_solvers` on every task for every Hurst exponent, with the installed solvers.
 
-    tasks : setting of that name; peers : {solver: [Python of its environment, its adapter]}
+    tasks : setting of that name; peers : {solver: command that runs its adapter}
     longest : seconds after which a run of another solver is abandoned
     """
-    common = {"pairs": pairs, "time_limit": longest}
     tables, installed = [], installed_solvers(peers)
     threadpool_limits(1)  # of linear algebra; Snakemake gives the job all cores, so that no other job runs
     for number, task in enumerate(tasks):
@@ -93,17 +90,16 @@ def time_other_solvers(*, seed, hursts, pairs, longest, tasks, peers):
         for hurst in hursts:
             disc = {"seed": realization_seed(seed, *solver_race_key(number, hurst)), "threads": task["threads"]}
             levels = disc_task(task["name"], hurst, task["elements"], fractions, task["residual"], **disc)
-            tables.append(compare_solvers(levels, installed, **common))
+            tables.append(compare_solvers(levels, installed, pairs=pairs, time_limit=longest))
     return pd.concat(tables)
 
 
 def installed_solvers(peers):
-    """The OtherSolvers that are installed; a warning names those that are not."""
-    solvers = [other_solvers.OtherSolver(name, *map(Path, paths)) for name, paths in peers.items()]
-    for solver in solvers:
-        if not solver.installed:
-            logging.warning("%s is not installed and is omitted (make peers installs it)", solver.name)
-    return [solver for solver in solvers if solver.installed]
+    """The solvers whose environments exist; a warning names the others."""
+    missing = [name for name, command in peers.items() if not Path(command[0]).is_file()]
+    for name in missing:
+        logging.warning("%s is not installed and is omitted (make peers installs it)", name)
+    return {name: command for name, command in peers.items() if name not in missing}
 
 
 def disc_task(name, hurst, elements, fractions, residual, *, seed, threads=(1,)):
@@ -117,8 +113,9 @@ def disc_task(name, hurst, elements, fractions, residual, *, seed, threads=(1,))
 def compare_solvers(task, solvers, *, pairs, time_limit):
     """Time and residual of the path and of other solvers on one task, each with its loosest sufficient tolerance.
 
+    solvers : {name: command}
     pairs : number of pairs of runs, of the path and of another solver on as many threads, in alternating order; a
-        solver that takes longer than MAX_REPEATED, or HOPELESS times as long as the fastest, runs in one pair only
+        solver that takes longer than MAX_REPEATED, or HOPELESS times as long as the fastest before it, gets one pair
     time_limit : seconds after which a run of another solver is abandoned
 
     Solutions that miss the residual are not timed. Returns a pandas.DataFrame with the columns of `COLUMNS`: the path
@@ -126,69 +123,51 @@ def compare_solvers(task, solvers, *, pairs, time_limit):
     """
     exact = task.exact_forces()
     paths = {threads: partial(task.solve, threads) for threads in task.threads}
-    rows = [_row_of_path(task, path, threads, exact) for threads, path in paths.items()]
-    races, fastest = [], np.inf
-    for solver in solvers:
-        logging.info("%s, H = %g: %s, search for its tolerance", task.name, task.hurst, solver.name)
-        ask = partial(other_solvers.solve, solver, task.indenter, task.depths, exact, time_limit=time_limit)
-        tolerance, solution = _loosest_tolerance(ask, task.residual, fastest)
+    own_rows = [_row_of_path(task, path, threads, exact) for threads, path in paths.items()]
+    own_times, rows, fastest = {threads: [] for threads in paths}, [], np.inf
+    for name, command in solvers.items():
+        logging.info("%s, H = %g: %s", task.name, task.hurst, name)
+        ask = partial(other_solvers.solve, name, command, task.indenter, task.depths, exact, time_limit=time_limit)
+        tolerance, solution = _loosest_tolerance(ask, task.residual)
         if solution is None:
             continue
         met = solution.residual.max() <= task.residual
         fastest = min(fastest, solution.wall_s) if met else fastest
+        number = pairs if solution.wall_s < min(MAX_REPEATED, HOPELESS * fastest) else 1
         for threads, path in paths.items():
-            named = {"solver": solver.name, "version": solution.version, "threads": threads, "tolerance": tolerance}
+            named = {"solver": name, "version": solution.version, "threads": threads, "tolerance": tolerance}
             rows.append(_row(task, exact, solution, solution.memory) | named)
             if met:
-                own_times = (solution.wall_s, solution.processor_s) if threads == 1 else None
-                races.append(_Race(path, partial(ask, tolerance, threads=threads), own_times, rows[-1]))
-    longest = min(MAX_REPEATED, HOPELESS * fastest)
-    for number in range(pairs):
-        logging.info("%s, H = %g: pair %d of %d", task.name, task.hurst, number + 1, pairs)
-        for race in races:
-            race.run_pair(path_first=number % 2 == 0, longest=longest)
-    for race in races:
-        race.record()
-    for row, path in zip(rows, paths.values(), strict=False):
-        seconds = [own for race in races if race.path is path for own, _ in race.seconds]
+                own, other = _race(path, partial(ask, tolerance, threads=threads), number)
+                rows[-1] |= _times(other) | _ratios(other[:, 0] / own[:, 0])
+                own_times[threads] += own.tolist()
+    for row, seconds in zip(own_rows, own_times.values(), strict=True):
         while not seconds or (len(seconds) < pairs and sum(wall for wall, _ in seconds) < MAX_REPEATED):
-            seconds.append(timing.timed(path)[1:])
-        row["wall_s"], row["processor_s"] = np.median(seconds, axis=0)
-        row |= dict.fromkeys(("ratio", "ratio_low", "ratio_high"), 1.0)
-    return pd.DataFrame(rows, columns=list(COLUMNS))
+            seconds.append(timing.timed(paths[row["threads"]])[1:])
+        row |= _times(seconds) | dict.fromkeys(("ratio", "ratio_low", "ratio_high"), 1.0)
+    return pd.DataFrame(own_rows + rows, columns=list(COLUMNS))
 
 
-@dataclass
-class _Race:
-    """Pairs of runs of the path and of another solver, and the row that records them.
+def _race(path, other, pairs):
+    """(wall, processor) seconds of the path and of another solver, each of shape (pairs, 2), in alternating order."""
 
-    known : (wall, processor) seconds of an earlier run of the other solver with this tolerance, or None
-    """
+    seconds = []
+    for number in range(pairs):
+        before = timing.timed(path)[1:] if number % 2 == 0 else None
+        solution = other()
+        times = (solution.wall_s, solution.processor_s) if solution else (np.nan, np.nan)
+        seconds.append((before or timing.timed(path)[1:], times))
+    return np.moveaxis(np.array(seconds), 1, 0)
 
-    path: partial
-    other: partial
-    known: tuple | None
-    row: dict
-    seconds: list = field(default_factory=list)
 
-    def run_pair(self, *, path_first, longest):
-        """Run one more pair; a solver that takes longer than `longest` seconds gets a single pair."""
-        if self.seconds and not self.known[0] < longest:
-            return
-        own = timing.timed(self.path)[1:] if path_first else None
-        if self.known is None or self.known[0] < longest:
-            solution = self.other()
-            self.known = (solution.wall_s, solution.processor_s) if solution else (np.nan, np.nan)
-        self.seconds.append((own or timing.timed(self.path)[1:], self.known))
+def _times(seconds):
+    return dict(zip(("wall_s", "processor_s"), np.median(seconds, axis=0), strict=True))
 
-    def record(self):
-        """Record median times and ratios; least and largest of n ratios enclose the median with 1 − 2^(1−n)."""
-        own, other = np.moveaxis(np.array(self.seconds), 1, 0)
-        ratios = other[:, 0] / own[:, 0]
-        self.row["wall_s"], self.row["processor_s"] = np.median(other, axis=0)
-        self.row["ratio"] = np.median(ratios)
-        if ratios.size > 1:
-            self.row["ratio_low"], self.row["ratio_high"] = ratios.min(), ratios.max()
+
+def _ratios(ratios):
+    """Median of the ratios of n pairs; the least and the largest enclose the median with 1 − 2^(1−n)."""
+    ends = {"ratio_low": ratios.min(), "ratio_high": ratios.max()} if ratios.size > 1 else {}
+    return {"ratio": np.median(ratios)} | ends
 
 
 def _row_of_path(task, path, threads, exact):
@@ -208,35 +187,23 @@ def _row(task, exact, outcome, memory):
         "residual": residual,
         "met": int(residual <= task.residual),
         "force_error": np.abs(outcome.force / exact - 1).max(),
-        "iterations": outcome.total_iterations,
+        "iterations": outcome.iterations,
         "memory": memory,
     }
 
 
-def _loosest_tolerance(ask, required, fastest):
+def _loosest_tolerance(ask, required):
     """Loosest tolerance with which a solver meets the required residual, otherwise its best one, and the Solution.
 
-    ask : returns the solver's Solution for a tolerance, None where it has none
-    fastest : seconds of the fastest solver so far; one that takes HOPELESS times as long is not tried with looser ones
+    ask : returns the solver's Solution for a tolerance, None where it has none; tighter ones are then not tried
     Tolerance and Solution are None if no tolerance gave a solution.
     """
-    solutions = {}
-
-    def residual(i):
-        solutions[i] = ask(TOLERANCE_RATIOS[i] * required)
-        return np.inf if solutions[i] is None else solutions[i].residual.max()
-
-    i = TOLERANCE_RATIOS.index(FIRST_RATIO)
-    if residual(i) <= required:
-        while i > 0 and solutions[i].wall_s < HOPELESS * fastest and residual(i - 1) <= required:
-            i -= 1
-    else:
-        while i + 1 < len(TOLERANCE_RATIOS) and solutions[i] is not None:
-            i += 1
-            if residual(i) <= required:
-                break
-    residuals = {j: solution.residual.max() for j, solution in solutions.items() if solution is not None}
-    if not residuals:
-        return None, None
-    best = min((j for j, value in residuals.items() if value <= required), default=min(residuals, key=residuals.get))
-    return TOLERANCE_RATIOS[best] * required, solutions[best]
+    best, least = (None, None), np.inf
+    for ratio in TOLERANCE_RATIOS:
+        if (solution := ask(ratio * required)) is None:
+            break
+        if (residual := solution.residual.max()) < least:
+            best, least = (ratio * required, solution), residual
+        if residual <= required:
+            break
+    return best

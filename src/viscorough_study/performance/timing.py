@@ -11,15 +11,11 @@ import numpy as np
 
 
 def interleaved(functions, repeats):
-    """{name: (wall, processor) seconds} of functions that have run before, medians over interleaved repeats.
-
-    If a result has an attribute `seconds`, for example of another process, its own timing is used.
-    """
+    """{name: (wall, processor) seconds} of functions that have run before, medians over interleaved repeats."""
     times = {name: [] for name in functions}
     for _ in range(repeats):
         for name, function in functions.items():
-            result, *seconds = timed(function)
-            times[name].append(getattr(result, "seconds", None) or seconds)
+            times[name].append(timed(function)[1:])
     return {name: tuple(np.median(seconds, axis=0).tolist()) for name, seconds in times.items()}
 
 

@@ -24,10 +24,10 @@ COLUMNS = {
     "method": ("method", ""),
     "error": ("largest relative error of depth, or of force at given depth; 1 where there is no answer", "1"),
     "limit": ("largest error for which the method holds", "1"),
-    "verdict": ("holds, model, stated, warned, refused, not offered or unnoticed", ""),
+    "verdict": ("holds, model, stated, warned, refused or unnoticed", ""),
     "reason": ("messages to users", ""),
 }
-VERDICTS = ("holds", "model", "stated", "warned", "refused", "not offered", "unnoticed")
+VERDICTS = ("holds", "model", "stated", "warned", "refused", "unnoticed")
 
 
 def map_failures(*, seed, across, grids, hurst_min):
@@ -71,8 +71,6 @@ def _cell(case, solution, method):
     limit = method.limit(case)
     if refused:
         verdict = "refused"
-    elif case.periodic and "grid" in method.name:
-        verdict = "not offered"
     elif error <= limit:
         verdict = "model" if method.model else "holds"
     else:

@@ -1,4 +1,7 @@
-"""Random loading curves for detecting silent failures: at levels, between them, in kinetics, and in integrals."""
+"""Random small indenters for detecting silent failures: solutions reported as converged that are wrong.
+
+Levels are checked by themselves; loading curves at levels, between them, in kinetics, and in integrals.
+"""
 
 import warnings
 from dataclasses import dataclass
@@ -7,13 +10,15 @@ import numpy as np
 
 from viscorough.contact.loading_path import indent
 from viscorough.contact.options import DEFAULT, SolverOptions
+from viscorough.contact.solver import ContactSolver
 from viscorough.contact.step_control import FINEST_ACCURACY
-from viscorough.errors import AccuracyWarning
+from viscorough.errors import AccuracyWarning, ConvergenceError
 from viscorough.indenter import Indenter
 from viscorough.sum_rules import audit
 from viscorough.viscous.correspondence import kinetics
 from viscorough.viscous.integration.events import march_events
 from viscorough_study.robustness.random_heights import random_heights, with_random_aspect
+from viscorough_study.robustness.stress_solutions import GRID_ONLY
 
 _LARGEST = 32  # elements across
 # Fraction of the height differences below which the rounding of the heights dominates depths.
@@ -28,6 +33,18 @@ class RandomCurve:
 
     indenter: Indenter
     arguments: dict
+
+
+def random_levels(generator):
+    """A RandomCurve of a smaller indenter with three depths, from a numpy Generator."""
+    heights = random_heights(generator)
+    height, length = 10.0 ** generator.uniform(-12, 12, 2) if generator.random() < 0.3 else (1.0, 1.0)
+    indenter = Indenter(height * heights, length)
+    span = np.nanmax(indenter.initial_gap) or length
+    depths = np.sort(span * 10.0 ** generator.uniform(-3, 1.5, 3))
+    arguments = {"depths": depths, "tolerance": 10.0 ** -generator.uniform(1, 11)}
+    arguments["options"] = GRID_ONLY if generator.random() < 0.6 else DEFAULT
+    return RandomCurve(with_random_aspect(indenter, generator), arguments)
 
 
 def random_curve(generator, with_start=None, at_forces=False):
@@ -65,6 +82,38 @@ def audit_failure(case):
     """Error message on the integrals of the loading curve of a RandomCurve; "" if they are exact."""
     result = audit(case.indenter, **case.arguments)
     return "" if result.agrees else str(result)
+
+
+def levels_failure(case, solver_type=ContactSolver):
+    """Error message on the converged levels of a RandomCurve at given depths; "" if they are right.
+
+    The solution is checked, by the dense influence matrix, for tension, and for a gap in contact or an overlap outside
+    it of more than ten times the tolerance. The force is compared with that of the direct integration in time, which
+    shares only the influence coefficients with the path. The rounding of the heights at small depths is allowed for.
+    A ConvergenceError is not a silent failure; a level solved before it can be one.
+    """
+    tolerance, options = case.arguments["tolerance"], case.arguments["options"]
+    solver, events = solver_type(case.indenter, tolerance, options), march_events(case.indenter)
+    row, column = solver.elements.row, solver.elements.column
+    influence = solver.elements.influence[abs(row[:, None] - row), abs(column[:, None] - column)]
+    contact, wrong = solver.unloaded_state(), ""
+    for depth in case.arguments["depths"]:
+        try:
+            contact = solver.advance(contact, depth)
+        except ConvergenceError:
+            return wrong
+        reduced = contact.reduced_depth
+        allowed = 10 * tolerance + 1e-13 / min(reduced, 1.0)
+        gap = influence[:, contact.members] @ contact.reduced_pressure - reduced + solver.elements.initial_gap
+        exact = np.interp(depth, events.depth, events.impulse)
+        exact += max(depth - events.depth[-1], 0.0) * events.resistance[-1]
+        if contact.pressure.min() < 0:
+            wrong = f"tension {contact.pressure.min():.2g}"
+        elif max(-gap.min(), np.abs(gap[contact.members]).max()) > allowed * reduced:
+            wrong = f"overlap {-gap.min():.2g}, gap {gap[contact.members].max():.2g} at depth {reduced:.2g}"
+        elif abs(contact.force / exact - 1) > allowed:
+            wrong = f"force off by {contact.force / exact - 1:.2g}, tolerance {tolerance:.2g}, depth {reduced:.2g}"
+    return wrong
 
 
 def curve_failure(case, compute=indent):

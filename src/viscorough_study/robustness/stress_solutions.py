@@ -7,7 +7,7 @@ half-space. Elastic methods give the forces at the depths, the others the depths
 
 import warnings
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
 
@@ -15,6 +15,7 @@ import numpy as np
 
 from viscorough import reference
 from viscorough.contact.loading_path import indent
+from viscorough.contact.options import SolverOptions
 from viscorough.contact.solver import ContactSolver
 from viscorough.contact.step_control import FINEST_ACCURACY
 from viscorough.errors import AccuracyWarning
@@ -26,8 +27,10 @@ from viscorough.viscous.integration.internal_variable_events import march_medium
 from viscorough.viscous.integration.internal_variables import march_medium
 from viscorough.viscous.integration.stepping import march_steps
 from viscorough.viscous.media import Newtonian
-from viscorough_study.performance.ablations import DENSE_ONLY, GRID_ONLY, NO_PADDING
 
+DENSE_ONLY = SolverOptions(dense_contacts=10**9, dense_interactions=10**12)
+GRID_ONLY = SolverOptions(dense_contacts=0, dense_interactions=0)
+DOUBLE_ON_GRID = replace(GRID_ONLY, precision="double", exact_gap_below=0.0)
 DEPTHS = 6  # number of depths at which solutions are compared
 INTERPOLATED_FORCES = 20  # forces between two of these depths at which interpolated depths are compared
 REFERENCE_TOLERANCE = 1e-11
@@ -103,11 +106,6 @@ def _path(options, case, solution):
     """Forces of the elastic loading path."""
     curve = indent(case.indenter, tolerance=case.tolerance, depths=solution.depth, options=options)
     return curve.force / solution.force
-
-
-def _path_on_grid(precision, case, solution):
-    options = NO_PADDING if case.periodic else GRID_ONLY
-    return _path(options[precision], case, solution)
 
 
 def _interpolated(case, solution):
@@ -243,8 +241,8 @@ def _path_limit(case):
 
 METHODS = (
     StressedMethod("path, dense", partial(_path, DENSE_ONLY), _path_limit),
-    StressedMethod("path, grid, double", partial(_path_on_grid, "double"), _path_limit),
-    StressedMethod("path, grid, single", partial(_path_on_grid, "single"), _path_limit),
+    StressedMethod("path, grid, double", partial(_path, DOUBLE_ON_GRID), _path_limit),
+    StressedMethod("path, grid, single", partial(_path, GRID_ONLY), _path_limit),
     StressedMethod("path, interpolated", _interpolated, lambda case: max(case.tolerance, FINEST_ACCURACY)),
     StressedMethod("events", _events, lambda case: LIMIT_EVENTS),
     StressedMethod("explicit steps", _steps, lambda case: LIMIT_STEPS),

@@ -1,4 +1,4 @@
-"""The log of a job: one helper for every script, with warnings, tracebacks and progress in the same file."""
+"""The log of a job: one helper for every script, with warnings and tracebacks in the same file."""
 
 import logging
 import sys
@@ -31,30 +31,3 @@ def log_to(path):
             on_stderr.handle(record)
 
     sys.excepthook = report
-
-
-class _LogStream:
-    """Stream that turns the output of tqdm into lines of the log."""
-
-    def write(self, text):
-        if line := text.strip():
-            logging.info(line)
-
-    def flush(self):
-        pass
-
-
-def progress(iterable, total, description):
-    """The iterable; its progress and remaining time are logged every 5 s of the iteration."""
-    from tqdm import tqdm
-
-    return tqdm(
-        iterable,
-        total=total,
-        desc=description,
-        file=_LogStream(),
-        mininterval=5,
-        miniters=1,
-        delay=5,
-        bar_format="{desc}: {n_fmt} of {total_fmt}, {elapsed} passed, {remaining} to go, {rate_fmt}",
-    )

@@ -11,24 +11,8 @@ from itertools import chain
 
 import jsonschema
 
-_KINDS = {
-    "integer": "a whole number",
-    "number": "a number",
-    "string": "text",
-    "array": "a list",
-    "boolean": "true or false",
-    "object": "keys with values",
-    "null": "null",
-}
-_BOUNDS = {
-    "minimum": "from {}",
-    "exclusiveMinimum": "above {}",
-    "maximum": "up to {}",
-    "minItems": "of at least {}",
-    "maxItems": "of at most {}",
-    "minProperties": "of at least {}",
-    "decimals": "of at most {} decimals",
-}
+# Keywords of a schema that an error message quotes.
+_LIMITS = ("type", "enum", "minimum", "exclusiveMinimum", "maximum", "minItems", "maxItems", "decimals")
 
 
 class SettingsError(ValueError):
@@ -61,7 +45,7 @@ def _is_finite(_, value):
 
 def _each_once(_, key, entries, __):
     if isinstance(entries, list):
-        values = [entry.get(key) if isinstance(entry, dict) else entry for entry in entries]
+        values = [f"{key} {entry.get(key)}" if isinstance(entry, dict) else f"{entry}" for entry in entries]
         for value in (value for value in values if values.count(value) > 1):
             yield jsonschema.ValidationError(f"{value} occurs twice; allowed: once")
 
@@ -76,35 +60,22 @@ def _decimals(_, number, value, __):
 
 def _schema_complaint(error):
     """One line on an error of jsonschema."""
-    key = error.json_path[2:]  # without "$."
-    within = f" in {key}" if key else ""
+    key, rule = error.json_path[2:] or "settings", error.schema  # without "$."
     if error.validator == "additionalProperties":
-        known = sorted(error.schema["properties"])
+        known = sorted(rule["properties"])
         unknown = min(map(str, set(error.instance) - set(known)))
-        unknown = (unknown if unknown.isprintable() else repr(unknown))[:60]
         close = difflib.get_close_matches(unknown, known, 1)
         hint = f"did you mean {close[0]}?" if close else f"allowed: {', '.join(known)}"
-        return f"unknown key {unknown}{within}; {hint}"
-    if error.validator == "required":
-        missing = next(name for name in error.validator_value if name not in error.instance)
-        return f"{missing}{within} is missing; needed: {', '.join(error.validator_value)}"
-    if error.validator == "eachOnce":
-        return (f"{error.validator_value}{within}" if error.validator_value is not True else key) + f": {error.message}"
-    value = "empty" if error.instance is None else f"{error.instance!r}"[:60]
+        return f"unknown key {unknown!r:.60} in {key}; {hint}"
+    if error.validator in ("required", "eachOnce"):
+        return f"{key}: {error.message}"
+    value = "empty" if error.instance is None else repr(error.instance)
+    limits = ", ".join(f"{name} {rule[name]}" for name in _LIMITS if name in rule)
+    unit = f" {rule['unit']}" if rule.get("unit", "1") != "1" else ""
     hint = ""
-    if isinstance(error.instance, str) and "number" in str(error.schema.get("type")):
+    if isinstance(error.instance, str) and "number" in str(rule.get("type")):
         hint = "; this is text: write numbers as 1.0e-3, with a point"
-    return f"{key or 'settings'} is {value}; allowed: {_allowed(error.schema)}{hint}"
-
-
-def _allowed(rule):
-    """Values that a schema allows, as text."""
-    types = rule.get("type", [])
-    words = " or ".join(_KINDS[kind] for kind in ([types] if isinstance(types, str) else types))
-    words += f"one of {', '.join(rule['enum'])}" if "enum" in rule else ""
-    words += "".join(f" {text.format(rule[name])}" for name, text in _BOUNDS.items() if name in rule)
-    words += f" {rule['unit']}" if rule.get("unit", "1") != "1" and "enum" not in rule else ""
-    return f"{words} ({rule['description']})"
+    return f"{key} is {value:.60}; allowed: {limits}{unit} ({rule['description']}){hint}"
 
 
 # ---- against each other: one line on settings that are valid separately but not together

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import yaml
 
-from viscorough.io.atomic import check_readable
+from viscorough.io.atomic import reading
 from viscorough.io.unique_keys import UniqueKeys
 from viscorough_study.run.settings import SettingsError
 
@@ -19,28 +19,13 @@ from viscorough_study.run.settings import SettingsError
 def read_settings_file(path):
     """The mapping in a file. Raises SettingsError with one line that names the file and, where possible, the line."""
     try:
-        check_readable(path)
+        with reading(path, "a mapping of YAML in UTF-8 is needed", OSError, ValueError, yaml.YAMLError):
+            settings = yaml.load(Path(path).read_bytes().decode("utf-8-sig"), UniqueKeys)
+            if not isinstance(settings, dict):
+                raise ValueError("it holds no settings")
     except ValueError as error:
         raise SettingsError(str(error)) from None
-    try:
-        text = Path(path).read_bytes().decode("utf-8-sig")
-        settings = yaml.load(text, UniqueKeys)
-    except OSError as error:
-        raise SettingsError(f"{path}: not readable ({error.strerror})") from None
-    except UnicodeDecodeError as error:
-        raise SettingsError(f"{path}: byte {error.start + 1} is not UTF-8 text; allowed: YAML in UTF-8") from None
-    except (yaml.YAMLError, ValueError) as error:
-        raise SettingsError(f"{path}{_place(error)}: not valid YAML") from None
-    if not isinstance(settings, dict):
-        raise SettingsError(f"{path}: holds no settings; allowed: keys with values")
     return settings
-
-
-def _place(error):
-    """Position and reason of an error in YAML, as text."""
-    mark = getattr(error, "problem_mark", None)
-    why = " ".join(str(getattr(error, "problem", None) or getattr(error, "reason", "")).split())
-    return (f", line {mark.line + 1}, column {mark.column + 1}" if mark else "") + (f": {why}" if why else "")
 
 
 def main(paths):

@@ -21,9 +21,6 @@ class ContactSolver:
         pressure = dense_contact.disturbed(pressure, tol * np.ptp(gap), self.modulus, self.side)
         return SimpleNamespace(pressure=pressure, iterations=5)
 
-    def matvec(self, p):
-        return dense_contact.displacement(p.reshape(self.shape), self.modulus, self.side).reshape(p.shape)
-
 
 def solve_nested(
     grid_size, gap, p_nominal, *, domain_size, E_star, coarsest, tol, backend, precision, active_set=False

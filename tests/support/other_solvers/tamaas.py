@@ -29,15 +29,7 @@ class ModelFactory:
     @staticmethod
     def registerNonPeriodic(model, name):
         """An operator keeps the elastic constants that the model has now."""
-        model.operators[name] = _Operator(model.E / (1 - model.nu**2), model.side)
-
-
-class _Operator:
-    def __init__(self, modulus, side):
-        self.modulus, self.side = modulus, side
-
-    def __call__(self, pressure, displacement):
-        displacement[...] = dense_contact.displacement(pressure, self.modulus, self.side)
+        model.operators[name] = model.E / (1 - model.nu**2), model.side
 
 
 class PolonskyKeerRey:
@@ -47,14 +39,14 @@ class PolonskyKeerRey:
         self.model, self.surface, self.tolerance = model, surface, tolerance
 
     def setIntegralOperator(self, name):
-        self.operator = self.model.operators[name]
+        self.constants = self.model.operators[name]
 
     def solve(self, mean_pressure):
         assert (self.model.traction >= 0).all()
         assert self.model.traction.any()
-        gap, constants = self.surface.max() - self.surface, (self.operator.modulus, self.operator.side)
-        force = mean_pressure * gap.size * self.operator.side**2
-        pressure = dense_contact.pressure_at_force(gap, force, *constants)
+        gap = self.surface.max() - self.surface
+        force = mean_pressure * gap.size * self.model.side**2
+        pressure = dense_contact.pressure_at_force(gap, force, *self.constants)
         length = self.tolerance * np.ptp(self.surface)
-        self.model.traction[...] = dense_contact.disturbed(pressure, length, *constants)
+        self.model.traction[...] = dense_contact.disturbed(pressure, length, *self.constants)
         return self.tolerance

@@ -1,7 +1,6 @@
 """Figures show the numbers of their tables, lie whole on their page, and refuse tables without rows."""
 
 import numpy as np
-import pandas as pd
 import pytest
 from matplotlib.colors import to_rgb
 
@@ -218,15 +217,6 @@ def test_sizes_have_a_marker_for_every_ensemble_with_a_fit(drawn):
     assert "4 to 8 discs" in figure.axes[0].get_title()
     table = tables.sizes_table()
     assert len(plot("sizes", table[table["window_rule"] == "default"], SHOWN).axes) == 2
-
-
-def test_growth_has_the_exponents_of_the_discs_solved_in_time():
-    data = tables.methods_table()
-    automatic = data["method"] == "path, automatic levels"
-    late = data[automatic & (data["elements"] == 257)].assign(wall_s=120.0, error=1.0)
-    figure = plot("growth", pd.concat([data, late]))
-    assert legend_texts(figure.legends[0])[0] == "automatic levels, 1e-3: $N^{1.20}$"
-    close(coordinates(figure.axes[1])[0][:, 1], [65, 257, 513])
 
 
 def test_exponents_of_the_cost_of_one_disc_are_those_of_the_larger_half(drawn):

@@ -9,7 +9,7 @@ import xarray as xr
 
 from support.study import CLAIMS, NUMBERS, ROOT
 from viscorough_study.page.answers import best_model, failures, fastest_methods, method_row
-from viscorough_study.page.content import costs, measured, media, other_solvers, scale, scenes, verdicts
+from viscorough_study.page.content import costs, measured, media, scale, scenes, verdicts
 from viscorough_study.page.results import Results
 
 
@@ -52,7 +52,6 @@ def methods():
         ("marching", "explicit, logarithmic steps", 64, 5.0, 8e-3),
         ("model", "MDR", 64, 1e-3, 0.2),
         ("model", "power law", 0, 1e-6, 0.3),
-        ("other solver", "ASPHER", 1e-3, 0.01, 1e-4),
     ]
     table = pd.DataFrame(rows, columns=["group", "method", "value", "wall_s", "error"]).assign(parameter="tolerance")
     table = table.assign(problem="rough disc, H = 0.8", hurst=0.8, elements=257)
@@ -62,7 +61,7 @@ def methods():
 
 def test_the_fastest_method_that_reaches_an_error_is_named(methods):
     fastest = {row["error"]: row["fastest"] for row in fastest_methods(methods)}
-    assert fastest[0.1]["path"] == method_row(methods, 7)
+    assert fastest[0.1]["path"] == method_row(methods, 6)
     assert [fastest[1e-2][group]["wall_s"].value for group in ("path", "marching")] == [0.2, 5.0]
     assert fastest[1e-2]["model"] is None
     assert set(fastest[1e-6].values()) == {None}
@@ -134,17 +133,6 @@ def test_a_verdict_that_the_full_scale_does_not_share_is_shown_with_its_case():
     for published in (table, full.assign(claim="renamed")):
         ((claim,),) = verdicts(Results({"claims": table}, {}, {}), CLAIMS, published).values()
         assert claim["full_scale"] is None
-
-
-def test_measured_ratios_of_other_solvers_are_not_called_published(tmp_path):
-    columns = ["task", "hurst", "elements", "levels", "solver", "version", "threads", "ratio"]
-    rows = [("few", 0.4, 33, 8, "Tamaas", "2", threads, ratio) for threads, ratio in ((1, 140.0), (2, 90.0))]
-    rows += [("few", 0.4, 33, 8, "viscorough", "1", 1, 1.0)]
-    pd.DataFrame(rows, columns=columns).to_csv(tmp_path / "other_solvers.csv", index=False)
-    content = other_solvers(tmp_path / "other_solvers.csv")
-    assert content["published"] is None
-    assert set(other_solvers(ROOT / "resources/published/other_solvers.csv")["published"]) == {"measured", "machine"}
-    assert content["rows"] == [{"task": "few", "hurst": 0.4, "elements": 33, "levels": 8, "ratios": {"Tamaas": 140.0}}]
 
 
 def test_media_are_named_and_their_exponents_taken_at_both_ends_and_near_x_of_one_hundredth():

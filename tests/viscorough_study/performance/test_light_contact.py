@@ -11,15 +11,15 @@ from viscorough_study.performance import light_contact
 @pytest.fixture(scope="module")
 def table():
     """Two loads on a map of 64 x 64 elements and one on a smaller one; no other solver."""
-    race = {"elements": [64], "fractions": [0.02, 0.1], "maps": 2}
+    race = {"elements": [64], "fractions": [0.02, 0.1]}
     settings = {"elements": [32, 64], "fractions": [0.02], "threads": [1], "residual": 1e-5}
     return light_contact.time_light_contact(seed=1, hurst=0.8, race=race, pairs=1, peers={}, **settings)
 
 
 def test_maps_of_the_growth_and_of_the_race_are_all_in_the_table(table):
     assert list(table.columns) == list(light_contact.COLUMNS)
-    rows = [tuple(row) for row in table[["elements", "map", "fraction"]].to_numpy()]
-    assert rows == [(32, 0, 0.02), (64, 0, 0.02), (64, 0, 0.1), (64, 1, 0.02), (64, 1, 0.1)]
+    rows = [tuple(row) for row in table[["elements", "fraction"]].to_numpy()]
+    assert rows == [(32, 0.02), (64, 0.02), (64, 0.1)]
     assert (table["met"] == 1).all()
     assert (table["residual"] > 0).all()
 

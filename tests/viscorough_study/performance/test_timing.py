@@ -1,7 +1,5 @@
 """Time and memory of computations."""
 
-from types import SimpleNamespace
-
 import numpy as np
 
 from viscorough_study.performance import timing
@@ -19,8 +17,3 @@ def test_memory_is_that_of_arrays():
     array, memory = timing.with_memory(lambda: np.ones(1_000_000))
     assert array.size == 1_000_000
     assert 8e6 <= memory < 9e6
-
-
-def test_a_result_with_its_own_timing_is_timed_by_it():
-    own = SimpleNamespace(seconds=(3.0, 2.0))
-    assert timing.interleaved({"other process": lambda: own}, 2) == {"other process": (3.0, 2.0)}

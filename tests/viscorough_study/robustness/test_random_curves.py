@@ -1,4 +1,4 @@
-"""Random loading curves: none is wrong in silence, at its levels or between them, and a wrong one is found."""
+"""Random small indenters: none of their levels and curves is wrong in silence, and a wrong one is found."""
 
 import warnings
 from dataclasses import replace
@@ -8,21 +8,29 @@ import pytest
 
 from viscorough.contact.loading_path import indent
 from viscorough.contact.options import SolverOptions
-from viscorough.errors import AccuracyWarning
+from viscorough.contact.solver import ContactSolver
+from viscorough.errors import AccuracyWarning, ConvergenceError
 from viscorough.surfaces import self_affine_disc
 from viscorough_study.robustness.random_curves import (
     RandomCurve,
     audit_failure,
     curve_failure,
+    levels_failure,
     random_audit,
     random_curve,
+    random_levels,
 )
-from viscorough_study.robustness.random_heights import KINDS
+from viscorough_study.robustness.stress_solutions import GRID_ONLY
 from viscorough_study.run.seeds import random_indenter_key, realization_seed
 
 
 def generator(number, seed=12):
     return np.random.default_rng(realization_seed(seed, *random_indenter_key(number)))
+
+
+def test_random_levels_do_not_fail_silently():
+    for number in range(120):
+        assert levels_failure(random_levels(generator(number, seed=11))) == "", f"case {number}"
 
 
 @pytest.mark.parametrize(("count", "with_start"), [(600, False), (100, True)])
@@ -48,13 +56,6 @@ def test_wrong_integrals_are_found():
     no_padding = SolverOptions(dense_contacts=0, dense_interactions=0, padding=False)
     case = RandomCurve(DISC, {"tolerance": 1e-3, "options": no_padding})
     assert audit_failure(case).startswith("Audit over ")
-
-
-@pytest.mark.parametrize("kind", list(KINDS))
-def test_every_kind_has_elements_of_finite_height(kind):
-    heights = [KINDS[kind](generator(number), 7, 9) for number in range(20)]
-    assert np.isfinite(heights).any(axis=(1, 2)).all()
-    assert not np.isinf(heights).any()
 
 
 DISC = self_affine_disc(0.7, 17, seed=1)
@@ -101,3 +102,45 @@ def test_a_warning_is_no_silent_failure():
         return thinned(indenter, **arguments)
 
     assert curve_failure(CASE, warning) == ""
+
+
+# ---- levels
+
+LEVELS = RandomCurve(DISC, {"depths": np.array([0.5, 1.0]), "tolerance": 1e-6, "options": GRID_ONLY})
+
+
+def altered_solver(pressure_sum=1.0, pressure=1.0):
+    """A solver whose contacts have the sum of pressures, or the pressures, multiplied by a factor."""
+
+    class Altered(ContactSolver):
+        def advance(self, contact, depth):
+            contact = super().advance(contact, depth)
+            loads = contact.member_loads()
+            loads = loads._replace(pressure=loads.pressure * pressure)
+            return replace(contact, pressure_sum=contact.pressure_sum * pressure_sum, loads=loads)
+
+    return Altered
+
+
+def test_a_silent_failure_is_found():
+    assert levels_failure(LEVELS) == ""
+    assert levels_failure(LEVELS, altered_solver(pressure_sum=1.0001)).startswith("force off by 0.0001")
+    assert levels_failure(LEVELS, altered_solver(pressure=1.0001)).startswith("overlap ")
+    assert levels_failure(LEVELS, altered_solver(pressure=-1.0)).startswith("tension ")
+    loose = replace(LEVELS, arguments=LEVELS.arguments | {"tolerance": 1e-3})
+    for name in ("pressure_sum", "pressure"):
+        assert levels_failure(loose, altered_solver(**{name: 1.0001})) == ""  # within ten times that
+
+
+def test_a_convergence_error_is_no_silent_failure_but_does_not_hide_one():
+    class Refusing(altered_solver(pressure_sum=1.0001)):
+        refused_above = 0.0
+
+        def advance(self, contact, depth):
+            if depth > self.refused_above:
+                raise ConvergenceError("no")
+            return super().advance(contact, depth)
+
+    assert levels_failure(LEVELS, Refusing) == ""
+    Refusing.refused_above = 0.7
+    assert levels_failure(LEVELS, Refusing) != ""

@@ -6,7 +6,6 @@ import sys
 
 import pytest
 
-from support.faults import no_privileges
 from viscorough_study.run.stale_locks import remove_stale_locks
 
 REMOVE = "from viscorough_study.run.stale_locks import remove_stale_locks; alive = remove_stale_locks(); "
@@ -48,12 +47,7 @@ def test_locks_are_kept_while_any_other_process_lives(locks, capfd):
     assert not any(path.exists() for path in locks)
 
 
-def test_folder_that_may_not_be_written(locks):
-    locks[0].parent.parent.chmod(0o555)
-    try:
-        script = REMOVE + "assert alive is None"
-        done = subprocess.run([*no_privileges(), sys.executable, "-c", script], capture_output=True, text=True)
-    finally:
-        locks[0].parent.parent.chmod(0o755)
-    assert (done.returncode, done.stderr) == (0, "")
-    assert all(path.exists() for path in locks)
+def test_folder_that_cannot_be_made(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / ".snakemake").touch()
+    assert remove_stale_locks() is None

@@ -15,7 +15,7 @@ def elastic_influence_matrix_spatial(comp, span, grid_spacing, shear_mod, v):
 
 
 class plan_convolve:
-    """Displacement by pressures in a domain of the grid."""
+    """Displacement by pressures in a domain of the grid, of which the search of `bccg` needs the constants."""
 
     def __init__(self, loads, im, domain, circular, fft_im=True):
         assert (slippy.CUDA, slippy.CORES, circular, fft_im) == (False, 1, False, False)
@@ -29,10 +29,6 @@ class plan_convolve:
         field = np.zeros(self.domain.shape)
         field[self.domain] = values
         return field
-
-    def __call__(self, loads, ignore_domain=False):
-        displacement = dense_contact.displacement(self.full(loads), *self.constants)
-        return displacement if ignore_domain else displacement[self.domain]
 
 
 def bccg(f, b, tol, max_it, x0):

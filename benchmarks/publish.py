@@ -168,6 +168,17 @@ def other_solver_times():
     return markdown_table(("task", "elements across", "H", *solvers), lines)
 
 
+def large_maps():
+    """Cost of discs on grids from coarse to fine, as a table in Markdown."""
+    lines = []
+    for row in pd.read_csv(ROOT / "docs/results/large.csv").itertuples():
+        times = f"{row.wall:.3g} s", f"{row.wall_threads:.3g} s"
+        memory = f"{row.memory / 1e9:.1f} GB"
+        lines.append((f"{row.across}", *times, memory, f"{row.levels}", f"{row.operator_applications}"))
+    head = ("elements across", "one thread", "two threads", "memory", "levels", "operator applications")
+    return markdown_table(head, lines)
+
+
 def light_loads():
     """Time of one light load on large maps, and those of other solvers over it, as a table in Markdown."""
     table = pd.read_csv(ROOT / "docs/results/light_contact.csv")
@@ -292,6 +303,7 @@ def tables():
         ("README.md", "time"): time_sentence(),
         ("docs/verdicts.md", "verdicts"): verdicts(),
         ("docs/performance.md", "other solvers"): other_solver_times(),
+        ("docs/performance.md", "large maps"): large_maps(),
         ("docs/performance.md", "light loads"): light_loads(),
         ("docs/outside.md", "outside"): outside_numbers(),
         ("docs/verification.md", "sum rules"): sum_rules(),

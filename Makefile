@@ -146,7 +146,7 @@ faults: environment
 	$(BIN)/python benchmarks/planted_faults.py --output results/planted_faults.json
 
 seeds: environment
-	$(BIN)/python benchmarks/seeds.py --cores $(CORES) --output results/seeds.json
+	$(BIN)/python benchmarks/seeds.py --cores $(CORES) --output results/seeds.csv
 
 publish: environment
 	$(BIN)/python benchmarks/publish.py --command paper

@@ -5,7 +5,7 @@
 Every command (`make paper`, `make speed`, ...) has its own figures and tables, which are copied into docs/results/ with
 their origin. Name the commands whose results are in the folder: some of the files also exist at a smaller scale. Those
 of paper include the verdicts and the calibrated power law, those of law the law of the interface, those of reproduce
-verdicts, cost and Figure 2 of the default run, those of seeds the dependence of the verdicts on the seed, that is, on
+verdicts and cost of the default run, those of seeds the dependence of the verdicts on the seed, that is, on
 the surfaces drawn. Without results (`--pages-only`) only the tables in README.md and docs/ are written, from the last
 published results and from the statements in resources/paper/claims.yaml. The workflow writes only into results/.
 """
@@ -74,35 +74,35 @@ KEPT = {
     "reproduce": {
         "tables/rule_costs.csv": DEFAULT_COSTS,
         "tables/claims.csv": DEFAULT_CLAIMS,
-        "figures/fig2_kinetics.png": "docs/fig2_kinetics.png",
     },
-    "seeds": {"seeds.json": "docs/seeds.json", "seeds.csv": "docs/seeds.csv"},
+    "seeds": {"seeds.csv": "docs/seeds.csv"},
 }
 INTERFACE_QUANTITIES = {"whole": "*vt*/*h*", "interface": "*g*"}
-PICTURES = ("speed.png",)  # which README.md shows: also in docs/
 
 
 def verdicts():
-    """The verdicts of docs/claims.csv with all numbers, as a table in Markdown, and those of other seeds."""
+    """The verdicts of docs/claims.csv with all numbers, as a table in Markdown, and those of other runs that differ."""
     table = published_claims()
-    text = markdown(table, read_claims()) + "\n" + own_scale(overall(table), overall(published_claims(DEFAULT_CLAIMS)))
-    return text + "\n" + other_seeds(overall(table), json.loads((ROOT / "docs/seeds.json").read_text())["verdicts"])
+    seeds = {seed: overall(claims) for seed, claims in published_claims("docs/seeds.csv").groupby("seed")}
+    runs, differ = [overall(published_claims(DEFAULT_CLAIMS)), *seeds.values()], []
+    for claim, verdict in overall(table).items():
+        if others := {run[claim] for run in runs} - {verdict}:
+            differ.append(f"{claim} ({', '.join(sorted(others))})")
+    text = (
+        "With the paper's own number of discs, 2880 (`make reproduce`, `resources/published/default_claims.csv`), and "
+        f"also with {len(seeds)} other root seeds (`make seeds`, [seeds.csv](seeds.csv)), the verdicts are the same, "
+        f"but for: {'; '.join(differ) or 'none'}."
+    )
+    return markdown(table, read_claims()) + "\n" + paragraph(text)
 
 
 def verdict_lines():
-    """The verdicts on physics without numbers: titles of claims, one line for each verdict, and how the scales agree.
-
-    Of the default run where it agrees with the full scale, else of the full scale.
-    """
-    claims, full, default = read_claims(), overall(published_claims()), overall(published_claims(DEFAULT_CLAIMS))
+    """The verdicts on physics without numbers: titles of claims, one line for each verdict."""
+    claims, full = read_claims(), overall(published_claims())
     physics = [name for name in full if claims[name]["kind"] == "physics"]
-    differ = "; ".join(claims[name]["title"] for name in physics if full[name] != default[name])
     titles = {verdict: [claims[name]["title"] for name in physics if full[name] == verdict] for verdict in VERDICTS}
     rows = [(verdict, "; ".join(members)) for verdict, members in titles.items() if members]
-    note = "Of the default run, `make reproduce`; those of `make paper` are the same."
-    if differ:
-        note = f"Of `make paper`. Those of the default run, which has fewer conventions, differ in: {differ}."
-    return markdown_table(("verdict", "claims on physics"), rows) + "\n" + paragraph(note)
+    return markdown_table(("verdict", "claims on physics"), rows)
 
 
 def time_sentence():
@@ -131,30 +131,6 @@ def markdown_table(head, rows):
     """A table in Markdown of these texts."""
     first, *others = (f"|{'|'.join(f' {cell} ' if cell else ' ' for cell in cells)}|\n" for cells in (head, *rows))
     return "".join([first, "|---" * len(head) + "|\n", *others])
-
-
-def own_scale(published, default):
-    """Sentence on the verdicts of the default run, which has as many discs as the paper: those that differ."""
-    differ = [f"{claim} ({verdict})" for claim, verdict in default.items() if published[claim] != verdict]
-    return paragraph(
-        "With the paper's own number of discs, 2880 (`make reproduce`, `resources/published/default_claims.csv`), the "
-        f"verdicts are the same, but for: {', '.join(differ) or 'none'}."
-    )
-
-
-def other_seeds(published, runs):
-    """Sentence on the verdicts of other seeds, {seed: {claim: verdict}}: those that change, and that contradict."""
-    outcomes = {claim: {run[claim] for run in runs.values()} for claim in published}
-    change = "; ".join(f"{claim} ({', '.join(sorted(words))})" for claim, words in outcomes.items() if len(words) > 1)
-    same = {claim: min(words) for claim, words in outcomes.items() if len(words) == 1 and words != {published[claim]}}
-    differ = "; ".join(f"{claim} ({word})" for claim, word in same.items() if word != "undecided")
-    undecided = list(same.values()).count("undecided")
-    text = (
-        f"At the default scale with {len(runs)} root seeds (`make seeds`, [seeds.csv](seeds.csv)), verdicts that "
-        f"change with the seed: {change or 'none'}; verdicts that contradict those above: {differ or 'none'}. That "
-        f"scale leaves {undecided or 'none'} of the {len(published)} claims undecided that are decided above."
-    )
-    return paragraph(text)
 
 
 def other_solver_times():
@@ -236,22 +212,13 @@ def infinite_grid():
 
 
 def correction_exponents(table):
-    """Sentences on the corrected fits of the table of infinite grids whose ω the data do not determine."""
+    """Sentence on the fits of the table of infinite grids whose ω the data do not determine."""
     omega = table[["omega", "omega_low", "omega_high"]].itertuples(index=False)
-    places = pd.Series([place_in_range(*values) for values in omega], index=table.index)
-    exponents = {}
-    for place in PLACES[1:]:
-        rows = table[places == place].groupby(["source", "quantity"], sort=False)["hurst"]
-        exponents[place] = "; ".join(
-            f"{source}, {INTERFACE_QUANTITIES[quantity]}, at *H* = {', '.join(f'{hurst:g}' for hurst in hursts)}"
-            for (source, quantity), hursts in rows
-        )
-    text = (
-        f"*ω* itself is at an end of the range tried, {OMEGA[0]:g} to {OMEGA[-1]:g}, in {(places == PLACES[2]).sum()} "
-        f"of these {len(table)} fits ({exponents[PLACES[2]] or 'none'}), and its interval reaches an end in "
-        f"{(places == PLACES[1]).sum()} others ({exponents[PLACES[1]] or 'none'})."
+    places = [place_in_range(*values) for values in omega]
+    return paragraph(
+        f"*ω* itself is at an end of the range tried, {OMEGA[0]:g} to {OMEGA[-1]:g}, in {places.count(PLACES[2])} of "
+        f"these {len(table)} fits, and its interval reaches an end in {places.count(PLACES[1])} others."
     )
-    return paragraph(text)
 
 
 def interface_law():
@@ -373,8 +340,6 @@ def copy_results(results, project, commands, commit):
         for file in (results / name for name in PUBLISHED[command]):
             copy = {".png": copy_picture, ".csv": copy_table}.get(file.suffix, shutil.copyfile)
             copy(file, folder / file.name)
-            if file.name in PICTURES:
-                shutil.copyfile(folder / file.name, project / "docs" / file.name)
             records[file.name] = {"command": f"make {command}", "date": date_of(file)} | origin
             if file.name == "other_solvers.csv":
                 copy_other_solvers(file, project / OTHER_SOLVERS, where, date_of(file))

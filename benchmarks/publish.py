@@ -133,15 +133,17 @@ def markdown_table(head, rows):
     return "".join([first, "|---" * len(head) + "|\n", *others])
 
 
+def texts(ratios):
+    """Texts of a table of ratios; those that are missing are dashes."""
+    return ratios.map("{:.3g}".format).replace("nan", "–")
+
+
 def other_solver_times():
     """Times of other solvers over that of the loading path, as a table in Markdown, by task and Hurst exponent."""
     table = pd.read_csv(ROOT / OTHER_SOLVERS)
-    solvers, lines = list(dict.fromkeys(table["solver"])), []
-    for (task, across, hurst), rows in table.groupby(["task", "elements", "hurst"], sort=False):
-        ratios = rows.set_index("solver")["ratio"]
-        cells = [f"{ratios[name]:.3g}" if name in ratios else "–" for name in solvers]
-        lines.append((task, f"{across}", f"{hurst:g}", *cells))
-    return markdown_table(("task", "elements across", "H", *solvers), lines)
+    ratios = texts(table.pivot_table("ratio", ["task", "elements", "hurst"], "solver", sort=False))
+    lines = [(task, f"{across}", f"{hurst:g}", *row) for (task, across, hurst), row in ratios.iterrows()]
+    return markdown_table(("task", "elements across", "H", *ratios), lines)
 
 
 def large_maps():
@@ -158,14 +160,14 @@ def large_maps():
 def light_loads():
     """Time of one light load on large maps, and those of other solvers over it, as a table in Markdown."""
     table = pd.read_csv(ROOT / "docs/results/light_contact.csv")
-    own, others = (rows for _, rows in table.groupby(table["solver"] != "viscorough"))
-    looks, lines = list(others.groupby(["solver", "threads"]).groups), []
-    for (across, fraction), rows in others.groupby(["elements", "fraction"]):
-        same = own[(own["elements"] == across) & (own["fraction"] == fraction)].set_index("threads")["wall_s"]
-        ratios = rows.groupby(["solver", "threads"])["ratio"].median()
-        cells = ["–" if pd.isna(ratios.get(look)) else f"{ratios[look]:.3g}" for look in looks]
-        lines.append((f"{across}²", f"{100 * fraction:g} %", f"{same.groupby(level=0).median()[1]:.2g} s", *cells))
-    head = [f"{name}, {threads} thread{'s' * (threads > 1)}" for name, threads in looks]
+    maps = ["elements", "fraction"]
+    own = table.query("solver == 'viscorough' and threads == 1").groupby(maps)["wall_s"].median()
+    others = table[table["solver"] != "viscorough"].pivot_table("ratio", maps, ["solver", "threads"], "median")
+    lines = [
+        (f"{across}²", f"{100 * fraction:g} %", f"{own[across, fraction]:.2g} s", *row)
+        for (across, fraction), row in texts(others).iterrows()
+    ]
+    head = [f"{name}, {threads} thread{'s' * (threads > 1)}" for name, threads in others]
     return markdown_table(("map", "contact", "viscorough", *head), lines)
 
 
@@ -202,12 +204,10 @@ def infinite_grid():
     largest end of the 95 % intervals in all ranges of X.
     """
     table = pd.read_csv(ROOT / "docs/results/infinite_grid.csv").query("law == 'corrected' and height == 'spectrum'")
-    columns = list(table.groupby(["source", "quantity"], sort=False))
-    names, lines = [f"{source}, {INTERFACE_QUANTITIES[quantity]}" for (source, quantity), _ in columns], []
-    for hurst, expected in table.drop_duplicates("hurst")[["hurst", "expected"]].itertuples(index=False):
-        fits = [rows.set_index("hurst").loc[hurst] for _, rows in columns]
-        cells = [f"{fit['beta']:.3f} [{fit['ranges_low']:.3f}, {fit['ranges_high']:.3f}]" for fit in fits]
-        lines.append((f"{hurst:g}", f"{expected:.3f}", *cells))
+    table["cell"] = [f"{row.beta:.3f} [{row.ranges_low:.3f}, {row.ranges_high:.3f}]" for row in table.itertuples()]
+    cells = table.pivot(index=["hurst", "expected"], columns=["source", "quantity"], values="cell")
+    names = [f"{source}, {INTERFACE_QUANTITIES[quantity]}" for source, quantity in cells]
+    lines = [(f"{hurst:g}", f"{expected:.3f}", *row) for (hurst, expected), row in cells.iterrows()]
     return markdown_table(("*H*", "*H*/(1 + *H*)", *names), lines) + "\n" + correction_exponents(table)
 
 

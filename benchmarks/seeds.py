@@ -19,11 +19,10 @@ from viscorough_study.verdicts.claims import overall
 ROOT = Path(__file__).resolve().parents[1]
 
 
-def claims(folder, settings, cores, *arguments):
-    """Table of claims of a run in a folder; settings : file of changes to config/config.yaml, or None."""
-    command = [sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile"), "--directory", str(folder)]
-    command += ["--configfile", str(settings.resolve())] if settings else []
-    command += ["--cores", str(cores), "--quiet", "all", *arguments]
+def claims(folder, seed, cores):
+    """Table of claims of a run in a folder."""
+    command = [sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile"), "--directory", folder]
+    command += ["--cores", str(cores), "--quiet", "all", "--config", f"seed={seed}"]
     subprocess.run([*command, "--", "results/tables/claims.csv"], check=True)
     return pd.read_csv(Path(folder) / "results/tables/claims.csv", keep_default_na=False, na_values=[""])
 
@@ -31,13 +30,12 @@ def claims(folder, settings, cores, *arguments):
 @click.command(help=__doc__.splitlines()[0])
 @click.option("--seeds", type=click.IntRange(2), default=3, show_default=True, help="Number of root seeds: 1, 2, ...")
 @click.option("--cores", type=click.IntRange(1), default=2, show_default=True)
-@click.option("--settings", type=click.Path(exists=True, path_type=Path), help="Changes to config/config.yaml.")
 @click.option("--output", type=click.Path(path_type=Path), required=True, help="File to write, CSV.")
-def main(seeds, cores, settings, output):
+def main(seeds, cores, output):
     tables = {}
     for seed in range(1, seeds + 1):
         with tempfile.TemporaryDirectory() as folder:
-            tables[seed] = claims(folder, settings, cores, "--config", f"seed={seed}")
+            tables[seed] = claims(folder, seed, cores)
         click.echo(f"seed {seed} of {seeds}")
     output.parent.mkdir(parents=True, exist_ok=True)
     pd.concat(tables, names=["seed"]).droplevel(1).to_csv(output)

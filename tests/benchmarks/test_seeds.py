@@ -6,8 +6,8 @@ from click.testing import CliRunner
 
 
 def test_verdicts_that_change_with_the_seed_are_reported(tmp_path, monkeypatch):
-    def claims(folder, settings, cores, option, seed):
-        verdicts = ["reproduced", "reproduced" if seed == "seed=1" else "undecided"]
+    def claims(folder, seed, cores):
+        verdicts = ["reproduced", "reproduced" if seed == 1 else "undecided"]
         return pd.DataFrame({"claim": ["steady", "unsteady"], "verdict": verdicts})
 
     monkeypatch.setattr(seeds, "claims", claims)

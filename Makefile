@@ -14,12 +14,12 @@ WITH_PROGRESS = $(BIN)/python -m viscorough_study.page.terminal --
 
 help:
 	@echo "make reproduce   the default reproduction: figures, tables, and the page results/index.html, which shows them"
-	@echo "make paper       the same at full scale, twice that of the paper, and its cost in results/costs.json"
+	@echo "make paper       the same at full scale, twice that of the paper"
 	@echo "make report      results/report.html of the existing results, with the SETTINGS that they were made with"
 	@echo "make check       format, lint, contracts, types and the tests of what has changed since the last commit; half a minute"
 	@echo "make test        format, lint, types, documentation and every test"
 	@echo "make docs        the documentation as a website, in build/docs/index.html"
-	@echo "make bench       cost and errors of curves, lines, operators and members of ensembles, in results/benchmarks.json"
+	@echo "make bench       cost and errors of curves and lines, in results/benchmarks.json"
 	@echo "make speed       speed against accuracy of every method, in results/figures/speed.png; 80 minutes"
 	@echo "make light       of this, one light load on large maps; 45 minutes"
 	@echo "make stability   where each method fails, and random small indenters against dense solutions"
@@ -69,8 +69,7 @@ reproduce: settings
 	@$(WITH_PROGRESS) $(SNAKEMAKE) -- all
 
 paper: override SETTINGS := config/paper.yaml
-paper: settings
-	@$(BIN)/python benchmarks/costs.py --output results/costs.json -- $(WITH_PROGRESS) $(SNAKEMAKE) -- all
+paper: reproduce
 
 # Includes the targets beside `all` that were made.
 report: settings
@@ -105,7 +104,6 @@ test: environment docs
 
 bench: environment
 	$(BIN)/python benchmarks/curves.py --output results/benchmarks.json
-	$(BIN)/python benchmarks/members.py --output results/members.json
 
 speed light stability: SETTINGS = config/methods.yaml
 sizes: SETTINGS = config/sizes.yaml
@@ -148,7 +146,7 @@ faults: environment
 	$(BIN)/python benchmarks/planted_faults.py --output results/planted_faults.json
 
 seeds: environment
-	$(BIN)/python benchmarks/seeds.py --cores $(CORES) --output results/seeds.json
+	$(BIN)/python benchmarks/seeds.py --cores $(CORES) --output results/seeds.csv
 
 publish: environment
 	$(BIN)/python benchmarks/publish.py --command paper

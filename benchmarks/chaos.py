@@ -24,26 +24,15 @@ import numpy as np
 import psutil
 from measured_times import holds_times
 from measuring import output_option, save
+from project_copy import copy_project, environment
 
 from viscorough.io import netcdf
 
-ROOT = Path(__file__).resolve().parents[1]
 SNAKEMAKE = [sys.executable, "-m", "snakemake", "--cores", "2", "--nocolor", "--configfile", "config/test.yaml"]
 # The longest wait for a kill, as a share of the time of an undisturbed run: most runs are killed several times, and
 # their ends as often as their beginnings.
 LONGEST_WAIT = 1 / 3
 HANGS = 3600  # seconds after which a run is taken to hang, even on a busy machine
-
-
-def copy_project(folder):
-    """Copy the files that git tracks or would track, and numba's caches: compiling would take most of the time."""
-    list_files = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
-    tracked = subprocess.run(list_files, cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True).stdout
-    for name in tracked.rstrip("\0").split("\0"):
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy2(ROOT / name, folder / name)
-    for caches in (ROOT / "src").rglob("__pycache__"):
-        shutil.copytree(caches, folder / caches.relative_to(ROOT))
 
 
 def remove_results(folder):
@@ -62,14 +51,13 @@ def wait_for(condition, what, seconds=120):
 
 
 @contextlib.contextmanager
-def started(folder, *arguments, log="chaos.log", mode="w"):
+def started(folder, *arguments):
     """Snakemake in its own session, all of whose processes are killed afterwards; it writes to a log in the folder."""
-    environment = os.environ | {"PYTHONPATH": str(folder / "src")}  # before the installed package
-    with (folder / log).open(mode) as log:
+    with (folder / "run.log").open("w") as log:
         run = subprocess.Popen(
             [*SNAKEMAKE, *arguments],
             cwd=folder,
-            env=environment,
+            env=environment(folder),
             stdout=log,
             stderr=log,
             start_new_session=True,
@@ -83,41 +71,32 @@ def started(folder, *arguments, log="chaos.log", mode="w"):
         run.wait()
 
 
-def verdict(folder, run):
-    """Wait for the end of a run that is no longer disturbed; an error message, or None."""
-    try:
-        code = run.wait(HANGS)
-    except subprocess.TimeoutExpired:
-        return f"does not end within {HANGS} s"
-    if code:
-        return f"ends with {code}: " + " | ".join((folder / "chaos.log").read_text().splitlines()[-20:])
-    return None
+def run_to_end(folder, *arguments, disturb=None):
+    """Seconds of a run that may be disturbed, and must end without an error."""
+    start = time.perf_counter()
+    with started(folder, *arguments) as run:
+        if disturb:
+            disturb()
+        if code := run.wait(HANGS):
+            raise click.ClickException(f"{folder.name} ends with {code}:\n{log_tail(folder)}")
+    return time.perf_counter() - start
 
 
-def job_processes(run):
-    """{process: rule} of the running jobs: the processes that run a script, not the shells around them."""
-    jobs = {}
-    for process in psutil.Process(run.pid).children(recursive=True):
-        with contextlib.suppress(psutil.Error):
-            script = Path([*process.cmdline(), "", ""][1])
-            if script.parent.name == "scripts" and script.suffix == ".py":
-                jobs[process] = script.stem.split(".")[-1]  # tmpabcdefgh.indent_surfaces.py
-    return jobs
+def log_tail(folder):
+    return "\n".join((folder / "run.log").read_text().splitlines()[-20:])
 
 
 def disturb(run, random):
     """Kill the whole run, kill one of its jobs (if it has none, the whole run) or interrupt it; return which."""
-    jobs = list(job_processes(run).items())
+    everything = psutil.Process(run.pid).children(recursive=True)
     draw = random.random()
     if draw < 0.25:
         os.killpg(run.pid, signal.SIGINT)
         return "interrupt"
-    if draw < 0.5 and jobs:
-        process, rule = jobs[random.integers(len(jobs))]
+    if draw < 0.5 and everything:
         with contextlib.suppress(psutil.NoSuchProcess):
-            process.kill()
-        return rule
-    everything = psutil.Process(run.pid).children(recursive=True)
+            everything[-1].kill()  # which has no children: the process that runs a script, not a shell around it
+        return "job"
     os.killpg(run.pid, signal.SIGKILL)
     psutil.wait_procs(everything, timeout=10)
     return "whole run"
@@ -125,28 +104,6 @@ def disturb(run, random):
 
 def jobs_done(folder):
     return len(list((folder / "results/benchmarks").rglob("*.tsv")))
-
-
-def killed_run(folder, random, longest_wait, kills, report):
-    """A run without results until its end, killed up to `kills` times; an error message on other faults, or None."""
-    remove_results(folder)
-    killed = 0
-    while True:
-        with started(folder) as run:
-            if killed == kills:
-                return verdict(folder, run)
-            wait = random.uniform(0, longest_wait)
-            try:
-                run.wait(wait)
-            except subprocess.TimeoutExpired:
-                killed += 1
-                report(disturb(run, random), wait, jobs_done(folder))
-                with contextlib.suppress(subprocess.TimeoutExpired):
-                    run.wait(HANGS)  # a run that has lost a job finishes its other one and ends with an error
-                if run.poll() is None:
-                    return f"does not end within {HANGS} s after this"
-            else:
-                return verdict(folder, run)
 
 
 def contents(folder):
@@ -166,49 +123,42 @@ def compare(actual, expected):
 def undisturbed(folder):
     """Contents after a run that starts without results, and its seconds."""
     remove_results(folder)
-    start = time.perf_counter()
-    with started(folder) as run:
-        if wrong := verdict(folder, run):
-            raise click.ClickException(f"the undisturbed run {wrong}")
-    seconds = time.perf_counter() - start
+    seconds = run_to_end(folder)
     for path in (folder / "results").rglob("*.nc"):
         netcdf.read(path)  # so that every file with the same bytes can be read, too
     return contents(folder), seconds
 
 
 def chaos(folder, kills, seed):
-    """Runs with `kills` kills in total, as a dictionary for the file."""
-    copy_project(folder)
-    wanted, seconds = undisturbed(folder)  # compiles what is not in numba's caches
+    """Runs with `kills` kills in total, as a dictionary for the file.
+
+    A run that is killed is repeated with the results that it has; one that ends by itself, without any.
+    """
+    wanted, _ = undisturbed(folder)  # compiles what is not in numba's caches
     again, seconds = undisturbed(folder)
     differences = [f"undisturbed: {line}" for line in compare(again, wanted)]
-    jobs = jobs_done(folder)
-    click.echo(f"undisturbed: {seconds:.0f} s, {jobs} jobs, {len(wanted)} files")
-    random, log, lives, recovered, start = np.random.default_rng(seed), [], 0, 0, time.perf_counter()
-
-    def report(what, wait, done):
-        log.append({"killed": what, "after_s": round(wait, 2), "jobs_done": done})
-        left = (time.perf_counter() - start) / len(log) * (kills - len(log)) + seconds * (1 - done / jobs)
-        event = f"{what} after {wait:.1f} s, {done} of {jobs} jobs done"
-        click.echo(f"kill {len(log)} of {kills}: {event}; about {left / 60:.1f} min to go")
-
-    while len(log) < kills:
-        lives += 1
-        wrong = killed_run(folder, random, seconds * LONGEST_WAIT, kills - len(log), report)
-        lines = [wrong] if wrong else compare(contents(folder), wanted)
-        differences += [f"run {lives}: {line}" for line in lines]
-        recovered += not lines
-        click.echo("\n".join([f"run {lives} {'differs' if lines else 'has recovered'}", *lines]))
-    return {
-        "kills": len(log),
-        "runs": lives,
-        "recovered": recovered,
-        "differences": differences,
-        "seconds": round(time.perf_counter() - start, 1),
-        "files_compared": len(wanted),
-        "jobs": jobs,
-        "log": log,
-    }
+    click.echo(f"undisturbed: {seconds:.0f} s, {jobs_done(folder)} jobs, {len(wanted)} files")
+    random, log, runs = np.random.default_rng(seed), [], 0
+    remove_results(folder)
+    while True:
+        with started(folder) as run:
+            is_last = len(log) == kills
+            try:
+                code = run.wait(HANGS if is_last else random.uniform(0, seconds * LONGEST_WAIT))
+            except subprocess.TimeoutExpired:
+                if is_last:
+                    raise
+                log.append({"killed": disturb(run, random), "jobs_done": jobs_done(folder)})
+                click.echo(f"kill {len(log)} of {kills}: {log[-1]}")
+                run.wait(HANGS)  # a run that has lost a job finishes its other one and ends with an error
+                continue
+        runs += 1
+        lines = [f"ends with {code}: {log_tail(folder)}"] if code else compare(contents(folder), wanted)
+        differences += [f"run {runs}: {line}" for line in lines]
+        click.echo("\n".join([f"run {runs} {'differs' if lines else 'has recovered'}", *lines]))
+        if is_last:
+            return {"kills": kills, "runs": runs, "differences": differences, "files_compared": len(wanted), "log": log}
+        remove_results(folder)
 
 
 @click.command(help=__doc__.splitlines()[0])
@@ -217,8 +167,8 @@ def chaos(folder, kills, seed):
 @output_option
 def main(kills, seed, output):
     with tempfile.TemporaryDirectory() as folder:
+        copy_project(Path(folder).resolve())
         result = chaos(Path(folder).resolve(), kills, seed)
-    click.echo("{recovered} of {runs} runs recovered from {kills} kills in {seconds:.0f} s".format(**result))
     save({"seed": seed, **result}, output)
     sys.exit(bool(result["differences"]))
 

@@ -1,29 +1,37 @@
-"""Measure the cost and accuracy of curves, lines and operators, in one process on one thread.
+"""Measure the cost and accuracy of curves and lines, in one process on one thread.
 
     python benchmarks/curves.py --output results/benchmarks.json
 
-The file has one key for each function below: operator_ms, parts, over_operators, line, rectangles, large_map, curve.
+The file has one key for each function below: parts, line, rectangles, large_map, curve.
 Times are medians of repeats in one run; the repeats of what is compared are interleaved. `make bench` runs it.
 """
 
 import contextlib
+import os
 import pkgutil
+import sys
 import time
 from functools import partial
 from unittest.mock import patch
 
+import click
 import numpy as np
 import pandas as pd
 from ducc0 import fft
-from measuring import command, medians
+from measuring import output_option, save
 
 from viscorough import Indenter, contact_at, indent, self_affine_disc
-from viscorough.contact.halfspace.operator import Halfspace
 from viscorough.lines import SelfAffineLines
 from viscorough.mdr import reduce_heights
 from viscorough.surfaces import self_affine_square
 from viscorough_study.performance import timing
 
+# One thread, and the settings of the allocator of the workflow, both of which a process reads when it starts.
+ENVIRONMENT = {
+    **dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS"), "1"),
+    "MALLOC_MMAP_THRESHOLD_": str(2**25),
+    "MALLOC_TRIM_THRESHOLD_": str(10**9),
+}
 ELEMENTS, UNTIL, UNTIL_X = 257, 0.9, 30.0
 POINTS = 4_000_000  # of a line
 # Functions whose share of the time is measured, by the part of the computation that they are.
@@ -38,11 +46,6 @@ PARTS_OF_CURVE = {
         "viscorough.contact.grid.solver.GridSolver.__init__",
         "viscorough.contact.solver.ContactSolver.__init__",
     ),
-}
-PARTS_OF_LINE = {
-    "waves": ("viscorough.line_waves.fill_packed_spectrum",),
-    "transform": ("ducc0.fft.c2c", "viscorough.line_waves.twiddle"),
-    "bins": ("viscorough.mdr._bin_gaps",),
 }
 
 
@@ -106,6 +109,13 @@ def large_map(points):
     return {question: {"points": points, "wall_s": wall} for question, (wall, _) in medians(questions, 1).items()}
 
 
+def medians(functions, repeats):
+    """{name: (wall, processor) seconds}, medians over interleaved repeats, after a first call of each function."""
+    for function in functions.values():
+        function()
+    return timing.interleaved(functions, repeats)
+
+
 @contextlib.contextmanager
 def stopwatch(parts):
     """{part: processor seconds} spent within the context in the functions of each part, given by dotted names."""
@@ -128,61 +138,29 @@ def stopwatch(parts):
         yield seconds
 
 
-def shares(function, parts):
-    """Processor seconds of a function, and the share of each part in them."""
-    with stopwatch(parts) as seconds:
-        _, _, whole = timing.timed(function)
-    shares_of_parts = {part: round(spent / whole, 3) for part, spent in seconds.items()}
-    return {"processor_s": round(whole, 4), **shares_of_parts, "rest": round(1 - sum(shares_of_parts.values()), 3)}
-
-
 def parts():
-    """Shares of the parts of curves and of a line: medians over five repeats, after a first run."""
-    rows = {}
+    """Processor seconds of curves, and the share of each part in them: medians over five repeats, after a first run."""
+    result = {}
     for across in (ELEMENTS, 1025):
         disc = self_affine_disc(0.6, across, seed=1)
         compute = partial(indent, disc, until_fraction=UNTIL, until_force=4 * UNTIL_X)
-        rows[f"curve of a {across} disc"] = compute, PARTS_OF_CURVE
-    rows[f"line of {POINTS} points"] = partial(curve_of_line, SelfAffineLines(0.6, POINTS)), PARTS_OF_LINE
-    result = {}
-    for name, (function, timed_parts) in rows.items():
-        function()
-        result[name] = pd.DataFrame([shares(function, timed_parts) for _ in range(5)]).median().to_dict()
+        compute()
+        result[f"curve of a {across} disc"] = pd.DataFrame([shares(compute) for _ in range(5)]).median().to_dict()
     return result
 
 
-def over_operators(hursts, across, repeats):
-    """Time of whole curves to 1e-3 over that of the half-space operators that they apply.
-
-    Returns rows of hurst, processor_s of the curve, ratio, and the number of operators; medians over the repeats.
-    """
-    rows = []
-    for hurst in hursts:
-        compute = partial(indent, self_affine_disc(hurst, across, seed=3), until_fraction=UNTIL)
-        applications = compute().operator_applications
-        measured = [shares(compute, {"operator": PARTS_OF_CURVE["operator"]}) for _ in range(repeats)]
-        seconds, share = (np.median([row[name] for row in measured]) for name in ("processor_s", "operator"))
-        rows.append({"hurst": hurst, "processor_s": seconds, "ratio": 1 / share, "operators": applications})
-    return rows
-
-
-def operators(repeats):
-    """One application of the half-space operator [ms]."""
-    functions = {}
-    for n in (257, 1025):
-        for name, precision in (("double", np.float64), ("single", np.float32)):
-            halfspace = Halfspace(n, n, precision)
-            halfspace.load[:, :n] = np.random.default_rng(1).random((n, n))
-            functions[f"{n} {name}"] = halfspace.apply
-    return {name: 1e3 * wall for name, (wall, _) in medians(functions, repeats).items()}
+def shares(compute):
+    """Processor seconds of a function, and the share of each part in them."""
+    with stopwatch(PARTS_OF_CURVE) as seconds:
+        _, _, whole = timing.timed(compute)
+    shares_of_parts = {part: round(spent / whole, 3) for part, spent in seconds.items()}
+    return {"processor_s": round(whole, 4), **shares_of_parts, "rest": round(1 - sum(shares_of_parts.values()), 3)}
 
 
 def measured(repeats):
     """The content of the file."""
     return {
-        "operator_ms": operators(10 * repeats),
         "parts": parts(),
-        "over_operators": over_operators((0.1, 0.4, 0.9), ELEMENTS, 3 * repeats),
         "line": lines((0.1, 0.6, 0.9), 3 * repeats),
         "rectangles": rectangles((1.0, 2.0, 0.5, 5.0, 0.2), repeats),
         "large_map": large_map(2049),
@@ -190,7 +168,14 @@ def measured(repeats):
     }
 
 
-main = command(measured, repeats=5)
+@click.command(help=__doc__.splitlines()[0])
+@click.option("--repeats", type=click.IntRange(1), default=5, show_default=True)
+@output_option
+def main(repeats, output):
+    if any(os.environ.get(name) != value for name, value in ENVIRONMENT.items()):
+        os.execve(sys.executable, [sys.executable, *sys.argv], os.environ | ENVIRONMENT)
+    save({"repeats": repeats, **measured(repeats)}, output)
+
 
 if __name__ == "__main__":
     main()

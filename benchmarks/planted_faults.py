@@ -8,7 +8,6 @@ must pass without any fault. The working tree is never changed.
 """
 
 import os
-import re
 import shutil
 import signal
 import subprocess
@@ -21,10 +20,9 @@ from pathlib import Path
 import click
 import yaml
 from measuring import output_option, save
+from project_copy import ROOT, copy_project, environment
 
-ROOT = Path(__file__).resolve().parents[1]
 FAULTS = Path(__file__).with_suffix(".yaml")
-NOT_COPIED = shutil.ignore_patterns(".git", ".venv*", ".snakemake", ".pytest_cache", ".hypothesis")
 TIME_LIMIT = 3000.0  # seconds after which the tests of one fault are taken to hang, even on a busy machine
 PASSED, FAILED = 0, 1  # exit codes of pytest; others mean that the tests could not run
 
@@ -41,18 +39,13 @@ class Fault:
     why: str
 
 
-def read_faults(path=FAULTS):
-    """The faults of a file. Raises ValueError if two have the same name."""
-    faults = [Fault(**fields) for fields in yaml.safe_load(path.read_text(encoding="utf-8"))]
-    names = [fault.name for fault in faults]
-    if repeated := {name for name in names if names.count(name) > 1}:
-        raise ValueError(f"{path}: these names are repeated: {', '.join(sorted(repeated))}")
-    return faults
+def read_faults():
+    return [Fault(**fields) for fields in yaml.safe_load(FAULTS.read_text(encoding="utf-8"))]
 
 
-def problems(fault, root=ROOT):
+def problems(fault):
     """Reasons, one per line, why a fault cannot be planted or its tests cannot run."""
-    file, lines = root / fault.file, []
+    file, lines = ROOT / fault.file, []
     count = file.read_text(encoding="utf-8").count(fault.old) if file.is_file() else 0
     if count != 1:
         lines.append(f"{fault.name}: the old text occurs {count} times in {fault.file}; it must occur once")
@@ -62,42 +55,28 @@ def problems(fault, root=ROOT):
         lines.append(f"{fault.name}: the new text is the old one")
     for test in fault.tests:
         path, *names = test.split("[")[0].split("::")
-        text = (root / path).read_text(encoding="utf-8") if (root / path).is_file() else ""
-        if not (root / path).exists() or any(f"def {name}(" not in text for name in names):
+        text = (ROOT / path).read_text(encoding="utf-8") if (ROOT / path).is_file() else ""
+        if not (ROOT / path).exists() or any(f"def {name}(" not in text for name in names):
             lines.append(f"{fault.name}: there is no test {test}")
     return lines
 
 
 def plant(fault, folder):
-    """Write the wrong text, and remove compiled code that may contain the right one."""
+    """Write the wrong text, and remove compiled code that may contain the right one: numba compiles it into callers."""
     file = folder / fault.file
     text = file.read_text(encoding="utf-8")
     file.write_text(text.replace(fault.old, fault.new), encoding="utf-8")
     if "viscorough.compilation import" in text:
-        for module in importers(file, folder / "src"):
-            for compiled in module.parent.glob(f"__pycache__/{module.stem}.*.nb[ic]"):
-                compiled.unlink()
-
-
-def importers(file, source):
-    """The file and all that import it, directly or not: numba compiles called functions into the callers' code."""
-    texts = {module: module.read_text(encoding="utf-8") for module in source.rglob("*.py")}
-    known, new = set(), {file}
-    while new:
-        known |= new
-        names = {module.stem for module in new}
-        imports = re.compile(rf"^ *(from|import) .*\b({'|'.join(names)})\b", re.MULTILINE)
-        new = {module for module, text in texts.items() if imports.search(text)} - known
-    return known
+        for compiled in (folder / "src").rglob("*.nb[ic]"):
+            compiled.unlink()
 
 
 def run_tests(tests, folder, time_limit):
     """(exit code of pytest, None beyond the time limit; its summary; seconds) of tests of a copy of the project."""
-    environment = os.environ | {"PYTHONPATH": str(folder / "src")}  # before the installed package
     command = [sys.executable, "-m", "pytest", "-q", "-x", "-W", "ignore", "-p", "no:cacheprovider", *tests]
     began, pipe = time.perf_counter(), subprocess.PIPE
     with subprocess.Popen(
-        command, cwd=folder, env=environment, stdout=pipe, stderr=pipe, text=True, start_new_session=True
+        command, cwd=folder, env=environment(folder), stdout=pipe, stderr=pipe, text=True, start_new_session=True
     ) as run:
         try:
             stdout, stderr = run.communicate(timeout=time_limit)
@@ -109,20 +88,10 @@ def run_tests(tests, folder, time_limit):
     return run.returncode, (failed or lines)[-1], time.perf_counter() - began
 
 
-def not_copied(folder, names):
-    """Names in a folder that a copy does without; of folders called results, only that of runs."""
-    return NOT_COPIED(folder, names) | ({"results"} if Path(folder) == ROOT else set())
-
-
 def prepare(folder, tests, time_limit):
     """A copy of the project whose tests pass, with its functions compiled. Raises ClickException if they do not."""
-    shutil.copytree(ROOT, folder, ignore=not_copied)
+    copy_project(folder)
     (folder / "results").mkdir()
-    environment = os.environ | {"PYTHONPATH": str(folder / "src")}
-    where = [sys.executable, "-c", "import viscorough; print(viscorough.__file__)"]
-    imported = subprocess.run(where, cwd=folder, env=environment, capture_output=True, text=True, check=True).stdout
-    if not Path(imported.strip()).resolve().is_relative_to(folder.resolve()):
-        raise click.ClickException(f"the copy in {folder} would test the package in {imported.strip()}")
     code, summary, seconds = run_tests(tests, folder, time_limit)
     if code != PASSED:
         raise click.ClickException(f"tests fail without any fault: {summary}")

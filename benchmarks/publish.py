@@ -5,7 +5,7 @@
 Every command (`make paper`, `make speed`, ...) has its own figures and tables, which are copied into docs/results/ with
 their origin. Name the commands whose results are in the folder: some of the files also exist at a smaller scale. Those
 of paper include the verdicts and the calibrated power law, those of law the law of the interface, those of reproduce
-verdicts, cost and Figure 2 of the default run, those of seeds the dependence of the verdicts on the seed, that is, on
+verdicts and cost of the default run, those of seeds the dependence of the verdicts on the seed, that is, on
 the surfaces drawn. Without results (`--pages-only`) only the tables in README.md and docs/ are written, from the last
 published results and from the statements in resources/paper/claims.yaml. The workflow writes only into results/.
 """
@@ -74,35 +74,35 @@ KEPT = {
     "reproduce": {
         "tables/rule_costs.csv": DEFAULT_COSTS,
         "tables/claims.csv": DEFAULT_CLAIMS,
-        "figures/fig2_kinetics.png": "docs/fig2_kinetics.png",
     },
-    "seeds": {"seeds.json": "docs/seeds.json", "seeds.csv": "docs/seeds.csv"},
+    "seeds": {"seeds.csv": "docs/seeds.csv"},
 }
 INTERFACE_QUANTITIES = {"whole": "*vt*/*h*", "interface": "*g*"}
-PICTURES = ("speed.png",)  # which README.md shows: also in docs/
 
 
 def verdicts():
-    """The verdicts of docs/claims.csv with all numbers, as a table in Markdown, and those of other seeds."""
+    """The verdicts of docs/claims.csv with all numbers, as a table in Markdown, and those of other runs that differ."""
     table = published_claims()
-    text = markdown(table, read_claims()) + "\n" + own_scale(overall(table), overall(published_claims(DEFAULT_CLAIMS)))
-    return text + "\n" + other_seeds(overall(table), json.loads((ROOT / "docs/seeds.json").read_text())["verdicts"])
+    seeds = {seed: overall(claims) for seed, claims in published_claims("docs/seeds.csv").groupby("seed")}
+    runs, differ = [overall(published_claims(DEFAULT_CLAIMS)), *seeds.values()], []
+    for claim, verdict in overall(table).items():
+        if others := {run[claim] for run in runs} - {verdict}:
+            differ.append(f"{claim} ({', '.join(sorted(others))})")
+    text = (
+        "With the paper's own number of discs, 2880 (`make reproduce`, `resources/published/default_claims.csv`), and "
+        f"also with {len(seeds)} other root seeds (`make seeds`, [seeds.csv](seeds.csv)), the verdicts are the same, "
+        f"but for: {'; '.join(differ) or 'none'}."
+    )
+    return markdown(table, read_claims()) + "\n" + paragraph(text)
 
 
 def verdict_lines():
-    """The verdicts on physics without numbers: titles of claims, one line for each verdict, and how the scales agree.
-
-    Of the default run where it agrees with the full scale, else of the full scale.
-    """
-    claims, full, default = read_claims(), overall(published_claims()), overall(published_claims(DEFAULT_CLAIMS))
+    """The verdicts on physics without numbers: titles of claims, one line for each verdict."""
+    claims, full = read_claims(), overall(published_claims())
     physics = [name for name in full if claims[name]["kind"] == "physics"]
-    differ = "; ".join(claims[name]["title"] for name in physics if full[name] != default[name])
     titles = {verdict: [claims[name]["title"] for name in physics if full[name] == verdict] for verdict in VERDICTS}
     rows = [(verdict, "; ".join(members)) for verdict, members in titles.items() if members]
-    note = "Of the default run, `make reproduce`; those of `make paper` are the same."
-    if differ:
-        note = f"Of `make paper`. Those of the default run, which has fewer conventions, differ in: {differ}."
-    return markdown_table(("verdict", "claims on physics"), rows) + "\n" + paragraph(note)
+    return markdown_table(("verdict", "claims on physics"), rows)
 
 
 def time_sentence():
@@ -133,52 +133,41 @@ def markdown_table(head, rows):
     return "".join([first, "|---" * len(head) + "|\n", *others])
 
 
-def own_scale(published, default):
-    """Sentence on the verdicts of the default run, which has as many discs as the paper: those that differ."""
-    differ = [f"{claim} ({verdict})" for claim, verdict in default.items() if published[claim] != verdict]
-    return paragraph(
-        "With the paper's own number of discs, 2880 (`make reproduce`, `resources/published/default_claims.csv`), the "
-        f"verdicts are the same, but for: {', '.join(differ) or 'none'}."
-    )
-
-
-def other_seeds(published, runs):
-    """Sentence on the verdicts of other seeds, {seed: {claim: verdict}}: those that change, and that contradict."""
-    outcomes = {claim: {run[claim] for run in runs.values()} for claim in published}
-    change = "; ".join(f"{claim} ({', '.join(sorted(words))})" for claim, words in outcomes.items() if len(words) > 1)
-    same = {claim: min(words) for claim, words in outcomes.items() if len(words) == 1 and words != {published[claim]}}
-    differ = "; ".join(f"{claim} ({word})" for claim, word in same.items() if word != "undecided")
-    undecided = list(same.values()).count("undecided")
-    text = (
-        f"At the default scale with {len(runs)} root seeds (`make seeds`, [seeds.csv](seeds.csv)), verdicts that "
-        f"change with the seed: {change or 'none'}; verdicts that contradict those above: {differ or 'none'}. That "
-        f"scale leaves {undecided or 'none'} of the {len(published)} claims undecided that are decided above."
-    )
-    return paragraph(text)
+def texts(ratios):
+    """Texts of a table of ratios; those that are missing are dashes."""
+    return ratios.map("{:.3g}".format).replace("nan", "–")
 
 
 def other_solver_times():
     """Times of other solvers over that of the loading path, as a table in Markdown, by task and Hurst exponent."""
     table = pd.read_csv(ROOT / OTHER_SOLVERS)
-    solvers, lines = list(dict.fromkeys(table["solver"])), []
-    for (task, across, hurst), rows in table.groupby(["task", "elements", "hurst"], sort=False):
-        ratios = rows.set_index("solver")["ratio"]
-        cells = [f"{ratios[name]:.3g}" if name in ratios else "–" for name in solvers]
-        lines.append((task, f"{across}", f"{hurst:g}", *cells))
-    return markdown_table(("task", "elements across", "H", *solvers), lines)
+    ratios = texts(table.pivot_table("ratio", ["task", "elements", "hurst"], "solver", sort=False))
+    lines = [(task, f"{across}", f"{hurst:g}", *row) for (task, across, hurst), row in ratios.iterrows()]
+    return markdown_table(("task", "elements across", "H", *ratios), lines)
+
+
+def large_maps():
+    """Cost of discs on grids from coarse to fine, as a table in Markdown."""
+    lines = []
+    for row in pd.read_csv(ROOT / "docs/results/large.csv").itertuples():
+        times = f"{row.wall:.3g} s", f"{row.wall_threads:.3g} s"
+        memory = f"{row.memory / 1e9:.1f} GB"
+        lines.append((f"{row.across}", *times, memory, f"{row.levels}", f"{row.operator_applications}"))
+    head = ("elements across", "one thread", "two threads", "memory", "levels", "operator applications")
+    return markdown_table(head, lines)
 
 
 def light_loads():
     """Time of one light load on large maps, and those of other solvers over it, as a table in Markdown."""
     table = pd.read_csv(ROOT / "docs/results/light_contact.csv")
-    own, others = (rows for _, rows in table.groupby(table["solver"] != "viscorough"))
-    looks, lines = list(others.groupby(["solver", "threads"]).groups), []
-    for (across, fraction), rows in others.groupby(["elements", "fraction"]):
-        same = own[(own["elements"] == across) & (own["fraction"] == fraction)].set_index("threads")["wall_s"]
-        ratios = rows.groupby(["solver", "threads"])["ratio"].median()
-        cells = ["–" if pd.isna(ratios.get(look)) else f"{ratios[look]:.3g}" for look in looks]
-        lines.append((f"{across}²", f"{100 * fraction:g} %", f"{same.groupby(level=0).median()[1]:.2g} s", *cells))
-    head = [f"{name}, {threads} thread{'s' * (threads > 1)}" for name, threads in looks]
+    maps = ["elements", "fraction"]
+    own = table.query("solver == 'viscorough' and threads == 1").groupby(maps)["wall_s"].median()
+    others = table[table["solver"] != "viscorough"].pivot_table("ratio", maps, ["solver", "threads"], "median")
+    lines = [
+        (f"{across}²", f"{100 * fraction:g} %", f"{own[across, fraction]:.2g} s", *row)
+        for (across, fraction), row in texts(others).iterrows()
+    ]
+    head = [f"{name}, {threads} thread{'s' * (threads > 1)}" for name, threads in others]
     return markdown_table(("map", "contact", "viscorough", *head), lines)
 
 
@@ -215,32 +204,21 @@ def infinite_grid():
     largest end of the 95 % intervals in all ranges of X.
     """
     table = pd.read_csv(ROOT / "docs/results/infinite_grid.csv").query("law == 'corrected'")
-    columns = list(table.groupby(["source", "quantity"], sort=False))
-    names, lines = [f"{source}, {INTERFACE_QUANTITIES[quantity]}" for (source, quantity), _ in columns], []
-    for hurst, expected in table.drop_duplicates("hurst")[["hurst", "expected"]].itertuples(index=False):
-        fits = [rows.set_index("hurst").loc[hurst] for _, rows in columns]
-        cells = [f"{fit['beta']:.3f} [{fit['ranges_low']:.3f}, {fit['ranges_high']:.3f}]" for fit in fits]
-        lines.append((f"{hurst:g}", f"{expected:.3f}", *cells))
+    table["cell"] = [f"{row.beta:.3f} [{row.ranges_low:.3f}, {row.ranges_high:.3f}]" for row in table.itertuples()]
+    cells = table.pivot(index=["hurst", "expected"], columns=["source", "quantity"], values="cell")
+    names = [f"{source}, {INTERFACE_QUANTITIES[quantity]}" for source, quantity in cells]
+    lines = [(f"{hurst:g}", f"{expected:.3f}", *row) for (hurst, expected), row in cells.iterrows()]
     return markdown_table(("*H*", "*H*/(1 + *H*)", *names), lines) + "\n" + correction_exponents(table)
 
 
 def correction_exponents(table):
-    """Sentences on the corrected fits of the table of infinite grids whose ω the data do not determine."""
+    """Sentence on the fits of the table of infinite grids whose ω the data do not determine."""
     omega = table[["omega", "omega_low", "omega_high"]].itertuples(index=False)
-    places = pd.Series([place_in_range(*values) for values in omega], index=table.index)
-    exponents = {}
-    for place in PLACES[1:]:
-        rows = table[places == place].groupby(["source", "quantity"], sort=False)["hurst"]
-        exponents[place] = "; ".join(
-            f"{source}, {INTERFACE_QUANTITIES[quantity]}, at *H* = {', '.join(f'{hurst:g}' for hurst in hursts)}"
-            for (source, quantity), hursts in rows
-        )
-    text = (
-        f"*ω* itself is at an end of the range tried, {OMEGA[0]:g} to {OMEGA[-1]:g}, in {(places == PLACES[2]).sum()} "
-        f"of these {len(table)} fits ({exponents[PLACES[2]] or 'none'}), and its interval reaches an end in "
-        f"{(places == PLACES[1]).sum()} others ({exponents[PLACES[1]] or 'none'})."
+    places = [place_in_range(*values) for values in omega]
+    return paragraph(
+        f"*ω* itself is at an end of the range tried, {OMEGA[0]:g} to {OMEGA[-1]:g}, in {places.count(PLACES[2])} of "
+        f"these {len(table)} fits, and its interval reaches an end in {places.count(PLACES[1])} others."
     )
-    return paragraph(text)
 
 
 def interface_law():
@@ -292,6 +270,7 @@ def tables():
         ("README.md", "time"): time_sentence(),
         ("docs/verdicts.md", "verdicts"): verdicts(),
         ("docs/performance.md", "other solvers"): other_solver_times(),
+        ("docs/performance.md", "large maps"): large_maps(),
         ("docs/performance.md", "light loads"): light_loads(),
         ("docs/outside.md", "outside"): outside_numbers(),
         ("docs/verification.md", "sum rules"): sum_rules(),
@@ -361,8 +340,6 @@ def copy_results(results, project, commands, commit):
         for file in (results / name for name in PUBLISHED[command]):
             copy = {".png": copy_picture, ".csv": copy_table}.get(file.suffix, shutil.copyfile)
             copy(file, folder / file.name)
-            if file.name in PICTURES:
-                shutil.copyfile(folder / file.name, project / "docs" / file.name)
             records[file.name] = {"command": f"make {command}", "date": date_of(file)} | origin
             if file.name == "other_solvers.csv":
                 copy_other_solvers(file, project / OTHER_SOLVERS, where, date_of(file))

@@ -1,9 +1,9 @@
 """Run the reproduction with several root seeds and report which verdicts change with the seed.
 
-    python benchmarks/seeds.py --seeds 3 --output results/seeds.json
+    python benchmarks/seeds.py --seeds 3 --output results/seeds.csv
 
-Every run starts without results in a temporary folder; the verdicts on the paper's claims are compared. The tables of
-claims of all seeds are written as CSV, to the path of the output with this suffix.
+Every run starts without results in a temporary folder; the verdicts on the paper's claims are compared. The file has
+the tables of claims of all seeds.
 """
 
 import subprocess
@@ -13,46 +13,38 @@ from pathlib import Path
 
 import click
 import pandas as pd
-from measuring import output_option, save
 
 from viscorough_study.verdicts.claims import overall
 
 ROOT = Path(__file__).resolve().parents[1]
 
 
-def claims(folder, settings, cores, *arguments):
-    """Table of claims of a run in a folder; settings : file of changes to config/config.yaml, or None."""
-    command = [sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile"), "--directory", str(folder)]
-    command += ["--configfile", str(settings.resolve())] if settings else []
-    command += ["--cores", str(cores), "--quiet", "all", *arguments]
+def claims(folder, seed, cores):
+    """Table of claims of a run in a folder."""
+    command = [sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile"), "--directory", folder]
+    command += ["--cores", str(cores), "--quiet", "all", "--config", f"seed={seed}"]
     subprocess.run([*command, "--", "results/tables/claims.csv"], check=True)
     return pd.read_csv(Path(folder) / "results/tables/claims.csv", keep_default_na=False, na_values=[""])
-
-
-def report(tables, output):
-    """Write the verdicts of {seed: table of claims}, and the tables as CSV; returns {claim: verdicts} that change."""
-    verdicts = pd.DataFrame({seed: overall(table) for seed, table in tables.items()})
-    moved = {claim: row.tolist() for claim, row in verdicts[verdicts.nunique(axis=1) > 1].iterrows()}
-    save({"moved": moved, "verdicts": verdicts.to_dict()}, output)
-    pd.concat(tables, names=["seed"]).droplevel(1).to_csv(output.with_suffix(".csv"))
-    for claim, outcomes in moved.items():
-        click.echo(f"{claim}: {', '.join(outcomes)}")
-    click.echo(f"{len(moved)} of {len(verdicts)} verdicts change with the seed")
-    return moved
 
 
 @click.command(help=__doc__.splitlines()[0])
 @click.option("--seeds", type=click.IntRange(2), default=3, show_default=True, help="Number of root seeds: 1, 2, ...")
 @click.option("--cores", type=click.IntRange(1), default=2, show_default=True)
-@click.option("--settings", type=click.Path(exists=True, path_type=Path), help="Changes to config/config.yaml.")
-@output_option
-def main(seeds, cores, settings, output):
+@click.option("--output", type=click.Path(path_type=Path), required=True, help="File to write, CSV.")
+def main(seeds, cores, output):
     tables = {}
     for seed in range(1, seeds + 1):
         with tempfile.TemporaryDirectory() as folder:
-            tables[seed] = claims(folder, settings, cores, "--config", f"seed={seed}")
+            tables[seed] = claims(folder, seed, cores)
         click.echo(f"seed {seed} of {seeds}")
-    sys.exit(bool(report(tables, output)))
+    output.parent.mkdir(parents=True, exist_ok=True)
+    pd.concat(tables, names=["seed"]).droplevel(1).to_csv(output)
+    verdicts = pd.DataFrame({seed: overall(table) for seed, table in tables.items()})
+    moved = verdicts[verdicts.nunique(axis=1) > 1]
+    click.echo(
+        f"{len(moved)} of {len(verdicts)} verdicts change with the seed\n{moved.to_string() if len(moved) else ''}"
+    )
+    sys.exit(len(moved) > 0)
 
 
 if __name__ == "__main__":

@@ -2,11 +2,11 @@
 
     python benchmarks/slurm.py --output results/slurm.json
 
-As root on Debian: slurm-wlm and munge are installed unless they are present, and a cluster of this one machine is
-started on the loopback interface, with its files in a temporary folder and without the machine's own settings. The
-small settings are then run three times, each in a copy of the project: locally, through Slurm with profiles/slurm, and
-through Slurm while a job is cancelled, the node is drained and then lost. The files must be those of the local run,
-equal to the last byte; of logs and benchmarks, which contain times, only names must agree.
+As root, with Debian's packages slurm-wlm and munge: a cluster of this one machine is started on the loopback interface,
+with its files in a temporary folder and without the machine's own settings. The small settings are then run three
+times, each in a copy of the project: locally, through Slurm with profiles/slurm, and through Slurm while a job is
+cancelled, the node is drained and then lost. The files must be those of the local run, equal to the last byte; of logs
+and benchmarks, which contain times, only names must agree.
 """
 
 import contextlib
@@ -22,16 +22,15 @@ from pathlib import Path
 
 import click
 import psutil
-from chaos import HANGS, compare, contents, copy_project, jobs_done, remove_results, started, wait_for
+from chaos import compare, contents, jobs_done, remove_results, run_to_end, wait_for
 from measuring import output_option, save
+from project_copy import copy_project
 
 NODE = socket.gethostname().split(".")[0]
 # There is no accounting, jobs take seconds, and no other user queries their states.
 QUICK = ("--slurm-status-command", "squeue", "--slurm-init-seconds-before-status-checks", "3")
 THROUGH_SLURM = ("--profile", "profiles/slurm", *QUICK)
-COMMANDS = 3  # the most times the command is run until it succeeds; with the retries of the profile, once should do
 HELD = 10  # seconds during which a drained node must not start a job
-PACKAGES = ("slurm-wlm", "munge")
 
 MUNGED = "munged --foreground --force --num-threads 2 --socket {0}/munge.socket --key-file {0}/munge.key \
 --pid-file {0}/munged.pid --log-file {0}/munged.log --seed-file {0}/munged.seed"
@@ -63,19 +62,6 @@ SelectTypeParameters=CR_CPU_Memory
 NodeName={node} NodeAddr=127.0.0.1 CPUs={cpus} RealMemory={memory} State=UNKNOWN
 PartitionName=test Nodes={node} Default=YES MaxTime=INFINITE State=UP
 """
-
-
-def install():
-    """Install the packages of Debian, unless the programs are present."""
-    if os.geteuid():
-        raise click.ClickException("root is needed to start daemons that run jobs")
-    if all(shutil.which(name) for name in ("munged", "slurmctld", "slurmd", "sbatch")):
-        return
-    if not shutil.which("apt-get"):
-        raise click.ClickException(f"there is no apt-get to install {' and '.join(PACKAGES)} with")
-    environment = os.environ | {"DEBIAN_FRONTEND": "noninteractive"}
-    for arguments in (("update",), ("install", "--yes", "--no-install-recommends", *PACKAGES)):
-        subprocess.run(["apt-get", "--quiet", *arguments], env=environment, check=True)
 
 
 def printed(*command):
@@ -161,86 +147,51 @@ def jobs(state):
 # ---- runs
 
 
-def run_project(folder, *arguments, disturb=None):
-    """Run a copy to its end, repeating the command if it fails; seconds and number of commands."""
-    begin = time.perf_counter()
-    for command in range(1, COMMANDS + 1):
-        with started(folder, *arguments, log="slurm.log", mode="a") as run:
-            if disturb and command == 1:
-                disturb(run)
-            if run.wait(HANGS) == 0:
-                return {"seconds": round(time.perf_counter() - begin, 1), "commands": command}
-    tail = (folder / "slurm.log").read_text().splitlines()[-30:]
-    raise click.ClickException("\n".join([f"{folder.name} fails {COMMANDS} times:", *tail]))
-
-
-def disturbances(log):
-    """Function that disturbs a run and appends every disturbance and its time to `log`."""
-
-    def note(run, what):
-        log.append({"after_s": round(time.time() - psutil.Process(run.pid).create_time(), 1), "what": what})
-        click.echo(f"after {log[-1]['after_s']:.0f} s: {what}")
-
-    def under_way(run, besides=()):
-        def started_jobs():
-            if run.poll() is not None:
-                raise click.ClickException(f"the run ends before it is disturbed: {log}")
-            return [job for job in jobs("RUNNING") if job not in besides]
-
-        return wait_for(started_jobs, "start of a job")
-
-    def disturb(run):
-        victim = under_way(run)[0]
-        printed("scancel", victim)
-        note(run, f"job {victim} cancelled")
-        under_way(run, [victim])
-        set_state("drain")
-        note(run, "node drained")
-        wait_for(lambda: state() == "drained", "end of the jobs on the drained node")
-        wait_for(lambda: jobs("PENDING"), "submission of a job to the drained node")
-        time.sleep(HELD)
-        if jobs("RUNNING"):
-            raise click.ClickException("the drained node gets jobs")
-        set_state("resume")
-        note(run, "node resumed")
-        lost = under_way(run)
-        set_state("down")
-        note(run, f"node lost with {len(lost)} jobs")
-        time.sleep(3)
-        set_state("resume")
-        note(run, "node resumed")
-
-    return disturb
+def disturb():
+    """Cancel a job of the run, drain the node, and lose it with its jobs."""
+    (victim, *_) = wait_for(lambda: jobs("RUNNING"), "start of a job")
+    printed("scancel", victim)
+    wait_for(lambda: set(jobs("RUNNING")) - {victim}, "start of another job")
+    set_state("drain")
+    wait_for(lambda: state() == "drained", "end of the jobs on the drained node")
+    wait_for(lambda: jobs("PENDING"), "submission of a job to the drained node")
+    time.sleep(HELD)
+    if jobs("RUNNING"):
+        raise click.ClickException("the drained node gets jobs")
+    set_state("resume")
+    wait_for(lambda: jobs("RUNNING"), "start of a job on the resumed node")
+    set_state("down")
+    time.sleep(3)
+    set_state("resume")
+    click.echo("a job cancelled, the node drained, resumed, lost and resumed")
 
 
 def compare_runs(folder):
     """All three runs, as a dictionary for the file."""
-    local, undisturbed, disturbed = (folder / name for name in ("local", "undisturbed", "disturbed"))
-    local.mkdir()
+    local, daemons = folder / "local", folder / "cluster"
     copy_project(local)
-    remove_results(local)
-    result = {"local": run_project(local)}
+    result = {"local_s": run_to_end(local)}
     wanted = contents(local)
-    click.echo(f"local: {result['local']['seconds']:.0f} s, {jobs_done(local)} jobs, {len(wanted)} files")
-    daemons, log = folder / "cluster", []
+    click.echo(f"local: {result['local_s']:.0f} s, {jobs_done(local)} jobs, {len(wanted)} files")
     daemons.mkdir()
     with cluster(daemons):
-        for copy, disturb in ((undisturbed, None), (disturbed, disturbances(log))):
-            shutil.copytree(local, copy)  # with what the local run has compiled
-            remove_results(copy)
-            outcome = run_project(copy, *THROUGH_SLURM, disturb=disturb)
-            outcome["differences"] = compare(contents(copy), wanted)
-            result[copy.name] = outcome
-            click.echo("\n".join([f"{copy.name}: {outcome['seconds']:.0f} s", *outcome["differences"]]))
+        for name, disturbance in (("undisturbed", None), ("disturbed", disturb)):
+            shutil.copytree(local, folder / name)  # with what the local run has compiled
+            remove_results(folder / name)
+            seconds = run_to_end(folder / name, *THROUGH_SLURM, disturb=disturbance)
+            differences = compare(contents(folder / name), wanted)
+            result[name] = {"seconds": seconds, "differences": differences}
+            click.echo("\n".join([f"{name}: {seconds:.0f} s", *differences]))
         result["slurm"] = printed("sinfo", "--version")
-    return result | {"jobs": jobs_done(local), "files_compared": len(wanted), "disturbances": log}
+    return result | {"jobs": jobs_done(local), "files_compared": len(wanted)}
 
 
 @click.command(help=__doc__.splitlines()[0])
 @output_option
 def main(output):
+    if os.geteuid() or not all(map(shutil.which, ("munged", "slurmctld", "slurmd", "sbatch"))):
+        raise click.ClickException("root is needed, and Slurm: apt-get install slurm-wlm munge")
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # as an exception, so that the daemons are ended
-    install()
     with tempfile.TemporaryDirectory() as folder:
         os.chmod(folder, 0o755)  # munged requires that all users can reach its socket
         result = compare_runs(Path(folder).resolve())

@@ -1,11 +1,10 @@
 """Print the test files for what has changed since a commit: `python tests/changed.py [COMMIT]`, by default HEAD.
 
-A module has the test file of its name in the folder of tests of the same shape; without one, those that import it;
-without any, those of its folder. What modules import decides what reruns, so that every change of them has the test of
-that. Changes of the workflow and of pages have the quick tests of their form.
+A module has the test file of its name in the folder of tests of the same shape; without one, those of its folder. What
+modules import decides what reruns, so that every change of them has the test of that. Changes of the workflow and of
+pages have the quick tests of their form.
 """
 
-import re
 import subprocess
 import sys
 from pathlib import Path
@@ -39,13 +38,7 @@ def relevant_tests(name, root=ROOT):
     mirror = Path("tests", *parts[:-1], f"test_{path.name}")
     if (root / mirror).is_file():
         return [str(mirror)]
-    package, module = ".".join(parts[:-1]), path.stem
-    imports = re.compile(
-        rf"(from|import) {re.escape(package)}\.{module}\b|from {re.escape(package)} import .*\b{module}\b"
-    )
-    tests = sorted((root / "tests").rglob("test_*.py"))
-    found = [test for test in tests if imports.search(test.read_text(encoding="utf-8"))]
-    return [str(test.relative_to(root)) for test in found or (root / mirror.parent).glob("test_*.py")]
+    return [str(test.relative_to(root)) for test in sorted((root / mirror.parent).glob("test_*.py"))]
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ from click.testing import CliRunner
 def runs(tmp_path):
     """Two runs with the same numbers, whose measured times differ."""
     for name, seconds in (("old", 1.0), ("new", 2.0)):
-        for folder in ("tables", "curves/discs/h04000_c1"):
+        for folder in ("tables", "curves/discs/h04000_c1", "surfaces"):
             (tmp_path / name / folder).mkdir(parents=True)
         claims = pd.DataFrame({"claim": ["beta"], "value": [0.3], "note": [np.nan]})
         claims.to_csv(tmp_path / name / "tables/claims.csv", index=False)
@@ -31,9 +31,13 @@ def compared(runs, *options):
 @pytest.mark.parametrize(
     ("column", "change", "message"),
     [
-        ("value", lambda value: value * (1 + 1e-11), "1 of 1 differ, by up to 1e-11 relative"),
-        ("value", lambda value: value * np.nan, "1 of 1 differ, by up to nan relative, first 0.3 and nan"),
-        ("claim", lambda value: value + "x", "1 of 1 differ, first beta and betax"),
+        (
+            "value",
+            lambda value: value * (1 + 1e-11),
+            "Not equal to tolerance rtol=1e-12, atol=0 Mismatched elements: 1 / 1 (100%)",
+        ),
+        ("value", lambda value: value * np.nan, "Not equal to tolerance rtol=1e-12, atol=0 nan location mismatch"),
+        ("claim", lambda value: value + "x", "Arrays are not equal Mismatched elements: 1 / 1 (100%)"),
         ("more", lambda value: 1, "only in NEW"),
         ("value", lambda value: value * (1 + 1e-14), None),
     ],
@@ -51,5 +55,5 @@ def test_a_difference_in_a_table(runs, column, change, message):
 def test_values_in_groups_are_compared(runs):
     for run, last in zip(runs, (2.0, 3.0), strict=True):
         heights = xr.Dataset({"heights": ("x", [1.0, last])})
-        heights.to_netcdf(run / "surfaces.nc", group="ensemble_1")
-    assert "surfaces.nc, ensemble_1/heights: 1 of 2 differ" in compared(runs)[1]
+        heights.to_netcdf(run / "surfaces/examples.nc", group="ensemble_1")
+    assert "DIFFERENCE: surfaces/examples.nc, ensemble_1/heights: " in compared(runs)[1]

@@ -8,6 +8,8 @@ from support.documentation import PAGES, ROOT, anchors, links, prose, read
 from support.workflow import FIGURES, RESULTS, TABLES, TARGETS
 
 WORKFLOW = "\n".join(read(path) for path in [ROOT / "workflow/Snakefile", *(ROOT / "workflow/rules").glob("*.smk")])
+RULES = TARGETS | set(RESULTS["tables"]) | {f"plot_{name}" for name in RESULTS["figures"]}
+RULES |= set(re.findall(r"^rule (\w+):", WORKFLOW, re.MULTILINE)) | {"tabulate_departures", "plot_departures"}
 NAMES = [str(page.relative_to(ROOT)) for page in PAGES]
 
 
@@ -36,23 +38,9 @@ def test_what_is_named_exists(page):
     for path in re.findall(r"`((?:src|workflow|config|resources|benchmarks|profiles|examples|peers)/[\w./]+)`", text):
         assert (ROOT / path).exists() or f"\n`{path}`:\n" in text, path
     for command in re.findall(r"`snakemake ([^`]*)`", text):
-        _check_snakemake(command.split())
-
-
-def _check_snakemake(words):
-    takes_value = {"--cores", "--configfile", "--directory", "--profile", "--forcerun", "--config"}
-    rules = set(re.findall(r"^rule (\w+):", WORKFLOW, re.MULTILINE)) | TARGETS
-    rules |= {f"plot_{name}" for name in RESULTS["figures"]} | set(RESULTS["tables"])
-    previous = ""
-    for word in words:
-        if previous in ("--configfile", "--profile") and word != "mine.yaml":
-            assert (ROOT / word).exists(), word
-        elif previous == "--forcerun":
-            assert word in rules, word
-        elif not word.startswith("-") and previous not in takes_value:
-            surfaces = re.fullmatch(r"results/surfaces/discs/h\d{5}/\d{4}-\d{4}\.nc", word)
-            assert surfaces or word in rules | {"tabulate_departures", "plot_departures"}, word
-        previous = word
+        for word in command.split():
+            assert word in RULES or not re.fullmatch(r"[a-z_]+\w*", word), word
+            assert (ROOT / word).exists() or not word.startswith(("config/", "profiles/")), word
 
 
 def test_every_page_is_listed_on_the_first():

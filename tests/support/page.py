@@ -2,11 +2,27 @@
 
 import re
 import shutil
+import subprocess
 from html.parser import HTMLParser
 
 VOID = {"meta", "img", "br", "link", "input", "hr"}
 QUOTED = {"var", "i", "code", "cite", "details", "dl"}  # formulas, names and explanations, no findings
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+
+
+def opened(path, *options):
+    """A page after its scripts have run in a browser that does not complain."""
+    options += (
+        "--headless",
+        "--no-sandbox",
+        "--disable-gpu",
+        f"--user-data-dir={path.parent}",
+        "--enable-logging=stderr",
+    )
+    command = [BROWSER, *options, "--dump-dom", path.as_uri()]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=3000, check=True)
+    assert "CONSOLE" not in done.stderr
+    return done.stdout
 
 
 class Page(HTMLParser):

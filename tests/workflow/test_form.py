@@ -1,60 +1,21 @@
-"""The form of the workflow: rules, scripts, profiles and lock files that go together."""
+"""Files that go together: profiles, lock files, those for archives and catalogs, and what builds the environment."""
 
 import re
 import shutil
 import subprocess
+import tomllib
 
 import yaml
 
-from support.workflow import RESULTS, ROOT, TEST, copy_project, jobs, plan
-
-
-def rules():
-    """{rule: its text} of all rules with a script of their own."""
-    text = "\n".join(path.read_text() for path in (ROOT / "workflow/rules").glob("*.smk"))
-    matches = re.findall(r"^rule (\w+):\n(.*?)(?=\n\S|\Z)", text, re.MULTILINE | re.DOTALL)
-    return {name: body for name, body in matches if "script:" in body}
-
-
-def tabulations(kind):
-    """Rules of tables in results.yaml that are `queued`, or run `alone`."""
-    return {name for name, rule in RESULTS["tables"].items() if rule.get(kind)}
-
-
-def test_scripts_are_short_and_named_like_their_rules():
-    scripts = {path.stem: path.read_text() for path in (ROOT / "workflow/scripts").glob("*.py")}
-    assert set(scripts) == set(rules()) | {"plot", "tabulate", "show_tables"}  # these three serve many rules
-    for name, text in rules().items():
-        assert f'"../scripts/{name}.py"' in text
-    for name, text in scripts.items():
-        assert text.count("\n") <= 40, name
-        assert re.search(r'^if job := globals\(\).get\("snakemake"\):$', text, re.MULTILINE), name
-
-
-def test_short_rules_run_where_snakemake_runs():
-    """Only what computes for long goes through a cluster's queue."""
-    queued = {name for name, text in rules().items() if "localrule: True" not in text} | tabulations("queued")
-    timed = {"measure_large", "measure_methods"} | tabulations("alone")
-    curves = {"generate_discs", "prepare_measured", "indent_surfaces", "reduce_lines"}
-    assert queued == timed | curves | {"validate", "compare_reduction", "compare_periodic", "map_failures"}
-
-
-def test_timed_jobs_run_alone():
-    """With all cores of a machine or, on a cluster, with a node that they do not share."""
-    timed = {name for name, text in rules().items() if "threads: ALL_CORES" in text} | tabulations("alone")
-    own = {"time_other_solvers", "time_light_contact", "compare_level_placement"}
-    assert timed == {"measure_large", "measure_methods"} | own
-    profile = yaml.safe_load((ROOT / "profiles/slurm/config.yaml").read_text())
-    assert timed == set(profile["set-threads"])
-    for name in timed:
-        assert profile["set-resources"][name]["slurm_extra"] == "'--exclusive'"
+from support.workflow import RESULTS, ROOT, TEST, copy_project, jobs, plan, snakemake
 
 
 def test_slurm_profile(tmp_path, finished_once):
-    """It names existing rules, and plans what a local run did; without its executor, which is not installed."""
+    """Timed jobs have their node to themselves; jobs are those of a local run, without the executor."""
     profile = yaml.safe_load((ROOT / "profiles/slurm/config.yaml").read_text())
-    for key in ("set-resources", "set-threads"):
-        assert set(profile[key]) <= set(rules()) | set(RESULTS["tables"]), key
+    timed = {"measure_large", "measure_methods", *(name for name, rule in RESULTS["tables"].items() if "alone" in rule)}
+    assert timed == set(profile["set-threads"])
+    assert {profile["set-resources"][name]["slurm_extra"] for name in timed} == {"'--exclusive'"}
     assert profile.pop("executor") == "slurm"
     folder = copy_project(tmp_path)
     (folder / "local").mkdir()
@@ -64,13 +25,11 @@ def test_slurm_profile(tmp_path, finished_once):
 
 def test_slurm_lock_goes_with_the_other_lock():
     """Both are installed into one environment, so no package may be in both; and neither may hold an address."""
-    names = {}
-    for name in ("requirements.lock", "requirements-slurm.lock"):
-        text = (ROOT / name).read_text()
-        names[name] = set(re.findall(r"^([\w.-]+)==", text, re.MULTILINE))
-        assert "://" not in text
-    assert "snakemake-executor-plugin-slurm" in names["requirements-slurm.lock"]
-    assert not set.intersection(*names.values())
+    texts = [(ROOT / name).read_text() for name in ("requirements.lock", "requirements-slurm.lock")]
+    names = [set(re.findall(r"^([\w.-]+)==", text, re.MULTILINE)) for text in texts]
+    assert "snakemake-executor-plugin-slurm" in names[1]
+    assert not names[0] & names[1]
+    assert "://" not in "".join(texts)
 
 
 def test_missing_venv_is_one_line_and_leaves_nothing(tmp_path):
@@ -87,3 +46,26 @@ def test_missing_venv_is_one_line_and_leaves_nothing(tmp_path):
     assert done.stderr.splitlines()[0].endswith("are needed; Debian and Ubuntu: apt install python3-venv")
     assert "Traceback" not in done.stderr
     assert not (tmp_path / ".venv").exists()
+
+
+def test_citation_agrees_with_package_and_changelog():
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text())
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    assert (citation["version"], citation["license"]) == (project["version"], project["license"])
+    assert f"## {project['version']} ({citation['date-released']})\n" in (ROOT / "CHANGELOG.md").read_text()
+
+
+def test_the_container_has_what_its_commands_need(tmp_path):
+    """The files that Containerfile copies suffice for plans of its commands."""
+    commands = re.findall(r"^(COPY|RUN|CMD) (.*)", (ROOT / "Containerfile").read_text(), re.MULTILINE)
+    for sources, target in (text.rsplit(maxsplit=1) for kind, text in commands if kind == "COPY"):
+        for source in map(ROOT.joinpath, sources.split()):
+            if source.is_dir():
+                shutil.copytree(source, tmp_path / target, ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
+            else:
+                (tmp_path / target).mkdir(exist_ok=True)
+                shutil.copy(source, tmp_path / target)
+    assert commands[-2:] == [("RUN", "make environment"), ("CMD", '["make", "reproduce"]')]
+    for command in ("environment", "reproduce"):
+        subprocess.run(["make", "--dry-run", command], cwd=tmp_path, check=True, capture_output=True)
+    snakemake(tmp_path, "--dry-run")

@@ -6,13 +6,7 @@ rule aggregate_curves:
         curves=lambda wildcards: curves_of_pool(wildcards.pool),
     output:
         pool="results/ensembles/{pool}.nc",
-    log:
-        "results/logs/aggregate_curves/{pool}.log",
-    benchmark:
-        "results/benchmarks/aggregate_curves/{pool}.tsv"
     localrule: True
-    conda:
-        "../envs/viscorough.yaml"
     resources:
         mem_mb=pool_memory,
     params:

@@ -298,20 +298,23 @@ def own_rules():
     return [member for member in workflow.rules if path_of(member.basedir).is_relative_to(WORKFLOW)]
 
 
-def explain(rules):
-    """Give every rule without a docstring its message, for `snakemake --list`."""
-    for member in rules:
-        member.docstring = member.docstring or re.sub(r"{wildcards\.(\w+)}", r"{\1}", member.message or "")
+def complete_rules(rules):
+    """Give the rules what all have in common, which they do not state.
 
-
-def add_source_digests(rules):
-    """Give every rule with a script an unnamed parameter, the digest of the source code that it uses.
-
-    Snakemake itself sees changes of a script, but not of its imports, and would rerun for reworded comments:
-    profiles/default switches its trigger `code` off.
+    Every rule without a docstring gets its message, for `snakemake --list`; every rule with a script, an environment, a
+    log and a benchmark for each job, and an unnamed parameter, the digest of the source code that it uses. Snakemake
+    itself sees changes of a script, but not of its imports, and would rerun for reworded comments: profiles/default
+    switches its trigger `code` off.
     """
     for member in rules:
+        member.docstring = member.docstring or re.sub(r"{wildcards\.(\w+)}", r"{\1}", member.message or "")
         if member.script:
+            member.conda_env = "../envs/viscorough.yaml"
+            wildcards = [f"{{{name}}}" for name in re.findall(r"{([a-z]+)", member.output[0])]
+            job = "/".join([member.name, *wildcards])
+            member.log_modifier = member.benchmark_modifier = member.output_modifier
+            member.set_log(f"results/logs/{job}.log")
+            member.benchmark = f"results/benchmarks/{job}.tsv"
             functions = dict(member.params).get("functions", {})  # imported by name in the script
             member.set_params(SOURCES.digest(WORKFLOW / "rules" / member.script, *functions.values()))
 

@@ -23,13 +23,7 @@ for name, figure in FIGURES.items():
                 labels={"result": figure["label"], "kind": "figure"},
             ),
             pdf=f"results/figures/{figure['file']}.pdf",
-        log:
-            f"results/logs/plot_{name}.log",
-        benchmark:
-            f"results/benchmarks/plot_{name}.tsv"
         localrule: True
-        conda:
-            "../envs/viscorough.yaml"
         resources:
             mem_mb=1000,
         params:

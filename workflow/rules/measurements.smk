@@ -5,12 +5,6 @@
 rule measure_methods:
     output:
         csv="results/methods/{problem}.csv",
-    log:
-        "results/logs/measure_methods/{problem}.log",
-    benchmark:
-        "results/benchmarks/measure_methods/{problem}.tsv"
-    conda:
-        "../envs/viscorough.yaml"
     threads: ALL_CORES
     resources:
         mem_mb=8000,
@@ -29,12 +23,6 @@ rule measure_methods:
 rule measure_large:
     output:
         csv="results/large/{elements}.csv",
-    log:
-        "results/logs/measure_large/{elements}.log",
-    benchmark:
-        "results/benchmarks/measure_large/{elements}.tsv"
-    conda:
-        "../envs/viscorough.yaml"
     threads: ALL_CORES
     resources:
         mem_mb=large_memory,

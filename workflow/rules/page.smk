@@ -23,13 +23,7 @@ rule make_page:
             category=chapter("summary"),
             labels={"result": "questions and answers", "kind": "page"},
         ),
-    log:
-        "results/logs/make_page.log",
-    benchmark:
-        "results/benchmarks/make_page.tsv"
     localrule: True
-    conda:
-        "../envs/viscorough.yaml"
     resources:
         mem_mb=1000,
     params:
@@ -61,13 +55,7 @@ rule make_article:
         figures=expand("results/figures/{file}.pdf", file=ARTICLE_FIGURES),
     output:
         article="results/article.pdf",
-    log:
-        "results/logs/make_article.log",
-    benchmark:
-        "results/benchmarks/make_article.tsv"
     localrule: True
-    conda:
-        "../envs/viscorough.yaml"
     resources:
         mem_mb=1000,
     params:

@@ -18,13 +18,7 @@ for target in dict.fromkeys(table["target"] for table in TABLES.values()):
                 )
                 for name, table in shown_tables_of(target).items()
             ],
-        log:
-            f"results/logs/show_tables_of_{target}.log",
-        benchmark:
-            f"results/benchmarks/show_tables_of_{target}.tsv"
         localrule: True
-        conda:
-            "../envs/viscorough.yaml"
         resources:
             mem_mb=1000,
         params:

@@ -85,13 +85,7 @@ for name, made in TABULATIONS.items():
         output:
             csv=expand("results/tables/{table}.csv", table=made["tables"]),
             nc=expand("results/tables/{table}.nc", table=made["tables"]),
-        log:
-            f"results/logs/{name}.log",
-        benchmark:
-            f"results/benchmarks/{name}.tsv"
         localrule: not made["queued"]
-        conda:
-            "../envs/viscorough.yaml"
         threads: ALL_CORES if made["alone"] else 1
         resources:
             mem_mb=made["memory"],

@@ -8,7 +8,7 @@ import subprocess
 import numpy as np
 import pytest
 
-from support.page import BROWSER, Page, number_in
+from support.page import BROWSER, Page, number_in, opened
 from support.study import ROOT
 from viscorough.calibrated_law import penetration_law
 from viscorough.estimates import estimate
@@ -70,11 +70,7 @@ def shown(tmp_path, **entered):
     )
     html = f"<!DOCTYPE html><meta charset=utf-8><title>-</title>{calculator(SECTION, SCRIPT)}<script>{events}</script>"
     (tmp_path / "page.html").write_text(html, encoding="utf-8")
-    options = ("--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tmp_path}", "--enable-logging=stderr")
-    command = [BROWSER, *options, "--dump-dom", (tmp_path / "page.html").as_uri()]
-    opened = subprocess.run(command, capture_output=True, text=True, timeout=3000, check=True)
-    assert "CONSOLE" not in opened.stderr
-    return re.search(r"<output [^>]*>(.*?)</output>", opened.stdout)[1]
+    return re.search(r"<output [^>]*>(.*?)</output>", opened(tmp_path / "page.html"))[1]
 
 
 @pytest.mark.skipif(BROWSER is None, reason="no Chromium is installed")

@@ -1,0 +1,25 @@
+"""Copies of the project in which campaigns run, and break, what they need."""
+
+import os
+import shutil
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+_NOT_COPIED = shutil.ignore_patterns(".git", ".venv*", ".snakemake", ".pytest_cache", ".hypothesis")
+
+
+def copy_project(folder):
+    """Copy the project with numba's caches, since compiling would take most of the time, into a folder.
+
+    Of folders called results, only that of runs is left out.
+    """
+
+    def not_copied(parent, names):
+        return _NOT_COPIED(parent, names) | ({"results"} if Path(parent) == ROOT else set())
+
+    shutil.copytree(ROOT, folder, ignore=not_copied, dirs_exist_ok=True)
+
+
+def environment(folder):
+    """The variables of this process, and the packages of the copy before the installed ones."""
+    return os.environ | {"PYTHONPATH": str(folder / "src")}

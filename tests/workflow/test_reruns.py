@@ -23,7 +23,7 @@ BOUNDARY_ELEMENTS |= {
     "map_failures",
     "compare_level_placement",
 }
-MEDIA = {"compute_media", "plot_media", "plot_media_exponents"}
+MEDIA = {"compute_media", "plot_media"}
 SIZES = {"fit_sizes", "plot_sizes", "fit_collapse", "plot_collapse"}
 INTERFACE = {"fit_interface", "plot_interface"}
 SPEED = {"measure_methods", "tabulate_methods", "plot_speed"}

@@ -28,10 +28,9 @@ def plot_growth(table):
     time, operators = figure.subplots(1, 2)
     looks = style.series_looks(METHODS.values())
     for (method, value), label in METHODS.items():
-        costs = median_costs(table, method, value)
+        costs, look = median_costs(table, method, value), looks[label]
         if costs.empty:
             continue
-        look = looks[label]
         exponent, _ = fit_cost(costs["number"], costs["wall_s"])
         note = "" if np.isnan(exponent) else f": $N^{{{exponent:.2f}}}$"
         time.plot(costs["number"], costs["wall_s"], **look, label=label + note)
@@ -41,7 +40,5 @@ def plot_growth(table):
     operators.set(ylabel="operator applications on the grid")
     for axes in (time, operators):
         axes.set(xscale="log", yscale="log", xlabel="elements of the disc $N$")
-        style.logarithmic_ticks(axes)
-    style.plain_ticks(operators.yaxis, [10, 20, 50, 100, 200, 500, 1000, 2000])
     figure.legend(loc="outside lower center", ncols=3)
     return figure

@@ -51,7 +51,7 @@ def contents_of(project, discs, lines, *, other_solvers, tables, claims, numbers
         "measured": content.measured(results, conventions),
         "choices": ("automatic", "best by hand", "naive"),
         "settings": content.settings_list(results, scale),
-        "costs": content.costs(results),
+        "costs": results.records("rule_costs"),
         "machine": results.machine["rule_costs"],
         "versions": read_recorded(costs_nc, "versions"),
         "made": read_recorded(costs_nc, "made"),

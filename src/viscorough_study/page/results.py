@@ -64,9 +64,14 @@ class Results:
         """The number at a place of a table."""
         return Number(float(self.tables[table].at[row, column]), table, column, int(row))
 
-    def numbers(self, table, row, *columns):
-        """{column: Number} of one row."""
-        return {column: self.number(table, row, column) for column in columns}
+    def record(self, table, row):
+        """{column: Number, or text} of one row."""
+        values = self.tables[table].loc[row].items()
+        return {name: value if isinstance(value, str) else self.number(table, row, name) for name, value in values}
+
+    def records(self, table, **wanted):
+        """The records of the rows with these values, {column: value}."""
+        return [self.record(table, row) for row in self.rows(table, **wanted).index]
 
     def least(self, rows, table, column):
         """The smallest number in a column of some rows of a table; None if there is none."""

@@ -49,10 +49,6 @@ def dashed(axes):
     return [line for line in axes.lines if line.get_linestyle() == "--"]
 
 
-def legend_texts(legend):
-    return [text.get_text() for text in legend.get_texts()]
-
-
 # ---- tables
 
 
@@ -115,7 +111,7 @@ FROM_TABLES = {  # arguments of the figures that are drawn from tables alone
     "collapse": (curves_of_sizes(), published("collapse"), published("infinite_grid")),
     "conventions": (published("scaling"), SHOWN),
     "direct": (published("direct"),),
-    "failure_map": (published("failure_map"),),
+    "failure_map": (published("failure_map").query("group not in ('Hurst exponent', 'grid', 'shape', 'scale')"),),
     "fig4_exponent": (published("scaling"), SHOWN, (0.4, 1.0)),
     "growth": (published("methods"),),
     "interface": (published("interface"), interface_curves(), published("literature"), published("periodic")),

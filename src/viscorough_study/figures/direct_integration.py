@@ -3,6 +3,7 @@
 import numpy as np
 
 from viscorough_study.figures import style
+from viscorough_study.run.readable import readable
 
 
 @style.figure
@@ -24,7 +25,7 @@ def plot_direct_integration(table):
         axes.margins(y=0.15)
         text = {"transform": axes.get_yaxis_transform(), "color": style.GREY, "ha": "right"}
         axes.text(0.97, factor - 0.004, f"{factor:.3f}", va="top", **text)
-        axes.text(0.97, 1.004, f"largest deviation {style.number_text(deviation, 2)}", va="bottom", **text)
+        axes.text(0.97, 1.004, f"largest deviation {readable(deviation)}", va="bottom", **text)
     for axes in panels[-columns:]:  # the bottom row
         axes.tick_params(labelbottom=True)
         axes.set_xlabel("elements in contact")

@@ -8,6 +8,7 @@ from viscorough_study.ensembles.pool import elements_across
 from viscorough_study.figures import style
 from viscorough_study.figures.mean_curve import mean_curve, realizations_text
 from viscorough_study.fits.conventions import fits
+from viscorough_study.run.readable import readable
 
 # {quantity: its label in the table of combinations, and the size of its unit}
 QUANTITIES = {
@@ -72,8 +73,7 @@ def _tabulate(axes, combinations):
     """Table of the combinations: a column for each, a row for each quantity."""
     axes.axis("off")
     cells = [
-        [style.number_text(at[quantity] / size) for at in combinations.values()]
-        for quantity, (_, size) in QUANTITIES.items()
+        [readable(at[quantity] / size) for at in combinations.values()] for quantity, (_, size) in QUANTITIES.items()
     ]
     labels = [label for label, _ in QUANTITIES.values()]
     place = {"bbox": (0.06, 0, 0.94, 1), "cellLoc": "center", "edges": "open"}

@@ -4,6 +4,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import NullLocator
 
 from viscorough_study.figures import style
+from viscorough_study.run.readable import readable
 
 CHOICES = {"automatic": style.BLUE, "best by hand": style.GREEN, "naive": style.VERMILION}
 HEIGHT = 0.8 / len(CHOICES)  # of a bar
@@ -25,7 +26,7 @@ def plot_level_placement(table):
         look = {"color": CHOICES[row.choice]} if row.reached else {"facecolor": "white", "hatch": MISSED}
         axes.barh(y, row.ratio, 0.9 * HEIGHT, edgecolor=CHOICES[row.choice], linewidth=0.6, **look)
     axes.axvline(1, color=style.GREY, linewidth=0.8)
-    labels = [f"{scene}\nerror up to {style.number_text(accuracy[scene])}" for scene in scenes]
+    labels = [f"{scene}\nerror up to {readable(accuracy[scene])}" for scene in scenes]
     axes.set_yticks(range(len(scenes)), labels)
     axes.yaxis.set_minor_locator(NullLocator())
     axes.set(xlabel="wall time over that of the automatic choice", ylim=(len(scenes) - 0.45, -0.55))

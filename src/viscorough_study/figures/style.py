@@ -19,6 +19,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocat
 from PIL import Image  # a dependency of matplotlib
 
 from viscorough.io.atomic import atomic_write
+from viscorough_study.run.readable import readable
 
 MM = 1 / 25.4
 WIDE, NARROW = 170 * MM, 85 * MM  # widths of two columns of a page, and of one
@@ -165,15 +166,6 @@ def hurst_handles(looks, **changes):
     return [handle(f"$H={hurst:g}$", **(look | changes)) for hurst, look in looks.items()]
 
 
-def number_text(value, digits=3):
-    """Number to `digits` significant digits, with a power of ten if very small or large; 0 for 0."""
-    mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
-    if value == 0 or -3 <= int(exponent) < 4:
-        return f"{float(f'{mantissa}e{exponent}'):g}"
-    factor = "" if float(mantissa) == 1 else rf"{float(mantissa):g}\times "
-    return rf"${factor}10^{{{int(exponent)}}}$"
-
-
 def draw_band(axes, rows, name, color, alpha=0.15):
     """Draw a band over x between the columns `name`_low and `name`_high."""
     axes.fill_between(rows["x"], rows[f"{name}_low"], rows[f"{name}_high"], color=color, alpha=alpha, linewidth=0)
@@ -198,5 +190,5 @@ def _set_ticks(axis):
     if decades < FEW_DECADES:
         evenly = MaxNLocator(6, steps=(1, 2, 5, 10))
         axis.set_major_locator(evenly if decades < 1 else LogLocator(subs=(1.0, 2.0, 5.0), numticks=20))
-        axis.set_major_formatter(FuncFormatter(lambda value, _: number_text(value)))
+        axis.set_major_formatter(FuncFormatter(lambda value, _: readable(value)))
     axis.set_minor_formatter(NullFormatter())

@@ -8,7 +8,7 @@ from PIL import Image
 
 from support.study import SHOWN
 from viscorough_study.figures.exponent import plot_exponent
-from viscorough_study.figures.style import figure, hurst_looks, number_text, save_figure
+from viscorough_study.figures.style import figure, hurst_looks, save_figure
 
 pytestmark = pytest.mark.filterwarnings("error")
 
@@ -21,11 +21,6 @@ def test_looks_of_a_hurst_exponent_do_not_depend_on_how_exponents_are_listed():
         assert len({str(look[name]) for look in looks.values()}) == 4
     grey = [np.dot(to_rgb(look["color"]), (0.3, 0.6, 0.1)) for look in looks.values()]
     assert (np.diff([*grey, 0.77]) > 0.07).all()  # told apart from each other and from the paper when printed in grey
-
-
-def test_numbers_are_plain_or_with_a_power_of_ten():
-    texts = {0.001: "0.001", 2500: "2500", 1e6: "$10^{6}$", 4.56e-9: r"$4.56\times 10^{-9}$", 99999: "$10^{5}$"}
-    assert {value: number_text(value) for value in texts} == texts
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from viscorough_study.page.render import render
 from viscorough_study.page.results import Results
 
 TABLE = pd.read_csv(ROOT / "docs/claims.csv")
-FOUND = answers(Results({"claims": TABLE}, {}, {}))
+FOUND = answers(Results({"claims": TABLE}, {}))
 
 
 @pytest.fixture(scope="module")

@@ -10,7 +10,7 @@ TABLE = pd.read_csv(ROOT / "docs/results/literature.csv")
 
 
 def test_numbers_of_others_stand_beside_ours():
-    quantities = discussion(Results({"literature": TABLE}, {}, {}))["quantities"]
+    quantities = discussion(Results({"literature": TABLE}, {}))["quantities"]
     for name, rows in quantities.items():
         for row in rows:
             of_table = TABLE[(TABLE["quantity"] == name) & (TABLE["hurst"] == row["hurst"])]
@@ -29,8 +29,8 @@ def test_numbers_of_others_stand_beside_ours():
 
 
 def test_every_source_is_listed_once_with_how_it_is_known():
-    sources = discussion(Results({"literature": TABLE}, {}, {}))["sources"]
+    sources = discussion(Results({"literature": TABLE}, {}))["sources"]
     named = [(source["source"], source["year"]) for source in sources]
     assert len(named) == len(set(named)) == len(TABLE.groupby(["source", "year"]))
     assert {source["known"] for source in sources} <= set(KNOWN.values())
-    assert discussion(Results({"literature": TABLE.assign(hurst=float("nan"))}, {}, {}))["quantities"] == {}
+    assert discussion(Results({"literature": TABLE.assign(hurst=float("nan"))}, {}))["quantities"] == {}

@@ -43,7 +43,7 @@ MADE = {
         "literature zeta_laws grid_dependence periodic",
     ),
     "speed": (
-        "speed other_solvers level_placement",
+        "speed level_placement",
         "methods other_solvers level_placement",
     ),
     "light": ("light_contact", "light_contact"),  # a part of `make speed`

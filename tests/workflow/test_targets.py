@@ -33,10 +33,9 @@ def test_targets_beside_the_default_one(finished):
     """Cost of one disc, and other solvers, which are not installed; the rest of these targets is there already."""
     planned = jobs(snakemake(finished, *TEST, "--", "speed", "stability", "sizes", "large"))
     assert planned.pop("measure_large") == 2
-    others = {"time_other_solvers", "plot_other_solvers", "show_tables_of_speed"}
-    others |= {"time_light_contact", "plot_light_contact"}
+    others = {"time_other_solvers", "show_tables_of_speed", "time_light_contact", "plot_light_contact"}
     assert planned == dict.fromkeys({"tabulate_large", "plot_large", "show_tables_of_large"} | others, 1)
-    files = [finished / f"results/figures/{name}.png" for name in ("large", "other_solvers", "light_contact")]
+    files = [finished / f"results/figures/{name}.png" for name in ("large", "light_contact")]
     assert all(file.stat().st_size > 5000 for file in files), "there is more in them than axes"
     costs = pd.read_csv(finished / "results/tables/large.csv")
     assert costs["across"].tolist() == [17, 33]

@@ -24,7 +24,6 @@ def plot_collapse(curves, collapse, infinite):
     whole.set_title("(a) $vt/h$")
     interface.set_title(r"(b) interface, $vt/h - X/\kappa_c$")
     _exponents(exponents, collapse, infinite)
-    style.logarithmic_ticks(whole, interface)
     handles = style.hurst_handles(looks, marker="", linestyle="-")
     figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))
     return figure

@@ -1,7 +1,7 @@
 """Effect on exponent and prefactor of the conventions that the paper leaves open."""
 
 import numpy as np
-from matplotlib.ticker import MaxNLocator, NullLocator
+from matplotlib.ticker import NullLocator
 
 from viscorough import reference
 from viscorough_study.figures import style
@@ -24,65 +24,46 @@ CONVENTION_LABELS = {
     },
     "gamma": {"without": "law without Γ", "with": "law with Γ (Eq. 9)"},
 }
-VARIANTS = {
-    "longer_period": "longer period",
-    "corners": "corners of spectrum",
-    "fixed_amplitudes": "fixed amplitudes",
-    "longer_period_corners": "longer period, corners",
-    "longer_period_fixed": "longer period, fixed amplitudes",
-    "corners_fixed": "corners, fixed amplitudes",
-    "longer_period_corners_fixed": "all three of these",
-    "roll_off": "roll-off (control)",
-}
 
 
 @style.figure
 def plot_conventions(scaling, conventions):
-    """β and ζ of the discs, with 95 % intervals, as one convention or the surfaces change; four values of H per row.
+    """β less H/(1 + H) and ζ over 2 − H of the discs, with 95 % intervals, as one convention or the surfaces change.
 
     scaling : scaling table; conventions : {column of it: value}, of which one is changed at a time
-    All β axes span the same length, all ζ axes the same ratio.
     """
     discs = scaling[scaling["source"] == "discs"]
-    exponents = sorted(discs["hurst"].unique())
-    changes = _changes(discs, conventions)
-    betas, zetas, figure = _panels(len(exponents), len(changes))
-    looks = style.hurst_looks(exponents)
-    dashed, dotted = ({"color": style.GREY, "linestyle": line} for line in ("--", ":"))
-    for hurst, beta, zeta in zip(exponents, betas, zetas, strict=True):
-        _draw_changes(beta, "beta", discs[discs["hurst"] == hurst], changes, looks[hurst])
-        _draw_changes(zeta, "zeta", discs[discs["hurst"] == hurst], changes, looks[hurst])
-        beta.axvline(reference.exponent_beta(hurst), **dashed, zorder=1)
-        zeta.axvline(reference.zeta_viscous(hurst), **dashed, zorder=1)
-        zeta.axvline(reference.zeta_elastic(hurst), **dotted, zorder=1)
-        beta.set(title=f"$H={hurst:g}$", xlabel=r"exponent $\beta$")
-        zeta.set(xlabel=r"prefactor $\zeta$", xscale="log")
-    beta.set(yticks=range(len(changes)), yticklabels=[label for label, _ in changes], ylim=(len(changes) - 0.4, -0.6))
-    beta.yaxis.set_minor_locator(NullLocator())
-    _same_length(betas)
-    _same_length(zetas)
-    changed = discs["case_group"] != "base"
-    numbers = [f"{style.count_text(discs.loc[~changed, 'realizations'])} discs for each $H$"]
-    numbers += [f"{style.count_text(discs.loc[changed, 'realizations'])} of changed surfaces"] if changed.any() else []
+    looks, changes = style.hurst_looks(discs["hurst"]), _changes(discs, conventions)
+    figure = style.new_figure(7 * len(changes) + 28)
+    betas, zetas = figure.subplots(1, 2, sharey=True)
+    heights = np.linspace(-0.27, 0.27, len(looks))  # of the Hurst exponents in a row
+    for (hurst, look), height in zip(looks.items(), heights, strict=True):
+        beta, zeta = reference.exponent_beta(hurst), reference.zeta_viscous(hurst)
+        zetas.axvline(reference.zeta_elastic(hurst) / zeta, color=look["color"], linestyle=":", zorder=1)
+        for y, (_, wanted) in enumerate(changes):
+            for row in fits(discs, wanted, hurst=hurst).itertuples():
+                interval = row.beta_low - beta, row.beta_high - beta
+                style.mark_with_interval(betas, row.beta - beta, y + height, interval, look, along="x")
+                interval = row.zeta_low / zeta, row.zeta_high / zeta
+                style.mark_with_interval(zetas, row.zeta / zeta, y + height, interval, look, along="x")
+    for axes, law in ((betas, 0), (zetas, 1)):
+        axes.axvline(law, color=style.GREY, linestyle="--", zorder=1)
+        for y in range(0, len(changes), 2):
+            axes.axhspan(y - 0.5, y + 0.5, color="0.95", linewidth=0, zorder=0)
+    betas.set(yticks=range(len(changes)), yticklabels=[label for label, _ in changes], ylim=(len(changes) - 0.5, -0.5))
+    betas.yaxis.set_minor_locator(NullLocator())
+    betas.set_xlabel(r"exponent $\beta$ less $H/(1+H)$")
+    zetas.set(xlabel=r"prefactor $\zeta$ over $2−H$", xscale="log")
+    counts = discs.groupby(discs["case_group"] != "base")["realizations"]
+    numbers = [f"{style.count_text(of_group)} discs" for _, of_group in counts]
     handles = [
-        style.handle("$H/(1+H)$, Eq. 10; $2-H$, Eq. 11 (with Γ)", **dashed),
-        style.handle(r"$\pi(3-H)/10$, Eq. 4", **dotted),
-        style.handle(", ".join(numbers), linestyle=""),
+        *style.hurst_handles(looks, linestyle=""),
+        style.handle("Eq. 10; Eq. 11 (with Γ)", color=style.GREY, linestyle="--"),
+        style.handle("Eq. 4", color=style.GREY, linestyle=":"),
     ]
-    figure.legend(handles=handles, loc="outside lower center", ncols=3)
+    title = " for each $H$, and ".join(numbers[:2]) + " of changed surfaces" * (len(numbers) > 1)
+    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), title=title)
     return figure
-
-
-def _panels(exponents, changes):
-    """Panels of β and of ζ, one for each Hurst exponent, four per row, and the figure."""
-    columns = min(4, exponents)
-    blocks = -(-exponents // columns)
-    figure = style.new_figure(2 * blocks * (13 + 4.2 * changes) + 10)
-    grid = figure.subplots(2 * blocks, columns, squeeze=False, sharey=True)
-    for axes in grid[-2:, exponents - columns * (blocks - 1) :].flat:
-        axes.remove()
-    betas, zetas = (list(grid[first::2].flat)[:exponents] for first in (0, 1))
-    return betas, zetas, figure
 
 
 def _changes(discs, conventions):
@@ -94,33 +75,4 @@ def _changes(discs, conventions):
         others = [value for value in labels if value != conventions[column] and value in available]
         rows += [(labels[value], base | {column: value}) for value in others]
     groups = [name for name in discs["case_group"].unique() if name != "base"]
-    return rows + [(VARIANTS.get(name, name.replace("_", " ")), conventions | {"case_group": name}) for name in groups]
-
-
-def _draw_changes(axes, quantity, discs, changes, look):
-    """Draw one quantity under every change, one per row, over a band that is the interval of the first row."""
-    for y, (_, wanted) in enumerate(changes):
-        face = look["color"] if y == 0 else "white"
-        rows = fits(discs, wanted)
-        for value, low, high in rows[[quantity, f"{quantity}_low", f"{quantity}_high"]].itertuples(index=False):
-            style.mark_with_interval(axes, value, y, (low, high), look | {"markerfacecolor": face}, along="x")
-            if y == 0 and low < high:
-                axes.axvspan(low, high, color="0.93", linewidth=0, zorder=0)
-        if rows.empty:
-            words = {"fontsize": 8, "color": style.GREY, "backgroundcolor": "white", "ha": "center", "va": "center"}
-            axes.text(0.5, y, "no region (b)", transform=axes.get_yaxis_transform(), **words)
-
-
-def _same_length(panels):
-    """Give the x axes of all panels the same length around their centres, and ticks for that length."""
-    logarithmic = panels[0].get_xscale() == "log"
-    limits = np.array([axes.get_xlim() for axes in panels])
-    limits = np.log10(limits) if logarithmic else limits
-    half = np.ptp(limits, axis=1).max() / 2
-    for axes, middle in zip(panels, limits.mean(axis=1), strict=True):
-        ends = np.array([middle - half, middle + half])
-        axes.set_xlim(10**ends if logarithmic else ends)
-        if logarithmic:
-            style.plain_ticks(axes.xaxis, [0.1, 0.2, 0.5, 1, 2, 5, 10])
-        else:
-            axes.xaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
+    return rows + [(name.replace("_", " "), conventions | {"case_group": name}) for name in groups]

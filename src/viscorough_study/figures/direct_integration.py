@@ -1,13 +1,9 @@
 """Direct integration of the viscous problem in time, compared with the law with and without the factor 1/Γ(2 − α)."""
 
-import re
-
 import numpy as np
-from matplotlib.ticker import MultipleLocator
 
 from viscorough_study.figures import style
-
-COLUMNS = 3
+from viscorough_study.run.readable import readable
 
 
 @style.figure
@@ -17,13 +13,19 @@ def plot_direct_integration(table):
     table : of comparisons.direct_integration; each indenter has a panel, with the largest deviation of the ratio from 1
     """
     cases = list(table["case"].unique())
-    columns = min(COLUMNS, len(cases))
+    columns = min(3, len(cases))
     figure, panels = style.new_panels(len(cases), columns, height=42, rest=16, sharex=True, sharey=True)
     for axes, case in zip(panels, cases, strict=True):
-        _draw_case(axes, case, table[table["case"] == case])
-    below, above = table["depth_ratio"].min(), table[["depth_ratio", "with_gamma"]].max(axis=None)
-    panels[0].yaxis.set_major_locator(MultipleLocator(0.05))
-    panels[0].set(xscale="log", ylim=(below - 0.15 * (above - below), above + 0.15 * (above - below)))
+        rows = table[table["case"] == case]
+        factor, deviation = rows["with_gamma"].iloc[0], np.abs(rows["depth_ratio"] - 1).max()
+        axes.axhline(1, color=style.GREY, linewidth=0.8, zorder=1)
+        axes.axhline(factor, color=style.GREY, linestyle="--", zorder=1)
+        axes.plot(rows["contact_count"], rows["depth_ratio"], "o", color=style.BLACK, markersize=3.5)
+        axes.set(title=case, xscale="log")
+        axes.margins(y=0.15)
+        text = {"transform": axes.get_yaxis_transform(), "color": style.GREY, "ha": "right"}
+        axes.text(0.97, factor - 0.004, f"{factor:.3f}", va="top", **text)
+        axes.text(0.97, 1.004, f"largest deviation {readable(deviation)}", va="bottom", **text)
     for axes in panels[-columns:]:  # the bottom row
         axes.tick_params(labelbottom=True)
         axes.set_xlabel("elements in contact")
@@ -35,18 +37,3 @@ def plot_direct_integration(table):
     ]
     figure.legend(handles=handles, loc="outside lower center", ncols=3)
     return figure
-
-
-def _draw_case(axes, case, rows):
-    """Draw one indenter: ratios, the two readings of the law, and the largest deviation from 1 as text."""
-    rough = re.search(r"H = ([\d.]+)", case)
-    look = style.hurst_looks([float(rough[1])]).popitem()[1] if rough else {"color": style.BLACK, "marker": "o"}
-    factor = rows["with_gamma"].iloc[0]
-    axes.axhline(1, color=style.GREY, linewidth=0.8, zorder=1)
-    axes.axhline(factor, color=style.GREY, linestyle="--", zorder=1)
-    axes.plot(rows["contact_count"], rows["depth_ratio"], **look | {"linestyle": "", "markersize": 3.5})
-    axes.set_title(re.sub(r"H = ([\d.]+)", r"$H=\1$", case))
-    deviation = np.abs(rows["depth_ratio"] - 1).max()
-    text = {"transform": axes.get_yaxis_transform(), "color": style.GREY, "ha": "right"}
-    axes.text(0.97, factor - 0.004, f"{factor:.3f}", va="top", **text)
-    axes.text(0.97, 1.004, f"largest deviation {style.number_text(deviation, 2)}", va="bottom", **text)

@@ -1,7 +1,6 @@
 """Figure 4 of the paper: the exponent β over the Hurst exponent."""
 
 import numpy as np
-from matplotlib.legend_handler import HandlerTuple
 
 from viscorough import reference
 from viscorough_study.figures import style
@@ -25,22 +24,17 @@ def plot_exponent(scaling, conventions, hurst_range):
     band = axes.fill_between(lines["hurst"], lines["beta_low"], lines["beta_high"], color=style.PALE, linewidth=0)
     (solid,) = axes.plot(lines["hurst"], lines["beta"], color="black")
     discs = fits(scaling, conventions, source="discs", case_group="base")
-    markers = [
+    for row in discs.itertuples():
         style.mark_with_interval(axes, row.hurst, row.beta, (row.beta_low, row.beta_high), looks[row.hurst])
-        for row in discs.itertuples()
-    ]
     hurst = np.linspace(0, 1, 101)
     (law,) = axes.plot(hurst, reference.exponent_beta(hurst), "--", color=style.GREY)
     legend = {"$H/(1+H)$, Eq. 10": law}
     if len(lines):
         legend[f"MDR, {style.count_text(lines['realizations'])} lines for each $H$"] = (band, solid)
-    handlers = {}
-    if markers:
-        number = style.count_text(discs["realizations"])
-        legend[f"boundary elements, {number} discs for each $H$"] = examples = tuple(markers[:5])
-        handlers[examples] = HandlerTuple(ndivide=None, pad=0.3)  # side by side
-    above = {"loc": "outside upper center", "handlelength": 5}
-    figure.legend(legend.values(), legend.keys(), handler_map=handlers, **above)
+    if len(discs):
+        symbol = style.handle("", color=style.GREY, linestyle="", marker="s")
+        legend[f"boundary elements, {style.count_text(discs['realizations'])} discs for each $H$"] = symbol
+    figure.legend(legend.values(), legend.keys(), loc="outside upper center")
     axes.set(xlim=(-0.02, 1.02), xlabel="Hurst exponent $H$", ylabel=r"exponent $\beta$")
     axes.set_ylim(bottom=min(0, axes.get_ylim()[0]))
     return figure

@@ -1,14 +1,16 @@
 """Interface and flat punch in series: g over X, the law of the library over it, and u₀/h over the Hurst exponent."""
 
 import numpy as np
+import pandas as pd
 
 from viscorough.calibrated_law import ACROSS, LARGEST_DEVIATION, interface_calibration, penetration_law
 from viscorough_study.comparisons.literature import cited
 from viscorough_study.figures import style
 
-SHIFT = 0.008  # distance in H between markers of grids and methods
+SHIFT = 0.012  # distance in H between markers of grids and methods
 X_SHOWN = (1e-4, 30.0)
 LEAST_SHARE = 0.01  # of g in vt/h for the ratio of the law to it: vt/h is known to the tolerance of the curves, 0.1 %
+LABELS = ["source", "case_group", "hurst", "across"]  # of an ensemble
 
 
 @style.figure
@@ -20,28 +22,36 @@ def plot_interface(table, curves, literature, periodic):
     All means are arithmetic ones, as springs add. (a) to (c) show each Hurst exponent on the base grid only; the
     law of the library, in (a) and (c), only on its own grid and at its own Hurst exponents.
     """
-    figure = style.new_figure(130)
-    panels = figure.subplots(2, 2)
-    discs, lines = _on_base_grid(table, "discs"), _on_base_grid(table, "lines")
+    base = pd.concat([_on_base_grid(rows) for _, rows in table.groupby("source")])
+    shown = curves.merge(base[[*LABELS, "plateau_low", "plateau_high"]], on=LABELS)
+    shown = shown[shown["x"].between(X_SHOWN[0], 1.01 * X_SHOWN[1])]
     looks = style.hurst_looks([*table["hurst"], *periodic["hurst"]])
-    for axes, rows in zip(panels[0], (discs, lines), strict=True):
-        for row in rows.itertuples():
-            _draw_interface(axes, row, _curve(curves, row), looks[row.hurst])
+    figure = style.new_figure(130)
+    (discs, lines), (ratio, plateaus) = figure.subplots(2, 2)
+    for (source, hurst, across), curve in shown.groupby(["source", "hurst", "across"]):
+        axes, look = discs if source == "discs" else lines, looks[hurst] | {"marker": ""}
+        style.draw_band(axes, curve, "interface", look["color"], alpha=0.25)
+        axes.plot("x", "interface", data=curve, **look)
+        plateau = curve[curve["x"].between(curve["plateau_low"], curve["plateau_high"])]
+        thick = {"color": look["color"], "linewidth": 3, "alpha": 0.6, "solid_capstyle": "butt"}
+        axes.plot("x", "interface", data=plateau, **thick)
+        if source == "discs" and across == ACROSS and hurst in interface_calibration()["hurst"]:
+            _draw_law(discs, ratio, curve, penetration_law(hurst), look)
     for (hurst, roll_off), rows in periodic.groupby(["hurst", periodic["roll_off_wavelength"].notna()]):
         look = {"color": looks[hurst]["color"], "marker": "s" if roll_off else "o", "linestyle": ""}
-        panels[0, 0].plot(rows["x"], rows["g"], **look, markersize=3, markerfacecolor="white" if roll_off else None)
-    calibrated = discs["hurst"].isin(interface_calibration()["hurst"]) & (discs["across"] == ACROSS)
-    for row in discs[calibrated].itertuples():
-        x, law = _law_of(_curve(curves, row), row.hurst)
-        panels[0, 0].plot(x, law, color=style.BLACK, linewidth=0.6)
-        interface = _curve(curves, row).set_index("x").loc[x, "interface"].to_numpy()
-        ratio = np.where(interface >= LEAST_SHARE * x, law / interface, np.nan)
-        panels[1, 0].plot(x, ratio, **looks[row.hurst] | {"marker": ""})
-    _draw_literature(panels[1, 1], literature)
-    _draw_plateaus(panels[1, 1], table, looks)
-    _label(panels)
+        discs.plot(rows["x"], rows["g"], **look, markersize=3, markerfacecolor="white" if roll_off else None)
+    for axes in (discs, lines, ratio):
+        axes.set(xscale="log", xlabel=r"$X = Ft/(4\eta hL)$", xlim=X_SHOWN)
+    for axes, title in ((discs, "(a) boundary elements"), (lines, "(b) MDR")):
+        axes.set(title=title, ylabel=r"$g = vt/h − X/\kappa_c$", ylim=(0, 0.6))
+    ratio.axhspan(1 - LARGEST_DEVIATION, 1 + LARGEST_DEVIATION, color="0.92", linewidth=0, zorder=0)
+    ratio.axhline(1, color=style.BLACK, linewidth=0.6)
+    ratio.set(title="(c) the law over boundary elements", ylabel="$g$ of the law over the mean", ylim=(0.8, 1.2))
+    _draw_literature(plateaus, literature)
+    _draw_plateaus(plateaus, table, looks)
+    plateaus.set(title="(d) plateau of $g$", xlabel="Hurst exponent $H$", ylabel="$u$₀$/h$", ylim=(0.2, 0.7))
     handles = [
-        *style.hurst_handles(style.hurst_looks([*discs["hurst"], *lines["hurst"]]), marker=""),
+        *style.hurst_handles(style.hurst_looks(shown["hurst"]), marker=""),
         style.handle("plateau", color=style.GREY, linewidth=3, alpha=0.4),
         style.handle("law", color=style.BLACK, linewidth=0.6),
         style.handle("periodic", color=style.GREY, marker="o", linestyle=""),
@@ -51,34 +61,21 @@ def plot_interface(table, curves, literature, periodic):
     return figure
 
 
-def _on_base_grid(table, source):
+def _on_base_grid(rows):
     """Rows of a source on the base grid: the base ensembles, and Hurst exponents that only the grid study has."""
-    rows = table[table["source"] == source]
-    base = rows[rows["case_group"] != "sizes"]
-    further = rows[rows["across"].isin(base["across"]) & ~rows["hurst"].isin(base["hurst"])]
-    return rows.loc[sorted([*base.index, *further.index])].sort_values("hurst")
+    of_sizes = rows["case_group"] == "sizes"
+    base = rows[~of_sizes]
+    further = rows[of_sizes & rows["across"].isin(base["across"]) & ~rows["hurst"].isin(base["hurst"])]
+    return pd.concat([base, further])
 
 
-def _curve(curves, row):
-    """Curve of one row of the table, within `X_SHOWN`."""
-    for name in ("source", "case_group", "hurst", "across"):
-        curves = curves[curves[name] == getattr(row, name)]
-    return curves[(curves["x"] >= X_SHOWN[0]) & (curves["x"] <= X_SHOWN[1] * 1.01)]
-
-
-def _law_of(curve, hurst):
-    """X of a curve within the range of the law of the library, and its g there."""
-    law = penetration_law(hurst)
-    x = curve.loc[curve["x"].between(law.x_low, law.x_high), "x"].to_numpy()
-    return x, law.velocity(x) - x
-
-
-def _draw_interface(axes, row, curve, look):
-    """Draw g with its interval and plateau."""
-    style.draw_band(axes, curve, "interface", look["color"], alpha=0.25)
-    axes.plot(curve["x"], curve["interface"], **look | {"marker": ""})
-    plateau = curve[(curve["x"] >= row.plateau_low) & (curve["x"] <= row.plateau_high)]
-    axes.plot(plateau["x"], plateau["interface"], color=look["color"], linewidth=3, alpha=0.6, solid_capstyle="butt")
+def _draw_law(axes, ratios, curve, law, look):
+    """Draw g of the law of the library in its range, and over that of a curve."""
+    curve = curve[curve["x"].between(law.x_low, law.x_high)]
+    of_law = law.velocity(curve["x"].to_numpy()) - curve["x"]
+    axes.plot(curve["x"], of_law, color=style.BLACK, linewidth=0.6)
+    known = curve["interface"] >= LEAST_SHARE * curve["x"]
+    ratios.plot(curve["x"], (of_law / curve["interface"]).where(known), **look)
 
 
 def _draw_literature(axes, literature):
@@ -96,31 +93,18 @@ def _draw_literature(axes, literature):
 
 
 def _draw_plateaus(axes, table, looks):
-    """Draw u₀/h over H: discs with a marker for each grid, filled on the base grid, and lines as crosses."""
-    grids = sorted(table.loc[table["source"] == "discs", "across"].unique())
-    markers = dict(zip(grids, style.SERIES_MARKERS, strict=False))
-    for row in table.itertuples():
-        discs = row.source == "discs"
-        if not discs and row.case_group == "sizes":
-            continue  # u₀ of lines varies far less with their number of points than with H
-        face = looks[row.hurst]["color"] if row.case_group != "sizes" else "white"
-        marker = markers[row.across] if discs else "x"
-        look = {"color": looks[row.hurst]["color"], "marker": marker, "markerfacecolor": face}
-        place = row.hurst + SHIFT * (grids.index(row.across) - len(grids) / 2 if discs else 1 + len(grids) / 2)
-        style.mark_with_interval(axes, place, row.u0, (row.u0_low, row.u0_high), look)
-    labels = {f"{across} across": marker for across, marker in markers.items()} | {"lines (MDR)": "x"}
-    handles = [style.handle(label, color=style.GREY, marker=mark, linestyle="") for label, mark in labels.items()]
+    """Draw u₀/h over H, with a marker for each grid of the discs, and one for the lines.
+
+    Lines are shown on the base grid only: their u₀ varies far less with the number of points than with H.
+    """
+    discs = table["source"] == "discs"
+    names = np.where(discs, table["across"].astype(str) + " across", "lines (MDR)")
+    table = table.assign(name=names)[discs | (table["case_group"] != "sizes")].sort_values("across")
+    markers = dict(zip(table["name"].unique(), style.SERIES_MARKERS, strict=False))
+    for rank, (name, rows) in enumerate(table.groupby("name", sort=False)):
+        for row in rows.itertuples():
+            place = row.hurst + SHIFT * (rank - len(markers) / 2)
+            look = {"color": looks[row.hurst]["color"], "marker": markers[name], "markerfacecolor": "none"}
+            style.mark_with_interval(axes, place, row.u0, (row.u0_low, row.u0_high), look)
+    handles = [style.handle(name, color=style.GREY, marker=mark, linestyle="") for name, mark in markers.items()]
     axes.legend(handles=handles, ncols=3, loc="lower center", columnspacing=1)
-
-
-def _label(panels):
-    discs, lines, ratio, plateaus = panels.flat
-    for axes in (discs, lines, ratio):
-        axes.set(xscale="log", xlabel=r"$X = Ft/(4\eta hL)$", xlim=X_SHOWN)
-    for axes, title in ((discs, "(a) boundary elements"), (lines, "(b) MDR")):
-        axes.set(title=title, ylabel=r"$g = vt/h − X/\kappa_c$", ylim=(0, 0.6))
-    ratio.axhspan(1 - LARGEST_DEVIATION, 1 + LARGEST_DEVIATION, color="0.92", linewidth=0, zorder=0)
-    ratio.axhline(1, color=style.BLACK, linewidth=0.6)
-    ratio.set(title="(c) the law over boundary elements", ylabel="$g$ of the law over the mean", ylim=(0.8, 1.2))
-    style.logarithmic_ticks(discs, lines, ratio)
-    plateaus.set(title="(d) plateau of $g$", xlabel="Hurst exponent $H$", ylabel="$u$₀$/h$", ylim=(0.2, 0.7))

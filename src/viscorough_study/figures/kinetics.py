@@ -1,26 +1,27 @@
 """Figure 2 of the paper: kinetics of penetration, in SI units and in dimensionless variables."""
 
 import numpy as np
+from matplotlib.patheffects import withStroke
 
 from viscorough import reference
 from viscorough_study.ensembles.pool import elements_across
 from viscorough_study.figures import style
 from viscorough_study.figures.mean_curve import mean_curve, realizations_text
-from viscorough_study.figures.placement import place_labels
 from viscorough_study.fits.conventions import fits
+from viscorough_study.run.readable import readable
 
-# Rows of the table of combinations: quantity, symbol, unit, size of the unit.
-QUANTITIES = (
-    ("force", "$F$", "N", 1.0),
-    ("viscosity", r"$\eta$", "Pa s", 1.0),
-    ("diameter", "$L$", "mm", 1e-3),
-    ("rms", "$h$", "µm", 1e-6),
-)
+# {quantity: its label in the table of combinations, and the size of its unit}
+QUANTITIES = {
+    "force": ("$F$ (N)", 1.0),
+    "viscosity": (r"$\eta$ (Pa s)", 1.0),
+    "diameter": ("$L$ (mm)", 1e-3),
+    "rms": ("$h$ (µm)", 1e-6),
+}
 
 
 @style.figure
 def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min):
-    """Velocity over time in SI units, vt/h over X computed from them (Eq. 2), and a table of the combinations.
+    """Velocity over time in SI units, vt/h over X, and a table of the combinations.
 
     ensembles : ensemble datasets, one for each case
     combinations : {case: force [N], viscosity [Pa s], diameter [m], rms [m]}
@@ -40,25 +41,26 @@ def plot_kinetics(ensembles, combinations, scaling, conventions, *, fraction_min
     ends = {}
     for ds, curve in zip(ensembles, curves, strict=True):
         case, look = ds["case"].item(), looks[ds["hurst"].item()] | {"marker": "", "linewidth": 0.8}
-        time, velocity, dimensionless = _in_units(curve, combinations[case])
+        force, viscosity, length, rms = (combinations[case][name] for name in ("force", "viscosity", "diameter", "rms"))
+        time = 4 * curve.x * viscosity * rms * length / force
+        velocity = curve.velocity * rms / time
         one_element = (~curve.several | np.append(True, ~curve.several[:-1])) & (curve.x >= start)  # and the next
-        for axes, (x, y) in ((raw, (time, velocity)), (collapsed, dimensionless)):
+        for axes, x, y in ((raw, time, velocity), (collapsed, curve.x, curve.velocity)):
             axes.plot(x[one_element], y[one_element], color=style.PALE, zorder=1)
             axes.plot(x[curve.several], y[curve.several], label=case, **look)
         for last in np.flatnonzero(np.isfinite(velocity))[-1:]:
-            end, name = (time[last], velocity[last]), _combination(case)
-            ends[name] = max(end, ends.get(name, end))  # of the curve that ends last
+            ends[_combination(case)] = time[last], velocity[last]
+    for name, end in ends.items():
+        halo = {"path_effects": [withStroke(linewidth=2, foreground="white")]}
+        raw.annotate(name, end, (0, 3), textcoords="offset points", ha="center", **halo)
     raw.set(xscale="log", yscale="log", xlabel="time $t$ (s)", ylabel="velocity $v$ (m/s)")
-    raw.margins(x=0.12, y=0.05)
     collapsed.set(xscale="log", yscale="log", xlabel=r"$X = Ft/(4\eta hL)$", ylabel="$vt/h$")
     _mark_limits(collapsed, elements_across(ensembles[0]["elements"].item()))
     _mark_windows(collapsed, looks, scaling, conventions)
     realizations = f"each a mean over {realizations_text(ensembles)} discs"
     handles = style.hurst_handles(looks, marker="")
     collapsed.legend(handles=handles, loc="upper left", title=realizations, alignment="left")
-    style.logarithmic_ticks(raw, collapsed)
-    _tabulate(below.subplots(), {name: at for case, at in combinations.items() if (name := _combination(case))})
-    place_labels(raw, [(name, *end, style.BLACK) for name, end in ends.items() if name])
+    _tabulate(below.subplots(), {_combination(case): at for case, at in combinations.items()})
     return figure
 
 
@@ -69,26 +71,15 @@ def _combination(case):
 
 def _tabulate(axes, combinations):
     """Table of the combinations: a column for each, a row for each quantity."""
-    axes.set(xlim=(0, len(combinations) + 2), ylim=(len(QUANTITIES) + 0.5, -0.5))
-    axes.set_label("<table>")
     axes.axis("off")
-    axes.text(0, 0, "combination", va="center")
-    axes.axhline(0.5, color=style.GREY, linewidth=0.6)
-    for row, (_, symbol, unit, _) in enumerate(QUANTITIES, 1):
-        axes.text(0, row, f"{symbol} ({unit})", va="center")
-    for column, (name, values) in enumerate(combinations.items()):
-        place = {"x": column + 2, "ha": "center", "va": "center"}
-        axes.text(y=0, s=name, **place)
-        for row, (quantity, _, _, size) in enumerate(QUANTITIES, 1):
-            axes.text(y=row, s=style.number_text(values[quantity] / size), **place)
-
-
-def _in_units(curve, combination):
-    """Time [s], velocity [m/s], and (X, vt/h) computed from them."""
-    force, viscosity, length, rms = (combination[name] for name in ("force", "viscosity", "diameter", "rms"))
-    time = 4 * curve.x * viscosity * rms * length / force
-    velocity = curve.velocity * rms / time
-    return time, velocity, (force * time / (4 * rms * viscosity * length), velocity * time / rms)
+    cells = [
+        [readable(at[quantity] / size) for at in combinations.values()] for quantity, (_, size) in QUANTITIES.items()
+    ]
+    labels = [label for label, _ in QUANTITIES.values()]
+    place = {"bbox": (0.06, 0, 0.94, 1), "cellLoc": "center", "edges": "open"}
+    table = axes.table(cells, rowLabels=labels, colLabels=list(combinations), **place)
+    table.auto_set_font_size(False)
+    table.set_fontsize(style.SMALL)
 
 
 def _mark_limits(axes, across):

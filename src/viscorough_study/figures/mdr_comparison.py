@@ -4,9 +4,6 @@ import numpy as np
 
 from viscorough_study.figures import style
 
-TICKS = [0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000]
-NEAR_ONE = [0.2, 0.3, 0.5, 0.8, 1, 1.2, 1.5, 2, 3, 5]
-
 
 @style.figure
 def plot_mdr_comparison(table):
@@ -38,14 +35,10 @@ def plot_mdr_comparison(table):
         (correlation, "(e) realization by realization", r"correlation of $\ln\kappa$"),
         (force, "(f) at the depth of the disc", "force of line over disc"),
     ):
-        axes.set(title=title, ylabel=label, xscale="log")
+        axes.set(title=title, ylabel=label, xscale="log", yscale="linear" if axes is correlation else "log")
         axes.axhline(0 if axes is correlation else 1, color=style.GREY, linewidth=0.6)
-    for axes in (stiffness, scatter, area, gap, force):
-        axes.set_yscale("log")
-        style.plain_ticks(axes.yaxis, TICKS if axes in (area, gap) else NEAR_ONE)
-    for axes in (correlation, force):
-        axes.set_xlabel("$X=F/(4GhL)$")
-    correlation.set_ylim(-1, 1)
+    correlation.set(xlabel="$X=F/(4GhL)$", ylim=(-1, 1))
+    force.set_xlabel("$X=F/(4GhL)$")
     title = f"{style.count_text(table['realizations'])} discs and lines for each $H$"
     handles = style.hurst_handles(looks, marker="")
     figure.legend(handles=handles, loc="outside lower center", title=title, ncols=len(looks))

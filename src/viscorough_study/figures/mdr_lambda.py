@@ -32,8 +32,6 @@ def plot_mdr_lambda(lambdas, exponents):
     ratios.set(title="(b) one λ for each $H$", ylabel="$vt/h$ of lines over discs", ylim=(1 / _RANGE, _RANGE))
     for axes in (values, ratios):
         axes.set(xscale="log", yscale="log", xlabel="$X=F/(4GhL)$")
-    style.plain_ticks(values.yaxis, [0.2, 0.5, 1, 2, 5, 10, 20])
-    style.plain_ticks(ratios.yaxis, [0.3, 0.5, 0.7, 1, 1.5, 2, 3])
     for row in exponents.dropna(subset="difference").itertuples():
         place = row.hurst + _SHIFT * (WINDOWS.index(row.window) - 1)
         look = {"color": looks[row.hurst]["color"], "marker": _MARKERS[row.window]}

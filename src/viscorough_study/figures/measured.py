@@ -44,7 +44,6 @@ def plot_measured(groups, discs, scaling, kinetics, conventions, *, fraction_min
     motion.set(xlabel="time $t$ (s)", ylabel="depth $u$ (µm)", title=title)
     if len(kinetics):
         motion.set(xscale="log", yscale="log")
-    style.logarithmic_ticks(law, motion)
     grey = {"color": style.GREY, "linewidth": 0.9}
     handles = [
         *(style.handle(name.replace("_", " "), color=looks[name]["color"]) for name in groups),

@@ -31,9 +31,11 @@ def plot_media(table):
     handles = [style.handle(medium_label(name), marker=marker, **grey) for name, marker in markers.items()]
     collapsed.legend(handles=handles, loc="upper left")
     figure.align_ylabels()
-    style.logarithmic_ticks(*panels)
     guides = {"slope 1": ":", "slope $H/(1+H)$, Eq. 10": "--"}
-    style.add_legend_of_means(figure, style.hurst_handles(looks, marker=""), guides, table)
+    handles = [style.handle(label, color=style.GREY, linestyle=line) for label, line in guides.items()]
+    handles = [*style.hurst_handles(looks, marker=""), *handles]
+    title = f"each a mean over {style.count_text(table['realizations'])} discs"
+    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), title=title)
     return figure
 
 

@@ -29,7 +29,6 @@ def plot_sizes(table, conventions):
             realizations = f"{style.count_text(numbers)} {source}" if len(numbers) else source
             axes.set_title(f"({next(letters)}) {name}, {realizations}, {window}")
         row[0].set_ylabel(r"exponent $\beta$")
-    style.logarithmic_ticks(*panels.flat)
     handles = [*style.hurst_handles(looks, linestyle=""), style.handle("control, roll-off", **CONTROL)]
     handles.append(style.handle("$H/(1+H)$, Eq. 10", color=style.GREY, linestyle=":", linewidth=0.8))
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))

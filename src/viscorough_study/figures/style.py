@@ -7,6 +7,7 @@ Axis labels give units in parentheses after the symbol, and none for dimensionle
 
 from functools import wraps
 from io import BytesIO
+from itertools import cycle
 from pathlib import Path
 
 import numpy as np
@@ -18,11 +19,12 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocat
 from PIL import Image  # a dependency of matplotlib
 
 from viscorough.io.atomic import atomic_write
+from viscorough_study.run.readable import readable
 
 MM = 1 / 25.4
 WIDE, NARROW = 170 * MM, 85 * MM  # widths of two columns of a page, and of one
 SMALL = 7  # points
-FEW_DECADES = 1.8  # range of a logarithmic axis below which ticks at decades alone are too few
+FEW_DECADES = 2.1  # range of a logarithmic axis below which ticks at decades alone are too few
 GREY, PALE = "0.4", "0.8"
 # The colours of Okabe and Ito, distinguishable with any colour vision.
 BLACK, BLUE, SKY_BLUE, GREEN = "#000000", "#0072b2", "#56b4e9", "#009e73"
@@ -65,7 +67,10 @@ in_style = rc_context(STYLE)
 
 
 def figure(plot):
-    """Decorator of every plotting function: draws in this style, and refuses a table without rows as first argument."""
+    """Decorator of every plotting function: draws in this style, with the ticks of `_set_ticks` on logarithmic axes.
+
+    A table without rows is refused as first argument.
+    """
 
     @wraps(plot)
     @in_style
@@ -73,7 +78,12 @@ def figure(plot):
         first = next(iter((*arguments, *options.values())))
         if isinstance(first, pd.DataFrame) and first.empty:
             raise ValueError(f"{plot.__name__}: the table has no rows; at least one is needed")
-        return plot(*arguments, **options)
+        drawn = plot(*arguments, **options)
+        for axes in drawn.axes:
+            for axis in (axes.xaxis, axes.yaxis):
+                if axis.get_scale() == "log" and not isinstance(axis.get_major_locator(), FixedLocator):
+                    _set_ticks(axis)
+        return drawn
 
     return styled
 
@@ -135,14 +145,9 @@ def hurst_looks(exponents):
 
 
 def series_looks(names):
-    """{name: color, marker}, in the order of the names; markers are hollow where colours repeat."""
-    looks = {}
-    for rank, name in enumerate(dict.fromkeys(names)):
-        cycle, index = divmod(rank, len(SERIES_COLORS))
-        color = SERIES_COLORS[index]
-        marker = SERIES_MARKERS[rank % len(SERIES_MARKERS)]
-        looks[name] = {"color": color, "marker": marker, "markerfacecolor": "none" if cycle else color}
-    return looks
+    """{name: color, marker}, in the order of the names; the pairs differ, even where colours repeat."""
+    looks = zip(dict.fromkeys(names), cycle(SERIES_COLORS), cycle(SERIES_MARKERS), strict=False)
+    return {name: {"color": color, "marker": marker} for name, color, marker in looks}
 
 
 def count_text(counts):
@@ -161,53 +166,29 @@ def hurst_handles(looks, **changes):
     return [handle(f"$H={hurst:g}$", **(look | changes)) for hurst, look in looks.items()]
 
 
-def number_text(value, digits=3):
-    """Number to `digits` significant digits, with a power of ten if very small or large; 0 for 0."""
-    mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
-    if value == 0 or -3 <= int(exponent) < 4:
-        return f"{float(f'{mantissa}e{exponent}'):g}"
-    factor = "" if float(mantissa) == 1 else rf"{float(mantissa):g}\times "
-    return rf"${factor}10^{{{int(exponent)}}}$"
-
-
 def draw_band(axes, rows, name, color, alpha=0.15):
     """Draw a band over x between the columns `name`_low and `name`_high."""
     axes.fill_between(rows["x"], rows[f"{name}_low"], rows[f"{name}_high"], color=color, alpha=alpha, linewidth=0)
 
 
 def mark_with_interval(axes, x, y, interval, look, along="y"):
-    """Draw a marker at (x, y) and its interval (low, high) along x or y, which need not contain it; return its line."""
+    """Draw a marker at (x, y) and its interval (low, high) along x or y, which need not contain it."""
     middle, half = np.mean(interval), np.diff(interval) / 2
     center = (x, middle) if along == "y" else (middle, y)
     axes.errorbar(*center, **{f"{along}err": half}, fmt="none", ecolor=look["color"])
-    return axes.plot(x, y, **look | {"linestyle": ""})[0]
+    axes.plot(x, y, **look | {"linestyle": ""})
 
 
-def logarithmic_ticks(*panels):
-    """Set ticks of logarithmic axes: at decades, over few decades also at 2 and 5, over less than one evenly spaced.
+def _set_ticks(axis):
+    """Set ticks of a logarithmic axis: at decades, over few decades also at 2 and 5, over less than one evenly spaced.
 
     Minor ticks are at the decades where not every decade has a major tick, otherwise between them.
     """
-    for axis in (axis for axes in panels for axis in (axes.xaxis, axes.yaxis) if axis.get_scale() == "log"):
-        low, high = np.log10(axis.get_view_interval())
-        axis.set_major_locator(LogLocator(numticks=9))
-        axis.set_minor_locator(LogLocator(subs=(1.0,) if high - low > 8 else np.arange(2, 10), numticks=200))
-        if high - low < FEW_DECADES:
-            subs = (1.0, 2.0, 5.0)
-            few = sum(low <= exponent + np.log10(sub) <= high for exponent in range(-20, 20) for sub in subs) < 3
-            axis.set_major_locator(MaxNLocator(5) if few else LogLocator(subs=subs, numticks=20))
-            axis.set_major_formatter(FuncFormatter(lambda value, _: number_text(value)))
-        axis.set_minor_formatter(NullFormatter())
-
-
-def plain_ticks(axis, ticks):
-    """Set major ticks with plain numbers on a logarithmic axis of few decades, and minor ticks between them."""
-    axis.set(major_locator=FixedLocator(ticks), major_formatter="{x:g}")
-    axis.set(minor_locator=LogLocator(subs=range(1, 10)), minor_formatter=NullFormatter())
-
-
-def add_legend_of_means(figure, handles, guides, table):
-    """Add a legend below a figure: `handles`, grey lines {label: line style}, and the number of discs of the table."""
-    handles = handles + [handle(label, color=GREY, linestyle=line, linewidth=0.8) for label, line in guides.items()]
-    title = f"each a mean over {count_text(table['realizations'])} discs"
-    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), title=title)
+    decades = np.ptp(np.log10(axis.get_view_interval()))
+    axis.set_major_locator(LogLocator(numticks=9))
+    axis.set_minor_locator(LogLocator(subs=(1.0,) if decades > 8 else np.arange(2, 10), numticks=200))
+    if decades < FEW_DECADES:
+        evenly = MaxNLocator(6, steps=(1, 2, 5, 10))
+        axis.set_major_locator(evenly if decades < 1 else LogLocator(subs=(1.0, 2.0, 5.0), numticks=20))
+        axis.set_major_formatter(FuncFormatter(lambda value, _: readable(value)))
+    axis.set_minor_formatter(NullFormatter())

@@ -1,8 +1,9 @@
 """Numbers of the answers at the top of the page, of the advice on methods, and of their failures."""
 
+from collections import Counter
+
 import numpy as np
 
-from viscorough_study.page.content import case
 from viscorough_study.page.results import Number
 from viscorough_study.performance.costs import fastest
 from viscorough_study.verdicts.claims import counted_verdicts
@@ -24,7 +25,7 @@ def answers(results):
     """{name: numbers} of the sentences that answer the questions at the top of the page."""
 
     def cases(claim):
-        return [case(results, row) for row in results.rows("claims", claim=claim).index]
+        return results.records("claims", claim=claim)
 
     def extremes(claim, column):
         rows = results.rows("claims", claim=claim)
@@ -35,16 +36,11 @@ def answers(results):
         "collapse": cases("collapse")[0],
         "decades": extremes("power_law", "value"),
         "beta": cases("beta"),
-        "coincide": case(results, differences.idxmax()) if len(differences) else None,
-        "elastic": _ends(cases("zeta_elastic")),
-        "viscous": _ends(cases("zeta_viscous")),
+        "coincide": results.record("claims", differences.idxmax()) if len(differences) else None,
+        "elastic": cases("zeta_elastic"),
+        "viscous": cases("zeta_viscous"),
         "gamma": [extremes("gamma", "least")[0], extremes("gamma", "largest")[1], *extremes("gamma", "expected")],
     }
-
-
-def _ends(cases):
-    """First and last case."""
-    return [cases[0], cases[-1]]
 
 
 # ---- methods
@@ -69,11 +65,9 @@ def fastest_methods(results):
 
 
 def method_row(results, row):
-    """Name, parameter and numbers of one row of the table of methods."""
-    values = results.tables["methods"].loc[row]
-    numbers = results.numbers("methods", row, "value", "wall_s", "error")
-    name = values["method"].removeprefix("path, ").replace("at the depths", "given levels")  # as in the figure
-    return {"method": name, "parameter": values["parameter"]} | numbers
+    """The record of a row of the table of methods, with the name of the method as in the figure."""
+    record = results.record("methods", row)
+    return record | {"method": record["method"].removeprefix("path, ").replace("at the depths", "given levels")}
 
 
 def best_model(results):
@@ -86,21 +80,12 @@ def best_model(results):
 
 
 def failures(results):
-    """Counts of the failure map, and for every method the number of cases by outcome and the messages to users."""
+    """Counts of the failure map, and for every method the number of cases by outcome."""
     table = results.tables["failure_map"]
-    methods = []
-    for name in dict.fromkeys(table["method"]):
-        rows = table[table["method"] == name]
-        failed = rows[rows["verdict"].isin(["warned", "refused", "unnoticed"])] if name not in MODELS else rows.iloc[:0]
-        messages = {}
-        for row in failed.itertuples():
-            case = f"{row.group}: {row.case}"
-            messages.setdefault((row.verdict, row.reason.split("; ")[0]), []).append(case)
-        methods.append({"method": name, "verdicts": rows["verdict"].value_counts().to_dict(), "messages": messages})
     outside = table[table["method"].isin(MODELS) & table["verdict"].isin(["stated", "warned"])]
     return {
         "cases": results.count("failure_map", "method", table["method"].iloc[0]),  # one row per case
         **{name: results.count("failure_map", "verdict", name) for name in ("unnoticed", "warned")},
         "worst_model": results.largest(outside[np.isfinite(outside["error"])], "failure_map", "error"),
-        "methods": methods,
+        "methods": {name: Counter(rows["verdict"]) for name, rows in table.groupby("method", sort=False)},
     }

@@ -10,7 +10,8 @@ import typst
 import yaml
 
 from viscorough.calibrated_law import ACROSS
-from viscorough_study.page.results import Number, read_table, readable
+from viscorough_study.page.results import Number, read_table
+from viscorough_study.run.readable import readable
 
 AUDITED, PLAIN = "1e-05", "1e-03"  # tolerances of the audits and curves whose sum rules are shown
 _MARKUP = re.compile(r"""([\\#*_`$<>@\[\]~/"'=+-])""")

@@ -4,8 +4,9 @@ from pathlib import Path
 
 from viscorough_study.page import answers, content
 from viscorough_study.page.discussion import QUANTITIES, discussion
-from viscorough_study.page.results import netcdf_of, read_results, read_table, readable
+from viscorough_study.page.results import netcdf_of, read_results, read_table
 from viscorough_study.robustness.failure_map import VERDICTS as OUTCOMES
+from viscorough_study.run.readable import readable
 from viscorough_study.run.rule_costs import duration_text
 from viscorough_study.run.tables import read_recorded
 
@@ -50,8 +51,8 @@ def contents_of(project, discs, lines, *, tables, claims, numbers):
         "measured": content.measured(results, conventions),
         "choices": ("automatic", "best by hand", "naive"),
         "settings": content.settings_list(results, scale),
-        "costs": content.costs(results),
-        "machine": results.machine["rule_costs"],
+        "costs": results.records("rule_costs"),
+        "machine": read_recorded(costs_nc, "machine"),
         "versions": read_recorded(costs_nc, "versions"),
         "made": read_recorded(costs_nc, "made"),
         "time": duration_text(results.tables["rule_costs"]["share_s"].sum()),

@@ -31,38 +31,28 @@ def verdicts(results, statements, published):
     statements : content of resources/paper/claims.yaml
     published : table of the verdicts of the full scale; `full_scale` is the verdict there if it differs
     """
-    table, claims = results.tables["claims"], {heading: [] for heading in KINDS.values()}
-    at_full_scale = overall(published)
-    for name, verdict in overall(table).items():
-        rows = table[table["claim"] == name]
-        first, displayed = rows.iloc[0], cases_shown(rows)
-        full_scale = None
+    claims, at_full_scale = {heading: [] for heading in KINDS.values()}, overall(published)
+    for name, verdict in overall(results.tables["claims"]).items():
+        rows, full_scale = results.rows("claims", claim=name), None
+        displayed = cases_shown(rows)
         if at_full_scale.get(name, verdict) != verdict:
             of_claim = published[published["claim"] == name]
             deciding = of_claim.loc[deciding_case(of_claim)]
             full_scale = {"verdict": at_full_scale[name], "case": f"{deciding['case']}: {value_text(deciding)}"}
-        claims[KINDS[first["kind"]]].append(
+        claims[KINDS[statements[name]["kind"]]].append(
             {
+                **statements[name],
                 "name": name,
-                **{key: statements[name][key] for key in ("title", "statement")},
-                **first[["where", "quantity", "criterion", "reason"]],
                 "tolerance": results.number("claims", rows.index[0], "tolerance"),
                 "verdict": verdict,
                 "full_scale": full_scale,
                 "undecided": undecided_cases(rows),
-                "deciding": case(results, deciding_case(rows)),
-                "cases": [case(results, i) for i in displayed.index],
+                "deciding": results.record("claims", deciding_case(rows)),
+                "cases": [results.record("claims", i) for i in displayed.index],
                 "left_out": len(rows) - len(displayed),
             }
         )
     return {heading: members for heading, members in claims.items() if members}
-
-
-def case(results, row):
-    """Texts and numbers of a case of a claim."""
-    texts = results.tables["claims"].loc[row, ["case", "verdict", "convention"]].to_dict()
-    counts = ("conventions", "agreeing", "contradicting")
-    return texts | results.numbers("claims", row, "value", "low", "high", "least", "largest", "expected", *counts)
 
 
 def other_solvers(path):
@@ -82,17 +72,10 @@ def other_solvers(path):
 
 
 def scenes(results):
-    """For every scene the required accuracy, and levels, time and error of every choice of levels."""
-    table, scenes = results.tables["level_placement"], []
-    for name in dict.fromkeys(table["scene"]):
-        rows = table[table["scene"] == name]
-        choices = {
-            row["choice"]: {"reached": bool(row["reached"])}
-            | results.numbers("level_placement", i, "levels", "wall_s", "ratio", "error")
-            for i, row in rows.iterrows()
-        }
-        accuracy = results.number("level_placement", rows.index[0], "accuracy")
-        scenes.append({"scene": name, "accuracy": accuracy, "choices": choices})
+    """{scene: {choice of levels: its record}}"""
+    scenes = {}
+    for record in results.records("level_placement"):
+        scenes.setdefault(record["scene"], {})[record["choice"]] = record
     return scenes
 
 
@@ -111,24 +94,8 @@ def measured(results, conventions):
     """Measured scans, and the power law of each group in the conventions of the figures; empty without any."""
     if "measured_scans" not in results.tables:
         return {"scans": [], "groups": []}
-    names = ("elements", "spacing", "row_spacing", "rms", "rms_slope", "diameter")
-    table = results.tables["measured_scans"]
-    scans = [
-        {"file": row["file"], "group": row["group"]} | results.numbers("measured_scans", i, *names)
-        for i, row in table.iterrows()
-    ]
-    names = ("realizations", "decades", "beta", "beta_low", "beta_high", "zeta")
     wanted = {"rms_convention": "disc", "average": conventions["average"], "window_rule": conventions["window_rule"]}
-    fits = results.rows("measured_fits", **wanted)
-    groups = [{"group": row["case_group"]} | results.numbers("measured_fits", i, *names) for i, row in fits.iterrows()]
-    return {"scans": scans, "groups": groups}
-
-
-def costs(results):
-    """Cost of every rule, most expensive first."""
-    columns = ("jobs", "seconds", "share_s", "longest_s", "memory_mb")
-    rules = results.tables["rule_costs"]["rule"].items()
-    return [{"rule": rule} | results.numbers("rule_costs", row, *columns) for row, rule in rules]
+    return {"scans": results.records("measured_scans"), "groups": results.records("measured_fits", **wanted)}
 
 
 # ---- scale
@@ -183,13 +150,10 @@ def settings_list(results, scale):
     surface, indentation = discs["description"]["surface"], discs["description"]["indentation"]
     conventions, fit = results.settings["claims"]["conventions"], results.settings["scaling"]
     listed = ", ".join
-    hursts = {name: [f"{value:g}" for value in scale[name]["hurst"]] for name in ("discs", "lines")}
-    line_exponents = f"{len(hursts['lines'])} from {hursts['lines'][0]} to {hursts['lines'][-1]}"
-    methods, failure, scenes = (results.settings[name] for name in ("methods", "failure_map", "level_placement"))
     return [
         ("root seed of every random surface", discs["description"]["seed"]),
         ("discs, elements across", discs["description"]["elements"]),
-        ("discs, Hurst exponents", listed(hursts["discs"])),
+        ("discs, Hurst exponents", listed(map(str, discs["hurst"]))),
         ("discs, combinations of force, viscosity, diameter and rms height", discs["cases_per_hurst"]),
         ("discs, realizations of each combination", discs["realizations"]),
         ("discs, further ensembles", listed(discs["groups"][1:]) or "none"),
@@ -198,7 +162,7 @@ def settings_list(results, scale):
         ("surfaces, amplitudes of the waves", surface["amplitudes"]),
         ("surfaces, rms height over", surface["rms_over"]),
         ("lines, points", lines["description"]["points"]),
-        ("lines, Hurst exponents", line_exponents if len(hursts["lines"]) > 1 else hursts["lines"][0]),
+        ("lines, Hurst exponents", f"{len(lines['hurst'])} from {lines['hurst'][0]} to {lines['hurst'][-1]}"),
         ("lines, realizations of each", lines["realizations"]),
         ("fits, bootstrap samples", fit["resamples"]),
         ("fits, fewest elements in contact", fit["elements_min"]),
@@ -206,7 +170,4 @@ def settings_list(results, scale):
         ("figures, mean over realizations", conventions["average"]),
         ("figures, rms height h of the", conventions["rms_convention"]),
         ("figures, window of the fit", conventions["window_rule"]),
-        ("speed, repeats of every time", methods["repeats"]),
-        ("failure map, elements across", failure["across"]),
-        ("scenes, elements across", scenes["elements"]),
     ]

@@ -19,32 +19,29 @@ KNOWN = {
 
 
 def discussion(results):
-    """Sources by year, and for each quantity the values of this study and of the literature by Hurst exponent."""
-    table = results.tables["literature"]
+    """Sources by year, and for each quantity the values of this study and of the literature by Hurst exponent.
+
+    quantities : {quantity: records of its first row at each H, with theirs : [(citation, low, high)]}
+    """
+    table, quantities = results.tables["literature"], {name: [] for name in QUANTITIES}
+    for (name, hurst), rows in table.dropna(subset="hurst").groupby(["quantity", "hurst"]):
+        theirs = [
+            (
+                _credit(row),
+                results.number("literature", i, "theirs_low"),
+                results.number("literature", i, "theirs_high"),
+            )
+            for i, row in rows.dropna(subset="theirs_low").iterrows()
+        ]
+        ours = results.record("literature", rows.index[0])
+        quantities[name].append(ours | {"hurst": hurst, "theirs": theirs})
+    sources = table.drop_duplicates(["source", "year"]).assign(known=table["sure"].map(KNOWN))
     return {
-        "sources": [
-            {name: row[name] for name in ("source", "place", "year", "when", "statement")}
-            | {"known": KNOWN[row["sure"]]}
-            for _, row in table.drop_duplicates(["source", "year"]).iterrows()
-        ],
-        "quantities": {name: rows for name in QUANTITIES if (rows := _rows(results, name))},
+        "sources": sources.to_dict("records"),
+        "quantities": {name: rows for name, rows in quantities.items() if rows},
     }
 
 
 def _credit(row):
     """Citation of a number, marked if it is quoted from later work."""
     return cited(row["source"], row["year"]) + (", as quoted" if row["sure"] == "quoted" else "")
-
-
-def _rows(results, quantity):
-    """[{hurst, value, low, high, theirs: [(citation, low, high)]}] by ascending H."""
-    rows = results.rows("literature", quantity=quantity).dropna(subset="hurst")
-    comparison = []
-    for hurst, sources in rows.groupby("hurst"):
-        theirs = [
-            (_credit(row), *results.numbers("literature", i, "theirs_low", "theirs_high").values())
-            for i, row in sources.dropna(subset="theirs_low").iterrows()
-        ]
-        ours = results.numbers("literature", sources.index[0], "value", "low", "high")
-        comparison.append({"hurst": hurst, "theirs": theirs} | ours)
-    return comparison

@@ -27,6 +27,4 @@ def html_table(template, csv_path, nc_path):
 def _cell(value):
     if pd.isna(value):
         return ""
-    if isinstance(value, bool):
-        return "yes" if value else "no"
     return f"{value:.4g}" if isinstance(value, float) else value

@@ -9,7 +9,7 @@ import jinja2
 from docutils.core import publish_parts
 from markupsafe import Markup
 
-from viscorough_study.page.results import readable
+from viscorough_study.run.readable import readable
 
 SCALE = 0.675  # pixels of the page per pixel of a figure
 
@@ -36,9 +36,7 @@ def number(value, scale=1, unit=""):
     """A Number as an element that names its place in a table; a dash for None."""
     if value is None or (text := readable(scale * value.value)) == "–":
         return "–"
-    places = {f"data-{name}": place for name, place in value.place.items()}
-    named = {"value": repr(value.value), "title": value.title} | places
-    attributes = Markup(" ").join(Markup('{}="{}"').format(*attribute) for attribute in named.items())
+    attributes = Markup(" ").join(Markup('{}="{}"').format(*attribute) for attribute in value.attributes.items())
     return Markup("<data {}>{}</data>").format(attributes, text + unit)
 
 

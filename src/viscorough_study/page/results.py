@@ -6,7 +6,6 @@ page, so that a reader or a test can look it up.
 
 from dataclasses import dataclass
 
-import numpy as np
 import pandas as pd
 
 from viscorough_study.run.tables import read_recorded
@@ -28,30 +27,24 @@ class Number:
     counted: str | None = None
 
     @property
-    def place(self):
-        """Attributes of the HTML element that holds the number."""
-        place = {"table": self.table, "row": self.row, "column": self.column, "counted": self.counted}
-        return {name: value for name, value in place.items() if value is not None}
-
-    @property
-    def title(self):
-        """Tooltip of the number."""
-        file = f"results/tables/{self.table}.csv"
-        if self.counted is not None:
-            return f"{file}, {self.column}: number of {self.counted}"
-        return f"{file}, row {self.row}, {self.column}"
+    def attributes(self):
+        """Attributes of the HTML element that holds the number: its value, a tooltip, and its place."""
+        place = f"row {self.row}, {self.column}"
+        place = place if self.counted is None else f"{self.column}: number of {self.counted}"
+        named = {"value": repr(self.value), "title": f"results/tables/{self.table}.csv, {place}"}
+        named |= {f"data-{name}": getattr(self, name) for name in ("table", "row", "column", "counted")}
+        return {name: value for name, value in named.items() if value is not None}
 
 
 @dataclass(frozen=True)
 class Results:
-    """Tables by name, as pandas.DataFrames indexed by the row of the CSV, and their recorded settings and machines.
+    """Tables by name, as pandas.DataFrames indexed by the row of the CSV, and their recorded settings.
 
-    settings, machine : {table: mapping}, empty for tables that record none
+    settings : {table: mapping}, empty for tables that record none
     """
 
     tables: dict
     settings: dict
-    machine: dict
 
     def rows(self, table, **wanted):
         """Rows of a table with these values, {column: value}."""
@@ -64,9 +57,14 @@ class Results:
         """The number at a place of a table."""
         return Number(float(self.tables[table].at[row, column]), table, column, int(row))
 
-    def numbers(self, table, row, *columns):
-        """{column: Number} of one row."""
-        return {column: self.number(table, row, column) for column in columns}
+    def record(self, table, row):
+        """{column: Number, or text} of one row."""
+        values = self.tables[table].loc[row].items()
+        return {name: value if isinstance(value, str) else self.number(table, row, name) for name, value in values}
+
+    def records(self, table, **wanted):
+        """The records of the rows with these values, {column: value}."""
+        return [self.record(table, row) for row in self.rows(table, **wanted).index]
 
     def least(self, rows, table, column):
         """The smallest number in a column of some rows of a table; None if there is none."""
@@ -84,11 +82,8 @@ class Results:
 def read_results(tables):
     """Results of the tables at {name: path of the CSV}; the NetCDF files have the same names in the same folder."""
     frames = {name: read_table(path) for name, path in tables.items()}
-    settings, machine = (
-        {name: read_recorded(netcdf_of(path), attribute, missing={}) for name, path in tables.items()}
-        for attribute in ("settings", "machine")
-    )
-    return Results(frames, settings, machine)
+    settings = {name: read_recorded(netcdf_of(path), "settings", missing={}) for name, path in tables.items()}
+    return Results(frames, settings)
 
 
 def read_table(path):
@@ -100,18 +95,3 @@ def read_table(path):
 def netcdf_of(csv_path):
     """Path of the NetCDF file beside the CSV file of a table."""
     return str(csv_path).removesuffix(".csv") + ".nc"
-
-
-def readable(value):
-    """A number as text of three digits, such as 0.397, 51433, 1.2×10⁻⁵; a dash where there is none."""
-    if value is None or np.isnan(value):
-        return "–"
-    if np.isinf(value):
-        return "∞"
-    if value == round(value) and abs(value) < 1e6:
-        return f"{value:.0f}".replace("-", "−")
-    if 1e-3 <= abs(value) < 1e4:
-        return (f"{value:.0f}" if abs(value) >= 1e3 else f"{value:.3g}").replace("-", "−")
-    mantissa, exponent = f"{value:.1e}".split("e")
-    superscript = str(int(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
-    return f"{mantissa.removesuffix('.0')}×10{superscript}".replace("-", "−")

@@ -5,14 +5,13 @@ python -m viscorough_study.page.terminal -- snakemake --cores 2 -- all
 
 import contextlib
 import re
-import shutil
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pandas as pd
+from tqdm import tqdm
 
 from viscorough.io.netcdf import opened
 from viscorough_study.run.paper_data import read_paper
@@ -22,52 +21,43 @@ from viscorough_study.verdicts.claims import counted_verdicts
 
 OUTPUT = Path("results/run.log")
 PUBLISHED_COSTS = Path("resources/published/default_costs.csv")
-OWN_SPEED = 20  # seconds of the published run after which measured and published speed have equal weight
-SPARSE = 10  # lines of progress without a terminal
 PASSED_ON = (REMOVED, "Compiling ")
-CLEAR = "\r\x1b[K"  # clears the line of a terminal
+LOOK = {"bar_format": "{desc} |{bar}| {remaining} left", "smoothing": 0, "dynamic_ncols": True, "leave": False}
 
 
 class Progress:
-    """Progress of a run, from the lines that Snakemake prints.
+    """Progress of a run, from the lines that Snakemake prints, on standard error if that is a terminal.
 
-    seconds : {rule: share of the run time per job [s]}, of an earlier run; other rules are assigned the mean
+    seconds : pandas.Series, share of the run time per job of every rule [s] in an earlier run, for the time left; other
+        rules are assigned the mean
     """
 
     def __init__(self, seconds):
-        self.seconds, self.mean = seconds, sum(seconds.values()) / max(len(seconds), 1) or 1.0
-        self.planned, self.done, self.total, self.ended = 0.0, 0, 0, 0.0
-        self.running, self.failed_logs, self.began, self.changed = {}, [], None, None
+        self.seconds, self.planned, self.done, self.bar = seconds, 0.0, "", None
 
-    def read(self, line, now):
-        """Update the progress by a line that was printed at time `now` [s]."""
-        if match := re.fullmatch(r"(\w+) +(\d+)", line):
-            if match[1] != "total" and self.began is None:
+    def read(self, line):
+        """Update the progress by a line."""
+        if self.bar is None:
+            if match := re.fullmatch(r"total +(\d+)", line):
+                self.done = f"0 of {match[1]}"
+                silent = True if sys.stderr is None else None  # None: unless it is a terminal
+                self.bar = tqdm(total=self.planned, file=sys.stderr, disable=silent, **LOOK)
+            elif match := re.fullmatch(r"(\w+) +(\d+)", line):
                 self.planned += int(match[2]) * self._seconds_of(match[1])
-                self.total += int(match[2])
-        elif match := re.fullmatch(r"Job (\d+): (.*)", line):
-            if self.began is None:
-                self.began = self.changed = now
-            self.running[match[1]] = match[2]
-        elif match := re.fullmatch(r"Finished jobid: (\d+) \(Rule: (\w+)\)", line):
-            self.running.pop(match[1], None)
-            self.ended, self.changed = self.ended + self._seconds_of(match[2]), now
-        elif match := re.fullmatch(r"(\d+) of (\d+) steps \(.*\) done", line):
-            self.done, self.total = int(match[1]), int(match[2])
-        elif match := re.fullmatch(r" +log: (\S+) \(check log file.*", line):
-            self.failed_logs += [] if match[1] in self.failed_logs else [match[1]]
+        elif match := re.fullmatch(r"Job \d+: (.*)", line):
+            self.bar.set_description_str(f"{self.done}: {match[1]}")
+        elif match := re.fullmatch(r"Finished jobid: \d+ \(Rule: (\w+)\)", line):
+            self.bar.update(self._seconds_of(match[1]))
+        elif match := re.match(r"\d+ of \d+(?= steps )", line):
+            self.done = match[0]
 
-    def text(self, now):
-        """The line of progress, such as "31 of 90, 2.1 minutes left: Figure 1, surfaces"; "" before the first job."""
-        if self.began is None:
-            return ""
-        pace = (self.changed - self.began + OWN_SPEED) / (self.ended + OWN_SPEED)
-        left = max(0.0, pace * (self.planned - self.ended) - (now - self.changed))
-        what = next(reversed(self.running.values()), "")
-        return f"{self.done} of {self.total}, {duration_text(left) if left >= 5 else 'seconds'} left: {what}"
+    def close(self):
+        """Erase the line."""
+        if self.bar is not None:
+            self.bar.close()
 
     def _seconds_of(self, rule):
-        return self.seconds.get(rule, 0.0 if rule == "all" else self.mean)
+        return self.seconds.get(rule, self.seconds.mean())
 
 
 def run(command, output=OUTPUT):
@@ -76,74 +66,46 @@ def run(command, output=OUTPUT):
     Ctrl-C reaches the command itself, which then ends its jobs and unlocks its folder. SIGTERM, which reaches only this
     process, is passed on.
     """
-    progress, drawn, pending = Progress(_published_seconds()), "", ""
-    on_terminal = bool(sys.stderr) and sys.stderr.isatty()
+    costs = pd.read_csv(PUBLISHED_COSTS, index_col="rule")
+    progress = Progress(costs["share_s"] / costs["jobs"])
     output.parent.mkdir(parents=True, exist_ok=True)
-    with open(output, "w", encoding="utf-8") as file, open(output, encoding="utf-8", errors="replace") as printed:
-        process = subprocess.Popen(command, stdout=file, stderr=subprocess.STDOUT)
+    piped = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "encoding": "utf-8", "errors": "replace"}
+    with open(output, "w", encoding="utf-8") as file, subprocess.Popen(command, **piped) as process:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         signal.signal(signal.SIGTERM, lambda *_: process.terminate())
-        ended = False
-        while not ended:
-            ended = process.poll() is not None
-            *lines, pending = (pending + printed.read()).split("\n")
-            for line in lines:
-                progress.read(line, time.monotonic())
-                if line.startswith(PASSED_ON):
-                    _show(CLEAR * on_terminal + line + "\n")
-            drawn = _draw(progress, drawn, on_terminal)
-            time.sleep(0 if ended else 0.2)
-    if on_terminal and drawn:
-        _show(CLEAR)
+        for line in process.stdout:
+            print(line, end="", file=file, flush=True)
+            progress.read(line.rstrip("\n"))
+            if line.startswith(PASSED_ON):
+                _show(line)
+    progress.close()
     code = 128 - process.returncode if process.returncode < 0 else process.returncode
     if code:
-        _show("".join(f"{line}\n" for line in _errors(progress.failed_logs, output)))
+        _show("".join(f"{line}\n" for line in _errors(output)))
     return code
 
 
 def _show(text):
-    """Write to standard error; the run continues if that is closed."""
+    """Write to standard error, above the line of progress; the run continues if that is closed."""
     with contextlib.suppress(OSError):
-        print(text, end="", file=sys.stderr, flush=True)
+        tqdm.write(text, file=sys.stderr, end="")
 
 
-def _draw(progress, drawn, on_terminal):
-    """Show new progress: on a terminal over the last line, otherwise in `SPARSE` lines in all."""
-    if on_terminal:
-        text = progress.text(time.monotonic())[: shutil.get_terminal_size().columns - 1]
-        if text != drawn:
-            _show(CLEAR + text)
-        return text
-    part = str(SPARSE * progress.done // max(progress.total, 1)) if progress.began else ""
-    if part != drawn:
-        _show(progress.text(time.monotonic()) + "\n")
-    return part
-
-
-def _errors(logs, output):
+def _errors(output):
     """Error messages of a run: error and log of every failed job, otherwise the message of Snakemake."""
-    everything = f"Full output: {output}"
-    if logs:
+    text, everything = output.read_text(encoding="utf-8"), f"Full output: {output}"
+    if logs := dict.fromkeys(re.findall(r"^ +log: (\S+) \(check log file", text, re.MULTILINE)):
         return [*(f"Error: {_error_in(Path(log))} (log: {log})" for log in logs), everything]
-    lines = output.read_text(encoding="utf-8", errors="replace").rstrip().splitlines()
+    lines = text.rstrip().splitlines()
     named = (lines[i:] for i, line in enumerate(lines) if re.match(r"\w*(Error|Exception)\b", line))
     return next(named, [*lines[-5:], everything])
 
 
 def _error_in(log):
     """The first error in the log of a job."""
-    if not log.is_file():
-        return "a job failed before it wrote its log"
-    text = log.read_text(encoding="utf-8", errors="replace")
-    match = re.search(r"^\S+ \S+ ERROR (.*)$", text, re.M)
-    return match[1] if match else "a job was ended"
-
-
-def _published_seconds():
-    if not PUBLISHED_COSTS.is_file():
-        return {}
-    table = pd.read_csv(PUBLISHED_COSTS)
-    return dict(zip(table["rule"], table["share_s"] / table["jobs"], strict=True))
+    text = log.read_text(encoding="utf-8", errors="replace") if log.is_file() else ""
+    match = re.search(r"^\S+ \S+ ERROR (.*)$", text, re.MULTILINE)
+    return match[1] if match else "a job was ended, or failed before it wrote its log"
 
 
 def summary(results=Path("results"), paper=Path("resources/paper")):

@@ -1,21 +1,17 @@
-"""Ensembles and fits of small discs and lines, shared by the tests of the figures."""
+"""Ensembles of small discs and lines, and all figures drawn, shared by the tests of the figures."""
 
 import warnings
 
-import pandas as pd
 import pytest
 
 from support import figures as tables
-from support.figures import COMBINATIONS, ELEMENTS, HURST, X, case_of
-from support.study import LIMITS, SHOWN, aggregate, pool_of
+from support.figures import COMBINATIONS, ELEMENTS, HURST, X, case_of, published
+from support.study import SHOWN, aggregate, pool_of
 from support.workflow import FIGURES
 from viscorough.contact.loading_path import indent
 from viscorough.mdr import reduce
 from viscorough.surfaces import self_affine_disc, self_affine_line
 from viscorough_study.ensembles.pool import ensembles
-from viscorough_study.fits.fit_table import COLUMNS, fit_rows
-
-SCALING = LIMITS | {"elements_min": 3, "stiffness_range": (0.03, 0.3)}
 
 
 @pytest.fixture(scope="session")
@@ -57,14 +53,8 @@ def lines():
 
 
 @pytest.fixture(scope="session")
-def scaling(pooled, lines):
-    rows = []
-    for ensemble, line in zip(pooled, lines, strict=True):
-        options = {"resamples": 20, "seed": 1, **SCALING}
-        rows += fit_rows(ensemble, source="discs", case_group="base", lines=line, **options)
-        rows += fit_rows(ensemble, source="discs", case_group="roll_off", **options)
-        rows += fit_rows(line, source="lines", case_group="base", **options)
-    return pd.DataFrame(rows, columns=list(COLUMNS))
+def scaling():
+    return published("scaling")
 
 
 @pytest.fixture(scope="session")
@@ -74,15 +64,14 @@ def combinations():
 
 @pytest.fixture(scope="session")
 def drawn(discs, pooled, lines, scaling, combinations):
-    """{file of the report: its figure}, from small tables and without a warning."""
-    heights, measured = self_affine_disc(0.5, 9, seed=1).heights, tables.fits_of_a_group(pooled, scaling)
+    """{file of the report: its figure}, without a warning."""
+    heights = self_affine_disc(0.5, 9, seed=1).heights
+    of_group = scaling[scaling["source"] == "discs"].assign(source="measured", case_group="polished")
     arguments = tables.FROM_TABLES | {
         "fig1_surfaces": ([(h, heights, 1 / 9) for h in (0.1, 0.5, 0.9)],),
         "fig2_kinetics": (discs, combinations, scaling, SHOWN),
         "fig3_master_curve": (pooled, lines, scaling, SHOWN),
-        "fig4_exponent": (scaling, SHOWN, (0.4, 1.0)),
-        "conventions": (scaling, SHOWN),
-        "measured": ({"polished": pooled[0]}, pooled, measured, tables.measured_kinetics(), SHOWN),
+        "measured": ({"polished": pooled[0]}, pooled, of_group, tables.measured_kinetics(), SHOWN),
     }
     params = {name: figure.get("params", []) for name, figure in FIGURES.items()}
     shares = {name: {"fraction_min": 0.95} for name in params if "fraction_min" in params[name]}

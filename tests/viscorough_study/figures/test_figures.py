@@ -1,16 +1,22 @@
 """Figures show the numbers of their tables, lie whole on their page, and refuse tables without rows."""
 
+import re
+
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
 
 from support import figures as tables
-from support.figures import HURST, X, coordinates, dashed, legend_texts, markers, plot, whole_on_page, without_region
+from support.figures import X, dashed, plot, published, whole_on_page, without_region
 from support.study import SHOWN
 from viscorough import reference
 from viscorough.surfaces import self_affine_disc
 from viscorough_study.figures.collapse import SHIFT
-from viscorough_study.fits.conventions import fits, select
+from viscorough_study.figures.failure_map import CONCERNED, LETTERS, MEANINGS
+from viscorough_study.figures.speed import FLOOR, RING
+from viscorough_study.fits.conventions import fits
+from viscorough_study.performance.costs import pareto_front
+from viscorough_study.robustness.failure_map import VERDICTS
 
 pytestmark = pytest.mark.filterwarnings("error")
 
@@ -24,11 +30,126 @@ def test_figures_are_whole(drawn, scaling):
     assert [name for name, figure in figures.items() if not whole_on_page(figure)] == []
 
 
-@pytest.mark.parametrize("name", [name for name in tables.FROM_TABLES if name != "validation"])
+@pytest.mark.parametrize("name", tables.FROM_TABLES)
 def test_figure_of_no_rows_is_refused(name):
     first, *others = tables.FROM_TABLES[name]
-    with pytest.raises(ValueError, match=f"plot_{tables.MODULES[name]}: .*(no rows|two sizes)"):
+    with pytest.raises(ValueError, match=f"plot_{tables.MODULES[name]}: the table has no rows"):
         plot(tables.MODULES[name], first[:0], *others)
+
+
+# ---- numbers of tables
+
+
+def drawn_points(axes):
+    """Every point of the lines, intervals, bands and bars of an axes."""
+    paths = [path for collection in axes.collections for path in collection.get_paths()]
+    bars = [patch.get_bbox().p1[None] for patch in axes.patches]
+    return np.concatenate([*(line.get_xydata() for line in axes.lines), *(path.vertices for path in paths), *bars])
+
+
+def points(rows, x, *columns):
+    """Points (x, column) of the rows; nan for an x or column that is None, because its values are shifted."""
+    rows = rows.assign(none=np.nan)
+    return np.concatenate([rows[[x or "none", column or "none"]].to_numpy() for column in columns])
+
+
+def expected_points(scaling):
+    """(figure, panel, points that its axes have)"""
+    reduction, lambdas, large = published("reduction"), published("mdr_lambda"), published("large")
+    media, curves, interface = tables.media_table(), tables.interface_curves(), published("interface")
+    lines, discs = (
+        fits(scaling, SHOWN, source="lines", rms_convention="line"),
+        {"source": "discs", "case_group": "base"},
+    )
+    interval = ("beta", "beta_low", "beta_high")
+    yield "fig4_exponent", 0, points(lines, "hurst", *interval)
+    yield "fig4_exponent", 0, points(fits(scaling, SHOWN | discs), "hurst", *interval)
+    for change in ({}, {"average": "arithmetic"}, {"gamma": "with"}, {"case_group": "roll_off"}):
+        rows = fits(scaling, SHOWN | discs | change)
+        for name in interval:
+            yield (
+                "conventions",
+                0,
+                points(rows.assign(less=rows[name] - rows["hurst"] / (1 + rows["hurst"])), "less", None),
+            )
+        yield "conventions", 1, points(rows.assign(over=rows["zeta"] / (2 - rows["hurst"])), "over", None)
+    for panel, name in ((0, "stiffness"), (2, "area"), (3, "gap")):
+        columns = [f"{name}_ratio{end}" for end in ("", "_low", "_high")]
+        yield "reduction", panel, points(reduction.dropna(subset=columns), "x", *columns)
+    yield "reduction", 4, points(reduction, "x", "correlation")
+    yield "reduction", 5, points(reduction, "x", "force_ratio")
+    yield "mdr_lambda", 0, points(lambdas, "x", "lambda", "lambda_low", "lambda_high")
+    yield "mdr_lambda", 1, points(lambdas, "x", "velocity_ratio")
+    yield "mdr_lambda", 2, points(published("mdr_exponents"), None, "difference")
+    for panel, (_, rows) in enumerate(media.groupby("medium", sort=False)):
+        yield "media", panel, points(rows, "time", "velocity")
+    yield "media", 2, points(media, "x", "depth")
+    for panel, (_, rows) in enumerate(published("validation").groupby("quantity", sort=False)):
+        yield "validation", panel, points(rows, "elements", "error")
+    for panel, (_, rows) in enumerate(published("direct").groupby("case", sort=False)):
+        yield "direct", panel, points(rows, "contact_count", "depth_ratio")
+    base = curves[(curves["average"] == "arithmetic") & (curves["case_group"] == "base")]
+    yield "interface", 0, points(base, "x", "interface", "interface_low", "interface_high")
+    yield "interface", 0, points(published("periodic"), "x", "g")
+    yield "interface", 3, points(interface.query("source == 'discs' and average == 'arithmetic'"), None, "u0", "u0_low")
+    yield "large", 0, points(large, "elements", "processor", "wall_threads")
+    yield "large", 1, points(large.assign(memory=large["memory"] / 1e9), "elements", "memory")
+    for panel, rule in ((0, "default"), (2, "X = 0.01 to 0.1")):
+        table, of_lines = published("sizes").query("window_rule == @rule"), {"rms_convention": "line"}
+        yield "sizes", panel, points(fits(table, SHOWN | {"window_rule": rule}, source="discs"), None, "beta")
+        yield "sizes", panel + 1, points(fits(table, SHOWN | {"window_rule": rule}, **of_lines), None, "beta")
+    limits = published("infinite_grid").query("source == 'discs' and (height == 'spectrum' or hurst == 0)")
+    yield "collapse", 2, points(limits.assign(less=limits["beta"] - limits["expected"]), None, "less")
+    yield "level_placement", 0, points(published("level_placement"), "ratio", None)
+
+
+def test_figures_show_the_numbers_of_their_tables(drawn, scaling):
+    for figure, panel, expected in expected_points(scaling):
+        shown = drawn_points(drawn[figure].axes[panel])
+        expected = expected[~np.isnan(expected).all(axis=1)][:, None]
+        assert len(expected) > 1
+        near = (np.isclose(shown, expected, rtol=1e-9, atol=1e-12) | np.isnan(expected)).all(axis=2).any(axis=1)
+        assert near.all(), (figure, panel, expected[~near])
+
+
+@pytest.mark.parametrize(("name", "panel"), [("growth", 0), ("light_contact", 0), ("large", 0), ("large", 1)])
+def test_exponents_in_the_legend_are_those_of_the_lines(drawn, name, panel):
+    """Of the growth over all sizes, otherwise over the larger half, to which the line of `large` belongs."""
+    for line in drawn[name].axes[panel].lines:
+        if stated := re.search(r"(?:N\^\{|exponent )([\d.]+)", line.get_label()):
+            x, y = np.log(line.get_data())
+            half = slice(len(x) // 2 if name == "light_contact" else 0, None)
+            assert np.polyfit(x[half], y[half], 1)[0] == pytest.approx(float(stated[1]), abs=0.006)
+
+
+def test_speed_has_the_front_of_all_methods_and_rings_around_the_fastest():
+    table = published("methods")
+    table.loc[table["error"].idxmin(), "error"] = 0.0
+    rough, sphere = plot("speed", table).axes
+    assert rough.get_title() == "(a) rough disc, H = 0.4, 257 elements across"
+    assert sphere.get_title().startswith("(b) sphere, ")
+    costs = table.query("problem == 'rough disc, H = 0.4' and elements == 257")
+    costs = costs.assign(error=np.maximum(costs["error"], FLOOR))
+    close(rough.lines[0].get_xydata(), pareto_front(costs)[["wall_s", "error"]])
+    rings = sorted(line.get_xdata()[0] for line in rough.lines if line.get_label() == RING["label"])
+    kinds = costs.query("error <= 0.01 and group in ('path', 'marching', 'other solver')").groupby("group")
+    close(rings, sorted(kinds["wall_s"].min()))
+
+
+def test_failure_map_shows_every_cell_but_those_where_a_difficulty_cannot_matter(drawn):
+    (table,) = tables.FROM_TABLES["failure_map"]
+    concerned = [
+        group not in CONCERNED or method.startswith(CONCERNED[group]) or verdict in ("refused", "unnoticed")
+        for group, method, verdict in table[["group", "method", "verdict"]].itertuples(index=False)
+    ]
+    letters = [text.get_text().split()[-1] for text in drawn["failure_map"].axes[0].texts]
+    assert letters == table["verdict"][concerned].map(LETTERS).tolist()
+    assert {"0 H", "3e-1 M", "R"} <= {text.get_text() for text in drawn["failure_map"].axes[0].texts}
+    assert set(LETTERS) == set(MEANINGS) == set(VERDICTS)
+    assert len(set(LETTERS.values())) == len(LETTERS)
+
+
+# ---- single figures
 
 
 def test_surfaces_are_darker_where_higher():
@@ -83,103 +204,30 @@ def test_master_curve_of_one_realization_without_region(discs, lines, scaling):
     assert outside[0].get_xdata().size > 3
 
 
-def drawn_points(axes):
-    """Every point of the lines, intervals and bands of an axes."""
-    paths = [path for collection in axes.collections for path in collection.get_paths()]
-    return np.concatenate([*coordinates(axes), *(path.vertices for path in paths), np.full((1, 2), np.inf)])
-
-
-def shown_columns(scaling):
-    """{figure: (panel, rows of a table, column along x, columns along y)}"""
-    lambdas, _ = tables.mdr_lambda_tables()
-    media, validation, direct = tables.media_table(), tables.validation_table(), tables.direct_table()
-    interface, curves = tables.interface_tables_drawn()
-    interval = ["beta", "beta_low", "beta_high"]
-    yield "fig4_exponent", 0, fits(scaling, SHOWN, source="lines", rms_convention="line"), "hurst", interval
-    yield "fig4_exponent", 0, fits(scaling, SHOWN, source="discs", case_group="base"), "hurst", interval
-    for panel, name in enumerate(("stiffness", None, "area", "gap")):
-        if name:
-            columns = [f"{name}_ratio{end}" for end in ("", "_low", "_high")]
-            yield "reduction", panel, tables.mdr_table(), "x", columns
-    yield "reduction", 4, tables.mdr_table(), "x", ["correlation"]
-    yield "reduction", 5, tables.mdr_table(), "x", ["force_ratio"]
-    yield "mdr_lambda", 0, lambdas, "x", ["lambda", "lambda_low", "lambda_high"]
-    yield "mdr_lambda", 1, lambdas, "x", ["velocity_ratio"]
-    for panel, name in enumerate(("newtonian", "standard_linear_solid")):
-        rows = media[media["medium"] == name]
-        yield "media", panel, rows, "time", ["velocity"]
-        yield "media_exponents", panel, rows, "time", ["exponent", "expected"]
-    yield "media", 2, media, "x", ["depth"]
-    for panel, name in enumerate(("force", "depth")):
-        yield "validation", panel, validation[validation["quantity"] == name], "elements", ["error"]
-    for panel, name in enumerate(("sphere", "rough disc, H = 0.4")):
-        yield "direct", panel, direct[direct["case"] == name], "contact_count", ["depth_ratio"]
-    base = curves[curves["across"] == 257]
-    yield "interface", 0, base[base["hurst"] == 0.9], "x", ["interface", "interface_low", "interface_high"]
-    yield "interface", 3, interface[(interface["case_group"] == "base")], "hurst", ["u0", "u0_low", "u0_high"]
-
-
-def test_figures_show_the_numbers_of_their_tables(drawn, scaling):
-    for figure, panel, rows, x, columns in shown_columns(scaling):
-        points = drawn_points(drawn[figure].axes[panel])
-        for column in columns:
-            expected = rows[[x, column]].dropna().to_numpy()[:, None]
-            assert len(expected) > 1
-            near = np.isclose(points, expected, rtol=1e-9, atol=0).all(axis=2).any(axis=1)
-            assert near.all(), (figure, panel, column, expected[~near])
-
-
-def test_what_fails_or_is_not_known_looks_different(drawn):
-    assert {text.get_text() for text in drawn["validation"].axes[0].texts} == {"2.0 failed", "2.0"}
-    coarse = plot("validation", tables.validation_table([33])).axes[0]
-    assert [text.get_text() for text in coarse.texts] == ["failed"]
-    (bars,) = drawn["level_placement"].axes
-    assert [(bar.get_width(), bool(bar.get_hatch())) for bar in bars.patches] == [(1, False), (0.8, False), (20, True)]
-    differences = [line for line in drawn["mdr_lambda"].axes[2].lines if line.get_marker() in "oDs"]
-    assert [line.get_ydata().item() for line in differences] == [-0.1, 0.0, -0.1, 0.0]  # a third one is nan
-
-
 def test_laws_of_others_stand_beside_the_interface(drawn):
     _, _, law, plateaus = drawn["interface"].axes
-    x, ratio = (np.concatenate([getattr(line, f"get_{axis}data")() for line in law.lines[:3]]) for axis in "xy")
+    ratio = np.concatenate([line.get_ydata() for line in law.lines if len(line.get_xdata()) > 2])
     close(ratio[~np.isnan(ratio)], 1.02)
-    assert x[np.isnan(ratio)].min() > 1  # where g is too small a part of vt/h to be known
+    assert np.isnan(ratio).any(), "where g is too small a part of vt/h to be known"
+    u0 = published("literature").query("quantity == 'u0'").dropna(subset=["hurst", "theirs_low"])
     (band,) = [collection for collection in plateaus.collections if len(collection.get_facecolor())]
-    corners = {tuple(corner) for corner in band.get_paths()[0].vertices}
-    assert corners == {(0.4, 0.5), (0.4, 0.56), (0.9, 0.41), (0.9, 0.46)}
+    corners = u0.query("theirs_low != theirs_high")[["hurst", "theirs_low"]].to_numpy()
+    assert set(map(tuple, corners)) < set(map(tuple, band.get_paths()[0].vertices))
     (stated,) = [line for line in dashed(plateaus) if line.get_marker() == "None"]
-    assert set(stated.get_ydata()) == {0.4}
+    assert set(stated.get_ydata()) == set(u0.query("theirs_low == theirs_high")["theirs_low"])
 
 
 def test_exponent_of_what_has_no_region_and_intervals_beside_their_value(scaling):
-    (kept,) = markers(plot("exponent", without_region(scaling, 0.4), SHOWN, (0.4, 1.0)).axes[0])
-    assert kept.get_xdata().tolist() == [0.9]
-    assert not markers(plot("exponent", scaling[scaling["source"] == "lines"], SHOWN, (0.4, 1.0)).axes[0])
+    def symbols(table):
+        axes = plot("exponent", table, SHOWN, (0.4, 1.0)).axes[0]
+        values = [line for line in axes.lines if line.get_linestyle() == "None" and line.get_marker() not in "_|"]
+        return axes, [line.get_xydata()[0] for line in values]
+
+    assert [hurst for hurst, _ in symbols(without_region(scaling, 0.4))[1]] == [0.1, 0.6, 0.9]
+    assert not symbols(scaling[scaling["source"] == "lines"])[1]
     beside = scaling.assign(beta_low=scaling["beta"] + 0.1, beta_high=scaling["beta"] + 0.3)
-    axes = plot("exponent", beside, SHOWN, (0.4, 1.0)).axes[0]
-    close(axes.containers[0].lines[2][0].get_segments()[0][:, 1] - markers(axes)[0].get_ydata(), [0.1, 0.3])
-
-
-def test_conventions_have_a_row_for_each_change(scaling):
-    figure = plot("conventions", scaling, SHOWN)
-    grid = np.reshape(figure.axes, (2, len(HURST)))
-    labels = [text.get_text() for text in grid[0, 0].get_yticklabels()]
-    assert (labels[0], labels[2], labels[7]) == ("as in other figures", "$h$ of the square", "roll-off (control)")
-    changes = [{}, {"average": "arithmetic"}, {"rms_convention": "square"}]
-    changes += [{"window_rule": rule} for rule in ("lower_half", "upper_half", "kappa")]
-    changes += [{"gamma": "with"}, {"case_group": "roll_off"}]
-    for axes, quantity in zip(grid, ("beta", "zeta"), strict=True):
-        for panel, hurst in zip(axes, HURST, strict=True):
-            rows = {int(line.get_ydata()[0]): line.get_xdata()[0] for line in markers(panel)}
-            for y, change in enumerate(changes):
-                wanted = SHOWN | {"source": "discs", "case_group": "base", "hurst": hurst} | change
-                (value,) = select(scaling, wanted)[quantity]
-                assert rows.get(y) == value if np.isfinite(value) else y not in rows
-    upright = [line for line in grid[1, 1].lines if len(set(line.get_xdata())) == 1 and line.get_zorder() == 1]
-    assert {line.get_xdata()[0] for line in upright} == {reference.zeta_viscous(0.9), reference.zeta_elastic(0.9)}
-    empty, other = plot("conventions", without_region(scaling, 0.4), SHOWN).axes[:2]
-    assert [text.get_text() for text in empty.texts] == ["no region (b)"] * 8
-    assert len(markers(other)) + len(other.texts) == 8
+    axes, drawn = symbols(beside)
+    close(axes.containers[0].lines[2][0].get_segments()[0][:, 1] - drawn[0][1], [0.1, 0.3])
 
 
 def test_measured_scans_stand_beside_the_generated_discs(drawn, pooled, scaling):
@@ -197,49 +245,8 @@ def test_measured_scans_stand_beside_the_generated_discs(drawn, pooled, scaling)
 
 
 def test_collapse_makes_curves_of_a_law_horizontal(drawn):
-    whole, _, exponents = drawn["collapse"].axes
+    whole, _, _ = drawn["collapse"].axes
     for rank in range(2):
         for line in whole.lines[2 * rank : 2 * rank + 2]:
             close(line.get_ydata(), np.exp(0.5) * SHIFT**-rank)
     assert [line.get_xdata()[0] for line in whole.lines[:2]] == pytest.approx([1e-4 * 33**1.4, 1e-4 * 129**1.4])
-    bars = [line for line in exponents.lines if line.get_linewidth() == 4]
-    assert [tuple(np.round(bar.get_ydata(), 3)) for bar in bars] == [(-0.02, 0.02)] * 4
-    values = [line for line in exponents.lines if line.get_marker() in "os" and len(line.get_xdata()) == 1]
-    assert [line.get_ydata()[0] for line in values] == pytest.approx([0.03] * 8)
-
-
-def test_sizes_have_a_marker_for_every_ensemble_with_a_fit(drawn):
-    """In the window of region (b) of discs and lines, and in the fixed one."""
-    figure, moving = drawn["sizes"], [0.3, 0.3, 0.31, 0.31]
-    for axes, expected in zip(figure.axes, ([0.01, *moving], moving, [0.35] * 6, [0.35] * 6), strict=True):
-        values = [line for line in axes.lines if line.get_marker() not in ("None", "", "_", "|")]
-        assert sorted(line.get_ydata()[0] for line in values) == expected
-    assert "4 to 8 discs" in figure.axes[0].get_title()
-    table = tables.sizes_table()
-    assert len(plot("sizes", table[table["window_rule"] == "default"], SHOWN).axes) == 2
-
-
-def test_exponents_of_the_cost_of_one_disc_are_those_of_the_larger_half(drawn):
-    table = tables.large_table()
-    time, memory = (legend_texts(axes.get_legend()) for axes in drawn["large"].axes)
-    slope = np.log(table["processor"].iloc[3] / table["processor"].iloc[2]) / np.log(10)
-    assert time == ["measured (elements across)", "wall time on 2 threads", f"exponent {slope:.2f}"]
-    assert memory == ["measured (elements across)", "exponent 1.00"]
-
-
-def test_growth_under_light_loads_is_that_of_maps_of_all_sizes(drawn):
-    growth, ratios = drawn["light_contact"].axes
-    labels = legend_texts(growth.get_legend())
-    assert labels == ["contact of 0.05 %, $N^{1.50}$", "contact of 0.5 %, $N^{1.50}$", "reading and ranking the map"]
-    points = {tuple(line.get_ydata()) for line in ratios.lines if line.get_linestyle() == "None"}
-    assert points == {(4.0, 4.0), (8.0, 8.0)}, "ratios of what meets the residual"
-
-
-def test_ratios_of_other_solvers_on_two_threads_are_hollow(drawn):
-    (axes,) = drawn["other_solvers"].axes
-    lines = coordinates(axes)
-    assert sorted(line[0, 0] for line in lines if len(line) == 1) == [1.0, 1.0, 2.5, 3.5]
-    ranges = sorted(tuple(line[:, 0]) for line in lines if len(line) == 2)
-    close(ranges, [(0.9 * ratio, 1.1 * ratio) for ratio in (1.0, 1.0, 2.5, 3.5)])
-    hollow = [line for line in axes.lines if line.get_markerfacecolor() == "none"]
-    assert [line.get_xdata()[0] for line in hollow] == [2.5]

@@ -49,7 +49,7 @@ def test_results_are_no_markup():
 def test_control_takes_the_level_nearest_to_one():
     rows = [(0.6, x, wave, 8, g) for x, g in ((0.2, 0.1), (1.1, 0.5), (3.0, 0.2)) for wave in (np.nan, 0.125)]
     table = pd.DataFrame(rows, columns=["hurst", "x", "roll_off_wavelength", "surfaces", "g"])
-    (row,) = control(Results({"periodic": table}, {}, {}))
+    (row,) = control(Results({"periodic": table}, {}))
     assert (row["hurst"], row["x"], row["whole"]["g"], row["surfaces"]) == (0.6, 1.1, 0.5, 8)
 
 

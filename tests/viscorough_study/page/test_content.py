@@ -1,6 +1,7 @@
 """What the page says of the scale, the methods and other solvers."""
 
 import json
+from itertools import chain
 
 import numpy as np
 import pandas as pd
@@ -9,7 +10,7 @@ import xarray as xr
 
 from support.study import CLAIMS, NUMBERS, ROOT
 from viscorough_study.page.answers import best_model, failures, fastest_methods, method_row
-from viscorough_study.page.content import costs, measured, media, scale, scenes, verdicts
+from viscorough_study.page.content import measured, media, scale, scenes, verdicts
 from viscorough_study.page.results import Results
 
 
@@ -56,7 +57,7 @@ def methods():
     table = pd.DataFrame(rows, columns=["group", "method", "value", "wall_s", "error"]).assign(parameter="tolerance")
     table = table.assign(problem="rough disc, H = 0.8", hurst=0.8, elements=257)
     coarse = table.assign(elements=65, wall_s=1e-6, error=0.0)
-    return Results({"methods": pd.concat([coarse, table], ignore_index=True)}, {}, {})
+    return Results({"methods": pd.concat([coarse, table], ignore_index=True)}, {})
 
 
 def test_the_fastest_method_that_reaches_an_error_is_named(methods):
@@ -70,40 +71,30 @@ def test_the_fastest_method_that_reaches_an_error_is_named(methods):
 
 def test_numbers_stand_in_the_rows_for_which_they_are_shown():
     conventions = {"rms_convention": "disc", "average": "geometric", "window_rule": "default"}
-    keys = {
-        "level_placement": {"scene": ["a", "a", "b"], "choice": ["c", "d", "c"]},
-        "rule_costs": {"rule": ["e", "f"]},
-        "measured_scans": {"file": ["g", "h"], "group": "i"},
-        "measured_fits": {"case_group": ["j", "k"], **conventions},
-    }
-    stated = "accuracy reached levels wall_s ratio error jobs seconds share_s longest_s memory_mb elements spacing"
-    stated += " row_spacing rms rms_slope diameter realizations decades beta beta_low beta_high zeta"
-    tables = {name: pd.DataFrame(of).assign(**dict.fromkeys(stated.split(), 1.0)) for name, of in keys.items()}
-    results = Results(tables | {"claims": pd.read_csv(ROOT / "docs/claims.csv")}, {}, {})
-    stated = [
-        (case["value"], {"claim": claim["name"], "case": case["case"]})
-        for claims in verdicts(results, CLAIMS, results.tables["claims"]).values()
-        for claim in claims
-        for case in claim["cases"]
-    ]
-    for scene in scenes(results):
-        stated += [(row["levels"], {"scene": scene["scene"], "choice": name}) for name, row in scene["choices"].items()]
-    stated += [(row["jobs"], {"rule": row["rule"]}) for row in costs(results)]
-    scans = measured(results, conventions)
-    stated += [(row["rms"], {"file": row["file"]}) for row in scans["scans"]]
-    stated += [(row["beta"], {"case_group": row["group"]}) for row in scans["groups"]]
-    for number, values in stated:
-        assert results.tables[number.table].loc[number.row, list(values)].to_dict() == values
-    assert {number.table for number, _ in stated} == set(results.tables)
+    levels = pd.DataFrame({"scene": ["a", "a", "b"], "choice": ["c", "d", "c"], "levels": [1, 2, 3]})
+    fits = pd.DataFrame({"case_group": ["j", "k", "k"], **conventions, "beta": [0.1, 0.2, 0.3]})
+    fits.loc[2, "average"] = "arithmetic"
+    tables = {"level_placement": levels, "measured_fits": fits, "measured_scans": pd.DataFrame({"file": ["g"]})}
+    results = Results(tables | {"claims": pd.read_csv(ROOT / "docs/claims.csv")}, {})
+    for claim in chain(*verdicts(results, CLAIMS, results.tables["claims"]).values()):
+        shown = results.tables["claims"].loc[[case["value"].row for case in claim["cases"]]]
+        assert set(shown["claim"]) == {claim["name"]}
+        assert shown["case"].tolist() == [case["case"] for case in claim["cases"]]
+    found = {(scene, name): row["levels"].row for scene, rows in scenes(results).items() for name, row in rows.items()}
+    assert found == {("a", "c"): 0, ("a", "d"): 1, ("b", "c"): 2}
+    of_scans = measured(results, conventions)
+    assert of_scans["scans"] == [{"file": "g"}]
+    assert [(row["case_group"], row["beta"].value) for row in of_scans["groups"]] == [("j", 0.1), ("k", 0.2)]
+    assert measured(Results({}, {}), conventions) == {"scans": [], "groups": []}
 
 
 def test_worst_error_of_the_models_is_one_of_those_that_users_are_told():
     rows = [("MDR", "stated", 0.3), ("MDR", "holds", 0.4), ("power law", "warned", 0.2), ("path", "warned", 0.5)]
     table = pd.DataFrame(rows, columns=["method", "verdict", "error"]).assign(group="a", case="b", reason="c")
-    content = failures(Results({"failure_map": table}, {}, {}))
+    content = failures(Results({"failure_map": table}, {}))
     assert content["worst_model"].value == 0.3
     assert (content["cases"].value, content["warned"].value, content["unnoticed"].value) == (2, 2, 0)
-    assert [row["messages"] for row in content["methods"]] == [{}, {}, {("warned", "c"): ["a: b"]}]
+    assert content["methods"]["MDR"] == {"stated": 1, "holds": 1}
 
 
 def claims_table(*verdicts_of_cases):
@@ -117,21 +108,21 @@ def claims_table(*verdicts_of_cases):
 
 def test_the_case_that_is_shown_has_the_verdict_of_the_claim_and_is_the_farthest_from_the_paper():
     table = claims_table("reproduced", "undecided", "undecided", "reproduced")
-    ((claim,),) = verdicts(Results({"claims": table}, {}, {}), CLAIMS, table).values()
+    ((claim,),) = verdicts(Results({"claims": table}, {}), CLAIMS, table).values()
     assert (claim["verdict"], claim["deciding"]["case"]) == ("undecided", "H = 2")
     assert [case["value"].row for case in claim["cases"]] == [0, 1, 2, 3]
     table["expected"] = np.nan
-    ((claim,),) = verdicts(Results({"claims": table}, {}, {}), CLAIMS, table).values()
+    ((claim,),) = verdicts(Results({"claims": table}, {}), CLAIMS, table).values()
     assert claim["deciding"]["case"] == "H = 1"
 
 
 def test_a_verdict_that_the_full_scale_does_not_share_is_shown_with_its_case():
     table, full = claims_table("undecided", "reproduced"), claims_table("reproduced", "not reproduced")
-    ((claim,),) = verdicts(Results({"claims": table}, {}, {}), CLAIMS, full).values()
+    ((claim,),) = verdicts(Results({"claims": table}, {}), CLAIMS, full).values()
     assert claim["full_scale"]["verdict"] == "not reproduced"
     assert claim["full_scale"]["case"].startswith("H = 1: 0.1 [0.1, 0.1], least 0.1")
     for published in (table, full.assign(claim="renamed")):
-        ((claim,),) = verdicts(Results({"claims": table}, {}, {}), CLAIMS, published).values()
+        ((claim,),) = verdicts(Results({"claims": table}, {}), CLAIMS, published).values()
         assert claim["full_scale"] is None
 
 
@@ -139,6 +130,6 @@ def test_media_are_named_and_their_exponents_taken_at_both_ends_and_near_x_of_on
     table = pd.DataFrame(
         {"medium": "kelvin_voigt", "hurst": 0.4, "x": [1e-4, 2e-2, 1e-2, 1.0], "exponent": [1.0, 0.5, 0.4, -9]}
     )
-    (row,) = media(Results({"media": table}, {}, {}))
+    (row,) = media(Results({"media": table}, {}))
     assert (row["medium"], row["hurst"]) == ("Kelvin-Voigt", 0.4)
     assert [row[name].value for name in ("first", "middle", "last")] == [1.0, 0.4, -9]

@@ -1,31 +1,36 @@
 """Published results, as the page presents them."""
 
-from support.figures import literature_table
+import pandas as pd
+
+from support.documentation import ROOT
 from viscorough_study.page.discussion import KNOWN, discussion
 from viscorough_study.page.results import Number, Results
 
-
-def shown(**changes):
-    table = literature_table().assign(place="here", when="before", statement="it is so", sure="abstract", read="there")
-    return discussion(Results({"literature": table.assign(**changes)}, {}, {}))
+TABLE = pd.read_csv(ROOT / "docs/results/literature.csv")
 
 
 def test_numbers_of_others_stand_beside_ours():
-    rows = shown()["quantities"]["u0"]
-    assert [row["hurst"] for row in rows] == [0.4, 0.9]
-    assert rows[1]["value"] == Number(0.5, "literature", "value", 1)
-    law, same = rows[1]["theirs"]
-    assert law == ("One 2007", *(Number(value, "literature", f"theirs_{end}", 1) for end, value in ENDS.items()))
-    assert same[0] == "One et al. 2013"
-    assert same[1] == Number(0.4, "literature", "theirs_low", 3)
+    quantities = discussion(Results({"literature": TABLE}, {}))["quantities"]
+    for name, rows in quantities.items():
+        for row in rows:
+            of_table = TABLE[(TABLE["quantity"] == name) & (TABLE["hurst"] == row["hurst"])]
+            assert row["value"] == Number(of_table["value"].iloc[0], "literature", "value", of_table.index[0])
+            stated = of_table.dropna(subset="theirs_low")
+            assert (
+                [low.row for _, low, _ in row["theirs"]]
+                == [high.row for _, _, high in row["theirs"]]
+                == [*stated.index]
+            )
+            for (source, low, _), (_, theirs) in zip(row["theirs"], stated.iterrows(), strict=True):
+                assert low.value == theirs["theirs_low"]
+                assert source.endswith(", as quoted") == (theirs["sure"] == "quoted")
+                assert source.startswith(theirs["source"].split(",")[0].split(" and ")[0])
+    assert sum(len(row["theirs"]) for rows in quantities.values() for row in rows) > 10
 
 
 def test_every_source_is_listed_once_with_how_it_is_known():
-    sources = shown()["sources"]
-    assert [source["year"] for source in sources] == [2007, 2013, 2011]
-    assert {source["known"] for source in sources} == {KNOWN["abstract"]}
-    assert shown(sure="quoted")["quantities"]["u0"][0]["theirs"][0][0] == "One 2007, as quoted"
-    assert shown(hurst=float("nan"))["quantities"] == {}
-
-
-ENDS = {"low": 0.41, "high": 0.46}  # of the law at H = 0.9
+    sources = discussion(Results({"literature": TABLE}, {}))["sources"]
+    named = [(source["source"], source["year"]) for source in sources]
+    assert len(named) == len(set(named)) == len(TABLE.groupby(["source", "year"]))
+    assert {source["known"] for source in sources} <= set(KNOWN.values())
+    assert discussion(Results({"literature": TABLE.assign(hurst=float("nan"))}, {}))["quantities"] == {}

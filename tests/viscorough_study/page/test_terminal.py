@@ -3,7 +3,6 @@
 import contextlib
 import io
 import os
-import pty
 import re
 import signal
 import sys
@@ -14,7 +13,7 @@ import xarray as xr
 
 from support.study import ROOT
 from viscorough_study.page import terminal
-from viscorough_study.page.terminal import CLEAR, SPARSE, Progress, summary
+from viscorough_study.page.terminal import Progress, summary
 from viscorough_study.run.stale_locks import REMOVED
 
 STARTED = """Building DAG of jobs...
@@ -43,84 +42,59 @@ Exiting because a job execution failed. Look below for error messages
 """
 
 
-def read(progress, text, now):
-    for line in text.splitlines():
-        progress.read(line, now)
+class Terminal(io.StringIO):
+    """Standard error that is a terminal."""
 
-
-def test_what_runs_how_many_of_how_many_and_the_time_left():
-    progress = Progress({"indent": 10.0, "plot": 1.0})
-    assert progress.text(0) == ""
-    read(progress, STARTED, 100)
-    assert progress.text(100) == "0 of 41, 5.2 minutes left: Figure 1"
-    read(progress, FINISHED, 110)
-    assert progress.text(110) == "1 of 41, 5.0 minutes left: Figure 1"
-    assert progress.text(170) == "1 of 41, 4.0 minutes left: Figure 1"
-    assert progress.text(1000) == "1 of 41, seconds left: Figure 1"
-    read(progress, "Job 5: Curves of lines", 110)
-    assert progress.text(110) == "1 of 41, 5.0 minutes left: Curves of lines", "the next job does not change the time"
-
-
-def test_a_machine_of_half_the_speed_takes_twice_as_long():
-    """After a while; at first, the published times count, and their mean for rules that were never timed."""
-    for times, left in (({"indent": 10.0}, "6.7 minutes"), ({}, "40 seconds")):
-        read(progress := Progress(times), STARTED, 0)
-        assert progress.text(0).startswith(f"0 of 41, {left} left")
-    read(progress := Progress({"indent": 10.0, "plot": 1.0}), STARTED, 0)
-    for job in range(30):
-        read(progress, f"Finished jobid: {job} (Rule: indent)", 20 * (job + 1))
-    left = float(re.search(r", (.*) seconds left", progress.text(600))[1])
-    assert left == pytest.approx(2 * 10, rel=0.1)
+    def isatty(self):
+        return True
 
 
 @pytest.fixture
 def run(tmp_path, monkeypatch):
-    """Runs a Python script, in place of Snakemake, with its progress on a stream; the exit code."""
+    """Runs a Python script, in place of Snakemake, with its progress; the exit code."""
     monkeypatch.chdir(tmp_path)
+    (tmp_path / terminal.PUBLISHED_COSTS).parent.mkdir(parents=True)
+    (tmp_path / terminal.PUBLISHED_COSTS).write_text("rule,jobs,share_s\nindent,3,30\nplot,1,1\n")
     handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
-
-    def run(script, number=2):
-        with open(number, "wb", buffering=0, closefd=False) as stream:
-            monkeypatch.setattr("sys.stderr", io.TextIOWrapper(stream, write_through=True))
-            return terminal.run([sys.executable, "-c", script])
-
-    yield run
+    yield lambda script: terminal.run([sys.executable, "-c", script])
     for number, handler in handlers.items():
         signal.signal(number, handler)
 
 
-def test_without_a_terminal_there_are_a_few_lines(run, tmp_path, capfd):
-    finished = "".join(f"Finished jobid: {i} (Rule: indent)\n{i} of 41 steps (2%) done\n" for i in range(42))
-    printed = f"{REMOVED}\n{STARTED}{finished}"
+def test_what_runs_how_many_of_how_many_and_their_share_of_the_time(monkeypatch):
+    monkeypatch.setattr("sys.stderr", Terminal())
+    progress = Progress(pd.Series({"indent": 10.0, "plot": 1.0}))
+    for line in STARTED.splitlines():
+        progress.read(line)
+    assert (progress.bar.desc, progress.bar.total) == ("0 of 41: Figure 1", 30 * 10 + 10 * 1 + 5.5)
+    for line in [*FINISHED.splitlines(), "Job 5: Curves of lines"]:
+        progress.read(line)
+    assert (progress.bar.desc, progress.bar.n) == ("1 of 41: Curves of lines", 10)
+
+
+def test_without_a_terminal_only_messages_are_shown(run, tmp_path, capfd):
+    printed = f"{REMOVED}\n{STARTED}{FINISHED}"
     assert run(f"print({printed!r})") == 0
-    shown = capfd.readouterr()
-    first, *lines = shown.err.splitlines()
-    assert first == REMOVED
-    assert 1 <= len(lines) <= SPARSE + 1
-    assert all(re.fullmatch(r"\d+ of 41, .* left: .*", line) for line in lines)
-    assert shown.out == ""
+    assert capfd.readouterr() == ("", f"{REMOVED}\n")
     assert (tmp_path / "results/run.log").read_text() == printed + "\n"
 
 
-def test_a_terminal_has_one_line_that_is_drawn_again(run):
-    reader, screen = pty.openpty()
-    assert run(f"print({STARTED + FINISHED!r})", screen) == 0
-    os.close(screen)
-    output = ""
-    with contextlib.suppress(OSError):  # once everything is read
-        while part := os.read(reader, 1000):
-            output += part.decode()
-    os.close(reader)
-    assert "\n" not in output
-    assert "1 of 41" in output
-    assert output.endswith(CLEAR)
+def test_a_terminal_has_one_line_that_is_drawn_again(run, monkeypatch):
+    monkeypatch.setattr("sys.stderr", shown := Terminal())
+    assert run(f"print({STARTED + FINISHED + 'Job 5: Curves of lines'!r})") == 0
+    *lines, last = shown.getvalue().split("\r")
+    assert any(re.fullmatch(r"1 of 41: Curves of lines \|.*\| [\d:]+ left", line.strip()) for line in lines)
+    assert "\n" not in shown.getvalue()
+    assert last.strip() == ""
 
 
-def test_the_run_goes_on_where_nobody_reads_its_progress(run, tmp_path):
+def test_the_run_goes_on_where_nobody_reads_its_progress(run, tmp_path, monkeypatch):
     reader, writer = os.pipe()
     os.close(reader)
-    run(f"print({STARTED!r}); open('made', 'w')", writer)
-    os.close(writer)
+    with contextlib.suppress(OSError), open(writer, "w", buffering=1) as broken:
+        monkeypatch.setattr("sys.stderr", broken)
+        code = run(f"print({REMOVED!r}); open('made', 'w')")
+    assert code == 0
     assert (tmp_path / "made").exists()
 
 

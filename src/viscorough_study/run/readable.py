@@ -1,0 +1,18 @@
+"""Numbers as text, on the page, in the article and in figures."""
+
+import numpy as np
+
+
+def readable(value):
+    """A number as text of three digits, such as 0.397, 51433, 1.2×10⁻⁵; a dash where there is none."""
+    if value is None or np.isnan(value):
+        return "–"
+    if np.isinf(value):
+        return "∞"
+    if value == round(value) and abs(value) < 1e6:
+        return f"{value:.0f}".replace("-", "−")
+    if 1e-3 <= abs(value) < 1e4:
+        return (f"{value:.0f}" if abs(value) >= 1e3 else f"{value:.3g}").replace("-", "−")
+    mantissa, exponent = f"{value:.1e}".split("e")
+    superscript = str(int(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return f"{mantissa.removesuffix('.0')}×10{superscript}".replace("-", "−")

@@ -1,6 +1,5 @@
 """`viscorough march`: agreement with kinetics, force histories, media, units, and what is refused."""
 
-import importlib
 from contextlib import nullcontext
 
 import numpy as np
@@ -8,6 +7,7 @@ import pytest
 
 from support.command_line import run
 from viscorough import Indenter, indent, self_affine_disc
+from viscorough.cli import messages
 from viscorough.io import netcdf
 
 HEIGHTS = self_affine_disc(0.7, 13, rms=0.02, diameter=13.0, seed=3).heights
@@ -80,8 +80,7 @@ def test_marching_under_a_force_history(here, method, tolerance):
 @pytest.mark.parametrize("medium", ["--medium medium.yaml", ""])
 def test_steps_show_their_progress(monkeypatch, medium):
     shares = []
-    module = importlib.import_module("viscorough.cli.march")
-    monkeypatch.setattr(module, "progress_bar", lambda label, wanted: nullcontext(shares.append))
+    monkeypatch.setattr(messages, "progress_bar", lambda label, wanted: nullcontext(shares.append))
     assert run(f"{MARCH} --method implicit --times 1,2 {medium}") == 0
     assert shares[-2:] == pytest.approx([1 - 1 / len(shares), 1])
 
@@ -109,27 +108,3 @@ def test_viscosities_are_in_pascal_seconds_where_the_unit_is_known(method):
     um, m = values("um.nc"), values("m.nc")
     np.testing.assert_allclose(um["time"], m["time"], rtol=1e-9, atol=1e-9 * m["time"][-1])
     np.testing.assert_allclose(um["depth"] * 1e-6, m["depth"], rtol=1e-6, atol=1e-9 * m["depth"][-1])
-
-
-@pytest.mark.parametrize(
-    ("line", "message"),
-    [
-        (f"{MARCH} --method events --times 1,2", "--times is not for --method events"),
-        (f"{MARCH} --method explicit", "--times is needed by --method explicit"),
-        (f"{MARCH} --method implicit --times 1 --overlap 0.1", "--overlap is not for"),
-        (f"{MARCH} --method explicit --times 1 --until-fraction 0.1", "--until-fraction is not for"),
-        (f"{MARCH} --method second_order --times 1", "--method second_order is for use with --medium"),
-        (f"{MARCH} --method events --force-history none.csv --force 1", "replaces --force and --times"),
-        (f"{MARCH} --method events --force 1e-10 --viscosity 1.7e308", "times or velocities overflow"),
-        (f"{MEDIUM} --method heun --times 1", "--method heun is not for --medium; allowed: events, implicit"),
-        (f"{MEDIUM} --method implicit --times 1 --viscosity 2", "--medium replaces --viscosity"),
-        (f"{MARCH} --method events --force-history nothing.csv", "no time passes while there is a force"),
-        (
-            f"{MARCH} --method events --until-fraction 0.05 --force-history endless.csv",
-            "is beyond the contact fraction at which events end; allowed: up to",
-        ),
-        (f"{MARCH} --method implicit --force-history pulse.csv -o link.csv", "would replace the force history"),
-    ],
-)
-def test_mistakes_are_one_line(complaint, line, message):
-    assert message in complaint(line)

@@ -56,17 +56,3 @@ def test_functions_that_messages_name_are_public():
 def test_unknown_names_are_refused():
     with pytest.raises(AttributeError, match="no attribute 'indentation'"):
         viscorough.indentation  # noqa: B018
-
-
-def lacks_annotation(function):
-    arguments = [node for node in ast.iter_child_nodes(function.args) if isinstance(node, ast.arg)]
-    return function.returns is None or any(a.annotation is None and a.arg not in ("self", "cls") for a in arguments)
-
-
-def test_all_functions_but_kernels_are_annotated():
-    """Which the type checker does not ask for."""
-    nodes = [node for path in LIBRARY.rglob("*.py") for node in ast.walk(ast.parse(path.read_text()))]
-    functions = [node for node in nodes if isinstance(node, ast.FunctionDef)]
-    plain = [node for node in functions if not any("njit" in ast.dump(each) for each in node.decorator_list)]
-    assert [node.name for node in plain if lacks_annotation(node)] == []
-    assert len(plain) > 600

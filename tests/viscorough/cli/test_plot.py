@@ -92,22 +92,13 @@ def test_axes_have_symbols_and_units(here):
     assert axes_of("medium.nc") == ["time $t$ (s)", "depth $u$"]
 
 
-@pytest.mark.parametrize(
-    ("file", "name", "change", "what"),
-    [
-        ("lines.nc", "contact_count", lambda count: -count, "contact_count must be a whole number from 1"),
-        ("lines.nc", "force", "um2", "force is in 'um2' and depth in '1'"),
-    ],
-)
-def test_damaged_files_are_refused(here, complaint, file, name, change, what):
-    content = netcdf.read(here / file)
-    variable = content.variables[name]
-    if isinstance(change, str):
-        variable = variable._replace(attributes=variable.attributes | {"units": change})
-    else:
-        variable = variable._replace(values=change(variable.values))
-    netcdf.write(Content(content.variables | {name: variable}, content.attributes), here / "bad.nc")
-    assert what in complaint("plot bad.nc -o figure.png")
+def test_curves_with_contradicting_units_are_refused(here, complaint):
+    """What makes a curve bad is tested with its reader."""
+    content = netcdf.read(here / "curve.nc")
+    force = content.variables["force"]._replace(attributes={"long_name": "force", "units": "um2"})
+    netcdf.write(Content(content.variables | {"force": force}, content.attributes), here / "bad.nc")
+    for line in ("plot bad.nc -o figure.png", "kinetics bad.nc --force 1 --viscosity 1 -o out.nc"):
+        assert "bad.nc: force is in 'um2' and depth in '1'" in complaint(line)
 
 
 def test_without_matplotlib_one_line_says_what_to_install(monkeypatch, complaint):
@@ -118,14 +109,12 @@ def test_without_matplotlib_one_line_says_what_to_install(monkeypatch, complaint
 
 
 def test_lengths_are_drawn_in_readable_units():
-    """Positions up to 0.1 mm and heights of nanometres, both in m; without a unit nothing changes."""
+    """Positions up to 0.1 mm and heights of nanometres, both in m."""
     surface = viscorough.Indenter(5e-9 * np.eye(5), 5e-5, 1e-5, length_unit="m")
     axes, colours = viscorough.plot(surface).axes
     assert (axes.get_xlabel(), axes.get_ylabel(), colours.get_ylabel()) == ("$x$ (µm)", "$y$ (µm)", "height $z$ (nm)")
     np.testing.assert_allclose(axes.images[0].get_extent(), [-125, 125, 25, -25])
     assert axes.images[0].get_array().max() == pytest.approx(5)
-    plain = viscorough.Indenter(surface.heights, 5e-5, 1e-5)
-    assert viscorough.plot(plain).axes[0].images[0].get_array().max() == 5e-9
 
 
 def test_maps_are_drawn_as_they_are_read(here, capsys):

@@ -30,11 +30,6 @@ def test_after_a_while_share_and_time_left_are_shown_and_erased_at_the_end(capsy
     assert end.replace("\r", "").strip() == ""
 
 
-def test_what_is_quick_shows_nothing(capsys, monkeypatch):
-    monkeypatch.setattr(messages, "_DELAY", 1000.0)
-    assert "50 %" not in shown(capsys, True, 0.0)[0]
-
-
 @pytest.mark.parametrize("wanted", [None, False])
 def test_without_a_terminal_only_what_is_asked_for_is_shown(capsys, wanted):
     assert shown(capsys, wanted, 0.25) == ("", "")

@@ -67,7 +67,7 @@ class Indenter(ReadOnlyArrays, Saved, Summarised):
             raise ValueError("indenter heights: must have at least one element that is not nan")
         if not math.isfinite(float(highest) - float(np.fmin.reduce(heights, axis=None))):
             raise ValueError(
-                "indenter heights: must be finite (nan: outside the indenter), and so must their differences"
+                "indenter heights: must be finite (nan: outside), also their differences; some are infinite"
             )
         if heights.ndim == 1 and np.isnan(heights.min()):
             raise ValueError("indenter heights: must not be nan on a line")

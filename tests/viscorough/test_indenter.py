@@ -71,8 +71,8 @@ def test_gaps_are_computed_in_double_precision(dtype):
 @pytest.mark.parametrize(
     ("heights", "what"),
     [
-        (np.array([[1e308, -1e308]]), "must be finite .* and so must their differences"),
-        (np.array([[np.longdouble("1e400"), 0]]), "must be finite"),
+        (np.array([[1e308, -1e308]]), "also their differences; some are infinite"),
+        (np.array([[np.longdouble("1e400"), 0]]), "some are infinite"),
         (np.zeros((2, 2, 2)), "one or two dimensions, not"),
         ([["a"]], "real numbers"),
         (np.ma.array([[True, False]], mask=[[0, 1]]), "not bool"),

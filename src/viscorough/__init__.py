@@ -4,55 +4,13 @@ All that is public can be imported from here; exact solutions are in `viscorough
 module of its subject, which is imported when the name is first used.
 """
 
+import re
 from importlib import import_module
+from pathlib import Path
 
-_MODULE_OF = {
-    "AccuracyWarning": "errors",
-    "Contact": "contact_maps",
-    "ConvergenceError": "errors",
-    "CreepTable": "viscous.media",
-    "ForceHistory": "viscous.correspondence",
-    "IdentifiedMedium": "viscous.identification",
-    "Indenter": "indenter",
-    "KelvinVoigt": "viscous.media",
-    "LoadingCurve": "loading_curve",
-    "Maxwell": "viscous.media",
-    "Medium": "viscous.medium",
-    "Newtonian": "viscous.media",
-    "Prony": "viscous.media",
-    "SolverOptions": "contact.options",
-    "Springpot": "viscous.media",
-    "StandardLinearSolid": "viscous.media",
-    "audit": "sum_rules",
-    "complete_contact": "sum_rules",
-    "contact_at": "contact.one_contact",
-    "cut_disc": "surfaces",
-    "estimate": "estimates",
-    "force_under_depth": "viscous.relaxation",
-    "identify_medium": "viscous.identification",
-    "impulses": "viscous.correspondence",
-    "indent": "contact.loading_path",
-    "kinetics": "viscous.correspondence",
-    "line_of_map": "mdr",
-    "line_of_surface": "mdr",
-    "load_curve": "io.saving",
-    "march_events": "viscous.integration.events",
-    "march_medium": "viscous.integration.internal_variables",
-    "march_medium_events": "viscous.integration.internal_variable_events",
-    "march_steps": "viscous.integration.stepping",
-    "penetration_law": "calibrated_law",
-    "plot": "plotting",
-    "prepare": "preparation",
-    "pressure_at": "viscous.pressures",
-    "read_force_history": "io.motion",
-    "read_heights": "io.heights",
-    "read_line": "io.surfaces",
-    "read_medium": "io.media",
-    "reduce": "mdr",
-    "save": "io.saving",
-    "self_affine_disc": "surfaces",
-    "self_affine_line": "surfaces",
-}
+# The stub, which is there for tools that read types, tells the module of every public name.
+_STUB = Path(__file__).with_suffix(".pyi").read_text(encoding="utf-8")
+_MODULE_OF = {name: module for module, name in re.findall(r"^from viscorough\.(\S+) import (\w+)", _STUB, re.MULTILINE)}
 __all__ = [*_MODULE_OF, "reference"]
 
 

@@ -1,4 +1,4 @@
-"""The public names, for tools that read types; `__init__.py` imports them on first use."""
+"""The public names and their modules, for tools that read types and for `__init__.py`, which imports on first use."""
 
 from viscorough import reference as reference
 from viscorough.calibrated_law import penetration_law as penetration_law

@@ -1,9 +1,8 @@
-"""Compiled functions cached on disk: damaged cache files are detected, and an interrupt waits for the compiler.
+"""Compiled functions cached on disk: incomplete cache files are no error, and an interrupt waits for the compiler.
 
-numba caches compiled code beside the modules (or in NUMBA_CACHE_DIR) and does not check what it reads. The cache files
-of functions that are compiled here end with a SHA-256 checksum, which numba's own reader ignores; where it is wrong,
-the function is compiled again. Where nothing can be kept on disk, functions are compiled in every process, and one line
-says so. Only these functions are affected, not numba itself or functions of other packages.
+numba caches compiled code beside the modules (or in NUMBA_CACHE_DIR). Where a file of functions that are compiled here
+cannot be loaded, the function is compiled again. Where nothing can be kept on disk, functions are compiled in every
+process, and one line says so. Only these functions are affected, not numba itself or functions of other packages.
 """
 
 import contextlib
@@ -13,16 +12,12 @@ import logging
 import os
 import sys
 from collections.abc import Callable
-from hashlib import sha256
-from pathlib import Path
 from typing import Any
 
 import numba
 from numba.core import caching
 
 from viscorough.interrupts import uninterrupted
-
-_CHECKSUM_SIZE = sha256().digest_size
 
 
 @functools.cache  # once per process
@@ -32,31 +27,14 @@ def _announce_compilation() -> None:
         print("viscorough: compiling once, which takes about 20 s", file=sys.stderr, flush=True)
 
 
-class _CheckedFile(caching.IndexDataCacheFile):
-    def _dump(self, obj: object) -> bytes:
-        dumped = super()._dump(obj)
-        return dumped + sha256(dumped).digest()
-
-    def _load_data(self, name: str) -> Any:
-        content = Path(self._data_path(name)).read_bytes()
-        if sha256(content[:-_CHECKSUM_SIZE]).digest() != content[-_CHECKSUM_SIZE:]:
-            raise ValueError(f"the checksum of {name} is wrong")
-        return super()._load_data(name)
-
-
-class _CheckedCache(caching.FunctionCache):
-    def __init__(self, function: Callable[..., Any]) -> None:
-        super().__init__(function)
-        locator = self._impl.locator
-        self._cache_file = _CheckedFile(self._cache_path, self._impl.filename_base, locator.get_source_stamp())
-
+class _Cache(caching.FunctionCache):
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         try:
             with uninterrupted():
                 if (loaded := super().load_overload(sig, target_context)) is None:
                     _announce_compilation()
                 return loaded
-        except Exception as error:  # unpickling and linking damaged bytes can fail in any way
+        except Exception as error:  # reading a file that a power failure cut off can fail in any way
             text = "compiled code of %s in %s is damaged (%s): it is compiled again"
             logging.warning(text, self._py_func.__name__, self.cache_path, error)
             with contextlib.suppress(OSError):
@@ -73,7 +51,7 @@ class _CheckedCache(caching.FunctionCache):
 def _cache(function: Callable[..., Any]) -> Any:
     """The cache of a function's compiled code; an inactive one if there is no folder for it."""
     try:
-        return _CheckedCache(function)
+        return _Cache(function)
     except RuntimeError:  # numba finds no writable folder, or the function has no source file
         if os.path.exists(inspect.getfile(function)):
             _warn_cache_disabled()

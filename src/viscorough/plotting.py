@@ -12,8 +12,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator, NullFormatter
-from numpy.typing import NDArray
+from matplotlib.ticker import LogLocator
 
 from viscorough import units
 from viscorough.contact_maps import Contact
@@ -33,15 +32,8 @@ _FEW = 40  # points below which a curve has markers
 _FEW_DECADES = 80  # ratio of the ends of a logarithmic axis
 _PERCENTILE = 99  # of the pressures in contact, at which their colours end: a single element may have far more
 _MOST_MAPS = 4  # contacts of one file that are drawn
-_STYLE: dict[Any, Any] = {
-    "font.size": 8,
-    "axes.titlesize": 8,
-    "axes.linewidth": 0.6,
-    "lines.linewidth": 1.2,
-    "lines.markersize": 3,
-}
-_STYLE |= {"xtick.direction": "in", "ytick.direction": "in"}
-_STYLE |= {"savefig.dpi": 200, "pdf.fonttype": 42, "svg.hashsalt": "viscorough"}
+_STYLE: dict[Any, Any] = {"font.size": 8, "axes.titlesize": 8, "lines.linewidth": 1.2, "lines.markersize": 3}
+_STYLE |= {"savefig.dpi": 200, "svg.hashsalt": "viscorough"}
 _COLOURS: dict[str, Any] = {"heights": "cividis", "gap": "cividis", "pressure": "inferno"}
 _COLOURS |= {"contact": mpl.colors.ListedColormap(["white", _VERMILION])}
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -101,9 +93,9 @@ def kind_of(content: Content) -> tuple[Callable[[Variables], Figure], Variables]
     if set(STORED) <= set(content.variables):  # of a loading curve, also in files of motions that follow from one
         (unstack_curves if "levels" in content.variables else curve_from_content)(content)
     numbers = {name: v for name, v in content.variables.items() if v.values.dtype.kind in "iuf" and v.values.size}
-    for draw, names, dimensions in _KINDS:
-        together = set(names) <= set(numbers) and len({numbers[name].dimensions for name in names}) == 1
-        if together and numbers[names[0]].values.ndim in dimensions:
+    dimensions = {name: variable.dimensions for name, variable in numbers.items()}
+    for draw, needed in _KINDS:
+        if needed.items() <= dimensions.items():
             return draw, numbers
     raise ValueError(
         "no surface, fields of a contact, loading curve or motion in it; a file that viscorough wrote is needed"
@@ -114,11 +106,11 @@ def kind_of(content: Content) -> tuple[Callable[[Variables], Figure], Variables]
 
 
 def _surface(variables: Variables) -> Figure:
-    values, (*_, x) = variables["heights"].values, variables["heights"].dimensions
+    values = variables["heights"].values
     if values.ndim == 1:
         figure, (axes,) = _panels(1)
-        axes.plot(_positions(variables, x, values.size)[0], values, color=_BLUE, linewidth=0.6)
-        _label(axes, _axis_label(variables, x), _label_of(variables, "heights"), "heights")
+        axes.plot(variables["x"].values, values, color=_BLUE, linewidth=0.6)
+        _label(axes, variables, "x", "heights", "heights")
         return figure
     variables = _in_readable_units(variables)
     figure, (axes,) = _panels(1, width=4.6, height=3.8)
@@ -173,10 +165,9 @@ def _state(variables: Variables, index: int) -> str:
 
 def _map(figure: Figure, axes: Axes, variables: Variables, name: str, values: Array) -> None:
     """Image of a map, grey outside the indenter, where it is nan; with a bar of colours unless it is of the contact."""
-    y, x = variables[name].dimensions[-2:]
     extent: list[float] = []
-    for dimension, points in ((x, values.shape[1]), (y, values.shape[0])):
-        position, step = _positions(variables, dimension, points)
+    for position in (variables["x"].values, variables["y"].values):
+        step = (position[-1] - position[0]) / max(len(position) - 1, 1) or 1.0
         extent += [position[0] - step / 2, position[-1] + step / 2]
     left, right, top, bottom = extent  # the first row is at the top
     look: dict[str, Any] = {"extent": [left, right, bottom, top], "cmap": _COLOURS[name]}
@@ -196,27 +187,7 @@ def _map(figure: Figure, axes: Axes, variables: Variables, name: str, values: Ar
             shrink=0.85,
             extend="max" if name == "pressure" else "neither",
         )
-    _label(axes, _axis_label(variables, x), _axis_label(variables, y), title)
-
-
-def _positions(variables: Variables, dimension: str, points: int) -> tuple[NDArray[Any], float]:
-    """Positions along a dimension and their distance: those of its coordinate, else the numbers of the points."""
-    if _has_positions(variables, dimension):
-        values = variables[dimension].values.astype(float)
-        return values, (values[-1] - values[0]) / max(len(values) - 1, 1) or 1.0
-    return np.arange(points), 1.0
-
-
-def _has_positions(variables: Variables, dimension: str) -> bool:
-    """Whether a dimension has a coordinate, increasing or decreasing."""
-    if dimension not in variables or variables[dimension].dimensions != (dimension,):
-        return False
-    steps = np.diff(variables[dimension].values.astype(float))
-    return bool(np.isfinite(steps).all() and ((steps > 0).all() or (steps < 0).all()))
-
-
-def _axis_label(variables: Variables, dimension: str) -> str:
-    return _label_of(variables, dimension) if _has_positions(variables, dimension) else f"{dimension}, points"
+    _label(axes, variables, "x", "y", title)
 
 
 # ---- curves
@@ -232,11 +203,9 @@ def _motion(variables: Variables) -> Figure:
     for panel, name in zip(axes, names, strict=True):
         ends = [variables[key] for end in ("low", "high") if (key := f"{name}_{end}") in variables]
         if len(ends) == 2:  # an estimate
-            if {end.attributes.get("units") for end in ends} != {variables[name].attributes.get("units")}:
-                raise ValueError(f"{name} and its interval have different units; one is needed")
             panel.fill_between(time, ends[0].values, ends[1].values, color=_BLUE, alpha=0.25, linewidth=0)
         _curve(panel, time, variables[name].values)
-        _label(panel, _label_of(variables, "time"), _label_of(variables, name), name)
+        _label(panel, variables, "time", name, name)
     return figure
 
 
@@ -248,7 +217,7 @@ def _loading_curve(variables: Variables) -> Figure:
     for panel, (x, y) in zip(axes, pairs, strict=True):
         for along, over in zip(*(np.atleast_2d(variables[name].values) for name in (x, y)), strict=True):
             _curve(panel, along, over, thin=dimensions == 2)
-        _label(panel, _label_of(variables, x), _label_of(variables, y), y)
+        _label(panel, variables, x, y, y)
     return figure
 
 
@@ -266,21 +235,14 @@ def _curve(axes: Axes, x: Array, y: Array, thin: bool = False) -> None:
     axes.plot(x[shown], y[shown], color=_BLUE, **look)
 
 
-def _label(axes: Axes, x: str, y: str, name: str) -> None:
-    """Labels of the axes, and the name of what is drawn as the title."""
-    axes.set(xlabel=x, ylabel=y, title=name.replace("_", " "))
+def _label(axes: Axes, variables: Variables, x: str, y: str, title: str) -> None:
+    axes.set(xlabel=_label_of(variables, x), ylabel=_label_of(variables, y), title=title.replace("_", " "))
     for axis in (axes.xaxis, axes.yaxis):
         low, high = axis.get_view_interval()
-        if axis.get_scale() == "log" and 0 < high < _FEW_DECADES * low:  # ticks at decades alone would be too few
+        if axis.get_scale() == "log" and high < _FEW_DECADES * low:  # ticks at decades alone would be too few
             axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0), numticks=20))
-            axis.set_major_formatter(_tick_label)
-            axis.set_minor_formatter(NullFormatter())
-
-
-def _tick_label(value: float, _position: float) -> str:
-    """A number of three digits, with a power of ten where it is very small or large."""
-    mantissa, _, exponent = f"{value:.3g}".partition("e")
-    return rf"${mantissa}\times 10^{{{int(exponent)}}}$" if exponent else mantissa
+            axis.set_major_formatter("{x:.3g}")
+            axis.set_minor_formatter("")
 
 
 def _label_of(variables: Variables, name: str) -> str:
@@ -296,9 +258,15 @@ def _unit(variable: Variable) -> str:
     return re.sub(r"(?<=[^\W\d])-?\d", lambda power: power[0].translate(_SUPERSCRIPTS), unit).replace(" s⁻¹", "/s")
 
 
-_KINDS = (
-    (_fields, ("pressure",), (2, 3)),
-    (_surface, ("heights",), (1, 2)),
-    (_motion, ("time", "depth"), (1,)),
-    (_loading_curve, ("depth", "force"), (1, 2)),
+_X = {"x": ("x",)}
+_XY = _X | {"y": ("y",)}
+# What draws the variables of these dimensions; the first that suits.
+_KINDS: tuple[tuple[Callable[[Variables], Figure], dict[str, tuple[str, ...]]], ...] = (
+    (_fields, {"pressure": ("y", "x"), **_XY}),
+    (_fields, {"pressure": ("level", "y", "x"), **_XY}),
+    (_surface, {"heights": ("y", "x"), **_XY}),
+    (_surface, {"heights": ("x",), **_X}),
+    (_motion, {"time": ("level",), "depth": ("level",)}),
+    (_loading_curve, {"depth": ("level",), "force": ("level",)}),
+    (_loading_curve, {"depth": ("realization", "level"), "force": ("realization", "level")}),
 )

@@ -12,12 +12,12 @@ from viscorough.types import Array, Mask
 
 DETREND = ("none", "mean", "plane", "sphere")
 FILL = ("none", "harmonic")
-_BLOCK = 64  # rows that are treated at a time, so that little memory is needed beside the map
 _NOTABLE_TILT = 6  # rise of the fitted plane over the rms height about it
 _FAR = 10  # distance of a suspicious value from all others, over the range of those
 _MARKS = (-9999.0, -99999.0, -32768.0, -32767.0, 32767.0, 65535.0, -1e38, 1e38)
 _SPIKE = 20  # height of a point above all its neighbours over the usual distance of neighbours
 _LARGEST_SLOPE = 0.99  # of a fitted sphere within the map
+_MAX_ITERATIONS = 20  # of the fit of a sphere
 
 Crop = Sequence[Sequence[int]]  # ((first column, end), (first row, end))
 
@@ -83,7 +83,7 @@ def prepare(
     if flip:
         np.negative(heights, out=heights)
     if detrend != "none":
-        heights = _detrended(heights, indenter.spacing, indenter.row_spacing, detrend)
+        heights = heights - _fitted(heights, indenter.spacing, indenter.row_spacing, detrend)
     if fill == "harmonic":
         heights = _filled(heights, indenter.aspect)
     return Indenter(heights, indenter.spacing, indenter.row_spacing, indenter.length_unit)
@@ -110,29 +110,38 @@ def _cropped(heights: Array, crop: Crop) -> Array:
 # ---- mean, plane, sphere
 
 
-def _detrended(heights: Array, dx: float, dy: float, form: str) -> Array:
-    """The heights less a fitted form."""
-    values, curvature = _fit(heights, dx, dy, form)
-    heights = heights if heights.dtype == np.float64 else heights.astype(np.float64)
-    for rows, basis in _blocks(heights.shape, dx, dy, form):
-        heights[rows] -= np.tensordot(values, basis[: len(values)], 1).reshape(heights[rows].shape)
-        if form == "sphere":
-            heights[rows] -= _sag(curvature, _distance_squared(basis)).reshape(heights[rows].shape)
-    return heights
+def _fitted(heights: Array, dx: float, dy: float, form: str) -> Array:
+    """The form that fits a map best in least squares, at its points; that of a sphere by Gauss-Newton.
+
+    All lengths are divided by the distance of the corners from the middle.
+    """
+    (rows, columns), known = heights.shape, ~np.isnan(heights)
+    reach = np.hypot(dx * columns, dy * rows) / 2
+    x = dx * (np.arange(columns) - (columns - 1) / 2) / reach
+    y = dy * (np.arange(rows)[:, None] - (rows - 1) / 2) / reach
+    plane = np.stack(np.broadcast_arrays(1.0, x, y)[: 1 if form == "mean" else 3])
+    target = heights[known].astype(float) / reach
+    if form != "sphere":
+        return reach * np.tensordot(_factors(plane[:, known], target), plane, 1)
+    curvature, squared = 0.0, x**2 + y**2
+    for _ in range(_MAX_ITERATIONS):
+        root = np.sqrt(1 - curvature**2 * squared)
+        slope = squared / (root * (1 + root))  # of the sag with respect to the curvature
+        functions = np.concatenate([plane, [slope]])[:, known]
+        tangent = _sag(curvature, squared) - curvature * slope
+        values, last = _factors(functions, target - tangent[known]), curvature
+        curvature = float(values[3])
+        if not abs(curvature) < _LARGEST_SLOPE:
+            raise ValueError("detrend sphere: the sphere that fits is smaller than the map; crop to a cap of it")
+        if abs(curvature - last) <= 1e-12 * abs(curvature):
+            break
+    return reach * (np.tensordot(values[:3], plane, 1) + _sag(curvature, squared))
 
 
-def _blocks(shape: tuple[int, int], dx: float, dy: float, form: str) -> Iterator[tuple[slice, Array]]:
-    """Pairs of rows (a slice) and the functions 1, x, y there, shape (functions, points), from the middle."""
-    x = dx * (np.arange(shape[1]) - (shape[1] - 1) / 2)
-    y = dy * (np.arange(shape[0]) - (shape[0] - 1) / 2)
-    for first in range(0, shape[0], _BLOCK):
-        rows = slice(first, first + _BLOCK)
-        grid = np.broadcast_arrays(1.0, x, y[rows, None])
-        yield rows, np.stack([part.ravel() for part in grid[: 1 if form == "mean" else 3]])
-
-
-def _distance_squared(basis: Array) -> Array:
-    return basis[1] ** 2 + basis[2] ** 2
+def _factors(functions: Array, target: Array) -> Array:
+    """Factors of functions, shape (functions, points), whose sum is closest to the target."""
+    factors: Array = np.linalg.lstsq(functions @ functions.T, functions @ target, rcond=1e-13)[0]
+    return factors
 
 
 def _sag(curvature: float, squared: Array) -> Array:
@@ -140,50 +149,11 @@ def _sag(curvature: float, squared: Array) -> Array:
     return curvature * squared / (1 + np.sqrt(1 - curvature**2 * squared))
 
 
-def _fit(heights: Array, dx: float, dy: float, form: str) -> tuple[Array, float]:
-    """Least-squares values of the plane (1, x, y), or the mean, and the curvature of the sphere; by Gauss-Newton."""
-    rows, columns = heights.shape
-    reach = np.hypot(dx * columns, dy * rows) / 2
-    scales = np.array([1.0, reach, reach][: 1 if form == "mean" else 3] + ([reach**2] if form == "sphere" else []))
-    values, curvature = np.zeros(len(scales)), 0.0
-    for _ in range(20 if form == "sphere" else 1):
-        matrix, right = np.zeros((len(scales),) * 2), np.zeros(len(scales))
-        for block, basis in _blocks(heights.shape, dx, dy, form):
-            functions, target = basis, heights[block].ravel().astype(float)
-            if form == "sphere":
-                squared = _distance_squared(basis)
-                root = np.sqrt(1 - curvature**2 * squared)
-                slope = squared / (root * (1 + root))  # of the sag with respect to the curvature
-                target = target - _sag(curvature, squared) + curvature * slope
-                functions = np.vstack([basis, slope])
-            known = ~np.isnan(target)
-            functions = functions[:, known] / scales[:, None]
-            matrix += functions @ functions.T
-            right += functions @ target[known]
-        values = np.linalg.lstsq(matrix, right, rcond=1e-13)[0] / scales
-        if form != "sphere":
-            break
-        last, curvature = curvature, float(values[3])
-        if not abs(curvature) * reach < _LARGEST_SLOPE:
-            raise ValueError("detrend sphere: the sphere that fits is smaller than the map; crop to a cap of it")
-        if abs(curvature - last) <= 1e-12 * abs(curvature):
-            break
-    return values[:3], curvature
-
-
 def _tilt(indenter: Indenter) -> Iterator[str]:
     """A text if the map is tilted by much more than its roughness explains."""
-    heights, dx, dy = indenter.heights, indenter.spacing, indenter.row_spacing
-    lowest, highest, squares, count = np.inf, -np.inf, 0.0, 0
-    values, _ = _fit(heights, dx, dy, "plane")
-    for rows, basis in _blocks(heights.shape, dx, dy, "plane"):
-        known = ~np.isnan(heights[rows].ravel())
-        plane = (values @ basis)[known]
-        if plane.size:
-            lowest, highest = min(lowest, plane.min()), max(highest, plane.max())
-            squares += ((heights[rows].ravel()[known] - plane) ** 2).sum()
-            count += plane.size
-    rise, rms = highest - lowest, np.sqrt(squares / count)
+    heights, known = indenter.heights, ~np.isnan(indenter.heights)
+    plane = _fitted(heights, indenter.spacing, indenter.row_spacing, "plane")[known]
+    rise, rms = np.ptp(plane), np.sqrt(np.mean((heights[known] - plane) ** 2))
     if rise > _NOTABLE_TILT * rms and rise > 1e-9 * np.nanmax(np.abs(heights)):
         about = (
             f"{rise / rms:.3g} times the rms height about it" if rms > 1e-9 * rise else "and nothing is left about it"

@@ -80,7 +80,7 @@ def number(value: Any, unit: str, length_unit: str, name: str) -> float:
     except ValueError as error:
         raise ValueError(f"{name}: {error}; a number in {unit}, or with such a unit, is needed") from error
     text = f"{name} {value}: needs a plain number, since the unit of length is not known"
-    raise ValueError(f"{text}; state it with --unit where the heights are read")
+    raise ValueError(f"{text}; state it with the lengths, or by --unit where heights are read")
 
 
 def numbers(values: Any, unit: str, length_unit: str, name: str) -> Any:

@@ -15,7 +15,6 @@ from support.workflow import merged, read_settings
 from viscorough.cli import main
 from viscorough_study.run.settings import check_settings
 
-EXAMPLE = ROOT / "examples/own_surface.py"
 RUN = {page: [block for block in blocks(page) if block.language in ("python", "console")] for page in PAGES}
 
 
@@ -50,11 +49,8 @@ def test_blocks_run(page):
 
 
 def test_readme_makes_the_picture_that_it_shows(tmp_path):
-    """With the lines of the example."""
     run_page(README)
     assert compare_images(ROOT / "docs/own_surface.png", tmp_path / "own_surface.png", tol=1) is None
-    (block,) = RUN[README]
-    assert EXAMPLE.read_text(encoding="utf-8").endswith(block.text)
 
 
 def test_settings_shown_are_valid():

@@ -9,7 +9,6 @@ from numba.core import caching, event
 
 from support.command_line import python
 from viscorough.compilation import njit
-from viscorough.interrupts import uninterrupted
 
 
 def test_compiled_functions_of_other_packages_are_left_alone():
@@ -19,10 +18,7 @@ def test_compiled_functions_of_other_packages_are_left_alone():
     ours, theirs = njit(function), numba.njit(function, cache=True)
     for owned, original in ((ours, False), (theirs, True)):
         assert (type(owned._cache) is caching.FunctionCache) == original
-        assert (type(owned._cache._cache_file) is caching.IndexDataCacheFile) == original
         assert (getattr(owned.compile, "__func__", None) is numba.core.dispatcher.Dispatcher.compile) == original
-    for name in ("FunctionCache", "IndexDataCacheFile"):
-        assert getattr(caching, name).__module__ == "numba.core.caching", "numba itself is changed"
 
 
 @pytest.mark.parametrize("environment", [{}, {"NUMBA_DISABLE_JIT": "1"}], ids=["compiled", "numba disabled"])
@@ -75,34 +71,18 @@ def test_interrupt_waits_for_the_compiler(interrupts_raise):
         function(1.0)
     assert len(function.signatures) == 1, "compiled to the end"
     assert function(1.0) == 2
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
-def test_interrupt_waits_for_the_end_of_a_block(interrupts_raise):
-    done = []
-
-    def block():
-        with uninterrupted(), uninterrupted():
-            os.kill(os.getpid(), signal.SIGINT)
-            done.append("first")
-            done.append("last")
-
-    handler = signal.getsignal(signal.SIGINT)
-    with pytest.raises(KeyboardInterrupt):
-        block()
-    assert done == ["first", "last"]
-    assert signal.getsignal(signal.SIGINT) is handler
-
-
-@pytest.mark.parametrize("terminal", [True, False])
-def test_who_waits_at_a_terminal_is_told(tmp_path, terminal):
+def test_who_waits_at_a_terminal_is_told(tmp_path):
     (tmp_path / "script.py").write_text(
         "import sys\n"
-        f"sys.stderr.isatty = lambda: {terminal}\n"
+        "sys.stderr.isatty = lambda: True\n"
         "from viscorough.compilation import njit\n"
         "@njit\ndef one(x):\n    return x + 1\n"
         "@njit\ndef two(x):\n    return x + 2\n"
         "assert one(1) + two(1) == 5\n"
     )
-    for expected in ("viscorough: compiling once, which takes about 20 s\n" if terminal else "", ""):
+    for expected in ("viscorough: compiling once, which takes about 20 s\n", ""):
         done = python(str(tmp_path / "script.py"), NUMBA_CACHE_DIR=str(tmp_path / "cache"))
         assert done.stderr == expected

@@ -43,15 +43,6 @@ def test_top_level_names_are_the_same_whatever_was_imported_before():
     assert set(before) == PUBLIC, "names of the package differ from those of the reference"
 
 
-def test_type_checkers_see_the_public_names():
-    """The stub names the modules from which the package imports on first use."""
-    stub = ast.parse((LIBRARY / "__init__.pyi").read_text())
-    imports = [node for node in stub.body if isinstance(node, ast.ImportFrom)]
-    modules = {alias.asname: node.module for node in imports for alias in node.names if alias.name == alias.asname}
-    assert modules.pop("reference") == "viscorough"
-    assert modules == {name: f"viscorough.{module}" for name, module in viscorough._MODULE_OF.items()}
-
-
 def test_functions_that_messages_name_are_public():
     trees = [ast.parse(path.read_text()) for path in LIBRARY.rglob("*.py")]
     functions = {node.name for tree in trees for node in tree.body if isinstance(node, ast.FunctionDef)}
@@ -65,17 +56,3 @@ def test_functions_that_messages_name_are_public():
 def test_unknown_names_are_refused():
     with pytest.raises(AttributeError, match="no attribute 'indentation'"):
         viscorough.indentation  # noqa: B018
-
-
-def lacks_annotation(function):
-    arguments = [node for node in ast.iter_child_nodes(function.args) if isinstance(node, ast.arg)]
-    return function.returns is None or any(a.annotation is None and a.arg not in ("self", "cls") for a in arguments)
-
-
-def test_all_functions_but_kernels_are_annotated():
-    """Which the type checker does not ask for."""
-    nodes = [node for path in LIBRARY.rglob("*.py") for node in ast.walk(ast.parse(path.read_text()))]
-    functions = [node for node in nodes if isinstance(node, ast.FunctionDef)]
-    plain = [node for node in functions if not any("njit" in ast.dump(each) for each in node.decorator_list)]
-    assert [node.name for node in plain if lacks_annotation(node)] == []
-    assert len(plain) > 600

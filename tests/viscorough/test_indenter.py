@@ -72,8 +72,7 @@ def test_gaps_are_computed_in_double_precision(dtype):
     ("heights", "what"),
     [
         (np.array([[0, 2**53 + 1]], np.uint64), r"whole numbers must not exceed 2\*\*53"),
-        (np.ma.array([[0, 2**60]], mask=[[1, 0]]), r"whole numbers must not exceed 2\*\*53"),
-        (np.array([[1e308, -1e308]]), "must differ by at most"),
+        (np.array([[1e308, -1e308]]), "also their differences; some are infinite"),
         (np.array([[np.longdouble("1e400"), 0]]), "some are infinite"),
         (np.zeros((2, 2, 2)), "one or two dimensions, not"),
         ([["a"]], "real numbers"),

@@ -1,10 +1,7 @@
 """Problems too large for the available memory are refused before anything is allocated."""
 
 import json
-import os
 import re
-import subprocess
-import sys
 import tracemalloc
 from functools import partial
 from pathlib import Path
@@ -14,6 +11,7 @@ import numpy as np
 import psutil
 import pytest
 
+from support.command_line import python
 from viscorough import Indenter, indent, self_affine_disc, self_affine_line
 
 # What any contact requires, however small.
@@ -90,46 +88,35 @@ def test_memory_required_for_a_contact_has_buffers_for_every_thread(monkeypatch)
 
 
 # Prints the largest memory that the generation of lines takes, in bytes, for every data type and number of points.
-PEAKS_OF_LINES = """
+PEAKS_OF_LINES = r"""
 import json, re, sys
 from pathlib import Path
 from viscorough.surfaces import self_affine_line
 
 def resident(what):
-    return 1024 * int(re.search(what + r":\\s+(\\d+)", Path("/proc/self/status").read_text())[1])
+    return 1024 * int(re.search(what + r":\s+(\d+)", Path("/proc/self/status").read_text())[1])
 
-def peak(dtype, points):
-    Path("/proc/self/clear_refs").write_text("5")  # the peak starts from the present memory
-    before = resident("VmRSS")
-    self_affine_line(0.5, points, seed=1, dtype=dtype)
-    return resident("VmHWM") - before
-
-dtypes, sizes = json.loads(sys.argv[1])
-for dtype in dtypes:
+peaks = []
+for dtype in ("float64", "float32"):
     self_affine_line(0.5, 256, seed=1, dtype=dtype)  # loads compiled code
-print(json.dumps({dtype: {points: peak(dtype, points) for points in sizes} for dtype in dtypes}))
+    for points in (2**20, 1_000_003, 2 * 500_009, 11 * 90_911):
+        Path("/proc/self/clear_refs").write_text("5")  # the peak starts from the present memory
+        before = resident("VmRSS")
+        self_affine_line(0.5, points, seed=1, dtype=dtype)
+        peaks.append((dtype, points, resident("VmHWM") - before))
+print(json.dumps(peaks))
 """
-DTYPES, SIZES = ["float64", "float32"], [2**20, 1_000_003, 2 * 500_009, 11 * 90_911]
-
-
-@pytest.fixture(scope="module")
-def peaks_of_lines():
-    """Peaks by data type and points, from a separate process: what other tests freed would be used again in this one.
-
-    The C library returns arrays above a size to the system as soon as they are freed, if that size is given.
-    """
-    arguments = [sys.executable, "-c", PEAKS_OF_LINES, json.dumps([DTYPES, SIZES])]
-    environment = os.environ | {"MALLOC_MMAP_THRESHOLD_": "131072"}
-    return json.loads(subprocess.run(arguments, env=environment, check=True, capture_output=True).stdout)
 
 
 @pytest.mark.skipif(not Path("/proc/self/clear_refs").exists(), reason="the peak of a process is read from /proc")
-@pytest.mark.parametrize("points", SIZES)
-@pytest.mark.parametrize("dtype", DTYPES)
-def test_memory_required_for_a_line_follows_what_its_transform_takes(points, dtype, peaks_of_lines, monkeypatch):
-    """The transform of a length with a large prime factor takes up to eight times the memory of others."""
-    peak = peaks_of_lines[dtype][str(points)]
-    required = demand(partial(self_affine_line, 0.5, points, seed=1, dtype=dtype), monkeypatch)
-    assert peak < required
-    if points == 1_000_003:
-        assert required < 1.5 * peak
+def test_memory_required_for_a_line_follows_what_its_transform_takes(monkeypatch):
+    """The transform of a length with a large prime factor takes up to eight times the memory of others.
+
+    In a process of its own: what other tests freed would be used again in this one. The C library returns arrays above
+    a size to the system as soon as they are freed, if that size is given.
+    """
+    for dtype, points, peak in json.loads(python("-c", PEAKS_OF_LINES, MALLOC_MMAP_THRESHOLD_="131072").stdout):
+        required = demand(partial(self_affine_line, 0.5, points, seed=1, dtype=dtype), monkeypatch)
+        assert peak < required
+        if points == 1_000_003:
+            assert required < 1.5 * peak

@@ -1,7 +1,5 @@
 """Measured maps made ready for contact, and doubts about those that are not."""
 
-import tracemalloc
-
 import numpy as np
 import pytest
 
@@ -125,12 +123,3 @@ def test_spikes_are_told():
     heights[10, 31] += 30
     (text,) = doubts(Indenter(heights, 1.0))
     assert text.startswith("2 single points stand up to ")
-
-
-def test_detrending_needs_little_memory_beside_the_map():
-    surface = Indenter(np.random.default_rng(0).random((1025, 1025)), 1.0)
-    tracemalloc.start()
-    prepare(surface, detrend="plane")
-    _, most = tracemalloc.get_traced_memory()
-    tracemalloc.stop()
-    assert most < 3 * surface.heights.nbytes

@@ -4,30 +4,30 @@ from __future__ import annotations
 
 import warnings
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
-from viscorough.cli.files import check_output, printable_name, write_output
-from viscorough.cli.messages import announce
-from viscorough.cli.options import FILE, Increasing, PositiveNumber, QuantityOption, number_in
+from viscorough import units
+from viscorough.cli import files, messages, options
 from viscorough.errors import AccuracyWarning
 from viscorough.units import Quantity
 
 if TYPE_CHECKING:
     from viscorough.calibrated_law import PenetrationLaw
-    from viscorough.viscous.medium import Medium
 
 
 @click.command()
-@click.option("--hurst", type=PositiveNumber(1), required=True, help="Hurst exponent H, from 0.1 to 1.")
-@click.option("--rms", type=QuantityOption("m"), required=True, help="Rms height h of the surface.")
-@click.option("--diameter", type=QuantityOption("m"), required=True, help="Diameter L of the indenter.")
-@click.option("--force", type=QuantityOption("N"), required=True, help="Constant force F, applied at time 0.")
-@click.option("--viscosity", type=QuantityOption("Pa s"), help="Shear viscosity of a Newtonian half-space.")
-@click.option("--medium", type=FILE, metavar="MEDIUM.yaml", help="Medium, as for kinetics, instead of --viscosity.")
-@click.option("--times", type=Increasing(), required=True, help="Times at which depth and velocity are wanted.")
-@click.option("-o", "--output", type=FILE, metavar="FILE", help="NetCDF file or table (.csv) to write  [default: none]")
+@click.option("--hurst", type=options.PositiveNumber(1), required=True, help="Hurst exponent H, from 0.1 to 1.")
+@click.option("--rms", type=options.QuantityOption("m"), required=True, help="Rms height h of the surface.")
+@click.option("--diameter", type=options.QuantityOption("m"), required=True, help="Diameter L of the indenter.")
+@click.option("--force", type=options.QuantityOption("N"), required=True, help="Constant force F, applied at time 0.")
+@options.viscosity
+@options.medium
+@click.option("--times", type=options.Increasing(), required=True, help="Times at which depth and velocity are wanted.")
+@click.option(
+    "-o", "--output", type=options.FILE, metavar="FILE", help="NetCDF file or table (.csv) to write  [default: none]"
+)
 def estimate(
     *,
     hurst: float,
@@ -58,24 +58,18 @@ def estimate(
     import numpy as np
 
     from viscorough.estimates import estimate
-    from viscorough.io.media import read_medium
     from viscorough.io.motion import estimate_to_content
 
-    if (viscosity is None) == (medium is None):
-        raise click.UsageError("one of --viscosity and --medium is needed")
+    options.require((viscosity is None) != (medium is None), "one of --viscosity and --medium is needed")
     if output:
-        check_output(output, medium=medium)
-    unit = _length_unit(rms, diameter, {"--force": force, "--viscosity": viscosity})
-    lengths = number_in("m", rms, unit, "--rms"), number_in("m", diameter, unit, "--diameter")
-    force = number_in("N", force, unit, "--force")
-    half_space: Medium | float
-    about: dict[str, Any]
-    if viscosity is not None:
-        half_space = number_in("Pa s", viscosity, unit, "--viscosity")
-        about = {"viscosity": half_space}
-    elif medium is not None:
-        half_space, about = read_medium(medium, unit), {"medium": printable_name(medium)}
-    result = estimate(hurst, *lengths, force, half_space, times)
+        files.check_output(output, medium=medium)
+    one_has = f"--rms {rms}, --diameter {diameter}: one has a unit; both or none is allowed"
+    options.require(bool(rms.unit) == bool(diameter.unit), one_has)
+    unit = "m" if rms.unit else units.UNKNOWN
+    half_space, about = files.read_half_space(viscosity, medium, unit)
+    stated = {"rms": (rms, "m"), "diameter": (diameter, "m"), "force": (force, "N")}
+    numbers = {name: units.number(given, of, unit, f"--{name}") for name, (given, of) in stated.items()}
+    result = estimate(hurst, medium=half_space, times=times, **numbers)
     law, outside = result.law, np.count_nonzero(result.where != "")
     if outside:
         text = f"{outside} of {len(times)} times are outside the range of the law"
@@ -85,19 +79,8 @@ def estimate(
         click.echo(_heading(law))
         click.echo(str(result))
         return
-    about |= {"hurst": hurst, "rms": lengths[0], "diameter": lengths[1], "force": force}
-    write_output(estimate_to_content(result, unit), output, **about)
-    announce(output, f"{len(times)} times, {len(times) - outside} in the range of the law")
-
-
-def _length_unit(rms: Quantity, diameter: Quantity, others: dict[str, Any]) -> str:
-    """Unit of the results: "m" if both lengths have a unit, "1", which stands for that of the user, if none has one."""
-    if bool(rms.unit) != bool(diameter.unit):
-        raise click.UsageError(f"--rms {rms}, --diameter {diameter}: one has a unit; both or none is allowed")
-    for option, quantity in others.items():
-        if quantity and quantity.unit and not rms.unit:
-            raise click.UsageError(f'{option} {quantity}: has a unit, but the lengths have none, as in --rms "2 um"')
-    return "m" if rms.unit else "1"
+    files.write_output(estimate_to_content(result, unit), output, hurst=hurst, **numbers, **about)
+    messages.announce(output, f"{len(times)} times, {len(times) - outside} in the range of the law")
 
 
 def _heading(law: PenetrationLaw) -> str:

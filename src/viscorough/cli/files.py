@@ -2,24 +2,27 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
 import threading
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from signal import default_int_handler
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from viscorough import units
 from viscorough.cli.messages import complain
 from viscorough.interrupts import on_interrupt
+from viscorough.units import Quantity
 
 if TYPE_CHECKING:
     from viscorough.io.netcdf import Content
     from viscorough.loading_curve import LoadingCurve
     from viscorough.types import FilePath
+    from viscorough.viscous.correspondence import ForceHistory
+    from viscorough.viscous.medium import Medium
 
 
 def check_output(output: Path, **inputs: Path | None) -> None:
@@ -43,12 +46,13 @@ def printable_name(file: Path) -> str:
 LONGEST = 60  # seconds that opening a file may take
 
 
-@contextlib.contextmanager
-def time_limit(path: FilePath) -> Iterator[None]:
-    """Context in which a NetCDF file is opened; if that takes too long, the process ends with one line and exit code 2.
+def check_opens(path: FilePath) -> None:
+    """Raise a one-line ValueError unless the NetCDF file can be opened.
 
-    Damage can make the HDF5 library run without end, where Python cannot interrupt it. Opening takes milliseconds.
+    Damage can make the HDF5 library run without end, where Python cannot interrupt it. If opening, which takes
+    milliseconds, takes too long, the process ends with one line and exit code 2.
     """
+    from viscorough.io import netcdf
 
     def end() -> None:
         text = f"{path}: not opened within {LONGEST:g} s, as can happen if it is damaged; a whole NetCDF file is needed"
@@ -60,17 +64,10 @@ def time_limit(path: FilePath) -> Iterator[None]:
     timer.daemon = True
     timer.start()
     try:
-        yield
+        with netcdf.opened(path):
+            pass
     finally:
         timer.cancel()
-
-
-def check_opens(path: FilePath) -> None:
-    """Raise a one-line ValueError unless the NetCDF file can be opened, within a time limit."""
-    from viscorough.io import netcdf
-
-    with time_limit(path), netcdf.opened(path):
-        pass
 
 
 def read_content(path: FilePath) -> Content:
@@ -97,6 +94,30 @@ def read_curve(path: FilePath) -> LoadingCurve:
         raise ValueError(f"{text}; kinetics need one of an incompressible half-space, 0.5")
     with path_named(path):
         return curve_from_content(content)
+
+
+def read_load(
+    force: Quantity | None, force_history: Path | None, length_unit: str
+) -> tuple[float | ForceHistory, dict[str, Any]]:
+    """(the load, what an output says about it) of the options --force and --force-history, one of which is given."""
+    from viscorough.io.motion import read_force_history
+
+    if force_history is not None:
+        return read_force_history(force_history, length_unit), {"force": printable_name(force_history)}
+    number = units.number(force, "N", length_unit, "--force")
+    return number, {"force": number}
+
+
+def read_half_space(
+    viscosity: Quantity | None, medium: Path | None, length_unit: str
+) -> tuple[float | Medium, dict[str, Any]]:
+    """(viscosity or medium, what an output says about it) of --viscosity and --medium, one of which is given."""
+    from viscorough.io.media import read_medium
+
+    if medium is not None:
+        return read_medium(medium, length_unit), {"medium": printable_name(medium)}
+    number = units.number(viscosity, "Pa s", length_unit, "--viscosity")
+    return number, {"viscosity": number}
 
 
 def write_output(content: Content, output: Path, **attributes: Any) -> None:

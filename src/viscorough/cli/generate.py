@@ -7,9 +7,7 @@ from typing import Any
 
 import click
 
-from viscorough.cli.files import check_output, write_output
-from viscorough.cli.messages import announce
-from viscorough.cli.options import PositiveNumber, QuantityOption, number_in, output_option
+from viscorough.cli import files, messages, options
 from viscorough.units import Quantity
 
 
@@ -17,15 +15,15 @@ from viscorough.units import Quantity
 @click.option("--hurst", type=click.FloatRange(0, 1), required=True, help="Hurst exponent H, from 0 to 1.")
 @click.option("--elements", type=click.IntRange(min=3), help="Disc of so many elements across its diameter.")
 @click.option("--points", type=click.IntRange(min=2), help="Line of so many points, instead of a disc.")
-@click.option("--rms", type=QuantityOption("m"), required=True, help="Rms height, exact in every realization.")
+@click.option("--rms", type=options.QuantityOption("m"), required=True, help="Rms height, exact in every realization.")
 @click.option(
-    "--diameter", type=QuantityOption("m"), required=True, help="Diameter of the disc, or length of the line."
+    "--diameter", type=options.QuantityOption("m"), required=True, help="Diameter of the disc, or length of the line."
 )
 @click.option("--unit", default="m", help="Unit of length, such as um; 1 if it does not matter.")
 @click.option("--seed", type=click.IntRange(min=0), required=True, help="The same seed gives the same surface.")
-@click.option("--roll-off", type=PositiveNumber(), help="Longest wavelength of the power law, in diameters.")
+@click.option("--roll-off", type=options.PositiveNumber(), help="Longest wavelength of the power law, in diameters.")
 @click.option("--plateau", is_flag=True, help="With --roll-off: longer waves have the spectral density there.")
-@output_option("SURFACE.nc", table=False)
+@options.output("SURFACE.nc", table=False)
 def generate(
     *,
     hurst: float,
@@ -51,25 +49,23 @@ def generate(
         viscorough generate --hurst 0.8 --points 100000 --rms "200 nm" --diameter "1 mm" --seed 1 -o line.nc
         viscorough indent disc.nc -o curve.nc
     """
-    if (elements is None) == (points is None):
-        raise click.UsageError("one of --elements (a disc) and --points (a line) is needed")
-    if plateau and roll_off is None:
-        raise click.UsageError("--plateau is for use with --roll-off")
+    options.require((elements is None) != (points is None), "either --elements (a disc) or --points (a line) is needed")
+    options.require(not plateau or roll_off is not None, "--plateau is for use with --roll-off")
 
     from viscorough import surfaces, units
     from viscorough.io.surfaces import surface_to_content
 
-    check_output(output)
+    files.check_output(output)
     unit = unit if unit == units.UNKNOWN else units.length_unit(unit)
-    rms, diameter = number_in(unit, rms, unit, "--rms"), number_in(unit, diameter, unit, "--diameter")
+    rms, diameter = units.number(rms, unit, unit, "--rms"), units.number(diameter, unit, unit, "--diameter")
     long_waves = {"roll_off_wavelength": roll_off, "roll_off_level": float(plateau)}
-    options: dict[str, Any] = {"rms": rms, "length_unit": unit, "seed": seed, **long_waves}
+    how: dict[str, Any] = {"rms": rms, "length_unit": unit, "seed": seed, **long_waves}
     if elements:
-        made = surfaces.self_affine_disc(hurst, elements, diameter=diameter, **options)
+        made = surfaces.self_affine_disc(hurst, elements, diameter=diameter, **how)
         what = f"disc of {elements} elements across, {made.elements} elements"
     elif points:
-        made = surfaces.self_affine_line(hurst, points, length=diameter, **options)
+        made = surfaces.self_affine_line(hurst, points, length=diameter, **how)
         what = f"line of {points} points"
     about = {"hurst": hurst, "rms": rms, "diameter": diameter, "seed": seed} | (long_waves if roll_off else {})
-    write_output(surface_to_content(made), output, **about)
-    announce(output, f"{what}, rms height {rms:g} {unit}, rms slope {made.rms_slope:.3g}")
+    files.write_output(surface_to_content(made), output, **about)
+    messages.announce(output, f"{what}, rms height {rms:g} {unit}, rms slope {made.rms_slope:.3g}")

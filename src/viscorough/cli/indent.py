@@ -9,33 +9,29 @@ from typing import Any
 
 import click
 
-from viscorough.cli.elasticity import elastic_constants_options, elasticity, forces_over_modulus, lengths
-from viscorough.cli.files import write_output
-from viscorough.cli.messages import announce
-from viscorough.cli.options import Increasing, PositiveNumber, QuantityOption, output_option, threads_option
-from viscorough.cli.progress import progress_bar, progress_option
-from viscorough.cli.surface_options import Surface, heights_input, read_indenter
+from viscorough import units
+from viscorough.cli import files, messages, options, surface_options
 from viscorough.errors import AccuracyWarning
 from viscorough.summaries import with_unit
 from viscorough.units import Quantity
 
 
 @click.command()
-@heights_input()
-@output_option("CURVE.nc")
+@surface_options.heights_input()
+@options.output("CURVE.nc")
 @click.option(
-    "--depths", type=Increasing("m"), help="Levels at exactly these depths  [default: as the tolerance needs]"
+    "--depths", type=options.Increasing("m"), help="Levels at exactly these depths  [default: as the tolerance needs]"
 )
-@click.option("--forces", type=Increasing("N"), help="Levels at exactly these F/G, or F with a modulus.")
-@click.option("--tolerance", type=PositiveNumber(0.1), default=1e-3, help="Relative accuracy.")
-@click.option("--until-fraction", type=PositiveNumber(1), help="Contact fraction at which to stop  [default: 0.9]")
-@click.option("--until-force", type=QuantityOption("N"), help="F/G, or F with a modulus, at which to stop.")
+@click.option("--forces", type=options.Increasing("N"), help="Levels at exactly these F/G, or F with a modulus.")
+@options.tolerance
+@options.until(0.9)
+@click.option("--until-force", type=options.QuantityOption("N"), help="F/G, or F with a modulus, at which to stop.")
 @click.option("--audit", is_flag=True, help="Compare two integrals of the curve with their exact values.")
-@elastic_constants_options
-@threads_option
-@progress_option
+@options.elastic_constants
+@options.threads
+@options.progress
 def indent(
-    surface: Surface,
+    surface: surface_options.Surface,
     output: Path,
     *,
     depths: Sequence[Quantity] | None,
@@ -81,18 +77,19 @@ def indent(
     levels = {"--depths": depths, "--forces": forces}
     others = {"--until-fraction": until_fraction, "--until-force": until_force, "--audit": audit or None}
     stated = [name for name, value in (levels | others).items() if value is not None]
-    if len(stated) > 1 and (stated[0] in levels or audit):
-        raise click.UsageError(f"{stated[0]} and {stated[-1]} exclude each other; one of them is allowed")
-    indenter = read_indenter(surface, output)
+    if len(stated) > 1:
+        exclusive = f"{stated[0]} and {stated[-1]} exclude each other; one of them is allowed"
+        options.require(stated[0] not in levels and not audit, exclusive)
+    indenter = surface_options.read_indenter(surface, output)
     unit = indenter.length_unit
-    modulus, elastic_constants = elasticity(length_unit=unit, **constants)
+    modulus, elastic_constants = options.elasticity(length_unit=unit, **constants)
     given: dict[str, Any] = {}
     if depths is not None:
-        given["depths"] = lengths(depths, unit, "--depths")
+        given["depths"] = depths
     if forces is not None:
-        given["forces"] = forces_over_modulus(forces, modulus, unit, "--forces")
+        given["forces"] = units.forces_over_modulus(forces, modulus, unit, "--forces")
     if until_force is not None:
-        (given["until_force"],) = forces_over_modulus([until_force], modulus, unit, "--until-force")
+        given["until_force"] = units.forces_over_modulus(until_force, modulus, unit, "--until-force")
         given["until_fraction"] = 1.0  # unless stated
     if until_fraction is not None:
         given["until_fraction"] = until_fraction
@@ -102,7 +99,7 @@ def indent(
     from viscorough.io.curves import curve_to_content, with_normal_force
 
     attributes, lines = surface.attributes(indenter) | elastic_constants, []
-    with progress_bar("viscorough indent", progress) as report:
+    with messages.progress_bar("viscorough indent", progress) as report:
         how: dict[str, Any] = {"tolerance": tolerance, "progress": report, "threads": threads, **given}
         if audit:
             result = sum_rules.audit(indenter, **how)
@@ -116,6 +113,6 @@ def indent(
         content = with_normal_force(content, modulus, unit)
         force = content.variables["normal_force"]
         depth += f", F {with_unit(force.values[-1], force.attributes['units'], 6)},"
-    write_output(content, output, **attributes)
+    files.write_output(content, output, **attributes)
     count = f"{curve.contact_count[-1]} of {curve.elements} elements in contact"
-    announce(output, "\n".join([f"{curve.depth.size} levels, the last at depth {depth} with {count}", *lines]))
+    messages.announce(output, "\n".join([f"{curve.depth.size} levels, the last at depth {depth} with {count}", *lines]))

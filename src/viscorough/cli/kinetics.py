@@ -8,9 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscorough.cli.files import check_output, printable_name, read_curve, write_output
-from viscorough.cli.messages import announce
-from viscorough.cli.options import FILE, Increasing, QuantityOption, force_history_option, number_in, output_option
+from viscorough.cli import files, messages, options
 from viscorough.errors import AccuracyWarning
 from viscorough.summaries import si_unit, with_unit
 from viscorough.units import Quantity
@@ -18,19 +16,23 @@ from viscorough.units import Quantity
 if TYPE_CHECKING:
     from viscorough.io.netcdf import Content
     from viscorough.viscous.correspondence import ForceHistory, Kinetics
-    from viscorough.viscous.medium import Medium
 
-_EXACT = "exact for every topography, without 1/Gamma(2 - alpha)"
+_CORRESPONDENCE = (
+    "depth at a time is the elastic one at F/G = integral of J(t - s) dF(s), velocity is its derivative over k/G "
+    "there; exact for every topography, without 1/Gamma(2 - alpha)"
+)
 
 
 @click.command()
-@click.argument("curve", type=FILE, metavar="CURVE.nc")
-@click.option("--force", type=QuantityOption("N"), help="Constant force F, applied at time 0.")
-@force_history_option
-@click.option("--viscosity", type=QuantityOption("Pa s"), help="Shear viscosity of a Newtonian half-space.")
-@click.option("--medium", type=FILE, metavar="MEDIUM.yaml", help="Medium of the half-space, instead of --viscosity.")
-@click.option("--times", type=Increasing(), help="Times of the output  [default: a hundred, or those of the history]")
-@output_option("KIN.nc")
+@click.argument("curve", type=options.FILE, metavar="CURVE.nc")
+@options.force
+@options.force_history
+@options.viscosity
+@options.medium
+@click.option(
+    "--times", type=options.Increasing(), help="Times of the output  [default: a hundred, or those of the history]"
+)
+@options.output("KIN.nc")
 def kinetics(
     curve: Path,
     *,
@@ -64,50 +66,20 @@ def kinetics(
         viscorough kinetics curve.nc --force 5 --viscosity 1e6 -o kinetics.nc
         viscorough kinetics curve.nc --force-history ramp.csv --medium rubber.yaml --times 1,10,100 -o kinetics.nc
     """
-    if (force is None) == (force_history is None):
-        raise click.UsageError("one of --force and --force-history is needed")
-    if (viscosity is None) == (medium is None):
-        raise click.UsageError("one of --viscosity and --medium is needed")
+    options.require((force is None) != (force_history is None), "one of --force and --force-history is needed")
+    options.require((viscosity is None) != (medium is None), "one of --viscosity and --medium is needed")
 
-    from viscorough.io.motion import read_force_history
     from viscorough.viscous import correspondence
 
-    check_output(output, force_history=force_history, medium=medium)
-    loading = read_curve(curve)
-    law, about = _medium(viscosity, medium, loading.length_unit)
-    if force_history is not None:
-        history = read_force_history(force_history, loading.length_unit)
-        about["force"] = printable_name(force_history)
-    elif force is not None:
-        history = about["force"] = number_in("N", force, loading.length_unit, "--force")
-    motion = correspondence.kinetics(loading, history, law, times)
-    write_output(_content(motion, history), output, **about)
+    files.check_output(output, force_history=force_history, medium=medium)
+    loading = files.read_curve(curve)
+    half_space, about = files.read_half_space(viscosity, medium, loading.length_unit)
+    load, of_load = files.read_load(force, force_history, loading.length_unit)
+    motion = correspondence.kinetics(loading, load, half_space, times)
+    files.write_output(_content(motion, load), output, **about, **of_load, correspondence=_CORRESPONDENCE)
     depth = with_unit(motion.depth[-1], loading.length_unit, 6)
     time = with_unit(motion.time[-1], si_unit("s", loading.length_unit), 6)
-    announce(output, f"{motion.time.size} times, depth {depth} at time {time}")
-
-
-def _medium(viscosity: Quantity | None, medium: Path | None, length_unit: str) -> tuple[Medium, dict[str, Any]]:
-    """The medium and attributes of the output."""
-    from viscorough.io.media import read_medium
-    from viscorough.viscous.media import CreepTable, Newtonian
-
-    if medium is not None:
-        law = read_medium(medium, length_unit)
-        about = {"medium": printable_name(medium)}
-        if not isinstance(law, CreepTable):
-            about["medium_parameters"] = repr(law)
-        return law, about | {
-            "correspondence": "depth at a time is the elastic one at F/G = integral of J(t - s) dF(s), velocity is its "
-            f"derivative over k/G there; {_EXACT}"
-        }
-    assert viscosity is not None
-    number = number_in("Pa s", viscosity, length_unit, "--viscosity")
-    return Newtonian(number), {
-        "viscosity": number,
-        "correspondence": "depth at a time is the elastic one at F/G = impulse / viscosity, which is force * time / "
-        f"viscosity for a constant force, velocity is force / (viscosity * k/G) there; {_EXACT}",
-    }
+    messages.announce(output, f"{motion.time.size} times, depth {depth} at time {time}")
 
 
 def _content(motion: Kinetics, history: float | ForceHistory) -> Content:
@@ -126,6 +98,4 @@ def _content(motion: Kinetics, history: float | ForceHistory) -> Content:
     if unknown:
         text = f"at {unknown} of {motion.time.size} times depth or velocity are missing: before the first level of the "
         warnings.warn(f"{text}curve, or where a step moves a springpot without bound", AccuracyWarning, stacklevel=2)
-    kind = "a force history" if np.ndim(history) > 0 else "a constant force"
-    title = f"Penetration of a rigid indenter into a linear viscoelastic half-space under {kind}"
-    return kinetics_to_content(motion, force).with_attributes(title=title)
+    return kinetics_to_content(motion, force)

@@ -2,34 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from viscorough import units
-from viscorough.cli.files import check_output, printable_name, write_output
-from viscorough.cli.messages import announce
-from viscorough.cli.options import (
-    FILE,
-    Increasing,
-    PositiveNumber,
-    QuantityOption,
-    force_history_option,
-    number_in,
-    output_option,
-)
-from viscorough.cli.progress import progress_bar, progress_option
-from viscorough.cli.surface_options import Surface, heights_input, read_indenter
+from viscorough.cli import files, messages, options, surface_options
 from viscorough.summaries import si_unit, with_unit
 from viscorough.units import Quantity
 
 if TYPE_CHECKING:
     from viscorough.indenter import Indenter
     from viscorough.io.netcdf import Content
-    from viscorough.types import FilePath
     from viscorough.viscous.correspondence import ForceHistory
+    from viscorough.viscous.medium import Medium
 
 METHODS = ("events", "explicit", "heun", "implicit", "second_order")
 _OF_MEDIA = ("events", "second_order")  # methods that integrate viscoelastic media
@@ -37,8 +24,8 @@ _METHODS_OF = {"overlap": ("explicit", "heun"), "until_fraction": ("events",)}  
 
 
 @click.command()
-@heights_input()
-@output_option("KIN.nc")
+@surface_options.heights_input()
+@options.output("KIN.nc")
 @click.option(
     "--method",
     type=click.Choice(METHODS),
@@ -46,20 +33,22 @@ _METHODS_OF = {"overlap": ("explicit", "heun"), "until_fraction": ("events",)}  
     help="events: exactly from one contact event to the next; or in time steps by the forward Euler (explicit), "
     "Heun (heun) or backward Euler method (implicit), or with --medium by one of second order.",
 )
-@click.option("--force", type=QuantityOption("N"), help="Constant force F  [default: 1]")
-@click.option("--viscosity", type=QuantityOption("Pa s"), help="Shear viscosity  [default: 1]")
-@click.option("--medium", type=FILE, metavar="MEDIUM.yaml", help="Medium, as for kinetics, instead of --viscosity.")
-@click.option("--times", type=Increasing(), help="Ends of the time steps; for events with --medium, times of output.")
-@force_history_option
+@click.option("--force", type=options.QuantityOption("N"), help="Constant force F  [default: 1]")
+@click.option("--viscosity", type=options.QuantityOption("Pa s"), help="Shear viscosity  [default: 1]")
+@options.medium
+@click.option(
+    "--times", type=options.Increasing(), help="Ends of the time steps; for events with --medium, times of output."
+)
+@options.force_history
 @click.option(
     "--overlap",
-    type=PositiveNumber(1),
+    type=options.PositiveNumber(1),
     help="Largest overlap allowed, relative to the depth; explicit and heun divide their steps to keep to it.",
 )
-@click.option("--until-fraction", type=PositiveNumber(1), help="Contact fraction at which events stop  [default: 1]")
-@progress_option
+@options.until(1)
+@options.progress
 def march(
-    surface: Surface,
+    surface: surface_options.Surface,
     output: Any,
     *,
     method: str,
@@ -69,7 +58,7 @@ def march(
     times: list[float] | None,
     force_history: Path | None,
     progress: bool,
-    **of_method: float | None,
+    **of_method: Any,
 ) -> None:
     """Integrate the viscous or viscoelastic problem directly in time, without its correspondence with the elastic one.
 
@@ -90,50 +79,44 @@ def march(
         viscorough march heights.npy --spacing 2e-6 --method second_order --medium rubber.yaml \\
             --force-history pulses.csv -o pulses.nc
     """
-    if force_history and (force or times):
-        raise click.UsageError("--force-history replaces --force and --times; they exclude each other")
-    if medium and viscosity:
-        raise click.UsageError("--medium replaces --viscosity; they exclude each other")
-    options: dict[str, Any] = {name: value for name, value in of_method.items() if value is not None}
-    _check_options_of_method(method, bool(medium), bool(force_history), times, options)
-    check_output(output, force_history=force_history, medium=medium)
-    indenter = read_indenter(surface, output)
+    of_method = {name: value for name, value in of_method.items() if value is not None}
+    _check_usage(method, medium, force_history, times, of_method)
+    options.require(not (force_history and force), "--force-history replaces --force; they exclude each other")
+    options.require(not (medium and viscosity), "--medium replaces --viscosity; they exclude each other")
+    files.check_output(output, force_history=force_history, medium=medium)
+    indenter = surface_options.read_indenter(surface, output)
     unit = indenter.length_unit
-    load: Any = 1.0 if force is None else number_in("N", force, unit, "--force")
-    viscosity = 1.0 if viscosity is None else number_in("Pa s", viscosity, unit, "--viscosity")
-    about: dict[str, Any] = {"medium": printable_name(medium)} if medium else {"viscosity": viscosity}
-    about["force"] = printable_name(force_history) if force_history else load
-    if force_history:
-        load = _read_history(force_history, unit)
-    with progress_bar("viscorough march", progress) as report:
-        options |= {} if method == "events" else {"progress": report}
-        if medium:
-            content = _in_medium(indenter, method, medium, load, times, **options)
+    load: Any
+    load, of_load = files.read_load(force or Quantity(1.0), force_history, unit)
+    half_space, about = files.read_half_space(viscosity or Quantity(1.0), medium, unit)
+    if force_history and not load.impulse[-1] > 0:
+        text = "no time passes while there is a force; allowed: a force above zero for some time"
+        raise ValueError(f"{force_history}: {text}")
+    with messages.progress_bar("viscorough march", progress) as report:
+        of_method |= {} if method == "events" else {"progress": report}
+        if isinstance(half_space, float):
+            content = _in_viscous_medium(indenter, method, half_space, load, times, **of_method)
         else:
-            content = _in_viscous_medium(indenter, method, viscosity, load, times, **options)
-    write_output(content, output, method=method, **about, **surface.attributes(indenter))
+            content = _in_medium(indenter, method, half_space, load, times, **of_method)
+    files.write_output(content, output, method=method, **about, **of_load, **surface.attributes(indenter))
     time, depths, count = (content.variables[name].values for name in ("time", "depth", "contact_count"))
     depth = with_unit(depths[-1], unit, 6)
     contact = f"{count[-1]} of {indenter.elements} elements in contact"
     last = with_unit(time[-1], si_unit("s", unit), 6)
-    announce(output, f"{time.size} levels, depth {depth} at time {last} with {contact}")
+    messages.announce(output, f"{time.size} levels, depth {depth} at time {last} with {contact}")
 
 
-def _check_options_of_method(
-    method: str, has_medium: bool, has_history: bool, times: list[float] | None, options: Iterable[str]
+def _check_usage(
+    method: str, medium: Path | None, history: Path | None, times: list[float] | None, of_method: dict[str, Any]
 ) -> None:
     """Raise UsageError if an option that the method requires is missing, or one is given that does not apply to it."""
-    if has_medium and method not in _OF_MEDIA:
-        raise click.UsageError(f"--method {method} is not for --medium; allowed: {', '.join(_OF_MEDIA)}")
-    if not has_medium and method == "second_order":
-        raise click.UsageError("--method second_order is for use with --medium")
-    needs_times = has_medium or method != "events"
-    if not has_history and needs_times == (times is None):
-        raise click.UsageError(f"--times is {'not for' if times else 'needed by'} --method {method}")
-    for name in options:
-        if method not in (allowed := _METHODS_OF[name]):
-            option = name.replace("_", "-")
-            raise click.UsageError(f"--{option} is not for --method {method}; allowed: {', '.join(allowed)}")
+    allowed = {"medium": _OF_MEDIA} if medium else {}
+    for name, methods in (allowed | {name: _METHODS_OF[name] for name in of_method}).items():
+        option = name.replace("_", "-")
+        options.require(method in methods, f"--{option} is not for --method {method}; allowed: {', '.join(methods)}")
+    options.require(bool(medium) or method != "second_order", "--method second_order is for use with --medium")
+    needed = not history and (bool(medium) or method != "events")
+    options.require(needed == bool(times), f"--times is {'not for' if times else 'needed by'} --method {method}")
 
 
 def _in_viscous_medium(
@@ -161,25 +144,13 @@ def _in_viscous_medium(
 
 
 def _in_medium(
-    indenter: Indenter, method: str, medium: Path, load: float | ForceHistory, times: Any, **options: Any
+    indenter: Indenter, method: str, medium: Medium, load: float | ForceHistory, times: Any, **options: Any
 ) -> Content:
     """Content of the output for a viscoelastic medium."""
-    from viscorough.io.media import read_medium
     from viscorough.io.motion import medium_motion_to_content
     from viscorough.viscous.integration.internal_variable_events import march_medium_events
     from viscorough.viscous.integration.internal_variables import march_medium
 
-    law = read_medium(medium, indenter.length_unit)
     steps, force = ([0.0, *times], [load] * (1 + len(times))) if isinstance(load, float) else load[:2]
     integrate = march_medium_events if method == "events" else march_medium
-    return medium_motion_to_content(integrate(indenter, law, steps, force=force, **options))
-
-
-def _read_history(path: FilePath, length_unit: str) -> ForceHistory:
-    """The ForceHistory in a file. Raises ValueError if the file holds none, or if the force is zero at all times."""
-    from viscorough.io.motion import read_force_history
-
-    history = read_force_history(path, length_unit)
-    if not history.impulse[-1] > 0:
-        raise ValueError(f"{path}: no time passes while there is a force; allowed: a force above zero for some time")
-    return history
+    return medium_motion_to_content(integrate(indenter, medium, steps, force=force, **options))

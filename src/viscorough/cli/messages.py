@@ -1,27 +1,27 @@
-"""Messages of the command line on standard output and error, which may be closed, full, or limited in encoding."""
+"""Messages and progress of the command line; standard output and error may be closed, full, or limited in encoding."""
+
+from __future__ import annotations
 
 import contextlib
 import io
 import os
 import sys
+from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
+if TYPE_CHECKING:
+    from viscorough.types import Progress
+
+_DELAY = 1.0  # seconds: what is done sooner shows no progress
+
 
 def announce(output: Path, text: str) -> None:
-    """Write the closing line of a command, which names its output file, to standard output.
-
-    The file is complete by then. If the line cannot be written, a line on standard error says so, unless the
-    reader has closed the pipe.
-    """
-    try:
+    """Write the closing line of a command, which names its output file, to standard output, if it can be written."""
+    with contextlib.suppress(OSError):  # the file is complete by then
         click.echo(f"{output}: {text}")
-    except BrokenPipeError:
-        pass
-    except OSError as error:
-        text = f"warning: {output} is complete, but standard output cannot be written ({error.strerror})"
-        complain(click.get_current_context().command_path, text)
 
 
 def complain(command: str, text: str) -> None:
@@ -61,3 +61,25 @@ def discard_what_cannot_be_written() -> None:
                 stream.flush()
         except OSError:
             os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+
+
+@contextlib.contextmanager
+def progress_bar(label: str, wanted: bool | None) -> Iterator[Progress]:
+    """Context that yields a function of the share that is done, 0 to 1; from the first second on it is shown.
+
+    wanted : True or False; None: only if standard error is a terminal. The bar is erased at the end, so that standard
+        error holds nothing else than warnings and messages
+    """
+    from tqdm import tqdm
+
+    bar = tqdm(
+        total=1.0,
+        desc=label,
+        delay=_DELAY,
+        disable=sys.stderr is None or (None if wanted is None else not wanted),  # None where it was closed
+        leave=False,
+        file=sys.stderr,
+        bar_format="{desc}: {percentage:3.0f} % |{bar:30}| {elapsed} gone, about {remaining} left",
+    )
+    with bar:
+        yield lambda done: bar.update(done - bar.n)

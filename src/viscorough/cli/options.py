@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -13,29 +13,29 @@ from viscorough import units
 from viscorough.units import Quantity
 
 
-class PositiveNumber(click.ParamType):
-    """A finite number above 0, or another number, and not above `maximum`."""
+def require(condition: bool, text: str) -> None:
+    """Raise UsageError with the text unless the condition holds."""
+    if not condition:
+        raise click.UsageError(text)
 
-    name = "number"
 
-    def __init__(self, maximum: float = float("inf"), above: float = 0) -> None:
-        self.maximum, self.above = maximum, above
+class PositiveNumber(click.FloatRange):
+    """A number above a lower limit, and not above an upper one if there is one; finite in any case."""
 
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        try:
-            number = float(value)
-        except ValueError:
-            number = float("nan")
-        if not (self.above < number <= self.maximum and number < float("inf")):
-            limit = "finite" if self.maximum == float("inf") else f"up to {self.maximum:g}"
-            self.fail(f"{value!r} is not a number above {self.above} and {limit}", param, ctx)
+    def __init__(self, maximum: float | None = None, above: float = 0) -> None:
+        super().__init__(above, maximum, min_open=True)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        number: float = super().convert(value, param, ctx)
+        if not math.isfinite(number):
+            self.fail(f"{value!r} is not a finite number", param, ctx)
         return number
 
 
 class QuantityOption(click.ParamType):
     """A finite number above 0, plain or with a unit that measures the same as `unit`, such as "5 mN" for "N".
 
-    Converted to a viscorough.units.Quantity; number_in gives the number that the solvers need.
+    Converted to a viscorough.units.Quantity; units.number gives the number that the solvers need.
     """
 
     name = "quantity"
@@ -43,8 +43,8 @@ class QuantityOption(click.ParamType):
     def __init__(self, unit: str) -> None:
         self.unit = unit
 
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        number, reason = 0, ""
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Quantity:
+        number, reason = 0.0, ""
         try:
             stated = units.quantity(value)
             number = stated.to(self.unit)
@@ -56,20 +56,8 @@ class QuantityOption(click.ParamType):
         return stated
 
 
-def number_in(unit: str, quantity: Quantity, length_unit: str, option: str) -> float:
-    """The number of a Quantity in `unit`; a plain number is returned unchanged.
-
-    Raises UsageError if the quantity has a unit although the unit of length is not known: numbers are then in
-    consistent units of the user's choice.
-    """
-    try:
-        return units.number(quantity, unit, length_unit, option)
-    except ValueError as error:
-        raise click.UsageError(str(error)) from error
-
-
 class Increasing(click.ParamType):
-    """Numbers above 0 separated by commas, each larger than the one before.
+    """Numbers above 0 separated by commas; where they are used it is checked that each is larger than the one before.
 
     unit : what all of them, or none, may have; they are converted to viscorough.units.Quantity then, else to floats
     """
@@ -77,23 +65,19 @@ class Increasing(click.ParamType):
     name = "a,b,c"
 
     def __init__(self, unit: str | None = None) -> None:
-        self.unit = unit
+        self.entry: click.ParamType = QuantityOption(unit) if unit else PositiveNumber()
 
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        entry_type: click.ParamType = QuantityOption(self.unit) if self.unit else PositiveNumber()
-        entries: list[Any] = [entry_type.convert(entry.strip(), param, ctx) for entry in value.split(",")]
-        if self.unit and len({bool(entry.unit) for entry in entries}) == 2:
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> list[Any]:
+        entries = [self.entry.convert(entry.strip(), param, ctx) for entry in value.split(",")]
+        if len({bool(entry.unit) for entry in entries if isinstance(entry, Quantity)}) == 2:
             self.fail(f"{value!r}: some numbers have a unit; all or none of them may have one", param, ctx)
-        for last, entry in pairwise(entries):
-            if (entry.to(self.unit) <= last.to(self.unit)) if self.unit else (entry <= last):
-                self.fail(f"{entry} follows {last}; each number must be larger than the one before", param, ctx)
         return entries
 
 
 FILE = click.Path(path_type=Path)
 
 
-def output_option(metavar: str, table: bool = True) -> Callable[..., Any]:
+def output(metavar: str, table: bool = True) -> Callable[..., Any]:
     """Decorator that adds -o/--output to a command; `table` says whether the results can also be written as CSV."""
     text = "File to write or replace" + ("; as a table if it ends in .csv." if table else ".")
 
@@ -105,11 +89,60 @@ def output_option(metavar: str, table: bool = True) -> Callable[..., Any]:
     return click.option("-o", "--output", type=FILE, required=True, metavar=metavar, help=text, callback=check)
 
 
-force_history_option = click.option(
+force = click.option("--force", type=QuantityOption("N"), help="Constant force F, applied at time 0.")
+force_history = click.option(
     "--force-history",
     type=FILE,
     metavar="FORCE.csv",
     help="Two columns, times and forces, instead of --force: F >= 0, linear in between; a time given twice is a step.",
 )
-_THREADS = "Threads of the processor; the result does not depend on them."
-threads_option = click.option("--threads", type=click.IntRange(1, 1024), default=1, help=_THREADS)
+viscosity = click.option("--viscosity", type=QuantityOption("Pa s"), help="Shear viscosity of a Newtonian half-space.")
+medium = click.option(
+    "--medium", type=FILE, metavar="MEDIUM.yaml", help="Medium of the half-space, instead of --viscosity."
+)
+tolerance = click.option("--tolerance", type=PositiveNumber(0.1), default=1e-3, help="Relative accuracy.")
+threads = click.option(
+    "--threads",
+    type=click.IntRange(1, 1024),
+    default=1,
+    help="Threads of the processor; the result does not depend on them.",
+)
+_PROGRESS = "Show progress on standard error, after a second  [default: if it is a terminal]"
+progress = click.option("--progress/--no-progress", default=None, help=_PROGRESS)
+
+
+def until(default: float) -> Callable[..., Any]:
+    """Decorator that adds --until-fraction to a command, which uses the default where it is None."""
+    text = f"Contact fraction at which to stop  [default: {default:g}]"
+    return click.option("--until-fraction", type=PositiveNumber(1), help=text)
+
+
+def elastic_constants(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add --shear-modulus, --young and --poisson to a command."""
+    ratio = PositiveNumber(0.5, above=-1)
+    command = click.option("--poisson", type=ratio, help="Poisson ratio, with --young  [default: 0.5]")(command)
+    command = click.option("--young", type=QuantityOption("Pa"), help="Young's modulus, instead of G.")(command)
+    text = "Shear modulus G of the incompressible half-space."
+    return click.option("--shear-modulus", type=QuantityOption("Pa"), help=text)(command)
+
+
+def elasticity(
+    shear_modulus: Quantity | None, young: Quantity | None, poisson: float | None, length_unit: str
+) -> tuple[float | None, dict[str, float]]:
+    """(G, what was stated, for files) of the options; G is None if no modulus was stated.
+
+    G is that of the incompressible half-space with the same E* = E/(1 − ν²) = 4G [Pa, or consistent units].
+
+    Raises UsageError if the options contradict each other, and ValueError as units.number.
+    """
+    exclusive = "--shear-modulus and --young exclude each other; one of them is allowed"
+    require(shear_modulus is None or young is None, exclusive)
+    require(poisson is None or young is not None, "--poisson is for use with --young")
+    if young is not None:
+        poisson = 0.5 if poisson is None else poisson
+        modulus = units.number(young, "Pa", length_unit, "--young")
+        return modulus / (1 - poisson**2) / 4, {"young_modulus": modulus, "poisson_ratio": poisson}
+    if shear_modulus is not None:
+        modulus = units.number(shear_modulus, "Pa", length_unit, "--shear-modulus")
+        return modulus, {"shear_modulus": modulus}
+    return None, {}

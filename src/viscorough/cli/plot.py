@@ -7,19 +7,16 @@ from typing import TYPE_CHECKING
 
 import click
 
-from viscorough.cli.files import check_output, read_content
-from viscorough.cli.messages import announce
-from viscorough.cli.options import FILE
-from viscorough.cli.surface_options import Surface, heights_input, read_indenter
+from viscorough.cli import files, messages, options, surface_options
 
 if TYPE_CHECKING:
     from viscorough.io.netcdf import Content
 
 
 @click.command()
-@heights_input("file")
-@click.option("-o", "--output", type=FILE, required=True, metavar="FIGURE", help="A .png, .pdf or .svg file.")
-def plot(surface: Surface, output: Path) -> None:
+@surface_options.heights_input("file")
+@click.option("-o", "--output", type=options.FILE, required=True, metavar="FIGURE", help="A .png, .pdf or .svg file.")
+def plot(surface: surface_options.Surface, output: Path) -> None:
     """Draw what is in FILE: what another command wrote (.nc, .csv), or a map of heights, read as by viscorough indent.
 
     A surface is a map of heights; fields of a contact are maps of pressure, gap and contact; a loading curve is force
@@ -38,27 +35,25 @@ def plot(surface: Surface, output: Path) -> None:
         raise click.ClickException('matplotlib is not installed; pip install "viscorough[plot]" installs it') from error
 
     file = surface.path
-    check_output(output, results=file)
-    if output.suffix.lower() not in plotting.FORMATS:
-        raise ValueError(f"{output}: unknown kind of figure; allowed: {', '.join(plotting.FORMATS)}")
+    files.check_output(output, results=file)
     plotting.plot(_content(surface, output), output)
-    announce(output, f"figure of {file.name}")
+    messages.announce(output, f"figure of {file.name}")
 
 
-def _content(surface: Surface, output: Path) -> Content:
+def _content(surface: surface_options.Surface, output: Path) -> Content:
     """What a command wrote, or else a map of heights. Raises ValueError if the file is neither."""
     from viscorough.io.surfaces import surface_to_content
     from viscorough.plotting import kind_of
 
     written = None
-    if surface == Surface(surface.path) and surface.path.suffix.lower() in (".nc", ".csv"):
+    if not surface.options and surface.path.suffix.lower() in (".nc", ".csv"):
         try:
-            content = read_content(surface.path)
+            content = files.read_content(surface.path)
             kind_of(content)
             return content
         except ValueError as error:
             written = error if str(surface.path) in str(error) else ValueError(f"{surface.path}: {error}")
     try:
-        return surface_to_content(read_indenter(surface, output))
+        return surface_to_content(surface_options.read_indenter(surface, output))
     except ValueError as error:
         raise (written or error) from error

@@ -4,20 +4,12 @@ from __future__ import annotations
 
 import warnings
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
-from viscorough.cli.files import check_output, printable_name, write_output
-from viscorough.cli.messages import announce
-from viscorough.cli.options import PositiveNumber, output_option
-from viscorough.cli.progress import progress_bar, progress_option
-from viscorough.cli.surface_options import heights_input, read_indenter
+from viscorough.cli import files, messages, options, surface_options
 from viscorough.errors import AccuracyWarning
 from viscorough.summaries import with_unit
-
-if TYPE_CHECKING:
-    from viscorough.cli.surface_options import Surface
 
 _OF_A_MAP = (
     "lines with a map's spectrum give the mean stiffness of many such surfaces, to about 20 %, not the curve of this "
@@ -26,14 +18,19 @@ _OF_A_MAP = (
 
 
 @click.command()
-@heights_input("line_or_map")
-@click.option("--until-fraction", type=PositiveNumber(1), help="Contact fraction at which to stop  [default: 1]")
+@surface_options.heights_input("line_or_map")
+@options.until(1)
 @click.option("--realizations", type=click.IntRange(1, 100_000), help="Lines to make of a map  [default: 1]")
 @click.option("--seed", type=click.IntRange(min=0), help="Of the lines that are made of a map  [default: 0]")
-@output_option("CURVE.nc")
-@progress_option
+@options.output("CURVE.nc")
+@options.progress
 def reduce(
-    surface: Surface, until_fraction: float, realizations: int | None, seed: int, output: Path, progress: bool
+    surface: surface_options.Surface,
+    until_fraction: float,
+    realizations: int | None,
+    seed: int,
+    output: Path,
+    progress: bool,
 ) -> None:
     """Loading curve of a line by the method of dimensionality reduction (MDR), in a fraction of a second.
 
@@ -58,30 +55,30 @@ def reduce(
     from viscorough.io.surfaces import dimensions_of_heights, read_line
 
     line_or_map = surface.path
-    check_output(output, heights=line_or_map)
-    about = {"heights": printable_name(line_or_map)}
+    files.check_output(output, heights=line_or_map)
+    about = {"heights": files.printable_name(line_or_map)}
     if dimensions_of_heights(line_or_map) == 1:
-        if realizations or seed is not None:
-            raise click.UsageError("--realizations and --seed are for maps, of which lines are made; this is a line")
-        if surface.channel or surface.preparation:
-            raise click.UsageError("--channel and preparation are for maps; this is a line")
-        lines = [read_line(line_or_map, surface.spacing and surface.spacing[0], surface.unit)]
+        of_maps = "--realizations and --seed are for maps, of which lines are made; this is a line"
+        options.require(not realizations and seed is None, of_maps)
+        of_scans = "--channel and preparation are for maps; this is a line"
+        options.require(surface.options.keys() <= {"spacing", "unit"}, of_scans)
+        lines = [read_line(line_or_map, **surface.options)]
     else:
-        if (realizations or 1) > 1 and output.suffix.lower() == ".csv":
-            raise click.UsageError("--realizations: several curves are no table; a NetCDF file (.nc) is needed")
-        indenter = read_indenter(surface, output)
+        no_table = "--realizations: several curves are no table; a NetCDF file (.nc) is needed"
+        options.require((realizations or 1) == 1 or output.suffix.lower() != ".csv", no_table)
+        indenter = surface_options.read_indenter(surface, output)
         about = surface.attributes(indenter) | {"realizations": realizations or 1, "seed": seed or 0}
         seeds = [[seed or 0, index] for index in range(realizations or 1)]
         lines = (mdr.line_of_map(indenter, entropy) for entropy in seeds)
         warnings.warn(_OF_A_MAP, AccuracyWarning, stacklevel=2)
     curves = []
-    with progress_bar("viscorough reduce", progress) as report:
+    with messages.progress_bar("viscorough reduce", progress) as report:
         for line in lines:
             curves.append(mdr.reduce(line, until_fraction=until_fraction or 1.0))
             report(len(curves) / (realizations or 1))
     first = curves[0]
-    write_output(curve_to_content(first) if len(curves) == 1 else stack_curves(curves), output, **about)
+    files.write_output(curve_to_content(first) if len(curves) == 1 else stack_curves(curves), output, **about)
     what = f"{len(curves)} curves, the first with " if len(curves) > 1 else ""
     depth = with_unit(first.depth[-1], first.length_unit, 6)
     count = f"{first.contact_count[-1]} of {first.elements} points in contact"
-    announce(output, f"{what}{first.depth.size} levels, the last at depth {depth} with {count}")
+    messages.announce(output, f"{what}{first.depth.size} levels, the last at depth {depth} with {count}")

@@ -13,46 +13,10 @@ import numpy as np
 import pytest
 
 import viscorough
-from support.command_line import python, sphere_heights
-from support.curves import random_curve
-from viscorough import ConvergenceError, Indenter, cli
+from support.command_line import python
+from viscorough import ConvergenceError, cli
 
 INDENT = "indent heights.npy --spacing 1 -o out.nc"
-KINETICS = "kinetics curve.nc --force 1 --viscosity 1 -o out.nc"
-
-
-@pytest.fixture
-def here(here):
-    """A working folder that holds only a small heights.npy."""
-    np.save("heights.npy", sphere_heights(9))
-    return here
-
-
-# ---- mistakes of the user
-
-MISTAKES = [
-    ("", "Missing command"),
-    ("indent heights.npy --spacing 1", "--output"),
-    (f"{INDENT} --tolerance 0", "'0' is not a number above 0 and up to 0.1"),
-    (f"{INDENT} --tolerance 1e-30", "tolerance"),
-    (f"{INDENT} --depths 1,,2", "'' is not a number above 0"),
-    (f"{INDENT} --depths 2,1", "1 follows 2; each number must be larger"),
-    ("indent huge.npy --spacing 1e300 -o out.nc", "finite"),
-    ("indent heights.npy --spacing 1 -o heights.npy", "replace the heights"),
-    ("indent heights.npy --spacing 1 -o curve.nc/out.nc", "curve.nc/out.nc: there is no folder curve.nc"),
-    ("kinetics curve.nc --force 1 --viscosity 1 -o pipe", "pipe"),
-    ("kinetics map.nc --force 1 --viscosity 1 -o out.nc", "map.nc: no numbers depth(level)"),
-    (f"{KINETICS} --force 1e-300 --viscosity 1e300", "beside the curve"),
-]
-
-
-@pytest.mark.parametrize(("line", "what"), MISTAKES)
-def test_mistakes_are_one_line(complaint, line, what):
-    np.save("huge.npy", sphere_heights(9) * 1e300)
-    random_curve(length_unit="1").save("curve.nc")
-    Indenter(sphere_heights(9), 1.0).save("map.nc")
-    os.mkfifo("pipe")
-    assert what in complaint(line)
 
 
 def run_indent_as(function):

@@ -108,36 +108,6 @@ def test_kinetics_need_an_incompressible_half_space(complaint):
     assert run(kinetics) == 0
 
 
-CONTACT, INDENT = "contact heights.npy --spacing 1 -o out.nc", "indent heights.npy --spacing 1 -o out.nc"
-CONTACT_UM = CONTACT.replace("heights.npy", "um.nc")
-EXCLUDE = "exclude each other; one of them is allowed"
-POSITIVE = "is not a number above 0 and finite, plain or with a unit such as"
-MISTAKES = [
-    (CONTACT, "one of --force and --depth is needed"),
-    (f"{CONTACT} --force 1 --depth 1", "one of --force and --depth is needed"),
-    *[(f"{CONTACT} --force {force}", POSITIVE) for force in ("0", "nan", "much", "1,")],
-    (f"{CONTACT_UM} --force '2 mN,1 uN' --young 1", "each number must be larger than the one before"),
-    (f"{CONTACT_UM} --force '1 mN,2' --young 1", "all or none of them may have one"),
-    (f"{CONTACT_UM} --force '1 mN'", "a force needs --shear-modulus or --young"),
-    (f"{CONTACT_UM} --force '1 Pa' --young 1", POSITIVE),
-    (f"{CONTACT} --force '1 mN' --shear-modulus 1", "the unit of length is not known"),
-    (f"{CONTACT} --depth 1e300", "up to which depths are allowed"),
-    (f"{CONTACT} --force 1 --shear-modulus 1 --young 1", EXCLUDE),
-    (f"{CONTACT} --force 1 --shear-modulus 1 --poisson 0.3", "--poisson is for use with --young"),
-    (f"{CONTACT} --force 1 --young 1 --poisson 0.6", "is not a number above -1 and up to 0.5"),
-    (f"{CONTACT} --force 1e-300 --young 1e300", "one row of finite numbers above 0"),
-    (f"{CONTACT} --force 1 --threads 0", "'--threads': 0 is not in the range 1<=x<=1024"),
-    (f"{CONTACT.replace('out.nc', 'out.csv')} --force 1", "maps are no table"),
-    *[(f"{INDENT} --forces 1 {other} 1", EXCLUDE) for other in ("--depths", "--until-fraction", "--until-force")],
-    (f"{INDENT} --until-force '1 N'", "a force needs --shear-modulus or --young"),
-]
-
-
-@pytest.mark.parametrize(("line", "message"), MISTAKES)
-def test_mistakes_are_one_line(complaint, line, message):
-    assert message in complaint(line)
-
-
 def test_numbers_beyond_single_precision_are_kept(here):
     """Heights of 1e100: the same contact as that of heights of 1, scaled."""
     np.save("huge.npy", 1e100 * np.load("heights.npy"))

@@ -57,19 +57,3 @@ def test_force_histories(here):
         assert run(f"creep curve.nc record.csv {force} -o {name}.yaml") == 0
     a, b = (tables.read(f"{name}.csv").variables["compliance"].values for name in "ab")
     np.testing.assert_allclose(a, b, rtol=1e-9)
-
-
-@pytest.mark.parametrize(
-    ("line", "text"),
-    [
-        ("creep curve.nc record.csv -o m.yaml", "one of --force and --force-history is needed"),
-        ("creep curve.nc record.csv --force 1 -o m.nc", "m.nc: unknown kind of file; a medium is written as .yaml"),
-        ("creep curve.nc record.csv --force 1 -o record.yaml", "record.csv: would replace the record"),
-        ("creep curve.nc record.csv --force '1 um' -o m.yaml", "'1 um' is not a number above 0"),
-        ("creep record.csv record.csv --force 1 -o m.yaml", "a loading curve of viscorough indent is needed"),
-        ("creep curve.nc receding.csv --force 1 -o m.yaml", "at time 6 the depth has receded by 1"),
-    ],
-)
-def test_mistakes_are_answered_in_one_line(here, complaint, line, text):
-    (here / "receding.csv").write_text("1,1\n2,1.3\n3,1.6\n4,1.9\n5,2.2\n6,1.2\n")
-    assert text in complaint(line)

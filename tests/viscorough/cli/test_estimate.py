@@ -68,22 +68,3 @@ def test_times_outside_of_the_range_are_marked_and_warned_about(capsys):
     rows = captured.out.splitlines()[2:]
     assert [row.split()[-1] for row in rows] == ["below", rows[1].split()[7], "above"]
     assert rows[0].split()[2:8] == ["-"] * 6
-
-
-@pytest.mark.parametrize(
-    ("changes", "what"),
-    [
-        ({"rms": "1 um"}, "--rms 1 um, --diameter 0.01: one has a unit; both or none is allowed"),
-        ({"force": "1 N"}, "--force 1 N: has a unit, but the lengths have none"),
-        ({"times": "1,2"}, "where the law holds; elsewhere indent a surface made by viscorough generate"),
-        ({"medium": "none.yaml"}, "one of --viscosity and --medium is needed"),
-        ({"medium": "unit.yaml", "viscosity": None}, "since the unit of length is not known"),
-        ({"medium": "table.yaml", "viscosity": None}, "beyond the last time of the creep table"),
-        ({"medium": "unit.yaml", "viscosity": None, "output": "-o unit.yaml"}, "would replace the medium"),
-    ],
-)
-def test_mistakes_are_one_line(here, complaint, changes, what):
-    (here / "unit.yaml").write_text("kind: newtonian\nviscosity: 1 Pa s")
-    (here / "table.yaml").write_text("kind: creep_table\nfile: J.csv")
-    (here / "J.csv").write_text("0,0\n1e-6,1e-12\n")
-    assert what in complaint(command(**changes))

@@ -55,16 +55,3 @@ def test_units_and_roll_off_are_passed_on(line, options):
     heights = netcdf.read("made.nc").variables["heights"]
     np.testing.assert_allclose(heights.values, disc(**options).heights, rtol=1e-12)
     assert heights.attributes["units"] == "um"
-
-
-@pytest.mark.parametrize(
-    ("line", "what"),
-    [
-        (f"{DISC} --unit 1 --rms '2 um' {END}", "--rms 2 um: needs a plain number"),
-        (f"{DISC} --points 9 {END}", "one of --elements (a disc) and --points (a line) is needed"),
-        (f"{DISC} --plateau {END}", "--plateau is for use with --roll-off"),
-        (f"{DISC} --seed 1 -o made.csv", "maps are no table; a NetCDF file (.nc) is needed"),
-    ],
-)
-def test_mistakes_are_one_line(complaint, line, what):
-    assert what in complaint(line)

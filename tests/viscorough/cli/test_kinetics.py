@@ -11,7 +11,7 @@ import yaml
 
 from support.command_line import run, sphere_heights
 from viscorough import Indenter, impulses, indent, kinetics
-from viscorough.io import netcdf, tables
+from viscorough.io import netcdf
 from viscorough.viscous.media import CreepTable, KelvinVoigt, Maxwell, Newtonian, Prony, Springpot, StandardLinearSolid
 
 MEDIA = {
@@ -140,19 +140,6 @@ BAD_TABLES = [
     ("t,J [1/MPa]\n0,1\n1,2\n", "the heading 'J [1/MPa]' states a unit, but the unit of"),
     ("# t in h\n0,1\n1,2\n", "the comment '# t in h' states a unit"),
 ]
-BAD_LINES = [
-    (f"{KINETICS} --viscosity 1", "one of --force and --force-history is needed"),
-    (f"{KINETICS} --force 1", "one of --viscosity and --medium is needed"),
-    (f"{KINETICS} --force 1e-320 --viscosity 1", "beside the curve, from 0.0178"),
-    (f"{KINETICS} --force 1e-320 --medium newtonian.yaml", "beside the curve, from 0.0178"),
-    (f"{KINETICS} --force 1 --medium none.yaml", "none.yaml: not readable (No such file or directory)"),
-    (f"{KINETICS} --force-history curve.nc --viscosity 1", "read from .csv and .npy"),
-    (f"{KINETICS} --force-history force.csv --viscosity 1 --times 1,10", "within those of the force history, 0 to 9"),
-    (f"{KINETICS} --force '1 N' --viscosity 1", "--force 1 N: needs a plain number"),
-    (f"{KINETICS} --force 1 --viscosity '1 Pa s'", "--viscosity 1 Pa s: needs a plain number"),
-    (f"{KINETICS} --force 1 --medium medium.yaml -o medium.yaml", "would replace the medium"),
-    (f"{KINETICS} --force-history force.csv --viscosity 1 -o force.csv", "would replace the force history"),
-]
 
 
 @pytest.mark.parametrize(
@@ -172,24 +159,7 @@ def test_bad_files_are_one_line(here, complaint, file, text, message):
     assert file != "medium.yaml" or line.startswith("viscorough kinetics: medium.yaml: ")
 
 
-@pytest.mark.parametrize(("line", "message"), BAD_LINES)
-def test_bad_options_are_one_line(complaint, line, message):
-    assert message in complaint(line)
-
-
 def test_a_force_that_is_zero_at_all_times_is_allowed(here):
     (here / "force.csv").write_text("0,0\n1,0\n")
     assert run(f"{KINETICS} --force-history force.csv --viscosity 1") == 0
     assert not result()["depth"].any()
-
-
-@pytest.mark.parametrize("suffix", ["nc", "csv"])
-def test_bad_curves_are_one_line(complaint, suffix):
-    """What makes a curve bad is tested with its reader."""
-    content = netcdf.read("um.nc")
-    force = content.variables["force"]._replace(attributes={"long_name": "force", "units": "nm2"})
-    content = netcdf.Content(content.variables | {"force": force}, content.attributes)
-    (netcdf if suffix == "nc" else tables).write(content, f"bad.{suffix}")
-    for line in (f"kinetics bad.{suffix} --force 1 --viscosity 1 -o kin.nc", f"plot bad.{suffix} -o bad.png"):
-        message = f"bad.{suffix}: force is in 'nm2' and depth in 'um'; 'um2' is needed for force"
-        assert message in complaint(line)

@@ -1,13 +1,13 @@
 """`viscorough march`: agreement with kinetics, force histories, media, units, and what is refused."""
 
-import importlib
 from contextlib import nullcontext
 
 import numpy as np
 import pytest
 
 from support.command_line import run
-from viscorough import Indenter, indent, self_affine_disc
+from viscorough import self_affine_disc
+from viscorough.cli import messages
 from viscorough.io import netcdf
 
 HEIGHTS = self_affine_disc(0.7, 13, rms=0.02, diameter=13.0, seed=3).heights
@@ -20,9 +20,6 @@ def here(here):
     np.save("heights.npy", HEIGHTS)
     (here / "medium.yaml").write_text("kind: maxwell\nshear_modulus: 2.0\nviscosity: 3.0\n")
     (here / "pulse.csv").write_text("time,force\n0,0\n1,0.2\n2,0.02\n3,0.02\n")
-    (here / "nothing.csv").write_text("0,0\n1,0\n")
-    (here / "endless.csv").write_text("0,1\n1e9,1\n")
-    (here / "link.csv").symlink_to("pulse.csv")
     return here
 
 
@@ -30,58 +27,44 @@ def values(file):
     return {name: variable.values for name, variable in netcdf.read(file).variables.items()}
 
 
+CONSTANT, HISTORY = "--force 0.1 --times 0.25,0.5,0.75,1,1.25,1.5", "--force-history force.csv"
+
+
 @pytest.mark.parametrize(
-    ("medium", "method", "tolerance"),
+    ("motion", "method", "tolerance"),
     [
-        *[("--medium medium.yaml", *case) for case in (("events", 1e-8), ("second_order", 1e-2))],
-        ("--viscosity 3", "implicit", 1e-5),
-        ("--viscosity 3", "explicit --overlap 1e-3", 5e-3),
+        (f"--medium medium.yaml {CONSTANT}", "events", 1e-8),
+        (f"--medium medium.yaml {CONSTANT}", "second_order", 1e-2),
+        (f"--viscosity 3 {CONSTANT}", "implicit", 1e-5),
+        (f"--viscosity 3 {CONSTANT}", "explicit --overlap 1e-3", 5e-3),
+        (f"--viscosity 4 {HISTORY}", "events", 1e-9),
+        (f"--viscosity 4 {HISTORY}", "implicit", 1e-5),
+        (f"--viscosity 4 {HISTORY}", "heun --overlap 1e-3", 5e-3),
     ],
 )
-def test_marching_agrees_with_kinetics(medium, method, tolerance):
-    motion = f"--force 0.1 {medium} --times 0.25,0.5,0.75,1,1.25,1.5"
+def test_marching_agrees_with_kinetics(here, motion, method, tolerance):
+    """The history is a ramp, a step down, a rest and a pulse."""
+    (here / "force.csv").write_text("time,force\n1,0\n2,1e0\n4,1\n5,0.5\n5,0\n9,0\n9.5,6\n10,0\n")
     assert run(f"{MARCH} --method {method} {motion}") == 0
     assert run("indent heights.npy --spacing 1 --tolerance 1e-9 --until-fraction 1 -o curve.nc") == 0
     assert run(f"kinetics curve.nc {motion} -o kin.nc") == 0
     marched, expected = values("march.nc"), values("kin.nc")
-    np.testing.assert_allclose(marched["depth"][-6:], expected["depth"], rtol=tolerance)
-    if "medium" in medium:
+    last = slice(-expected["time"].size, None)
+    np.testing.assert_allclose(marched["depth"][last], expected["depth"], rtol=tolerance)
+    np.testing.assert_array_equal(marched["time"][last], expected["time"])
+    if "medium" in motion:
         assert marched["time"][0] == 0
         assert set(marched) == {"time", "depth", "force", "contact_count"}
-    elif method == "implicit":
-        np.testing.assert_allclose(marched["velocity"], expected["velocity"], rtol=1e-4)
     else:
+        np.testing.assert_allclose(marched["velocity"][last], expected["velocity"], rtol=10 * tolerance)
+    if "explicit" in method:
         assert 0 < marched["overlap"].max() <= 1.001e-3
-
-
-@pytest.mark.parametrize(
-    ("method", "tolerance"),
-    [("events", 1e-9), ("implicit", 1e-5), ("explicit --overlap 1e-3", 5e-3), ("heun --overlap 1e-3", 5e-3)],
-)
-def test_marching_under_a_force_history(here, method, tolerance):
-    """A ramp, a step down, a rest and a pulse."""
-    (here / "force.csv").write_text("time,force\n1,0\n2,1e0\n4,1\n5,0.5\n5,0\n9,0\n9.5,6\n10,0\n")
-    assert run(f"{MARCH} --viscosity 4 --method {method} --force-history force.csv") == 0
-    of = values("march.nc")
-    np.testing.assert_array_equal(of["time"], [1, 2, 4, 5, 5, 9, 9.5, 10])
-    np.testing.assert_array_equal(of["force"], [0, 1, 1, 0.5, 0, 0, 6, 0])
-    assert of["depth"][0] == 0
-    assert of["depth"][3] == of["depth"][4] == of["depth"][5], "at rest"
-    elastic = indent(Indenter(HEIGHTS, 1.0), tolerance=1e-11, depths=np.unique(of["depth"][1:]))
-    np.testing.assert_allclose(elastic.force, np.array([0.5, 2.5, 3.25, 4.75, 6.25]) / 4, rtol=3 * tolerance)
-    forced = of["force"] > 0
-    np.testing.assert_array_equal(of["velocity"][~forced], 0)
-    levels = np.searchsorted(elastic.depth, of["depth"][forced])
-    np.testing.assert_allclose(
-        of["velocity"][forced], of["force"][forced] / (4 * elastic.stiffness[levels]), rtol=4 * tolerance
-    )
 
 
 @pytest.mark.parametrize("method", ["second_order --medium medium.yaml", "implicit"])
 def test_steps_show_their_progress(monkeypatch, method):
     shares = []
-    module = importlib.import_module("viscorough.cli.march")
-    monkeypatch.setattr(module, "progress_bar", lambda label, wanted: nullcontext(shares.append))
+    monkeypatch.setattr(messages, "progress_bar", lambda label, wanted: nullcontext(shares.append))
     assert run(f"{MARCH} --method {method} --times 1,2") == 0
     assert shares[-2:] == pytest.approx([1 - 1 / len(shares), 1])
 
@@ -109,27 +92,3 @@ def test_viscosities_are_in_pascal_seconds_where_the_unit_is_known(method):
     um, m = values("um.nc"), values("m.nc")
     np.testing.assert_allclose(um["time"], m["time"], rtol=1e-9, atol=1e-9 * m["time"][-1])
     np.testing.assert_allclose(um["depth"] * 1e-6, m["depth"], rtol=1e-6, atol=1e-9 * m["depth"][-1])
-
-
-@pytest.mark.parametrize(
-    ("line", "message"),
-    [
-        (f"{MARCH} --method events --times 1,2", "--times is not for --method events"),
-        (f"{MARCH} --method explicit", "--times is needed by --method explicit"),
-        (f"{MARCH} --method implicit --times 1 --overlap 0.1", "--overlap is not for"),
-        (f"{MARCH} --method explicit --times 1 --until-fraction 0.1", "--until-fraction is not for"),
-        (f"{MARCH} --method second_order --times 1", "--method second_order is for use with --medium"),
-        (f"{MARCH} --method events --force-history none.csv --force 1", "replaces --force and --times"),
-        (f"{MARCH} --method events --force 1e-10 --viscosity 1.7e308", "times or velocities overflow"),
-        (f"{MEDIUM} --method heun --times 1", "--method heun is not for --medium; allowed: events, second_order"),
-        (f"{MEDIUM} --method events --times 1 --viscosity 2", "--medium replaces --viscosity"),
-        (f"{MARCH} --method events --force-history nothing.csv", "no time passes while there is a force"),
-        (
-            f"{MARCH} --method events --until-fraction 0.05 --force-history endless.csv",
-            "is beyond the contact fraction at which events end; allowed: up to",
-        ),
-        (f"{MARCH} --method implicit --force-history pulse.csv -o link.csv", "would replace the force history"),
-    ],
-)
-def test_mistakes_are_one_line(complaint, line, message):
-    assert message in complaint(line)

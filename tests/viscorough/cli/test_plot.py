@@ -11,7 +11,7 @@ from support.cf import violations
 from support.command_line import run, sphere_heights
 from support.contract import refused
 from viscorough.io import netcdf
-from viscorough.io.netcdf import Content, Variable
+from viscorough.io.netcdf import Content
 
 MAP = "FOLDER/heights.npy --spacing 1"
 SURFACE = "generate --hurst 0.7 --rms 1 --diameter 9 --seed 1"
@@ -92,23 +92,13 @@ def test_axes_have_symbols_and_units(here):
     assert axes_of("medium.nc") == ["time $t$ (s)", "depth $u$"]
 
 
-@pytest.mark.parametrize(
-    ("file", "name", "change", "what"),
-    [
-        ("lines.nc", "contact_count", lambda count: -count, "contact_count must be a whole number from 1"),
-        ("lines.nc", "force", "um2", "force is in 'um2' and depth in '1'"),
-        ("estimate.nc", "depth_high", "um", "depth and its interval have different units"),
-    ],
-)
-def test_damaged_files_are_refused(here, complaint, file, name, change, what):
-    content = netcdf.read(here / file)
-    variable = content.variables[name]
-    if isinstance(change, str):
-        variable = variable._replace(attributes=variable.attributes | {"units": change})
-    else:
-        variable = variable._replace(values=change(variable.values))
-    netcdf.write(Content(content.variables | {name: variable}, content.attributes), here / "bad.nc")
-    assert what in complaint("plot bad.nc -o figure.png")
+def test_curves_with_contradicting_units_are_refused(here, complaint):
+    """What makes a curve bad is tested with its reader."""
+    content = netcdf.read(here / "curve.nc")
+    force = content.variables["force"]._replace(attributes={"long_name": "force", "units": "um2"})
+    netcdf.write(Content(content.variables | {"force": force}, content.attributes), here / "bad.nc")
+    for line in ("plot bad.nc -o figure.png", "kinetics bad.nc --force 1 --viscosity 1 -o out.nc"):
+        assert "bad.nc: force is in 'um2' and depth in '1'" in complaint(line)
 
 
 def test_without_matplotlib_one_line_says_what_to_install(monkeypatch, complaint):
@@ -118,49 +108,13 @@ def test_without_matplotlib_one_line_says_what_to_install(monkeypatch, complaint
     assert line == 'viscorough plot: matplotlib is not installed; pip install "viscorough[plot]" installs it\n'
 
 
-@pytest.mark.parametrize(
-    ("arguments", "what"),
-    [
-        ("curve.nc -o figure.jpg", "unknown kind of figure; allowed: .png, .pdf, .svg"),
-        ("heights.npy -o figure.png", "heights.npy: the distance between neighbouring points is not stated"),
-        ("other.nc -o figure.png", "other.nc: no surface, fields of a contact, loading curve or motion in it"),
-        ("picture.png -o picture.png", "would replace the results"),
-    ],
-)
-def test_mistakes_are_one_line(here, complaint, arguments, what):
-    other = {"a": Variable(("b",), np.arange(3.0), {"long_name": "a", "units": "1"})}
-    netcdf.write(Content(other, {}), here / "other.nc")
-    (here / "picture.png").write_bytes(b"")
-    assert what in complaint(f"plot {arguments}")
-
-
 def test_lengths_are_drawn_in_readable_units():
-    """Positions up to 0.1 mm and heights of nanometres, both in m; without a unit nothing changes."""
+    """Positions up to 0.1 mm and heights of nanometres, both in m."""
     surface = viscorough.Indenter(5e-9 * np.eye(5), 5e-5, 1e-5, length_unit="m")
     axes, colours = viscorough.plot(surface).axes
     assert (axes.get_xlabel(), axes.get_ylabel(), colours.get_ylabel()) == ("$x$ (µm)", "$y$ (µm)", "height $z$ (nm)")
     np.testing.assert_allclose(axes.images[0].get_extent(), [-125, 125, 25, -25])
     assert axes.images[0].get_array().max() == pytest.approx(5)
-    plain = viscorough.Indenter(surface.heights, 5e-5, 1e-5)
-    assert viscorough.plot(plain).axes[0].images[0].get_array().max() == 5e-9
-
-
-@pytest.mark.parametrize(
-    ("y", "extent", "label"),
-    [
-        ([4.0, 2.0, 0.0], [-0.5, 1.5, -1, 5], "$y$ (m)"),
-        ([0.0, 4.0, 2.0], [-0.5, 1.5, 2.5, -0.5], "y, points"),
-        ([0.0, np.nan, 4.0], [-0.5, 1.5, 2.5, -0.5], "y, points"),
-    ],
-)
-def test_positions_are_those_of_the_file_or_points(y, extent, label):
-    """Numbers of points are not drawn as positions in metres."""
-    attributes = {"long_name": "length", "units": "m"}
-    heights = Variable(("y", "x"), np.arange(6.0).reshape(3, 2), attributes)
-    content = Content({"heights": heights, "y": Variable(("y",), np.array(y), attributes)}, {})
-    axes = viscorough.plot(content).axes[0]
-    np.testing.assert_allclose(axes.images[0].get_extent(), extent)
-    assert (axes.get_xlabel(), axes.get_ylabel()) == ("x, points", label)
 
 
 def test_maps_are_drawn_as_they_are_read(here, capsys):

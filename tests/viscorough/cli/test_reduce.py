@@ -54,20 +54,6 @@ def test_lines_of_a_map_are_many_and_say_what_they_are_not(capsys):
 
 
 @pytest.mark.parametrize(
-    ("arguments", "what"),
-    [
-        ("line.npy", "line.npy: the distance between neighbouring points is not stated; --spacing is needed"),
-        ("line.npy --spacing 1 --realizations 2", "--realizations and --seed are for maps"),
-        ("text.npy --spacing 1", "a line is needed"),
-        ("line.npy --spacing 1 -o line.npy", "would replace the heights"),
-        ("map.npy --spacing 1 --realizations 2 -o a.csv", "several curves are no table"),
-    ],
-)
-def test_mistakes_are_one_line(complaint, arguments, what):
-    assert what in complaint(f"reduce -o out.nc {arguments}")
-
-
-@pytest.mark.parametrize(
     ("positions", "unit", "spacing", "what"),
     [
         ([0, 1, 3], "um", "", "coordinate x is not uniform: its steps lie between 1 and 2"),

@@ -97,22 +97,3 @@ def test_crop_flip_and_channel_are_recorded(here, capsys):
     curve, attributes = curve_of(capsys, f"scan.tif {SPACING} {DEPTHS} --channel 1 --crop 2:15,1:16 --flip")
     assert_same(curve, right_curve(ROUGH[1:16, 2:15]))
     assert (attributes["channel"], attributes["preparation"]) == ("1", "--crop 2:15,1:16 --flip")
-
-
-# ---- bad input
-
-BAD = [
-    *[(f"scan.npy --spacing '{spacing}'", "--spacing") for spacing in ("", "1,2,3", "1,-1", "1 V", "1 um", "2 um,3")],
-    ("scan.npy", "--spacing is needed"),
-    ("scan.npy --spacing 1 --unit V", "--unit"),
-    *[(f"scan.npy --spacing 1 --nodata '{value}'", "--nodata") for value in ("a", "1,", "1e999")],
-    *[(f"scan.npy --spacing 1 --crop '{crop}'", "--crop") for crop in ("1:2", "1:2,3:4,5:6", "-1:2,0:3")],
-    ("scan.npy --spacing 1 --crop 0:99,0:9", "scan.npy: crop to columns 0:99; within 0:17"),
-    ("scan.npy --spacing 1 --channel height", "--channel height"),
-    ("scan.nc --channel y", "heights have the shape (17,)"),
-]
-
-
-@pytest.mark.parametrize(("arguments", "what"), BAD)
-def test_bad_input_is_one_line(complaint, arguments, what):
-    assert what in complaint(f"indent {arguments} -o out.nc")

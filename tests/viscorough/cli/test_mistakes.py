@@ -1,0 +1,126 @@
+"""Mistakes in the options of each command: one line that says what, where and what is allowed.
+
+What readers of files and solvers refuse is tested with them; here are the checks of the command line itself.
+"""
+
+import os
+
+import numpy as np
+import pytest
+
+from support.command_line import sphere_heights
+from support.curves import random_curve
+from viscorough import Indenter
+from viscorough.io.netcdf import Content, Variable, write
+
+INDENT, CONTACT = (f"{command} heights.npy --spacing 1 -o out.nc" for command in ("indent", "contact"))
+CONTACT_UM, MARCH = CONTACT.replace("heights.npy", "um.nc"), f"{INDENT.replace('indent', 'march')} --method"
+KINETICS, CREEP = "kinetics curve.nc -o out.nc", "creep curve.nc record.csv --force 1 -o"
+ESTIMATE = "estimate --hurst 0.8 --diameter 0.01 --times 1"
+GENERATE = "generate --hurst 0.7 --rms 1 --diameter 34 --seed 5 -o made.nc"
+EXCLUDE, QUANTITY = (
+    "exclude each other; one of them is allowed",
+    "is not a number above 0 and finite, plain or with a unit",
+)
+INCREASING, NO_UNIT = "each larger than the one before", "needs a plain number, since the unit of length is not known"
+MISTAKES = [
+    ("", "Missing command"),
+    ("indent heights.npy --spacing 1", "--output"),
+    (f"{INDENT} --tolerance 0", "'--tolerance': 0.0 is not in the range 0<x<=0.1"),
+    (f"{INDENT} --until-fraction nan", "'--until-fraction': 'nan' is not a finite number"),
+    *[(f"{INDENT} --depths {depths}", text) for depths, text in (("1,,2", QUANTITY), ("2,1", INCREASING))],
+    ("indent huge.npy --spacing 1e300 -o out.nc", "finite"),
+    ("indent heights.npy --spacing 1 -o heights.npy", "replace the heights"),
+    ("indent heights.npy --spacing 1 -o curve.nc/out.nc", "curve.nc/out.nc: there is no folder curve.nc"),
+    *[(f"{INDENT} --forces 1 {other} 1", EXCLUDE) for other in ("--depths", "--until-fraction", "--until-force")],
+    *[(f"{INDENT} --audit {levels} 1,2", f"{levels} and --audit {EXCLUDE}") for levels in ("--depths", "--forces")],
+    (f"{INDENT} --until-force '1 N'", "a force needs --shear-modulus or --young"),
+    (CONTACT, "one of --force and --depth is needed"),
+    (f"{CONTACT} --force 1 --depth 1", "one of --force and --depth is needed"),
+    *[(f"{CONTACT} --force {force}", QUANTITY) for force in ("0", "nan", "much", "1,")],
+    (f"{CONTACT_UM} --force '2 mN,1 uN' --young 1", INCREASING),
+    (f"{CONTACT_UM} --force '1 mN,2' --young 1", "all or none of them may have one"),
+    (f"{CONTACT_UM} --force '1 mN'", "a force needs --shear-modulus or --young"),
+    (f"{CONTACT_UM} --force '1 Pa' --young 1", QUANTITY),
+    (f"{CONTACT} --force '1 mN' --shear-modulus 1", NO_UNIT),
+    (f"{CONTACT} --depth 1e300", "up to which depths are allowed"),
+    (f"{CONTACT} --force 1 --shear-modulus 1 --young 1", EXCLUDE),
+    (f"{CONTACT} --force 1 --shear-modulus 1 --poisson 0.3", "--poisson is for use with --young"),
+    (f"{CONTACT} --force 1 --young 1 --poisson 0.6", "0.6 is not in the range -1<x<=0.5"),
+    (f"{CONTACT} --force 1 --threads 0", "'--threads': 0 is not in the range 1<=x<=1024"),
+    (f"{CONTACT.replace('out.nc', 'out.csv')} --force 1", "maps are no table"),
+    (f"{KINETICS} --viscosity 1", "one of --force and --force-history is needed"),
+    (f"{KINETICS} --force 1", "one of --viscosity and --medium is needed"),
+    ("kinetics curve.nc --force 1 --viscosity 1 -o pipe", "pipe"),
+    ("kinetics map.nc --force 1 --viscosity 1 -o out.nc", "map.nc: no numbers depth(level)"),
+    (f"{KINETICS} --force '1 N' --viscosity 1", f"--force 1 N: {NO_UNIT}"),
+    (f"{KINETICS} --force 1 --viscosity '1 Pa s'", f"--viscosity 1 Pa s: {NO_UNIT}"),
+    (f"{KINETICS} --force 1e-320 --viscosity 1", "beside the curve"),
+    (f"{KINETICS} --force 1 --medium none.yaml", "none.yaml: not readable (No such file or directory)"),
+    (f"{KINETICS} --force 1 --medium medium.yaml -o medium.yaml", "would replace the medium"),
+    (f"{KINETICS} --force-history force.csv --viscosity 1 -o force.csv", "would replace the force history"),
+    ("creep curve.nc record.csv -o m.yaml", "one of --force and --force-history is needed"),
+    (f"{CREEP} m.nc", "m.nc: unknown kind of file; a medium is written as .yaml"),
+    (f"{CREEP} record.yaml", "record.csv: would replace the record"),
+    (f"{ESTIMATE} --rms '1 um' --force 1 --viscosity 1", "one has a unit; both or none is allowed"),
+    (f"{ESTIMATE} --rms 1 --force '1 N' --viscosity 1", f"--force 1 N: {NO_UNIT}"),
+    (f"{ESTIMATE} --rms 1 --force 1", "one of --viscosity and --medium is needed"),
+    (f"{ESTIMATE} --rms 1 --force 1 --medium table.yaml", "beyond the last time of the creep table"),
+    (f"{ESTIMATE} --rms 1 --force 1 --medium medium.yaml -o medium.yaml", "would replace the medium"),
+    (GENERATE, "either --elements (a disc) or --points (a line) is needed"),
+    (f"{GENERATE} --elements 5 --plateau", "--plateau is for use with --roll-off"),
+    (f"{GENERATE} --elements 5 --unit 1 --rms '2 um'", f"--rms 2 um: {NO_UNIT}"),
+    (f"{MARCH} events --times 1,2", "--times is not for --method events"),
+    (f"{MARCH} explicit", "--times is needed by --method explicit"),
+    (f"{MARCH} implicit --times 1 --overlap 0.1", "--overlap is not for"),
+    (f"{MARCH} explicit --times 1 --until-fraction 0.1", "--until-fraction is not for"),
+    (f"{MARCH} second_order --times 1", "--method second_order is for use with --medium"),
+    (f"{MARCH} heun --medium medium.yaml --times 1", "--medium is not for --method heun; allowed: events, implicit"),
+    (f"{MARCH} implicit --medium medium.yaml --times 1 --viscosity 2", "--medium replaces --viscosity"),
+    (f"{MARCH} events --force-history none.csv --force 1", "--force-history replaces --force"),
+    (f"{MARCH} events --force-history nothing.csv", "nothing.csv: no time passes while there is a force"),
+    (f"{MARCH} implicit --force-history force.csv -o link.csv", "would replace the force history"),
+    (
+        "reduce line.npy -o out.nc",
+        "line.npy: the distance between neighbouring points is not stated; --spacing is needed",
+    ),
+    (f"{MARCH} events --force 1e-10 --viscosity 1.7e308", "times or velocities overflow"),
+    ("reduce text.npy --spacing 1 -o out.nc", "a line is needed"),
+    ("reduce line.npy --spacing 1 --realizations 2 -o out.nc", "--realizations and --seed are for maps"),
+    ("reduce line.npy --spacing 1 --flip -o out.nc", "--channel and preparation are for maps"),
+    ("reduce line.npy --spacing 1 -o line.npy", "would replace the heights"),
+    ("reduce heights.npy --spacing 1 --realizations 2 -o a.csv", "several curves are no table"),
+    ("plot curve.nc -o figure.jpg", "unknown kind of figure; allowed: .png, .pdf, .svg"),
+    ("plot heights.npy -o out.png", "heights.npy: the distance between neighbouring points is not stated"),
+    ("plot other.nc -o out.png", "other.nc: no surface, fields of a contact, loading curve or motion in it"),
+    ("plot curve.nc -o curve.nc", "would replace the results"),
+    *[(f"plot heights.npy -o out.png --spacing '{text}'", "--spacing") for text in ("", "1,2,3", "1 V", "1 um")],
+    ("plot heights.npy -o out.png --spacing 1,-1", "spacing: must be positive"),
+    ("plot heights.npy -o out.png --spacing 1 --unit V", "unit 'V': not a unit"),
+    *[(f"{INDENT} --nodata '{value}'", f"--nodata {value}") for value in ("a", "1,")],
+    *[(f"{INDENT} --crop '{crop}'", f"--crop {crop}") for crop in ("1:2", "1:2,3:4,5:6", "-1:2,0:3")],
+    (f"{INDENT} --channel height", "--channel height"),
+    ("indent um.nc --channel y -o out.nc", "heights have the shape (9,)"),
+    (f"{INDENT} --scale much", "--scale much"),
+]
+
+
+@pytest.mark.parametrize(("line", "what"), MISTAKES)
+def test_mistakes_are_one_line(here, complaint, line, what):
+    np.save("heights.npy", sphere_heights(9))
+    np.save("huge.npy", sphere_heights(9) * 1e300)
+    np.save("line.npy", np.arange(3.0))
+    np.save("text.npy", np.array(["a"]))
+    random_curve(length_unit="1").save("curve.nc")
+    for name, unit in (("map.nc", "1"), ("um.nc", "um")):
+        Indenter(sphere_heights(9), 1.0, length_unit=unit).save(name)
+    write(Content({"a": Variable(("b",), np.arange(3.0), {"long_name": "a", "units": "1"})}, {}), "other.nc")
+    (here / "medium.yaml").write_text("{kind: newtonian, viscosity: 30}")
+    (here / "table.yaml").write_text("{kind: creep_table, file: table.csv}")
+    (here / "table.csv").write_text("0,0\n1e-6,1e-12\n")
+    for name in ("force.csv", "record.csv"):
+        (here / name).write_text("0,0\n1,0.2\n2,0.4\n")
+    (here / "nothing.csv").write_text("0,0\n1,0\n")
+    (here / "link.csv").symlink_to("force.csv")
+    os.mkfifo("pipe")
+    assert what in complaint(line)

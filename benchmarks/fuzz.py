@@ -22,6 +22,7 @@ from pathlib import Path
 
 import click
 import numpy as np
+import pandas as pd
 from file_cases import generators
 from fuzz_cases import COMMAND_LINES, STARTED, case, files_of, valid_arguments
 from measuring import save
@@ -120,8 +121,10 @@ def fault_of_output(path):
     """Fault of an output file, as text; "" if it has none."""
     if path.suffix in FIGURES:
         return "" if path.read_bytes().startswith(FIGURES[path.suffix]) else "the figure is damaged"
+    if tables.is_table(path):
+        return "" if len(pd.read_csv(path, comment="#")) else "the table is empty"
     try:
-        content = (tables if tables.is_table(path) else netcdf).read(path)
+        content = netcdf.read(path)
     except ValueError as error:
         return f"the output cannot be read: {error}"
     variables = content.variables

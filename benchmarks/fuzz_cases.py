@@ -87,15 +87,15 @@ def npy(shape):
 # ---- files that the package or a library writes
 
 
-def saved(result, suffix):
+def saved(result):
     """The bytes of a file of a result."""
     with tempfile.TemporaryDirectory() as folder:
-        result.save(Path(folder) / f"saved{suffix}")
-        return (Path(folder) / f"saved{suffix}").read_bytes()
+        result.save(path := Path(folder) / "saved.nc")
+        return path.read_bytes()
 
 
 def netcdf_file(random):
-    return saved(viscorough.Indenter(random.random(random.integers(1, 7, 2)), 0.5, length_unit="um"), ".nc")
+    return saved(viscorough.Indenter(random.random(random.integers(1, 7, 2)), 0.5, length_unit="um"))
 
 
 def tiff_file(random):
@@ -107,15 +107,9 @@ def tiff_file(random):
     return file.getvalue()
 
 
-def curve_file(suffix):
-    """Function that draws a loading curve, as the package writes it."""
-
-    def draw(random):
-        heights = one_of(random, [1.0, 1e-6, 1e100]) * random.random(random.integers(2, 7))
-        unit = one_of(random, ["1", "m", "um"])
-        return saved(viscorough.reduce(viscorough.Indenter(heights, 1.0, length_unit=unit)), suffix)
-
-    return draw
+def curve_file(random):
+    heights = one_of(random, [1.0, 1e-6, 1e100]) * random.random(random.integers(2, 7))
+    return saved(viscorough.reduce(viscorough.Indenter(heights, 1.0, length_unit=one_of(random, ["1", "m", "um"]))))
 
 
 def columns(*headings):
@@ -144,8 +138,7 @@ FILES = {
     "heights.asc": lambda random: text_files.esri(random).content,
     "heights.xyz": lambda random: text_files.points(random).content,
     "heights.tif": tiff_file,
-    "curve.nc": curve_file(".nc"),
-    "curve.csv": curve_file(".csv"),
+    "curve.nc": curve_file,
     "line.npy": npy(9),
     "force.csv": columns("0,0\n", "t,F\n", "t [ms],F [mN]\n", "t [kg],F\n"),
     "force.npy": npy((2, 2)),
@@ -169,11 +162,11 @@ COMMAND_LINES = (
     "march heights.npy --spacing 1 --method events --force-history force.csv -o out.nc",
     "march heights.npy --spacing 1 --method second_order --medium medium.yaml --times S -o out.nc",
     *("reduce line.npy --spacing 1 -o out.nc", "reduce heights.npy --spacing 1 --realizations 3 -o out.nc"),
-    *("kinetics curve.nc --force N --viscosity N -o out.nc", "kinetics curve.csv --force N --viscosity N -o out.csv"),
+    *("kinetics curve.nc --force N --viscosity N -o out.nc", "kinetics curve.nc --force N --viscosity N -o out.csv"),
     "kinetics curve.nc --force-history force.csv --medium medium.yaml -o out.nc",
     "kinetics curve.nc --force-history force.npy --viscosity N -o out.nc",
     "kinetics curve.nc --force N --medium medium.yaml --times S -o out.nc",
-    *("plot curve.nc -o out.png", "plot curve.csv -o out.svg", "plot heights.nc -o out.png"),
+    *("plot curve.nc -o out.png", "plot curve.nc -o out.svg", "plot heights.nc -o out.png"),
     "generate --hurst F --elements 9 --rms N --diameter N --seed 7 -o out.nc",
     "estimate --hurst 0.7 --rms 1 --diameter 9 --force 1 --viscosity N --times S -o out.nc",
     *("creep curve.nc record.csv --force N -o out.yaml", "creep curve.nc record.csv --force N --fit prony -o out.yaml"),

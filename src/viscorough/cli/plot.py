@@ -51,7 +51,7 @@ def _content(surface: Surface, output: Path) -> Content:
     from viscorough.plotting import kind_of
 
     written = None
-    if surface == Surface(surface.path) and surface.path.suffix.lower() in (".nc", ".csv"):
+    if surface == Surface(surface.path) and surface.path.suffix.lower() == ".nc":
         try:
             content = read_content(surface.path)
             kind_of(content)

@@ -207,7 +207,7 @@ MEDIUM = "kinetics curve.nc --force 1 -o out.nc --medium"
 HISTORY = "kinetics curve.nc --viscosity 1 -o out.nc --force-history FILE"
 READING = {
     ".nc": [KINETICS.replace("curve.nc", "FILE"), "indent FILE -o out.nc", "plot FILE -o out.png"],
-    ".csv": [KINETICS.replace("curve.nc", "FILE"), HISTORY, f"{MEDIUM} of_FILE.yaml"],
+    ".csv": [HISTORY, f"{MEDIUM} of_FILE.yaml"],
     ".npy": ["indent FILE -o out.nc", "reduce FILE -o out.nc", HISTORY, f"{MEDIUM} of_FILE.yaml"],
     ".yaml": [f"{MEDIUM} FILE"],
 }

@@ -11,7 +11,7 @@ import yaml
 
 from support.command_line import run, sphere_heights
 from viscorough import Indenter, impulses, indent, kinetics
-from viscorough.io import netcdf, tables
+from viscorough.io import netcdf
 from viscorough.viscous.media import CreepTable, KelvinVoigt, Maxwell, Newtonian, Prony, Springpot, StandardLinearSolid
 
 MEDIA = {
@@ -183,13 +183,12 @@ def test_a_force_that_is_zero_at_all_times_is_allowed(here):
     assert not result()["depth"].any()
 
 
-@pytest.mark.parametrize("suffix", ["nc", "csv"])
-def test_bad_curves_are_one_line(complaint, suffix):
+def test_bad_curves_are_one_line(complaint):
     """What makes a curve bad is tested with its reader."""
     content = netcdf.read("um.nc")
     force = content.variables["force"]._replace(attributes={"long_name": "force", "units": "nm2"})
     content = netcdf.Content(content.variables | {"force": force}, content.attributes)
-    (netcdf if suffix == "nc" else tables).write(content, f"bad.{suffix}")
-    for line in (f"kinetics bad.{suffix} --force 1 --viscosity 1 -o kin.nc", f"plot bad.{suffix} -o bad.png"):
-        message = f"bad.{suffix}: force is in 'nm2' and depth in 'um'; 'um2' is needed for force"
+    netcdf.write(content, "bad.nc")
+    for line in ("kinetics bad.nc --force 1 --viscosity 1 -o kin.nc", "plot bad.nc -o bad.png"):
+        message = "bad.nc: force is in 'nm2' and depth in 'um'; 'um2' is needed for force"
         assert message in complaint(line)

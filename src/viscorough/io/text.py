@@ -49,9 +49,6 @@ def read_text(path: FilePath) -> Scan:
     rows, comments, separated = _rows(lines, first)
     delimiter, decimal = _punctuation(rows)
     cells = next(iter(rows.values())).split(delimiter)
-    if (above := _first_row_without_points(lines, first, delimiter, len(cells))) < first:
-        first = above
-        rows, comments, separated = _rows(lines, first, delimiter == ";")
     table = _table(rows, delimiter, decimal)
     esri = _esri(lines[:first])
     _check_above(lines[:first], delimiter, {table.shape[1], len(cells)}, esri)
@@ -113,22 +110,7 @@ def _is_row(line: str) -> bool:
     return all(_FIELD.fullmatch(part) for cell in cells for part in cell.split(","))
 
 
-def _first_row_without_points(lines: Sequence[str], first: int, delimiter: str | None, wanted: int) -> int:
-    """Number of the first of the rows just above `first` in which every point is missing; `first` if there is none."""
-    missing = re.compile(f"(?:{_MISSING})?", re.IGNORECASE)
-    for number in range(first - 1, -1, -1):
-        line = _REMARK.sub("", lines[number]).strip(" ")
-        cells = [cell.strip(' "') for cell in line.split(delimiter)]
-        if 1 < len(cells) == wanted and all(map(missing.fullmatch, cells)):
-            first = number
-        elif line and not _COMMENT.match(lines[number]):
-            break
-    return first
-
-
-def _rows(
-    lines: Sequence[str], first: int, has_semicolons: bool | None = None
-) -> tuple[dict[int, str], list[str], int]:
+def _rows(lines: Sequence[str], first: int) -> tuple[dict[int, str], list[str], int]:
     """({number of a line: row}, comments, line of the first row that empty lines separate from those above, or 0).
 
     Comments beside rows are removed from them; those that are returned have lines of their own. Empty lines separate
@@ -136,9 +118,8 @@ def _rows(
 
     Raises ValueError for a comment between rows that states something, as between two maps.
     """
-    has_semicolons = ";" in lines[first] if has_semicolons is None else has_semicolons
     has_tabs = "\t" in lines[first].strip(" ")
-    starts_row = (";",) * has_semicolons + ("\t",) * has_tabs
+    starts_row = (";",) * (";" in lines[first]) + ("\t",) * has_tabs
     rows, comments = {}, {}
     empty = [0]  # number of empty lines above each row, and below the last one
     for number, line in enumerate(lines[first:], first + 1):

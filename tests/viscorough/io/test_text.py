@@ -22,12 +22,12 @@ TABLES = [
     (";1;2;3\n;4;5;6\n", MATRIX),
     ("1, 2, 3\n4, 5, 6\n", MATRIX),
     (";2;3\n4;5;6\n;8;\n", [[NAN, 2, 3], [4, 5, 6], [NAN, 8, NAN]]),
-    (";;\n4;5;6\n;;\n7;8;9\n", [[NAN, NAN, NAN], [4, 5, 6], [NAN, NAN, NAN], [7, 8, 9]]),
+    ("4;5;6\n;;\n7;8;9\n", [[4, 5, 6], [NAN, NAN, NAN], [7, 8, 9]]),
     ("\t2,5\t\n4,5\t5,5\t6,5\n", [[NAN, 2.5, NAN], [4.5, 5.5, 6.5]]),
     ("#N/A 2 3\n4 #N/A 6\n", [[NAN, 2, 3], [4, NAN, 6]]),
     ("\u22121 2 3\n4 5 \u22126\n", [[-1, 2, 3], [4, 5, -6]]),
+    ("-- NA\n1 2\n3 4\n", [[NAN, NAN], [1, 2], [3, 4]]),
     ("1\t2\n\t # no points\n5\t6\n", [[1, 2], [NAN, NAN], [5, 6]]),
-    ("-- --\n1 2\n3 4\n", [[NAN, NAN], [1, 2], [3, 4]]),
 ]
 
 
@@ -119,7 +119,7 @@ BAD = [
     ("1,234.5;2\n3;4\n", "line 1 .*commas may be decimal marks or not"),
     ("1\u202f234 5\n6 7\n", "line 1 holds"),
     ("1 2\n\n3 4\n\n\n5 6\n\n7 8\n", "line 6: empty lines separate it"),
-    ("\t\nsecond part\n3\t4\n5\t6\n", "line 1: a row of empty cells"),
+    (";\n4;5\n6;7\n", "line 1: a row of empty cells"),
     ("# Channel: A\n1 2\n# Channel: B\n3 4\n", "line 3 .* stands between rows"),
     ("1 7 2\n2 3 9\n3 1 4\n4 8 8\n5 2 7\n6 9 1\n", "the first column counts up evenly"),
     (f"lon lat z\n{CORNERS}", "degrees"),

@@ -2,13 +2,11 @@
 
 from pathlib import Path
 
-import numpy as np
-
 from viscorough import units
 from viscorough.indenter import Indenter
 from viscorough.io.atomic import path_named
 from viscorough.io.heights import netcdf_scan, npy_array
-from viscorough.io.netcdf import Content, Variable, opened
+from viscorough.io.netcdf import Content, Variable, centred_axes, opened
 from viscorough.io.scan import Distance, Scan, to_indenter
 from viscorough.types import FilePath
 
@@ -21,9 +19,7 @@ def surface_to_content(indenter: Indenter) -> Content:
     axes = {"x": indenter.spacing} if indenter.heights.ndim == 1 else {"y": indenter.row_spacing, "x": indenter.spacing}
     unit = indenter.length_unit
     variables = {"heights": Variable(tuple(axes), indenter.heights, {"long_name": "height", "units": unit})}
-    for (name, spacing), points in zip(axes.items(), indenter.heights.shape, strict=True):
-        position = spacing * (np.arange(points) - (points - 1) / 2)
-        variables[name] = Variable((name,), position, {"long_name": f"position along {name}", "units": unit})
+    variables |= centred_axes(indenter.heights.shape, axes, unit)
     return Content(variables, {"title": "Heights of a rigid indenter; larger is higher and touches first"})
 
 

@@ -1,10 +1,16 @@
-"""Random text files with a matrix of heights, as instruments and programs write them; for file_campaign.py."""
+"""Random text files of known maps, as instruments and programs write them; for file_campaign.py.
+
+A matrix of heights, the points x, y, z of a grid, or an ESRI ASCII grid. What is drawn are the notation of numbers,
+delimiters, decimal marks, marks of missing points, header, comments, encoding and ends of lines. The headers of
+text_files.yaml that are "clear" are unambiguous, "unclear" ones may be refused, "bad" ones must be.
+"""
 
 import re
+from pathlib import Path
 
 import numpy as np
-from file_cases import Draft, map_shape, missing_points
-from text_headers import GWYDDION, header_lines
+import yaml
+from file_cases import UNITS, Draft, distances, map_shape, missing_points
 
 # ---- numbers, delimiters, marks of missing points
 
@@ -22,10 +28,9 @@ ODD_FORMATS = {
     "U+2212": lambda value, _: f"{value:.3f}".replace("-", "\u2212"),
     "thousands": lambda value, _: f"{1000 * value:,.2f}",
     "thousands with apostrophes": lambda value, _: f"{1000 * value:,.2f}".replace(",", "'"),
-    "thousands with no-break spaces": lambda value, _: f"{1000 * value:,.2f}".replace(",", "\u00a0"),
     "thousands with thin spaces": lambda value, _: f"{1000 * value:,.2f}".replace(",", "\u202f"),
 }
-PLAIN = str.maketrans({"\u2212": "-", "D": "e", **dict.fromkeys(",'\u00a0\u202f")})
+PLAIN = str.maketrans({"\u2212": "-", "D": "e", **dict.fromkeys(",'\u202f")})
 SWAPPED = str.maketrans(".,", ",.")
 DELIMITERS = {"space": " ", "spaces": "   ", "aligned": " ", "tab": "\t", "comma": ",", "semicolon": ";"}
 DELIMITERS |= {"comma and space": ", ", "semicolon and space": "; "}
@@ -36,27 +41,18 @@ ODD_MARKS += ("#DIV/0!", "1.#QNAN", "-nan(ind)", "----", "fehlt")
 NUMBER_MARKS = ("-9999", "-99999", "-32768", "1e38")
 
 
-def printed(draft, shape):
+def printed(draft, shape, odd=0.1):
     """Numbers as they are printed, with a decimal point, and their values."""
-    form, decimals = draft.pick(FORMATS, ODD_FORMATS, odd=0.1), int(draft.random.integers(1, 7))
+    form, decimals = draft.pick(FORMATS, ODD_FORMATS, odd=odd), int(draft.random.integers(1, 7))
     cells = [[form(value, decimals) for value in row] for row in draft.random.normal(0, 30, shape)]
     return cells, np.array([[float(cell.translate(PLAIN)) for cell in row] for row in cells])
 
 
-def are_plain(cells):
-    """Whether numbers are printed with digits, points, signs and exponents e only."""
-    return all(re.fullmatch(r"[\d.eE+-]+", cell) for row in cells for cell in row)
-
-
-def table_text(draft, shape):
+def matrix_rows(draft, shape):
     """(rows of text, heights, delimiter, whether decimals have commas, options) of a matrix with points missing."""
     cells, heights = printed(draft, shape)
-    delimiter = draft.pick(DELIMITERS, ODD_DELIMITERS, odd=0.06)
-    quoted = draft.chance(0.08)
-    grouped = any(set(cell) & set(",\u00a0\u202f") for row in cells for cell in row)
-    if grouped and not quoted and (delimiter.strip() == "," or not delimiter.strip(" ")):
-        delimiter = ";"
-        draft.note("semicolon")
+    quoted, grouped = draft.chance(0.08), {"thousands", "thousands with thin spaces"} & set(draft.traits)
+    delimiter = draft.pick({"semicolon": ";"} if grouped else DELIMITERS, [] if grouped else ODD_DELIMITERS, odd=0.06)
     has_comma = delimiter.strip() == ","
     # Decimal commas between mere commas say nothing to anyone, unless in quotes.
     decimal_comma = draft.chance(0.3) and not {"integers", "D exponents"} & set(draft.traits)
@@ -78,10 +74,8 @@ def table_text(draft, shape):
     if quoted:
         draft.note("quotes", clear=bool(delimiter.strip(" ")))
         cells = [[f'"{cell}"' for cell in row] for row in cells]
-    rows = [delimiter.join(row) for row in cells]
-    if "aligned" in draft.traits and delimiter == " ":
-        width = max(len(cell) for row in cells for cell in row) + 1
-        rows = ["".join(cell.rjust(width) for cell in row) for row in cells]
+    width = max(len(cell) for row in cells for cell in row) if "aligned" in draft.traits else 0
+    rows = [delimiter.join(cell.rjust(width) for cell in row) for row in cells]
     if draft.chance(0.06):
         draft.note("trailing delimiters")
         rows = [row + delimiter for row in rows]
@@ -112,12 +106,16 @@ def _mark(draft, delimiter, mask):
     mark = draft.pick(MARKS, ODD_MARKS, odd=0.2)
     if rows_missing.any() and mark.lower() != "nan":  # may be a title, or a rule
         draft.note("row of marks", clear=mark.isalpha() and not at_an_end)
-    draft.faulty_line |= mark in ODD_MARKS and not mask.any(axis=1).all()  # else there is no other row to compare with
     return mark
 
 
-# ---- remarks, comments
+# ---- headers, remarks, comments
 
+PIXELS = ("px", "pixel", "pixels", "points", "Pixel", "pts", "dots")  # no lengths
+HEADERS = {
+    kind: {name: lines for name, *lines in (line.split(" | ") for line in table.splitlines())}
+    for kind, table in yaml.safe_load(Path(__file__).with_suffix(".yaml").read_text(encoding="utf-8")).items()
+}
 REMARKS = (
     *("Measured with a profilometer", "Messung vom Labor, Probe B", "Mesure de la surface, échantillon C"),
     *("Date: 2024-05-01 10:11:12", "Operator: A. Meier", "Temperature: 23 °C", "Objective: 50x", "Filter = none"),
@@ -127,13 +125,58 @@ COMMENTS = {"#": "# ", "#, no space": "#", "%": "% ", "//": "// ", "unmarked hea
 ODD_COMMENTS = {"comments ;": "; ", "comments !": "! ", "comments *": "* "}
 
 
+def header_lines(draft, shape, decimal_comma):
+    """(lines, unit of the heights in metres or None, spacing as Case has it, options) of a header or none.
+
+    decimal_comma : whether numbers of the table have decimal commas, which those of the header then have, too
+    """
+    u, z = (draft.one_of(["um", "um", "nm", "mm", "m", "µm", *UNITS]) for _ in range(2))
+    states_spacing, options = draft.chance(0.6), {}
+    if states_spacing:
+        clear = HEADERS["Gwyddion"] | HEADERS["clear"]
+        lines = draft.pick(clear, HEADERS["unclear"], HEADERS["bad"], odd=0.25)
+    else:
+        lines = draft.pick({"no header": []} | HEADERS["without spacing"], HEADERS["with pixels"], odd=0.15)
+    dx, dy = spacing = distances(draft, square=any("{k" in line for line in lines))
+    in_z = states_spacing and not any("{u}" in line for line in lines)
+    unit = UNITS[z] if any("{z}" in line for line in lines) else None
+    if states_spacing:
+        unit = unit or 1.0  # of bad files
+        spacing = tuple(distance * UNITS[z if in_z else u] for distance in spacing)
+        if draft.clear and draft.chance(0.1):  # who does not understand a header may believe the argument
+            factor = draft.one_of([1, 1.1])
+            draft.note("spacing given, too", bad=factor > 1)
+            options["spacing"] = tuple(float(f"{factor * distance / unit:.12g}") for distance in spacing)
+    else:
+        if unit is None and draft.chance(0.4):
+            draft.note("unit given")
+            options["unit"] = draft.one_of(["m", "mm", "um", "nm"])
+            unit = UNITS[options["unit"]]
+        if draft.chance(0.05):
+            draft.note("no spacing at all", bad=True)
+        else:
+            options["spacing"] = spacing
+        spacing = tuple(distance * (unit or 1) for distance in spacing)
+    numbers = {"dx": dx, "dy": dy, "dx2": 3 * dx, "k": dx, "kz": dx if in_z else dx * UNITS[u] / UNITS[z]}
+    numbers |= {"w": round(dx * shape[1], 9), "h": round(dy * shape[0], 9)}
+    texts = {name: f"{value:.15g}" for name, value in numbers.items()}
+    if lines and (decimal_comma or draft.chance(0.04)):
+        texts = {name: text.replace(".", ",") for name, text in texts.items()}
+        listed = any(re.search(r"\}[^{]*[,;].*\{", line) for line in lines)
+        draft.note("decimal commas in the header", clear=decimal_comma and not listed)
+    if len(lines) > 1 and draft.chance(0.25):
+        lines = list(draft.random.permutation(lines))
+        draft.note("header in another order")
+    texts |= {"u": u, "z": z, "p": draft.one_of(PIXELS), "columns": shape[1], "rows": shape[0]}
+    return [line.format(**texts) for line in lines], unit, spacing, options
+
+
 def with_header(draft, header, rows, delimiter, columns):
     """The lines of a file: header, remarks, names of columns, rows, comments."""
     lines = list(header)
     if draft.chance(0.2):
-        odd = draft.chance(0.2)
-        draft.note("odd remark" if odd else "remark", clear=not odd)
-        lines.insert(int(draft.random.integers(len(lines) + 1)), draft.one_of(ODD_REMARKS if odd else REMARKS))
+        remark = draft.pick(REMARKS, ODD_REMARKS, odd=0.2)
+        lines.insert(int(draft.random.integers(len(lines) + 1)), remark)
     mark = draft.pick(COMMENTS, ODD_COMMENTS, odd=0.05) if lines else "# "
     lines = [mark + line for line in lines]
     if columns > 2 and draft.chance(0.04) and delimiter.strip() and '"' not in rows[0]:
@@ -146,23 +189,23 @@ def with_header(draft, header, rows, delimiter, columns):
 
 def _with_comments(draft, rows, mark):
     """Rows with comments between or after them, or behind one; or with blank lines between."""
-    forms = [*["none"] * 40, *["between", "after", "behind"] * 3, "text between", "text after", "blank lines between"]
-    form, at = draft.one_of(forms), int(draft.random.integers(1, len(rows) + 1))
-    if form == "none" or (form == "behind" and not rows[at - 1].strip()):
-        return rows
-    draft.note(f"comments: {form}", clear=form in ("between", "after", "behind"))
-    if form == "behind":
-        return [*rows[: at - 1], f"{rows[at - 1]} # checked", *rows[at:]]
-    if form == "blank lines between":
-        return [line for row in rows for line in (row, "")]
-    comment = {"between": [f"{mark}line {at}"], "text between": ["second part"], "text after": ["End of data"]}
-    at = at if form.endswith("between") else len(rows)
-    return [*rows[:at], *comment.get(form, ["", f"{mark}end of data"]), *rows[at:]]
+    at = int(draft.random.integers(1, len(rows) + 1))
+    forms = {
+        "comments between": [*rows[:at], f"{mark}line {at}", *rows[at:]],
+        "comments after": [*rows, "", f"{mark}end of data"],
+        "comment behind": [*rows[: at - 1], f"{rows[at - 1]} # checked", *rows[at:]],
+    }
+    odd_forms = {
+        "text between": [*rows[:at], "second part", *rows[at:]],
+        "text after": [*rows, "End of data"],
+        "blank lines between": [line for row in rows for line in (row, "")],
+    }
+    return draft.pick(forms, odd_forms, odd=0.25) if rows[at - 1].strip() and draft.chance(0.25) else rows
 
 
 # ---- whole files
 
-ENCODINGS = ("utf-8", "utf-8-sig", "latin-1", "cp1252", "utf-16 LE", "utf-16 BE")
+ENCODINGS = ("utf-8", "utf-8-sig", "latin-1", "cp1252", "utf-16")
 LINE_ENDS = {"LF": "\n", "CR LF": "\r\n", "CR": "\r"}
 
 
@@ -170,29 +213,138 @@ def encoded(draft, lines):
     """The bytes of a text file of these lines."""
     end = draft.pick(LINE_ENDS, {"CR CR LF": "\r\r\n"}, odd=0.03)
     text = end.join(lines) + draft.pick({"": end, "no final line end": "", "blank lines at the end": 3 * end})
-    encoding = "utf-8" if draft.chance(0.6) else draft.pick(ENCODINGS, ["utf-16 without mark"], odd=0.02)
+    encoding = "utf-8" if draft.chance(0.6) else draft.pick(ENCODINGS, ["utf-16-le", "utf-16-be"], odd=0.02)
     try:
-        content = text.encode("utf-16-le" if "without" in encoding else encoding.lower().replace(" ", "-"))
+        return text.encode(encoding)
     except UnicodeEncodeError:
         return text.encode()
-    return {"utf-16 LE": b"\xff\xfe", "utf-16 BE": b"\xfe\xff"}.get(encoding, b"") + content
 
 
 def matrix(random):
     """A matrix of heights with a header or none."""
-    draft = Draft("matrix", random)
+    draft = Draft(random)
     rows, columns = shape = map_shape(draft)
-    if draft.chance(0.03):
-        rows, columns = shape = draft.one_of([(1, columns), (rows, 1)])
-        draft.note("a single line", clear=False)
-    if columns > 1:
-        lines, heights, delimiter, decimal_comma, preparation = table_text(draft, shape)
-    else:
-        heights = np.round(draft.random.normal(0, 9, shape), 3)
+    if draft.chance(0.015):
+        columns = 1
+        draft.note("a single column", clear=False)
+        heights = np.round(draft.random.normal(0, 9, (rows, 1)), 3)
         lines, delimiter, decimal_comma, preparation = [f"{value:.3f}" for value in heights[:, 0]], ";", False, {}
-    header, unit, spacing, options = header_lines(draft, shape, decimal_comma)
-    if GWYDDION.keys() & set(draft.traits):
-        draft.kind = "matrix, Gwyddion"
+    else:
+        lines, heights, delimiter, decimal_comma, preparation = matrix_rows(draft, shape)
+    header, unit, spacing, options = header_lines(draft, heights.shape, decimal_comma)
     lines = with_header(draft, header, lines, delimiter, columns)
     name = "map" + draft.one_of([".txt", ".txt", ".csv", ".dat", ".asc", ".TXT", ".tsv"])
-    return draft.case(name, encoded(draft, lines), heights, unit, spacing, options | preparation)
+    return draft.case("matrix", name, encoded(draft, lines), heights, unit, spacing, options | preparation)
+
+
+# Headings of the columns, with the unit {u} of x and y, {z} of the heights
+HEADINGS = {
+    "no heading": "",
+    "x,y,z": "x|y|z",
+    "x [u]": "x [{u}]|y [{u}]|z [{z}]",
+    "X (u)": "X ({u})|Y ({u})|Z ({z})",
+    "x/u": "x/{u}|y/{u}|z/{z}",
+    "x_u": "x_{u}|y_{u}|z_{z}",
+    "Gwyddion": "",
+}
+ODD_HEADINGS = {
+    "x in u": "x in {u}|y in {u}|z in {z}",
+    "x u": "x {u}|y {u}|z {z}",
+    "Position x": "Position x [{u}]|Position y [{u}]|Höhe [{z}]",
+    "height": "x [{u}]|y [{u}]|height [{z}]",
+    "units below": "x|y|z",
+    "y before x": "y [{u}]|x [{u}]|z [{z}]",
+    "z first": "z [{z}]|x [{u}]|y [{u}]",
+    "a fourth column": "x [{u}]|y [{u}]|z [{z}]|I [1]",
+}
+BAD_HEADINGS = {
+    "z in volts": "x [{u}]|y [{u}]|z [V]",
+    "x in seconds": "x [s]|y [s]|z [{z}]",
+    "unit of z only": "x|y|z [{z}]",
+    "no unit of z": "x [{u}]|y [{u}]|z",
+    "longitude": "longitude|latitude|elevation",
+}
+ORDERS = {"y before x": (1, 0, 2), "z first": (2, 0, 1), "a fourth column": (0, 1, 2, 2)}
+
+
+def points(random):
+    """Columns x, y, z of the points of a grid, in any order, with points left out or marked as missing."""
+    draft = Draft(random)
+    shape = map_shape(draft)
+    cells, heights = printed(draft, shape, odd=0)
+    delimiter = draft.pick({"space": " ", "tab": "\t", "comma": ",", "semicolon": ";", "comma and space": ", "})
+    spacing, (x, y), accuracy = _coordinates(draft, shape)
+    if draft.chance(0.2) and "," not in delimiter:
+        draft.note("decimal commas", clear=bool(delimiter.strip(" ")) or "integers" not in draft.traits)
+        cells, (x, y) = ([[text.replace(".", ",") for text in row] for row in texts] for texts in (cells, (x, y)))
+    mask, missing = draft.random.random(shape) < 0.2, draft.one_of(["all", "all", "left out", "nan", "", "No Data"])
+    seen = (~mask).any(axis=0).all() and (~mask).any(axis=1).all() and (~mask).sum() > 3
+    if missing == "all" or not seen or (missing == "" and not delimiter.strip()):
+        mask[:] = False
+    elif mask.any():
+        draft.note(f"missing: {missing}", clear=missing != "No Data" or bool(delimiter.strip(" ")))
+    places = [place for place in np.ndindex(shape) if not (mask[place] and missing == "left out")]
+    order = draft.pick({"x fastest": places, "y fastest": sorted(places, key=lambda place: place[::-1]), "mixed": None})
+    order = draft.random.permutation(places) if order is None else order[:: draft.one_of([1, -1])]
+    table = [[x[j], y[i], missing if mask[i, j] else cells[i][j]] for i, j in order]
+    return _points_file(draft, table, np.where(mask, np.nan, heights), spacing, delimiter, accuracy)
+
+
+def _coordinates(draft, shape):
+    """((dx, dy), texts of x and y, relative accuracy of the spacing that they state)."""
+    form, (x0, y0), decimals = draft.pick(["", "", "", "", "rounded", "UTM"]), draft.one_of([(0, 0), (-7.5, 100)]), 4
+    dx, dy = distances(draft)
+    if form == "rounded":
+        dx, dy, decimals = dx / 3, dy / 3, 5
+    elif form == "UTM":
+        (x0, y0), dx, dy, decimals = (500000.5, 5412345.25), *[draft.one_of([1.0, 0.5])] * 2, 2
+    x, y = x0 + dx * np.arange(shape[1]), y0 + dy * np.arange(shape[0])
+    rounding = 10.0**-decimals / min((shape[1] - 1) * dx, (shape[0] - 1) * dy) if form == "rounded" else 0
+    return (dx, dy), [[f"{value:.{decimals}f}" for value in axis] for axis in (x, y)], rounding + 1e-9
+
+
+def _points_file(draft, table, heights, spacing, delimiter, accuracy):
+    """The file of a table of points, with headings."""
+    u, z = draft.one_of(["um", "mm", "nm", "µm", "m"]), draft.one_of(["nm", "um", "m", "µm"])
+    titles = draft.pick(HEADINGS, ODD_HEADINGS, BAD_HEADINGS, odd=0.3).format(u=u, z=z)
+    name, suffix, mark = draft.traits[-1], draft.one_of([".txt", ".csv", ".xyz", ".dat"]), draft.one_of(["", "", "# "])
+    unit, factor = (None, 1.0) if name in ("no heading", "x,y,z") else (UNITS[z], UNITS[u])
+    between = delimiter if delimiter.strip(" ") or " " not in titles else "  "
+    lines = [mark + titles.replace("|", between)] if titles else []
+    if name == "Gwyddion":
+        lines = ["# Channel: Topography", f"# Lateral units: {u}", f"# Value units: {z}"]
+    elif name == "units below":
+        lines.append(mark + delimiter.join([u, u, z]))
+    if not titles and suffix != ".xyz":
+        draft.note(f"in {suffix}", clear=False)
+    lines += [delimiter.join(row[column] for column in ORDERS.get(name, (0, 1, 2))) for row in table]
+    metres = tuple(distance * factor for distance in spacing)
+    return draft.case("points", f"points{suffix}", encoded(draft, lines), heights, unit, metres, {}, accuracy)
+
+
+def esri(random):
+    """An ESRI ASCII grid."""
+    draft = Draft(random)
+    rows, columns = shape = map_shape(draft)
+    cells, heights = printed(draft, shape, odd=0)
+    marks = {mark: mark for mark in ("-9999", "-9999.0", "nan", "-99")} | {"no mark": "-9999"}
+    mark = draft.pick(marks, {"rounded mark": "-3.402823e+38", "1e38": "1e38"})
+    mask = missing_points(draft, shape)
+    cells = [[mark if mask[i, j] else cell for j, cell in enumerate(row)] for i, row in enumerate(cells)]
+    heights = np.where(mask | (heights == float(mark)), np.nan, heights)
+    body = [" ".join(row) for row in cells]
+    bodies = {"a row per line": body, "leading spaces": [f" {row}" for row in body]}
+    odd_bodies = {"one line": [" ".join(body)], "decimal commas": [row.replace(".", ",") for row in body]}
+    bad_bodies = {"too few rows": body[:-1], "too many rows": [*body, body[-1]]}
+    bad_bodies |= {"a row lacks a number": [" ".join(cells[0][1:]), *body[1:]]}
+    body = draft.pick(bodies, odd_bodies, bad_bodies, odd=0.3)
+    dx, dy = distances(draft, square=draft.chance(0.7))
+    head = [("ncols", columns), ("nrows", rows), ("xllcorner", "500000.5"), ("yllcenter", "5400000")]
+    head += [("cellsize", f"{dx:g}")] if dx == dy else [("dx", f"{dx:g}"), ("dy", f"{dy:g}")]
+    head += [("NODATA_value", "-3.4028234663852886e+38" if mark == "-3.402823e+38" else mark)]
+    head = head[:-1] if "no mark" in draft.traits else head
+    letters, gap = draft.one_of([str, str.upper, str.lower]), draft.one_of([" ", "         ", "\t"])
+    options = draft.one_of([{}, {}, {}, {}, {"unit": "m"}])
+    draft.note("unit given" if options else "", clear=not options)  # that of the coordinates is not stated
+    lines = [*(f"{letters(name)}{gap}{value}" for name, value in head), *body]
+    return draft.case("ESRI", "grid.asc", encoded(draft, lines), heights, 1.0 if options else None, (dx, dy), options)

@@ -246,10 +246,13 @@ def complete_contact(indenter: Indenter, threads: int = 1) -> CompleteContact:
     gap = elements.initial_gap
     tangent, load = solve(elements, [np.ones(gap.size), gap], threads)
     mean_gap = load.sum() / tangent.sum()
-    energy = units.stiffness / 2 * load @ (gap - mean_gap)
+    with np.errstate(over="ignore"):
+        energy = units.stiffness / 2 * load @ (gap - mean_gap) * np.square(units.length)
+    if not np.isfinite(energy):
+        raise ValueError("the energy of complete contact is too large to represent; a larger unit of length is needed")
     return CompleteContact(
         mean_gap=mean_gap * units.length,
-        energy=energy * units.length**2,
+        energy=energy,
         stiffness=units.stiffness * tangent.sum(),
         depth=(load / tangent).max() * units.length,
         length_unit=indenter.length_unit,

@@ -11,8 +11,9 @@ import pytest
 import viscorough
 from support.command_line import run
 from support.contract import refused
+from support.tables import read_table
 from viscorough.errors import AccuracyWarning
-from viscorough.io import netcdf, tables
+from viscorough.io import netcdf
 
 RADIUS, SPACING, POINTS = 1e-4, 5e-7, 41  # m
 YOUNG, FORCE = 2e6, 1e-5  # Pa, N
@@ -44,12 +45,13 @@ def here(tmp_path, monkeypatch):
 
 def test_on_the_command_line(here, capsys):
     scan = "scan.txt --spacing 500 --unit nm"
-    assert run(f"indent {scan} --until-force '50 uN' --young '2 MPa' -o curve.csv") == 0
+    for output in ("curve.csv", "curve.nc"):
+        assert run(f"indent {scan} --until-force '50 uN' --young '2 MPa' -o {output}") == 0
     assert ", F " in capsys.readouterr().out
-    curve = tables.read("curve.csv").variables
-    assert curve["normal_force"].attributes["units"] == "N"
-    assert curve["normal_force"].values[-1] == pytest.approx(5e-5, rel=0.3)
-    assert 1e-9 * np.interp(FORCE, *_columns(curve, "normal_force", "depth")) == pytest.approx(DEPTH, rel=0.02)
+    curve, units = read_table("curve.csv")
+    assert units["normal_force"] == "N"
+    assert curve["normal_force"].iloc[-1] == pytest.approx(5e-5, rel=0.3)
+    assert 1e-9 * np.interp(FORCE, curve["normal_force"], curve["depth"]) == pytest.approx(DEPTH, rel=0.02)
 
     assert run(f"contact {scan} --force '10 uN' --young '2 MPa' -o fields.nc") == 0
     assert f"F {FORCE:g} N, largest p " in capsys.readouterr().out
@@ -60,22 +62,18 @@ def test_on_the_command_line(here, capsys):
     assert float(fields["largest_normal_pressure"].values) == pytest.approx(LARGEST_PRESSURE, rel=0.03)
     assert np.nansum(fields["normal_pressure"].values) * SPACING**2 == pytest.approx(FORCE, rel=1e-5)
 
-    assert run("kinetics curve.csv --force '10 uN' --medium rubber.yaml -o motion.csv") == 0
-    motion = tables.read("motion.csv").variables
-    assert {name: motion[name].attributes["units"] for name in ("time", "depth")} == {"time": "s", "depth": "nm"}
-    times, depths = _columns(motion, "time", "depth")
+    assert run("kinetics curve.nc --force '10 uN' --medium rubber.yaml -o motion.csv") == 0
+    motion, units = read_table("motion.csv")
+    assert (units["time"], units["depth"]) == ("s", "nm")
+    times, depths = motion["time"].to_numpy(), motion["depth"].to_numpy()
     np.testing.assert_allclose(depths[1:] * 1e-9, depth_in_rubber(times[1:]), rtol=0.02)
 
-    for made in ("scan.txt --spacing 500 --unit nm", "curve.csv", "fields.nc", "motion.csv"):
+    for made in ("scan.txt --spacing 500 --unit nm", "curve.nc", "fields.nc"):
         assert run(f"plot {made} -o figure.png") == 0
 
-    assert run("creep curve.csv motion.csv --force '10 uN' -o medium.yaml") == 0
+    assert run("creep curve.nc motion.csv --force '10 uN' -o medium.yaml") == 0
     medium = viscorough.read_medium("medium.yaml", "nm")
     np.testing.assert_allclose(medium.creep_compliance(times[1:]), RUBBER.creep_compliance(times[1:]), rtol=0.01)
-
-
-def _columns(variables, *names):
-    return [variables[name].values for name in names]
 
 
 def test_in_python(here):
@@ -96,8 +94,7 @@ def test_in_python(here):
     assert "time t 0 to " in str(motion)
     assert str(motion).splitlines()[1].endswith(" s")
     assert viscorough.load_curve("curve.nc") == curve
-    saved = tables.read("motion.csv").variables
-    np.testing.assert_array_equal(saved["depth"].values, motion.depth)
+    np.testing.assert_array_equal(read_table("motion.csv")[0]["depth"], motion.depth)
     times = motion.time[1:]
     np.testing.assert_allclose(identified.medium.creep_compliance(times), RUBBER.creep_compliance(times), rtol=0.01)
 

@@ -71,11 +71,9 @@ def check_opens(path: FilePath) -> None:
 
 
 def read_content(path: FilePath) -> Content:
-    """The io.netcdf.Content of a NetCDF file, or of a table (.csv) that a command wrote."""
-    from viscorough.io import netcdf, tables
+    """The io.netcdf.Content of a NetCDF file."""
+    from viscorough.io import netcdf
 
-    if tables.is_table(path):
-        return tables.read(path)
     check_opens(path)
     return netcdf.read(path)
 

@@ -46,7 +46,7 @@ def _content(surface: surface_options.Surface, output: Path) -> Content:
     from viscorough.plotting import kind_of
 
     written = None
-    if not surface.options and surface.path.suffix.lower() in (".nc", ".csv"):
+    if not surface.options and surface.path.suffix.lower() == ".nc":
         try:
             content = files.read_content(surface.path)
             kind_of(content)

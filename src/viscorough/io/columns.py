@@ -10,7 +10,6 @@ import numpy as np
 
 from viscorough import units
 from viscorough.io.atomic import reading
-from viscorough.io.headers import explicit_unit
 from viscorough.io.heights import npy_array
 from viscorough.types import Array, FilePath
 
@@ -105,8 +104,10 @@ def _check_comments(comments: Iterable[str], wanted: Iterable[str]) -> None:
 
 def _unit_in(heading: str) -> str | None:
     """The unit that a heading states; None for none."""
-    stated, last = explicit_unit(heading), _LAST_WORD.fullmatch(heading)
-    return last[1] if stated is None and last else stated
+    if match := re.search(r"[\[(]([^\])]*)[\])]|/\s*(.+)$|\bin\s+(\S+)$", heading):
+        return next(text for text in match.groups() if text is not None).strip()
+    last = _LAST_WORD.fullmatch(heading)
+    return last[1] if last else None
 
 
 def _is_another(unit: str, wanted: str) -> bool:

@@ -1,14 +1,14 @@
 """Contacts in NetCDF files: maps of pressure, gap and contact with the coordinates of their points, and numbers."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, DTypeLike, NDArray
+from numpy.typing import DTypeLike
 
 from viscorough.contact_maps import Contact
 from viscorough.io.curves import OVER_LEVELS
-from viscorough.io.netcdf import Content, Variable
+from viscorough.io.netcdf import Content, Variable, centred_axes
 from viscorough.summaries import si_unit, unit_power
 from viscorough.types import Array
 
@@ -47,57 +47,39 @@ def contacts_to_content(contacts: Sequence[Contact], heights: Array | None = Non
     centre of the map.
     """
     first = contacts[0]
-    unit, several = first.length_unit, len(contacts) > 1
-    level = ("level",) if several else ()
+    unit, level = first.length_unit, ("level",) if len(contacts) > 1 else ()
+    variables: dict[str, Variable] = {}
 
-    def joined(arrays: Sequence[ArrayLike]) -> NDArray[Any]:
-        return np.stack(arrays) if several else np.asarray(arrays[0])
+    def add(name: str, dimensions: tuple[str, ...], values: Sequence[Any], long_name: str, units: str) -> None:
+        stacked = np.stack(values) if level else np.asarray(values[0])
+        variables[name] = Variable((*level, *dimensions), stacked, {"long_name": long_name, "units": units})
 
-    def attributes(long_name: str, power: int) -> dict[str, str]:
-        return {"long_name": long_name, "units": unit_power(unit, power)}
-
-    variables = {}
-    for name, spacing, points in zip("yx", (first.row_spacing, first.spacing), first.gap.shape, strict=True):
-        position = spacing * (np.arange(points) - (points - 1) / 2)
-        variables[name] = Variable((name,), position, attributes(f"position along {name}", 1))
+    variables |= centred_axes(first.gap.shape, {"y": first.row_spacing, "x": first.spacing}, unit)
     if heights is not None:
-        variables["heights"] = Variable(("y", "x"), heights, attributes("height", 1))
-    stored = _kind_of_maps(contacts)
-    for name, about in MAPS.items():
-        kind = np.int8 if name == "contact" else stored
-        values = joined([getattr(contact, name).astype(kind) for contact in contacts])
-        variables[name] = Variable((*level, "y", "x"), values, attributes(*about))
+        variables["heights"] = Variable(("y", "x"), heights, {"long_name": "height", "units": unit})
+    kinds = dict.fromkeys(MAPS, _kind_of_maps(contacts)) | {"contact": np.int8}
+    for name, (text, power) in MAPS.items():
+        maps = [getattr(contact, name).astype(kinds[name]) for contact in contacts]
+        add(name, ("y", "x"), maps, text, unit_power(unit, power))
     flags = {"flag_values": np.array([0, 1], np.int8), "flag_meanings": "apart in_contact"}
     variables["contact"].attributes.update(flags)
-    for name, about in NUMBERS.items():
-        values = joined([getattr(contact, name) for contact in contacts])
-        variables[name] = Variable(level, values, attributes(*about))
+    for name, (text, power) in NUMBERS.items():
+        add(name, (), [getattr(contact, name) for contact in contacts], text, unit_power(unit, power))
     if first.shear_modulus is not None:
-        variables |= _with_modulus(contacts, variables, joined)
+        forces = [contact.normal_force for contact in contacts]
+        add("normal_force", (), forces, "normal force F", si_unit("N", unit))
+        for name, text in {"": "", "mean_": "mean ", "largest_": "largest "}.items():
+            dimensions, values, _ = variables[f"{name}pressure"]
+            about = {"long_name": f"{text}normal pressure p", "units": si_unit("Pa", unit)}
+            variables[f"{name}normal_pressure"] = Variable(dimensions, values * first.shear_modulus, about)
     areas = [contact.patches().areas for contact in contacts]
     padded = np.full((len(areas), max(map(len, areas))), np.nan)
     for row, of_contact in zip(padded, areas, strict=True):
         row[: len(of_contact)] = of_contact
-    counts = joined([len(of_contact) for of_contact in areas])
-    variables["patches"] = Variable(level, counts, attributes("number of patches of contact", 0))
-    variables["patch_area"] = Variable((*level, "patch"), joined(list(padded)), attributes("area of a patch", 2))
+    add("patches", (), [len(of_contact) for of_contact in areas], "number of patches of contact", "1")
+    add("patch_area", ("patch",), list(padded), "area of a patch", unit_power(unit, 2))
     about = {"title": "Contact of a rigid indenter with an elastic half-space", "comment": COMMENT}
     return Content(variables, about | {"tolerance": first.tolerance, "spacing": [first.spacing, first.row_spacing]})
-
-
-def _with_modulus(
-    contacts: Sequence[Contact], variables: dict[str, Variable], joined: Callable[[list[Any]], Array]
-) -> dict[str, Variable]:
-    """The force F and the pressures p of contacts whose shear modulus is known."""
-    unit, modulus = contacts[0].length_unit, contacts[0].shear_modulus
-    force = joined([contact.normal_force for contact in contacts])
-    about = {"long_name": "normal force F", "units": si_unit("N", unit)}
-    added = {"normal_force": Variable(variables["force"].dimensions, force, about)}
-    for name, text in {"": "", "mean_": "mean ", "largest_": "largest "}.items():
-        dimensions, values, _ = variables[f"{name}pressure"]
-        about = {"long_name": f"{text}normal pressure p", "units": si_unit("Pa", unit)}
-        added[f"{name}normal_pressure"] = Variable(dimensions, values * modulus, about)
-    return added
 
 
 def _kind_of_maps(contacts: Sequence[Contact]) -> DTypeLike:

@@ -108,7 +108,7 @@ def _read_scan(path: FilePath, channel: str | None) -> Scan:
     check_readable(path)
     suffix = Path(path).suffix.lower()
     if suffix == ".nc":
-        return _netcdf_scan(path, channel)
+        return netcdf_scan(path, channel)
     if suffix in TIFF:
         from viscorough.io.tiff import read_tiff
 
@@ -133,40 +133,41 @@ def npy_array(path: FilePath) -> NDArray[Any]:
         return np.lib.format.read_array(file, allow_pickle=False)
 
 
-def _netcdf_scan(path: FilePath, channel: str | None) -> Scan:
-    """The variable named `channel` of a NetCDF file, or `heights`, or else the only one with two dimensions."""
+def netcdf_scan(path: FilePath, channel: str | None, dimensions: int = 2) -> Scan:
+    """The variable named `channel` of a NetCDF file, or `heights`, or else the only one of so many dimensions."""
     with netcdf.opened(path) as file:
-        maps = [name for name, variable in file.variables.items() if variable.ndim == 2]
+        fitting = [name for name, each in file.variables.items() if each.ndim == dimensions]
+        maps = [name for name in fitting if name not in file.dimensions]
         names = [channel] if channel else ["heights"] if "heights" in file.variables else maps
         if found := len(names) == 1 and names[0] in file.variables:
             variable = file.variables[names[0]]
-            heights, unit, dimensions = unpacked(variable), unit_of(variable), variable.dimensions
-            positions = [positions_along(file, dimension) for dimension in dimensions]
+            heights, unit, axes = unpacked(variable), _unit_of(variable), variable.dimensions
+            positions = [_positions_along(file, axis, names[0]) for axis in axes]
     if not found:
-        kind = f"two-dimensional variables {', '.join(maps)}" if maps else "no two-dimensional variable"
         needed = f"none of them is the channel {channel}" if channel else "exactly one, or one named heights, is needed"
-        raise ValueError(f"{path}: {kind}; {needed}")
-    if heights.ndim != 2:
+        raise ValueError(f"{path}: maps of {dimensions} dimensions: {', '.join(maps) or 'none'}; {needed}")
+    if heights.ndim != dimensions:
         return Scan(heights, unit)
-    if [dimension.lower() for dimension in dimensions] == ["x", "y"]:
+    if [axis.lower() for axis in axes] == ["x", "y"]:
         heights, positions = heights.T, positions[::-1]
-    spacing, spacing_unit = _spacing(*positions)
+    spacing, spacing_unit = _spacing(positions[0], positions[-1])
     return Scan(heights, unit, spacing, spacing_unit)
 
 
-def unit_of(variable: NetCDFVariable) -> str:
+def _unit_of(variable: NetCDFVariable) -> str:
     """The attribute `units` of a NetCDF variable, or `unit`, as some programs spell it; "1" if it has none."""
     attributes = netcdf.attributes_of(variable)
     unit = attributes.get("units", attributes.get("unit"))
     return unit if isinstance(unit, str) and unit.strip() else "1"
 
 
-def positions_along(file: Dataset, dimension: str) -> tuple[str, Array, str] | None:
+def _positions_along(file: Dataset, dimension: str, heights: str) -> tuple[str, Array, str] | None:
     """Name, positions and unit along a dimension: of the variable of that name, or of the only one that has only it."""
     variables = {name: each for name, each in file.variables.items() if each.dimensions == (dimension,)}
-    along = [name for name, each in variables.items() if each.dtype is not str and np.dtype(each.dtype).kind in "iuf"]
+    numeric = {name for name, each in variables.items() if each.dtype is not str and np.dtype(each.dtype).kind in "iuf"}
+    along = sorted(numeric - {heights})
     name = dimension if dimension in along else along[0] if len(along) == 1 else None
-    return None if name is None else (name, unpacked(file.variables[name]), unit_of(file.variables[name]))
+    return None if name is None else (name, unpacked(file.variables[name]), _unit_of(file.variables[name]))
 
 
 def _spacing(rows: tuple[str, Array, str] | None, columns: tuple[str, Array, str] | None) -> tuple[Any, ...]:
@@ -174,7 +175,7 @@ def _spacing(rows: tuple[str, Array, str] | None, columns: tuple[str, Array, str
 
     Raises ValueError if only one of them is there, or if their units differ in kind.
     """
-    stated = [axis for axis in (columns, rows) if axis is not None and not are_indices(*axis[1:])]
+    stated = [axis for axis in (columns, rows) if axis is not None and not _are_indices(*axis[1:])]
     if not stated:
         return None, "1"
     if len(stated) == 1:
@@ -188,7 +189,7 @@ def _spacing(rows: tuple[str, Array, str] | None, columns: tuple[str, Array, str
     return tuple(distances), unit
 
 
-def are_indices(positions: Array, unit: str) -> bool:
+def _are_indices(positions: Array, unit: str) -> bool:
     """Whether positions only count points, from 0 or 1 on, so that they state no distance."""
     if units.counts_points(unit):
         return True

@@ -38,6 +38,15 @@ class Content:
         return Content(self.variables, self.attributes | attributes)
 
 
+def centred_axes(shape: tuple[int, ...], spacings: Mapping[str, float], unit: str) -> dict[str, Variable]:
+    """Coordinates of the points of a map or line, by dimension; they count from the centre."""
+    axes = {}
+    for (name, spacing), points in zip(spacings.items(), shape, strict=True):
+        positions = spacing * (np.arange(points) - (points - 1) / 2)
+        axes[name] = Variable((name,), positions, {"long_name": f"position along {name}", "units": unit})
+    return axes
+
+
 def global_attributes() -> dict[str, str]:
     """The attributes that every file gets; nothing in them depends on when or where it is written."""
     program = f"viscorough {__version__}"

@@ -57,7 +57,7 @@ def load_curve(path: FilePath) -> LoadingCurve:
     Parameters
     ----------
     path : path
-        A NetCDF file, or a table (.csv).
+        A NetCDF file.
 
     Returns
     -------
@@ -81,7 +81,7 @@ def load_curve(path: FilePath) -> LoadingCurve:
     True
     """
     with path_named(path):
-        return curve_from_content((tables if tables.is_table(path) else netcdf).read(path))
+        return curve_from_content(netcdf.read(path))
 
 
 def to_content(result: Indenter | LoadingCurve | Contact | Kinetics) -> Content:

@@ -48,8 +48,10 @@ def to_indenter(scan: Scan, spacing: Spacing | None = None, unit: str | None = N
         raise ValueError(f"heights have the shape {heights.shape}; a two-dimensional map is needed")
     length_unit = _length_unit(scan, unit)
     stated = _stated_spacing(scan, length_unit, spacing)
-    if spacing is not None and stated is None:
-        _check_unit_of_spacing(scan, length_unit, spacing)
+    in_plain_numbers = spacing is not None and not all(isinstance(each, Quantity) and each.unit for each in spacing)
+    if in_plain_numbers and scan.spacing is None and scan.spacing_unit not in (units.UNKNOWN, scan.unit):
+        text = f"heights are in {scan.unit}, x and y in {scan.spacing_unit}; a spacing with a unit is needed"
+        raise ValueError(f"--spacing in plain numbers: {text}")
     given = None if spacing is None else (_number(spacing[0], length_unit), _number(spacing[1], length_unit))
     if given is None and (stated is None or not np.isfinite(stated).all()):
         which = "neighbouring points" if stated is None else "columns" if np.isnan(stated[0]) else "rows"
@@ -63,17 +65,6 @@ def to_indenter(scan: Scan, spacing: Spacing | None = None, unit: str | None = N
     known = stated if given is None or (stated is not None and np.isfinite(stated).all()) else given
     assert known is not None
     return Indenter(heights, *known, length_unit=length_unit)
-
-
-def _check_unit_of_spacing(scan: Scan, length_unit: str, spacing: Spacing) -> None:
-    """Raise ValueError for plain numbers where lengths along x and y have another unit than the heights."""
-    if scan.spacing is not None or scan.spacing_unit == units.UNKNOWN or units.counts_points(scan.spacing_unit):
-        return
-    lateral = units.length_unit(scan.spacing_unit)
-    if lateral != length_unit and not all(isinstance(each, units.Quantity) and each.unit for each in spacing):
-        known = length_unit != units.UNKNOWN
-        text = f"heights are in {length_unit}, x and y in {lateral}" if known else f"x is in {lateral}"
-        raise ValueError(f"--spacing {spacing[0]}: {text}; a spacing with a unit, and the unit of heights, are needed")
 
 
 def _number(distance: float | Quantity, length_unit: str) -> float:
@@ -105,7 +96,6 @@ def _stated_spacing(scan: Scan, length_unit: str, given: Spacing | None) -> tupl
         if scan.unit.strip() in ("", units.UNKNOWN):
             return scan.spacing
         if given is not None:
-            _check_ratio(scan.spacing, given)
             return None
         raise ValueError(f"heights are in {length_unit}, coordinates in no stated unit; --spacing is needed")
     unit = units.length_unit(scan.spacing_unit)
@@ -114,15 +104,6 @@ def _stated_spacing(scan: Scan, length_unit: str, given: Spacing | None) -> tupl
     factor = units.factor(unit, length_unit)
     dx, dy = (float(f"{factor * distance:.14g}") for distance in scan.spacing)
     return dx, dy
-
-
-def _check_ratio(stated: tuple[float, float], given: Spacing) -> None:
-    """Raise ValueError unless a given spacing is one power of ten times that stated without a unit."""
-    lengths = [each.number if isinstance(each, units.Quantity) else each for each in given]
-    powers = np.log10([a / b for a, b in zip(lengths, stated, strict=True) if a > 0 and b > 0])
-    if np.abs(powers - np.rint(powers)).max(initial=0) > _AGREEMENT or np.ptp(np.rint(powers) if len(powers) else [0]):
-        text = f"--spacing {lengths[0]:g},{lengths[1]:g} contradicts the file, which states {stated[0]:g},{stated[1]:g}"
-        raise ValueError(f"{text} without a unit; the same length in a unit is needed")
 
 
 def uniform_spacing(name: str, positions: Array) -> float:

@@ -2,16 +2,12 @@
 
 from pathlib import Path
 
-import numpy as np
-from netCDF4 import Dataset
-
 from viscorough import units
 from viscorough.indenter import Indenter
 from viscorough.io.atomic import path_named
-from viscorough.io.heights import are_indices, npy_array, positions_along, unit_of
-from viscorough.io.netcdf import Content, Variable, opened
-from viscorough.io.scan import Distance, Scan, to_indenter, uniform_spacing
-from viscorough.io.unpacking import unpacked
+from viscorough.io.heights import netcdf_scan, npy_array
+from viscorough.io.netcdf import Content, Variable, centred_axes, opened
+from viscorough.io.scan import Distance, Scan, to_indenter
 from viscorough.types import FilePath
 
 
@@ -23,9 +19,7 @@ def surface_to_content(indenter: Indenter) -> Content:
     axes = {"x": indenter.spacing} if indenter.heights.ndim == 1 else {"y": indenter.row_spacing, "x": indenter.spacing}
     unit = indenter.length_unit
     variables = {"heights": Variable(tuple(axes), indenter.heights, {"long_name": "height", "units": unit})}
-    for (name, spacing), points in zip(axes.items(), indenter.heights.shape, strict=True):
-        position = spacing * (np.arange(points) - (points - 1) / 2)
-        variables[name] = Variable((name,), position, {"long_name": f"position along {name}", "units": unit})
+    variables |= centred_axes(indenter.heights.shape, axes, unit)
     return Content(variables, {"title": "Heights of a rigid indenter; larger is higher and touches first"})
 
 
@@ -58,7 +52,7 @@ def read_line(path: FilePath, spacing: Distance | str | None = None, unit: str |
     >>> line.heights.shape
     (64,)
     """
-    scan = Scan(npy_array(path)) if Path(path).suffix == ".npy" else _scan_of_netcdf(path)
+    scan = Scan(npy_array(path)) if Path(path).suffix == ".npy" else netcdf_scan(path, None, dimensions=1)
     if scan.heights.dtype.kind not in "iuf" or scan.heights.ndim != 1:
         kind = f"type {scan.heights.dtype} and shape {scan.heights.shape}"
         raise ValueError(f"{path}: heights are of {kind}; a line is needed")
@@ -75,29 +69,5 @@ def dimensions_of_heights(path: FilePath) -> int:
     if Path(path).suffix != ".nc":
         return 2
     with opened(path) as file:
-        return 1 if _line_in(file) else 2
-
-
-def _line_in(file: Dataset) -> str | None:
-    """Name of the variable with the heights of a line in an open NetCDF file; None if there is none."""
-    if "heights" in file.variables:
-        return "heights" if file["heights"].ndim == 1 else None
-    lines = [name for name, variable in file.variables.items() if variable.ndim == 1 and name not in file.dimensions]
-    maps = [name for name, variable in file.variables.items() if variable.ndim == 2]
-    return lines[0] if len(lines) == 1 and not maps else None
-
-
-def _scan_of_netcdf(path: FilePath) -> Scan:
-    """The Scan of a line, whose heights are of shape (points,)."""
-    with opened(path) as file:
-        name = _line_in(file)
-        if name is None:
-            raise ValueError("no line of heights")
-        variable = file[name]
-        heights, unit, (axis,) = unpacked(variable), unit_of(variable), variable.dimensions
-        coordinate = positions_along(file, axis)
-    if coordinate is None or coordinate[0] != axis or coordinate[1].size < 2 or are_indices(*coordinate[1:]):
-        return Scan(heights, unit)
-    _, positions, lateral_unit = coordinate
-    with path_named(path):
-        return Scan(heights, unit, (uniform_spacing(axis, positions),) * 2, lateral_unit)
+        maps = [name for name, each in file.variables.items() if each.ndim == 2]
+        return file["heights"].ndim if "heights" in file.variables else 2 if maps else 1

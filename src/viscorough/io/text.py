@@ -41,12 +41,7 @@ _LEAST_LABELS = 6  # evenly spaced numbers that are taken for positions rather t
 
 def read_text(path: FilePath) -> Scan:
     """The Scan in a text file. Raises a one-line ValueError if it holds no map of heights, or none for certain."""
-    text = _decoded(path)
-    if text.startswith("Zygo XYZ Data File"):
-        from viscorough.io.zygo import zygo_scan
-
-        return zygo_scan(text.split("\n"))
-    lines = text.split("\n")
+    lines = _decoded(path).split("\n")
     first = next((number for number, line in enumerate(lines) if _is_row(line)), None)
     if first is None:
         almost = [f" (line {number} is {line[:40]!r})" for number, line in enumerate(lines, 1) if _DIGITS.search(line)]
@@ -54,24 +49,21 @@ def read_text(path: FilePath) -> Scan:
     rows, comments, separated = _rows(lines, first)
     delimiter, decimal = _punctuation(rows)
     cells = next(iter(rows.values())).split(delimiter)
-    if (above := _first_row_without_points(lines, first, delimiter, len(cells))) < first:
-        first = above
-        rows, comments, separated = _rows(lines, first, delimiter == ";")
     table = _table(rows, delimiter, decimal)
     esri = _esri(lines[:first])
     _check_above(lines[:first], delimiter, {table.shape[1], len(cells)}, esri)
     if esri:
         return _esri_scan(table, esri)
-    header = read_header([*lines[:first], *comments], table.shape, delimiter, decimal)
-    grid = _grid(table, header, required=header.columns is not None or str(path).lower().endswith(".xyz"))
+    header = read_header([*lines[:first], *comments], table.shape, decimal)
+    lateral_unit = header.spacing_unit if header.lateral_unit == units.UNKNOWN else header.lateral_unit
+    grid = _grid(table, header, lateral_unit, required=header.columns is not None or str(path).lower().endswith(".xyz"))
     if grid is not None:
-        return _scan_of_points(grid, header)
+        heights, spacing = grid
+        return Scan(heights, header.unit, spacing, lateral_unit)
     if separated:
         raise ValueError(f"line {separated}: empty lines separate it from the rows above; one map is needed")
     _check_labels(table)
-    heights = table if header.factor == 1 else header.factor * table
-    spacing_unit = header.spacing_unit if header.spacing else header.lateral_unit
-    return Scan(heights, header.unit, header.spacing, spacing_unit)
+    return Scan(table, header.unit, header.spacing, header.spacing_unit if header.spacing else header.lateral_unit)
 
 
 def is_binary(path: FilePath) -> bool:
@@ -118,22 +110,7 @@ def _is_row(line: str) -> bool:
     return all(_FIELD.fullmatch(part) for cell in cells for part in cell.split(","))
 
 
-def _first_row_without_points(lines: Sequence[str], first: int, delimiter: str | None, wanted: int) -> int:
-    """Number of the first of the rows just above `first` in which every point is missing; `first` if there is none."""
-    missing = re.compile(f"(?:{_MISSING})?", re.IGNORECASE)
-    for number in range(first - 1, -1, -1):
-        line = _REMARK.sub("", lines[number]).strip(" ")
-        cells = [cell.strip(' "') for cell in line.split(delimiter)]
-        if 1 < len(cells) == wanted and all(map(missing.fullmatch, cells)):
-            first = number
-        elif line and not _COMMENT.match(lines[number]):
-            break
-    return first
-
-
-def _rows(
-    lines: Sequence[str], first: int, has_semicolons: bool | None = None
-) -> tuple[dict[int, str], list[str], int]:
+def _rows(lines: Sequence[str], first: int) -> tuple[dict[int, str], list[str], int]:
     """({number of a line: row}, comments, line of the first row that empty lines separate from those above, or 0).
 
     Comments beside rows are removed from them; those that are returned have lines of their own. Empty lines separate
@@ -141,9 +118,8 @@ def _rows(
 
     Raises ValueError for a comment between rows that states something, as between two maps.
     """
-    has_semicolons = ";" in lines[first] if has_semicolons is None else has_semicolons
     has_tabs = "\t" in lines[first].strip(" ")
-    starts_row = (";",) * has_semicolons + ("\t",) * has_tabs
+    starts_row = (";",) * (";" in lines[first]) + ("\t",) * has_tabs
     rows, comments = {}, {}
     empty = [0]  # number of empty lines above each row, and below the last one
     for number, line in enumerate(lines[first:], first + 1):
@@ -167,30 +143,23 @@ def _rows(
 def _punctuation(rows: dict[int, str]) -> tuple[str | None, str]:
     """(delimiter, decimal mark) of rows; the delimiter is None for white space. Raises ValueError if not certain."""
     body = "\n".join(rows.values())
-    comma, point = "," in body, "." in body
     delimiter = ";" if ";" in body else "\t" if "\t" in body else None
-    where = next(f"line {number} ({line[:40]!r})" for number, line in rows.items())
+    if "," not in body:
+        return delimiter, "."
+    point, tight, spaced = "." in body, re.search(r"\d,\d", body), re.search(r", | ,", body)
     if delimiter is not None:
-        if comma and point:
-            raise ValueError(f"{where}: decimal points and decimal commas; one of them is needed")
-        return delimiter, "," if comma else "."
-    if not comma:
-        return None, "."
-    spaced = re.search(r", | ,", body)
-    if point and spaced and re.search(r"(?<![\d.])\d+,\d+(?![\d.])", body):
-        raise ValueError(f"{where}: decimal points and commas, with and without spaces; one decimal mark is needed")
-    if point:
-        return ",", "."
-    tight = re.search(r"\d,\d", body)
-    parted = re.search(r"[^,\s] +[^,\s]", body)
-    if tight and not parted and spaced:
-        raise ValueError(f"{where}: commas with and without spaces; decimal points, or semicolons, are needed")
-    if tight and parted:
+        doubt: object = point
+    elif point:
+        doubt = spaced and re.search(r"(?<![\d.])\d+,\d+(?![\d.])", body)
+    elif tight and re.search(r"[^,\s] +[^,\s]", body):
         return None, ","
-    if tight and (re.search(r"(?<!\d)0\d", body) or all(line.count(",") == 1 for line in rows.values())):
-        readings = "one column with decimal commas, or columns of whole numbers"
-        raise ValueError(f"{where}: {readings}; decimal points, or semicolons, are needed")
-    return ",", "."
+    else:  # else one column with decimal commas, or columns of whole numbers
+        one_in_each = all(line.count(",") == 1 for line in rows.values())
+        doubt = tight and (spaced or one_in_each or re.search(r"(?<!\d)0\d", body))
+    if doubt:
+        where = next(f"line {number} ({line[:40]!r})" for number, line in rows.items())
+        raise ValueError(f"{where}: commas may be decimal marks or not; decimal points, or semicolons, are needed")
+    return delimiter or ",", "," if delimiter else "."
 
 
 def _without_quotes(number: int, line: str) -> str:
@@ -295,8 +264,8 @@ def _is_even(values: Any) -> bool:
     return bool(np.isfinite(steps).all() and steps[0] != 0 and np.ptp(steps) <= 1e-6 * abs(steps[0]))
 
 
-def _grid(table: Array, header: Header, required: bool) -> Any:
-    """(heights, (dx, dy)) of a table with columns x, y, z; None for a matrix of heights.
+def _grid(table: Array, header: Header, lateral_unit: str, required: bool) -> Any:
+    """(heights, (dx, dy)) of a table with columns x, y, z, these in the lateral unit; None for a matrix of heights.
 
     Raises ValueError for points that form no grid, and for a table that may be either.
     """
@@ -305,26 +274,13 @@ def _grid(table: Array, header: Header, required: bool) -> Any:
     grid = gridded(table, required=required) if required or table.shape[1] == 3 else None
     if grid is None and 3 < table.shape[1] <= 6 and gridded(table[:, :3], required=False) is not None:
         raise ValueError(f"{table.shape[1]} columns, of which two are positions; three, x, y and z, are needed")
-    if grid is None or header.spacing is None or units.counts_points(header.lateral_unit):
-        return grid
-    same = header.spacing_unit == header.lateral_unit
-    if not same and units.UNKNOWN in (header.spacing_unit, header.lateral_unit):
-        return grid  # which cannot be compared
-    ratio = 1.0 if same else units.metres(header.spacing_unit) / units.metres(header.lateral_unit)
-    if any(abs(ratio * a - b) > 1e-3 * b for a, b in zip(header.spacing, grid[1], strict=True) if a == a):
-        a, b = header.spacing, grid[1]
-        text = f"({a[0]:g}, {a[1]:g}) in the header, ({b[0]:g}, {b[1]:g}) between points x, y, z"
-        raise ValueError(f"spacing {text}; statements that agree are needed")
+    if grid is not None and header.spacing is not None:
+        ratio = 1.0 if header.spacing_unit == units.UNKNOWN else units.factor(header.spacing_unit, lateral_unit)
+        if any(abs(ratio * a - b) > 1e-3 * b for a, b in zip(header.spacing, grid[1], strict=True)):
+            a, b = ratio * np.array(header.spacing), grid[1]
+            text = f"({a[0]:g}, {a[1]:g}) in the header, ({b[0]:g}, {b[1]:g}) between points x, y, z"
+            raise ValueError(f"spacing {text}; statements that agree are needed")
     return grid
-
-
-def _scan_of_points(grid: tuple[Array, tuple[float, float]], header: Header) -> Scan:
-    """The Scan of a grid of points, with the units that the header states for them."""
-    heights, spacing = grid
-    if units.counts_points(header.lateral_unit):
-        return Scan(header.factor * heights, header.unit, header.spacing, header.spacing_unit)
-    lateral = header.lateral_unit if header.lateral_unit != "1" else header.spacing_unit
-    return Scan(header.factor * heights, header.unit, spacing, lateral)
 
 
 def _esri(lines: Sequence[str]) -> dict[str, float]:
@@ -332,27 +288,19 @@ def _esri(lines: Sequence[str]) -> dict[str, float]:
     found: dict[str, float] = {}
     for number, line in enumerate(lines, 1):
         if match := _ESRI_KEY.match(line):
-            key, text = match[1].lower(), match[2].lower().replace(",", ".").replace("d", "e")
-            if not re.fullmatch(rf"{_NUMBER}|[+-]?nan", text):
-                raise ValueError(f"line {number}: {match[2][:40]!r} is not a number; one is needed for {match[1]}")
-            if found.setdefault(key, float(text)) != float(text) and float(text) == float(text):
-                raise ValueError(f"line {number}: {match[1]} is {found[key]:g} above; one number is needed")
+            key, text = match[1].lower(), match[2].replace(",", ".")
+            if key in found or not re.fullmatch(rf"{_NUMBER}|nan", text, re.IGNORECASE):
+                raise ValueError(f"line {number} ({line[:40]!r}): one number is needed for {match[1]}")
+            found[key] = float(text)
     return found if {"ncols", "nrows"} <= set(found) else {}
 
 
 def _esri_scan(table: Array, esri: dict[str, float]) -> Scan:
-    """A grid with the keys ncols, nrows, cellsize (or dx, dy) and nodata_value.
-
-    A row of the grid may stand in several lines of the file, or all of them in one.
-    """
+    """A grid with the keys ncols, nrows, cellsize (or dx, dy) and nodata_value."""
     columns, rows = esri["ncols"], esri["nrows"]
-    if table.size != columns * rows or columns % 1 or rows % 1:
-        raise ValueError(f"{table.size} numbers; {columns:g} columns and {rows:g} rows are needed")
-    in_line = table.shape[1]
-    if in_line != columns and len(table) > 1 and (columns % in_line or table.shape == (columns, rows)):
-        text = f"{len(table)} lines of {in_line} numbers contradict {rows:g} rows and {columns:g} columns"
+    if table.shape != (rows, columns):
+        text = f"{len(table)} lines of {table.shape[1]} numbers contradict {rows:g} rows and {columns:g} columns"
         raise ValueError(f"{text}; a line for each row is needed")
-    table = table.reshape(int(rows), int(columns))
     mark = esri.get("nodata_value", -9999.0)
     # Marks such as -3.4e38 are printed with few digits.
     missing = np.isclose(table, mark, rtol=1e-5, atol=0) if abs(mark) > 1e30 else table == mark

@@ -193,7 +193,7 @@ READING = {
         "indent pipe.nc -o out.nc",
         "plot pipe.nc -o out.png",
     ],
-    ".csv": ["kinetics pipe.csv --force 1 --viscosity 1 -o out.nc", f"{HISTORY}.csv", f"{MEDIUM} of_pipe.csv.yaml"],
+    ".csv": [f"{HISTORY}.csv", f"{MEDIUM} of_pipe.csv.yaml"],
     ".npy": ["indent pipe.npy -o out.nc", "reduce pipe.npy -o out.nc", f"{HISTORY}.npy", f"{MEDIUM} of_pipe.npy.yaml"],
     ".yaml": [f"{MEDIUM} pipe.yaml"],
 }

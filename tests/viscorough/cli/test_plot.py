@@ -17,7 +17,6 @@ MAP = "FOLDER/heights.npy --spacing 1"
 SURFACE = "generate --hurst 0.7 --rms 1 --diameter 9 --seed 1"
 FILES = {
     "curve.nc": f"indent {MAP}",
-    "curve.csv": f"indent {MAP}",
     "motion.nc": "kinetics FOLDER/curve.nc --force 1 --viscosity 1",
     "march.nc": f"march {MAP} --method events",
     "history.nc": f"march {MAP} --method explicit --force-history FOLDER/force.csv",

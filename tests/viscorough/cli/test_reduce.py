@@ -49,8 +49,8 @@ def test_lines_of_a_map_are_many_and_say_what_they_are_not(capsys):
     for index, curve in enumerate(curves):
         wanted = mdr.reduce(mdr.line_of_map(Indenter(DISC.heights, 1.0), [7, index]))
         np.testing.assert_array_equal(curve.depth, wanted.depth)
-    assert run("reduce map.npy --spacing 1 --seed 7 -o one.csv") == 0
-    assert run("kinetics one.csv --force 1 --viscosity 1 -o motion.nc") == 0
+    assert run("reduce map.npy --spacing 1 --seed 7 -o one.nc") == 0
+    assert run("kinetics one.nc --force 1 --viscosity 1 -o motion.nc") == 0
 
 
 @pytest.mark.parametrize(

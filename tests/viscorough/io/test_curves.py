@@ -50,7 +50,7 @@ def attribute(name, value):
     return lambda content: content.with_attributes(**{name: value})
 
 
-@pytest.mark.parametrize(("name", "levels"), [("a.nc", 1), ("a.nc", netcdf.COMPRESSED_FROM), ("a.csv", 7)])
+@pytest.mark.parametrize(("name", "levels"), [("a.nc", 1), ("a.nc", netcdf.COMPRESSED_FROM)])
 def test_curve_survives_a_file_exactly(tmp_path, name, levels):
     curve = random_curve(levels)
     curve.save(str(tmp_path / name))

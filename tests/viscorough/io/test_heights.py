@@ -35,7 +35,11 @@ def test_heights_of_netcdf(tmp_path):
         np.testing.assert_array_equal(indenter.heights, factor * heights)
         assert indenter.length_unit == "um"
     several = named.rename(heights="y2"), "z, y2"
-    for ds, what in (several, (only.drop_vars("z"), "no two-dim"), (named.expand_dims("realization"), "shape")):
+    for ds, what in (
+        several,
+        (only.drop_vars("z"), "maps of 2 dimensions: none"),
+        (named.expand_dims("realization"), "shape"),
+    ):
         write_dataset(ds, tmp_path / "b.nc")
         with refused(f"b.nc.*{what}"):
             read_heights(tmp_path / "b.nc", 1.0)

@@ -19,7 +19,6 @@ pytestmark = pytest.mark.filterwarnings("ignore::viscorough.errors.AccuracyWarni
     [
         ("gwyddion-export-english.txt", (4, 3), (12.34e-6 / 3, 5678.9e-9 / 4), "m"),
         ("gwyddion-export-german.txt", (4, 3), (12.34e-6 / 3, 5678.9e-9 / 4), "m"),
-        ("matrix-4-beginning.txt", (3, 75), (3.69862e-7, 3.69862e-7), "m"),
         ("sdf-1.sdf", (4, 7), (1, 1), "um"),
         ("unnamed.ibw", (10, 10), (1, 1), "1"),
         ("top-1.top", (256, 256), (600 / 256, 600 / 256), "nm"),

@@ -152,7 +152,8 @@ FILES = {
 # Valid ones; N stands for a number, S for an increasing series, F for a fraction.
 COMMAND_LINES = (
     *("indent heights.npy --spacing 1 -o out.nc", "indent heights.npy --spacing 1,2 --unit um --depths S -o out.csv"),
-    *("indent heights.npy --spacing 1 --audit --until-fraction F -o out.nc", "indent heights.nc --forces S -o out.nc"),
+    *("indent heights.npy --spacing 1 --until-fraction F -o out.nc", "indent heights.nc --forces S -o out.nc"),
+    "indent heights.npy --spacing 1 --audit -o out.nc",
     "indent heights.npy --spacing 1 --unit inch --crop 0:5,0:4 --detrend plane --fill harmonic -o out.nc",
     *("indent heights.txt --spacing 1 -o out.nc", "indent heights.asc -o out.nc", "indent heights.xyz -o out.nc"),
     *("indent heights.tif --spacing 1 -o out.nc", "contact heights.npy --spacing 1 --force S -o out.nc"),

@@ -16,7 +16,6 @@ from viscorough_study.fits.conventions import FITTED, GAMMA, fits, interval_colu
 from viscorough_study.fits.intervals import described, described_ends, three_columns
 from viscorough_study.fits.mdr_lambda import match_lambda
 from viscorough_study.fits.power_law import fit_power_law, named_windows
-from viscorough_study.run.job_log import progress
 
 # column: (long_name, units), in the order of the table; units None for text
 COLUMNS = {
@@ -68,8 +67,7 @@ def sizes_table(discs, lines, *, windows, **fit):
     """
     rows = []
     for source, group, pool in (("discs", "sizes", discs), ("discs", "controls", discs), ("lines", "sizes", lines)):
-        grids = ensembles(select(pool, group=group), "hurst", "elements").values()
-        for ensemble in progress(grids, len(grids), f"{source}, {group}"):
+        for ensemble in ensembles(select(pool, group=group), "hurst", "elements").values():
             fitted = fit_rows(ensemble, source=source, case_group=group, fixed=windows, **fit)
             rows += [row | {"elements": ensemble["elements"].item()} for row in fitted]
     return pd.DataFrame(rows, columns=list(SIZES))

@@ -78,13 +78,13 @@ def _steps(scheme, problem, number):
     ends = np.geomspace(1e-4 * problem.force[0], problem.force[-1] * (1 + 1e-12), number)
     steps = march_steps(problem.indenter, ends, scheme=scheme)
     resistance = np.exp(np.interp(np.log(problem.force), np.log(ends), np.log(steps.resistance)))
-    return Answer(problem.force / resistance, steps=steps.steps)
+    return Answer(problem.force / resistance, steps=ends.size)
 
 
 def _implicit(problem, tolerance):
     """Backward Euler steps that end at the problem's impulses."""
     steps = march_steps(problem.indenter, problem.force, scheme="implicit", tolerance=tolerance)
-    return Answer(problem.force / steps.resistance, steps=steps.steps)
+    return Answer(problem.force / steps.resistance, steps=problem.force.size)
 
 
 # ---- models

@@ -76,6 +76,10 @@ def _stated(file: tifffile.TiffFile, page: Any) -> tuple[Any, ...]:
         if keys.get("GTModelTypeGeoKey") == _GEOGRAPHIC or (angles and not projected):
             raise ValueError("its coordinates are in degrees; a map in projected coordinates is needed")
         height_unit = _unit_of_key(keys.get("VerticalUnitsGeoKey"))
+        if of_gdal := re.search(r'role="unittype"[^>]*>\s*([^<]*\S)\s*<', _gdal_metadata(page)):
+            if height_unit != units.UNKNOWN and units.metres(height_unit) != units.metres(of_gdal[1]):
+                raise ValueError(f"its heights are in {height_unit} and in {of_gdal[1]}; one unit is needed")
+            height_unit = of_gdal[1]
         if "ModelPixelScale" not in keys:
             return None, units.UNKNOWN, height_unit
         dx, dy = map(float, keys["ModelPixelScale"][:2])
@@ -90,9 +94,14 @@ def _stated(file: tifffile.TiffFile, page: Any) -> tuple[Any, ...]:
 
 def _check_unscaled(file: tifffile.TiffFile, page: Any) -> None:
     """Raise ValueError if GDAL's metadata, or a calibration of ImageJ, say that the numbers are not the heights."""
-    of_gdal = str(page.tags[_GDAL_METADATA].value) if _GDAL_METADATA in page.tags else ""
-    if "cf" in ((file.imagej_metadata or {}) if file.is_imagej else {}) or re.search('role="(scale|offset)"', of_gdal):
+    is_calibrated = file.is_imagej and "cf" in (file.imagej_metadata or {})
+    if is_calibrated or re.search('role="(scale|offset)"', _gdal_metadata(page)):
         raise ValueError("its numbers are heights only after a scale and an offset are applied; heights are needed")
+
+
+def _gdal_metadata(page: Any) -> str:
+    """The XML text of GDAL's metadata; "" if there is none."""
+    return str(page.tags[_GDAL_METADATA].value) if _GDAL_METADATA in page.tags else ""
 
 
 def _unit_of_key(key: Any) -> str:

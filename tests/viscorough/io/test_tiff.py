@@ -45,6 +45,14 @@ def test_feet_and_survey_feet(tmp_path, code, metres):
         read_heights(path)
 
 
+def test_a_unit_of_heights_that_gdal_states(tmp_path):
+    metadata = (METADATA, "s", 0, '<GDALMetadata><Item name="UNITTYPE" role="unittype">ft</Item></GDALMetadata>', True)
+    path = geotiff(tmp_path / "a.tif", PROJECTED, METRES, tags=[*SPACINGS, metadata])
+    np.testing.assert_allclose(read_heights(path).to("m").heights, 0.3048 * HEIGHTS, rtol=1e-6)
+    with refused("its heights are in m and in ft"):
+        read_heights(geotiff(tmp_path / "b.tif", PROJECTED, METRES, VERTICAL_METRES, tags=[*SPACINGS, metadata]))
+
+
 def test_numbers_that_gdal_or_imagej_would_scale_are_refused(tmp_path):
     metadata = (METADATA, "s", 0, '<GDALMetadata><Item name="a" role="scale">0.5</Item></GDALMetadata>', True)
     geotiff(tmp_path / "a.tif", PROJECTED, tags=[*SPACINGS, metadata])

@@ -55,16 +55,16 @@ FEW_STEPS |= {"methods": {"levels": 3, "scenes": {"elements": 31}}, "validation"
 FEW_STEPS |= {"stability": {"across": 11}, "direct": {"elements": 31}}
 OF_FEW_STEPS = {"compute_media", "measure_plateaus", "judge_claims", "fit_interface", "measure_methods", "validate"}
 OF_FEW_STEPS |= {"compare_level_placement", "map_failures", "compare_direct"}
-FITS = {"match_lines", "compare_zeta_laws", "judge_claims", "fit_sizes"}
+FITS = {"match_lines", "compare_zeta_laws", "judge_claims"}
 OF_CONVENTIONS = FITS | {"tabulate_calibration", "tabulate_literature", "fit_collapse"}
-OF_CONVENTIONS |= {"plot_kinetics", "plot_master_curve", "plot_exponent", "plot_conventions"}
+OF_CONVENTIONS |= {"plot_kinetics", "plot_master_curve", "plot_exponent", "plot_conventions", "plot_sizes"}
 
 
 @pytest.mark.parametrize(
     ("changed", "directly"),
     [
         (FEW_STEPS, OF_FEW_STEPS),
-        ({"scaling": {"stiffness_max": 0.25}}, FITS | {"fit_scaling"}),
+        ({"scaling": {"stiffness_max": 0.25}}, FITS | {"fit_scaling", "fit_sizes"}),
         ({"figures": {"average": "arithmetic"}}, OF_CONVENTIONS),
         ({"ensemble": {"per_decade": 25}}, {"aggregate_curves"}),
         ({"surface": {"period": 1.5}}, {"generate_discs", "generate_examples"}),

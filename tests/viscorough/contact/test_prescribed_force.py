@@ -153,13 +153,3 @@ def test_progress_is_reported_up_to_the_end():
         assert len(shares) >= np.size(*arguments.values())
         assert shares[0] > 0
         assert shares[-1] == 1
-
-
-def test_invalid_forces_are_refused():
-    for arguments, message in (
-        ({"forces": []}, "forces: allowed is one row of finite numbers"),
-        ({"forces": [0.0, 1.0]}, "forces: allowed is one row of finite numbers above 0"),
-        ({"forces": [1.0], "depths": [1.0]}, "depths and forces exclude each other"),
-    ):
-        with pytest.raises(ValueError, match=f"indent: {message}"):
-            indent(self_affine_disc(0.5, 9, seed=1), **arguments)

@@ -9,7 +9,6 @@ from PIL import Image
 import viscorough
 from support.cf import violations
 from support.command_line import run, sphere_heights
-from support.contract import refused
 from viscorough.io import netcdf
 
 MAP = "FOLDER/heights.npy --spacing 1"
@@ -131,5 +130,3 @@ def test_results_are_drawn_from_python(here):
     assert figure.axes[0].get_title() == "pressure, colours to the 99th percentile"
     limit = figure.axes[0].images[0].get_clim()[1]
     assert limit == pytest.approx(np.percentile(contact.pressure[contact.contact], 99))
-    with refused("figure.jpg: unknown kind of figure"):
-        viscorough.plot(motion, "figure.jpg")

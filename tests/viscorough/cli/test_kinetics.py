@@ -45,7 +45,6 @@ def here(curve, here):
     dataclasses.replace(curve, length_unit="um").save("um.nc")
     (here / "table.csv").write_text("t,J\n0,0.2\n1,0.5\n10,0.9\n")
     (here / "force.csv").write_text("t,F\n0,0\n1,0.2\n1,0.3\n9,0.3\n")
-    (here / "newtonian.yaml").write_text(MEDIA["newtonian"][0])
     (here / "table.yaml").write_text(MEDIA["creep_table"][0])
     (here / "medium.yaml").write_text(MEDIA["maxwell"][0])
     return here

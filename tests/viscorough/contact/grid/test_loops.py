@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from viscorough.contact.grid import kernels
-from viscorough.contact.grid.loops import GridLoops, joined
+from viscorough.contact.grid.loops import GridLoops
 from viscorough.contact.parallel import BLOCK
 from viscorough.contact.preconditioner.multilevel import REACH, load_redistribution_stencil
 
@@ -106,14 +106,6 @@ def test_elements_that_left_are_found_in_every_block(which):
     after[PLACES[which]] = False
     assert LOOPS.difference(INSIDE, after) == PLACES[which]
     assert LOOPS.difference(after, INSIDE).size == 0
-
-
-def test_unloaded_elements_under_tension_are_found_in_every_block(field):
-    direction, pressure = field(ROWS * STRIDE), field()
-    pressure[::3] = 0
-    tensile = joined(LOOPS.each(kernels.unloaded_under_tension, (direction, pressure), PLACES, SLOTS))
-    np.testing.assert_array_equal(tensile, PLACES[(pressure[PLACES] == 0) & (direction[SLOTS] < 0)])
-    assert 0 < tensile.size < PLACES.size
 
 
 def test_a_field_is_filled_another_one_shifted_into_it_and_deflections_added(field):

@@ -13,7 +13,6 @@ from viscorough_study.comparisons.direct_integration import compare_direct
 from viscorough_study.comparisons.mdr_equivalence import WINDOWS
 from viscorough_study.ensembles.averages import abscissa, ensemble_dataset, on_abscissae
 from viscorough_study.ensembles.pool import REALIZATION_COORDINATES, VARIABLES, ensembles
-from viscorough_study.fits.conventions import FITTED
 from viscorough_study.fits.fit_table import COLUMNS, fit_rows
 from viscorough_study.fits.intervals import three_columns
 from viscorough_study.fits.zeta_laws import zeta_laws
@@ -166,11 +165,6 @@ def mdr_tables(drift=1.0, ratio=1.0):
         "mdr_exponents": every.merge(pd.DataFrame(difference).assign(realizations=1000), how="cross"),
         "reduction": every.merge(pd.DataFrame({"x": x} | compared | gap), how="cross"),
     }
-
-
-def fit_row(**columns):
-    """A row of the table of fits in the conventions SHOWN, nan in the columns that are not given."""
-    return dict.fromkeys(COLUMNS, np.nan) | {name: SHOWN[name] for name in FITTED} | columns
 
 
 def three_regions(x):

@@ -6,11 +6,10 @@ import pytest
 from scipy.integrate import quad
 
 import viscorough
-from support.study import ROOT, SHOWN, evidence
+from support.documentation import ROOT
 from viscorough import calibrated_law
 from viscorough.calibrated_law import CONSTANTS, LARGEST_DEVIATION, interface_depth, interface_velocity
 from viscorough.reference import one_element_stiffness
-from viscorough_study.fits.fit_table import calibrated
 from viscorough_study.fits.penetration_law import COLUMNS
 
 HURST = [0.1, 0.4, 0.6, 0.9, 1.0]
@@ -114,11 +113,3 @@ def test_depth_is_the_published_one():
         centre = np.sqrt(np.prod(law.region))
         assert law.depth(centre) * law.beta / law.velocity(centre) == pytest.approx(row.value, rel=0.045)
     assert len(claims) == 4
-
-
-def test_calibration_takes_rows_in_the_conventions_shown():
-    scaling = evidence().tables["scaling"]
-    table = calibrated(scaling, scaling.assign(elements=51433), conventions=SHOWN, across=257)
-    assert list(table) == list(calibrated_law.COLUMNS)
-    assert table["source"].tolist() == ["discs"] * 3 + ["lines"] * 3
-    np.testing.assert_allclose(table.loc[table["hurst"] == 0.6, "beta"], 0.375, atol=1e-6)

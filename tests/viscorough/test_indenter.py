@@ -117,3 +117,5 @@ def test_indenters_and_curves_are_compared_by_their_numbers():
 def test_arrays_are_no_indenters(function):
     with pytest.raises(TypeError, match=f"{function}: ndarray; an Indenter is needed, as viscorough.Indenter"):
         getattr(viscorough, function)(np.zeros((3, 3)))
+    with pytest.raises(TypeError, match="ndarray is no result; an Indenter"):
+        viscorough.save(np.zeros((3, 3)), "a.nc")

@@ -76,18 +76,6 @@ def test_any_line(heights):
     assert_exact(curve, line)
 
 
-def test_flat_line():
-    line = Indenter(np.full(50, 3.0), 0.2)
-    curve = reduce(line, until_force=100.0)
-    assert_exact(curve, line)
-    np.testing.assert_allclose(curve.depth[:2], [0.1, 0.2])
-    assert curve.force[-1] == 100.0
-    assert reduce(line, until_fraction=0.1).depth.size == 2
-    depth, stiffness = curve.at_force(np.array([1e-6, 0.1, 77.0]))
-    np.testing.assert_allclose(depth, np.array([1e-6, 0.1, 77.0]) / (0.8 * 50))
-    np.testing.assert_allclose(stiffness, 0.8 * 50)
-
-
 def test_curve_stops_at_fraction_or_force():
     line = self_affine_line(0.5, 1000, seed=2)
     full, part = reduce(line), reduce(line, until_fraction=0.25)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from support.influence import influence_matrix
-from viscorough import Indenter, SolverOptions, audit, complete_contact, indent, march_events, reduce
+from viscorough import Indenter, SolverOptions, audit, complete_contact, indent, reduce
 from viscorough.reference import cone, sphere
 from viscorough.sum_rules import integrals
 from viscorough.surfaces import cut_disc, self_affine_disc, self_affine_line, self_affine_square
@@ -38,18 +38,6 @@ def test_integrals_are_exact_where_every_event_is_a_level(indenter):
     assert result.agrees
     assert result.rules.largest_deviation < 1e-11
     assert result.curve.contact_count[-1] == indenter.elements
-
-
-@pytest.mark.parametrize("name", ["H = 0.1", "hole", "rectangles"])
-def test_complete_contact_is_where_the_last_element_touches_in_the_direct_integration(name):
-    events, end = march_events(INDENTERS[name]), complete_contact(INDENTERS[name])
-    np.testing.assert_allclose(end.depth, events.depth[-1], rtol=1e-11)
-    np.testing.assert_allclose(end.force, events.impulse[-1], rtol=1e-11)
-    np.testing.assert_allclose(end.stiffness, events.resistance[-1], rtol=1e-11)
-    # Both integrals of the exact, piecewise straight curve.
-    depth, force = (np.append(0.0, values) for values in (events.depth, events.impulse))
-    remaining = end.mean_gap + force / end.stiffness - depth
-    np.testing.assert_allclose(np.trapezoid(remaining, force), end.energy, rtol=1e-10)
 
 
 @pytest.mark.parametrize("aspect", [1.0, 2.5])

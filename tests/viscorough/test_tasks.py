@@ -1,4 +1,4 @@
-"""What a stranger asks for first, on the command line and in Python, compared with numbers converted to SI by hand.
+"""What a stranger asks for first, on the command line, compared with numbers converted to SI by hand.
 
 A scan in nanometres of a ball of radius 0.1 mm, points 500 nm apart: from the scan to the force-depth curve, to the
 contact under a force, to the penetration of rubber over time, to a figure, and from a measured depth to the rubber.
@@ -74,29 +74,6 @@ def test_on_the_command_line(here, capsys):
     assert run("creep curve.nc motion.csv --force '10 uN' -o medium.yaml") == 0
     medium = viscorough.read_medium("medium.yaml", "nm")
     np.testing.assert_allclose(medium.creep_compliance(times[1:]), RUBBER.creep_compliance(times[1:]), rtol=0.01)
-
-
-def test_in_python(here):
-    surface = viscorough.read_heights("scan.txt", 500, unit="nm").to("um")
-    curve = viscorough.indent(surface, until_fraction=0.3)
-    contact = viscorough.contact_at(surface, force="10 uN", shear_modulus=MODULUS)
-    motion = viscorough.kinetics(curve, "10 uN", RUBBER)
-    viscorough.plot(motion, "motion.png")
-    curve.save("curve.nc")
-    motion.save("motion.csv")
-    identified = viscorough.identify_medium(curve, "10 uN", motion.time[1:], motion.depth[1:])
-
-    assert contact.depth * 1e-6 == pytest.approx(DEPTH, rel=0.02)
-    assert contact.normal_force == pytest.approx(FORCE, rel=1e-12)
-    assert contact.largest_pressure * MODULUS == pytest.approx(LARGEST_PRESSURE, rel=0.03)
-    assert f"depth u {contact.depth:.4g} um" in str(contact)
-    np.testing.assert_allclose(motion.depth * 1e-6, depth_in_rubber(motion.time), rtol=0.02)
-    assert "time t 0 to " in str(motion)
-    assert str(motion).splitlines()[1].endswith(" s")
-    assert viscorough.load_curve("curve.nc") == curve
-    np.testing.assert_array_equal(read_table("motion.csv")[0]["depth"], motion.depth)
-    times = motion.time[1:]
-    np.testing.assert_allclose(identified.medium.creep_compliance(times), RUBBER.creep_compliance(times), rtol=0.01)
 
 
 def test_results_that_nobody_can_mean_are_warned_of(here):

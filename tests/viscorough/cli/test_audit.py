@@ -35,8 +35,3 @@ def test_disagreement_is_a_warning(here, capsys, monkeypatch):
     assert run(INDENT) == 0
     assert "warning: Audit over" in capsys.readouterr().err
     assert netcdf.read("out.nc").attributes["warnings"].startswith("Audit over")
-
-
-@pytest.mark.parametrize("levels", ["--depths 1,2", "--forces 1,2", "--until-fraction 0.4"])
-def test_given_levels_and_ends_are_not_audited(complaint, levels):
-    assert f"{levels.split()[0]} and --audit exclude each other" in complaint(f"{INDENT} {levels}")

@@ -1,4 +1,4 @@
-"""Faults of files under the command line: damaged files, places and streams that cannot be written.
+"""Faults of files under the command line: damaged compiled code, places and streams that cannot be written.
 
 Full disks are tested where files are written, in tests/viscorough/io/test_netcdf.py.
 """
@@ -38,14 +38,7 @@ def here(here):
     return here
 
 
-# ---- damaged files
-
-
-@pytest.mark.parametrize("damage", DAMAGES)
-def test_damaged_curve_is_named(here, complaint, damage):
-    whole = (here / "curve.nc").read_bytes()
-    (here / "curve.nc").write_bytes(DAMAGES[damage](whole))
-    assert "viscorough kinetics: curve.nc: not readable (" in complaint(KINETICS)
+# ---- damaged compiled code
 
 
 @pytest.mark.parametrize("suffix", ["nbi", "nbc"])

@@ -33,7 +33,10 @@ MISTAKES = [
     ("indent heights.npy --spacing 1 -o heights.npy", "replace the heights"),
     ("indent heights.npy --spacing 1 -o curve.nc/out.nc", "curve.nc/out.nc: there is no folder curve.nc"),
     *[(f"{INDENT} --forces 1 {other} 1", EXCLUDE) for other in ("--depths", "--until-fraction", "--until-force")],
-    *[(f"{INDENT} --audit {levels} 1,2", f"{levels} and --audit {EXCLUDE}") for levels in ("--depths", "--forces")],
+    *[
+        (f"{INDENT} --audit {option} 1", f"{option} and --audit {EXCLUDE}")
+        for option in ("--depths", "--forces", "--until-fraction")
+    ],
     (f"{INDENT} --until-force '1 N'", "a force needs --shear-modulus or --young"),
     (CONTACT, "one of --force and --depth is needed"),
     (f"{CONTACT} --force 1 --depth 1", "one of --force and --depth is needed"),

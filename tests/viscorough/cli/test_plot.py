@@ -9,9 +9,7 @@ from PIL import Image
 import viscorough
 from support.cf import violations
 from support.command_line import run, sphere_heights
-from support.contract import refused
 from viscorough.io import netcdf
-from viscorough.io.netcdf import Content
 
 MAP = "FOLDER/heights.npy --spacing 1"
 SURFACE = "generate --hurst 0.7 --rms 1 --diameter 9 --seed 1"
@@ -91,15 +89,6 @@ def test_axes_have_symbols_and_units(here):
     assert axes_of("medium.nc") == ["time $t$ (s)", "depth $u$"]
 
 
-def test_curves_with_contradicting_units_are_refused(here, complaint):
-    """What makes a curve bad is tested with its reader."""
-    content = netcdf.read(here / "curve.nc")
-    force = content.variables["force"]._replace(attributes={"long_name": "force", "units": "um2"})
-    netcdf.write(Content(content.variables | {"force": force}, content.attributes), here / "bad.nc")
-    for line in ("plot bad.nc -o figure.png", "kinetics bad.nc --force 1 --viscosity 1 -o out.nc"):
-        assert "bad.nc: force is in 'um2' and depth in '1'" in complaint(line)
-
-
 def test_without_matplotlib_one_line_says_what_to_install(monkeypatch, complaint):
     monkeypatch.delattr(viscorough, "plotting")
     monkeypatch.setitem(sys.modules, "viscorough.plotting", None)  # as if it could not be imported
@@ -141,5 +130,3 @@ def test_results_are_drawn_from_python(here):
     assert figure.axes[0].get_title() == "pressure, colours to the 99th percentile"
     limit = figure.axes[0].images[0].get_clim()[1]
     assert limit == pytest.approx(np.percentile(contact.pressure[contact.contact], 99))
-    with refused("figure.jpg: unknown kind of figure"):
-        viscorough.plot(motion, "figure.jpg")

@@ -13,12 +13,6 @@ from viscorough.surfaces import self_affine_disc, self_affine_square
 FORCES = np.array([1e-8, 1e-3, 0.1, 0.5, 2.0, 3.0, 10.0, 100.0])
 
 
-def terraces():
-    """Four heights: many elements touch at one depth, where the stiffness jumps."""
-    row, column = np.mgrid[:40, :40]
-    return Indenter(-0.1 * ((row // 7 + column // 5) % 4), 1.0)
-
-
 @pytest.mark.parametrize(("hurst", "tolerance"), [(0.2, 1e-2), (0.8, 1e-3), (0.8, 1e-6), (0.2, 1e-10)])
 def test_levels_stand_at_the_forces(hurst, tolerance):
     disc = self_affine_disc(hurst, 65, seed=2)
@@ -31,14 +25,6 @@ def test_levels_stand_at_the_forces(hurst, tolerance):
     assert np.abs(curve.contact_count / exact.contact_count - 1).max() < max(20 * tolerance, 0.01)
     assert curve.residual.max() <= tolerance
     assert curve.tolerance == tolerance
-
-
-@pytest.mark.parametrize("options", [SolverOptions(), SolverOptions(dense_contacts=0, dense_interactions=0)])
-def test_jumps_of_the_stiffness_are_met(options):
-    forces = np.geomspace(1e-3, 1e3, 25)
-    curve = indent(terraces(), forces=forces, tolerance=1e-6, options=options)
-    exact = indent(terraces(), depths=curve.depth, tolerance=1e-9)
-    assert np.abs(exact.force / forces - 1).max() < 1e-6
 
 
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-6])
@@ -153,13 +139,3 @@ def test_progress_is_reported_up_to_the_end():
         assert len(shares) >= np.size(*arguments.values())
         assert shares[0] > 0
         assert shares[-1] == 1
-
-
-def test_invalid_forces_are_refused():
-    for arguments, message in (
-        ({"forces": []}, "forces: allowed is one row of finite numbers"),
-        ({"forces": [0.0, 1.0]}, "forces: allowed is one row of finite numbers above 0"),
-        ({"forces": [1.0], "depths": [1.0]}, "depths and forces exclude each other"),
-    ):
-        with pytest.raises(ValueError, match=f"indent: {message}"):
-            indent(self_affine_disc(0.5, 9, seed=1), **arguments)

@@ -55,6 +55,9 @@ def test_curve_survives_a_file_exactly(tmp_path, name, levels):
     curve = random_curve(levels)
     curve.save(str(tmp_path / name))
     assert_same_curve(load_curve(tmp_path / name), curve)
+    Indenter(np.eye(3), 1.0).save(tmp_path / "map.nc")
+    with refused(r"map\.nc: .*a loading curve of viscorough indent is needed"):
+        load_curve(tmp_path / "map.nc")
 
 
 def test_stacked_curves_survive_files_exactly(tmp_path):

@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import quad, solve_ivp
 
 from support.contract import refused
-from support.curves import curve_of_body, curve_of_levels
+from support.curves import curve_of_body
 from support.media import MEDIA, TABLE_TIMES
 from viscorough import Maxwell, force_under_depth, impulses, kinetics, reference
 
@@ -56,9 +56,7 @@ def test_sum_of_many_samples_reaches_the_last_level():
 
 
 def test_before_the_first_level():
-    """At zero force the depth is zero. Between there and the first level the curve of a round body is undetermined, and
-    of one element is a straight line.
-    """
+    """At zero force the depth is zero. Between there and the first level the curve of a round body is undetermined."""
     times = np.array([0, 1e-12, 1])
     result = kinetics(CURVE, 1.0, VISCOSITY, times)
     np.testing.assert_array_equal(np.isnan(result.depth), [False, True, False])
@@ -66,11 +64,6 @@ def test_before_the_first_level():
     rested = kinetics(CURVE, [0, 0, 1], VISCOSITY, times)
     np.testing.assert_array_equal(rested.depth[:2], 0)
     np.testing.assert_array_equal(rested.velocity[:2], 0)
-
-    straight = curve_of_levels([0.5], [1.0], [2.0], [1])
-    result = kinetics(straight, 4.0, 10.0, [0, 0.1, 2.5])
-    np.testing.assert_allclose(result.depth, [0, 0.02, 0.5], rtol=1e-14)
-    np.testing.assert_allclose(result.velocity, 0.2, rtol=1e-14)
 
 
 # ---- media

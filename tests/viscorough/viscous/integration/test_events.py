@@ -18,16 +18,6 @@ def test_agrees_with_the_correspondence_over_the_whole_curve(hurst, spacings):
     np.testing.assert_allclose(elastic.force, impulse, rtol=1e-10)
 
 
-def test_ties_and_scales():
-    heights = np.floor(4 * np.random.default_rng(2).random((9, 9)))
-    events = march_events(Indenter(heights, 1.0))
-    scaled = march_events(Indenter(1e-9 * heights, 1e6))
-    np.testing.assert_allclose(scaled.impulse, 1e-3 * events.impulse, rtol=1e-10, atol=1e-15)
-    np.testing.assert_allclose(scaled.resistance, 1e6 * events.resistance, rtol=1e-10)
-    assert np.all(np.diff(events.depth) >= 0)
-    assert np.all(np.diff(events.resistance) >= 0)
-
-
 def test_too_many_elements_for_the_memory_are_refused():
     with pytest.raises(MemoryError, match=r"elements in contact takes .* bytes of memory, .* bytes are available"):
         march_events(Indenter(np.random.default_rng(1).random((600, 600)), 1.0))

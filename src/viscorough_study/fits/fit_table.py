@@ -16,7 +16,6 @@ from viscorough_study.fits.conventions import FITTED, GAMMA, fits, interval_colu
 from viscorough_study.fits.intervals import described, described_ends, three_columns
 from viscorough_study.fits.mdr_lambda import match_lambda
 from viscorough_study.fits.power_law import fit_power_law, named_windows
-from viscorough_study.run.job_log import progress
 
 # column: (long_name, units), in the order of the table; units None for text
 COLUMNS = {
@@ -33,7 +32,6 @@ COLUMNS = {
     **described("zeta", "prefactor ζ without Γ (Eq. 3)", ends="of the 95 % interval of ζ without Γ"),
     "zeta_low_with_gamma": ("lower end of the 95 % interval of ζ with the factor 1/Γ(1 + β) (Eq. 9)", "1"),
     "zeta_high_with_gamma": ("upper end of the 95 % interval of ζ with the factor", "1"),
-    "residual": ("rms deviation of ln(vt/h) from the power law in the window", "1"),
     **described("lambda", "λ in C1D = λ q C2D, line matched to surface (Eq. 13)", ends="of the 95 % interval of λ"),
 }
 SIZES = COLUMNS | {"elements": ("elements of an indenter: of a disc, points of a line", "1")}
@@ -68,8 +66,7 @@ def sizes_table(discs, lines, *, windows, **fit):
     """
     rows = []
     for source, group, pool in (("discs", "sizes", discs), ("discs", "controls", discs), ("lines", "sizes", lines)):
-        grids = ensembles(select(pool, group=group), "hurst", "elements").values()
-        for ensemble in progress(grids, len(grids), f"{source}, {group}"):
+        for ensemble in ensembles(select(pool, group=group), "hurst", "elements").values():
             fitted = fit_rows(ensemble, source=source, case_group=group, fixed=windows, **fit)
             rows += [row | {"elements": ensemble["elements"].item()} for row in fitted]
     return pd.DataFrame(rows, columns=list(SIZES))
@@ -103,7 +100,7 @@ def _fit(ensemble, lines, window, **options):
     fit = fit_power_law(x, velocity, window, **options)
     columns = {"x_low": window[0], "x_high": window[1], "decades": np.log10(window[1] / window[0])}
     columns |= three_columns("beta", fit.beta())
-    columns |= {"zeta": fit.zeta()[0], "residual": fit.residual}
+    columns["zeta"] = fit.zeta()[0]
     for gamma in GAMMA:
         columns |= dict(zip(interval_columns(gamma), fit.zeta(gamma)[1:], strict=True))
     if lines is not None:

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from viscorough_study.ensembles.pool import ensembles, select
-from viscorough_study.fits.intervals import described, described_ends, three_columns, with_interval
+from viscorough_study.fits.intervals import described, three_columns, with_interval
 from viscorough_study.fits.mdr_lambda import match_lines
 from viscorough_study.fits.power_law import fit_power_law, in_window, named_windows
 
@@ -26,7 +26,6 @@ LAMBDA_COLUMNS = {
 }
 SUMMARY_COLUMNS = {
     "hurst": ("Hurst exponent H", "1"),
-    **described_ends("x", "of region (b) of the discs in X"),
     **described("drift", "λ at the upper over λ at the lower end of region (b), by a power law through λ(X)"),
     **described("error_trend", "error of ln(vt/h) at the upper end of region (b) with this λ, by a power law"),
     **described("error_whole", "largest error of ln(vt/h) from the start of region (b) to the end of the curve"),
@@ -91,7 +90,7 @@ def _lambda_rows(discs, lines, window, **bootstrap):
         row = {"x": abscissa, "in_region": int(in_window(abscissa, window))}
         row |= three_columns("lambda", match.with_interval(lambdas[:, i]))
         rows.append(row | three_columns("velocity_ratio", match.with_interval(np.exp(errors[:, i]))))
-    summary = {"x_low": window[0], "x_high": window[1]}
+    summary = {}
     for name, values in (
         ("drift", np.exp(2 * _rise(x[region], match.stretch_at(x[region])))),
         ("error_trend", _rise(x[region], match.deviation(best, region)) / 2),

@@ -88,17 +88,17 @@ def expected_points(scaling):
         yield "validation", panel, points(rows, "elements", "error")
     for panel, (_, rows) in enumerate(published("direct").groupby("case", sort=False)):
         yield "direct", panel, points(rows, "contact_count", "depth_ratio")
-    base = curves[(curves["average"] == "arithmetic") & (curves["case_group"] == "base")]
+    base = curves[curves["case_group"] == "base"]
     yield "interface", 0, points(base, "x", "interface", "interface_low", "interface_high")
     yield "interface", 0, points(published("periodic"), "x", "g")
-    yield "interface", 3, points(interface.query("source == 'discs' and average == 'arithmetic'"), None, "u0", "u0_low")
+    yield "interface", 3, points(interface.query("source == 'discs'"), None, "u0", "u0_low")
     yield "large", 0, points(large, "elements", "processor", "wall_threads")
     yield "large", 1, points(large.assign(memory=large["memory"] / 1e9), "elements", "memory")
     for panel, rule in ((0, "default"), (2, "X = 0.01 to 0.1")):
         table, of_lines = published("sizes").query("window_rule == @rule"), {"rms_convention": "line"}
         yield "sizes", panel, points(fits(table, SHOWN | {"window_rule": rule}, source="discs"), None, "beta")
         yield "sizes", panel + 1, points(fits(table, SHOWN | {"window_rule": rule}, **of_lines), None, "beta")
-    limits = published("infinite_grid").query("source == 'discs' and (height == 'spectrum' or hurst == 0)")
+    limits = published("infinite_grid").query("source == 'discs'")
     yield "collapse", 2, points(limits.assign(less=limits["beta"] - limits["expected"]), None, "less")
     yield "level_placement", 0, points(published("level_placement"), "ratio", None)
 
@@ -112,9 +112,9 @@ def test_figures_show_the_numbers_of_their_tables(drawn, scaling):
         assert near.all(), (figure, panel, expected[~near])
 
 
-@pytest.mark.parametrize(("name", "panel"), [("growth", 0), ("light_contact", 0), ("large", 0), ("large", 1)])
+@pytest.mark.parametrize(("name", "panel"), [("light_contact", 0), ("large", 0), ("large", 1)])
 def test_exponents_in_the_legend_are_those_of_the_lines(drawn, name, panel):
-    """Of the growth over all sizes, otherwise over the larger half, to which the line of `large` belongs."""
+    """Over the larger half, to which the line of `large` belongs."""
     for line in drawn[name].axes[panel].lines:
         if stated := re.search(r"(?:N\^\{|exponent )([\d.]+)", line.get_label()):
             x, y = np.log(line.get_data())
@@ -132,7 +132,7 @@ def test_speed_has_the_front_of_all_methods_and_rings_around_the_fastest():
     costs = costs.assign(error=np.maximum(costs["error"], FLOOR))
     close(rough.lines[0].get_xydata(), pareto_front(costs)[["wall_s", "error"]])
     rings = sorted(line.get_xdata()[0] for line in rough.lines if line.get_label() == RING["label"])
-    kinds = costs.query("error <= 0.01 and group in ('path', 'marching', 'other solver')").groupby("group")
+    kinds = costs.query("error <= 0.01 and group in ('path', 'marching')").groupby("group")
     close(rings, sorted(kinds["wall_s"].min()))
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from viscorough_study.ensembles.pool import ensembles, select
-from viscorough_study.fits.intervals import described, described_ends, three_columns, with_interval
+from viscorough_study.fits.intervals import described, three_columns, with_interval
 from viscorough_study.fits.mdr_lambda import match_lines
 from viscorough_study.fits.power_law import fit_power_law, in_window, named_windows
 
@@ -26,9 +26,7 @@ LAMBDA_COLUMNS = {
 }
 SUMMARY_COLUMNS = {
     "hurst": ("Hurst exponent H", "1"),
-    **described_ends("x", "of region (b) of the discs in X"),
     **described("drift", "λ at the upper over λ at the lower end of region (b), by a power law through λ(X)"),
-    **described("lambda_best", "λ that minimizes the largest error of vt/h over region (b)"),
     **described("error_trend", "error of ln(vt/h) at the upper end of region (b) with this λ, by a power law"),
     **described("error_whole", "largest error of ln(vt/h) from the start of region (b) to the end of the curve"),
     "realizations": REALIZATIONS,
@@ -40,8 +38,6 @@ EXPONENT_COLUMNS = {
         "own region: region (b) of each; same X: that of the discs; same κ: scaling.stiffness_range",
         None,
     ),
-    **described("beta_discs", "exponent β of the discs"),
-    **described("beta_lines", "exponent β of the lines"),
     **described("difference", "β of the lines minus β of the discs"),
     "realizations": REALIZATIONS,
 }
@@ -94,10 +90,9 @@ def _lambda_rows(discs, lines, window, **bootstrap):
         row = {"x": abscissa, "in_region": int(in_window(abscissa, window))}
         row |= three_columns("lambda", match.with_interval(lambdas[:, i]))
         rows.append(row | three_columns("velocity_ratio", match.with_interval(np.exp(errors[:, i]))))
-    summary = {"x_low": window[0], "x_high": window[1]}
+    summary = {}
     for name, values in (
         ("drift", np.exp(2 * _rise(x[region], match.stretch_at(x[region])))),
-        ("lambda_best", np.pi * np.exp(2 * best)),
         ("error_trend", _rise(x[region], match.deviation(best, region)) / 2),
         ("error_whole", np.abs(errors[:, x[chosen] >= window[0]]).max(axis=1)),
     ):
@@ -129,7 +124,6 @@ def _exponent_rows(discs, lines, windows, *, seed, **bootstrap):
                 (discs, lines), pair, np.random.SeedSequence(seed).spawn(2), strict=True
             )
         )
-        rows[-1] |= three_columns("beta_discs", first.beta()) | three_columns("beta_lines", second.beta())
         number = min(first.realizations, second.realizations)
         rows[-1] |= three_columns("difference", with_interval(second.betas - first.betas, number))
     return rows

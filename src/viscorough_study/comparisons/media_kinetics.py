@@ -13,7 +13,6 @@ import pandas as pd
 
 from viscorough.io.curves import unstack_curves
 from viscorough.io.media import medium_from_mapping
-from viscorough.reference import exponent_beta
 from viscorough.viscous.correspondence import kinetics
 from viscorough_study.ensembles.averages import abscissa
 from viscorough_study.fits.power_law import local_slopes
@@ -26,8 +25,6 @@ COLUMNS = {
     "depth": ("geometric mean of the depth u/h", "1"),
     "velocity": ("geometric mean of the velocity vt/h", "1"),
     "exponent": ("local exponent d ln(vt/h)/d ln t, fitted over a quarter of a decade to either side", "1"),
-    "creep_exponent": ("local exponent a = d ln J/d ln t of the creep compliance", "1"),
-    "expected": ("local exponent of vt/h by Eq. 10, β a + d ln a/d ln t with β = H/(1 + H)", "1"),
     "realizations": ("realizations in the mean", "1"),
 }
 HALF_WIDTH = 0.25  # decades of time to either side over which local exponents are fitted
@@ -64,7 +61,7 @@ def media_table(ensembles, media, *, force, times):
     times : t > 0, logarithmically uniform [s]
     Times at which a depth lies beyond the end of its curve are omitted. X is that of the mean rms height.
     """
-    parts, half_width = [], HALF_WIDTH * np.log(10)
+    parts = []
     for (name, medium), (hurst, (curves, rms, diameter)) in product(media.items(), ensembles.items()):
         time = reached_times(min(curve.force[-1] for curve in curves), force, medium, times)
         if not time.size:
@@ -74,18 +71,14 @@ def media_table(ensembles, media, *, force, times):
         velocity = np.array([motion.velocity * time / height for motion, height in zip(motions, rms, strict=True)])
         moving = (velocity > 0).all(axis=0)
         time, mean = time[moving], np.log(velocity[:, moving]).mean(axis=0)
-        creep = medium.creep_compliance(time)
-        x, creep_exponent = force * creep / (4 * np.mean(rms) * diameter), time * medium.creep_rate(time) / creep
         columns = {
             "medium": name,
             "hurst": hurst,
             "time": time,
-            "x": x,
+            "x": force * medium.creep_compliance(time) / (4 * np.mean(rms) * diameter),
             "depth": np.exp(np.log(depth[:, moving]).mean(axis=0)),
             "velocity": np.exp(mean),
-            "exponent": local_slopes(np.log(time), mean, half_width),
-            "creep_exponent": creep_exponent,
-            "expected": local_slopes(np.log(time), np.log(creep_exponent * x ** exponent_beta(hurst)), half_width),
+            "exponent": local_slopes(np.log(time), mean, HALF_WIDTH * np.log(10)),
             "realizations": len(curves),
         }
         parts.append(pd.DataFrame(columns))

@@ -32,7 +32,6 @@ COLUMNS = {
     **described("zeta", "prefactor ζ without Γ (Eq. 3)", ends="of the 95 % interval of ζ without Γ"),
     "zeta_low_with_gamma": ("lower end of the 95 % interval of ζ with the factor 1/Γ(1 + β) (Eq. 9)", "1"),
     "zeta_high_with_gamma": ("upper end of the 95 % interval of ζ with the factor", "1"),
-    "residual": ("rms deviation of ln(vt/h) from the power law in the window", "1"),
     **described("lambda", "λ in C1D = λ q C2D, line matched to surface (Eq. 13)", ends="of the 95 % interval of λ"),
 }
 SIZES = COLUMNS | {"elements": ("elements of an indenter: of a disc, points of a line", "1")}
@@ -101,7 +100,7 @@ def _fit(ensemble, lines, window, **options):
     fit = fit_power_law(x, velocity, window, **options)
     columns = {"x_low": window[0], "x_high": window[1], "decades": np.log10(window[1] / window[0])}
     columns |= three_columns("beta", fit.beta())
-    columns |= {"zeta": fit.zeta()[0], "residual": fit.residual}
+    columns["zeta"] = fit.zeta()[0]
     for gamma in GAMMA:
         columns |= dict(zip(interval_columns(gamma), fit.zeta(gamma)[1:], strict=True))
     if lines is not None:

@@ -37,7 +37,6 @@ COLUMNS = {
     "amplitude": ("A", "1"),
     "correction": ("B", "1"),
     **described("omega", "exponent ω of the correction"),
-    "deviation": ("rms deviation of ln(vt/h) from the law, weighted", "1"),
     "finding": (
         "agrees: the intervals in all ranges lie within the tolerance of H/(1 + H), departs: outside, else undecided; "
         "also undecided where ω is at an end of the range tried, so that the correction is not determined by the data",
@@ -67,10 +66,7 @@ def points(hurst_grids, quantity, *, elements_min, x_high):
 
 
 def fit(log_x, log_y, weights, *, corrected):
-    """(ln A, β, B, ω) of every row of log_y, shape (rows, 4), and the weighted rms deviation of the first row.
-
-    B and ω are nan without a correction.
-    """
+    """(ln A, β, B, ω) of every row of log_y, shape (rows, 4); B and ω are nan without a correction."""
     root = np.sqrt(weights)
     target = (log_y * root).T
     best, explained = np.full((len(log_y), 4), np.nan), np.full(len(log_y), -np.inf)
@@ -83,8 +79,7 @@ def fit(log_x, log_y, weights, *, corrected):
         best[better, : len(columns)] = np.linalg.solve(triangle, parts).T[better]
         best[better, 3] = omega if corrected else np.nan
         explained[better] = squares[better]
-    remainder = max(np.sum(target[:, 0] ** 2) - explained[0], 0.0)
-    return best, np.sqrt(remainder / weights.sum())
+    return best
 
 
 def limit_table(grids_by_hurst, source, *, elements_min, x_high, tolerance):
@@ -99,7 +94,7 @@ def limit_table(grids_by_hurst, source, *, elements_min, x_high, tolerance):
         for start, end in product(elements_min, x_high[law]):
             values = points(hurst_grids, quantity, elements_min=start, x_high=end)
             if values is not None:
-                fitted = _columns(*fit(*values, corrected=law == "corrected"))
+                fitted = _columns(fit(*values, corrected=law == "corrected"))
                 fits.append({"elements_min": start, "x_high": end} | fitted)
         if fits:
             labels = {"source": source, "hurst": hurst, "quantity": quantity, "law": law}
@@ -108,12 +103,12 @@ def limit_table(grids_by_hurst, source, *, elements_min, x_high, tolerance):
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
-def _columns(coefficients, deviation):
+def _columns(coefficients):
     """Columns of one fit."""
     _, beta, (correction, *_), omega = zip(
         coefficients[0], *np.quantile(coefficients[1:], [0.025, 0.975], axis=0), strict=True
     )
-    row = {"amplitude": np.exp(coefficients[0, 0]), "correction": correction, "deviation": deviation}
+    row = {"amplitude": np.exp(coefficients[0, 0]), "correction": correction}
     return row | three_columns("beta", beta) | three_columns("omega", omega)
 
 

@@ -15,7 +15,7 @@ import numpy as np
 import pandas as pd
 
 from viscorough_study.ensembles.pool import ensembles
-from viscorough_study.fits.intervals import described, described_ends, resampled_means, three_columns, with_interval
+from viscorough_study.fits.intervals import described, resampled_means, three_columns, with_interval
 from viscorough_study.fits.power_law import local_slopes
 from viscorough_study.run.seeds import plateau_key, realization_seed
 
@@ -25,8 +25,6 @@ COLUMNS = {
     "hurst": ("Hurst exponent H", "1"),
     "realizations": ("realizations in the ensemble", "1"),
     **described("decades", "decades of X over which the local slope is constant within the tolerance"),
-    **described("slope", "mean local slope of ln(vt/h) over these decades"),
-    **described_ends("x", "of these decades in X"),
     "draws": ("synthetic ensembles of each kind", "1"),
     "power_law_passes": ("share of synthetic power laws with the scatter of this ensemble that pass the test", "1"),
     "power_law_fails": ("share of them that fail it", "1"),
@@ -52,41 +50,34 @@ def inner_slopes(log_x, log_y, half_width):
 
 
 def longest_plateau(slopes, tolerance):
-    """Number of steps of the longest run of slopes within ± tolerance of their mid-range, and its start, by curve.
+    """Number of steps of the longest run of slopes within ± tolerance of their mid-range, by curve.
 
-    slopes : shape (curves, abscissae); returns two arrays of shape (curves,); a run of n + 1 slopes has n steps
+    slopes : shape (curves, abscissae); returns an array of shape (curves,); a run of n + 1 slopes has n steps
     """
-    steps, start = np.zeros(len(slopes), dtype=int), np.zeros(len(slopes), dtype=int)
+    steps = np.zeros(len(slopes), dtype=int)
     least, largest = slopes, slopes
     for length in range(1, slopes.shape[1]):
         least = np.minimum(least[:, :-1], slopes[:, length:])
         largest = np.maximum(largest[:, :-1], slopes[:, length:])
-        flat = largest - least <= 2 * tolerance
-        reached = flat.any(axis=1)
+        reached = (largest - least <= 2 * tolerance).any(axis=1)
         if not reached.any():
             break
-        steps[reached], start[reached] = length, flat.argmax(axis=1)[reached]
-    return steps, start
+        steps[reached] = length
+    return steps
 
 
 def plateau(log_x, log_y, *, half_width, tolerance, resamples, random):
     """Plateau of the mean over realizations, with 95 % bootstrap intervals.
 
     log_x, log_y, half_width : as in `inner_slopes`, log_y of the realizations; random : numpy.random.Generator
-    Returns a dict: decades, decades_low, decades_high; slope, slope_low, slope_high, the mean slope over the plateau;
-    x_low, x_high, its ends in X.
+    Returns a dict: decades, decades_low, decades_high.
 
     A resample has twice the variance of the mean, and scatter shortens plateaus, so the interval is biased to low
     values. Few curves without a power law pass, but some power laws with large scatter fail; `shares` gives the rates.
     """
-    number = len(log_y)
     inner, slopes = inner_slopes(log_x, resampled_means(log_y, resamples, random), half_width)
     step = (inner[1] - inner[0]) / np.log(10)
-    steps, start = longest_plateau(slopes, tolerance)
-    run = slice(start[0], start[0] + steps[0] + 1)
-    columns = three_columns("decades", with_interval(steps * step, number))
-    columns |= three_columns("slope", with_interval(slopes[:, run].mean(axis=1), number))
-    return columns | {"x_low": np.exp(inner[run][0]), "x_high": np.exp(inner[run][-1])}
+    return three_columns("decades", with_interval(longest_plateau(slopes, tolerance) * step, len(log_y)))
 
 
 def shares(log_x, mean, residuals, *, draws, decades_min, random, **options):

@@ -110,13 +110,11 @@ class PowerLaw:
 
     betas, zetas : of the ensemble, then of its resamples, shape (resamples + 1,)
     realizations : number in the ensemble
-    residual : rms deviation of ln(vt/h) of the mean curve from the power law
     """
 
     betas: np.ndarray
     zetas: np.ndarray
     realizations: int
-    residual: float
 
     def beta(self):
         """β and its 95 % interval, (value, low, high)."""
@@ -149,8 +147,7 @@ def fit_power_law(x, velocity, window, *, average, resamples, seed):
     offset = log_x - log_x.mean()
     beta = mean @ offset / (offset @ offset)
     intercept = mean.mean(axis=1) - beta * log_x.mean()
-    residual = np.sqrt(np.mean((mean[0] - intercept[0] - beta[0] * log_x) ** 2))
-    return PowerLaw(beta, np.exp(-intercept), len(velocity), residual)
+    return PowerLaw(beta, np.exp(-intercept), len(velocity))
 
 
 def log_means(velocity, average, resamples, generator):

@@ -40,9 +40,7 @@ COLUMNS = {
     "x_high": ("X up to which curves are compared, from elements_min elements in contact on", "1"),
     "grids": ("grids compared", "1"),
     "expected": ("H/(1 + H), Eq. 10", "1"),
-    "spread": ("rms deviation of ln(vt/h) from the common curve with H/(1 + H), weighted", "1"),
-    "spread_null": ("95 % quantile of the spread of independent realizations of one curve", "1"),
-    "p_value": ("share of such realizations with a larger spread", "1"),
+    "p_value": ("share of independent realizations of one curve with a larger spread around their common curve", "1"),
     "beta_low": ("lowest exponent with which the curves collapse at the 5 % level; empty if there is none", "1"),
     "beta_high": ("highest exponent with which the curves collapse at the 5 % level", "1"),
     "finding": ("one of: " + "; ".join(FINDINGS), ""),
@@ -170,8 +168,8 @@ def collapse(hurst_grids, hurst, quantity, x_high, *, tolerance):
     if len(curves) < 2:
         return row
     tried = expected + np.arange(-TRIED, TRIED + STEP / 2, STEP)
-    accepted = [beta for beta in tried if 0 <= beta < 0.9 and spread(curves, beta)[2] >= 0.05]
-    row["spread"], row["spread_null"], row["p_value"] = spread(curves, expected)
+    accepted = [beta for beta in tried if 0 <= beta < 0.9 and p_value(curves, beta) >= 0.05]
+    row["p_value"] = p_value(curves, expected)
     if accepted:
         row["beta_low"], row["beta_high"] = min(accepted), max(accepted)
     if row["p_value"] < 0.05:
@@ -181,8 +179,8 @@ def collapse(hurst_grids, hurst, quantity, x_high, *, tolerance):
     return row
 
 
-def spread(curves, beta):
-    """(spread, its 95 % quantile for one curve, p-value) of the collapse with exponent β.
+def p_value(curves, beta):
+    """Share of realizations of one curve with a larger spread than the curves collapsed with exponent β.
 
     curves : list of (Grid, (ln X, ln of the quantity, shape (resamples + 1, abscissae)))
     """
@@ -200,8 +198,8 @@ def spread(curves, beta):
     moved, weights = np.array(moved), np.array(weights, dtype=float)
     weights[:, np.count_nonzero(weights, axis=0) < 2] = 0.0
     if not weights.any():
-        return np.nan, np.nan, np.nan
+        return np.nan
     total = weights.sum(axis=0)
     common = np.sum(weights[:, None] * moved, axis=0) / np.where(total > 0, total, 1)
     spreads = np.sqrt(np.sum(weights[:, None] * (moved - common) ** 2, axis=(0, 2)) / total.sum())
-    return spreads[0], np.quantile(spreads[1:], 0.95), np.mean(spreads[1:] >= spreads[0])
+    return np.mean(spreads[1:] >= spreads[0])

@@ -31,6 +31,7 @@ def article(project, contents, *, paper, figures):
     published, results = project / "docs/results", contents["results"]
     citation, law = yaml.safe_load(read(project / "CITATION.cff")), read_table(published / "law.csv")
     sum_rules = json.loads(read(published / "sum_rules.json"))
+    springs = results.rows("interface", source="discs", case_group="base").sort_values("hurst")
     text = environment.from_string(template).render(
         contents,
         citation=citation,
@@ -39,7 +40,7 @@ def article(project, contents, *, paper, figures):
         physics=counted_physics(contents["verdicts"]),
         titles=titles(contents["verdicts"]),
         validation=finest_grid(results),
-        springs=springs(results),
+        springs=springs.to_dict("records"),
         law=law[law["across"] == ACROSS].to_dict("records"),
         plateaus=results.tables["plateaus"].to_dict("records"),
         control=control(results),
@@ -82,12 +83,6 @@ def finest_grid(results):
     """Rows of the table of validation on the finest grid."""
     table = results.tables["validation"]
     return table[table["elements"] == table["elements"].max()].to_dict("records")
-
-
-def springs(results):
-    """Rows of the plateau of the interface for each Hurst exponent of the base discs."""
-    rows = results.rows("interface", source="discs", case_group="base")
-    return rows.sort_values("hurst").to_dict("records")
 
 
 def control(results):

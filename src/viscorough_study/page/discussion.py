@@ -26,11 +26,7 @@ def discussion(results):
     table, quantities = results.tables["literature"], {name: [] for name in QUANTITIES}
     for (name, hurst), rows in table.dropna(subset="hurst").groupby(["quantity", "hurst"]):
         theirs = [
-            (
-                _credit(row),
-                results.number("literature", i, "theirs_low"),
-                results.number("literature", i, "theirs_high"),
-            )
+            (_credit(row), *(results.number("literature", i, end) for end in ("theirs_low", "theirs_high")))
             for i, row in rows.dropna(subset="theirs_low").iterrows()
         ]
         ours = results.record("literature", rows.index[0])

@@ -34,7 +34,6 @@ COLUMNS = {
     "error": ("largest relative error of the depth at any force of the range", "1"),
     "reached": ("1 if the error is within the accuracy", "1"),
     "levels": ("levels", "1"),
-    "operator_applications": ("applications of the half-space operator on the grid", "1"),
     "wall_s": ("wall time, median of interleaved repeats", "s"),
     "ratio": ("wall time over that of the automatic choice", "1"),
 }
@@ -122,7 +121,6 @@ def _row(scene, choice, levels, exact):
         "error": error,
         "reached": int(error <= scene.accuracy),
         "levels": curve.depth.size,
-        "operator_applications": curve.operator_applications,
         "wall_s": wall,
         "function": levels,
     }

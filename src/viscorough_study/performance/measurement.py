@@ -25,9 +25,7 @@ COLUMNS = {
     "wall_s": ("wall time, median of interleaved repeats", "s"),
     "processor_s": ("processor time, median of interleaved repeats", "s"),
     "error": ("relative error of the velocity, root mean square over all depths", "1"),
-    "operator_applications": ("applications of the half-space operator on the grid", "1"),
     "steps": ("levels, events, time steps or points of a line", "1"),
-    "memory": ("peak memory of its arrays", "byte"),
 }
 
 
@@ -39,7 +37,7 @@ def methods_table(tables, **settings):
 def measure(problem, repeats, *, longest, methods=METHODS):
     """Cost and error of every method that can solve a problem, at every value of its parameter.
 
-    repeats : number of interleaved repeats after the first run, which gives errors and memory, and the time of runs
+    repeats : number of interleaved repeats after the first run, which gives errors, and the time of runs
         longer than MAX_REPEATED
     longest : seconds after which a method is neither repeated nor tried at finer values
 
@@ -52,9 +50,9 @@ def measure(problem, repeats, *, longest, methods=METHODS):
         for value in method.values:
             logging.info("%s: %s, %s %g", problem.name, method.name, method.parameter, value)
             function = partial(method.run, problem, value)
-            (answer, memory), *seconds = timing.timed(partial(timing.with_memory, function))
+            answer, *seconds = timing.timed(function)
             key = method.name, value
-            rows[key] = _errors_and_costs(problem, method, value, answer, memory)
+            rows[key] = _errors_and_costs(problem, method, value, answer)
             rows[key] |= dict(zip(TIMES, seconds, strict=True))
             spent = min(seconds)  # on a busy machine only the wall time grows
             if spent < min(longest, MAX_REPEATED):
@@ -67,7 +65,7 @@ def measure(problem, repeats, *, longest, methods=METHODS):
     return pd.DataFrame(rows.values(), columns=list(COLUMNS))
 
 
-def _errors_and_costs(problem, method, value, answer, memory):
+def _errors_and_costs(problem, method, value, answer):
     """Entries of `COLUMNS` for one Answer of a method, without the times."""
     deviation = answer.velocity / problem.velocity - 1
     return {
@@ -79,7 +77,5 @@ def _errors_and_costs(problem, method, value, answer, memory):
         "parameter": method.parameter,
         "value": float(value),
         "error": np.sqrt(np.mean(deviation**2)),
-        "operator_applications": answer.operator_applications,
         "steps": answer.steps,
-        "memory": memory,
     }

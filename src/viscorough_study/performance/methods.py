@@ -20,13 +20,9 @@ from viscorough.viscous.integration.stepping import march_steps
 
 @dataclass(frozen=True)
 class Answer:
-    """Velocities vt at a problem's levels, and their cost.
-
-    operator_applications : of the half-space operator on the grid; steps : levels, events, time steps or points
-    """
+    """Velocities vt at a problem's levels; steps : levels, events, time steps or points."""
 
     velocity: np.ndarray
-    operator_applications: int = 0
     steps: int = 0
 
 
@@ -54,13 +50,13 @@ def _automatic(problem, tolerance):
     """Levels chosen automatically, and interpolation between them."""
     curve = indent(problem.indenter, tolerance=tolerance, until_fraction=1, until_force=problem.force[-1] * (1 + 1e-12))
     _, stiffness = curve.at_force(problem.force)
-    return Answer(problem.force / stiffness, curve.operator_applications, curve.depth.size)
+    return Answer(problem.force / stiffness, curve.depth.size)
 
 
 def _at_levels(problem, tolerance):
     """Exactly the problem's depths, with the exact tangent stiffness there."""
     curve = indent(problem.indenter, tolerance=tolerance, depths=problem.depth)
-    return Answer(curve.force / curve.stiffness, curve.operator_applications, curve.depth.size)
+    return Answer(curve.force / curve.stiffness, curve.depth.size)
 
 
 # ---- direct integration
@@ -70,7 +66,7 @@ def _events(problem, fraction):
     """Direct integration from contact event to contact event, up to a contact fraction."""
     events = march_events(problem.indenter, until_fraction=fraction)
     last = np.searchsorted(events.impulse, problem.force, side="right") - 1
-    return Answer(problem.force / events.resistance[last], steps=events.impulse.size)
+    return Answer(problem.force / events.resistance[last], events.impulse.size)
 
 
 def _steps(scheme, problem, number):
@@ -78,13 +74,13 @@ def _steps(scheme, problem, number):
     ends = np.geomspace(1e-4 * problem.force[0], problem.force[-1] * (1 + 1e-12), number)
     steps = march_steps(problem.indenter, ends, scheme=scheme)
     resistance = np.exp(np.interp(np.log(problem.force), np.log(ends), np.log(steps.resistance)))
-    return Answer(problem.force / resistance, steps=ends.size)
+    return Answer(problem.force / resistance, steps.impulse.size)
 
 
 def _implicit(problem, tolerance):
     """Backward Euler steps that end at the problem's impulses."""
     steps = march_steps(problem.indenter, problem.force, scheme="implicit", tolerance=tolerance)
-    return Answer(problem.force / steps.resistance, steps=problem.force.size)
+    return Answer(problem.force / steps.resistance, steps.impulse.size)
 
 
 # ---- models
@@ -94,7 +90,7 @@ def _reduction(problem, points):
     """MDR with the exact line of a body of revolution, or for a rough disc one random line of the same h, L and H."""
     line = problem.body.mdr_line(points) if problem.body else self_affine_line(problem.hurst, points, seed=problem.seed)
     _, stiffness = reduce(line, until_force=problem.force[-1] * (1 + 1e-12)).at_force(problem.force)
-    return Answer(problem.force / stiffness, steps=points)
+    return Answer(problem.force / stiffness, points)
 
 
 def _law(problem, gamma):

@@ -15,35 +15,31 @@ EQUAL_WINDOWS = ("same X", "same κ")
 
 def lambda_constant(evidence, tolerance):
     """λ at the upper end of region (b) over λ at the lower end."""
-    return _summary_cases(evidence, "drift", 1.0, (1 / (1 + tolerance), 1 + tolerance))
+    return _cases(evidence, evidence.tables["mdr_summary"], "drift", 1.0, (1 / (1 + tolerance), 1 + tolerance))
 
 
 def exact_correspondence(evidence, tolerance):
     """Error of ln(vt/h) with the best single λ at the upper end of region (b)."""
-    return _summary_cases(evidence, "error_trend", 0.0, (-tolerance, tolerance))
+    return _cases(evidence, evidence.tables["mdr_summary"], "error_trend", 0.0, (-tolerance, tolerance))
 
 
 def whole_curve(evidence, tolerance):
     """The largest error of ln(vt/h) over the whole curve with the λ that is best in region (b)."""
-    return _summary_cases(evidence, "error_whole", 0.0, (-tolerance, tolerance))
+    return _cases(evidence, evidence.tables["mdr_summary"], "error_whole", 0.0, (-tolerance, tolerance))
 
 
-def _summary_cases(evidence, column, expected, allowed):
-    """Cases of a column of the summary."""
-    table = evidence.tables["mdr_summary"]
+def _cases(evidence, table, column, expected, allowed):
+    """Cases of a column of a table, one for each row, named by H and, if it has one, by its window."""
     for row in table.to_dict("records"):
+        name = hurst_name(row["hurst"]) + (f", {row['window']}" if "window" in row else "")
         context = {"realizations": row["realizations"], "cases": len(table)}
-        yield evidence.case(hurst_name(row["hurst"]), interval(row, column), expected, allowed, **context)
+        yield evidence.case(name, interval(row, column), expected, allowed, **context)
 
 
 def coincide_equal_windows(evidence, tolerance):
     """β of lines minus β of discs, both fitted in the same range of X, and both in the same range of κ."""
     table = evidence.tables["mdr_exponents"]
-    table = table[table["window"].isin(EQUAL_WINDOWS)]
-    for row in table.to_dict("records"):
-        name, context = f"{hurst_name(row['hurst'])}, {row['window']}", {"cases": len(table)}
-        context |= {"realizations": row["realizations"]}
-        yield evidence.case(name, interval(row, "difference"), 0.0, (-tolerance, tolerance), **context)
+    return _cases(evidence, table[table["window"].isin(EQUAL_WINDOWS)], "difference", 0.0, (-tolerance, tolerance))
 
 
 def line_area(evidence, tolerance):

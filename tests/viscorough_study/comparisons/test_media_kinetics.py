@@ -6,7 +6,7 @@ import pytest
 from viscorough.contact.loading_path import indent
 from viscorough.loading_curve import LoadingCurve
 from viscorough.surfaces import self_affine_disc
-from viscorough.viscous.media import KelvinVoigt, Maxwell, Springpot, StandardLinearSolid
+from viscorough.viscous.media import KelvinVoigt, Maxwell, Springpot
 from viscorough_study.comparisons.media_kinetics import COLUMNS, media_table, named_media
 from viscorough_study.ensembles.averages import abscissa
 
@@ -54,26 +54,15 @@ def power_law_curve(factor, beta=0.4):
 
 
 @pytest.mark.parametrize(
-    ("medium", "times", "creep", "exponent"),
+    ("medium", "times", "exponent"),
     [
-        (Maxwell(1e6, 1e6), (1e3, 5e4), 1.0, 0.4),  # τ = 1 s: later
-        (KelvinVoigt(1e2, 1e6), (1e-2, 1e1), 1.0, 0.4),  # τ = 1e4 s: earlier
-        (Springpot(1e6, 0.3), (1e-2, 1e2), 0.3, 0.3 * 0.4),
+        (Maxwell(1e6, 1e6), (1e3, 5e4), 0.4),  # τ = 1 s: later
+        (KelvinVoigt(1e2, 1e6), (1e-2, 1e1), 0.4),  # τ = 1e4 s: earlier
+        (Springpot(1e6, 0.3), (1e-2, 1e2), 0.3 * 0.4),
     ],
 )
-def test_power_of_time_of_a_power_law(medium, times, creep, exponent):
-    """vt/h ∝ X^β is ∝ t^(aβ) where J ∝ t^a, in the means and by Eq. 10 of β = H/(1 + H)."""
-    ensembles = {2 / 3: ([power_law_curve(factor) for factor in (0.9, 1.1)], [1e-3, 1e-3], 1.0)}  # H/(1 + H) = 0.4
+def test_power_of_time_of_a_power_law(medium, times, exponent):
+    """vt/h ∝ X^β is ∝ t^(aβ) where J ∝ t^a, in the means."""
+    ensembles = {0.7: ([power_law_curve(factor) for factor in (0.9, 1.1)], [1e-3, 1e-3], 1.0)}
     table = media_table(ensembles, {"medium": medium}, force=1e-3, times=abscissa(*times, 20))
-    np.testing.assert_allclose(table[["exponent", "expected"]], exponent, atol=2e-3)
-    np.testing.assert_allclose(table["creep_exponent"], creep, atol=2e-3)
-
-
-def test_no_power_of_time_where_the_medium_has_none():
-    """Of a power law in X, the exponent in time is that of J and of the change of d ln J/d ln t."""
-    ensembles = {2 / 3: ([power_law_curve(1.0)] * 2, [1e-3, 1e-3], 1.0)}
-    solid = {"solid": StandardLinearSolid(1e6, 1e5, 1.0)}
-    table = media_table(ensembles, solid, force=1e-3, times=abscissa(1e-2, 1e2, 20))
-    assert np.ptp(table["creep_exponent"]) > 0.4
-    np.testing.assert_allclose(table["exponent"], table["expected"], atol=2e-3)
-    assert (table["expected"] - 0.4 * table["creep_exponent"]).abs().max() > 0.1
+    np.testing.assert_allclose(table["exponent"], exponent, atol=2e-3)

@@ -114,7 +114,7 @@ def test_figures_show_the_numbers_of_their_tables(drawn, scaling):
 
 @pytest.mark.parametrize(("name", "panel"), [("light_contact", 0), ("large", 0), ("large", 1)])
 def test_exponents_in_the_legend_are_those_of_the_lines(drawn, name, panel):
-    """Of the growth over all sizes, otherwise over the larger half, to which the line of `large` belongs."""
+    """Over the larger half, to which the line of `large` belongs."""
     for line in drawn[name].axes[panel].lines:
         if stated := re.search(r"(?:N\^\{|exponent )([\d.]+)", line.get_label()):
             x, y = np.log(line.get_data())

@@ -71,7 +71,7 @@ def test_without_a_region_rows_have_no_numbers():
     assert len(rows) == 8
     for row in rows:
         assert row["decades"] == 0
-        assert all(np.isnan(row[name]) for name in ("x_low", "x_high", "beta", "zeta", "residual", "lambda"))
+        assert all(np.isnan(row[name]) for name in ("x_low", "x_high", "beta", "zeta", "lambda"))
 
 
 def test_every_grid_is_fitted_also_in_windows_of_fixed_x():

@@ -33,12 +33,10 @@ def row(limits, quantity, law):
 def test_a_known_law_is_found_exactly():
     log_x = np.log(np.geomspace(1e-5, 0.3, 80))
     log_y = np.log(A) + BETA * log_x + B * np.exp(OMEGA * log_x)
-    coefficients, deviation = fit(log_x, np.stack([log_y, log_y + 0.1]), np.ones(80), corrected=True)
+    coefficients = fit(log_x, np.stack([log_y, log_y + 0.1]), np.ones(80), corrected=True)
     np.testing.assert_allclose(coefficients[1], [np.log(A) + 0.1, BETA, B, OMEGA], atol=1e-9)
-    assert deviation < 1e-7
-    plain, deviation = fit(log_x, log_y[None], np.ones(80), corrected=False)
+    plain = fit(log_x, log_y[None], np.ones(80), corrected=False)
     assert np.isnan(plain[0, 2:]).all()
-    assert deviation > 1e-2
 
 
 @pytest.mark.parametrize("factor", [np.exp, lambda z: 1 + 0.3 * z], ids=["exponential", "first order"])
@@ -67,9 +65,8 @@ def test_resamples_scatter_as_means_of_independent_realizations():
 
 def test_the_interface_is_fitted_without_the_punch():
     limits = limit_table(ensembles(punch=1.0, scatter=0.02), "discs", tolerance=0.03, **RANGES)
-    interface, whole = (row(limits, quantity, "corrected") for quantity in ("interface", "whole"))
+    interface = row(limits, "interface", "corrected")
     assert interface.beta_low - 1e-3 <= BETA <= interface.beta_high + 1e-3
-    assert interface.deviation < 0.02 < 0.05 + whole.deviation
     assert row(limits, "whole", "power").beta > row(limits, "interface", "power").beta
 
 

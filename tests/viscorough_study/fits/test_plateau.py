@@ -25,18 +25,14 @@ def control(x):
 
 def test_longest_run_within_the_tolerance():
     slopes = np.array([[0.0, 0.2, 0.25, 0.3, 0.29, 0.4], [0.0, 0.2, 0.4, 0.6, 0.8, 1.0], [0.3] * 6])
-    steps, start = longest_plateau(slopes, 0.05000001)
-    assert steps.tolist() == [3, 0, 5]
-    assert start.tolist() == [1, 0, 0]
+    assert longest_plateau(slopes, 0.05000001).tolist() == [3, 0, 5]
 
 
 def test_plateau_of_a_curve_with_a_kink():
     """Slope 0.4 up to X = 0.1 and 1 above: the longer plateau ends where local slopes begin to see the kink."""
     mean = np.where(X < 0.1, 0.4 * np.log(X / 0.1), np.log(X / 0.1))
     columns = plateau(np.log(X), scattered(mean, 30, 1e-4), random=np.random.default_rng(1), **HOW)
-    assert columns["x_low"] == pytest.approx(10**-3.75)
-    assert 10**-1.26 <= columns["x_high"] <= 10**-1.05
-    assert columns["slope"] == pytest.approx(0.4, abs=0.02)
+    assert 3.75 - 1.26 <= columns["decades"] <= 3.75 - 1.05
     assert columns["decades_low"] <= columns["decades"] <= columns["decades_high"]
 
 
@@ -71,7 +67,6 @@ def test_row_of_a_power_law_and_of_a_control():
     assert {"case_group", *law} == set(COLUMNS)
     assert law["decades"] == pytest.approx(3)
     assert law["decades_low"] >= 2
-    assert law["slope"] == pytest.approx(0.3, abs=0.02)
     assert none["decades_high"] < 2
     for columns in (law, none):
         assert (columns["power_law_passes"], columns["bent_passes"], columns["control_passes"]) == (1, 0, 0)

@@ -74,18 +74,6 @@ def test_settings_of_every_scale_are_right(name):
     check_settings(merged(read_settings("config"), read_settings(name)), SCHEMA)
 
 
-@pytest.mark.parametrize("name", ["paper", "sizes", "methods", "test"])
-def test_other_scales_hold_only_what_differs(settings, name):
-    def same(base, extra, path=""):
-        for key, value in extra.items():
-            if isinstance(value, dict):
-                yield from same(base[key], value, f"{path}{key}.")
-            elif value == base[key]:
-                yield path + key
-
-    assert list(same(settings, read_settings(name))) == []
-
-
 def test_settings_and_figures_know_the_same_conventions():
     figures = SCHEMA["properties"]["figures"]["properties"]
     for name, values in VALUES.items():

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from viscorough.arrays import ReadOnlyArrays, increasing
 from viscorough.calibrated_law import PenetrationLaw, penetration_law
 from viscorough.indenter import positive
-from viscorough.summaries import html_table, span
+from viscorough.summaries import span
 from viscorough.viscous.media import medium_of
 from viscorough.viscous.medium import Medium
 
@@ -58,12 +58,7 @@ class Estimate(ReadOnlyArrays):
         ]
         return "\n".join([head, *rows])
 
-    def _repr_html_(self) -> str:
-        law, rows = self.law, []
-        for time, depth, velocity, where in zip(self.time, self.depth, self.velocity, self.where, strict=True):
-            text = f"X is {where} the range of the law" if where else f"depth {depth:.4g}, velocity {velocity:.4g}"
-            rows.append((f"time {time:.4g}", text))
-        return html_table(f"Penetration law, H = {law.hurst:g}, X from {law.x_low:.3g} to {law.x_high:.3g}", rows)
+    __repr__ = __str__
 
 
 def estimate(

@@ -1,11 +1,9 @@
-"""Short texts about a result: lines for print, and a small table of HTML for notebooks."""
+"""Short texts about a result: lines for print and for notebooks."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Sequence
-from html import escape
-from itertools import chain
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -29,11 +27,6 @@ class Summarised(ABC):
     def __str__(self) -> str:
         title, *lines = self._summary()
         return "\n".join([title, *(", ".join(f"{name} {text}" for name, text in line) for line in lines)])
-
-    def _repr_html_(self) -> str:
-        """A table of the same, which notebooks show."""
-        title, *lines = self._summary()
-        return html_table(title, chain(*lines))
 
 
 def span(values: Array, unit: str = "1") -> str:
@@ -64,13 +57,3 @@ def si_unit(unit: str, length_unit: str) -> str:
 def velocity_unit(unit: str) -> str:
     """The unit of a velocity with times in s: "um s-1"; "s-1" for "1", a unit of length that is not known."""
     return "s-1" if unit == "1" else f"{unit} s-1"
-
-
-def html_table(title: str, rows: Iterable[tuple[str, str]]) -> str:
-    """A table of HTML with a caption and one row for every (quantity, value)."""
-    body = "".join(
-        f'<tr><th scope="row" style="text-align:left">{escape(name)}</th>'
-        f'<td style="text-align:left">{escape(value)}</td></tr>'
-        for name, value in rows
-    )
-    return f'<table><caption style="text-align:left">{escape(title)}</caption><tbody>{body}</tbody></table>'

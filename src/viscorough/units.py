@@ -18,7 +18,6 @@ UNKNOWN = "1"
 # Units of length that are read without pint: spelling, and how files and results spell it.
 _COMMON_LENGTHS = {"m": "m", "mm": "mm", "um": "um", "µm": "um", "μm": "um", "nm": "nm"}
 _METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
-# Patterns are compiled when they are first used: the command line starts faster.
 # Patterns are compiled at first use, so that the command line starts faster.
 _ALLOWED = r"[\w.()+\-*/^ µμÅ°\"'%]{1,60}"
 _POWER = r"(?<![\w.])([^\W\d_]+|(?<=[(*/ ])[^\W\d_]+)([+-]?\d)(?![\w.])|\)([+-]?\d)(?![\w.])"

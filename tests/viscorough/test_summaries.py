@@ -1,11 +1,10 @@
-"""Results in a few lines of text, and as tables of HTML."""
+"""Results in a few lines of text."""
 
 import numpy as np
 
 from support.curves import random_curve
-from support.page import Page
 from viscorough import Indenter, contact_at
-from viscorough.summaries import html_table, span, unit_power, with_unit
+from viscorough.summaries import span, unit_power, with_unit
 
 
 def test_curve_in_three_lines():
@@ -16,9 +15,6 @@ def test_curve_in_three_lines():
         "depth u 0.5 to 2 um, force F/G 1 to 3 um2, stiffness k/G 1 to 2 um",
         "contact fraction 0.0009921 to 0.5",
     ]
-    page = Page(curve._repr_html_())
-    assert [tag for tag, _ in page.elements].count("tr") == 4
-    assert "0.5 to 2 um" in page.text
 
 
 def test_contact_in_three_lines():
@@ -28,7 +24,6 @@ def test_contact_in_three_lines():
     assert first == "Contact of 2 of 3 elements"
     assert second.startswith("depth u 0.1 um, force F/G ")
     assert third.startswith("contact area 8 um2 (66.7 %), mean p/G ")
-    assert Page(contact._repr_html_()).text.count("um2") == 2
 
 
 def test_indenter_in_three_lines():
@@ -44,4 +39,3 @@ def test_units_and_numbers():
         assert unit_power(unit, 2) == squared
         assert (unit_power(unit, 1), unit_power(unit, 0)) == (unit, "1")
     assert (span([1.0, 20000.0], "m"), span([3.0]), with_unit(1e-7 / 3, "s")) == ("1 to 2e+04 m", "3", "3.333e-08 s")
-    assert "<b>" not in html_table("a <b>", [("<b>", "<b>")])

@@ -81,7 +81,7 @@ def march_events(indenter: Indenter, *, until_fraction: float = 1.0) -> Events:
     Raises
     ------
     ValueError
-        For arguments out of range.
+        For arguments out of range, and for heights so large that depths overflow.
     MemoryError
         If that memory is not available.
     ConvergenceError
@@ -165,6 +165,8 @@ def _march(influence, row, column, initial_gap, most):
             step_to_touch = max(last_gap[candidate], 0.0) / max(1.0 - deflection_per_depth, 1e-300)
             if step_to_touch < depth_step:
                 depth_step, next_to_touch = step_to_touch, candidate
+        if next_to_touch < 0:
+            raise ValueError("march_events: depths overflow; smaller heights, in a larger unit, are needed")
         element = next_to_touch
         depth_now += depth_step
         total += depth_step * stiffness

@@ -28,3 +28,5 @@ def test_refuses():
         march_events(Indenter(np.zeros(3), 1.0))
     with pytest.raises(ValueError, match="until"):
         march_events(Indenter(np.zeros((3, 3)), 1.0), until_fraction=0)
+    with pytest.raises(ValueError, match="depths overflow"):
+        march_events(Indenter(3e307 * np.random.default_rng(1).random((9, 9)), 1.0))

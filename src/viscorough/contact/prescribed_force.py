@@ -97,14 +97,16 @@ class ForceSearch:
         while self._above and self._above[-1].pressure_sum <= target:
             self._below = self._above.pop()
         guess, largest_depth = self._estimate(target)
-        if not guess and (target <= self._first.pressure_sum or self._solver.is_flat):
-            # Only the highest elements are in contact: the curve is straight.
-            depth = self._first.reduced_depth * (target / self._first.pressure_sum)
-            contact = self._solver.advance_reduced(self._solver.unloaded_state(), depth)
-            return self._solver.settled(contact, depth, target)
         for attempt in range(_MAX_ATTEMPTS):
             if guess and attempt == 0:
                 depth = guess.reduced_depth
+            elif (attempt == 0 or not self._below.count) and (
+                target <= self._first.pressure_sum or self._solver.is_flat
+            ):
+                # Only the highest elements are in contact: the curve is straight.
+                depth = self._first.reduced_depth * (target / self._first.pressure_sum)
+                contact = self._solver.advance_reduced(self._solver.unloaded_state(), depth)
+                return self._solver.settled(contact, depth, target)
             else:
                 guess = None
                 self._below = self._below if self._below.count else self._first

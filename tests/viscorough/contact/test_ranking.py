@@ -83,6 +83,15 @@ def test_contacts_are_those_with_all_elements_ranked(indenter, given, few_ranked
         assert np.nanmin(contact.gap) >= -tolerance * contact.depth
 
 
+def test_a_force_that_the_highest_terrace_carries_alone_is_met(few_ranked):
+    """The first guess, from blocks, is below the depth at which the next terrace touches."""
+    terraces = np.floor(3 * np.random.default_rng(2).random((12, 12)))
+    highest = contact_at(Indenter(np.where(terraces == 2, 0.0, np.nan), 1.0), force=1e-3)
+    contact = contact_at(Indenter(terraces, 1.0), force=1e-3)
+    assert contact.contact_count == highest.contact_count
+    assert contact.depth == pytest.approx(highest.depth, rel=1e-3)
+
+
 def test_curves_are_those_with_all_elements_ranked(indenter, few_ranked, monkeypatch):
     curve = indent(indenter, until_fraction=0.4)
     monkeypatch.setattr(ranking, "_LEAST", 10**6)

@@ -4,7 +4,7 @@
 
 Four families of cases are checked against the direct integration in time: levels at given depths, also against the
 dense influence matrix; whole loading curves, at their levels and between them; curves with a start fraction; and levels
-at given forces. The curves of a fifth one are checked by the two integrals that linear solutions give
+at given forces, once more as on large maps. The curves of a last one are checked by the two integrals that linear solutions give
 (viscorough.sum_rules).
 `make stability` runs it. A failure is printed with the command that repeats it.
 """
@@ -12,12 +12,15 @@ at given forces. The curves of a fifth one are checked by the two integrals that
 import time
 from functools import partial
 from multiprocessing import Pool
+from unittest.mock import patch
 
 import click
 import numpy as np
 from measuring import save
 from tqdm import tqdm
 
+from viscorough.contact import prescribed_force, ranking
+from viscorough.contact.halfspace import tiles
 from viscorough_study.robustness.random_curves import (
     audit_failure,
     curve_failure,
@@ -28,12 +31,24 @@ from viscorough_study.robustness.random_curves import (
 )
 from viscorough_study.run.seeds import random_indenter_key, realization_seed
 
+
+def as_on_large_maps(case):
+    """Failure of the curve of a case with restricted operators, estimates from blocks and few elements ranked."""
+    with (
+        patch.multiple(ranking, _LEAST=50, _FIRST=50),
+        patch.multiple(prescribed_force, _LARGE=1, _FEWEST_BLOCKS=1),
+        patch.multiple(tiles, _LEAST=0, _LARGEST_SHARE=1, SIDE=8),
+    ):
+        return curve_failure(case)
+
+
 # {family: (function that draws a case, function that checks it, fraction of the number of cases)}
 FAMILIES = {
     "levels": (random_levels, levels_failure, 1.0),
     "curves": (random_curve, curve_failure, 1.0),
     "starts": (partial(random_curve, with_start=True), curve_failure, 0.1),
     "forces": (partial(random_curve, at_forces=True), curve_failure, 1.0),
+    "large maps": (partial(random_curve, at_forces=True), as_on_large_maps, 1.0),
     "audits": (random_audit, audit_failure, 0.1),
 }
 

@@ -2,10 +2,10 @@
 
     python benchmarks/campaign.py --output results/campaign.json
 
-Four families of cases are checked against the direct integration in time: levels at given depths, also against the
-dense influence matrix; whole loading curves, at their levels and between them; curves with a start fraction; and levels
-at given forces, once more as on large maps. The curves of a last one are checked by the two integrals that linear solutions give
-(viscorough.sum_rules).
+Families of cases are checked against the direct integration in time: levels at given depths, also against the dense
+influence matrix; whole loading curves, at their levels and between them; curves with a start fraction; and levels at
+given forces, once more as on large maps. The curves of a last one are checked by the two integrals that linear
+solutions give (viscorough.sum_rules).
 `make stability` runs it. A failure is printed with the command that repeats it.
 """
 
@@ -48,7 +48,7 @@ FAMILIES = {
     "curves": (random_curve, curve_failure, 1.0),
     "starts": (partial(random_curve, with_start=True), curve_failure, 0.1),
     "forces": (partial(random_curve, at_forces=True), curve_failure, 1.0),
-    "large maps": (partial(random_curve, at_forces=True), as_on_large_maps, 1.0),
+    "large_maps": (partial(random_curve, at_forces=True), as_on_large_maps, 1.0),
     "audits": (random_audit, audit_failure, 0.1),
 }
 

@@ -10,7 +10,7 @@ def test_a_few_random_indenters_are_solved_rightly(tmp_path):
     outcome = CliRunner().invoke(campaign.main, ["--cases", "2", "--output", str(tmp_path / "campaign.json")])
     assert outcome.exit_code == 0, outcome.output
     counts = json.loads((tmp_path / "campaign.json").read_text())["cases"]
-    assert counts == {"levels": 2, "curves": 2, "starts": 1, "forces": 2, "audits": 1}
+    assert counts == {"levels": 2, "curves": 2, "starts": 1, "forces": 2, "large_maps": 2, "audits": 1}
 
 
 def test_a_silent_failure_is_counted(monkeypatch):

@@ -264,9 +264,9 @@ class ContactSolver:
             rows, columns = self.elements.shape
             if box[2] * box[3] > _LARGEST_BOX * rows * columns:
                 reach, box = gap.size, (0, 0, rows, columns)
-            self._reach, placed = reach, (row[:reach], column[:reach], gap[:reach])
+            self._reach = reach
             if self._grid and self._grid.box == box and not self._grid.is_restricted:
-                self._grid.place_elements(*placed)
+                self._grid.place_elements(row, column, gap)
                 return self._grid
             self._former_applications = self.operator_applications
             self._grid = None  # its memory is free for the larger one
@@ -274,8 +274,9 @@ class ContactSolver:
             if reach == self.elements.count:
                 self.elements.free_influence()  # contacts on the whole grid need no dense solutions
             self._grid = GridSolver(
-                box, *placed, self.tolerance, self.options, aspect=self.elements.aspect, threads=self.threads
-            )
+                box, row, column, gap, self.tolerance, self.options,
+                aspect=self.elements.aspect, threads=self.threads, reach=reach,
+            )  # fmt: skip
         return self._grid
 
     def _checked(self, before: ContactState, after: ContactState) -> ContactState:

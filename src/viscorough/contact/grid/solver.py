@@ -37,6 +37,7 @@ class GridSolver:
     options : SolverOptions
     aspect : dy/dx of the elements
     threads : on which it computes
+    reach : number of elements, by rank, that can touch; all in the box by default
 
     box : as it was given
     is_restricted : whether the operator is restricted to tiles with elements, since these are a small part of the box
@@ -55,18 +56,20 @@ class GridSolver:
         *,
         aspect: float = 1.0,
         threads: int = 1,
+        reach: int | None = None,
     ) -> None:
         self.box, self._is_transposed = box, box[2] > _TALL * box[3]
         aspect = 1 / aspect if self._is_transposed else aspect
-        at = row, column
-        (top, left, rows, columns), row, column = self._oriented(*at)
-        shape = rows, columns
-        tiles = tiles_of_part(row - top, column - left, shape, aspect, tolerance) if options.padding else None
+        (top, left, rows, columns), of_row, of_column = self._oriented(row[:reach], column[:reach])
+        tiles, shape = None, (rows, columns)
+        if options.padding:
+            tiles = tiles_of_part(of_row - top, of_column - left, shape, aspect, tolerance)
         self.is_restricted = tiles is not None
         self._options, self._loops = options, GridLoops(threads)
         self._search = ContactSearch(rows, columns, tolerance, options, aspect=aspect, threads=threads, tiles=tiles)
         self.initial_gap = self._search.initial_gap
-        self.place_elements(*at, initial_gap)
+        placed = slice(None if tiles is None else reach)  # others have no deflection in a restricted operator
+        self.place_elements(row[placed], column[placed], initial_gap[placed])
 
     def place_elements(self, row: Integers, column: Integers, initial_gap: Array) -> None:
         """Place the elements of the arrays, which begin with those placed before."""

@@ -77,7 +77,7 @@ class TiledHalfspace:
     rows, columns, precision, aspect, threads : as of Halfspace
     tiles : those that may have loads, as of `tiles_with`
 
-    load : the array to write P into, of shape (rows, columns); it must be zero wherever there is no pressure
+    load : the array to write P into, of shape (rows, columns); it must be zero where there is no pressure
     count : number of applications so far
     accuracy : bound on the error beside rounding, over the largest deflection
     """

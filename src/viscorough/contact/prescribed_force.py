@@ -12,6 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
+from viscorough.compilation import njit
 from viscorough.contact.dense import ROUNDING
 from viscorough.contact.parallel import BLOCK
 from viscorough.contact.solver import ContactSolver
@@ -41,14 +42,27 @@ _OWN_DEFLECTION = 4 * np.arcsinh(1.0)
 
 def _highest_of_blocks(indenter: Indenter) -> Indenter:
     """The indenter of the highest points of blocks of elements, which is nowhere lower."""
-
-    def along_columns(heights: Array) -> Array:
-        whole = len(heights) // _SIDE * _SIDE
-        blocks = np.fmax.reduce(heights[:whole].reshape(-1, _SIDE, heights.shape[1]), axis=1)
-        return np.vstack([blocks, np.fmax.reduce(heights[whole:], axis=0)]) if whole < len(heights) else blocks
-
-    heights = along_columns(along_columns(indenter.heights).T).T
+    heights = _largest_in_blocks(np.ascontiguousarray(indenter.heights))
     return Indenter(heights, _SIDE * indenter.spacing, _SIDE * indenter.row_spacing)
+
+
+@njit
+def _largest_in_blocks(heights):
+    """The largest height in each block of _SIDE x _SIDE elements, nan where there is none."""
+    rows, columns = heights.shape
+    largest = np.empty((-(-rows // _SIDE), -(-columns // _SIDE)), heights.dtype)
+    in_columns = np.empty(_SIDE * largest.shape[1], heights.dtype)
+    for i in range(largest.shape[0]):
+        in_columns[:] = -np.inf
+        for row in heights[_SIDE * i : _SIDE * (i + 1)]:
+            for j in range(columns):  # nan is larger than nothing
+                in_columns[j] = row[j] if row[j] > in_columns[j] else in_columns[j]
+        for k in range(largest.shape[1]):
+            value = in_columns[_SIDE * k]
+            for j in range(1, _SIDE):
+                value = max(value, in_columns[_SIDE * k + j])
+            largest[i, k] = value if value > -np.inf else np.nan
+    return largest
 
 
 def _loads_in_blocks(elements: Elements, pressure: Array) -> MemberLoads:

@@ -26,12 +26,14 @@ class Ranking:
 
     units : Units in which initial gaps are expressed
     highest : the largest height
+    is_flat : whether all elements are of this height
     """
 
     def __init__(self, indenter: Indenter, threads: int = 1) -> None:
         self._heights, self._threads, self._aspect = indenter.heights, threads, indenter.aspect
         self.highest, lowest = np.fmax.reduce(self._heights, axis=None), np.fmin.reduce(self._heights, axis=None)
         span = float(np.subtract(self.highest, lowest, dtype=float))
+        self.is_flat = span == 0
         self.units = Units(span or indenter.element_side, indenter.element_side)
         inside = np.isfinite(self._heights)
         self._count, (rows, columns) = int(np.count_nonzero(inside)), self._heights.shape
@@ -43,16 +45,19 @@ class Ranking:
             self._shape = rows, columns
 
     def first(self, depth: float) -> Elements:
-        """The Elements up to a reduced depth, or as many as are ranked in no time; infinite where it is not known."""
+        """The Elements up to a reduced depth; all of a small map, none of a large one where the depth is infinite."""
         nothing = np.empty(0, np.int32)
         fixed = self._origin, self._shape, self._aspect
         elements = Elements(nothing, nothing, np.empty(0), *fixed, unranked=self._count, ranked_depth=-1.0)
         if self._count <= _LEAST:
             return self.up_to(elements, np.inf)
+        return self.up_to(elements, depth) if np.isfinite(depth) else elements
+
+    def small_depth(self) -> float:
+        """A reduced depth up to which there are about as many elements as are ranked in no time."""
         sample = self._heights.ravel()[:: max(self._count // _DEPTH_SAMPLE, 1)]
         gap = np.subtract(self.highest, sample[np.isfinite(sample)], dtype=float) / self.units.length
-        least = np.quantile(gap, min(_FIRST / self._count, 1.0)) if gap.size else np.inf
-        return self.up_to(elements, depth if np.isfinite(depth) else least)
+        return float(np.quantile(gap, min(_FIRST / self._count, 1.0))) if gap.size else np.inf
 
     def up_to(self, elements: Elements, depth: float) -> Elements:
         """The Elements with all those ranked whose initial gaps are up to a reduced depth, or a larger one."""

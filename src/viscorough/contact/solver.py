@@ -116,13 +116,15 @@ class ContactSolver:
     @property
     def is_flat(self) -> bool:
         """Whether all elements are of one height, so that all touch at once."""
-        return self.elements.unranked == 0 and self.elements.initial_gap[-1] == 0
+        return self._ranking.is_flat
 
     def first_contact(self) -> ContactState:
         """The ContactState up to which the curve is straight, since only the highest elements are in contact.
 
         Its depth is the smallest positive initial gap, or the side of an element for an indenter of one height.
         """
+        if self.elements.initial_gap.size == 0:
+            self.elements = self._ranking.up_to(self.elements, self._ranking.small_depth())
         gap = self.elements.initial_gap
         depth = 1.0 if self.is_flat else gap[np.searchsorted(gap, 0, side="right")]
         return self.advance_reduced(self.unloaded_state(), depth)

@@ -28,6 +28,7 @@ CORRECTIONS, TOLERANCE = 3, 1e-2
 COLUMNS = {
     "fraction": ("contact fraction that the load was chosen for", "1"),
     **{name: text for name, text in solver_comparison.COLUMNS.items() if name not in ("task", "levels", "force_error")},
+    "at_depth_s": ("time of our solution at the depth that was found instead of the force, median", "s"),
     "ranking_s": ("time of reading the map and ranking the elements that can touch, median", "s"),
 }
 
@@ -45,6 +46,10 @@ class LightLoad(solver_comparison.Task):
     def solve(self, threads):
         """The Contact under the load, with its maps."""
         return contact_at(self.indenter, force=self.force, tolerance=self.residual, threads=threads)
+
+    def solve_at_depth(self):
+        """The Contact at the depth, on one thread."""
+        return contact_at(self.indenter, depth=self.depths[0], tolerance=self.residual)
 
     def rank(self):
         """What no solution can do without: the elements that can touch, in order."""
@@ -81,8 +86,11 @@ def time_light_contact(*, seed, hurst, residual, elements, fractions, threads, r
             table = solver_comparison.compare_solvers(load, racing, **limits)
             # One that did not finish is not waited for again on a larger map.
             stopped |= {(name, fraction) for name in racing if name not in set(table["solver"])}
-            ranking = [timing.timed(load.rank)[1] for _ in range(pairs)]
-            tables.append(table.assign(fraction=fraction, ranking_s=np.median(ranking)))
+            others = {"at_depth_s": load.solve_at_depth, "ranking_s": load.rank}
+            medians = {
+                name: np.median([timing.timed(solve)[1] for _ in range(pairs)]) for name, solve in others.items()
+            }
+            tables.append(table.assign(fraction=fraction, **medians))
     return pd.concat(tables)[list(COLUMNS)]
 
 

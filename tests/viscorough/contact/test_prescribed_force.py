@@ -110,6 +110,14 @@ def test_depth_of_blocks_tells_that_of_the_contact(hurst):
         assert np.abs(guess.pressure - exact).sum() < 0.6 * contact.pressure.sum()
 
 
+def test_blocks_have_the_height_of_their_highest_element():
+    heights = np.random.default_rng(1).normal(size=(9, 14)).astype("f4")
+    heights[:4, 4:9] = heights[8, :3] = np.nan  # a block has no element
+    whole = np.pad(heights, ((0, 3), (0, 2)), constant_values=np.nan).reshape(3, 4, 4, 4)
+    expected = np.fmax.reduce(whole, axis=(1, 3))
+    np.testing.assert_array_equal(prescribed_force._highest_of_blocks(Indenter(heights, 1.0)).heights, expected)
+
+
 def test_a_force_that_the_first_guess_meets_exactly():
     """The second element is not touched: the residual is zero from the outset, and there is no step to take."""
     two = Indenter(np.array([[0.0], [-1.39]]), (1.0, 0.372))

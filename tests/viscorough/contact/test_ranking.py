@@ -51,7 +51,9 @@ def few_ranked(monkeypatch):
 
 def test_elements_ranked_step_by_step_are_those_of_all_at_once(indenter, few_ranked):
     steps = Ranking(indenter)
-    elements = steps.first(np.inf)
+    nothing = steps.first(np.inf)
+    assert nothing.initial_gap.size == 0
+    elements = steps.up_to(nothing, steps.small_depth())
     everything = steps.up_to(elements, np.inf)
     assert 0 < elements.initial_gap.size < everything.initial_gap.size == everything.count == indenter.elements
     assert everything.initial_gap[0] == 0 < elements.initial_gap[-1]

@@ -83,6 +83,9 @@ def read_header(lines: Sequence[str], shape: tuple[int, ...], decimal: str) -> H
         key, value = match[1], match[3].strip(" \t,;|\"'")
         if role := _role(key):
             stated[role].append((line.strip()[:80], match[2] or "", value))
+        elif re.match(r"(?i)(?:height|z|data|value)\W*(?:conversion|scale)?\W*factor", key):
+            text = "heights are the numbers times a factor; without this line, and with --scale, they are read"
+            raise ValueError(f"header {line.strip()[:80]!r}: {text}")
         elif re.search(r"(?i)(?:units?|einheit(?:en)?|unités?)$", key) and _is_length(_unit_text(value)):
             text = "of which lengths is not stated; 'XY units', 'Z units' are allowed"
             raise ValueError(f"header {line.strip()[:80]!r}: {text}")

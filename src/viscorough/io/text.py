@@ -18,6 +18,7 @@ from viscorough.io.atomic import reading, reason
 from viscorough.io.grids import gridded
 from viscorough.io.headers import Header, read_header, states
 from viscorough.io.scan import Scan
+from viscorough.io.zygo import zygo_scan
 from viscorough.types import Array, FilePath
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?"
@@ -42,6 +43,8 @@ _LEAST_LABELS = 6  # evenly spaced numbers that are taken for positions rather t
 def read_text(path: FilePath) -> Scan:
     """The Scan in a text file. Raises a one-line ValueError if it holds no map of heights, or none for certain."""
     lines = _decoded(path).split("\n")
+    if lines[0].startswith("Zygo XYZ Data File"):
+        return zygo_scan(lines)
     first = next((number for number, line in enumerate(lines) if _is_row(line)), None)
     if first is None:
         almost = [f" (line {number} is {line[:40]!r})" for number, line in enumerate(lines, 1) if _DIGITS.search(line)]

@@ -105,6 +105,43 @@ def test_points_below_a_header_that_agrees(tmp_path):
     assert (indenter.spacing, indenter.row_spacing) == (0.5, 0.25)
 
 
+ZYGO = """Zygo XYZ Data File - Format 1
+0 3 0 0 "Tue"
+0 0 0 0 0 0
+2 1 3 2
+
+
+0 0
+0 0.5 6.328e-07 0.4 1 0 2e-06 0
+0
+0
+0
+0
+0
+#
+2 1 1
+3 1 No Data
+4 1 3
+2 2 4
+4 2 6
+#
+"""
+
+
+def test_files_of_zygo_state_points_and_their_distance(tmp_path):
+    (tmp_path / "a.xyz").write_text(ZYGO)
+    indenter = read_heights(tmp_path / "a.xyz", unit="um")
+    np.testing.assert_array_equal(indenter.heights, [[1, np.nan, 3], [4, np.nan, 6]])
+    assert indenter.spacing == indenter.row_spacing == pytest.approx(2)
+
+
+@pytest.mark.parametrize("row", ["2 1 7", "9 1 7", "4 x 6"])
+def test_bad_files_of_zygo_are_one_line(tmp_path, row):
+    (tmp_path / "b.xyz").write_text(f"{ZYGO}{row}\n")
+    with refused("line 21"):
+        read_heights(tmp_path / "b.xyz", unit="um")
+
+
 SQUARE = "1 2\n3 4\n"
 CORNERS = "0 0 1\n1 0 2\n0 1 3\n1 1 4\n"
 BAD = [
@@ -130,6 +167,7 @@ BAD = [
         (f"{heading}\n{CORNERS}", "not stated")
         for heading in ("x y z\num um nm", "x in um, y in um, z in nm", "z [nm]")
     ],
+    (f"# Height conversion factor (-> m): 1e-9\n{SQUARE}", "times a factor"),
     (f"# dx=1 m, dy=1 m\n{SQUARE}", "not a length"),
     (f"# pixel size: 1,234 nm\n# unit: nm\n{SQUARE}", "1,234 is 1234 or 1.234"),
     (f"# dx: 1 nm\n# unit: nm\n{SQUARE}", "between rows is not stated"),

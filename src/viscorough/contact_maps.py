@@ -156,24 +156,11 @@ class Contact(ReadOnlyArrays, Saved, Summarised):
         """Largest p/G [1]."""
         return float(np.nanmax(self.pressure))
 
-    def patches(self, connectivity: int = 4) -> Patches:
-        """The Patches of the contact: regions of elements in contact that are neighbours.
-
-        Parameters
-        ----------
-        connectivity : int
-            4: elements that share a side are neighbours; 8: those that share a corner, too.
-
-        Raises
-        ------
-        ValueError
-            For another connectivity.
-        """
+    def patches(self) -> Patches:
+        """The Patches of the contact: regions of elements in contact that are connected by their sides."""
         from scipy import ndimage  # takes long to import
 
-        if connectivity not in (4, 8):
-            raise ValueError(f"patches: connectivity must be 4 or 8, not {connectivity!r}")
-        labels, count = ndimage.label(self.contact, structure=ndimage.generate_binary_structure(2, connectivity // 4))
+        labels, count = ndimage.label(self.contact)
         sizes = np.bincount(labels.ravel(), minlength=count + 1)[1:]
         order = np.argsort(-sizes, kind="stable")
         rank = np.zeros(count + 1, dtype=labels.dtype)

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from viscorough.arrays import ReadOnlyArrays
 from viscorough.saved import Saved
 from viscorough.summaries import Summarised, Summary, span, unit_power
-from viscorough.types import Array, Integers, Pair
+from viscorough.types import Array, Pair
 
 # Relative rounding error of forces and depths that is allowed for.
 _ROUNDING = 1e-12
@@ -140,22 +140,12 @@ class LoadingCurve(ReadOnlyArrays, Saved, Summarised):
         depth[force == 0] = 0.0
 
         inside = (force > self.force[0]) & (force <= self.force[-1])
-        levels = self.depth, self.force, self.stiffness, self.contact_count
-        depth[inside], stiffness[inside] = interpolate_levels(*levels, force[inside])
+        j = np.searchsorted(self.force, force[inside])
+        levels = self.force, self.depth, self.stiffness
+        ends = ((values[j - 1], values[j]) for values in levels)
+        joined = self.contact_count[j] - self.contact_count[j - 1]
+        depth[inside], stiffness[inside] = interpolate_between(*ends, joined, force[inside])
         return depth, stiffness
-
-
-def interpolate_levels(
-    depth: Array, force: Array, stiffness: Array, contact_count: Integers, wanted: Array
-) -> tuple[Array, Array]:
-    """Depth and tangent stiffness at forces above the first and up to the last level; see LoadingCurve.at_force.
-
-    depth, force, stiffness, contact_count : of the levels, shape (levels,), in any consistent units
-    wanted : forces, shape (n,). Returns (depth, stiffness) of that shape.
-    """
-    j = np.searchsorted(force, wanted, side="left")
-    forces, depths, stiffnesses = ((values[j - 1], values[j]) for values in (force, depth, stiffness))
-    return interpolate_between(forces, depths, stiffnesses, contact_count[j] - contact_count[j - 1], wanted)
 
 
 def interpolate_between(

@@ -149,9 +149,9 @@ class _BySums(_Intervals):
 
     def parts(self, interval: Integers, offset: Array, *, left: bool) -> tuple[Array, Array, Array]:
         """As of _ByStates; J is concave, so that positive contributions of the past decrease with time."""
-        rate = functools.partial(self.medium.creep_rate, left=left)
-        falling, rising = self._sums(interval, offset, rate, self.medium.creep_increment)
-        present = self.slopes[interval] * self.medium.creep_compliance(offset)
+        compliance, rate = self.medium.creep_compliance, functools.partial(self.medium.creep_rate, left=left)
+        falling, rising = self._sums(interval, offset, rate, lambda start, end: compliance(end) - compliance(start))
+        present = self.slopes[interval] * compliance(offset)
         terms = falling - rising + abs(present)
         return rising + np.maximum(present, 0), falling + np.minimum(present, 0), terms
 

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.special import gamma, stdtrit
+from scipy.special import stdtrit
 
 from viscorough.arrays import ReadOnlyArrays, increasing
 from viscorough.loading_curve import LoadingCurve
@@ -24,11 +24,11 @@ from viscorough.types import Array, Integers
 from viscorough.units import UNKNOWN
 from viscorough.viscous.correspondence import ForceHistory, consistent_force, impulses, resampled
 from viscorough.viscous.creep_response import branch_states
-from viscorough.viscous.media import CreepTable, Prony, Springpot
+from viscorough.viscous.media import CreepTable, Prony
 from viscorough.viscous.medium import Medium
 from viscorough.viscous.relaxation import elastic_force
 
-KINDS = ("table", "prony", "springpot")
+KINDS = ("table", "prony")
 _KNOTS = 60  # of J, at most
 _EARLIER = 64  # ratio of the first row to the first knot under a ramp of force
 _RETARDATION_TIMES_PER_DECADE = 10
@@ -104,7 +104,7 @@ def identify_medium(
         The record, shape (rows,); times increase. The scatter of the depth is taken for independent from row to row and
         of one size.
     kind : str, optional
-        "table": a CreepTable, the concave J that fits best; "prony" or "springpot": that medium, fitted by least
+        "table": a CreepTable, the concave J that fits best; "prony": a Prony series, fitted by least
         squares in depth.
 
     Returns
@@ -158,12 +158,7 @@ def identify_medium(
         low[before], high[before] = 0.0, high[~before][0]
     else:
         low = high = compliance
-    if kind == "prony":
-        medium = _prony(record, history, place, lags)
-    elif kind == "springpot":
-        medium = _springpot(record, knots)
-    else:
-        medium = CreepTable(time, compliance)
+    medium: Medium = CreepTable(time, compliance) if kind == "table" else _prony(record, history, place, lags)
     return IdentifiedMedium(medium, time, compliance, low, high, float(scatter), curve.length_unit)
 
 
@@ -338,7 +333,7 @@ def _prony(record: _Record, history: ForceHistory, place: Integers, lags: Array)
     if at_once <= _ROUNDING * (responses @ amounts).max() or not (fluidity or kept.any()):
         raise ValueError(
             "kind prony: the record shows no compliance at once, or no creep, which a Prony series needs; allowed: "
-            "table or springpot"
+            "table"
         )
     return _series(instantaneous, fluidity, strengths[kept], 1 / times[kept])
 
@@ -357,20 +352,3 @@ def _series(instantaneous: float, fluidity: float, strengths: Array, rates: Arra
     moduli = (b @ vectors) ** 2 / (values * instantaneous**2)
     relaxed = 0.0 if fluidity else 1 / (instantaneous + strengths.sum())
     return Prony(relaxed, tuple(moduli.tolist()), tuple((1 / values).tolist()))
-
-
-def _springpot(record: _Record, knots: Array) -> Springpot:
-    """The springpot that fits best; its J is sampled at the knots."""
-    from scipy.optimize import minimize_scalar  # takes long to import
-
-    def response(exponent: float) -> Array:
-        slopes = np.diff(np.append(0.0, knots**exponent)) / np.diff(knots, prepend=0.0)
-        return record.responses[:, 1:] @ (slopes - np.append(slopes[1:], 0.0))
-
-    def squares(exponent: float) -> float:
-        column = response(exponent)[:, None]
-        return record.squares(column @ record.fit(column))
-
-    exponent = float(minimize_scalar(squares, bounds=(0.001, 0.999), method="bounded", options={"xatol": 1e-7}).x)
-    (amount,) = record.fit(response(exponent)[:, None])
-    return Springpot(1 / (amount * gamma(1 + exponent)), exponent)

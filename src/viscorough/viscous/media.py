@@ -312,10 +312,6 @@ class Springpot(Medium):
         with np.errstate(divide="ignore"):
             return np.asarray(time, dtype=float) ** (self.exponent - 1) / (self.modulus * gamma(self.exponent))
 
-    def creep_increment(self, start: ArrayLike, end: ArrayLike) -> Array:
-        """J(end) − J(start) for 0 ≤ start ≤ end, to rounding."""
-        return _power_increment(start, end, self.exponent) / (self.modulus * gamma(1 + self.exponent))
-
     def creep_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
         """∫J dt from start ≥ 0 to end ≥ start, to rounding."""
         return _power_increment(start, end, 1 + self.exponent) / (self.modulus * gamma(2 + self.exponent))

@@ -81,10 +81,6 @@ class Medium(ABC):
     def creep_integral(self, start: ArrayLike, end: ArrayLike) -> Array:
         """∫J dt from start ≥ 0 to end ≥ start."""
 
-    def creep_increment(self, start: ArrayLike, end: ArrayLike) -> Array:
-        """J(end) − J(start) for 0 ≤ start ≤ end."""
-        return self.creep_compliance(end) - self.creep_compliance(start)
-
     def relaxation_modulus(self, time: ArrayLike) -> Array:
         """ψ at times t ≥ 0, any shape, without the pulse η δ(t) of a dashpot. Raises ValueError if it is not known."""
         raise self._without_modulus()

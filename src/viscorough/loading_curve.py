@@ -142,9 +142,9 @@ class LoadingCurve(ReadOnlyArrays, Saved, Summarised):
         inside = (force > self.force[0]) & (force <= self.force[-1])
         j = np.searchsorted(self.force, force[inside])
         levels = self.force, self.depth, self.stiffness
-        ends = ((values[j - 1], values[j]) for values in levels)
+        forces, depths, stiffnesses = ((values[j - 1], values[j]) for values in levels)
         joined = self.contact_count[j] - self.contact_count[j - 1]
-        depth[inside], stiffness[inside] = interpolate_between(*ends, joined, force[inside])
+        depth[inside], stiffness[inside] = interpolate_between(forces, depths, stiffnesses, joined, force[inside])
         return depth, stiffness
 
 

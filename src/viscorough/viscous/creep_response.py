@@ -72,7 +72,10 @@ class _Intervals(ABC):
         dΦ/dt is a sum of terms that rise and terms that fall within an interval, so that it is nowhere below the sum of
         the former at the start and the latter at the end. Intervals whose bound is negative are halved.
         """
-        found = self._first_jump_down()
+        with np.errstate(over="ignore"):
+            springs = self.medium.creep_compliance(0.0) > 0 or np.isinf(self.medium.creep_rate(0.0))
+        down = self.jumps < -_ROUNDING * self.force
+        found = self.times[down].min(initial=np.inf) if springs else np.inf
         interval, start, end = self.intervals, np.zeros(self.intervals.size), self.lengths[self.intervals]
         for _ in range(_HALVINGS):
             rising, falling, terms = self.parts(interval, start, left=False)
@@ -92,23 +95,12 @@ class _Intervals(ABC):
             start, end = np.concatenate([start, middle]), np.concatenate([middle, end])
         return found
 
-    def _first_jump_down(self) -> float:
-        """The first time of a downward step to which the medium responds instantaneously."""
-        with np.errstate(over="ignore"):
-            at_once = self.medium.creep_compliance(0.0) > 0 or np.isinf(self.medium.creep_rate(0.0))
-        down = self.jumps < -_ROUNDING * self.force
-        return self.times[down].min(initial=np.inf) if at_once else np.inf
-
     def rate_at_samples(self) -> Array:
         """dΦ/dt just after every sample; just before it at the last one and before a step."""
-        after = np.append(self.lengths > 0, False)
-        before = np.append(False, self.lengths > 0) & ~after
         rate = np.zeros(self.times.size)
-        for which, shift in ((after, 0), (before, 1)):
-            interval = np.flatnonzero(which) - shift
-            offset = self.lengths[interval] if shift else np.zeros(interval.size)
-            rising, falling, _ = self.parts(interval, offset, left=bool(shift))
-            rate[which] = rising + falling
+        ends = np.setdiff1d(self.intervals + 1, self.intervals)
+        rate[self.intervals] = np.add(*self.parts(self.intervals, np.zeros(self.intervals.size), left=False)[:2])
+        rate[ends] = np.add(*self.parts(ends - 1, self.lengths[ends - 1], left=True)[:2])
         return rate
 
 

@@ -44,20 +44,6 @@ def test_creep_is_the_inverse_of_relaxation(name):
     assert (SPECTRA[name].retardation.compliances > 0).all()
 
 
-@pytest.mark.parametrize("name", SPRINGS_AND_DASHPOTS)
-def test_integrals_over_time(name):
-    """∫J dt and ∫ψ dt against quadrature, and one interval against its parts."""
-    medium = SPRINGS_AND_DASHPOTS[name]
-    for integral, function in (
-        (medium.creep_integral, medium.creep_compliance),
-        (medium.relaxation_integral, medium.relaxation_modulus),
-    ):
-        for start, end in ((0.0, 0.2), (0.7, 3.0)):
-            assert integral(start, end) == pytest.approx(quad(function, start, end, epsabs=0)[0], rel=1e-12)
-        times = np.linspace(0, 8, 9)
-        assert integral(times[:-1], times[1:]).sum() == pytest.approx(integral(0.0, 8.0), rel=1e-13)
-
-
 def test_closed_forms():
     t = TIMES
     np.testing.assert_allclose(Newtonian(3.0).creep_compliance(t), t / 3, rtol=1e-15)

@@ -139,8 +139,10 @@ def _in_viscous_medium(
         steps = np.unique(load.impulse[load.impulse > 0]) / viscosity
         integrated = march_steps(indenter, steps, scheme=method, **options)
     if isinstance(load, float):
-        return viscous_motion_to_content(under_constant_force(integrated, load / viscosity))
-    return viscous_motion_to_content(under_force_history(integrated, load, viscosity))
+        motion = under_constant_force(integrated, load / viscosity)
+    else:
+        motion = under_force_history(integrated, load, viscosity)
+    return viscous_motion_to_content(motion, indenter.length_unit)
 
 
 def _in_medium(

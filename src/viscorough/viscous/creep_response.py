@@ -81,11 +81,10 @@ class _Intervals(ABC):
             rising, falling, terms = self.parts(interval, start, left=False)
             rising_at_end, falling_at_end, terms_at_end = self.parts(interval, end, left=True)
             begins = self.times[interval]
-            negative = rising + falling < -_ROUNDING * terms
-            negative_at_end = rising_at_end + falling_at_end < -_ROUNDING * terms_at_end
-            for which, offset in ((negative, start), (negative_at_end, end)):
-                found = min(found, (begins + offset)[which].min(initial=np.inf))
-            doubtful = ~negative & (rising + falling_at_end < -_ROUNDING * np.minimum(terms, terms_at_end))
+            rate, rate_at_end = rising + falling, rising_at_end + falling_at_end
+            found = min(found, (begins + start)[rate < -_ROUNDING * terms].min(initial=np.inf))
+            found = min(found, (begins + end)[rate_at_end < -_ROUNDING * terms_at_end].min(initial=np.inf))
+            doubtful = rising + falling_at_end < -_ROUNDING * np.minimum(terms, terms_at_end)
             doubtful &= begins + start < found
             if not doubtful.any():
                 break

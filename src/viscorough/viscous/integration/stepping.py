@@ -8,6 +8,7 @@ during the step overlap the surface; the implicit scheme demands contact without
 
 import warnings
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -267,6 +268,5 @@ class _Implicit:
         self.overlap = contact.residual * depth_step / self.depth
 
 
-_INTEGRATORS: dict[str, type[_Explicit] | type[_Implicit]]
-_INTEGRATORS = {"explicit": _Explicit, "heun": _Heun, "implicit": _Implicit}
+_INTEGRATORS: dict[str, Any] = {"explicit": _Explicit, "heun": _Heun, "implicit": _Implicit}
 SCHEMES = tuple(_INTEGRATORS)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 METHODS = ("events", "explicit", "heun", "implicit", "second_order")
 _OF_MEDIA = ("events", "second_order")  # methods that integrate viscoelastic media
-_METHODS_OF = {"overlap": ("explicit", "heun"), "until_fraction": ("events",)}  # {option: methods that have it}
+_METHODS_OF = {"until_fraction": ("events",)}  # {option: methods that have it}
 
 
 @click.command()
@@ -40,11 +40,6 @@ _METHODS_OF = {"overlap": ("explicit", "heun"), "until_fraction": ("events",)}  
     "--times", type=options.Increasing(), help="Ends of the time steps; for events with --medium, times of output."
 )
 @options.force_history
-@click.option(
-    "--overlap",
-    type=options.PositiveNumber(1),
-    help="Largest overlap allowed, relative to the depth; explicit and heun divide their steps to keep to it.",
-)
 @options.until(1)
 @options.progress
 def march(

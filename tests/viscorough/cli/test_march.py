@@ -56,7 +56,7 @@ def test_marching_agrees_with_kinetics(here, motion, method, tolerance):
     if "medium" in motion:
         assert marched["time"][0] == 0
         assert set(marched) == {"time", "depth", "force", "contact_count"}
-    else:
+    elif SHORT_STEPS not in motion:  # explicit velocities change a step after the contact
         np.testing.assert_allclose(marched["velocity"][last], expected["velocity"], rtol=10 * tolerance)
 
 

@@ -137,7 +137,7 @@ def identify_medium(
     record = _Record(curve, depth, np.column_stack([history.force[place], _hinges(history, times, knots)]))
     coefficients = record.fit(record.responses)
     freedom = max(depth.size - int(np.count_nonzero(coefficients)), 1)
-    scatter = np.sqrt(record.squares(record.responses @ coefficients) / freedom)
+    scatter = np.linalg.norm(record.residual(record.responses @ coefficients)) / np.sqrt(freedom)
     time = np.append(0.0, knots)
     values = np.column_stack([np.ones(time.size), np.minimum(time[:, None], knots)])
     compliance = np.maximum.accumulate(values @ coefficients)  # where J is constant, its rounding is not
@@ -180,8 +180,8 @@ def _check_growth(times: Array, depth: Array) -> None:
     """Raise ValueError where the depth recedes by more than scatter and resolution of the record explain."""
     steps = np.diff(depth)
     scatter = 1.4826 * np.median(abs(np.diff(steps))) / np.sqrt(6)
-    resolution = abs(steps[steps != 0]).min(initial=np.inf) if (steps == 0).any() else 0.0
-    resolution = resolution if np.isfinite(resolution) else 0.0
+    changes = abs(steps[steps != 0])
+    resolution = changes.min() if 0 < changes.size < steps.size else 0.0
     size = 1
     while size <= depth.size // 2:
         count = depth.size // size
@@ -239,10 +239,6 @@ class _Record:
             if abs(creep - last).max() <= 1e-12 * abs(creep).max():
                 break
         return amounts
-
-    def squares(self, creep: Array) -> float:
-        """Sum of the squares of the measured depth less that of this creep."""
-        return float((self.residual(creep) ** 2).sum())
 
     def _elastic(self, creep: Array) -> tuple[Array, Array]:
         """Depth and k/G at F/G = creep; along the straight line from the origin before the first level."""
